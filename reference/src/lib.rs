@@ -1,0 +1,7 @@
+//! The CPU truth of Drypoint: what a picture is, computed from the stored voxels to the framebuffer in f64.
+//!
+//! This crate opens no file and knows no file format; what it reads and makes are plain types of `drypoint_scene`.
+
+pub mod field;
+pub mod number;
+pub mod style_transfer_functions;

@@ -1,0 +1,228 @@
+//! The operations that the sample code asks of a number, and nothing more.
+
+use drypoint_scene::math;
+use drypoint_scene::volume::Voxel;
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `libm` alone ([PREC-4]).
+pub trait Real:
+    Copy
+    + Debug
+    + Default
+    + PartialOrd
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+{
+    /// 0.
+    const ZERO: Self;
+    /// 1.
+    const ONE: Self;
+    /// ½.
+    const HALF: Self;
+    /// The relative bound of [PREC-3] below which a gradient is rounding: 2⁻⁴⁶, 2⁻²⁰ in f32.
+    const NO_NORMAL: Self;
+
+    /// The nearest number of this type.
+    fn from_f64(x: f64) -> Self;
+    /// The same number in f64.
+    fn to_f64(self) -> f64;
+    /// The stored voxel as a number of this type.
+    fn from_voxel<V: Voxel>(v: V) -> Self;
+    /// ⌊x⌋ and x − ⌊x⌋ for 0 ≤ x < 2³¹ (f32: 2²²), without the saturation of an `as` cast and without a library call.
+    fn split(self) -> (usize, Self);
+    /// |x|.
+    fn abs(self) -> Self;
+    /// √x.
+    fn sqrt(self) -> Self;
+    /// e^x − 1.
+    fn exp_m1(self) -> Self;
+    /// ln(1 + x).
+    fn ln_1p(self) -> Self;
+    /// x^y; whole y up to 64 by repeated squaring.
+    fn pow(self, y: Self) -> Self;
+    /// The angle of (x, self) from the x axis.
+    fn atan2(self, x: Self) -> Self;
+
+    /// The smaller one; `self` where neither is.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+
+    /// The larger one; `self` where neither is.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+
+    /// Clamped to [0, 1].
+    #[inline(always)]
+    fn clamp_01(self) -> Self {
+        self.max(Self::ZERO).min(Self::ONE)
+    }
+
+    /// a + w(b − a), which returns a constant exactly ([REC-1]).
+    #[inline(always)]
+    fn lerp(a: Self, b: Self, w: Self) -> Self {
+        a + w * (b - a)
+    }
+}
+
+impl Real for f64 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    const HALF: Self = 0.5;
+    const NO_NORMAL: Self = 1.0 / (1u64 << 46) as f64;
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn from_voxel<V: Voxel>(v: V) -> Self {
+        v.to_f64()
+    }
+
+    #[inline(always)]
+    fn split(self) -> (usize, Self) {
+        // Adding 2⁵² leaves the nearest whole number in the low bits of the mantissa.
+        const MAGIC: f64 = (1u64 << 52) as f64;
+        let shifted = self + MAGIC;
+        let nearest = shifted - MAGIC;
+        let above = nearest > self;
+        let floor = nearest - if above { 1.0 } else { 0.0 };
+        ((shifted.to_bits() as u32 as usize) - usize::from(above), self - floor)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline]
+    fn exp_m1(self) -> Self {
+        math::exp_m1(self)
+    }
+
+    #[inline]
+    fn ln_1p(self) -> Self {
+        math::ln_1p(self)
+    }
+
+    #[inline]
+    fn pow(self, y: Self) -> Self {
+        math::pow(self, y)
+    }
+
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        math::atan2(self, x)
+    }
+}
+
+impl Real for f32 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    const HALF: Self = 0.5;
+    const NO_NORMAL: Self = 1.0 / (1u64 << 20) as f32;
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x as f32
+    }
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+
+    #[inline(always)]
+    fn from_voxel<V: Voxel>(v: V) -> Self {
+        v.to_f32()
+    }
+
+    #[inline(always)]
+    fn split(self) -> (usize, Self) {
+        const MAGIC: f32 = (1u32 << 23) as f32;
+        let shifted = self + MAGIC;
+        let nearest = shifted - MAGIC;
+        let above = nearest > self;
+        let floor = nearest - if above { 1.0 } else { 0.0 };
+        (((shifted.to_bits() & 0x7f_ffff) as usize) - usize::from(above), self - floor)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline]
+    fn exp_m1(self) -> Self {
+        math::exp_m1_f32(self)
+    }
+
+    #[inline]
+    fn ln_1p(self) -> Self {
+        math::ln_1p_f32(self)
+    }
+
+    #[inline]
+    fn pow(self, y: Self) -> Self {
+        math::pow_f32(self, y)
+    }
+
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        math::atan2_f32(self, x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn split_is_floor_and_fraction() {
+        for x in [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5, 3.5, 254.999_999, 255.0, 1e6 + 0.5, 2147483000.75] {
+            let (i, w) = Real::split(x);
+            assert_eq!((i as f64, w), (f64::floor(x), x - f64::floor(x)), "{x}");
+        }
+        for x in [0.0f32, 0.5, 1.5, 2.5, 100.999, 4095.5] {
+            let (i, w) = Real::split(x);
+            assert_eq!((i as f32, w), (f32::floor(x), x - f32::floor(x)), "{x}");
+        }
+    }
+
+    #[test]
+    fn lerp_returns_constants_exactly() {
+        for w in [0.0, 0.1, 1.0 / 3.0, 1.0] {
+            assert_eq!(f64::lerp(1000.3, 1000.3, w), 1000.3);
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! What a render did ([PLAN-2]): a count of a thing that was not done is 0, never left out.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Counts of one render. Serialized, it is the JSON object of `--stats`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Counts {
+    /// Values reconstructed at samples of the ray loop.
+    pub samples: u64,
+    /// Gradients at samples.
+    pub gradients: u64,
+    /// Hessians at samples.
+    pub hessians: u64,
+    /// Lookups of one style's picture.
+    pub style_lookups: u64,
+    /// Passes over a halo buffer.
+    pub halo_passes: u64,
+    /// Rays cast.
+    pub rays: u64,
+    /// Rays that evaluated no sample.
+    pub rays_skipped: u64,
+    /// Visible samples without a normal ([PREC-3]).
+    pub without_normal: u64,
+    /// Samples that were transparent because their cell touches a masked voxel ([PREC-2]).
+    pub masked: u64,
+    /// Stipple points.
+    pub points: u64,
+    /// Strokes.
+    pub strokes: u64,
+    /// Principal directions.
+    pub directions: u64,
+    /// Ends of strokes, by cause.
+    pub stops: BTreeMap<String, u64>,
+    /// Voxels evaluated once before the rays, by quantity.
+    pub preprocess: BTreeMap<String, u64>,
+    /// Size of each buffer.
+    pub bytes: BTreeMap<String, u64>,
+    /// Wall-clock seconds of each pass.
+    pub seconds: BTreeMap<String, f64>,
+}
+
+impl Counts {
+    /// Adds the counts of another part of the same picture. Sums of integers do not depend on their order, so neither
+    /// threads nor tiles show.
+    pub fn add(&mut self, other: &Self) {
+        self.samples += other.samples;
+        self.gradients += other.gradients;
+        self.hessians += other.hessians;
+        self.style_lookups += other.style_lookups;
+        self.halo_passes += other.halo_passes;
+        self.rays += other.rays;
+        self.rays_skipped += other.rays_skipped;
+        self.without_normal += other.without_normal;
+        self.masked += other.masked;
+        self.points += other.points;
+        self.strokes += other.strokes;
+        self.directions += other.directions;
+        for (mine, theirs) in [
+            (&mut self.stops, &other.stops),
+            (&mut self.preprocess, &other.preprocess),
+            (&mut self.bytes, &other.bytes),
+        ] {
+            for (key, n) in theirs {
+                *mine.entry(key.clone()).or_default() += n;
+            }
+        }
+        for (key, s) in &other.seconds {
+            *self.seconds.entry(key.clone()).or_default() += s;
+        }
+    }
+}

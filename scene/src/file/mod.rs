@@ -1,0 +1,1 @@
+//! Scene files: parsing with places, checking, schema ([IO-3]).

@@ -1,0 +1,20 @@
+//! What a Drypoint picture is made of: space, volumes, phantoms, scene files, styles, plans, and the plain types that
+//! the other crates hand to each other.
+//!
+//! This crate renders nothing: it has no value of the field between voxels and no loop over pixels.
+//! Rules of the specification are cited by their tags, such as [SPACE-4].
+
+pub mod color;
+pub mod counts;
+pub mod file;
+pub mod math;
+pub mod phantom;
+pub mod picture;
+pub mod plan;
+pub mod space;
+pub mod style;
+pub mod tables;
+pub mod transfer;
+pub mod volume;
+
+pub use glam;

@@ -1,0 +1,147 @@
+//! The one place that transcendental functions come from ([PREC-4]).
+//!
+//! All are those of the pure-Rust `libm`, so that the same scene gives the same bits on every IEEE 754 machine.
+//! `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
+
+/// e^x.
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// e^x − 1 without cancellation at small x.
+pub fn exp_m1(x: f64) -> f64 {
+    libm::expm1(x)
+}
+
+/// Natural logarithm.
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
+/// ln(1 + x) without cancellation at small x.
+pub fn ln_1p(x: f64) -> f64 {
+    libm::log1p(x)
+}
+
+/// Logarithm to base 2.
+pub fn log2(x: f64) -> f64 {
+    libm::log2(x)
+}
+
+/// x^y. A whole exponent up to 64 in magnitude is repeated squaring in a fixed order ([PREC-4]).
+pub fn pow(x: f64, y: f64) -> f64 {
+    if y == (y as i32) as f64 && y.abs() <= 64.0 {
+        let p = pow_whole(x, y.abs() as u32);
+        if y < 0.0 { 1.0 / p } else { p }
+    } else {
+        libm::pow(x, y)
+    }
+}
+
+/// x^n by repeated squaring, lowest bit first.
+pub fn pow_whole(x: f64, mut n: u32) -> f64 {
+    let (mut result, mut square) = (1.0, x);
+    while n > 0 {
+        if n & 1 == 1 {
+            result *= square;
+        }
+        square *= square;
+        n >>= 1;
+    }
+    result
+}
+
+/// Sine of an angle in radians.
+pub fn sin(x: f64) -> f64 {
+    libm::sin(x)
+}
+
+/// Cosine of an angle in radians.
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}
+
+/// Tangent of an angle in radians.
+pub fn tan(x: f64) -> f64 {
+    libm::tan(x)
+}
+
+/// Angle of the point (x, y) from the x axis, in radians, in (−π, π].
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
+/// Hyperbolic tangent.
+pub fn tanh(x: f64) -> f64 {
+    libm::tanh(x)
+}
+
+/// √(x² + y²) without overflow.
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
+}
+
+/// x · 2^n, exact as long as the result is normal.
+pub fn scale_by_power_of_two(x: f64, n: i32) -> f64 {
+    libm::ldexp(x, n)
+}
+
+/// The exponent e for which |x| · 2^−e lies in [½, 1); 0 for x = 0 and for what is not finite.
+pub fn exponent(x: f64) -> i32 {
+    if x == 0.0 || !x.is_finite() { 0 } else { libm::frexp(x).1 }
+}
+
+/// e^x − 1 in f32.
+pub fn exp_m1_f32(x: f32) -> f32 {
+    libm::expm1f(x)
+}
+
+/// ln(1 + x) in f32.
+pub fn ln_1p_f32(x: f32) -> f32 {
+    libm::log1pf(x)
+}
+
+/// x^y in f32; whole exponents as [`pow`].
+pub fn pow_f32(x: f32, y: f32) -> f32 {
+    if y == (y as i32) as f32 && y.abs() <= 64.0 {
+        let (mut result, mut square, mut n) = (1.0, x, y.abs() as u32);
+        while n > 0 {
+            if n & 1 == 1 {
+                result *= square;
+            }
+            square *= square;
+            n >>= 1;
+        }
+        if y < 0.0 { 1.0 / result } else { result }
+    } else {
+        libm::powf(x, y)
+    }
+}
+
+/// Angle of the point (x, y) from the x axis, in f32.
+pub fn atan2_f32(y: f32, x: f32) -> f32 {
+    libm::atan2f(y, x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_powers_are_products() {
+        assert_eq!(pow(3.0, 5.0), 243.0);
+        assert_eq!(pow(2.0, -3.0), 0.125);
+        assert_eq!(pow(-2.0, 3.0), -8.0);
+        assert_eq!(pow(0.0, 0.0), 1.0);
+        assert!((pow(2.0, 0.5) - 2f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn exponent_brings_into_the_half_open_octave() {
+        for x in [1.0, 0.5, 0.75, 3.0, 1e300, 1e-310, 255.0] {
+            let m = scale_by_power_of_two(x, -exponent(x));
+            assert!((0.5..1.0).contains(&m), "{x}: {m}");
+        }
+        assert_eq!(exponent(0.0), 0);
+    }
+}

@@ -1,0 +1,121 @@
+//! A rendered picture as plain layers, before any file format.
+
+use std::fmt;
+
+/// Named layers of one size; row 0 is the top. The layer `beauty` is linear, premultiplied, background included
+/// ([IO-6]).
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Picture {
+    /// Pixels from left to right.
+    pub width: usize,
+    /// Pixels from top to bottom.
+    pub height: usize,
+    /// In the order they were asked for.
+    pub layers: Vec<Layer>,
+}
+
+/// One layer of a picture: channels of `width · height` numbers, row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Which layer it is.
+    pub kind: LayerKind,
+    /// The samples of each channel, in the order of [`LayerKind::channels`].
+    pub channels: Vec<Vec<f64>>,
+}
+
+/// The layers that a scene can ask for ([IO-6]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum LayerKind {
+    /// The picture: linear premultiplied RGBA with the background behind.
+    Beauty,
+    /// Eye depth where accumulated opacity first reaches ½; the bare `Z`.
+    Z,
+    /// `depth.FIRST`, `depth.HALF`, `depth.MEAN`.
+    Depth,
+    /// Opacity-weighted mean of the eye-space outward normal N.
+    Normal,
+    /// Opacity-weighted mean of the world gradient.
+    Gradient,
+    /// Opacity-weighted means of `K1`, `K2` and `KV`.
+    Curvature,
+    /// Only the scene's κ: `curvature.KV`; computes no Hessian by itself.
+    CurvatureAlongView,
+    /// The value at the first sample with α > 0: `first.VALUE`.
+    First,
+    /// Samples evaluated on the ray: `counts.SAMPLES`.
+    Counts,
+}
+
+impl LayerKind {
+    /// Every layer, in the order of the documentation.
+    pub const ALL: [Self; 9] = [
+        Self::Beauty,
+        Self::Z,
+        Self::Depth,
+        Self::Normal,
+        Self::Gradient,
+        Self::Curvature,
+        Self::CurvatureAlongView,
+        Self::First,
+        Self::Counts,
+    ];
+
+    /// The name in a scene and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Beauty => "beauty",
+            Self::Z => "Z",
+            Self::Depth => "depth",
+            Self::Normal => "normal",
+            Self::Gradient => "gradient",
+            Self::Curvature => "curvature",
+            Self::CurvatureAlongView => "curvature.KV",
+            Self::First => "first",
+            Self::Counts => "counts",
+        }
+    }
+
+    /// The layer of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Full channel names as an EXR file has them.
+    pub fn channels(self) -> &'static [&'static str] {
+        match self {
+            Self::Beauty => &["R", "G", "B", "A"],
+            Self::Z => &["Z"],
+            Self::Depth => &["depth.FIRST", "depth.HALF", "depth.MEAN"],
+            Self::Normal => &["normal.X", "normal.Y", "normal.Z"],
+            Self::Gradient => &["gradient.X", "gradient.Y", "gradient.Z"],
+            Self::Curvature => &["curvature.K1", "curvature.K2", "curvature.KV"],
+            Self::CurvatureAlongView => &["curvature.KV"],
+            Self::First => &["first.VALUE"],
+            Self::Counts => &["counts.SAMPLES"],
+        }
+    }
+}
+
+impl fmt::Display for LayerKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Picture {
+    /// The layer of that kind, if the picture has it.
+    pub fn layer(&self, kind: LayerKind) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.kind == kind)
+    }
+}
+
+/// What a picture file says of its origin ([IO-2]): no date, so that the same scene gives the same bytes.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Provenance {
+    /// Name and version of the program.
+    pub software: String,
+    /// A hash of the scene with every default filled in.
+    pub scene_hash: String,
+    /// The plan, as text.
+    pub plan: String,
+}

@@ -1,0 +1,1 @@
+//! What a scene calls for ([PLAN-1], [PLAN-3]).

@@ -1,0 +1,1 @@
+//! Lit-sphere pictures ([STF-1], [STF-12]).

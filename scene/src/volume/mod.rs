@@ -1,0 +1,139 @@
+//! Volumes: voxels in the file's own type on a [`Grid`], with what is not finite filled and masked.
+
+mod bricks;
+mod mask;
+pub mod read;
+mod voxels;
+pub mod write;
+
+pub use bricks::{BRICK, Bricks};
+pub use mask::Mask;
+pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
+
+use crate::space::Grid;
+
+/// Anatomical directions of the world axes, as far as a file names them ([SPACE-2]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anatomy {
+    /// x to the left, y to posterior, z to superior (NRRD, MetaImage, DICOM).
+    LeftPosteriorSuperior,
+    /// x to the right, y to anterior, z to superior (NIfTI).
+    RightAnteriorSuperior,
+}
+
+/// A scalar field sampled on a grid. A value is `slope · stored + intercept` ([VAL-1]).
+#[derive(Clone, Debug)]
+pub struct Volume {
+    grid: Grid,
+    voxels: Voxels,
+    slope: f64,
+    intercept: f64,
+    mask: Option<Mask>,
+    range: [f64; 2],
+    anatomy: Option<Anatomy>,
+}
+
+/// A volume that cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum VolumeError {
+    /// The grid and the voxels disagree.
+    #[error("{found} voxels where the dims {dims:?} ask for {expected}")]
+    Length {
+        /// Voxels along x, y, z.
+        dims: [usize; 3],
+        /// Their product.
+        expected: usize,
+        /// Voxels that were given.
+        found: usize,
+    },
+    /// Not one voxel has a finite value.
+    #[error("no voxel has a finite value")]
+    NothingFinite,
+    /// Slope and intercept that are not finite, or a slope of 0.
+    #[error("slope {slope} and intercept {intercept} map all values to one or to none")]
+    Scaling {
+        /// As the file has it.
+        slope: f64,
+        /// As the file has it.
+        intercept: f64,
+    },
+}
+
+impl Volume {
+    /// Takes voxels (x fastest) onto a grid. Voxels that are NaN or ±∞ get the value of the nearest valid one and a
+    /// bit in the mask ([PREC-2]).
+    ///
+    /// # Errors
+    /// A wrong number of voxels, no finite voxel, or a scaling that is not invertible.
+    pub fn new(grid: Grid, voxels: Voxels, slope: f64, intercept: f64) -> Result<Self, VolumeError> {
+        if voxels.len() != grid.len() {
+            return Err(VolumeError::Length { dims: grid.dims(), expected: grid.len(), found: voxels.len() });
+        }
+        if !(slope.is_finite() && intercept.is_finite() && slope != 0.0) {
+            return Err(VolumeError::Scaling { slope, intercept });
+        }
+        let mut voxels = voxels;
+        let mask = mask::fill_invalid(&mut voxels, grid.dims())?;
+        let [a, b] = voxels.range().map(|v| slope * v + intercept);
+        Ok(Self { grid, voxels, slope, intercept, mask, range: [a.min(b), a.max(b)], anatomy: None })
+    }
+
+    /// The same volume with the anatomical space that its file names.
+    pub fn with_anatomy(self, anatomy: Option<Anatomy>) -> Self {
+        Self { anatomy, ..self }
+    }
+
+    /// Where the voxels lie.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Voxels along x, y, z.
+    pub fn dims(&self) -> [usize; 3] {
+        self.grid.dims()
+    }
+
+    /// The stored voxels, x fastest.
+    pub fn voxels(&self) -> &Voxels {
+        &self.voxels
+    }
+
+    /// Value = slope · stored + intercept.
+    pub fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// Value = slope · stored + intercept.
+    pub fn intercept(&self) -> f64 {
+        self.intercept
+    }
+
+    /// The voxels that were NaN or ±∞ in the file, if there was one.
+    pub fn mask(&self) -> Option<&Mask> {
+        self.mask.as_ref()
+    }
+
+    /// Lowest and highest finite value, after slope and intercept.
+    pub fn range(&self) -> [f64; 2] {
+        self.range
+    }
+
+    /// The largest |value|, which sets the scales of [SPACE-4] and [PREC-3].
+    pub fn largest_magnitude(&self) -> f64 {
+        self.range[0].abs().max(self.range[1].abs())
+    }
+
+    /// The anatomical space that the file names.
+    pub fn anatomy(&self) -> Option<Anatomy> {
+        self.anatomy
+    }
+
+    /// The value at a voxel, after slope and intercept.
+    ///
+    /// # Panics
+    /// If the voxel lies outside the grid.
+    pub fn value(&self, [x, y, z]: [usize; 3]) -> f64 {
+        let [nx, ny, _] = self.dims();
+        self.slope * self.voxels.get((z * ny + y) * nx + x) + self.intercept
+    }
+}

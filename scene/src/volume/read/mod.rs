@@ -1,0 +1,1 @@
+//! Reading volumes ([IO-1]).

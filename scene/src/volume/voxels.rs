@@ -1,0 +1,225 @@
+//! Voxels in the type that the file has: a u8 stays one byte.
+
+/// A number that a voxel can be.
+pub trait Voxel: Copy + Send + Sync + PartialOrd + 'static {
+    /// The value in f64; 64-bit integers are rounded to the nearest.
+    fn to_f64(self) -> f64;
+    /// The value in f32, rounded to the nearest.
+    fn to_f32(self) -> f32;
+}
+
+macro_rules! voxel_types {
+    ($($variant:ident $type:ty, $name:literal, $doc:literal;)*) => {
+        $(impl Voxel for $type {
+            #[inline(always)]
+            fn to_f64(self) -> f64 { self as f64 }
+            #[inline(always)]
+            fn to_f32(self) -> f32 { self as f32 }
+        })*
+
+        /// Stored voxels, x fastest.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Voxels {
+            $(#[doc = $doc] $variant(Vec<$type>),)*
+        }
+
+        /// The type of a stored voxel.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum VoxelType {
+            $(#[doc = $doc] $variant,)*
+        }
+
+        impl VoxelType {
+            /// Every type that a voxel can have.
+            pub const ALL: &[Self] = &[$(Self::$variant),*];
+
+            /// The name in a scene and on the command line: `u8`, `f32`, …
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)* }
+            }
+
+            /// Bytes of one voxel.
+            pub fn bytes(self) -> usize {
+                match self { $(Self::$variant => size_of::<$type>(),)* }
+            }
+        }
+
+        impl Voxels {
+            /// The type of each voxel.
+            pub fn voxel_type(&self) -> VoxelType {
+                match self { $(Self::$variant(_) => VoxelType::$variant,)* }
+            }
+
+            /// Number of voxels.
+            pub fn len(&self) -> usize {
+                match self { $(Self::$variant(v) => v.len(),)* }
+            }
+
+            /// The stored number at a linear index.
+            ///
+            /// # Panics
+            /// If the index is out of range.
+            pub fn get(&self, i: usize) -> f64 {
+                match self { $(Self::$variant(v) => v[i].to_f64(),)* }
+            }
+
+            /// Numbers rounded to the nearest value of a type (ties to even) and clamped to its range.
+            pub fn from_f64(values: &[f64], to: VoxelType) -> Self {
+                match to { $(VoxelType::$variant => Self::$variant(values.iter().map(|&v| <$type as FromF64>::from_f64(v)).collect()),)* }
+            }
+        }
+
+        /// Runs an expression once for the stored type of a volume, with a reader of that type bound to a name. The
+        /// type is decided here, outside the loops that read.
+        #[macro_export]
+        macro_rules! with_access {
+            ($volume:expr, |$access:ident| $body:expr) => {
+                match $volume.voxels() {
+                    $($crate::volume::Voxels::$variant(data) => {
+                        let $access = $crate::volume::Linear::new(data, $volume.dims());
+                        $body
+                    })*
+                }
+            };
+        }
+    };
+}
+
+voxel_types! {
+    U8 u8, "u8", "Unsigned 8-bit.";
+    I8 i8, "i8", "Signed 8-bit.";
+    U16 u16, "u16", "Unsigned 16-bit.";
+    I16 i16, "i16", "Signed 16-bit.";
+    U32 u32, "u32", "Unsigned 32-bit.";
+    I32 i32, "i32", "Signed 32-bit.";
+    U64 u64, "u64", "Unsigned 64-bit.";
+    I64 i64, "i64", "Signed 64-bit.";
+    F32 f32, "f32", "IEEE 754 binary32.";
+    F64 f64, "f64", "IEEE 754 binary64.";
+}
+
+trait FromF64 {
+    fn from_f64(v: f64) -> Self;
+}
+
+macro_rules! rounded {
+    ($($type:ty)*) => { $(impl FromF64 for $type {
+        // `as` clamps to the range of the integer type.
+        fn from_f64(v: f64) -> Self { v.round_ties_even() as $type }
+    })* };
+}
+rounded!(u8 i8 u16 i16 u32 i32 u64 i64);
+
+impl FromF64 for f32 {
+    fn from_f64(v: f64) -> Self {
+        v as f32
+    }
+}
+
+impl FromF64 for f64 {
+    fn from_f64(v: f64) -> Self {
+        v
+    }
+}
+
+impl VoxelType {
+    /// The type of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|t| t.name() == name)
+    }
+
+    /// Whether the type is an integer, which sets the automatic Hessian ([REC-3]).
+    pub fn is_integer(self) -> bool {
+        !matches!(self, Self::F32 | Self::F64)
+    }
+}
+
+impl Voxels {
+    /// Whether there is no voxel.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Bytes in memory.
+    pub fn bytes(&self) -> usize {
+        self.len() * self.voxel_type().bytes()
+    }
+
+    /// Lowest and highest stored number; both NaN where there is no voxel.
+    pub(super) fn range(&self) -> [f64; 2] {
+        fn ends<V: Voxel>(v: &[V]) -> [f64; 2] {
+            let Some(&first) = v.first() else { return [f64::NAN; 2] };
+            let (lo, hi) = v
+                .iter()
+                .fold((first, first), |(lo, hi), &x| (if x < lo { x } else { lo }, if x > hi { x } else { hi }));
+            [lo.to_f64(), hi.to_f64()]
+        }
+        match self {
+            Self::U8(v) => ends(v),
+            Self::I8(v) => ends(v),
+            Self::U16(v) => ends(v),
+            Self::I16(v) => ends(v),
+            Self::U32(v) => ends(v),
+            Self::I32(v) => ends(v),
+            Self::U64(v) => ends(v),
+            Self::I64(v) => ends(v),
+            Self::F32(v) => ends(v),
+            Self::F64(v) => ends(v),
+        }
+    }
+}
+
+/// Reading voxels by position, whatever the order of storage. Another order is one more implementation.
+pub trait Access: Copy + Sync {
+    /// The stored type.
+    type Voxel: Voxel;
+
+    /// Voxels along x, y, z.
+    fn dims(&self) -> [usize; 3];
+
+    /// `N` neighbours along x from (x, y, z) on, all inside the grid.
+    ///
+    /// # Panics
+    /// If one lies outside.
+    fn row<const N: usize>(&self, x: usize, y: usize, z: usize) -> [Self::Voxel; N];
+
+    /// The voxel at (x, y, z).
+    ///
+    /// # Panics
+    /// If it lies outside.
+    #[inline(always)]
+    fn at(&self, x: usize, y: usize, z: usize) -> Self::Voxel {
+        self.row::<1>(x, y, z)[0]
+    }
+}
+
+/// Voxels stored one row after the other, x fastest.
+#[derive(Clone, Copy, Debug)]
+pub struct Linear<'a, V> {
+    data: &'a [V],
+    dims: [usize; 3],
+}
+
+impl<'a, V: Voxel> Linear<'a, V> {
+    /// Reads `data`, which has the product of `dims` voxels.
+    pub fn new(data: &'a [V], dims: [usize; 3]) -> Self {
+        debug_assert_eq!(data.len(), dims.iter().product::<usize>());
+        Self { data, dims }
+    }
+}
+
+impl<V: Voxel> Access for Linear<'_, V> {
+    type Voxel = V;
+
+    #[inline(always)]
+    fn dims(&self) -> [usize; 3] {
+        self.dims
+    }
+
+    #[inline(always)]
+    fn row<const N: usize>(&self, x: usize, y: usize, z: usize) -> [V; N] {
+        let start = (z * self.dims[1] + y) * self.dims[0] + x;
+        let slice = &self.data[start..start + N];
+        std::array::from_fn(|i| slice[i])
+    }
+}

@@ -1,0 +1,1 @@
+//! Drypoint, an illustrative volume renderer.

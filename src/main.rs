@@ -1,0 +1,3 @@
+//! The `drypoint` command.
+
+fn main() {}
