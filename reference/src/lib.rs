@@ -4,4 +4,5 @@
 
 pub mod field;
 pub mod number;
+pub mod ray;
 pub mod style_transfer_functions;

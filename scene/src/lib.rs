@@ -11,10 +11,12 @@ pub mod math;
 pub mod phantom;
 pub mod picture;
 pub mod plan;
+pub mod quantile;
 pub mod space;
 pub mod style;
 pub mod tables;
 pub mod transfer;
+pub mod view;
 pub mod volume;
 
 pub use glam;

@@ -32,6 +32,9 @@ pub trait Real:
     /// The relative bound of [PREC-3] below which a gradient is rounding: 2⁻⁴⁶, 2⁻²⁰ in f32.
     const NO_NORMAL: Self;
 
+    /// The distance from 1 to the next larger number, in f64.
+    const ROUNDING: f64;
+
     /// The nearest number of this type.
     fn from_f64(x: f64) -> Self;
     /// The same number in f64.
@@ -83,6 +86,7 @@ impl Real for f64 {
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
     const NO_NORMAL: Self = 1.0 / (1u64 << 46) as f64;
+    const ROUNDING: f64 = f64::EPSILON;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
@@ -146,6 +150,7 @@ impl Real for f32 {
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
     const NO_NORMAL: Self = 1.0 / (1u64 << 20) as f32;
+    const ROUNDING: f64 = f32::EPSILON as f64;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

@@ -1,0 +1,187 @@
+//! Where a ray's samples lie ([RAY-1]).
+
+use crate::number::{Real, Vec3};
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::space::Grid;
+use drypoint_scene::tables::StepAlong;
+use drypoint_scene::view::{Ray, View};
+
+/// The sample planes (or shells) of a camera: eye depths (k + ½)Δ, k a whole number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// Δ in world units.
+    pub step: f64,
+    /// What Δ is measured along.
+    pub along: StepAlong,
+    /// Smallest depth (radius, for shells) of a sample, perspective.
+    pub near: f64,
+}
+
+/// One ray in index space, with its samples at whole numbers.
+///
+/// The position of sample k is `origin + along · ((k + ½)·Δ)`: a function of the pixel and k, never accumulated.
+#[derive(Clone, Copy, Debug)]
+pub struct IndexRay<R> {
+    origin: Vec3<R>,
+    along: Vec3<R>,
+    /// Eye depth between samples.
+    depth_step: R,
+    /// Smallest k beyond `near`.
+    first: i64,
+    /// Δ_ray: world distance between samples on this ray ([VAL-4]).
+    pub step: f64,
+}
+
+impl<R: Real> IndexRay<R> {
+    /// The samples of a ray in the index space of a grid.
+    pub fn new(ray: &Ray, view: &View, lattice: &Lattice, grid: &Grid) -> Self {
+        let by_ray = lattice.along == StepAlong::Ray;
+        let depth_step = if by_ray { lattice.step * ray.cos_phi } else { lattice.step };
+        let first = if view.perspective { first_beyond(lattice.near, lattice.step) } else { i64::MIN };
+        Self {
+            origin: Vec3::from_glam(grid.to_index(ray.origin)),
+            along: Vec3::from_glam(grid.inverse_axes() * ray.along),
+            depth_step: R::from_f64(depth_step),
+            first,
+            step: if by_ray { lattice.step } else { lattice.step / ray.cos_phi },
+        }
+    }
+
+    /// The eye depth of sample k.
+    #[inline(always)]
+    pub fn depth(&self, k: i64) -> R {
+        (R::from_f64(k as f64) + R::HALF) * self.depth_step
+    }
+
+    /// The index position of sample k.
+    #[inline(always)]
+    pub fn position(&self, k: i64) -> Vec3<R> {
+        self.origin + self.along * self.depth(k)
+    }
+
+    /// The samples inside the closed box [lo, hi] of index space and beyond `near`, as the closed range first..=last;
+    /// none where first > last.
+    ///
+    /// Inside is decided on the position itself. Rounding is monotonic, so each coordinate is a monotonic function of
+    /// k, and the samples inside are a contiguous run whose ends are found by asking.
+    pub fn inside(&self, [lo, hi]: [Vec3<R>; 2]) -> [i64; 2] {
+        let Some([near, far]) = self.depths(lo, hi) else { return [1, 0] };
+        let (mut first, mut last) = (self.first_at_or_after(near).max(self.first), self.last_at_or_before(far));
+        let within = |k: i64| contains(lo, hi, self.position(k));
+        while first <= last && !within(first) {
+            first += 1;
+        }
+        while last >= first && !within(last) {
+            last -= 1;
+        }
+        [first, last]
+    }
+
+    /// Whether sample k may be asked for: beyond `near` and inside the box.
+    #[inline]
+    pub fn has(&self, k: i64, [lo, hi]: [Vec3<R>; 2]) -> bool {
+        k >= self.first && contains(lo, hi, self.position(k))
+    }
+
+    /// A k at or before the first sample with at least that eye depth, close to it.
+    pub fn first_at_or_after(&self, depth: f64) -> i64 {
+        (depth / self.depth_step.to_f64() - 0.5).floor() as i64 - 1
+    }
+
+    /// A k at or after the last sample with at most that eye depth, close to it.
+    pub fn last_at_or_before(&self, depth: f64) -> i64 {
+        (depth / self.depth_step.to_f64() - 0.5).ceil() as i64 + 1
+    }
+
+    /// Origin and displacement for one unit of depth, in index space.
+    pub fn line(&self) -> [DVec3; 2] {
+        [self.origin.to_glam(), self.along.to_glam()]
+    }
+
+    /// Eye depths at which the ray enters and leaves a box, widened by the rounding of positions.
+    fn depths(&self, lo: Vec3<R>, hi: Vec3<R>) -> Option<[f64; 2]> {
+        let [o, d] = self.line();
+        let (lo, hi) = (lo.to_glam(), hi.to_glam());
+        let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+        for axis in 0..3 {
+            let (o, d) = (o[axis], d[axis]);
+            // A relative margin for the rounding of o + d·s in R, on the scale of the largest number in it.
+            let margin = 8.0 * R::ROUNDING * (o.abs() + lo[axis].abs() + hi[axis].abs());
+            let (lo, hi) = (lo[axis] - margin, hi[axis] + margin);
+            if d == 0.0 {
+                if o < lo || o > hi {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = ((lo - o) / d, (hi - o) / d);
+            range = [range[0].max(a.min(b)), range[1].min(a.max(b))];
+        }
+        (range[0] <= range[1] && range[0].is_finite() && range[1].is_finite()).then_some(range)
+    }
+}
+
+/// Whether a position lies in a closed box.
+#[inline(always)]
+fn contains<R: Real>(lo: Vec3<R>, hi: Vec3<R>, p: Vec3<R>) -> bool {
+    p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z
+}
+
+/// The smallest k with (k + ½)Δ > near.
+fn first_beyond(near: f64, step: f64) -> i64 {
+    let mut k = (near / step - 0.5).floor() as i64 - 1;
+    while (k as f64 + 0.5) * step <= near {
+        k += 1;
+    }
+    k
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::tables::{Camera, Projection};
+    use proptest::prelude::*;
+
+    #[test]
+    fn samples_begin_beyond_near() {
+        // near = Δ: depth ½Δ is out, 3/2 Δ is in.
+        assert_eq!(first_beyond(0.5, 0.5), 1);
+        // near = ½Δ: depth ½Δ is not beyond.
+        assert_eq!(first_beyond(0.25, 0.5), 1);
+        assert_eq!(first_beyond(0.249, 0.5), 0);
+    }
+
+    proptest! {
+        #[test]
+        fn the_run_is_exactly_what_is_inside(
+            direction in prop::array::uniform3(-1.0..1.0f64),
+            eye in prop::array::uniform3(-30.0..30.0f64),
+            pixel in prop::array::uniform2(0.0..16.0f64),
+            step in 0.05..2.0f64,
+            perspective in any::<bool>(),
+        ) {
+            prop_assume!(DVec3::from_array(direction).length() > 0.1);
+            let grid = Grid::with_spacing([9, 7, 5], [1.0, 2.0, 0.5]).unwrap();
+            let projection =
+                if perspective { Projection::Perspective { fov: 60.0 } } else { Projection::Orthographic { height: None } };
+            let camera = Camera {
+                projection,
+                direction: DVec3::from_array(direction),
+                direction_given: true,
+                eye: Some(DVec3::from_array(eye)),
+                ..Camera::default()
+            };
+            let view = View::new(&camera, &grid, [16, 16]).unwrap();
+            let lattice = Lattice { step, along: StepAlong::Plane, near: step };
+            let ray = IndexRay::<f64>::new(&view.ray(pixel[0], pixel[1]), &view, &lattice, &grid);
+            let ends = grid.index_box().map(Vec3::from_glam);
+            let [first, last] = ray.inside(ends);
+            // By definition, over far more samples than the box can hold.
+            let all: Vec<i64> = (-3000..3000)
+                .filter(|&k| (!perspective || (k as f64 + 0.5) * step > step) && contains(ends[0], ends[1], ray.position(k)))
+                .collect();
+            let got: Vec<i64> = (first..=last).collect();
+            prop_assert_eq!(got, all);
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! Empty-space skipping ([RAY-2]): which bricks a transfer function can see, and where a ray meets them.
+
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::volume::{BRICK, Bricks};
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+
+/// The visible bricks of a volume, and a BVH over boxes of them.
+///
+/// The BVH only proposes intervals of a ray: its boxes are f32, grown outwards. Whether a sample is left out is decided
+/// by the brick of its cell, on the position itself.
+pub struct Skip {
+    dims: [usize; 3],
+    visible: Vec<bool>,
+    tree: Bvh2,
+}
+
+/// A box of bricks, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Block {
+    lo: [usize; 3],
+    hi: [usize; 3],
+}
+
+impl Skip {
+    /// Marks the bricks for which `can_see` holds and builds the tree over them.
+    pub fn new(bricks: &Bricks, can_see: impl Fn([f64; 2]) -> bool) -> Self {
+        let visible: Vec<bool> = bricks.ranges.iter().map(|&r| can_see(r)).collect();
+        let boxes: Vec<Aabb> = blocks(&visible, bricks.dims).iter().map(|b| bounds(b, bricks.dims)).collect();
+        let indices = (0..boxes.len() as u32).collect();
+        let tree = if boxes.is_empty() {
+            Bvh2::default()
+        } else {
+            PlocBuilder::new().build(PlocSearchDistance::Low, &boxes, indices, SortPrecision::U64, 0)
+        };
+        Self { dims: bricks.dims, visible, tree }
+    }
+
+    /// Whether the brick of a cell can show something.
+    #[inline(always)]
+    pub fn sees(&self, [x, y, z]: [usize; 3]) -> bool {
+        self.visible[((z / BRICK) * self.dims[1] + y / BRICK) * self.dims[0] + x / BRICK]
+    }
+
+    /// Bytes in memory.
+    pub fn bytes(&self) -> usize {
+        self.visible.len() + size_of_val(self.tree.nodes.as_slice())
+    }
+
+    /// Writes the depths at which the line `origin + along · s` can be in a visible brick, in order and without
+    /// overlap, each widened so that no position rounded by `rounding` (relative) is missed.
+    pub fn intervals(&self, [origin, along]: [DVec3; 2], rounding: f64, out: &mut Vec<[f64; 2]>) {
+        out.clear();
+        if self.tree.nodes.is_empty() {
+            return;
+        }
+        let line = Line::new(origin, along, rounding);
+        let mut stack = [0u32; 64];
+        let mut top = 0;
+        let root = &self.tree.nodes[0];
+        if line.meets(root.aabb()).is_none() {
+            return;
+        }
+        let mut node = root;
+        loop {
+            if node.is_leaf() {
+                out.extend(line.meets(node.aabb()));
+            } else {
+                let first = node.first_index as usize;
+                for child in [first, first + 1] {
+                    if line.meets(self.tree.nodes[child].aabb()).is_some() {
+                        stack[top] = child as u32;
+                        top += 1;
+                    }
+                }
+            }
+            if top == 0 {
+                break;
+            }
+            top -= 1;
+            node = &self.tree.nodes[stack[top] as usize];
+        }
+        merge(out);
+    }
+}
+
+/// A line prepared for slab tests.
+struct Line {
+    origin: DVec3,
+    inverse: DVec3,
+    /// Index-space margin around every box.
+    margin: DVec3,
+}
+
+impl Line {
+    fn new(origin: DVec3, along: DVec3, rounding: f64) -> Self {
+        // Positions inside the volume are sums of numbers up to |origin| plus the volume's own coordinates, of which
+        // the constant stands for those: 2²⁰ voxels along an axis.
+        let margin = (origin.abs() + DVec3::splat(1_048_576.0)) * (8.0 * rounding);
+        Self { origin, inverse: along.recip(), margin }
+    }
+
+    /// Depths at which the line is in a box.
+    #[inline]
+    fn meets(&self, bounds: &Aabb) -> Option<[f64; 2]> {
+        let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+        for axis in 0..3 {
+            let o = self.origin[axis];
+            let lo = f64::from(bounds.min[axis]) - self.margin[axis];
+            let hi = f64::from(bounds.max[axis]) + self.margin[axis];
+            if self.inverse[axis].is_finite() {
+                let (a, b) = ((lo - o) * self.inverse[axis], (hi - o) * self.inverse[axis]);
+                range = [range[0].max(a.min(b)), range[1].min(a.max(b))];
+            } else if o < lo || o > hi {
+                return None;
+            }
+        }
+        (range[0] <= range[1]).then_some(range)
+    }
+}
+
+/// Sorts intervals and joins those that touch.
+fn merge(intervals: &mut Vec<[f64; 2]>) {
+    intervals.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut kept = 0;
+    for i in 1..intervals.len() {
+        if intervals[i][0] <= intervals[kept][1] {
+            intervals[kept][1] = intervals[kept][1].max(intervals[i][1]);
+        } else {
+            kept += 1;
+            intervals[kept] = intervals[i];
+        }
+    }
+    intervals.truncate(kept + 1);
+}
+
+/// The box of a block in index space, in f32, grown outwards. The first and the last block of an axis reach half a voxel
+/// farther, for the box of an axis of length 1.
+fn bounds(block: &Block, dims: [usize; 3]) -> Aabb {
+    let lo = block.lo.map(|i| if i == 0 { -0.5 } else { (i * BRICK) as f32 }.next_down());
+    let hi = std::array::from_fn::<f32, 3, _>(|a| {
+        let end = ((block.hi[a] + 1) * BRICK) as f32;
+        if block.hi[a] + 1 == dims[a] { end + 0.5 } else { end }.next_up()
+    });
+    Aabb::new(lo.into(), hi.into())
+}
+
+/// Joins visible bricks to disjoint boxes: runs along x, equal runs of neighbouring rows, equal sheets of rows.
+fn blocks(visible: &[bool], [nx, ny, nz]: [usize; 3]) -> Vec<Block> {
+    let mut done = Vec::new();
+    let mut sheets: Vec<Block> = Vec::new();
+    for z in 0..nz {
+        let mut rows: Vec<Block> = Vec::new();
+        let mut open: Vec<Block> = Vec::new();
+        for y in 0..ny {
+            let mut next = Vec::new();
+            for run in runs(&visible[(z * ny + y) * nx..][..nx]) {
+                let fresh = Block { lo: [run[0], y, z], hi: [run[1], y, z] };
+                next.push(match open.iter().position(|b| b.lo[0] == run[0] && b.hi[0] == run[1]) {
+                    Some(i) => Block { hi: fresh.hi, ..open.swap_remove(i) },
+                    None => fresh,
+                });
+            }
+            rows.append(&mut open);
+            open = next;
+        }
+        rows.append(&mut open);
+        let mut next = Vec::new();
+        for row in rows {
+            let same = |b: &Block| b.lo[..2] == row.lo[..2] && b.hi[..2] == row.hi[..2];
+            next.push(match sheets.iter().position(same) {
+                Some(i) => Block { hi: row.hi, ..sheets.swap_remove(i) },
+                None => row,
+            });
+        }
+        done.append(&mut sheets);
+        sheets = next;
+    }
+    done.append(&mut sheets);
+    done
+}
+
+/// First and last of each run of true.
+fn runs(row: &[bool]) -> impl Iterator<Item = [usize; 2]> + '_ {
+    let mut x = 0;
+    std::iter::from_fn(move || {
+        let start = x + row[x..].iter().position(|&v| v)?;
+        let length = row[start..].iter().take_while(|&&v| v).count();
+        x = start + length;
+        Some([start, x - 1])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn bricks(dims: [usize; 3], visible: &[bool]) -> Bricks {
+        Bricks { dims, ranges: visible.iter().map(|&v| if v { [1.0; 2] } else { [0.0; 2] }).collect() }
+    }
+
+    proptest! {
+        #[test]
+        fn blocks_cover_the_visible_bricks_once(visible in prop::collection::vec(any::<bool>(), 60)) {
+            let dims = [5, 4, 3];
+            let mut times = vec![0; 60];
+            for b in blocks(&visible, dims) {
+                for z in b.lo[2]..=b.hi[2] {
+                    for y in b.lo[1]..=b.hi[1] {
+                        for x in b.lo[0]..=b.hi[0] {
+                            times[(z * 4 + y) * 5 + x] += 1;
+                        }
+                    }
+                }
+            }
+            let want: Vec<i32> = visible.iter().map(|&v| i32::from(v)).collect();
+            prop_assert_eq!(times, want);
+        }
+
+        #[test]
+        fn no_visible_position_is_outside_the_intervals(
+            visible in prop::collection::vec(prop::bool::weighted(0.2), 60),
+            from in prop::array::uniform3(-20.0..60.0f64),
+            to in prop::array::uniform3(0.0..24.0f64),
+            axis_parallel in 0usize..4,
+        ) {
+            let skip = Skip::new(&bricks([5, 4, 3], &visible), |r| r[1] > 0.5);
+            let (from, mut along) = (DVec3::from_array(from), DVec3::from_array(to) - DVec3::from_array(from));
+            if axis_parallel < 3 {
+                along[axis_parallel] = 0.0;
+            }
+            prop_assume!(along.length() > 1e-3);
+            let mut got = Vec::new();
+            skip.intervals([from, along], f64::EPSILON, &mut got);
+            prop_assert!(got.windows(2).all(|w| w[0][1] < w[1][0]));
+            for i in -100..300 {
+                let s = f64::from(i) * 0.02;
+                let p = from + along * s;
+                let inside = p.cmpge(DVec3::ZERO).all() && p.cmple(DVec3::new(39.0, 31.0, 23.0)).all();
+                if inside && skip.sees([p.x as usize, p.y as usize, p.z as usize]) {
+                    prop_assert!(got.iter().any(|r| r[0] <= s && s <= r[1]), "{s} {p} {got:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_visible_is_no_interval() {
+        let skip = Skip::new(&bricks([1, 1, 1], &[false]), |r| r[1] > 0.5);
+        let mut got = vec![[0.0, 1.0]];
+        skip.intervals([DVec3::ZERO, DVec3::X], f64::EPSILON, &mut got);
+        assert!(got.is_empty());
+    }
+}
