@@ -5,4 +5,5 @@
 pub mod field;
 pub mod number;
 pub mod ray;
+pub mod shading;
 pub mod style_transfer_functions;

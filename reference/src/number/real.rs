@@ -31,9 +31,10 @@ pub trait Real:
     const HALF: Self;
     /// The relative bound of [PREC-3] below which a gradient is rounding: 2⁻⁴⁶, 2⁻²⁰ in f32.
     const NO_NORMAL: Self;
-
-    /// The distance from 1 to the next larger number, in f64.
-    const ROUNDING: f64;
+    /// The distance from 1 to the next number.
+    const EPSILON: Self;
+    /// Voxels whose largest magnitude has an exponent beyond this are scaled as they are read, lest sums overflow.
+    const FAR_EXPONENT: i32;
 
     /// The nearest number of this type.
     fn from_f64(x: f64) -> Self;
@@ -86,7 +87,8 @@ impl Real for f64 {
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
     const NO_NORMAL: Self = 1.0 / (1u64 << 46) as f64;
-    const ROUNDING: f64 = f64::EPSILON;
+    const EPSILON: Self = f64::EPSILON;
+    const FAR_EXPONENT: i32 = 500;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
@@ -150,7 +152,8 @@ impl Real for f32 {
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
     const NO_NORMAL: Self = 1.0 / (1u64 << 20) as f32;
-    const ROUNDING: f64 = f32::EPSILON as f64;
+    const EPSILON: Self = f32::EPSILON;
+    const FAR_EXPONENT: i32 = 60;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

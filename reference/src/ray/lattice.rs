@@ -106,7 +106,7 @@ impl<R: Real> IndexRay<R> {
         for axis in 0..3 {
             let (o, d) = (o[axis], d[axis]);
             // A relative margin for the rounding of o + d·s in R, on the scale of the largest number in it.
-            let margin = 8.0 * R::ROUNDING * (o.abs() + lo[axis].abs() + hi[axis].abs());
+            let margin = 8.0 * R::EPSILON.to_f64() * (o.abs() + lo[axis].abs() + hi[axis].abs());
             let (lo, hi) = (lo[axis] - margin, hi[axis] + margin);
             if d == 0.0 {
                 if o < lo || o > hi {

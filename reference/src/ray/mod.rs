@@ -1,6 +1,14 @@
 //! Casting rays through the field.
 
+mod cast;
+mod gradient_range;
 pub mod lattice;
+mod layers;
 pub mod opacity;
 pub mod piecewise;
+mod prepared;
+mod render;
+mod sample;
 pub mod skip;
+
+pub use render::{Backdrop, Inputs, RenderError, Renderer};

@@ -146,7 +146,7 @@ impl Voxels {
     }
 
     /// Lowest and highest stored number; both NaN where there is no voxel.
-    pub(super) fn range(&self) -> [f64; 2] {
+    pub fn range(&self) -> [f64; 2] {
         fn ends<V: Voxel>(v: &[V]) -> [f64; 2] {
             let Some(&first) = v.first() else { return [f64::NAN; 2] };
             let (lo, hi) = v

@@ -1,0 +1,201 @@
+//! The voxels around a cell as numbers of the sample loop.
+//!
+//! A stencil decides once what type is stored, reads all its voxels and hands them on in an array, so that the code
+//! of a sample exists once for each number type and kernel, not once for each of the ten stored types too.
+
+use crate::number::Real;
+use drypoint_scene::math;
+use drypoint_scene::volume::{Access, Volume, VoxelType};
+use drypoint_scene::with_access;
+
+/// Reads stencils from a volume, in stored units times [`Stencils::scale`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stencils<'v> {
+    volume: &'v Volume,
+    /// For each axis the number of cells whose 4 voxels from the one before the cell on are all in the grid.
+    inner: [usize; 3],
+    /// Whether an axis has length 1.
+    flat: bool,
+    /// Stored numbers are read times this power of two; 1 unless they come near the ends of the number type.
+    scale: f64,
+}
+
+/// The 32 voxels of central differences at the eight corners of a cell.
+pub(super) struct Cross<R> {
+    /// For (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) from the cell on: the four voxels from the one before it on.
+    pub x: [[R; 4]; 4],
+    /// The two voxels of the cell in the rows at y = −1, 2, then the same at z = 1.
+    pub y: [[R; 2]; 4],
+    /// The two voxels of the cell in the rows at z = −1: y = 0, 1, then at z = 2.
+    pub z: [[R; 2]; 4],
+}
+
+/// A sample beyond the border from the three (two, one) nearest inside: c₋₁ = 3c₀ − 3c₁ + c₂, 2c₀ − c₁, c₀ ([REC-1]).
+#[inline(always)]
+pub(super) fn beyond<R: Real>(samples: usize, c0: R, c1: R, c2: R) -> R {
+    match samples {
+        1 => c0,
+        2 => c0 + (c0 - c1),
+        _ => {
+            let d = c0 - c1;
+            c2 + (d + d + d)
+        }
+    }
+}
+
+impl<'v> Stencils<'v> {
+    /// `R` is the number type that will be read.
+    pub(super) fn new<R: Real>(volume: &'v Volume) -> Self {
+        let dims = volume.dims();
+        let inner = dims.map(|n| n.max(3) - 3);
+        Self { volume, inner, flat: dims.contains(&1), scale: math::scale_by_power_of_two(1.0, -exponent::<R>(volume)) }
+    }
+
+    /// A power of two; the numbers read are the stored ones times it.
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// Voxels along x, y, z.
+    pub(super) fn dims(&self) -> [usize; 3] {
+        self.volume.dims()
+    }
+
+    /// Whether the four voxels on each axis around a cell are in the grid.
+    #[inline(always)]
+    fn inside(&self, cell: [usize; 3]) -> bool {
+        let inside = |a: usize| cell[a].wrapping_sub(1) < self.inner[a];
+        inside(0) && inside(1) && inside(2)
+    }
+
+    /// The corners of a cell: pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1).
+    #[inline(always)]
+    pub(super) fn corners<R: Real>(&self, [x, y, z]: [usize; 3]) -> [[R; 2]; 4] {
+        if self.flat || self.scale != 1.0 {
+            return self.careful_corners([x, y, z]);
+        }
+        with_access!(self.volume, |a| {
+            let pair = |y, z| a.row::<2>(x, y, z).map(R::from_voxel);
+            [pair(y, z), pair(y + 1, z), pair(y, z + 1), pair(y + 1, z + 1)]
+        })
+    }
+
+    /// The voxels of central differences at the corners of a cell, continued beyond the border.
+    #[inline(always)]
+    pub(super) fn cross<R: Real>(&self, cell: [usize; 3]) -> Cross<R> {
+        if !self.inside(cell) || self.scale != 1.0 {
+            return self.careful_cross(cell);
+        }
+        let [x, y, z] = cell;
+        with_access!(self.volume, |a| {
+            let four = |y, z| a.row::<4>(x - 1, y, z).map(R::from_voxel);
+            let two = |y, z| a.row::<2>(x, y, z).map(R::from_voxel);
+            Cross {
+                x: [four(y, z), four(y + 1, z), four(y, z + 1), four(y + 1, z + 1)],
+                y: [two(y - 1, z), two(y + 2, z), two(y - 1, z + 1), two(y + 2, z + 1)],
+                z: [two(y, z - 1), two(y + 1, z - 1), two(y, z + 2), two(y + 1, z + 2)],
+            }
+        })
+    }
+
+    /// The 4³ voxels from the one before the cell on, [z][y][x], continued beyond the border.
+    #[inline(always)]
+    pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 4]; 4]; 4] {
+        if !self.inside(cell) || self.scale != 1.0 {
+            return self.careful_block(cell);
+        }
+        let [x, y, z] = cell.map(|i| i - 1);
+        with_access!(self.volume, |a| {
+            std::array::from_fn(|k| std::array::from_fn(|j| a.row::<4>(x, y + j, z + k).map(R::from_voxel)))
+        })
+    }
+
+    /// `N`³ voxels from `start` on, [z][y][x]; an index beyond the grid reads the last voxel of its line.
+    #[inline(never)]
+    pub(super) fn clamped<R: Real, const N: usize>(&self, start: [isize; 3]) -> [[[R; N]; N]; N] {
+        let dims = self.dims();
+        let index = |axis: usize, i: usize| (start[axis] + i as isize).clamp(0, dims[axis] as isize - 1) as usize;
+        let scale = self.scale;
+        with_access!(self.volume, |a| {
+            let read = |x, y, z| {
+                let voxel = a.at(x, y, z);
+                if scale == 1.0 { R::from_voxel(voxel) } else { scaled(voxel, scale) }
+            };
+            std::array::from_fn(|k| {
+                std::array::from_fn(|j| std::array::from_fn(|i| read(index(0, i), index(1, j), index(2, k))))
+            })
+        })
+    }
+
+    #[cold]
+    fn careful_corners<R: Real>(&self, cell: [usize; 3]) -> [[R; 2]; 4] {
+        let [[a, b], [c, d]] = self.clamped::<R, 2>(cell.map(|i| i as isize));
+        [a, b, c, d]
+    }
+
+    #[cold]
+    fn careful_cross<R: Real>(&self, cell: [usize; 3]) -> Cross<R> {
+        let b = self.careful_block(cell);
+        let two = |z: usize, y: usize| [b[z][y][1], b[z][y][2]];
+        Cross {
+            x: [b[1][1], b[1][2], b[2][1], b[2][2]],
+            y: [two(1, 0), two(1, 3), two(2, 0), two(2, 3)],
+            z: [two(0, 1), two(0, 2), two(3, 1), two(3, 2)],
+        }
+    }
+
+    /// Reads what is in the grid and continues it outwards along x, then y, then z.
+    #[cold]
+    fn careful_block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 4]; 4]; 4] {
+        let mut b = self.clamped::<R, 4>(cell.map(|i| i as isize - 1));
+        let [nx, ny, nz] = self.dims();
+        for line in b.iter_mut().flatten() {
+            *line = continued(*line, cell[0], nx);
+        }
+        for plane in &mut b {
+            for i in 0..4 {
+                let line = continued(plane.map(|row| row[i]), cell[1], ny);
+                (0..4).for_each(|j| plane[j][i] = line[j]);
+            }
+        }
+        for j in 0..4 {
+            for i in 0..4 {
+                let line = continued([0, 1, 2, 3].map(|k: usize| b[k][j][i]), cell[2], nz);
+                (0..4).for_each(|k| b[k][j][i] = line[k]);
+            }
+        }
+        b
+    }
+}
+
+/// Four samples from cell − 1 on, with those beyond the border of a line of n samples replaced.
+fn continued<R: Real>(c: [R; 4], cell: usize, n: usize) -> [R; 4] {
+    if n == 1 {
+        return [c[1]; 4];
+    }
+    let mut c = c;
+    let before = if cell == 0 { beyond(n, c[1], c[2], c[3]) } else { c[0] };
+    if cell + 2 == n {
+        c[3] = beyond(n, c[2], c[1], c[0]);
+    }
+    c[0] = before;
+    c
+}
+
+fn scaled<R: Real, V: drypoint_scene::volume::Voxel>(voxel: V, scale: f64) -> R {
+    R::from_f64(voxel.to_f64() * scale)
+}
+
+/// The exponent that is taken out of stored numbers so that sums and differences of them neither overflow nor become
+/// subnormal: 0 unless they come near the ends of the number type, which only floating-point voxels can.
+fn exponent<R: Real>(volume: &Volume) -> i32 {
+    let voxels = volume.voxels();
+    let far = match voxels.voxel_type() {
+        VoxelType::F32 | VoxelType::F64 => R::FAR_EXPONENT,
+        _ => return 0,
+    };
+    let [lo, hi] = voxels.range();
+    // The power itself has to be a normal number.
+    let e = (math::exponent(lo.abs().max(hi.abs())) - 1).clamp(-1022, 1022);
+    if e.abs() > far { e } else { 0 }
+}

@@ -1,0 +1,238 @@
+//! One ray, front to back ([VAL-3], [VAL-4], [RAY-1], [RAY-2]).
+
+use super::lattice::IndexRay;
+use super::layers::{Seen, Sums};
+use super::opacity::correct;
+use super::prepared::{KappaSource, Prepared};
+use super::sample::Facts;
+use crate::field::Sampler;
+use crate::field::curvature;
+use crate::number::{Real, Vec3};
+use drypoint_scene::color;
+use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec3;
+
+/// What comes out of one ray.
+pub(super) struct Cast {
+    /// Premultiplied colour and opacity in the blend space, without the background.
+    pub rgba: [f64; 4],
+    /// Sums for the other layers.
+    pub sums: Sums,
+    /// Samples evaluated.
+    pub samples: u64,
+}
+
+/// Buffers that rays of one thread share.
+#[derive(Default)]
+pub(super) struct Scratch {
+    intervals: Vec<[f64; 2]>,
+}
+
+/// The state of a ray on its way.
+struct Walk<'p, 'v, R: Real, S> {
+    prepared: &'p Prepared<'v, R>,
+    sampler: &'p S,
+    ray: IndexRay<R>,
+    /// v in world space, towards the eye.
+    v_world: Vec3<R>,
+    /// v in eye space.
+    v_eye: Vec3<R>,
+    /// Δ_ray/Δ₀.
+    ratio: R,
+    /// The last sample whose outward normal is known, and that normal.
+    previous: Option<(i64, Option<Vec3<R>>)>,
+    rgb: [R; 3],
+    opacity: R,
+    sums: Sums,
+}
+
+/// Casts the ray through a point of the picture, in pixels from the top left corner.
+pub(super) fn cast<R: Real, S: Sampler<R>>(
+    prepared: &Prepared<'_, R>,
+    sampler: &S,
+    [i, j]: [f64; 2],
+    scratch: &mut Scratch,
+    counts: &mut Counts,
+) -> Cast {
+    let view = &prepared.view;
+    let pixel = view.ray(i, j);
+    let ray = IndexRay::<R>::new(&pixel, view, &prepared.lattice, prepared.volume.grid());
+    let mut walk = Walk {
+        prepared,
+        sampler,
+        v_world: Vec3::from_glam(view.direction_to_world(pixel.v)),
+        v_eye: Vec3::from_glam(pixel.v),
+        ratio: R::from_f64(ray.step / prepared.reference_length),
+        ray,
+        previous: None,
+        rgb: [R::ZERO; 3],
+        opacity: R::ZERO,
+        sums: Sums::new(),
+    };
+    let inside = ray.inside(prepared.ends);
+    let mut samples = 0;
+    if inside[0] <= inside[1] {
+        samples = match &prepared.skip {
+            None => walk.run(inside, |_| true, counts).0,
+            Some(skip) => {
+                skip.intervals(ray.line(), R::EPSILON.to_f64(), &mut scratch.intervals);
+                let (mut samples, mut next) = (0, inside[0]);
+                for &[near, far] in &scratch.intervals {
+                    let first = ray.first_at_or_after(near).max(next);
+                    let last = ray.last_at_or_before(far).min(inside[1]);
+                    let (n, open) = walk.run([first, last], |cell| skip.sees(cell), counts);
+                    samples += n;
+                    next = next.max(last + 1);
+                    if !open {
+                        break;
+                    }
+                }
+                samples
+            }
+        };
+    }
+    counts.rays += 1;
+    counts.rays_skipped += u64::from(samples == 0);
+    counts.samples += samples;
+    let [r, g, b] = walk.rgb.map(Real::to_f64);
+    Cast { rgba: [r, g, b, walk.opacity.to_f64()], sums: walk.sums, samples }
+}
+
+impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
+    /// Visits the samples first..=last whose cell passes the test. Returns how many were evaluated and whether the ray
+    /// is still open.
+    #[inline]
+    fn run(&mut self, [first, last]: [i64; 2], sees: impl Fn([usize; 3]) -> bool, counts: &mut Counts) -> (u64, bool) {
+        let prepared = self.prepared;
+        let mut samples = 0;
+        for k in first..=last {
+            let p = self.ray.position(k);
+            let cell = self.sampler.cell(p);
+            if !sees(cell) {
+                continue;
+            }
+            samples += 1;
+            if let Some(mask) = prepared.volume.mask()
+                && mask.touches_cell(cell)
+            {
+                counts.masked += 1;
+                continue;
+            }
+            let s = self.sampler.value(p);
+            if let Some(place) = prepared.function.locate(s) {
+                let facts = self.facts(k, p, s, counts);
+                let (rgb, alpha) = prepared.look.color(&place, &facts, counts);
+                self.composite(k, rgb, alpha, &facts);
+                if self.opacity >= prepared.stop_at {
+                    return (samples, false);
+                }
+            }
+        }
+        (samples, true)
+    }
+
+    /// Everything that the scene calls for at a sample with α_u > 0.
+    #[inline]
+    fn facts(&mut self, k: i64, p: Vec3<R>, s: R, counts: &mut Counts) -> Facts<R> {
+        let prepared = self.prepared;
+        let mut facts = Facts::without_normal(s, self.v_eye);
+        if !prepared.calls.gradient {
+            return facts;
+        }
+        let g = self.sampler.gradient(p);
+        counts.gradients += 1;
+        facts.gradient = g;
+        if let Some((lo, width)) = prepared.gradient_range {
+            let norm = g.length();
+            facts.magnitude = if width > R::ZERO { ((norm - lo) / width).clamp_01() } else { R::ZERO };
+        }
+        let outward = prepared.outward(g);
+        if let Some(n) = outward {
+            let n = self.shading_normal(n);
+            facts.has_normal = true;
+            facts.normal = prepared.to_eye(n);
+            facts.n_dot_v = n.dot(self.v_world).abs();
+            if prepared.calls.hessian {
+                self.curvatures(p, &mut facts, counts);
+            }
+            if prepared.calls.kappa == KappaSource::AlongRay {
+                facts.kappa = self.kappa_along_ray(k, n, counts);
+            }
+        } else {
+            counts.without_normal += 1;
+        }
+        if prepared.calls.kappa == KappaSource::AlongRay {
+            self.previous = Some((k, outward.map(|n| self.shading_normal(n))));
+        }
+        facts
+    }
+
+    /// The normal that shades ([NORM-1]): the outward one, or as the scene turns it.
+    #[inline]
+    fn shading_normal(&self, outward: Vec3<R>) -> Vec3<R> {
+        self.prepared.side.turn(outward, self.v_world)
+    }
+
+    /// κ_v from the normal of the sample before on this ray ([STF-5]); 0 where there is none.
+    fn kappa_along_ray(&mut self, k: i64, n: Vec3<R>, counts: &mut Counts) -> R {
+        let prepared = self.prepared;
+        let before = match self.previous {
+            Some((at, normal)) if at == k - 1 => normal,
+            _ if self.ray.has(k - 1, prepared.ends) => {
+                let g = self.sampler.gradient(self.ray.position(k - 1));
+                counts.gradients += 1;
+                prepared.outward(g).map(|n| self.shading_normal(n))
+            }
+            _ => None,
+        };
+        before.map_or(R::ZERO, |m| {
+            crate::style_transfer_functions::kappa_along_ray(n, m, R::from_f64(self.ray.step), prepared.sign_flip)
+        })
+    }
+
+    /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); 0 where H's own field has no normal.
+    fn curvatures(&self, p: Vec3<R>, facts: &mut Facts<R>, counts: &mut Counts) {
+        let prepared = self.prepared;
+        counts.hessians += 1;
+        let (g, h) = self.sampler.hessian(p);
+        if g.length() <= prepared.no_normal_below {
+            return;
+        }
+        if prepared.calls.kappa == KappaSource::Exact {
+            facts.kappa = curvature::kappa_v(g, h, prepared.outside, self.v_world);
+        }
+        if prepared.calls.principal {
+            let c = curvature::principal(g, h, prepared.outside);
+            facts.principal = [c.k1, c.k2];
+        }
+    }
+
+    /// C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
+    #[inline]
+    fn composite(&mut self, k: i64, rgb: [R; 3], alpha: R, facts: &Facts<R>) {
+        let prepared = self.prepared;
+        let w = (R::ONE - self.opacity) * correct(alpha, self.ratio);
+        let rgb = if prepared.encode { rgb.map(encoded) } else { rgb };
+        for (sum, c) in self.rgb.iter_mut().zip(rgb) {
+            *sum += w * c;
+        }
+        self.opacity += w;
+        if prepared.collects && alpha > R::ZERO {
+            let gradient = prepared.true_gradient(facts.gradient);
+            let seen = Seen {
+                weight: w.to_f64(),
+                depth: self.ray.depth(k).to_f64(),
+                value: facts.value.to_f64(),
+                normal: facts.normal.to_glam().to_array(),
+                gradient: DVec3::to_array(&gradient),
+                curvature: [facts.principal[0], facts.principal[1], facts.kappa].map(Real::to_f64),
+            };
+            self.sums.add(&seen, self.opacity.to_f64());
+        }
+    }
+}
+
+/// One linear channel encoded for `blend_space = "srgb"`.
+fn encoded<R: Real>(c: R) -> R {
+    R::from_f64(color::linear_to_srgb(c.to_f64()))
+}

@@ -1,0 +1,127 @@
+//! What a ray leaves in the layers of a picture ([IO-6]).
+
+use drypoint_scene::picture::LayerKind;
+
+/// A visible sample as the layers see it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seen {
+    /// w = (1 − A)·α(Δ).
+    pub weight: f64,
+    /// Eye depth of the sample's plane.
+    pub depth: f64,
+    /// The value.
+    pub value: f64,
+    /// N in eye space, v where there is none.
+    pub normal: [f64; 3],
+    /// World gradient.
+    pub gradient: [f64; 3],
+    /// κ₁, κ₂ and the scene's κ.
+    pub curvature: [f64; 3],
+}
+
+/// Sums along one ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums {
+    weight: f64,
+    first: Option<(f64, f64)>,
+    half: f64,
+    depth: f64,
+    normal: [f64; 3],
+    gradient: [f64; 3],
+    curvature: [f64; 3],
+}
+
+impl Sums {
+    /// Before the first sample.
+    pub fn new() -> Self {
+        let none = [0.0; 3];
+        Self {
+            weight: 0.0,
+            first: None,
+            half: f64::INFINITY,
+            depth: 0.0,
+            normal: none,
+            gradient: none,
+            curvature: none,
+        }
+    }
+
+    /// Adds a sample with α > 0; `opacity` is A with this sample included.
+    pub fn add(&mut self, seen: &Seen, opacity: f64) {
+        self.weight += seen.weight;
+        self.first.get_or_insert((seen.depth, seen.value));
+        if self.half == f64::INFINITY && opacity >= 0.5 {
+            self.half = seen.depth;
+        }
+        self.depth += seen.weight * seen.depth;
+        for axis in 0..3 {
+            self.normal[axis] += seen.weight * seen.normal[axis];
+            self.gradient[axis] += seen.weight * seen.gradient[axis];
+            self.curvature[axis] += seen.weight * seen.curvature[axis];
+        }
+    }
+
+    /// The channels of a layer other than the beauty. Means are Σwq/Σw; where Σw = 0 they are 0 and depths are +∞.
+    pub fn channels(&self, kind: LayerKind, samples: u64, out: &mut Vec<f64>) {
+        let mean = |sum: f64| if self.weight > 0.0 { sum / self.weight } else { 0.0 };
+        match kind {
+            LayerKind::Beauty => {}
+            LayerKind::Z => out.push(self.half),
+            LayerKind::Depth => {
+                let depth = if self.weight > 0.0 { self.depth / self.weight } else { f64::INFINITY };
+                out.extend([self.first.map_or(f64::INFINITY, |f| f.0), self.half, depth]);
+            }
+            LayerKind::Normal => out.extend(self.normal.map(mean)),
+            LayerKind::Gradient => out.extend(self.gradient.map(mean)),
+            LayerKind::Curvature => out.extend(self.curvature.map(mean)),
+            LayerKind::CurvatureAlongView => out.push(mean(self.curvature[2])),
+            LayerKind::First => out.push(self.first.map_or(0.0, |f| f.1)),
+            LayerKind::Counts => out.push(samples as f64),
+        }
+    }
+}
+
+/// Whether a layer of a pixel of n×n rays is the mean of theirs; the others are the first ray's ([RAY-6]).
+pub fn averaged(kind: LayerKind) -> bool {
+    matches!(
+        kind,
+        LayerKind::Beauty
+            | LayerKind::Normal
+            | LayerKind::Gradient
+            | LayerKind::Curvature
+            | LayerKind::CurvatureAlongView
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_and_depths_by_hand() {
+        let mut sums = Sums::new();
+        let near = Seen { weight: 0.25, depth: 2.0, value: 7.0, normal: [0.0, 0.0, 1.0], ..Seen::default() };
+        let far = Seen { weight: 0.5, depth: 5.0, value: 9.0, normal: [1.0, 0.0, 0.0], ..Seen::default() };
+        sums.add(&near, 0.25);
+        sums.add(&far, 0.75);
+        let channels = |kind| {
+            let mut out = Vec::new();
+            sums.channels(kind, 3, &mut out);
+            out
+        };
+        assert_eq!(channels(LayerKind::Z), [5.0]);
+        assert_eq!(channels(LayerKind::Depth), [2.0, 5.0, 4.0]);
+        assert_eq!(channels(LayerKind::First), [7.0]);
+        assert_eq!(channels(LayerKind::Normal), [2.0 / 3.0, 0.0, 1.0 / 3.0]);
+        assert_eq!(channels(LayerKind::Counts), [3.0]);
+    }
+
+    #[test]
+    fn a_ray_that_hits_nothing() {
+        let mut out = Vec::new();
+        Sums::new().channels(LayerKind::Depth, 0, &mut out);
+        Sums::new().channels(LayerKind::Normal, 0, &mut out);
+        Sums::new().channels(LayerKind::First, 0, &mut out);
+        assert_eq!(out, [f64::INFINITY, f64::INFINITY, f64::INFINITY, 0.0, 0.0, 0.0, 0.0]);
+    }
+}

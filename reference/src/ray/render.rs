@@ -1,0 +1,379 @@
+//! A picture, ray by ray.
+
+use super::cast::{Scratch, cast};
+use super::gradient_range::quantile_of_norms;
+use super::lattice::Lattice;
+use super::layers::averaged;
+use super::piecewise::Piecewise;
+use super::prepared::{Calls, KappaSource, Prepared, Side};
+use super::sample::Look;
+use super::skip::Skip;
+use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
+use crate::number::{Real, Vec3};
+use crate::shading::Phong;
+use crate::with_sampler;
+use drypoint_scene::color::{self, Rgba};
+use drypoint_scene::counts::Counts;
+use drypoint_scene::picture::{Layer, LayerKind, Picture};
+use drypoint_scene::plan::{Plan, Quantity};
+use drypoint_scene::style::Style;
+use drypoint_scene::tables::{BlendSpace, GradientRange, Kappa, Length, Number, Scene};
+use drypoint_scene::transfer::{Function, Nodes};
+use drypoint_scene::view::{View, ViewError};
+use drypoint_scene::volume::Volume;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// Pixels along the side of a tile, the work of one thread at a time.
+const TILE: usize = 16;
+
+/// What a picture is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// What it calls for.
+    pub plan: &'a Plan,
+    /// Its volume.
+    pub volume: &'a Volume,
+    /// Its transfer function, over the volume's values.
+    pub function: &'a Function,
+    /// The styles that the function names, in the order of [`Function::Style::names`].
+    pub styles: &'a [Style],
+    /// What lies behind.
+    pub background: Backdrop<'a>,
+}
+
+/// What lies behind the volume, linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Backdrop<'a> {
+    /// Nothing.
+    None,
+    /// One straight colour.
+    Color(Rgba),
+    /// Premultiplied pixels of the picture's size, row by row from the top.
+    Pixels(&'a [Rgba]),
+}
+
+/// A picture that cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RenderError {
+    /// The field cannot be reconstructed as the scene asks.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// The camera sees nothing.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// A length of the scene has no size in the world.
+    #[error("{key} is a length on the page, not in the volume")]
+    Length {
+        /// The scene key.
+        key: &'static str,
+    },
+    /// The function's nodes and the styles do not fit.
+    #[error("the transfer function names {named} styles, {given} were loaded")]
+    Styles {
+        /// Styles that the function names.
+        named: usize,
+        /// Styles that were handed over.
+        given: usize,
+    },
+}
+
+/// A scene that is ready to be rendered any number of times.
+pub struct Renderer<'a> {
+    ready: Ready<'a>,
+    background: Backdrop<'a>,
+    counts: Counts,
+}
+
+enum Ready<'a> {
+    F64(Box<Prepared<'a, f64>>),
+    F32(Box<Prepared<'a, f32>>),
+}
+
+impl<'a> Renderer<'a> {
+    /// Prepares a scene: reconstruction, ranges, visible bricks.
+    ///
+    /// # Errors
+    /// A reconstruction that does not exist, a camera without direction, a length without size.
+    pub fn new(inputs: Inputs<'a>) -> Result<Self, RenderError> {
+        let start = Instant::now();
+        let mut counts = Counts::default();
+        let ready = match inputs.scene.sampling.number {
+            Number::F64 => Ready::F64(Box::new(prepare(&inputs, &mut counts)?)),
+            Number::F32 => Ready::F32(Box::new(prepare(&inputs, &mut counts)?)),
+        };
+        counts.bytes.insert("volume".into(), inputs.volume.voxels().bytes() as u64);
+        if let Some(mask) = inputs.volume.mask() {
+            counts.bytes.insert("mask".into(), mask.bytes() as u64);
+        }
+        counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
+        Ok(Self { ready, background: inputs.background, counts })
+    }
+
+    /// Renders one frame. `progress` hears the share of the picture that is done, from any thread.
+    pub fn frame(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
+        let start = Instant::now();
+        let (picture, mut counts) = match &self.ready {
+            Ready::F64(p) => with_sampler!(p.field, |s| draw(p, s, self.background, progress)),
+            Ready::F32(p) => with_sampler!(p.field, |s| draw(p, s, self.background, progress)),
+        };
+        counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
+        counts.add(&self.counts);
+        let channels: usize = picture.layers.iter().map(|l| l.channels.len()).sum();
+        counts.bytes.insert("picture".into(), (channels * picture.width * picture.height * 8) as u64);
+        (picture, counts)
+    }
+}
+
+/// Decides everything that samples need not decide.
+fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prepared<'a, R>, RenderError> {
+    let Inputs { scene, plan, volume, function, .. } = *inputs;
+    let grid = volume.grid();
+    let sampling = &scene.sampling;
+    let world = |length: Length, key| length.world(grid).ok_or(RenderError::Length { key });
+    let step = world(sampling.step, "sampling.step")?;
+    let calls = calls(scene, plan);
+    let rung = if calls.hessian {
+        Rung::Hessian
+    } else if calls.gradient {
+        Rung::Gradient
+    } else {
+        Rung::Value
+    };
+    let how = Reconstruction {
+        kernel: sampling.kernel,
+        gradient: sampling.gradient,
+        hessian: sampling.hessian,
+        scale: world(sampling.scale, "sampling.scale")?,
+        outside: scene.volume.outside,
+    };
+    let field = Field::<R>::new(volume, how, rung)?;
+    counts.bytes.extend(field.bytes());
+    let view = View::new(&scene.camera, grid, scene.picture.size)?;
+    let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
+    let skip = sampling.skip_empty.then(|| {
+        let bricks = field.bricks();
+        counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
+        Skip::new(&bricks, |range| function.can_be_visible(range))
+    });
+    if let Some(skip) = &skip {
+        counts.bytes.insert("skip".into(), skip.bytes() as u64);
+    }
+    let gradient_range = plan.needs(Quantity::GradientMagnitudeRange).then(|| {
+        let e = field.scale_exponent();
+        let scaled = |g: f64| drypoint_scene::math::scale_by_power_of_two(g, -e);
+        let [lo, hi] = match scene.volume.gradient_range {
+            GradientRange::Fixed(range) => range.map(scaled),
+            GradientRange::Quantile(q) => {
+                let bound = field.no_normal_below();
+                let (hi, voxels) = with_sampler!(field, |s| quantile_of_norms(s, volume, bound, q));
+                counts.preprocess.insert("gradients".into(), voxels);
+                [0.0, hi]
+            }
+        };
+        (R::from_f64(lo), R::from_f64(hi - lo))
+    });
+    let (at, opacity) = match function {
+        Function::Style { nodes: Nodes { at, opacity, .. }, .. } => (at, opacity),
+        Function::Regular(Nodes { at, opacity, .. }) => (at, opacity),
+    };
+    let look = look(inputs, &view, grid.voxel())?;
+    let layers = if scene.picture.layers.is_empty() { vec![LayerKind::Beauty] } else { scene.picture.layers.clone() };
+    Ok(Prepared {
+        volume,
+        lattice: Lattice { step, along: sampling.step_along, near },
+        ends: grid.index_box().map(Vec3::from_glam),
+        skip,
+        function: Piecewise::new(at, opacity),
+        look,
+        calls,
+        gradient_range,
+        reference_length: world(sampling.reference_length, "sampling.reference_length")?,
+        stop_at: R::from_f64(1.0 - sampling.stop_below),
+        encode: scene.picture.blend_space == BlendSpace::Srgb,
+        collects: layers.iter().any(|&l| l != LayerKind::Beauty && l != LayerKind::Counts),
+        layers,
+        outside: scene.volume.outside,
+        side: Side::new(sampling.normal, scene.volume.outside),
+        sign_flip: super::prepared::flip_rule(scene),
+        no_normal_below: field.no_normal_below(),
+        eye_axes: [view.right, view.up, -view.forward].map(Vec3::from_glam),
+        samples: scene.picture.samples,
+        field,
+        view,
+    })
+}
+
+/// What visible samples have to know, by the plan.
+fn calls(scene: &Scene, plan: &Plan) -> Calls {
+    let kappa = if plan.needs(Quantity::PreviousNormal) {
+        KappaSource::AlongRay
+    } else if plan.needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
+        KappaSource::Exact
+    } else {
+        KappaSource::None
+    };
+    Calls {
+        gradient: plan.needs(Quantity::Gradient),
+        hessian: plan.needs(Quantity::Hessian),
+        principal: scene.picture.layers.contains(&LayerKind::Curvature),
+        kappa,
+    }
+}
+
+/// How visible samples are coloured.
+fn look<R: Real>(inputs: &Inputs<'_>, view: &View, _voxel: f64) -> Result<Look<R>, RenderError> {
+    match inputs.function {
+        Function::Regular(nodes) => Ok(Look::Regular {
+            colors: nodes.color.iter().map(|c| c.map(R::from_f64)).collect(),
+            phong: inputs.scene.shading.as_ref().map(|s| Phong::new(s, inputs.scene.light, view)),
+        }),
+        Function::Style { names, .. } => {
+            Err(RenderError::Styles { named: names.len(), given: inputs.styles.len() })
+        }
+    }
+}
+
+/// The channels of a tile, pixel by pixel.
+struct Tile {
+    x: usize,
+    y: usize,
+    width: usize,
+    pixels: Vec<f64>,
+    counts: Counts,
+}
+
+/// Casts all rays of a picture. Each pixel is a function of its place alone, so neither threads nor the order of tiles
+/// show ([RAY-3]).
+fn draw<R: Real, S: Sampler<R>>(
+    prepared: &Prepared<'_, R>,
+    sampler: &S,
+    background: Backdrop<'_>,
+    progress: &(dyn Fn(f64) + Sync),
+) -> (Picture, Counts) {
+    let [width, height] = prepared.view.size;
+    let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let tiles: Vec<Tile> = (0..across * down)
+        .into_par_iter()
+        .map(|t| {
+            let tile = draw_tile(prepared, sampler, background, [t % across * TILE, t / across * TILE]);
+            let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            progress(n as f64 / (across * down) as f64);
+            tile
+        })
+        .collect();
+    let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();
+    let mut counts = Counts::default();
+    let mut channels = vec![vec![0.0; width * height]; per_pixel];
+    for tile in &tiles {
+        counts.add(&tile.counts);
+        for (i, pixel) in tile.pixels.chunks_exact(per_pixel).enumerate() {
+            let at = (tile.y + i / tile.width) * width + tile.x + i % tile.width;
+            for (channel, value) in channels.iter_mut().zip(pixel) {
+                channel[at] = *value;
+            }
+        }
+    }
+    let mut channels = channels.into_iter();
+    let layers = prepared
+        .layers
+        .iter()
+        .map(|&kind| Layer { kind, channels: channels.by_ref().take(kind.channels().len()).collect() })
+        .collect();
+    (Picture { width, height, layers }, counts)
+}
+
+/// Casts the rays of one tile.
+fn draw_tile<R: Real, S: Sampler<R>>(
+    prepared: &Prepared<'_, R>,
+    sampler: &S,
+    background: Backdrop<'_>,
+    [x, y]: [usize; 2],
+) -> Tile {
+    let [width, height] = prepared.view.size;
+    let (right, bottom) = ((x + TILE).min(width), (y + TILE).min(height));
+    let mut tile = Tile { x, y, width: right - x, pixels: Vec::new(), counts: Counts::default() };
+    let mut scratch = Scratch::default();
+    for j in y..bottom {
+        for i in x..right {
+            let behind = match background {
+                Backdrop::None => [0.0; 4],
+                Backdrop::Color(c) => color::premultiply(c),
+                Backdrop::Pixels(pixels) => pixels[j * width + i],
+            };
+            draw_pixel(prepared, sampler, [i, j], behind, &mut scratch, &mut tile);
+        }
+    }
+    tile
+}
+
+/// Casts the n×n rays of one pixel through the centres of its parts and appends its channels ([RAY-6]).
+fn draw_pixel<R: Real, S: Sampler<R>>(
+    prepared: &Prepared<'_, R>,
+    sampler: &S,
+    [i, j]: [usize; 2],
+    behind: Rgba,
+    scratch: &mut Scratch,
+    tile: &mut Tile,
+) {
+    let n = prepared.samples;
+    let start = tile.pixels.len();
+    let share = 1.0 / (n * n) as f64;
+    for part in 0..n * n {
+        let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
+        let at = [centre(i, part % n), centre(j, part / n)];
+        let cast = cast(prepared, sampler, at, scratch, &mut tile.counts);
+        let mut values = Vec::new();
+        let mut means = Vec::new();
+        for &kind in &prepared.layers {
+            let before = values.len();
+            if kind == LayerKind::Beauty {
+                values.extend(over(cast.rgba, behind, prepared.encode));
+            } else {
+                cast.sums.channels(kind, cast.samples, &mut values);
+            }
+            means.resize(values.len(), averaged(kind));
+            debug_assert_eq!(values.len() - before, kind.channels().len());
+        }
+        if part == 0 {
+            let first = values.iter().zip(&means).map(|(&v, &mean)| if mean && n > 1 { v * share } else { v });
+            tile.pixels.extend(first);
+        } else {
+            for ((sum, v), _) in tile.pixels[start..].iter_mut().zip(values).zip(&means).filter(|(_, mean)| **mean) {
+                *sum += v * share;
+            }
+        }
+    }
+}
+
+/// C + (1 − A)·B, A + (1 − A)·A_B ([IO-6]). With encoded compositing the colour comes in encoded; the background's
+/// straight colour is encoded and premultiplied, and the result is decoded ([VAL-3]).
+fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
+    let through = 1.0 - a;
+    let add = |[br, bg, bb, ba]: Rgba| {
+        [r + through * br, g + through * bg, b + through * bb, a + through * ba]
+    };
+    if !encode {
+        return add(behind);
+    }
+    let map = |[r, g, b, a]: Rgba, f: fn(f64) -> f64| [f(r), f(g), f(b), a];
+    let behind = color::premultiply(map(color::unpremultiply(behind), color::linear_to_srgb));
+    color::premultiply(map(color::unpremultiply(add(behind)), color::srgb_to_linear))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn over_by_hand() {
+        assert_eq!(over([0.25, 0.0, 0.0, 0.5], [1.0; 4], false), [0.75, 0.5, 0.5, 1.0]);
+        assert_eq!(over([0.25, 0.0, 0.0, 0.5], [0.0; 4], false), [0.25, 0.0, 0.0, 0.5]);
+        // Half black over white, encoded: ½ in sRGB is 0.2140 in linear light.
+        let got = over([0.0, 0.0, 0.0, 0.5], [1.0; 4], true);
+        assert!((got[0] - 0.214_041_140_5).abs() < 1e-9 && got[3] == 1.0, "{got:?}");
+    }
+}

@@ -1,0 +1,19 @@
+//! `completions`: for a shell.
+
+use super::{Cli, Outcome};
+use clap::{Args, CommandFactory};
+
+/// Print completions for a shell.
+#[derive(Debug, Args)]
+pub(super) struct Completions {
+    /// Which shell
+    shell: clap_complete::Shell,
+}
+
+impl Completions {
+    pub(super) fn run(self) -> Outcome {
+        let mut text = Vec::new();
+        clap_complete::generate(self.shell, &mut Cli::command(), "drypoint", &mut text);
+        super::report::print(&String::from_utf8_lossy(&text))
+    }
+}
