@@ -1,9 +1,15 @@
 //! Volumes: voxels in the file's own type on a [`Grid`], with what is not finite filled and masked.
 
+// First, since the macro that it defines is known only to what follows.
+#[macro_use]
+mod voxels;
+
 mod bricks;
+mod bytes;
+pub mod histogram;
+pub mod info;
 mod mask;
 pub mod read;
-mod voxels;
 pub mod write;
 
 pub use bricks::{BRICK, Bricks};
@@ -17,8 +23,33 @@ use crate::space::Grid;
 pub enum Anatomy {
     /// x to the left, y to posterior, z to superior (NRRD, MetaImage, DICOM).
     LeftPosteriorSuperior,
+    /// x to the left, y to anterior, z to superior (NRRD).
+    LeftAnteriorSuperior,
     /// x to the right, y to anterior, z to superior (NIfTI).
     RightAnteriorSuperior,
+}
+
+impl Anatomy {
+    /// Every anatomical space that a volume can name.
+    pub const ALL: [Self; 3] = [Self::LeftPosteriorSuperior, Self::LeftAnteriorSuperior, Self::RightAnteriorSuperior];
+
+    /// The name in words, as in the field `space` of NRRD.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LeftPosteriorSuperior => "left-posterior-superior",
+            Self::LeftAnteriorSuperior => "left-anterior-superior",
+            Self::RightAnteriorSuperior => "right-anterior-superior",
+        }
+    }
+
+    /// The three initials: `LPS`, `LAS`, `RAS`.
+    pub fn initials(self) -> &'static str {
+        match self {
+            Self::LeftPosteriorSuperior => "LPS",
+            Self::LeftAnteriorSuperior => "LAS",
+            Self::RightAnteriorSuperior => "RAS",
+        }
+    }
 }
 
 /// A scalar field sampled on a grid. A value is `slope · stored + intercept` ([VAL-1]).
@@ -49,8 +80,8 @@ pub enum VolumeError {
     /// Not one voxel has a finite value.
     #[error("no voxel has a finite value")]
     NothingFinite,
-    /// Slope and intercept that are not finite, or a slope of 0.
-    #[error("slope {slope} and intercept {intercept} map all values to one or to none")]
+    /// Slope and intercept that are not finite, or a slope of 0, or values that overflow.
+    #[error("slope {slope} and intercept {intercept} leave no range of finite values")]
     Scaling {
         /// As the file has it.
         slope: f64,
@@ -75,6 +106,9 @@ impl Volume {
         let mut voxels = voxels;
         let mask = mask::fill_invalid(&mut voxels, grid.dims())?;
         let [a, b] = voxels.range().map(|v| slope * v + intercept);
+        if !(a.is_finite() && b.is_finite()) {
+            return Err(VolumeError::Scaling { slope, intercept });
+        }
         Ok(Self { grid, voxels, slope, intercept, mask, range: [a.min(b), a.max(b)], anatomy: None })
     }
 

@@ -1,1 +1,189 @@
-//! Writing volumes: NRRD.
+//! Writing volumes: NRRD with attached header.
+
+use super::bytes::Stored;
+use super::{Access, Volume, VoxelType};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use glam::DVec3;
+use std::fmt;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// How the voxels of a written file are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// As in memory, lowest byte first.
+    Raw,
+    /// The same, compressed.
+    Gzip,
+}
+
+/// A volume that could not be written; nothing is left behind. [`WriteError::what`], [`WriteError::place`] and
+/// [`WriteError::remedy`] are the three lines of an error message.
+#[derive(Debug)]
+pub struct WriteError {
+    /// The file that was to be written.
+    pub file: PathBuf,
+    /// What the operating system says.
+    pub source: io::Error,
+}
+
+impl WriteError {
+    /// What is wrong, in one line.
+    pub fn what(&self) -> String {
+        format!("the volume cannot be written: {}", self.source)
+    }
+
+    /// Where, in one line.
+    pub fn place(&self) -> String {
+        self.file.display().to_string()
+    }
+
+    /// What to do, in one line.
+    pub fn remedy(&self) -> String {
+        "give a path in a folder that exists, may be written and has room".into()
+    }
+}
+
+impl fmt::Display for WriteError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}\n{}", self.what(), self.place(), self.remedy())
+    }
+}
+
+impl std::error::Error for WriteError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.source)
+    }
+}
+
+/// Writes a volume as NRRD, compressed. See [`write_nrrd_as`].
+///
+/// # Errors
+/// Whatever the operating system refuses.
+pub fn write_nrrd(volume: &Volume, path: &Path) -> Result<(), WriteError> {
+    write_nrrd_as(volume, path, Encoding::Gzip)
+}
+
+/// Writes a volume as NRRD with attached header. Reading it gives the same dims, axes, origin, values and mask bit by
+/// bit; a masked voxel is written as NaN. The stored type is kept where values are as stored; NRRD has no slope and no
+/// intercept, so with them the values are written, in f64. The same volume gives the same bytes.
+///
+/// The file is written beside its place and then renamed: there is never half a file under its name.
+///
+/// # Errors
+/// Whatever the operating system refuses.
+pub fn write_nrrd_as(volume: &Volume, path: &Path, encoding: Encoding) -> Result<(), WriteError> {
+    let failed = |source| WriteError { file: path.to_path_buf(), source };
+    let (part, file) = Part::create(path).map_err(failed)?;
+    let mut out = BufWriter::new(file);
+    let written = write_header(volume, encoding, &mut out).and_then(|()| match encoding {
+        Encoding::Raw => write_voxels(volume, &mut out),
+        Encoding::Gzip => {
+            let mut encoder = GzEncoder::new(&mut out, Compression::default());
+            write_voxels(volume, &mut encoder)?;
+            encoder.finish().map(|_| ())
+        }
+    });
+    written.and_then(|()| out.into_inner()?.sync_all()).and_then(|()| part.rename(path)).map_err(failed)
+}
+
+/// A file beside the one that is to be, removed again unless it takes that one's place.
+struct Part {
+    path: PathBuf,
+    done: bool,
+}
+
+impl Part {
+    fn create(target: &Path) -> io::Result<(Self, File)> {
+        let Some(name) = target.file_name() else {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"));
+        };
+        let mut hidden = std::ffi::OsString::from(".");
+        hidden.push(name);
+        hidden.push(format!(".{}.part", std::process::id()));
+        let path = target.with_file_name(hidden);
+        let file = File::create(&path)?;
+        Ok((Self { path, done: false }, file))
+    }
+
+    fn rename(mut self, target: &Path) -> io::Result<()> {
+        std::fs::rename(&self.path, target)?;
+        self.done = true;
+        Ok(())
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if !self.done {
+            // Nothing is left to do where even this fails.
+            let _ = std::fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Whether a value is what is stored.
+fn as_stored(volume: &Volume) -> bool {
+    volume.slope() == 1.0 && volume.intercept() == 0.0
+}
+
+fn write_header(volume: &Volume, encoding: Encoding, out: &mut impl Write) -> io::Result<()> {
+    let voxel_type = if as_stored(volume) { volume.voxels().voxel_type() } else { VoxelType::F64 };
+    let name = match voxel_type {
+        VoxelType::U8 => "uint8",
+        VoxelType::I8 => "int8",
+        VoxelType::U16 => "uint16",
+        VoxelType::I16 => "int16",
+        VoxelType::U32 => "uint32",
+        VoxelType::I32 => "int32",
+        VoxelType::U64 => "uint64",
+        VoxelType::I64 => "int64",
+        VoxelType::F32 => "float",
+        VoxelType::F64 => "double",
+    };
+    let grid = volume.grid();
+    let [nx, ny, nz] = grid.dims();
+    // `{:?}` of an f64 is the shortest text that reads back as the same number.
+    let vector = |v: DVec3| format!("({:?},{:?},{:?})", v.x, v.y, v.z);
+    let axes = grid.axes();
+    writeln!(out, "NRRD0004\ntype: {name}\ndimension: 3")?;
+    match volume.anatomy() {
+        Some(anatomy) => writeln!(out, "space: {}", anatomy.name())?,
+        None => writeln!(out, "space dimension: 3")?,
+    }
+    writeln!(out, "sizes: {nx} {ny} {nz}")?;
+    writeln!(out, "space directions: {} {} {}", vector(axes.x_axis), vector(axes.y_axis), vector(axes.z_axis))?;
+    writeln!(out, "kinds: domain domain domain")?;
+    if voxel_type.bytes() > 1 {
+        writeln!(out, "endian: little")?;
+    }
+    writeln!(out, "encoding: {}", if encoding == Encoding::Raw { "raw" } else { "gzip" })?;
+    writeln!(out, "space origin: {}\n", vector(grid.origin()))
+}
+
+fn write_voxels(volume: &Volume, out: &mut dyn Write) -> io::Result<()> {
+    if !as_stored(volume) {
+        return rows(volume, out, |at| volume.value(at));
+    }
+    with_access!(volume, |access| rows(volume, out, |[x, y, z]| access.at(x, y, z)))
+}
+
+/// Writes the voxels row by row, NaN where they are masked.
+fn rows<T: Stored>(volume: &Volume, out: &mut dyn Write, voxel: impl Fn([usize; 3]) -> T) -> io::Result<()> {
+    let [nx, ny, nz] = volume.dims();
+    let mut row = Vec::with_capacity(nx * size_of::<T>());
+    for z in 0..nz {
+        for y in 0..ny {
+            row.clear();
+            for x in 0..nx {
+                let masked = volume.mask().is_some_and(|mask| mask.voxel([x, y, z]));
+                let stored = voxel([x, y, z]);
+                T::nan().filter(|_| masked).unwrap_or(stored).push_little(&mut row);
+            }
+            out.write_all(&row)?;
+        }
+    }
+    Ok(())
+}

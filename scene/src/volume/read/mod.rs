@@ -1,1 +1,103 @@
-//! Reading volumes ([IO-1]).
+//! Reading volumes ([IO-1]): NRRD, NIfTI, MetaImage, and raw voxels with a described layout.
+//!
+//! Every reader takes the header first, checks what it claims against the lengths of the files, and only then asks
+//! for memory: exactly the voxels where they are stored as they are, in doubling steps behind the arriving data where
+//! they are compressed or text. Whatever a file holds, the result is a volume or a [`ReadError`].
+
+mod data;
+mod error;
+mod header;
+mod limits;
+mod metaimage;
+mod nifti;
+mod nrrd;
+mod raw;
+mod series;
+#[cfg(test)]
+mod tests;
+
+pub use error::{Fault, ReadError};
+
+use super::{Anatomy, Volume, VolumeError, Voxels};
+use crate::space::{Grid, SpaceError};
+use crate::tables::RawLayout;
+use glam::{DMat3, DVec3};
+use std::path::{Path, PathBuf};
+
+/// The suffixes of volume files. Raw voxels may have any other one, with a sidecar.
+pub const EXTENSIONS: [&str; 12] =
+    ["nrrd", "nhdr", "nii", "nii.gz", "hdr", "hdr.gz", "img", "img.gz", "mhd", "mha", "raw", "raw.gz"];
+
+/// Whether a path names a volume: by its suffix (case does not count), or by a sidecar `FILE.toml` that describes raw
+/// voxels.
+pub fn is_volume(path: &Path) -> bool {
+    suffix(path).is_some() || raw::sidecar(path).is_file()
+}
+
+/// Reads a volume file. The suffix chooses the reader; `raw` describes a file without header and wins over both the
+/// suffix and a sidecar.
+///
+/// The voxels keep the file's own type and order, slope and intercept are kept beside them ([VAL-1]), and world
+/// coordinates are the file's own ([SPACE-2]).
+///
+/// # Errors
+/// A file that cannot be opened, is not what its suffix says, lies about its length, has axes that do not span space,
+/// has more than one number a voxel, or no finite value. See [`Fault`].
+pub fn read(path: &Path, raw: Option<&RawLayout>) -> Result<Volume, ReadError> {
+    if let Some(layout) = raw {
+        return raw::read(path, layout, None);
+    }
+    match suffix(path) {
+        Some("nrrd" | "nhdr") => nrrd::read(path),
+        Some("nii" | "nii.gz" | "hdr" | "hdr.gz" | "img" | "img.gz") => nifti::read(path),
+        Some("mhd" | "mha") => metaimage::read(path),
+        known => raw::read_described(path, known.is_some()),
+    }
+}
+
+/// The longest of [`EXTENSIONS`] that a path ends with.
+fn suffix(path: &Path) -> Option<&'static str> {
+    let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
+    let ends = |suffix: &&str| name.strip_suffix(suffix).is_some_and(|stem| stem.ends_with('.'));
+    EXTENSIONS.into_iter().filter(ends).max_by_key(|suffix| suffix.len())
+}
+
+/// A path with text behind its last name.
+fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(suffix);
+    name.into()
+}
+
+/// The grid that a header describes. `fields` are the names of sizes, axes and origin in the format, for the error.
+fn grid_of(
+    file: &Path,
+    dims: [usize; 3],
+    axes: DMat3,
+    origin: DVec3,
+    [sizes_field, axes_field, origin_field]: [&str; 3],
+) -> Result<Grid, ReadError> {
+    Grid::new(dims, axes, origin).map_err(|error| {
+        let field = match &error {
+            SpaceError::EmptyAxis { .. } | SpaceError::Overflow { .. } => sizes_field,
+            SpaceError::Singular { .. } if axes.is_finite() && !origin.is_finite() => origin_field,
+            SpaceError::Singular { .. } => axes_field,
+        };
+        ReadError::new(file, error).field(field)
+    })
+}
+
+/// The volume of voxels that have been read.
+fn volume_of(
+    file: &Path,
+    grid: Grid,
+    voxels: Voxels,
+    [slope, intercept]: [f64; 2],
+    anatomy: Option<Anatomy>,
+) -> Result<Volume, ReadError> {
+    match Volume::new(grid, voxels, slope, intercept) {
+        Ok(volume) => Ok(volume.with_anatomy(anatomy)),
+        Err(error @ VolumeError::Scaling { .. }) => Err(ReadError::new(file, error).field("slope and intercept")),
+        Err(error) => Err(ReadError::new(file, error)),
+    }
+}

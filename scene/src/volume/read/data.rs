@@ -1,0 +1,313 @@
+//! Voxels from data files: lengths checked first, then decoded in steps.
+
+use super::error::{Fault, ReadError, quoted};
+use super::header::open;
+use super::limits::{Encoding, make_room};
+use crate::volume::bytes::Stored;
+use crate::volume::{VoxelType, Voxels};
+use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+/// Bytes that are decoded at a time.
+const CHUNK: usize = 1 << 16;
+
+/// Bytes behind the last voxel that are counted for the message before counting stops.
+const COUNTED: u128 = 1 << 24;
+
+/// The longest number in text: the digits of the smallest f64 in full, with room.
+const LONGEST: usize = 1200;
+
+/// What a header says about the voxels and where they are.
+#[derive(Debug)]
+pub(super) struct Payload<'a> {
+    /// The header.
+    pub(super) header: &'a Path,
+    /// The field of the header that has the sizes.
+    pub(super) sizes: &'static str,
+    /// Number of voxels.
+    pub(super) count: usize,
+    /// Their type.
+    pub(super) voxel_type: VoxelType,
+    /// Whether the bytes of a number come highest first.
+    pub(super) big_endian: bool,
+    /// The files, each with an equal share of the voxels.
+    pub(super) files: Vec<PathBuf>,
+    /// The byte of each at which the stored data begin.
+    pub(super) start: u64,
+    /// Whether bytes from there on are left out so that the data, which are raw, end with the file.
+    pub(super) from_end: bool,
+    /// Lines to skip from there.
+    pub(super) lines: u64,
+    /// Lines of the file before the start.
+    pub(super) lines_before: usize,
+    /// How the data are stored.
+    pub(super) encoding: Encoding,
+    /// Decoded bytes before the first voxel.
+    pub(super) inside: u64,
+}
+
+/// One data file whose length has been found to fit.
+struct Part<'a> {
+    path: &'a Path,
+    offset: u64,
+}
+
+impl Payload<'_> {
+    /// Reads the voxels. No memory is asked for before the length of every file has been found to allow it.
+    pub(super) fn read(&self) -> Result<Voxels, ReadError> {
+        macro_rules! by_type {
+            ($($variant:ident)*) => {
+                match self.voxel_type {
+                    $(VoxelType::$variant => Voxels::$variant(self.decode()?),)*
+                }
+            };
+        }
+        Ok(by_type!(U8 I8 U16 I16 U32 I32 U64 I64 F32 F64))
+    }
+
+    /// Voxels in each file.
+    fn share(&self) -> Result<usize, ReadError> {
+        let files = self.files.len();
+        if files == 0 || !self.count.is_multiple_of(files) {
+            return Err(ReadError::new(self.header, Fault::Shares { voxels: self.count, files }));
+        }
+        Ok(self.count / files)
+    }
+
+    /// An error about a data file that the sizes in the header do not fit.
+    fn misfit(&self, path: &Path, fault: Fault) -> ReadError {
+        let field = if path == self.header {
+            self.sizes.to_string()
+        } else {
+            format!("{} of {}", self.sizes, self.header.display())
+        };
+        ReadError::new(path, fault).field(field)
+    }
+
+    /// Finds where the stored data of a file begin, and checks that what the header claims can be in them.
+    fn check<'p>(&self, path: &'p Path, share: usize) -> Result<Part<'p>, ReadError> {
+        let (file, len) = open(path)?;
+        let voxel = self.voxel_type.bytes();
+        let expected = share as u128 * voxel as u128;
+        let mut offset = self.start;
+        if self.from_end {
+            let found = u128::from(len.saturating_sub(self.start));
+            // The difference is below the length, which is a u64.
+            offset += found
+                .checked_sub(expected)
+                .map(|before| before as u64)
+                .ok_or_else(|| self.misfit(path, Fault::Short { expected, found, unit: "bytes" }))?;
+        }
+        if self.lines > 0 {
+            offset += self.skip_lines(path, file, offset)?;
+        }
+        let stored = len.saturating_sub(offset);
+        if self.encoding == Encoding::Raw {
+            let found = u128::from(stored.saturating_sub(self.inside));
+            return match found.cmp(&expected) {
+                std::cmp::Ordering::Less => Err(Fault::Short { expected, found, unit: "bytes" }),
+                std::cmp::Ordering::Equal => Ok(Part { path, offset }),
+                std::cmp::Ordering::Greater => Err(Fault::Long { expected, found, at_least: false, unit: "bytes" }),
+            }
+            .map_err(|fault| self.misfit(path, fault));
+        }
+        // Bytes to skip are part of what a compressed file decodes to, and of the text itself.
+        let (claimed, limit) = match self.encoding {
+            Encoding::Text => (expected, self.encoding.most(stored.saturating_sub(self.inside), voxel)),
+            _ => (expected + u128::from(self.inside), self.encoding.most(stored, voxel)),
+        };
+        if claimed > limit {
+            return Err(self.misfit(path, Fault::Oversized { claimed, limit }));
+        }
+        Ok(Part { path, offset })
+    }
+
+    /// Bytes of the lines to skip from `offset` on.
+    fn skip_lines(&self, path: &Path, mut file: File, offset: u64) -> Result<u64, ReadError> {
+        let failed = |e| ReadError::io(path, e);
+        file.seek(SeekFrom::Start(offset)).map_err(failed)?;
+        let mut reader = BufReader::new(file);
+        let mut bytes = 0;
+        for skipped in 0..self.lines {
+            let n = reader.skip_until(b'\n').map_err(failed)?;
+            if n == 0 {
+                let (expected, found) = (self.lines.into(), skipped.into());
+                return Err(ReadError::new(path, Fault::Short { expected, found, unit: "lines to skip" }));
+            }
+            bytes += n as u64;
+        }
+        Ok(bytes)
+    }
+
+    fn decode<T: Stored>(&self) -> Result<Vec<T>, ReadError> {
+        let share = self.share()?;
+        let parts: Vec<Part> = self.files.iter().map(|path| self.check(path, share)).collect::<Result<_, _>>()?;
+        let mut voxels: Vec<T> = Vec::new();
+        if self.encoding == Encoding::Raw && !make_room(&mut voxels, self.count, self.count) {
+            return Err(self.no_memory::<T>());
+        }
+        for part in &parts {
+            let failed = |e| ReadError::io(part.path, e);
+            let (mut file, _) = open(part.path)?;
+            file.seek(SeekFrom::Start(part.offset)).map_err(failed)?;
+            let mut reader = BufReader::with_capacity(CHUNK, file);
+            match self.encoding {
+                Encoding::Raw => self.stream(part, &mut reader, share, &mut voxels)?,
+                Encoding::Text => self.text(part, &mut reader, share, &mut voxels)?,
+                Encoding::Zlib if !reader.fill_buf().map_err(failed)?.starts_with(&[0x1f, 0x8b]) => {
+                    let mut decoder = ZlibDecoder::new(reader);
+                    self.stream(part, &mut decoder, share, &mut voxels)?;
+                    if !decoder.into_inner().fill_buf().map_err(failed)?.is_empty() {
+                        let after = "bytes follow the end of the compressed stream".to_string();
+                        return Err(ReadError::new(part.path, Fault::Damaged(after)));
+                    }
+                }
+                Encoding::Zlib | Encoding::Gzip => {
+                    self.stream(part, &mut MultiGzDecoder::new(reader), share, &mut voxels)?;
+                }
+            }
+        }
+        Ok(voxels)
+    }
+
+    fn no_memory<T>(&self) -> ReadError {
+        self.misfit(self.header, Fault::Memory { bytes: self.count as u128 * size_of::<T>() as u128 })
+    }
+
+    /// Takes `share` numbers from a stream of bytes, which must end behind them.
+    fn stream<T: Stored>(
+        &self,
+        part: &Part,
+        reader: &mut dyn Read,
+        share: usize,
+        voxels: &mut Vec<T>,
+    ) -> Result<(), ReadError> {
+        let mut source = Source { path: part.path, reader, cut: false };
+        let expected = share as u128 * size_of::<T>() as u128;
+        let short = |found| self.misfit(part.path, Fault::Short { expected, found, unit: "bytes" });
+        let mut buffer = vec![0; CHUNK];
+        let mut skip = self.inside;
+        while skip > 0 {
+            let piece = &mut buffer[..skip.min(CHUNK as u64) as usize];
+            if source.fill(piece)? < piece.len() {
+                return Err(short(0));
+            }
+            skip -= piece.len() as u64;
+        }
+        let mut found = 0;
+        while found < expected {
+            let piece = &mut buffer[..(expected - found).min(CHUNK as u128) as usize];
+            let n = source.fill(piece)?;
+            found += n as u128;
+            if n < piece.len() {
+                return Err(short(found));
+            }
+            if !make_room(voxels, n / size_of::<T>(), self.count) {
+                return Err(self.no_memory::<T>());
+            }
+            T::append(piece, self.big_endian, voxels);
+        }
+        // Reading to the end also lets the decoder check its sums.
+        loop {
+            let n = source.fill(&mut buffer)?;
+            found += n as u128;
+            let at_least = found - expected > COUNTED;
+            if n == CHUNK && !at_least {
+                continue;
+            }
+            return if found > expected {
+                Err(self.misfit(part.path, Fault::Long { expected, found, at_least, unit: "bytes" }))
+            } else if source.cut {
+                Err(ReadError::new(part.path, Fault::Damaged("the stream has no end".to_string())))
+            } else {
+                Ok(())
+            };
+        }
+    }
+
+    /// Takes `share` numbers from text, which must hold no more.
+    fn text<T: Stored>(
+        &self,
+        part: &Part,
+        reader: &mut BufReader<File>,
+        share: usize,
+        voxels: &mut Vec<T>,
+    ) -> Result<(), ReadError> {
+        let mut found = 0;
+        let mut line = self.lines_before + self.lines as usize + 1;
+        let mut word = Vec::new();
+        let mut skip = self.inside;
+        loop {
+            let chunk = reader.fill_buf().map_err(|e| ReadError::io(part.path, e))?;
+            let ended = chunk.is_empty();
+            // A separator behind the last number, which may have none.
+            for &c in if ended { b" " } else { chunk } {
+                if skip > 0 && !ended {
+                    skip -= 1;
+                } else if !(c.is_ascii_whitespace() || c == b',') {
+                    if word.len() < LONGEST {
+                        word.push(c);
+                    }
+                } else if !word.is_empty() {
+                    if found < share {
+                        let text = String::from_utf8_lossy(&word);
+                        let number = text.parse().map_err(|_| {
+                            let expected = format!("a number of type {}", self.voxel_type.name());
+                            ReadError::new(part.path, Fault::Value { found: quoted(&text), expected }).line(line)
+                        })?;
+                        if !make_room(voxels, 1, self.count) {
+                            return Err(self.no_memory::<T>());
+                        }
+                        voxels.push(number);
+                    }
+                    found += 1;
+                    word.clear();
+                }
+                line += usize::from(c == b'\n');
+            }
+            if ended {
+                break;
+            }
+            let n = chunk.len();
+            reader.consume(n);
+        }
+        let (expected, found) = (share as u128, found as u128);
+        match found.cmp(&expected) {
+            std::cmp::Ordering::Less => Err(self.misfit(part.path, Fault::Short { expected, found, unit: "numbers" })),
+            std::cmp::Ordering::Equal => Ok(()),
+            std::cmp::Ordering::Greater => {
+                Err(self.misfit(part.path, Fault::Long { expected, found, at_least: false, unit: "numbers" }))
+            }
+        }
+    }
+}
+
+/// A stream of decoded bytes.
+struct Source<'a> {
+    path: &'a Path,
+    reader: &'a mut dyn Read,
+    /// Whether a compressed stream ended before its end.
+    cut: bool,
+}
+
+impl Source<'_> {
+    /// Reads until the buffer is full or the stream ends, and says how many bytes came.
+    fn fill(&mut self, buffer: &mut [u8]) -> Result<usize, ReadError> {
+        let mut filled = 0;
+        while filled < buffer.len() && !self.cut {
+            match self.reader.read(&mut buffer[filled..]) {
+                Ok(0) => break,
+                Ok(n) => filled += n,
+                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+                Err(e) if e.kind() == io::ErrorKind::UnexpectedEof => self.cut = true,
+                Err(e) if matches!(e.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::InvalidData) => {
+                    return Err(ReadError::new(self.path, Fault::Damaged(e.to_string())));
+                }
+                Err(e) => return Err(ReadError::io(self.path, e)),
+            }
+        }
+        Ok(filled)
+    }
+}

@@ -1,0 +1,238 @@
+//! What is wrong with a volume file, where, and what to do about it.
+
+use crate::space::SpaceError;
+use crate::volume::VolumeError;
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A volume that could not be read. [`ReadError::what`], [`ReadError::place`] and [`ReadError::remedy`] are the three
+/// lines of an error message; `Display` prints them one below the other.
+#[derive(Debug)]
+pub struct ReadError {
+    /// The file at fault: the header, or the data beside it.
+    pub file: PathBuf,
+    /// The line of a text header or of text data, from 1.
+    pub line: Option<usize>,
+    /// The field at fault, named as in the format.
+    pub field: Option<String>,
+    /// What is wrong with it.
+    pub fault: Box<Fault>,
+}
+
+/// What can be wrong with a volume file.
+#[derive(Debug, thiserror::Error)]
+pub enum Fault {
+    /// The operating system refuses.
+    #[error("the file cannot be read: {0}")]
+    Io(#[source] io::Error),
+    /// A folder, a pipe or a device.
+    #[error("this is not a regular file")]
+    NotAFile,
+    /// A suffix of no known format, and no sidecar.
+    #[error("the suffix belongs to no volume format that is known")]
+    Suffix,
+    /// Raw voxels that nothing describes.
+    #[error("raw voxels without a description of their layout")]
+    NoLayout,
+    /// The file does not begin as its format does.
+    #[error("this is not {format}: the file begins with {found} where {expected} is expected")]
+    Magic {
+        /// The format that the suffix names, with its article.
+        format: &'static str,
+        /// The first bytes.
+        found: String,
+        /// How such a file begins.
+        expected: &'static str,
+    },
+    /// A text header that goes on and on.
+    #[error("the header has no end within its first {limit} bytes")]
+    EndlessHeader {
+        /// The longest header that is read.
+        limit: u64,
+    },
+    /// A line of a text header that says nothing.
+    #[error("the line {found} is no field")]
+    Line {
+        /// The line.
+        found: String,
+    },
+    /// A field that the format does not have.
+    #[error("the format has no such field")]
+    UnknownField,
+    /// A field that must be there is not.
+    #[error("the header lacks a field: {expected} is expected")]
+    Missing {
+        /// What the field should hold.
+        expected: String,
+    },
+    /// A field that is given twice.
+    #[error("the field is given a second time")]
+    Repeated,
+    /// A field that does not hold what it should.
+    #[error("{found} where {expected} is expected")]
+    Value {
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: String,
+    },
+    /// Something that the format allows and this program does not read.
+    #[error("{found}, where this program reads {supported}")]
+    Unsupported {
+        /// What the file holds.
+        found: String,
+        /// What it could hold instead.
+        supported: &'static str,
+    },
+    /// A sidecar that is not valid.
+    #[error("the description of raw voxels is not valid: {0}")]
+    Sidecar(String),
+    /// Fewer data than the header says.
+    #[error("the data are too short: {found} {unit} where {expected} are expected")]
+    Short {
+        /// What the header asks for.
+        expected: u128,
+        /// What is there.
+        found: u128,
+        /// What is counted.
+        unit: &'static str,
+    },
+    /// More data than the header says.
+    #[error("the data are too long: {}{found} {unit} where {expected} are expected", if *.at_least { "at least " } else { "" })]
+    Long {
+        /// What the header asks for.
+        expected: u128,
+        /// What is there.
+        found: u128,
+        /// Whether counting stopped before the end.
+        at_least: bool,
+        /// What is counted.
+        unit: &'static str,
+    },
+    /// Sizes that the file cannot hold, however well it is compressed.
+    #[error("the sizes claim {claimed} bytes, and a file of this length holds {limit} at the most")]
+    Oversized {
+        /// Bytes of all voxels.
+        claimed: u128,
+        /// The most that the stored bytes can decode to.
+        limit: u128,
+    },
+    /// Compressed data that do not decode.
+    #[error("the compressed data are damaged: {0}")]
+    Damaged(String),
+    /// Voxels that cannot be shared out evenly over the data files.
+    #[error("{voxels} voxels cannot be shared out evenly over {files} data files")]
+    Shares {
+        /// Voxels of the volume.
+        voxels: usize,
+        /// Data files that the header names.
+        files: usize,
+    },
+    /// More voxels than there is memory for.
+    #[error("there is no memory for {bytes} bytes of voxels")]
+    Memory {
+        /// Bytes of all voxels.
+        bytes: u128,
+    },
+    /// Sizes or axes that make no grid.
+    #[error(transparent)]
+    Space(#[from] SpaceError),
+    /// Voxels that make no volume.
+    #[error(transparent)]
+    Volume(#[from] VolumeError),
+}
+
+impl ReadError {
+    /// An error about a whole file.
+    pub(super) fn new(file: &Path, fault: impl Into<Fault>) -> Self {
+        Self { file: file.to_path_buf(), line: None, field: None, fault: Box::new(fault.into()) }
+    }
+
+    /// An error of the operating system about a file.
+    pub(super) fn io(file: &Path, error: io::Error) -> Self {
+        Self::new(file, Fault::Io(error))
+    }
+
+    /// The same error, at a field.
+    pub(super) fn field(self, field: impl Into<String>) -> Self {
+        Self { field: Some(field.into()), ..self }
+    }
+
+    /// The same error, on a line counted from 1.
+    pub(super) fn line(self, line: usize) -> Self {
+        Self { line: Some(line), ..self }
+    }
+
+    /// What is wrong, in one line.
+    pub fn what(&self) -> String {
+        self.fault.to_string()
+    }
+
+    /// Where: file, line and field as far as they are known, in one line.
+    pub fn place(&self) -> String {
+        let mut place = self.file.display().to_string();
+        if let Some(line) = self.line {
+            place += &format!(", line {line}");
+        }
+        if let Some(field) = &self.field {
+            place += &format!(", field {field}");
+        }
+        place
+    }
+
+    /// What to do, in one line.
+    pub fn remedy(&self) -> String {
+        let name = self.file.file_name().unwrap_or_default().to_string_lossy();
+        match &*self.fault {
+            Fault::Io(error) if error.kind() == io::ErrorKind::NotFound => "check the path".into(),
+            Fault::Io(_) | Fault::NotAFile => "give a file that may be read".into(),
+            Fault::Suffix => format!(
+                "give a file with one of the suffixes {}, or describe raw voxels in {name}.toml",
+                super::EXTENSIONS.join(", ")
+            ),
+            Fault::NoLayout => format!(
+                "open the header that belongs to it, or describe it in {name}.toml with size, type, endian, spacing \
+                 and skip"
+            ),
+            Fault::Magic { .. } => "check that the suffix says what the file holds".into(),
+            Fault::EndlessHeader { .. } | Fault::Line { .. } | Fault::Value { .. } | Fault::Sidecar(_) => {
+                "correct the header".into()
+            }
+            Fault::UnknownField => "correct its name, or make it a key with := in place of the colon".into(),
+            Fault::Missing { .. } => "add the field to the header".into(),
+            Fault::Repeated => "keep one of the two".into(),
+            Fault::Unsupported { .. } => "convert the file first".into(),
+            Fault::Short { .. } | Fault::Long { .. } | Fault::Oversized { .. } => {
+                "get the file again, or correct the sizes and the type in the header".into()
+            }
+            Fault::Damaged(_) => "get the file again".into(),
+            Fault::Shares { .. } => "correct the list of data files".into(),
+            Fault::Memory { .. } => "crop or downsample the volume first".into(),
+            Fault::Space(_) => "correct the sizes or the axis directions in the header".into(),
+            Fault::Volume(VolumeError::Scaling { .. }) => "correct slope and intercept in the header".into(),
+            Fault::Volume(_) => "give a volume with at least one finite value".into(),
+        }
+    }
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}\n{}", self.what(), self.place(), self.remedy())
+    }
+}
+
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&*self.fault)
+    }
+}
+
+/// Text from a file for a message of one line: escaped, in quotes, cut after 40 characters.
+pub(super) fn quoted(text: &str) -> String {
+    let mut quoted: String = text.chars().take(40).flat_map(char::escape_debug).collect();
+    if text.chars().nth(40).is_some() {
+        quoted += "…";
+    }
+    format!("`{quoted}`")
+}

@@ -1,0 +1,292 @@
+//! The words of the main errors, all three lines of them.
+
+use super::*;
+use crate::tables::RawLayout;
+
+const U8: VoxelType = VoxelType::U8;
+
+/// The three lines, with the test's folder left out.
+fn lines(folder: &Folder, result: Result<Volume, ReadError>) -> [String; 3] {
+    let error = result.unwrap_err();
+    let text = error.to_string().replace(&format!("{}/", folder.0.path().display()), "");
+    let lines: Vec<String> = text.lines().map(String::from).collect();
+    assert_eq!(error.to_string(), [error.what(), error.place(), error.remedy()].join("\n"));
+    lines.try_into().unwrap_or_else(|_| panic!("not three lines: {text}"))
+}
+
+const AGAIN: &str = "get the file again, or correct the sizes and the type in the header";
+
+#[test]
+fn truncated() {
+    let folder = Folder::new();
+    let header = |encoding| nrrd_lines(U8, "2 3 2", encoding, false) + "\n";
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("raw"), &[0; 11]))),
+        ["the data are too short: 11 bytes where 12 are expected", "head.nrrd, field sizes", AGAIN]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("gzip"), &gzip(&[0; 11])))),
+        ["the data are too short: 11 bytes where 12 are expected", "head.nrrd, field sizes", AGAIN]
+    );
+    let cut = gzip(&[0; 12]);
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("gzip"), &cut[..cut.len() - 1]))),
+        ["the compressed data are damaged: the stream has no end", "head.nrrd", "get the file again"]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("ascii"), b"1 2 3 4 5 6 7 8 9 10 11   "))),
+        ["the data are too short: 11 numbers where 12 are expected", "head.nrrd, field sizes", AGAIN]
+    );
+    folder.put("head.raw", [0; 5]);
+    let detached = nrrd_lines(U8, "2 3 2", "raw", false) + "data file: head.raw\n";
+    assert_eq!(
+        lines(&folder, folder.read("head.nhdr", detached)),
+        ["the data are too short: 5 bytes where 12 are expected", "head.raw, field sizes of head.nhdr", AGAIN]
+    );
+    let header = Nifti::one(U8, &[2, 3, 2], true);
+    assert_eq!(
+        lines(&folder, folder.read("head.nii", header.with(&[0; 3]))),
+        ["the data are too short: 3 bytes where 12 are expected", "head.nii, field dim", AGAIN]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nii", &header.bytes[..300])),
+        ["the data are too short: 300 bytes of the header where 348 are expected", "head.nii", AGAIN]
+    );
+}
+
+#[test]
+fn trailing_bytes() {
+    let folder = Folder::new();
+    let header = |encoding| nrrd_lines(U8, "2 3 2", encoding, false) + "\n";
+    for (encoding, data) in [("raw", vec![0; 15]), ("gzip", gzip(&[0; 15]))] {
+        assert_eq!(
+            lines(&folder, folder.read("head.nrrd", joined(header(encoding), &data))),
+            ["the data are too long: 15 bytes where 12 are expected", "head.nrrd, field sizes", AGAIN]
+        );
+    }
+    // Counting stops behind 2²⁴ bytes too many, at the end of a step of 2¹⁶.
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("gzip"), &gzip(&vec![0; 20_000_000])))),
+        ["the data are too long: at least 16842764 bytes where 12 are expected", "head.nrrd, field sizes", AGAIN]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("ascii"), b"1 2 3 4 5 6 7 8 9 10 11 12 13"))),
+        ["the data are too long: 13 numbers where 12 are expected", "head.nrrd, field sizes", AGAIN]
+    );
+    let after = joined(header("gzip"), &joined(gzip(&[0; 12]), b"junk"));
+    let [what, place, _] = lines(&folder, folder.read("head.nrrd", after));
+    assert!(what.starts_with("the compressed data are damaged: ") && place == "head.nrrd", "{what}");
+}
+
+#[test]
+fn oversized_dims() {
+    let folder = Folder::new();
+    let header = |sizes, encoding| nrrd_lines(U8, sizes, encoding, false) + "\n";
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("10000 10000 10000", "raw"), &[0; 12]))),
+        ["the data are too short: 12 bytes where 1000000000000 are expected", "head.nrrd, field sizes", AGAIN]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("10000 10000 10000", "gzip"), &[0; 100]))),
+        [
+            "the sizes claim 1000000000000 bytes, and a file of this length holds 103200 at the most",
+            "head.nrrd, field sizes",
+            AGAIN
+        ]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("4294967296 4294967296 2", "raw"), &[0; 12]))),
+        [
+            "dims [4294967296, 4294967296, 2] overflow",
+            "head.nrrd, line 5, field sizes",
+            "correct the sizes or the axis directions in the header"
+        ]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("4294967296 2 18446744073709551616", "raw"), &[0; 12]))),
+        [
+            "`4294967296 2 18446744073709551616` where 3 whole numbers, one for each axis is expected",
+            "head.nrrd, line 5, field sizes",
+            "correct the header"
+        ]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nii", Nifti::one(VoxelType::F64, &[32767; 3], true).with(&[0; 8]))),
+        ["the data are too short: 8 bytes where 281449207693304 are expected", "head.nii, field dim", AGAIN]
+    );
+    let layout =
+        RawLayout { size: [1 << 40, 1 << 20, 1], voxel_type: U8, big_endian: false, spacing: [1.0; 3], skip: 0 };
+    assert_eq!(
+        lines(&folder, read(&folder.put("head.raw", [0; 8]), Some(&layout))),
+        ["the data are too short: 8 bytes where 1152921504606846976 are expected", "head.raw, field size", AGAIN]
+    );
+}
+
+#[test]
+fn wrong_magic() {
+    let folder = Folder::new();
+    let suffix = "check that the suffix says what the file holds";
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", b"\x1f\x8b\x08picture")),
+        [
+            "this is not an NRRD file: the file begins with `\\u{1f}�\\u{8}pictu` where NRRD000 is expected",
+            "head.nrrd",
+            suffix
+        ]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nii", b"NRRD0004\ntype: uchar\n")),
+        [
+            "this is not a NIfTI file: the file begins with `NRRD0004` where the length of a header, 348 or 540, is expected",
+            "head.nii, field sizeof_hdr",
+            suffix
+        ]
+    );
+    let mut header = Nifti::one(U8, &[2, 3, 2], false);
+    header.bytes[344..348].copy_from_slice(b"abcd");
+    assert_eq!(
+        lines(&folder, folder.read("head.nii", header.with(&[0; 12]))),
+        ["`abcd` where `n+1`, `ni1`, `n+2` or `ni2` is expected", "head.nii, field magic", "correct the header"]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.mhd", "NRRD0004\ntype: uchar\n")),
+        [
+            "this is not a MetaImage file: the file begins with `NRRD0004` where `ObjectType = Image` is expected",
+            "head.mhd, line 1",
+            suffix
+        ]
+    );
+}
+
+#[test]
+fn headers_that_say_the_wrong_thing() {
+    let folder = Folder::new();
+    let nrrd = |lines: &str| folder.read("head.nrrd", format!("NRRD0004\n{lines}\n").as_bytes());
+    assert_eq!(
+        lines(&folder, nrrd("type: uint24\n")),
+        [
+            "`uint24` where a numeric type such as uint8, short or float is expected",
+            "head.nrrd, line 2, field type",
+            "correct the header"
+        ]
+    );
+    assert_eq!(
+        lines(&folder, nrrd("type: short\nencoding: raw\n")),
+        [
+            "the header lacks a field: little or big is expected",
+            "head.nrrd, field endian",
+            "add the field to the header"
+        ]
+    );
+    let whole = nrrd_lines(U8, "2 3 2", "raw", false);
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", whole)),
+        [
+            "the header lacks a field: a blank line with the data behind it, or the name of their file is expected",
+            "head.nrrd, field data file",
+            "add the field to the header"
+        ]
+    );
+    assert_eq!(
+        lines(&folder, nrrd("type: short\ntype: short\n")),
+        ["the field is given a second time", "head.nrrd, line 3, field type", "keep one of the two"]
+    );
+    assert_eq!(
+        lines(&folder, nrrd("type: short\nspace direction: (1,0,0)\n")),
+        [
+            "the format has no such field",
+            "head.nrrd, line 3, field `space direction`",
+            "correct its name, or make it a key with := in place of the colon"
+        ]
+    );
+    assert_eq!(
+        lines(&folder, nrrd("type uchar\n")),
+        ["the line `type uchar` is no field", "head.nrrd, line 2", "correct the header"]
+    );
+    assert_eq!(
+        lines(&folder, nrrd("type: uchar\nencoding: bzip2\n")),
+        [
+            "data in encoding `bzip2`, where this program reads raw, gzip and ascii",
+            "head.nrrd, line 3, field encoding",
+            "convert the file first"
+        ]
+    );
+    let header = nrrd_lines(U8, "2 3 2", "ascii", false) + "\n";
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header, b"1 2 3\n4 5 256 7 8 9 10 11 12"))),
+        ["`256` where a number of type u8 is expected", "head.nrrd, line 10", "correct the header"]
+    );
+}
+
+#[test]
+fn voxels_without_a_finite_value() {
+    let folder = Folder::new();
+    let data: Vec<u8> = [f32::NAN, f32::INFINITY].repeat(6).iter().flat_map(|x| x.to_le_bytes()).collect();
+    let header = nrrd_lines(VoxelType::F32, "2 3 2", "raw", false) + "\n";
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header, &data))),
+        ["no voxel has a finite value", "head.nrrd", "give a volume with at least one finite value"]
+    );
+}
+
+#[test]
+fn files_that_are_not_there_or_not_known() {
+    let folder = Folder::new();
+    let [what, place, remedy] = lines(&folder, read(&folder.path("head.nrrd"), None));
+    assert!(what.starts_with("the file cannot be read: "), "{what}");
+    assert_eq!([place.as_str(), remedy.as_str()], ["head.nrrd", "check the path"]);
+    assert_eq!(
+        lines(&folder, folder.read("head.jpg", [0; 12])),
+        [
+            "the suffix belongs to no volume format that is known",
+            "head.jpg",
+            "give a file with one of the suffixes nrrd, nhdr, nii, nii.gz, hdr, hdr.gz, img, img.gz, mhd, mha, raw, \
+             raw.gz, or describe raw voxels in head.jpg.toml"
+        ]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.raw", [0; 12])),
+        [
+            "raw voxels without a description of their layout",
+            "head.raw",
+            "open the header that belongs to it, or describe it in head.raw.toml with size, type, endian, spacing and \
+             skip"
+        ]
+    );
+    std::fs::create_dir(folder.path("x.nrrd")).unwrap();
+    assert_eq!(
+        lines(&folder, read(&folder.path("x.nrrd"), None)),
+        ["this is not a regular file", "x.nrrd", "give a file that may be read"]
+    );
+    let mut pair = Nifti::one(U8, &[2, 3, 2], false);
+    pair.bytes[344..348].copy_from_slice(b"ni1\0");
+    assert_eq!(lines(&folder, folder.read("half.hdr", pair.bytes))[1], "half.img");
+    let detached = nrrd_lines(U8, "2 3 2", "raw", false) + "data file: gone.raw\n";
+    assert_eq!(lines(&folder, folder.read("a.nhdr", detached))[1], "gone.raw");
+}
+
+#[test]
+fn sidecars() {
+    let folder = Folder::new();
+    folder.put("a.raw", [0; 12]);
+    let described = |text: &str| {
+        folder.put("a.raw.toml", text);
+        lines(&folder, read(&folder.path("a.raw"), None))
+    };
+    let [what, place, remedy] = described("size = [2, 3, 2]\ntype = \"u8\"\nskipp = 1\n");
+    assert!(what.starts_with("the description of raw voxels is not valid: unknown field `skipp`"), "{what}");
+    assert_eq!([place.as_str(), remedy.as_str()], ["a.raw.toml, line 3", "correct the header"]);
+    assert_eq!(
+        described("size = [2, 3, 2]\ntype = \"byte\"\n"),
+        [
+            "`byte` where one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 is expected",
+            "a.raw.toml, field type",
+            "correct the header"
+        ]
+    );
+    assert_eq!(
+        described("size = [2, 3, 3]\ntype = \"u8\"\n"),
+        ["the data are too short: 12 bytes where 18 are expected", "a.raw, field size of a.raw.toml", AGAIN]
+    );
+    assert_eq!(described("size = [2, 3, 2]\ntype = \"u8\"\nspacing = [1, 0, 1]\n")[1], "a.raw.toml, field spacing");
+}
