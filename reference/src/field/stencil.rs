@@ -220,3 +220,73 @@ fn exponent<R: Real>(volume: &Volume) -> i32 {
     let e = (math::exponent(lo.abs().max(hi.abs())) - 1).clamp(-1022, 1022);
     if e.abs() > far { e } else { 0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::space::Grid;
+    use drypoint_scene::volume::Voxels;
+
+    fn volume(dims: [usize; 3], f: impl Fn([i64; 3]) -> i64) -> Volume {
+        let at = |i: usize| [i % dims[0], i / dims[0] % dims[1], i / (dims[0] * dims[1])].map(|i| i as i64);
+        let voxels = (0..dims.iter().product()).map(|i| f(at(i)) as i32).collect();
+        Volume::new(Grid::with_spacing(dims, [1.0; 3]).unwrap(), Voxels::I32(voxels), 1.0, 0.0).unwrap()
+    }
+
+    /// A quadratic is its own continuation, and whole numbers make it exact: at every cell, with or without border, the
+    /// stencils are the function.
+    #[test]
+    fn stencils_are_the_function_inside_and_beyond_the_border() {
+        let f = |[x, y, z]: [i64; 3]| 3 * x * x - 2 * x * y + y * z - 5 * z * z + 7 * y + 1;
+        let dims = [6, 3, 5];
+        let v = volume(dims, f);
+        let s = Stencils::new::<f64>(&v);
+        for cell in (0..5 * 2 * 4).map(|i| [i % 5, i / 5 % 2, i / 10]) {
+            let at = |x: i64, y: i64, z: i64| f([cell[0] as i64 + x, cell[1] as i64 + y, cell[2] as i64 + z]) as f64;
+            let span = |k: usize| k as i64 - 1;
+            let block = s.block::<f64>(cell);
+            for (k, j, i) in (0..64).map(|t| (t / 16, t / 4 % 4, t % 4)) {
+                assert_eq!(block[k][j][i], at(span(i), span(j), span(k)), "{cell:?}: {i} {j} {k}");
+            }
+            s.with_cross(cell, |c: Cross<f64>| {
+                for (n, (y, z)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
+                    assert_eq!(c.x[n], [-1, 0, 1, 2].map(|x| at(x, y, z)));
+                }
+                for (n, (y, z)) in [(-1, 0), (2, 0), (-1, 1), (2, 1)].into_iter().enumerate() {
+                    assert_eq!(c.y[n], [0, 1].map(|x| at(x, y, z)));
+                }
+                for (n, (y, z)) in [(0, -1), (1, -1), (0, 2), (1, 2)].into_iter().enumerate() {
+                    assert_eq!(c.z[n], [0, 1].map(|x| at(x, y, z)));
+                }
+            });
+            s.with_corners(cell, |c: [[f64; 2]; 4]| {
+                assert_eq!(c, [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(y, z)| [at(0, y, z), at(1, y, z)]));
+            });
+        }
+    }
+
+    #[test]
+    fn two_samples_continue_as_a_line_and_one_as_a_constant() {
+        let v = volume([2, 1, 4], |[x, _, z]| 10 * x + z * z);
+        let s = Stencils::new::<f64>(&v);
+        let block = s.block::<f64>([0, 0, 1]);
+        for (k, j) in (0..16).map(|t| (t / 4, t % 4)) {
+            let z = (k * k) as f64;
+            assert_eq!(block[k][j], [z - 10.0, z, z + 10.0, z + 20.0]);
+        }
+    }
+
+    #[test]
+    fn only_numbers_near_the_ends_of_the_range_are_scaled() {
+        let of = |largest: f64| {
+            let voxels = Voxels::F64(vec![0.0, largest]);
+            let grid = Grid::with_spacing([2, 1, 1], [1.0; 3]).unwrap();
+            let v = Volume::new(grid, voxels, 1.0, 0.0).unwrap();
+            (Stencils::new::<f64>(&v).scale(), Stencils::new::<f32>(&v).scale())
+        };
+        assert_eq!(of(1e9), (1.0, 1.0));
+        assert_eq!(of(3.0 * 2f64.powi(100)), (1.0, 2f64.powi(-101)));
+        assert_eq!(of(-1.5 * 2f64.powi(600)), (2f64.powi(-600), 2f64.powi(-600)));
+        assert_eq!(of(f64::from_bits(1)), (2f64.powi(1022), 2f64.powi(1022)));
+    }
+}
