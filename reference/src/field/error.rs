@@ -3,10 +3,18 @@
 /// A field that cannot be prepared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FieldError {
-    /// `analytic` Hessians of a kernel that has no continuous second derivative ([REC-3]).
-    #[error("hessian `analytic` needs a kernel that is twice differentiable; `{kernel}` is not, `bspline` is")]
+    /// An `analytic` Hessian of a kernel without a continuous second derivative ([REC-3]).
+    #[error("hessian = \"analytic\" needs a kernel that is twice differentiable: \"{kernel}\" is not, \"bspline\" is")]
     NotSmooth {
-        /// Its name in a scene.
+        /// The kernel's name in a scene.
         kernel: &'static str,
+    },
+    /// A σ of the `gaussian` Hessian that is not a length, or is longer than the sums are made for.
+    #[error("scale = {scale} world units is not between 0 and {longest}, which is 1000 voxels")]
+    Scale {
+        /// As given, in world units.
+        scale: f64,
+        /// The longest, in world units.
+        longest: f64,
     },
 }

@@ -3,28 +3,40 @@
 //! A [`Field`] holds what a reconstruction needs; its [`Sampler`] gives value, gradient and Hessian at positions in
 //! index space. [`with_sampler!`](crate::with_sampler) chooses the sampler's type once, outside the loop over samples.
 
+mod coefficients;
+pub mod curvature;
 mod error;
 mod gradient;
-mod kernel;
+mod hessian;
+pub mod kernel;
 pub mod normal;
 mod place;
+mod prefilter;
+pub mod probe;
 mod ranges;
 mod sampler;
 mod stencil;
+mod tensor;
+
+#[cfg(test)]
+mod tests;
 
 pub use drypoint_scene::tables::{GradientEstimator, HessianEstimator, Kernel, Outside};
 pub use error::FieldError;
-pub use place::Place;
-pub use sampler::{AnySampler, Interpolant, Sampled, Sampler};
+pub use sampler::{AnySampler, Sampled, Sampler};
 
-use crate::number::{Mat3, Real, Vec3};
+use crate::number::{Mat3, Real, Sym3};
+use coefficients::Coefficients;
+use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
 use drypoint_scene::volume::{Bricks, Volume};
+use gradient::regression::Regression;
+use kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use place::Cells;
 use std::collections::BTreeMap;
 use stencil::Stencils;
 
-/// How the field is reconstructed.
+/// How the field is reconstructed. The default is the papers': trilinear, central differences.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reconstruction {
     /// Kernel of the values ([REC-1]).
@@ -39,6 +51,18 @@ pub struct Reconstruction {
     pub outside: Outside,
 }
 
+impl Default for Reconstruction {
+    fn default() -> Self {
+        Self {
+            kernel: Kernel::Trilinear,
+            gradient: GradientEstimator::Central,
+            hessian: HessianEstimator::Auto,
+            scale: 1.0,
+            outside: Outside::Low,
+        }
+    }
+}
+
 /// What will be asked of a field. What is not asked for is not allocated ([PLAN-1]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
@@ -51,6 +75,7 @@ pub enum Rung {
 }
 
 /// A volume with a reconstruction: what the samples read.
+#[derive(Clone, Debug)]
 pub struct Field<'v, R> {
     volume: &'v Volume,
     how: Reconstruction,
@@ -59,31 +84,74 @@ pub struct Field<'v, R> {
     /// value = slope · number read + intercept.
     slope: R,
     intercept: R,
-    /// From derivatives along the index axes of the numbers read to world derivatives of the value times 2^−e.
+    /// D⁻ᵀ with 0 for axes of length 1, times `derivative`: from the derivatives along the index axes of the numbers
+    /// read to world derivatives of the value times 2^−e.
     to_world: Mat3<R>,
+    /// D⁻ᵀ with 0 for axes of length 1.
+    inverse_transpose: Mat3<R>,
+    derivative: R,
     /// e of [SPACE-4].
     exponent: i32,
     no_normal_below: R,
+    kernel: KernelData<R>,
+    first: First<R>,
+    second: Second<R>,
+}
+
+/// The kernel with what it holds.
+#[derive(Clone, Debug)]
+enum KernelData<R> {
+    Trilinear,
+    Bspline(Coefficients<R>),
+    BsplineSmooth,
+    Bspline5(Coefficients<R>),
+    CatmullRom,
+}
+
+/// The estimator of the gradient with what it holds.
+#[derive(Clone, Debug)]
+enum First<R> {
+    Central,
+    Analytic,
+    Sobel,
+    Regression(Regression<R>),
+}
+
+/// The estimator of the Hessian with what it holds.
+#[derive(Clone, Debug)]
+enum Second<R> {
+    NotPrepared,
+    Analytic,
+    Central,
+    Gaussian(Coefficients<R>),
 }
 
 impl<'v, R: Real> Field<'v, R> {
     /// Prepares a volume for a reconstruction.
     ///
     /// # Errors
-    /// An estimator that the kernel does not have, or a scale that is no length.
+    /// [`FieldError::NotSmooth`] and [`FieldError::Scale`], whatever the rung.
     pub fn new(volume: &'v Volume, how: Reconstruction, rung: Rung) -> Result<Self, FieldError> {
+        let how = Reconstruction { hessian: resolved(&how, volume)?, ..how };
+        let grid = volume.grid();
         let stencils = Stencils::new::<R>(volume);
-        // 2^e brings max|value| / voxel into [½, 1). Mantissas and exponents apart: the quotient may overflow.
-        let (largest, voxel) = (volume.largest_magnitude(), volume.grid().smallest_singular_value());
-        let (a, b) = (math::exponent(largest), math::exponent(voxel));
-        let mantissa = math::scale_by_power_of_two(largest, -a) / math::scale_by_power_of_two(voxel, -b);
-        let c = math::exponent(mantissa);
-        let exponent = a - b + c;
-        let bound = R::NO_NORMAL.to_f64() * math::scale_by_power_of_two(mantissa, -c);
 
+        // 2^e brings max|value| / voxel into [½, 1). Mantissas and exponents apart: the quotient may overflow.
+        let (largest, voxel) = (volume.largest_magnitude(), grid.smallest_singular_value());
+        let (a, b) = (math::exponent(largest), math::exponent(voxel));
+        let quotient = math::scale_by_power_of_two(largest, -a) / math::scale_by_power_of_two(voxel, -b);
+        let c = math::exponent(quotient);
+        let exponent = a - b + c;
+        let no_normal_below = R::NO_NORMAL.to_f64() * math::scale_by_power_of_two(quotient, -c);
+
+        // Numbers are read times a power of two, which the slope takes back.
         let read = math::exponent(stencils.scale()) - 1;
         let derivative = math::scale_by_power_of_two(volume.slope(), -read - exponent);
-        let _ = rung;
+        let live = DVec3::from_array(grid.dims().map(|n| if n == 1 { 0.0 } else { 1.0 }));
+        let inverse_transpose = grid.inverse_axes().transpose() * DMat3::from_diagonal(live);
+
+        let gaussian = how.hessian == HessianEstimator::Gaussian;
+        let smoothed = if gaussian { hessian::gaussian::taps(grid, how.scale)? } else { Default::default() };
         Ok(Self {
             volume,
             how,
@@ -91,9 +159,30 @@ impl<'v, R: Real> Field<'v, R> {
             cells: Cells::new(volume.dims()),
             slope: R::from_f64(math::scale_by_power_of_two(volume.slope(), -read)),
             intercept: R::from_f64(volume.intercept()),
-            to_world: Mat3::from_glam(volume.grid().inverse_axes().transpose() * derivative),
+            to_world: Mat3::from_glam(inverse_transpose * derivative),
+            inverse_transpose: Mat3::from_glam(inverse_transpose),
+            derivative: R::from_f64(derivative),
             exponent,
-            no_normal_below: R::from_f64(bound),
+            no_normal_below: R::from_f64(no_normal_below),
+            kernel: match how.kernel {
+                Kernel::Trilinear => KernelData::Trilinear,
+                Kernel::Bspline => KernelData::Bspline(Coefficients::of_voxels(&stencils, 1).prefilter()),
+                Kernel::BsplineSmooth => KernelData::BsplineSmooth,
+                Kernel::Bspline5 => KernelData::Bspline5(Coefficients::of_voxels(&stencils, 2).prefilter()),
+                Kernel::CatmullRom => KernelData::CatmullRom,
+            },
+            first: match how.gradient {
+                GradientEstimator::Central => First::Central,
+                GradientEstimator::Analytic => First::Analytic,
+                GradientEstimator::Sobel => First::Sobel,
+                GradientEstimator::Regression => First::Regression(Regression::new(grid)),
+            },
+            second: match how.hessian {
+                _ if rung < Rung::Hessian => Second::NotPrepared,
+                HessianEstimator::Gaussian => Second::Gaussian(hessian::gaussian::smoothed(&stencils, &smoothed)),
+                HessianEstimator::Analytic => Second::Analytic,
+                HessianEstimator::Auto | HessianEstimator::Central => Second::Central,
+            },
         })
     }
 
@@ -107,7 +196,7 @@ impl<'v, R: Real> Field<'v, R> {
         self.volume
     }
 
-    /// How it does.
+    /// How it does, with the Hessian's estimator as [`hessian_estimator`](Self::hessian_estimator) gives it.
     pub fn reconstruction(&self) -> Reconstruction {
         self.how
     }
@@ -115,15 +204,31 @@ impl<'v, R: Real> Field<'v, R> {
     /// For each brick of cells a range of values that no sample in it leaves ([RAY-2]).
     pub fn bricks(&self) -> Bricks {
         Bricks::new(self.volume.dims(), |first, end| {
-            let stored = ranges::voxels_of_cells(self.volume, first, end).map(|v| v * self.stencils.scale());
-            let [a, b] = ranges::widened::<R>(stored).map(|v| self.to_value(R::from_f64(v)).to_f64());
-            ranges::widened::<R>([a.min(b), a.max(b)])
+            let read = match &self.kernel {
+                KernelData::Trilinear => ranges::corners(&self.stencils, first, end),
+                KernelData::BsplineSmooth => ranges::supports::<R>(&self.stencils, first, end),
+                KernelData::CatmullRom => ranges::overshot(ranges::supports::<R>(&self.stencils, first, end)),
+                KernelData::Bspline(c) | KernelData::Bspline5(c) => c.range(first, end),
+            };
+            // Values are rounded as those of the samples are, which keeps the order.
+            let [a, b] = ranges::widened::<R>(read).map(|v| self.to_value(R::from_f64(v)).to_f64());
+            [a.min(b), a.max(b)]
         })
     }
 
     /// Bytes of what the field holds beside the volume, by name.
     pub fn bytes(&self) -> BTreeMap<String, u64> {
-        BTreeMap::new()
+        let mut bytes = BTreeMap::new();
+        if let KernelData::Bspline(c) | KernelData::Bspline5(c) = &self.kernel {
+            bytes.insert("coefficients".to_owned(), c.bytes());
+        }
+        if let First::Regression(regression) = &self.first {
+            bytes.insert("regression".to_owned(), regression.bytes());
+        }
+        if let Second::Gaussian(c) = &self.second {
+            bytes.insert("smoothed".to_owned(), c.bytes());
+        }
+        bytes
     }
 
     /// e of [SPACE-4]: gradients and Hessians are those of the world times 2^−e.
@@ -138,7 +243,13 @@ impl<'v, R: Real> Field<'v, R> {
 
     /// The sampler of the field's kernel.
     pub fn sampler(&self) -> AnySampler<'_, 'v, R> {
-        AnySampler::Trilinear(Sampled::new(self, kernel::Trilinear))
+        match &self.kernel {
+            KernelData::Trilinear => AnySampler::Trilinear(Sampled::new(self, Trilinear)),
+            KernelData::Bspline(c) => AnySampler::Bspline(Sampled::new(self, Bspline(c))),
+            KernelData::BsplineSmooth => AnySampler::BsplineSmooth(Sampled::new(self, BsplineSmooth)),
+            KernelData::Bspline5(c) => AnySampler::Bspline5(Sampled::new(self, Bspline5(c))),
+            KernelData::CatmullRom => AnySampler::CatmullRom(Sampled::new(self, CatmullRom)),
+        }
     }
 
     #[inline(always)]
@@ -146,8 +257,24 @@ impl<'v, R: Real> Field<'v, R> {
         self.slope * read + self.intercept
     }
 
-    #[inline(always)]
-    fn to_world_gradient(&self, index: Vec3<R>) -> Vec3<R> {
-        self.to_world.mul(index)
+    /// D⁻ᵀ H D⁻¹ in the value's units, times 2^−e: scaled first, so that nothing overflows on the way.
+    fn to_world_hessian(&self, index: Sym3<R>) -> Sym3<R> {
+        self.inverse_transpose.congruence(index.scaled(self.derivative))
+    }
+}
+
+/// The estimator of the Hessian, with `auto` decided ([REC-3]).
+fn resolved(how: &Reconstruction, volume: &Volume) -> Result<HessianEstimator, FieldError> {
+    let rough = match how.kernel {
+        Kernel::Trilinear => Some("trilinear"),
+        Kernel::CatmullRom => Some("catmull-rom"),
+        Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5 => None,
+    };
+    match (how.hessian, rough) {
+        (HessianEstimator::Auto, _) if volume.voxels().voxel_type().is_integer() => Ok(HessianEstimator::Gaussian),
+        (HessianEstimator::Auto, Some(_)) => Ok(HessianEstimator::Central),
+        (HessianEstimator::Auto, None) => Ok(HessianEstimator::Analytic),
+        (HessianEstimator::Analytic, Some(kernel)) => Err(FieldError::NotSmooth { kernel }),
+        (named, _) => Ok(named),
     }
 }

@@ -9,13 +9,11 @@ use drypoint_scene::tables::Outside;
 #[inline(always)]
 pub fn outward<R: Real>(gradient: Vec3<R>, outside: Outside, no_normal_below: R) -> Option<Vec3<R>> {
     let length = gradient.length();
-    // Written so that a NaN has no normal.
-    if !(length > no_normal_below) {
-        return None;
-    }
-    let scale = R::ONE / length;
-    Some(match outside {
-        Outside::Low => gradient * -scale,
-        Outside::High => gradient * scale,
+    (length > no_normal_below).then(|| {
+        let scale = R::ONE / length;
+        match outside {
+            Outside::Low => gradient * -scale,
+            Outside::High => gradient * scale,
+        }
     })
 }

@@ -4,7 +4,7 @@ use crate::number::{Real, Vec3};
 
 /// A position as its cell and the fractions in [0, 1] from the cell's first voxel on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place<R> {
+pub(super) struct Place<R> {
     /// min(⌊x⌋, max(N − 2, 0)) on each axis.
     pub cell: [usize; 3],
     /// x − cell; 0 on an axis of length 1.

@@ -1,7 +1,8 @@
 //! Values and derivatives at positions: the part of a field that the ray loop is compiled for.
 
+use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use super::place::Place;
-use super::{Field, GradientEstimator, gradient};
+use super::{Field, First, Second, gradient, hessian};
 use crate::number::{Real, Sym3, Vec3};
 
 /// A field at positions in index space, inside the box of [SPACE-1]. Derivatives are those of the world times 2^−e,
@@ -16,7 +17,7 @@ pub trait Sampler<R: Real>: Sync {
     /// The gradient by the field's estimator, in world space, times 2^−e.
     fn gradient(&self, p: Vec3<R>) -> Vec3<R>;
 
-    /// The Hessian by the field's estimator and the gradient of the field that it belongs to ([CUR-1]), in world
+    /// The Hessian by the field's estimator, and the gradient of the field that it belongs to ([CUR-1]), in world
     /// space, times 2^−e.
     ///
     /// # Panics
@@ -25,12 +26,17 @@ pub trait Sampler<R: Real>: Sync {
 }
 
 /// What a kernel computes, along the index axes and from the numbers that stencils read.
-pub trait Interpolant<R: Real>: Sync {
+pub(super) trait Interpolant<R: Real>: Sync {
     /// The value.
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R;
 
     /// The derivative of the kernel: `analytic`.
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R>;
+
+    /// First and second derivative of a kernel that is C²; for the others what `auto` takes, central differences.
+    fn second(&self, field: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+        (gradient::central::gradient(field, at), hessian::central::hessian(field, at))
+    }
 }
 
 /// A field with the kernel that it is sampled with.
@@ -40,7 +46,7 @@ pub struct Sampled<'f, 'v, R, K> {
     kernel: K,
 }
 
-impl<'f, 'v, R: Real, K: Interpolant<R>> Sampled<'f, 'v, R, K> {
+impl<'f, 'v, R: Real, K> Sampled<'f, 'v, R, K> {
     pub(super) fn new(field: &'f Field<'v, R>, kernel: K) -> Self {
         Self { field, kernel }
     }
@@ -60,36 +66,66 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
 
     #[inline(always)]
     fn gradient(&self, p: Vec3<R>) -> Vec3<R> {
-        let at = self.field.cells.locate(p);
-        let index = match self.field.how.gradient {
-            GradientEstimator::Analytic => self.kernel.gradient(self.field, at),
-            _ => gradient::central::gradient(self.field, at),
+        let (field, at) = (self.field, self.field.cells.locate(p));
+        let index = match &field.first {
+            First::Central => gradient::central::gradient(field, at),
+            First::Analytic => self.kernel.gradient(field, at),
+            First::Sobel => gradient::sobel::gradient(field, at),
+            First::Regression(regression) => regression.gradient(field, at),
         };
-        self.field.to_world_gradient(index)
+        field.to_world.apply(index)
     }
 
+    #[inline]
     fn hessian(&self, p: Vec3<R>) -> (Vec3<R>, Sym3<R>) {
-        (self.gradient(p), Sym3::default())
+        let (field, at) = (self.field, self.field.cells.locate(p));
+        let (gradient, hessian) = match &field.second {
+            Second::Analytic => self.kernel.second(field, at),
+            Second::Central => (gradient::central::gradient(field, at), hessian::central::hessian(field, at)),
+            Second::Gaussian(coefficients) => coefficients.cubic_derivatives(at),
+            Second::NotPrepared => panic!("a field prepared without Rung::Hessian was asked for a Hessian"),
+        };
+        (field.to_world.apply(gradient), field.to_world_hessian(hessian))
     }
 }
 
 /// The sampler of one of the five kernels; [`with_sampler!`](crate::with_sampler) opens it.
 pub enum AnySampler<'f, 'v, R> {
     /// Trilinear.
-    Trilinear(Sampled<'f, 'v, R, super::kernel::Trilinear>),
+    Trilinear(Sampled<'f, 'v, R, Trilinear>),
+    /// Cubic B-spline, prefiltered.
+    Bspline(Sampled<'f, 'v, R, Bspline<'f, R>>),
+    /// Cubic B-spline on the voxels.
+    BsplineSmooth(Sampled<'f, 'v, R, BsplineSmooth>),
+    /// Quintic B-spline, prefiltered.
+    Bspline5(Sampled<'f, 'v, R, Bspline5<'f, R>>),
+    /// Catmull–Rom.
+    CatmullRom(Sampled<'f, 'v, R, CatmullRom>),
 }
 
 /// Runs an expression with a reference to a field's sampler bound to a name: the kernel is decided here, once, and the
 /// expression is compiled for each.
 ///
-/// ```ignore
-/// let sum = with_sampler!(field, |s| positions.iter().map(|&p| s.value(p)).sum());
+/// ```
+/// use drypoint_reference::field::{Field, Reconstruction, Rung, Sampler};
+/// use drypoint_reference::{number::Vec3, with_sampler};
+/// use drypoint_scene::{space::Grid, volume::{Volume, Voxels}};
+///
+/// let grid = Grid::with_spacing([2; 3], [1.0; 3]).unwrap();
+/// let volume = Volume::new(grid, Voxels::U8(vec![0, 8, 0, 8, 0, 8, 0, 8]), 1.0, 0.0).unwrap();
+/// let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Value).unwrap();
+/// let sum: f64 = with_sampler!(field, |s| [0.25, 0.5].map(|x| s.value(Vec3::new(x, 0.5, 1.0))).iter().sum());
+/// assert_eq!(sum, 6.0);
 /// ```
 #[macro_export]
 macro_rules! with_sampler {
     ($field:expr, |$sampler:ident| $body:expr) => {
         match $field.sampler() {
             $crate::field::AnySampler::Trilinear(ref $sampler) => $body,
+            $crate::field::AnySampler::Bspline(ref $sampler) => $body,
+            $crate::field::AnySampler::BsplineSmooth(ref $sampler) => $body,
+            $crate::field::AnySampler::Bspline5(ref $sampler) => $body,
+            $crate::field::AnySampler::CatmullRom(ref $sampler) => $body,
         }
     };
 }

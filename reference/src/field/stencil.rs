@@ -5,7 +5,7 @@
 
 use crate::number::Real;
 use drypoint_scene::math;
-use drypoint_scene::volume::{Access, Volume, VoxelType};
+use drypoint_scene::volume::{Access, Volume, Voxel, VoxelType};
 use drypoint_scene::with_access;
 
 /// Reads stencils from a volume, in stored units times [`Stencils::scale`].
@@ -29,6 +29,9 @@ pub(super) struct Cross<R> {
     /// The two voxels of the cell in the rows at z = −1: y = 0, 1, then at z = 2.
     pub z: [[R; 2]; 4],
 }
+
+/// The 4³ voxels around a cell, [z][y][x].
+pub(super) type Block<R> = [[[R; 4]; 4]; 4];
 
 /// A sample beyond the border from the three (two, one) nearest inside: c₋₁ = 3c₀ − 3c₁ + c₂, 2c₀ − c₁, c₀ ([REC-1]).
 #[inline(always)]
@@ -56,9 +59,29 @@ impl<'v> Stencils<'v> {
         self.scale
     }
 
+    /// The volume that is read.
+    pub(super) fn volume(&self) -> &'v Volume {
+        self.volume
+    }
+
     /// Voxels along x, y, z.
     pub(super) fn dims(&self) -> [usize; 3] {
         self.volume.dims()
+    }
+
+    /// The lowest voxel, as stencils read it.
+    pub(super) fn lowest<R: Real>(&self) -> R {
+        R::from_f64(self.volume.voxels().range()[0] * self.scale)
+    }
+
+    /// The whole row of voxels at y and z.
+    pub(super) fn read_row<R: Real>(&self, y: usize, z: usize, out: &mut [R]) {
+        let scale = self.scale;
+        with_access!(self.volume, |a| {
+            for (x, out) in out.iter_mut().enumerate() {
+                *out = number(a.at(x, y, z), scale);
+            }
+        });
     }
 
     /// Whether the four voxels on each axis around a cell are in the grid.
@@ -68,39 +91,41 @@ impl<'v> Stencils<'v> {
         inside(0) && inside(1) && inside(2)
     }
 
-    /// The corners of a cell: pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1).
+    /// What `f` makes of the corners of a cell: pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1). It is
+    /// compiled for each stored type, which spares the way through memory: for what is short and hot.
     #[inline(always)]
-    pub(super) fn corners<R: Real>(&self, [x, y, z]: [usize; 3]) -> [[R; 2]; 4] {
+    pub(super) fn with_corners<R: Real, T>(&self, [x, y, z]: [usize; 3], f: impl Fn([[R; 2]; 4]) -> T) -> T {
         if self.flat || self.scale != 1.0 {
-            return self.careful_corners([x, y, z]);
+            return f(self.careful_corners([x, y, z]));
         }
         with_access!(self.volume, |a| {
             let pair = |y, z| a.row::<2>(x, y, z).map(R::from_voxel);
-            [pair(y, z), pair(y + 1, z), pair(y, z + 1), pair(y + 1, z + 1)]
+            f([pair(y, z), pair(y + 1, z), pair(y, z + 1), pair(y + 1, z + 1)])
         })
     }
 
-    /// The voxels of central differences at the corners of a cell, continued beyond the border.
+    /// What `f` makes of the voxels of central differences at the corners of a cell, continued beyond the border;
+    /// compiled for each stored type.
     #[inline(always)]
-    pub(super) fn cross<R: Real>(&self, cell: [usize; 3]) -> Cross<R> {
+    pub(super) fn with_cross<R: Real, T>(&self, cell: [usize; 3], f: impl Fn(Cross<R>) -> T) -> T {
         if !self.inside(cell) || self.scale != 1.0 {
-            return self.careful_cross(cell);
+            return f(self.careful_cross(cell));
         }
         let [x, y, z] = cell;
         with_access!(self.volume, |a| {
             let four = |y, z| a.row::<4>(x - 1, y, z).map(R::from_voxel);
             let two = |y, z| a.row::<2>(x, y, z).map(R::from_voxel);
-            Cross {
+            f(Cross {
                 x: [four(y, z), four(y + 1, z), four(y, z + 1), four(y + 1, z + 1)],
                 y: [two(y - 1, z), two(y + 2, z), two(y - 1, z + 1), two(y + 2, z + 1)],
                 z: [two(y, z - 1), two(y + 1, z - 1), two(y, z + 2), two(y + 1, z + 2)],
-            }
+            })
         })
     }
 
-    /// The 4³ voxels from the one before the cell on, [z][y][x], continued beyond the border.
-    #[inline(always)]
-    pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 4]; 4]; 4] {
+    /// The voxels from the one before the cell on, continued beyond the border.
+    #[inline]
+    pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         if !self.inside(cell) || self.scale != 1.0 {
             return self.careful_block(cell);
         }
@@ -117,10 +142,7 @@ impl<'v> Stencils<'v> {
         let index = |axis: usize, i: usize| (start[axis] + i as isize).clamp(0, dims[axis] as isize - 1) as usize;
         let scale = self.scale;
         with_access!(self.volume, |a| {
-            let read = |x, y, z| {
-                let voxel = a.at(x, y, z);
-                if scale == 1.0 { R::from_voxel(voxel) } else { scaled(voxel, scale) }
-            };
+            let read = |x, y, z| number(a.at(x, y, z), scale);
             std::array::from_fn(|k| {
                 std::array::from_fn(|j| std::array::from_fn(|i| read(index(0, i), index(1, j), index(2, k))))
             })
@@ -146,7 +168,7 @@ impl<'v> Stencils<'v> {
 
     /// Reads what is in the grid and continues it outwards along x, then y, then z.
     #[cold]
-    fn careful_block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 4]; 4]; 4] {
+    fn careful_block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         let mut b = self.clamped::<R, 4>(cell.map(|i| i as isize - 1));
         let [nx, ny, nz] = self.dims();
         for line in b.iter_mut().flatten() {
@@ -158,11 +180,9 @@ impl<'v> Stencils<'v> {
                 (0..4).for_each(|j| plane[j][i] = line[j]);
             }
         }
-        for j in 0..4 {
-            for i in 0..4 {
-                let line = continued([0, 1, 2, 3].map(|k: usize| b[k][j][i]), cell[2], nz);
-                (0..4).for_each(|k| b[k][j][i] = line[k]);
-            }
+        for (j, i) in (0..16).map(|line| (line / 4, line % 4)) {
+            let line = continued([0, 1, 2, 3].map(|k: usize| b[k][j][i]), cell[2], nz);
+            (0..4).for_each(|k| b[k][j][i] = line[k]);
         }
         b
     }
@@ -182,8 +202,9 @@ fn continued<R: Real>(c: [R; 4], cell: usize, n: usize) -> [R; 4] {
     c
 }
 
-fn scaled<R: Real, V: drypoint_scene::volume::Voxel>(voxel: V, scale: f64) -> R {
-    R::from_f64(voxel.to_f64() * scale)
+#[inline(always)]
+fn number<R: Real, V: Voxel>(voxel: V, scale: f64) -> R {
+    if scale == 1.0 { R::from_voxel(voxel) } else { R::from_f64(voxel.to_f64() * scale) }
 }
 
 /// The exponent that is taken out of stored numbers so that sums and differences of them neither overflow nor become
@@ -198,4 +219,74 @@ fn exponent<R: Real>(volume: &Volume) -> i32 {
     // The power itself has to be a normal number.
     let e = (math::exponent(lo.abs().max(hi.abs())) - 1).clamp(-1022, 1022);
     if e.abs() > far { e } else { 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::space::Grid;
+    use drypoint_scene::volume::Voxels;
+
+    fn volume(dims: [usize; 3], f: impl Fn([i64; 3]) -> i64) -> Volume {
+        let at = |i: usize| [i % dims[0], i / dims[0] % dims[1], i / (dims[0] * dims[1])].map(|i| i as i64);
+        let voxels = (0..dims.iter().product()).map(|i| f(at(i)) as i32).collect();
+        Volume::new(Grid::with_spacing(dims, [1.0; 3]).unwrap(), Voxels::I32(voxels), 1.0, 0.0).unwrap()
+    }
+
+    /// A quadratic is its own continuation, and whole numbers make it exact: at every cell, with or without border, the
+    /// stencils are the function.
+    #[test]
+    fn stencils_are_the_function_inside_and_beyond_the_border() {
+        let f = |[x, y, z]: [i64; 3]| 3 * x * x - 2 * x * y + y * z - 5 * z * z + 7 * y + 1;
+        let dims = [6, 3, 5];
+        let v = volume(dims, f);
+        let s = Stencils::new::<f64>(&v);
+        for cell in (0..5 * 2 * 4).map(|i| [i % 5, i / 5 % 2, i / 10]) {
+            let at = |x: i64, y: i64, z: i64| f([cell[0] as i64 + x, cell[1] as i64 + y, cell[2] as i64 + z]) as f64;
+            let span = |k: usize| k as i64 - 1;
+            let block = s.block::<f64>(cell);
+            for (k, j, i) in (0..64).map(|t| (t / 16, t / 4 % 4, t % 4)) {
+                assert_eq!(block[k][j][i], at(span(i), span(j), span(k)), "{cell:?}: {i} {j} {k}");
+            }
+            s.with_cross(cell, |c: Cross<f64>| {
+                for (n, (y, z)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
+                    assert_eq!(c.x[n], [-1, 0, 1, 2].map(|x| at(x, y, z)));
+                }
+                for (n, (y, z)) in [(-1, 0), (2, 0), (-1, 1), (2, 1)].into_iter().enumerate() {
+                    assert_eq!(c.y[n], [0, 1].map(|x| at(x, y, z)));
+                }
+                for (n, (y, z)) in [(0, -1), (1, -1), (0, 2), (1, 2)].into_iter().enumerate() {
+                    assert_eq!(c.z[n], [0, 1].map(|x| at(x, y, z)));
+                }
+            });
+            s.with_corners(cell, |c: [[f64; 2]; 4]| {
+                assert_eq!(c, [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(y, z)| [at(0, y, z), at(1, y, z)]));
+            });
+        }
+    }
+
+    #[test]
+    fn two_samples_continue_as_a_line_and_one_as_a_constant() {
+        let v = volume([2, 1, 4], |[x, _, z]| 10 * x + z * z);
+        let s = Stencils::new::<f64>(&v);
+        let block = s.block::<f64>([0, 0, 1]);
+        for (k, j) in (0..16).map(|t| (t / 4, t % 4)) {
+            let z = (k * k) as f64;
+            assert_eq!(block[k][j], [z - 10.0, z, z + 10.0, z + 20.0]);
+        }
+    }
+
+    #[test]
+    fn only_numbers_near_the_ends_of_the_range_are_scaled() {
+        let of = |largest: f64| {
+            let voxels = Voxels::F64(vec![0.0, largest]);
+            let grid = Grid::with_spacing([2, 1, 1], [1.0; 3]).unwrap();
+            let v = Volume::new(grid, voxels, 1.0, 0.0).unwrap();
+            (Stencils::new::<f64>(&v).scale(), Stencils::new::<f32>(&v).scale())
+        };
+        assert_eq!(of(1e9), (1.0, 1.0));
+        assert_eq!(of(3.0 * 2f64.powi(100)), (1.0, 2f64.powi(-101)));
+        assert_eq!(of(-1.5 * 2f64.powi(600)), (2f64.powi(-600), 2f64.powi(-600)));
+        assert_eq!(of(f64::from_bits(1)), (2f64.powi(1022), 2f64.powi(1022)));
+    }
 }

@@ -18,7 +18,7 @@ impl<R: Real> Mat3<R> {
 
     /// M v.
     #[inline(always)]
-    pub fn mul(&self, v: Vec3<R>) -> Vec3<R> {
+    pub fn apply(&self, v: Vec3<R>) -> Vec3<R> {
         Vec3::new(self.rows[0].dot(v), self.rows[1].dot(v), self.rows[2].dot(v))
     }
 
@@ -26,7 +26,7 @@ impl<R: Real> Mat3<R> {
     #[inline]
     pub fn congruence(&self, s: Sym3<R>) -> Sym3<R> {
         let [a, b, c] = self.rows;
-        let (sb, sc) = (s.mul(b), s.mul(c));
+        let (sb, sc) = (s.apply(b), s.apply(c));
         Sym3 { xx: s.form(a, a), xy: a.dot(sb), xz: a.dot(sc), yy: b.dot(sb), yz: b.dot(sc), zz: c.dot(sc) }
     }
 }
@@ -40,7 +40,7 @@ mod tests {
     fn products_agree_with_glam() {
         let m = DMat3::from_cols(DVec3::new(1.0, 2.0, -3.0), DVec3::new(0.5, -4.0, 2.0), DVec3::new(3.0, 1.0, 8.0));
         let v = DVec3::new(2.0, -1.0, 0.25);
-        assert_eq!(Mat3::<f64>::from_glam(m).mul(Vec3::from_glam(v)).to_glam(), m * v);
+        assert_eq!(Mat3::<f64>::from_glam(m).apply(Vec3::from_glam(v)).to_glam(), m * v);
         let s = Sym3 { xx: 1.0, xy: 2.0, xz: 3.0, yy: 4.0, yz: 5.0, zz: 6.0 };
         let dense = DMat3::from_cols(DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 4.0, 5.0), DVec3::new(3.0, 5.0, 6.0));
         let want = m * dense * m.transpose();

@@ -31,6 +31,9 @@ pub trait Real:
     const HALF: Self;
     /// The relative bound of [PREC-3] below which a gradient is rounding: 2⁻⁴⁶, 2⁻²⁰ in f32.
     const NO_NORMAL: Self;
+    /// ‖Pv‖ at and below which the direction of a unit vector in a tangent plane is lost to rounding ([CUR-2]): 2⁻²⁶,
+    /// 2⁻¹² in f32, each the root of the number's ε or just under it.
+    const NO_DIRECTION: Self;
     /// The distance from 1 to the next number.
     const EPSILON: Self;
     /// Voxels whose largest magnitude has an exponent beyond this are scaled as they are read, lest sums overflow.
@@ -75,6 +78,18 @@ pub trait Real:
         self.max(Self::ZERO).min(Self::ONE)
     }
 
+    /// √(x² + y²) without overflow on the way.
+    #[inline]
+    fn hypot(self, other: Self) -> Self {
+        let (a, b) = (self.abs(), other.abs());
+        let (small, large) = if a < b { (a, b) } else { (b, a) };
+        if large == Self::ZERO {
+            return Self::ZERO;
+        }
+        let ratio = small / large;
+        large * (Self::ONE + ratio * ratio).sqrt()
+    }
+
     /// a + w(b − a), which returns a constant exactly ([REC-1]).
     #[inline(always)]
     fn lerp(a: Self, b: Self, w: Self) -> Self {
@@ -87,6 +102,7 @@ impl Real for f64 {
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
     const NO_NORMAL: Self = 1.0 / (1u64 << 46) as f64;
+    const NO_DIRECTION: Self = 1.0 / (1u64 << 26) as f64;
     const EPSILON: Self = f64::EPSILON;
     const FAR_EXPONENT: i32 = 500;
 
@@ -107,13 +123,13 @@ impl Real for f64 {
 
     #[inline(always)]
     fn split(self) -> (usize, Self) {
-        // Adding 2⁵² leaves the nearest whole number in the low bits of the mantissa.
+        // Adding 2⁵² leaves the nearest whole number in the low bits of the mantissa. The 1 that is taken off where
+        // that lies above is made by a mask: a branch would be mispredicted at every second sample.
         const MAGIC: f64 = (1u64 << 52) as f64;
-        let shifted = self + MAGIC;
-        let nearest = shifted - MAGIC;
-        let above = nearest > self;
-        let floor = nearest - if above { 1.0 } else { 0.0 };
-        ((shifted.to_bits() as u32 as usize) - usize::from(above), self - floor)
+        let nearest = self + MAGIC;
+        let above = u64::from(nearest - MAGIC > self).wrapping_neg();
+        let floor = nearest - f64::from_bits(above & 1f64.to_bits());
+        (floor.to_bits() as u32 as usize, self - (floor - MAGIC))
     }
 
     #[inline(always)]
@@ -152,6 +168,7 @@ impl Real for f32 {
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
     const NO_NORMAL: Self = 1.0 / (1u64 << 20) as f32;
+    const NO_DIRECTION: Self = 1.0 / (1u64 << 12) as f32;
     const EPSILON: Self = f32::EPSILON;
     const FAR_EXPONENT: i32 = 60;
 
@@ -173,11 +190,10 @@ impl Real for f32 {
     #[inline(always)]
     fn split(self) -> (usize, Self) {
         const MAGIC: f32 = (1u32 << 23) as f32;
-        let shifted = self + MAGIC;
-        let nearest = shifted - MAGIC;
-        let above = nearest > self;
-        let floor = nearest - if above { 1.0 } else { 0.0 };
-        (((shifted.to_bits() & 0x7f_ffff) as usize) - usize::from(above), self - floor)
+        let nearest = self + MAGIC;
+        let above = u32::from(nearest - MAGIC > self).wrapping_neg();
+        let floor = nearest - f32::from_bits(above & 1f32.to_bits());
+        ((floor.to_bits() & 0x7f_ffff) as usize, self - (floor - MAGIC))
     }
 
     #[inline(always)]
@@ -225,6 +241,21 @@ mod tests {
             let (i, w) = Real::split(x);
             assert_eq!((i as f32, w), (f32::floor(x), x - f32::floor(x)), "{x}");
         }
+    }
+
+    #[test]
+    fn split_takes_a_negative_zero() {
+        assert_eq!(Real::split(-0.0f64), (0, 0.0));
+        assert_eq!(Real::split(-0.0f32), (0, 0.0));
+    }
+
+    #[test]
+    fn hypot_neither_overflows_nor_loses_the_small_one() {
+        assert_eq!(Real::hypot(3.0, -4.0), 5.0);
+        assert_eq!(Real::hypot(0.0, 0.0), 0.0);
+        // Four roundings after the scaling: two last places.
+        assert!((Real::hypot(3e200, 4e200) / 5e200 - 1.0).abs() <= 2.0 * f64::EPSILON);
+        assert!((Real::hypot(3e30f32, 4e30) / 5e30 - 1.0).abs() <= 2.0 * f32::EPSILON);
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub struct Sym3<R> {
 impl<R: Real> Sym3<R> {
     /// M v.
     #[inline(always)]
-    pub fn mul(self, v: Vec3<R>) -> Vec3<R> {
+    pub fn apply(self, v: Vec3<R>) -> Vec3<R> {
         Vec3::new(
             self.xx * v.x + self.xy * v.y + self.xz * v.z,
             self.xy * v.x + self.yy * v.y + self.yz * v.z,
@@ -25,9 +25,16 @@ impl<R: Real> Sym3<R> {
         )
     }
 
+    /// s M.
+    #[inline(always)]
+    pub fn scaled(self, s: R) -> Self {
+        let Self { xx, xy, xz, yy, yz, zz } = self;
+        Self { xx: xx * s, xy: xy * s, xz: xz * s, yy: yy * s, yz: yz * s, zz: zz * s }
+    }
+
     /// aᵀ M b.
     #[inline(always)]
     pub fn form(self, a: Vec3<R>, b: Vec3<R>) -> R {
-        a.dot(self.mul(b))
+        a.dot(self.apply(b))
     }
 }

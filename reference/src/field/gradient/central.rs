@@ -7,13 +7,17 @@
 use crate::field::Field;
 use crate::field::kernel::trilinear::bilinear;
 use crate::field::place::Place;
+use crate::field::stencil::Cross;
 use crate::number::{Real, Vec3};
 
 /// The interpolated central differences at a place.
-#[inline(always)]
+#[inline(never)]
 pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
-    let c = field.stencils.cross::<R>(at.cell);
-    let [wx, wy, wz] = at.w;
+    field.stencils.with_cross(at.cell, |voxels| interpolated(&voxels, at.w))
+}
+
+#[inline(always)]
+fn interpolated<R: Real>(c: &Cross<R>, [wx, wy, wz]: [R; 3]) -> Vec3<R> {
     let inner = c.x.map(|r| [r[1], r[2]]);
     // Rows one voxel down and one voxel up at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1).
     let along_y = [(c.y[0], inner[1]), (inner[0], c.y[1]), (c.y[2], inner[3]), (inner[2], c.y[3])];

@@ -3,3 +3,5 @@
 //! the derivative that each kernel has in its own file.
 
 pub(super) mod central;
+pub(super) mod regression;
+pub(super) mod sobel;

@@ -1,7 +1,8 @@
 //! Trilinear interpolation, the papers' kernel ([REC-1]).
 
+use crate::field::Field;
 use crate::field::place::Place;
-use crate::field::{Field, Interpolant};
+use crate::field::sampler::Interpolant;
 use crate::number::{Real, Vec3};
 
 /// Three nested interpolations, x then y then z: continuous, interpolates the voxels, exact for f = xyz.
@@ -17,20 +18,21 @@ pub(in crate::field) fn bilinear<R: Real>(c: [R; 4], wy: R, wz: R) -> R {
 impl<R: Real> Interpolant<R> for Trilinear {
     #[inline(always)]
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R {
-        let rows = field.stencils.corners::<R>(at.cell);
-        bilinear(rows.map(|r| R::lerp(r[0], r[1], at.w[0])), at.w[1], at.w[2])
+        let [wx, wy, wz] = at.w;
+        field.stencils.with_corners(at.cell, |rows| bilinear(rows.map(|r| R::lerp(r[0], r[1], wx)), wy, wz))
     }
 
     /// Constant along each axis inside a cell, with jumps between cells.
     #[inline]
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
         let [wx, wy, wz] = at.w;
-        let r = field.stencils.corners::<R>(at.cell);
         let along_x = |a: [R; 2], b: [R; 2]| R::lerp(b[0] - a[0], b[1] - a[1], wx);
-        Vec3::new(
-            bilinear(r.map(|r| r[1] - r[0]), wy, wz),
-            R::lerp(along_x(r[0], r[1]), along_x(r[2], r[3]), wz),
-            R::lerp(along_x(r[0], r[2]), along_x(r[1], r[3]), wy),
-        )
+        field.stencils.with_corners(at.cell, |r| {
+            Vec3::new(
+                bilinear(r.map(|r| r[1] - r[0]), wy, wz),
+                R::lerp(along_x(r[0], r[1]), along_x(r[2], r[3]), wz),
+                R::lerp(along_x(r[0], r[2]), along_x(r[1], r[3]), wy),
+            )
+        })
     }
 }

@@ -1,0 +1,188 @@
+//! Numbers of our own on a volume's grid: the coefficients of a B-spline, with a border that continues them.
+
+use super::kernel::bspline;
+use super::place::Place;
+use super::prefilter::Prefilter;
+use super::stencil::{Stencils, beyond};
+use super::tensor;
+use crate::number::{Real, Sym3, Vec3};
+use rayon::prelude::*;
+
+/// Coefficients less a constant, x fastest, with as many beyond each border as the spline reaches.
+///
+/// The constant, the lowest voxel, is added to values again. So a constant volume has the coefficients 0, and whole
+/// numbers with a constant added have the same bits.
+#[derive(Clone, Debug)]
+pub(super) struct Coefficients<R> {
+    data: Vec<R>,
+    /// Numbers along x, y, z with the border.
+    dims: [usize; 3],
+    /// Numbers along x, y, z without it.
+    inner: [usize; 3],
+    /// Numbers before the first one of a line.
+    pad: usize,
+    base: R,
+}
+
+impl<R: Real> Coefficients<R> {
+    /// The voxels, as stencils read them, with room for a spline of degree 2 `pad` + 1.
+    pub(super) fn of_voxels(stencils: &Stencils<'_>, pad: usize) -> Self {
+        let inner = stencils.dims();
+        // A cell reaches from `pad` voxels before it to pad + 1 after it, and there is a cell even on a short axis.
+        let dims = inner.map(|n| n.max(2) + 2 * pad);
+        let base: R = stencils.lowest();
+        let mut data = vec![R::ZERO; dims.iter().product()];
+        let row_of = |row: usize| (row % dims[1], row / dims[1]);
+        data.par_chunks_mut(dims[0]).enumerate().for_each(|(row, out)| {
+            let (y, z) = row_of(row);
+            let (Some(y), Some(z)) = (y.checked_sub(pad), z.checked_sub(pad)) else { return };
+            if y < inner[1] && z < inner[2] {
+                let out = &mut out[pad..pad + inner[0]];
+                stencils.read_row(y, z, out);
+                out.iter_mut().for_each(|c| *c -= base);
+            }
+        });
+        Self { data, dims, inner, pad, base }
+    }
+
+    /// Makes coefficients of samples: solves for those whose spline takes the samples' values, and continues them.
+    pub(super) fn prefilter(mut self) -> Self {
+        for axis in 0..3 {
+            if let Some(filter) = Prefilter::new(self.inner[axis], self.pad) {
+                match axis {
+                    0 => self.lines_along_x(|line| filter.solve_line(line)),
+                    1 => self.slabs(|rows, lanes| filter.solve_lanes(rows, lanes)),
+                    _ => self.planes(|planes, lanes| filter.solve_lanes(planes, lanes)),
+                }
+            }
+        }
+        self.fill_border();
+        self
+    }
+
+    /// Samples along each axis replaced by sums over their line: `weights(n, axis)` gives for each of the n samples of
+    /// a line the first that it is made of and the weights from there on; none leaves the axis as it is.
+    pub(super) fn convolve(mut self, axis: usize, rows: &[(usize, Vec<R>)]) -> Self {
+        let [px, py, _] = self.dims;
+        let stride = [1, px, px * py][axis];
+        let mut out = vec![R::ZERO; self.data.len()];
+        let (dims, inner, pad, data) = (self.dims, self.inner, self.pad, &self.data);
+        out.par_chunks_mut(px).enumerate().for_each(|(row, out)| {
+            let at = [pad, row % dims[1], row / dims[1]];
+            let is_inner = |a: usize| at[a] >= pad && at[a] < pad + inner[a];
+            if !(is_inner(1) && is_inner(2)) {
+                return;
+            }
+            let start = row * px;
+            if axis == 0 {
+                for (x, (first, weights)) in rows.iter().enumerate() {
+                    let from = start + pad + first;
+                    let samples = &data[from..from + weights.len()];
+                    let mut sum = R::ZERO;
+                    for (&c, &w) in samples.iter().zip(weights) {
+                        sum += c * w;
+                    }
+                    out[pad + x] = sum;
+                }
+            } else {
+                let (first, weights) = &rows[at[axis] - pad];
+                for (i, &w) in weights.iter().enumerate() {
+                    let from = (start + (first + i) * stride) - (at[axis] - pad) * stride;
+                    for (sum, &c) in out.iter_mut().zip(&data[from..from + px]) {
+                        *sum += c * w;
+                    }
+                }
+            }
+        });
+        self.data = out;
+        self
+    }
+
+    /// What is added to the spline of the coefficients to make a value.
+    #[inline(always)]
+    pub(super) fn base(&self) -> R {
+        self.base
+    }
+
+    /// Bytes in memory.
+    pub(super) fn bytes(&self) -> u64 {
+        (self.data.len() * size_of::<R>()) as u64
+    }
+
+    /// The rows that a cell's spline reads, `N` = 2 pad + 2 in each direction.
+    #[inline(always)]
+    pub(super) fn rows<const N: usize>(&self, [x, y, z]: [usize; 3]) -> impl Fn(usize, usize) -> [R; N] + '_ {
+        debug_assert_eq!(N, 2 * self.pad + 2);
+        let [px, py, _] = self.dims;
+        let start = (z * py + y) * px + x;
+        move |j, k| {
+            let from = start + (k * py + j) * px;
+            let row = &self.data[from..from + N];
+            std::array::from_fn(|i| row[i])
+        }
+    }
+
+    /// Gradient and Hessian of the cubic spline along the index axes.
+    pub(super) fn cubic_derivatives(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+        tensor::second(self.rows(at.cell), &at.w.map(bspline::taps))
+    }
+
+    /// Lowest and highest number, base included, that the cells from `first` up to, not including, `end` read.
+    pub(super) fn range(&self, first: [usize; 3], end: [usize; 3]) -> [f64; 2] {
+        let reach = 2 * self.pad + 1;
+        let [px, py, _] = self.dims;
+        let start = (first[2] * py + first[1]) * px + first[0];
+        let (mut lo, mut hi) = (self.data[start], self.data[start]);
+        for z in first[2]..end[2] + reach {
+            for y in first[1]..end[1] + reach {
+                let row = (z * py + y) * px;
+                for &c in &self.data[row + first[0]..row + end[0] + reach] {
+                    (lo, hi) = (lo.min(c), hi.max(c));
+                }
+            }
+        }
+        [(lo + self.base).to_f64(), (hi + self.base).to_f64()]
+    }
+
+    fn lines_along_x(&mut self, solve: impl Fn(&mut [R]) + Sync) {
+        let (pad, n) = (self.pad, self.inner[0]);
+        self.data.par_chunks_mut(self.dims[0]).for_each(|row| solve(&mut row[pad..pad + n]));
+    }
+
+    /// Lines along y, a whole row of them at a time.
+    fn slabs(&mut self, solve: impl Fn(&mut [R], usize) + Sync) {
+        let ([px, py, _], pad, n) = (self.dims, self.pad, self.inner[1]);
+        self.data.par_chunks_mut(px * py).for_each(|slab| solve(&mut slab[pad * px..(pad + n) * px], px));
+    }
+
+    /// Lines along z, a whole plane of them at a time.
+    fn planes(&mut self, solve: impl Fn(&mut [R], usize)) {
+        let ([px, py, _], pad, n) = (self.dims, self.pad, self.inner[2]);
+        solve(&mut self.data[pad * px * py..(pad + n) * px * py], px * py);
+    }
+
+    /// Continues the numbers beyond the border, along x, then y, then z, by the recurrence of [REC-1].
+    fn fill_border(&mut self) {
+        let ([px, py, _], [nx, ny, nz], pad) = (self.dims, self.inner, self.pad);
+        self.data.par_chunks_mut(px).for_each(|row| continue_lanes(row, 1, nx, pad));
+        self.data.par_chunks_mut(px * py).for_each(|slab| continue_lanes(slab, px, ny, pad));
+        continue_lanes(&mut self.data, px * py, nz, pad);
+    }
+}
+
+/// Fills what lies outside the n samples from `pad` on; a sample is a run of `lanes` numbers.
+fn continue_lanes<R: Real>(data: &mut [R], lanes: usize, n: usize, pad: usize) {
+    let padded = data.len() / lanes;
+    for i in pad + n..padded {
+        for lane in 0..lanes {
+            let c = |back: usize| data[i.saturating_sub(back) * lanes + lane];
+            data[i * lanes + lane] = beyond(i - pad, c(1), c(2), c(3));
+        }
+    }
+    for i in (0..pad).rev() {
+        for lane in 0..lanes {
+            let c = |ahead: usize| data[(i + ahead).min(padded - 1) * lanes + lane];
+            data[i * lanes + lane] = beyond(padded - i - 1, c(1), c(2), c(3));
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! 4D linear regression on the voxels, then trilinear interpolation ([REC-2], [STIP-1]).
+//!
+//! L. Neumann, B. Csébfalvi, A. König, E. Gröller, *Gradient Estimation in Volume Data using 4D Linear Regression*,
+//! Computer Graphics Forum 19(3), 2000: a·x + b·y + c·z + d is fitted to the 3×3×3 voxels around one, each weighted
+//! with 1/distance in world units, the middle one with 2/(smallest spacing); (a, b, c) is the gradient.
+//!
+//! The fit is the same in any linear coordinates, so it is made in index space, where an axis of length 1 can be left
+//! out: h, the gradient along the index axes, is one linear combination of the voxels for each set of voxels that exist:
+//! all 27, or those that a border leaves.
+
+use crate::field::Field;
+use crate::field::place::Place;
+use crate::number::{Real, Vec3};
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::space::Grid;
+
+/// Weights of the 3³ voxels around one, x fastest, for the derivative along each index axis.
+type Weights<R> = [[R; 27]; 3];
+
+/// The fit for each of the cases that a grid has.
+#[derive(Clone, Debug)]
+pub(in crate::field) struct Regression<R> {
+    /// By the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
+    cases: Vec<Option<Box<Weights<R>>>>,
+}
+
+/// 1 if a voxel of a line of n has one before it, plus 2 if it has one after it.
+fn sides(i: usize, n: usize) -> usize {
+    usize::from(i > 0) + 2 * usize::from(i + 1 < n)
+}
+
+impl<R: Real> Regression<R> {
+    /// Solves the normal equations of every case that occurs on a grid.
+    pub(in crate::field) fn new(grid: &Grid) -> Self {
+        let occurs = |axis: usize, s: usize| {
+            let n = grid.dims()[axis];
+            [0, n / 2, n - 1].into_iter().any(|i| sides(i, n) == s)
+        };
+        let cases = (0..64)
+            .map(|case| {
+                let s = [case % 4, case / 4 % 4, case / 16];
+                (0..3).all(|a| occurs(a, s[a])).then(|| Box::new(fit(grid, s).map(|row| row.map(R::from_f64))))
+            })
+            .collect();
+        Self { cases }
+    }
+
+    /// Bytes in memory.
+    pub(in crate::field) fn bytes(&self) -> u64 {
+        (self.cases.iter().flatten().count() * size_of::<Weights<R>>()) as u64
+    }
+
+    fn case(&self, s: [usize; 3]) -> Option<&Weights<R>> {
+        self.cases[s[0] + 4 * s[1] + 16 * s[2]].as_deref()
+    }
+
+    /// The interpolated gradient at a place, along the index axes.
+    pub(in crate::field) fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+        let dims = field.stencils.dims();
+        let mut block = field.stencils.block::<R>(at.cell);
+        // Whole numbers have exact differences, and those of a constant are 0.
+        let first = block[1][1][1];
+        block.iter_mut().flatten().flatten().for_each(|c| *c -= first);
+        let [x, y, z]: [[usize; 2]; 3] =
+            std::array::from_fn(|a| [0, 1].map(|corner| sides(at.cell[a] + corner, dims[a])));
+        let inside = [x, y, z] == [[3, 3]; 3];
+        let [wx, wy, wz] = at.w;
+        if inside {
+            // All corners have the same weights: interpolating the voxels first costs an eighth.
+            let line = |row: [R; 4]| [0, 1, 2].map(|i: usize| R::lerp(row[i], row[i + 1], wx));
+            let rows = block.map(|plane| plane.map(line));
+            let mix = |a: [R; 3], b: [R; 3], w: R| [0, 1, 2].map(|i: usize| R::lerp(a[i], b[i], w));
+            let planes = rows.map(|plane| [0, 1, 2].map(|j: usize| mix(plane[j], plane[j + 1], wy)));
+            let near = [0, 1, 2].map(|k: usize| [0, 1, 2].map(|j: usize| mix(planes[k][j], planes[k + 1][j], wz)));
+            return self.fitted([3; 3], |i, j, k| near[k][j][i]);
+        }
+        let corner =
+            |i: usize, j: usize, k: usize| self.fitted([x[i], y[j], z[k]], |a, b, c| block[k + c][j + b][i + a]);
+        let mix = |a: Vec3<R>, b: Vec3<R>, w: R| a + (b - a) * w;
+        let row = |j, k| mix(corner(0, j, k), corner(1, j, k), wx);
+        let plane = |k| mix(row(0, k), row(1, k), wy);
+        mix(plane(0), plane(1), wz)
+    }
+
+    /// The fitted gradient of a voxel from its neighbourhood.
+    fn fitted(&self, s: [usize; 3], voxel: impl Fn(usize, usize, usize) -> R) -> Vec3<R> {
+        // The second corner of the one cell of an axis of length 1 lies outside and has no weight.
+        let Some([x, y, z]) = self.case(s) else { return Vec3::zero() };
+        let mut sum = Vec3::zero();
+        for t in 0..27 {
+            let c = voxel(t % 3, t / 3 % 3, t / 9);
+            sum = sum + Vec3::new(c * x[t], c * y[t], c * z[t]);
+        }
+        sum
+    }
+}
+
+/// The weights of one case, from the normal equations Σ w φφᵀ · (h, d) = Σ w φ f, φ = (k, 1), over the neighbours k
+/// that exist.
+fn fit(grid: &Grid, sides: [usize; 3]) -> Weights<f64> {
+    let exists = |axis: usize, k: i32| k == 0 || sides[axis] & (if k < 0 { 1 } else { 2 }) != 0;
+    let neighbours: Vec<(usize, [f64; 4], f64)> = (0..27)
+        .map(|t| (t, [t as i32 % 3 - 1, t as i32 / 3 % 3 - 1, t as i32 / 9 - 1]))
+        .filter(|(_, k)| (0..3).all(|a| exists(a, k[a])))
+        .map(|(t, k)| {
+            let k = k.map(f64::from);
+            let distance = (grid.axes() * DVec3::from_array(k)).length();
+            let weight = if t == 13 { 2.0 / grid.voxel() } else { 1.0 / distance };
+            (t, [k[0], k[1], k[2], 1.0], weight)
+        })
+        .collect();
+    let mut normal = [[0.0; 4]; 4];
+    for (_, phi, weight) in &neighbours {
+        for i in 0..4 {
+            for j in 0..4 {
+                normal[i][j] += weight * phi[i] * phi[j];
+            }
+        }
+    }
+    // An axis without neighbours has no derivative: its row says h = 0.
+    for (axis, _) in sides.iter().enumerate().filter(|(_, s)| **s == 0) {
+        normal[axis][axis] = 1.0;
+    }
+    let inverse = inverted(normal);
+    let mut weights = [[0.0; 27]; 3];
+    for (t, phi, weight) in neighbours {
+        for (axis, row) in weights.iter_mut().enumerate() {
+            row[t] = weight * (0..4).map(|j| inverse[axis][j] * phi[j]).sum::<f64>();
+        }
+    }
+    weights
+}
+
+/// The inverse of a symmetric positive definite matrix, by Gauss–Jordan elimination, which needs no pivots there.
+fn inverted(mut m: [[f64; 4]; 4]) -> [[f64; 4]; 4] {
+    let mut inverse: [[f64; 4]; 4] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+    for i in 0..4 {
+        let pivot = m[i][i];
+        m[i] = m[i].map(|x| x / pivot);
+        inverse[i] = inverse[i].map(|x| x / pivot);
+        for r in (0..4).filter(|&r| r != i) {
+            let factor = m[r][i];
+            for c in 0..4 {
+                m[r][c] -= factor * m[i][c];
+                inverse[r][c] -= factor * inverse[i][c];
+            }
+        }
+    }
+    inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// On a cubic grid the normal equations are diagonal: h = Σ w k f / Σ w k², w = 1/√(k·k). Per axis Σ w k² over
+    /// the 18 neighbours with k ≠ 0 is 2·(1 + 4/√2 + 4/√3).
+    #[test]
+    fn inside_a_cubic_grid_the_published_weights() {
+        let grid = Grid::with_spacing([5; 3], [1.0; 3]).unwrap();
+        let weights = fit(&grid, [3; 3]);
+        let total = 2.0 * (1.0 + 4.0 / 2f64.sqrt() + 4.0 / 3f64.sqrt());
+        for (t, w) in weights[0].iter().enumerate() {
+            let k = [t as i32 % 3 - 1, t as i32 / 3 % 3 - 1, t as i32 / 9 - 1].map(f64::from);
+            let distance = k.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let want = if k[0] == 0.0 { 0.0 } else { k[0] / distance / total };
+            assert!((w - want).abs() < 1e-16, "{t}: {w} {want}");
+        }
+    }
+
+    #[test]
+    fn a_line_of_voxels_is_fitted_along_itself_alone() {
+        let grid = Grid::with_spacing([3, 1, 1], [2.0, 1.0, 1.0]).unwrap();
+        let [x, y, z] = fit(&grid, [3, 0, 0]);
+        assert_eq!([x[12], x[14]], [-0.5, 0.5]);
+        assert!(y.iter().chain(&z).all(|&w| w == 0.0));
+        let [x, ..] = fit(&grid, [2, 0, 0]);
+        // Two voxels: the line through both.
+        assert!((x[13] + 1.0).abs() < 1e-15 && (x[14] - 1.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,75 @@
+//! No sample leaves the range of its brick ([RAY-2]).
+
+use super::*;
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// For every kernel, on volumes of few values with jumps between them, where cubic kernels overshoot; positions crowd
+    /// at the faces of cells and in their middles, where the overshoot is largest.
+    #[test]
+    fn samples_stay_in_their_brick(
+        dims in prop::array::uniform3(prop_oneof![1usize..4, 8usize..20]),
+        seed in any::<u64>(),
+        levels in 1u64..5,
+        slope in prop_oneof![Just(1.0), Just(-0.37)],
+        kernel in prop::sample::select(&KERNELS[..]),
+        narrow in any::<bool>(),
+    ) {
+        let mut state = seed;
+        let mut next = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state >> 33
+        };
+        let voxels = (0..dims.iter().product()).map(|_| (next() % levels) as f64 * 77.7 - 100.1).collect();
+        let grid = Grid::with_spacing(dims, [1.0; 3]).unwrap();
+        let volume = Volume::new(grid, Voxels::F64(voxels), slope, 12.3).unwrap();
+        let how = Reconstruction { kernel, ..Default::default() };
+        let mut at = |n: usize| match (next() % 4, (n - 1) as f64) {
+            (0, end) => (next() % n as u64) as f64 * f64::from(u8::from(end > 0.0)),
+            (1, end) => ((next() % n as u64) as f64 + 0.5).min(end),
+            (_, end) => (next() as f64 / (1u64 << 31) as f64) * end,
+        };
+        let positions: Vec<DVec3> = (0..400).map(|_| DVec3::new(at(dims[0]), at(dims[1]), at(dims[2]))).collect();
+        if narrow {
+            stays::<f32>(&volume, how, &positions)?;
+        } else {
+            stays::<f64>(&volume, how, &positions)?;
+        }
+    }
+}
+
+fn stays<R: Real>(volume: &Volume, how: Reconstruction, positions: &[DVec3]) -> Result<(), TestCaseError> {
+    let field = Field::<R>::new(volume, how, Rung::Value).unwrap();
+    let bricks = field.bricks();
+    for &p in positions {
+        let q = Vec3::from_glam(p);
+        let (cell, value) = with_sampler!(field, |s| (s.cell(q), s.value(q).to_f64()));
+        let [lo, hi] = bricks.ranges[bricks.of_cell(cell)];
+        prop_assert!(lo <= value && value <= hi, "{:?} at {p}: {value} outside [{lo}, {hi}]", how.kernel);
+    }
+    Ok(())
+}
+
+/// Ranges are not so wide that nothing is ever skipped: of a constant the range is the constant to a few places, and
+/// trilinear ranges are those of the voxels.
+#[test]
+fn ranges_are_tight() {
+    let grid = Grid::with_spacing([20, 9, 9], [1.0; 3]).unwrap();
+    let voxels: Vec<f64> = indices([20, 9, 9]).map(|i| if i.x < 12.0 { 4.0 } else { 8.0 }).collect();
+    let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
+    let of = |kernel| {
+        let how = Reconstruction { kernel, ..Default::default() };
+        Field::<f64>::new(&volume, how, Rung::Value).unwrap().bricks()
+    };
+    let close = |[a, b]: [f64; 2], [c, d]: [f64; 2]| (a - c).abs() < 1e-6 && (b - d).abs() < 1e-6;
+    let trilinear = of(Kernel::Trilinear);
+    assert_eq!(trilinear.dims, [3, 1, 1]);
+    assert!(close(trilinear.ranges[0], [4.0, 4.0]) && close(trilinear.ranges[1], [4.0, 8.0]));
+    assert!(close(trilinear.ranges[2], [8.0, 8.0]));
+    assert!(close(of(Kernel::BsplineSmooth).ranges[0], [4.0, 4.0]));
+    let catmull_rom = of(Kernel::CatmullRom);
+    assert!(close(catmull_rom.ranges[0], [4.0, 4.0]));
+    assert!(close(catmull_rom.ranges[1], [6.0 - 2.0 * 1.954, 6.0 + 2.0 * 1.954]));
+}
