@@ -59,13 +59,7 @@ mod tests {
     use super::*;
 
     fn phong(light: DVec3) -> Phong<f64> {
-        Phong {
-            ambient: 0.3,
-            diffuse: 0.6,
-            specular: 0.25,
-            shininess: 2.0,
-            light: Vec3::from_glam(light.normalize()),
-        }
+        Phong { ambient: 0.3, diffuse: 0.6, specular: 0.25, shininess: 2.0, light: Vec3::from_glam(light.normalize()) }
     }
 
     #[test]

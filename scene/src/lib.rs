@@ -11,7 +11,6 @@ pub mod math;
 pub mod phantom;
 pub mod picture;
 pub mod plan;
-pub mod quantile;
 pub mod space;
 pub mod style;
 pub mod tables;

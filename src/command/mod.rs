@@ -3,6 +3,7 @@
 mod compare;
 mod completions;
 mod info;
+mod input;
 mod phantom;
 mod plan;
 mod probe;

@@ -199,7 +199,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             return;
         }
         if prepared.calls.kappa == KappaSource::Exact {
-            facts.kappa = curvature::kappa_v(g, h, prepared.outside, self.v_world);
+            facts.kappa = curvature::along_view(g, h, self.v_world, prepared.outside);
         }
         if prepared.calls.principal {
             let c = curvature::principal(g, h, prepared.outside);

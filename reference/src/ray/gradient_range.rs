@@ -2,7 +2,7 @@
 
 use crate::field::Sampler;
 use crate::number::{Real, Vec3};
-use drypoint_scene::quantile::quantile;
+use drypoint_scene::volume::histogram::quantile;
 use drypoint_scene::volume::{Mask, Volume};
 use rayon::prelude::*;
 

@@ -7,11 +7,20 @@ use crate::number::Real;
 pub struct Piecewise<R> {
     at: Vec<R>,
     opacity: Vec<R>,
-    /// Whether the segment that begins at a node has an opacity above 0 somewhere; the last is beyond the last node.
-    visible: Vec<bool>,
-    /// For each of equal parts of the range of nodes, a node at or before every value in it.
-    bucket: Vec<u32>,
+    /// What is known beforehand of each of equal parts of the range of nodes.
+    parts: Vec<Part>,
     per_value: R,
+}
+
+/// One part of the range, with its neighbours, so that no rounding of a value's part matters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    /// Every value in it has α_u = 0.
+    Invisible,
+    /// Every value in it lies in the segment that begins at this node.
+    Segment(u32),
+    /// A node lies in it: the segment is this one or a later one.
+    From(u32),
 }
 
 /// Where a value falls between the nodes: i(s) = node + w.
@@ -25,26 +34,35 @@ pub struct Place<R> {
     pub alpha_u: R,
 }
 
-const BUCKETS: usize = 256;
+/// Enough that parts with a node in them are rare; 8 KiB.
+const PARTS: usize = 1024;
 
 impl<R: Real> Piecewise<R> {
     /// Takes at least one node, in non-decreasing order of `at`.
     pub fn new(at: &[f64], opacity: &[f64]) -> Self {
         let at: Vec<R> = at.iter().map(|&a| R::from_f64(a)).collect();
         let opacity: Vec<R> = opacity.iter().map(|&a| R::from_f64(a)).collect();
-        let n = at.len();
-        let visible =
-            (0..n).map(|k| opacity[k] > R::ZERO || (k + 1 < n && opacity[k + 1] > R::ZERO)).collect::<Vec<_>>();
-        let width = at[n - 1].to_f64() - at[0].to_f64();
-        let per_value = R::from_f64(if width > 0.0 { BUCKETS as f64 / width } else { 0.0 });
-        let bucket = (0..=BUCKETS)
-            .map(|b| {
-                // One bucket back, so that no rounding of the index can begin after the value's own segment.
-                let edge = at[0].to_f64() + width * (b as f64 - 1.0) / BUCKETS as f64;
-                at.iter().rposition(|a| a.to_f64() <= edge).unwrap_or(0) as u32
+        let (first, last) = (at[0].to_f64(), at[at.len() - 1].to_f64());
+        let width = last - first;
+        let per_value = if width > 0.0 { PARTS as f64 / width } else { 0.0 };
+        let segment = |v: f64| at.iter().rposition(|a| a.to_f64() <= v).unwrap_or(0);
+        let parts = (0..=PARTS)
+            .map(|part| {
+                let edge = |n: f64| first + width * (part as f64 + n) / PARTS as f64;
+                let (from, to) = (segment(edge(-1.0)), segment(edge(2.0)));
+                let reached = &opacity[from..=(to + 1).min(at.len() - 1)];
+                if reached.iter().all(|&a| a <= R::ZERO) {
+                    Part::Invisible
+                } else if from == to && edge(-1.0) >= first {
+                    Part::Segment(from as u32)
+                } else {
+                    Part::From(from as u32)
+                }
             })
             .collect();
-        Self { at, opacity, visible, bucket, per_value }
+        // A width whose reciprocal is not finite is too narrow for parts.
+        let per_value = R::from_f64(if per_value.is_finite() { per_value } else { 0.0 });
+        Self { at, opacity, parts, per_value }
     }
 
     /// Where a value falls, or nothing where its α_u is 0.
@@ -52,12 +70,20 @@ impl<R: Real> Piecewise<R> {
     /// Values beyond the nodes take the end nodes; of two nodes at one value the later one holds there.
     #[inline(always)]
     pub fn locate(&self, s: R) -> Option<Place<R>> {
-        let k = self.segment(s);
-        if !self.visible[k] {
-            return None;
-        }
+        let last = self.at.len() - 1;
+        let k = if s >= self.at[last] {
+            last
+        } else if s < self.at[0] {
+            0
+        } else {
+            match self.parts[((s - self.at[0]) * self.per_value).split().0.min(PARTS)] {
+                Part::Invisible => return None,
+                Part::Segment(k) => k as usize,
+                Part::From(k) => self.search(s, k as usize),
+            }
+        };
         let (a, o) = (self.at[k], self.opacity[k]);
-        let (w, alpha_u) = if k + 1 == self.at.len() || s < a {
+        let (w, alpha_u) = if k == last || s < a {
             (R::ZERO, o)
         } else {
             let w = (s - a) / (self.at[k + 1] - a);
@@ -66,18 +92,8 @@ impl<R: Real> Piecewise<R> {
         (alpha_u > R::ZERO).then_some(Place { node: k, w, alpha_u })
     }
 
-    /// The last node at or below a value; the first where there is none.
-    #[inline(always)]
-    fn segment(&self, s: R) -> usize {
-        let last = self.at.len() - 1;
-        if s >= self.at[last] {
-            return last;
-        }
-        let offset = s - self.at[0];
-        if offset < R::ZERO {
-            return 0;
-        }
-        let mut k = self.bucket[(offset * self.per_value).split().0.min(BUCKETS)] as usize;
+    /// The last node at or below a value that is less than the last node's, beginning at one of its predecessors.
+    fn search(&self, s: R, mut k: usize) -> usize {
         while s >= self.at[k + 1] {
             k += 1;
         }
@@ -120,9 +136,33 @@ mod tests {
         assert!(f.locate(10.000_001).is_some());
     }
 
+    /// α_u by its definition.
+    fn opacity_of(at: &[f64], opacity: &[f64], s: f64) -> f64 {
+        match at.iter().rposition(|&a| a <= s) {
+            None => opacity[0],
+            Some(k) if k + 1 == at.len() => opacity[k],
+            Some(k) => opacity[k] + (s - at[k]) / (at[k + 1] - at[k]) * (opacity[k + 1] - opacity[k]),
+        }
+    }
+
     proptest! {
         #[test]
-        fn the_buckets_find_what_a_search_finds(
+        fn what_is_known_beforehand_changes_no_bit(
+            mut at in prop::collection::vec(0..40u8, 1..9),
+            opacity in prop::collection::vec(prop_oneof![Just(0.0), 0.0..=1.0f64], 9),
+            s in -5.0..45.0f64,
+        ) {
+            at.sort_unstable();
+            let at: Vec<f64> = at.into_iter().map(f64::from).collect();
+            let f = Piecewise::new(&at, &opacity[..at.len()]);
+            for s in [s, s.round()] {
+                let got = f.locate(s).map_or(0.0, |place| place.alpha_u);
+                prop_assert_eq!(got, opacity_of(&at, &opacity, s));
+            }
+        }
+
+        #[test]
+        fn the_parts_find_what_a_search_finds(
             mut at in prop::collection::vec(-1e3..1e3f64, 1..12),
             s in -2e3..2e3f64,
             pick in 0usize..12,
@@ -134,7 +174,7 @@ mod tests {
             let f = Piecewise::new(&at, &vec![1.0; at.len()]);
             for s in [s * factor, at[pick % at.len()]] {
                 let want = at.iter().rposition(|&a| a <= s).unwrap_or(0);
-                prop_assert_eq!(f.segment(s), want);
+                prop_assert_eq!(f.locate(s).map(|place| place.node), Some(want));
             }
         }
     }

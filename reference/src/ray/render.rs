@@ -230,9 +230,7 @@ fn look<R: Real>(inputs: &Inputs<'_>, view: &View, _voxel: f64) -> Result<Look<R
             colors: nodes.color.iter().map(|c| c.map(R::from_f64)).collect(),
             phong: inputs.scene.shading.as_ref().map(|s| Phong::new(s, inputs.scene.light, view)),
         }),
-        Function::Style { names, .. } => {
-            Err(RenderError::Styles { named: names.len(), given: inputs.styles.len() })
-        }
+        Function::Style { names, .. } => Err(RenderError::Styles { named: names.len(), given: inputs.styles.len() }),
     }
 }
 
@@ -353,9 +351,7 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
 /// straight colour is encoded and premultiplied, and the result is decoded ([VAL-3]).
 fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
     let through = 1.0 - a;
-    let add = |[br, bg, bb, ba]: Rgba| {
-        [r + through * br, g + through * bg, b + through * bb, a + through * ba]
-    };
+    let add = |[br, bg, bb, ba]: Rgba| [r + through * br, g + through * bg, b + through * bb, a + through * ba];
     if !encode {
         return add(behind);
     }

@@ -1,8 +1,8 @@
 //! Transfer functions over data values: piecewise-linear nodes, and what a range of values can make visible ([RAY-2]).
 
-use crate::quantile::quantile;
 use crate::tables::{Node, NodeColor, Transfer, Unit};
 use crate::volume::Volume;
+use crate::volume::histogram::quantiles;
 
 /// The nodes of a transfer function over data values, in non-decreasing order ([STF-3]).
 #[derive(Clone, Debug, PartialEq)]
@@ -85,8 +85,8 @@ fn values(nodes: &[Node], unit: Unit, [lo, hi]: [f64; 2], volume: &Volume) -> Ve
         Unit::Value => nodes.iter().map(|n| n.at).collect(),
         Unit::Normalized => nodes.iter().map(|n| lo + n.at * (hi - lo)).collect(),
         Unit::Percentile => {
-            let mut all = volume.valid_values();
-            nodes.iter().map(|n| quantile(&mut all, n.at / 100.0).unwrap_or(lo)).collect()
+            let shares: Vec<f64> = nodes.iter().map(|n| n.at / 100.0).collect();
+            quantiles(volume, &shares)
         }
     }
 }

@@ -170,12 +170,4 @@ impl Volume {
         let [nx, ny, _] = self.dims();
         self.slope * self.voxels.get((z * ny + y) * nx + x) + self.intercept
     }
-
-    /// The values of all voxels that were finite in the file, x fastest.
-    pub fn valid_values(&self) -> Vec<f64> {
-        let value = |i| self.slope * self.voxels.get(i) + self.intercept;
-        let [nx, ny, _] = self.dims();
-        let masked = |i: usize| self.mask.as_ref().is_some_and(|m| m.voxel([i % nx, i / nx % ny, i / (nx * ny)]));
-        (0..self.voxels.len()).filter(|&i| !masked(i)).map(value).collect()
-    }
 }
