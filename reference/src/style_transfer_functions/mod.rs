@@ -10,6 +10,7 @@
 pub mod contour;
 pub mod curvature_along_ray;
 pub mod frame;
+pub mod gallery;
 pub mod lookup;
 pub mod segments;
 pub mod sphere_map;
