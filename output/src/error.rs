@@ -74,6 +74,12 @@ pub enum OutputError {
         /// Width and height of the second.
         b: [usize; 2],
     },
+    /// A viewing distance at which FLIP's filters have no sensible size.
+    #[error("{pixels_per_degree} pixels per degree")]
+    Viewing {
+        /// What was asked for.
+        pixels_per_degree: f64,
+    },
     /// Two pictures without a channel of the same name.
     #[error("no channel is in both pictures: the first has {}, the second {}", list(a), list(b))]
     NothingInCommon {
@@ -103,6 +109,7 @@ impl OutputError {
             Self::Layer { .. } => "ask for the layer with --layers and a picture of at least one pixel",
             Self::Bits { .. } => "use 8 or 16",
             Self::Sizes { .. } => "render both with the same --size",
+            Self::Viewing { .. } => "use 1 to 1000 pixels per degree; a desk screen has about 67",
             Self::NothingInCommon { .. } => "write both pictures with the same --layers",
             Self::Sheet { .. } => "give at least one picture, and a cell from 16 to 4096 pixels",
         }

@@ -1,6 +1,6 @@
 //! A picture behind the volume ([IO-6]).
 
-use super::{Image, read_image};
+use super::{Colours, Image, read_image};
 use crate::OutputError;
 use drypoint_scene::color::Rgba;
 use std::path::Path;
@@ -8,9 +8,19 @@ use std::path::Path;
 /// The picture in a file, stretched to `width` × `height` pixels: linear premultiplied, row by row from the top.
 ///
 /// # Errors
-/// Those of [`read_image`], and [`OutputError::NoColour`].
+/// Those of [`read_image`], [`OutputError::NoColour`], and [`OutputError::Malformed`] for a colour that is not finite: it
+/// would spread through the picture as NaN.
 pub fn read_background(path: &Path, width: usize, height: usize) -> Result<Vec<Rgba>, OutputError> {
     let image = read_image(path)?;
+    for name in ["R", "G", "B", "A"] {
+        if image.channel(name).is_some_and(|channel| channel.iter().any(|v| !v.is_finite())) {
+            return Err(OutputError::Malformed {
+                path: path.into(),
+                field: name.into(),
+                fault: "it has values that are not finite".into(),
+            });
+        }
+    }
     stretch(&image, width, height)
         .ok_or_else(|| OutputError::NoColour { name: path.display().to_string(), found: image.names() })
 }
@@ -20,7 +30,7 @@ pub fn read_background(path: &Path, width: usize, height: usize) -> Result<Vec<R
 ///
 /// Pixel centre i + ½ of W lies at (i + ½)·w/W − ½ in the image's own pixels, whose outermost ones extend to its edge.
 pub fn stretch(image: &Image, width: usize, height: usize) -> Option<Vec<Rgba>> {
-    let (colours, alpha) = image.colour().filter(|_| image.width > 0 && image.height > 0)?;
+    let Colours { rgb, alpha } = image.colours().filter(|_| image.width > 0 && image.height > 0)?;
     let columns: Vec<_> = (0..width).map(|i| between(i, width, image.width)).collect();
     let mut pixels = Vec::with_capacity(width.saturating_mul(height));
     for j in 0..height {
@@ -32,7 +42,7 @@ pub fn stretch(image: &Image, width: usize, height: usize) -> Option<Vec<Rgba>> 
                 let lower = mix(channel[bottom + left], channel[bottom + right], u);
                 mix(upper, lower, v)
             };
-            let [r, g, b] = colours.map(sample);
+            let [r, g, b] = rgb.map(sample);
             pixels.push([r, g, b, alpha.map_or(1.0, sample)]);
         }
     }
@@ -54,6 +64,8 @@ fn mix(a: f64, b: f64, w: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exr::write_exr;
+    use drypoint_scene::picture::{Layer, LayerKind, Picture, Provenance};
 
     fn image(width: usize, height: usize, value: impl Fn(usize, usize) -> f64, alpha: Option<f64>) -> Image {
         let plane: Vec<f64> =
@@ -96,13 +108,24 @@ mod tests {
     fn what_has_no_colours_is_named() {
         let grey = Image { width: 1, height: 1, channels: vec![("Y".into(), vec![1.0])] };
         assert!(stretch(&grey, 2, 2).is_none());
+        let error = read_written(LayerKind::Z, 1.0).unwrap_err();
+        assert!(error.to_string().ends_with("b.exr: has no channels R, G and B; it has Z"), "{error}");
+    }
+
+    #[test]
+    fn what_is_not_finite_is_refused() {
+        assert_eq!(read_written(LayerKind::Beauty, 0.5).unwrap(), [[0.5; 4]; 4]);
+        let error = read_written(LayerKind::Beauty, f64::INFINITY).unwrap_err();
+        assert!(error.to_string().ends_with("b.exr: R: it has values that are not finite"), "{error}");
+    }
+
+    /// A picture of one pixel, stretched to four.
+    fn read_written(kind: LayerKind, value: f64) -> Result<Vec<Rgba>, OutputError> {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("depth.exr");
-        let layer =
-            drypoint_scene::picture::Layer { kind: drypoint_scene::picture::LayerKind::Z, channels: vec![vec![1.0]] };
-        let picture = drypoint_scene::picture::Picture { width: 1, height: 1, layers: vec![layer] };
-        crate::exr::write_exr(&picture, &Default::default(), &path).unwrap();
-        let error = read_background(&path, 2, 2).unwrap_err();
-        assert!(error.to_string().ends_with("depth.exr: has no channels R, G and B; it has Z"), "{error}");
+        let path = folder.path().join("b.exr");
+        let layer = Layer { kind, channels: vec![vec![value]; kind.channels().len()] };
+        let picture = Picture { width: 1, height: 1, layers: vec![layer] };
+        write_exr(&picture, &Provenance::default(), &path).unwrap();
+        read_background(&path, 2, 2)
     }
 }

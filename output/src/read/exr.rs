@@ -12,7 +12,7 @@ use std::path::Path;
 /// Decodes the largest level of every part.
 pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     let broken = |field: &str, fault: String| OutputError::Malformed { path: path.into(), field: field.into(), fault };
-    // The decoder answers a few kinds of damage with a panic; a bad file must be an error all the same.
+    // The decoder asserts its invariants by panics. Should a damaged file reach one, it is an error all the same.
     let image = catch_unwind(AssertUnwindSafe(|| -> Result<FlatImage, OutputError> {
         let chunks = exr::block::read(Cursor::new(bytes), false).map_err(|e| broken("EXR", e.to_string()))?;
         check_headers(chunks.headers(), bytes, path)?;
