@@ -46,7 +46,7 @@ pub enum OutputError {
     },
     /// A picture in colour was needed.
     #[error("{name}: has no channels R, G and B; it has {}", list(found))]
-    NoColour {
+    NoColor {
         /// The file, or the label, of the picture.
         name: String,
         /// The channels that it has.
@@ -105,7 +105,7 @@ impl OutputError {
             Self::UnknownFormat { .. } => "convert the picture to PNG or EXR",
             Self::Malformed { .. } => "write the picture again, as a plain PNG or a flat scan-line EXR",
             Self::TooLarge { .. } => "the file is damaged or cut off: write or fetch it again",
-            Self::NoColour { .. } => "give a picture with colour channels named R, G and B",
+            Self::NoColor { .. } => "give a picture with colour channels named R, G and B",
             Self::Layer { .. } => "ask for the layer with --layers and a picture of at least one pixel",
             Self::Bits { .. } => "use 8 or 16",
             Self::Sizes { .. } => "render both with the same --size",

@@ -2,7 +2,7 @@
 
 use crate::OutputError;
 use crate::raster::coverage;
-use crate::read::{Colours, Image};
+use crate::read::{Colors, Image};
 use crate::text::{CAP_HEIGHT, DESCENT, WEIGHT, fit, strokes, width};
 use drypoint_scene::color::srgb_to_linear;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
@@ -33,7 +33,7 @@ const INK: f64 = 0.1;
 /// opaque `beauty`.
 ///
 /// # Errors
-/// [`OutputError::Sheet`] for no pictures, an empty one, or a sheet that is too large, [`OutputError::NoColour`] with
+/// [`OutputError::Sheet`] for no pictures, an empty one, or a sheet that is too large, [`OutputError::NoColor`] with
 /// the label.
 pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, OutputError> {
     let fault = |fault: String| OutputError::Sheet { fault };
@@ -68,7 +68,7 @@ pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, Ou
         for (column, ((label, image), &[w, h])) in pictures.iter().zip(sizes).enumerate() {
             let left = margin + column * (cell + margin);
             let pixels = scaled(image, w, h)
-                .ok_or_else(|| OutputError::NoColour { name: label.clone(), found: image.names() })?;
+                .ok_or_else(|| OutputError::NoColor { name: label.clone(), found: image.names() })?;
             ground.lay(&pixels, w, [left + (cell - w) / 2, top + (height - h) / 2]);
             ground.write(label, [left, top + height], [cell, label_height], cap);
         }
@@ -88,7 +88,7 @@ fn fitted(image: &Image, cell: usize) -> Option<[usize; 2]> {
 /// Linear premultiplied pixels of the image at another size: the mean over the area that each new pixel covers. Nothing
 /// if the image has no colours.
 fn scaled(image: &Image, width: usize, height: usize) -> Option<Vec<[f64; 4]>> {
-    let Colours { rgb: [r, g, b], alpha } = image.colours()?;
+    let Colors { rgb: [r, g, b], alpha } = image.colors()?;
     let opaque;
     let alpha = match alpha {
         Some(alpha) => alpha,

@@ -4,7 +4,7 @@ pub mod difference;
 pub mod flip;
 
 use crate::OutputError;
-use crate::read::{Colours, Image};
+use crate::read::{Colors, Image};
 use serde::Serialize;
 use std::fmt;
 
@@ -118,7 +118,7 @@ pub fn compare(a: &Image, b: &Image, options: &Options) -> Result<Comparison, Ou
     if width * height == 0 {
         return Err(OutputError::Layer { layer: "beauty".into(), fault: "the pictures have no pixels".into() });
     }
-    let flip = match (a.colours(), b.colours()) {
+    let flip = match (a.colors(), b.colors()) {
         (Some(_), Some(_)) => Some(flip::flip(a, b, options.pixels_per_degree)?.mean()),
         _ => None,
     };
@@ -165,7 +165,7 @@ pub fn compare(a: &Image, b: &Image, options: &Options) -> Result<Comparison, Ou
 /// The names of an image's channels, with the α that an image with colours has even if it is not written.
 fn channels(image: &Image) -> Vec<String> {
     let mut names = image.names();
-    if matches!(image.colours(), Some(Colours { alpha: None, .. })) {
+    if matches!(image.colors(), Some(Colors { alpha: None, .. })) {
         names.push("A".into());
     }
     names

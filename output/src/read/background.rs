@@ -1,6 +1,6 @@
 //! A picture behind the volume ([IO-6]).
 
-use super::{Colours, Image, read_image};
+use super::{Colors, Image, read_image};
 use crate::OutputError;
 use drypoint_scene::color::Rgba;
 use std::path::Path;
@@ -8,7 +8,7 @@ use std::path::Path;
 /// The picture in a file, stretched to `width` × `height` pixels: linear premultiplied, row by row from the top.
 ///
 /// # Errors
-/// Those of [`read_image`], [`OutputError::NoColour`], and [`OutputError::Malformed`] for a colour that is not finite: it
+/// Those of [`read_image`], [`OutputError::NoColor`], and [`OutputError::Malformed`] for a colour that is not finite: it
 /// would spread through the picture as NaN.
 pub fn read_background(path: &Path, width: usize, height: usize) -> Result<Vec<Rgba>, OutputError> {
     let image = read_image(path)?;
@@ -22,7 +22,7 @@ pub fn read_background(path: &Path, width: usize, height: usize) -> Result<Vec<R
         }
     }
     stretch(&image, width, height)
-        .ok_or_else(|| OutputError::NoColour { name: path.display().to_string(), found: image.names() })
+        .ok_or_else(|| OutputError::NoColor { name: path.display().to_string(), found: image.names() })
 }
 
 /// The colours of an image at the pixel centres of a frame that it is stretched to, bilinearly in linear premultiplied
@@ -30,7 +30,7 @@ pub fn read_background(path: &Path, width: usize, height: usize) -> Result<Vec<R
 ///
 /// Pixel centre i + ½ of W lies at (i + ½)·w/W − ½ in the image's own pixels, whose outermost ones extend to its edge.
 pub fn stretch(image: &Image, width: usize, height: usize) -> Option<Vec<Rgba>> {
-    let Colours { rgb, alpha } = image.colours().filter(|_| image.width > 0 && image.height > 0)?;
+    let Colors { rgb, alpha } = image.colors().filter(|_| image.width > 0 && image.height > 0)?;
     let columns: Vec<_> = (0..width).map(|i| between(i, width, image.width)).collect();
     let mut pixels = Vec::with_capacity(width.saturating_mul(height));
     for j in 0..height {

@@ -25,7 +25,7 @@ pub struct Image {
 
 /// The colours of an [`Image`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Colours<'a> {
+pub struct Colors<'a> {
     /// Red, green and blue, linear and premultiplied.
     pub rgb: [&'a [f64]; 3],
     /// α; an image without it is opaque.
@@ -39,9 +39,9 @@ impl Image {
     }
 
     /// Red, green, blue and, where the picture has it, α; nothing if a colour is missing.
-    pub fn colours(&self) -> Option<Colours<'_>> {
+    pub fn colors(&self) -> Option<Colors<'_>> {
         let rgb = [self.channel("R")?, self.channel("G")?, self.channel("B")?];
-        Some(Colours { rgb, alpha: self.channel("A") })
+        Some(Colors { rgb, alpha: self.channel("A") })
     }
 
     /// The names of the channels, in their order.
@@ -179,6 +179,6 @@ mod tests {
         let image = Image::from(&picture());
         assert_eq!(image.names(), ["R", "G", "B", "A", "Z"]);
         assert_eq!(image.channel("Z").unwrap(), picture().layers[1].channels[0]);
-        assert!(image.colours().unwrap().alpha.is_some());
+        assert!(image.colors().unwrap().alpha.is_some());
     }
 }

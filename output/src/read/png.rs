@@ -65,7 +65,7 @@ fn raw_bytes(info: &Info<'_>) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::read::Colours;
+    use crate::read::Colors;
     use png::Encoder;
 
     fn file(width: u32, color: ColorType, depth: BitDepth, data: &[u8], palette: Option<(&[u8], &[u8])>) -> Vec<u8> {
@@ -89,7 +89,7 @@ mod tests {
 
     fn pixels(bytes: &[u8]) -> Vec<[f64; 4]> {
         let image = decode(bytes, Path::new("a.png")).unwrap();
-        let Colours { rgb: [r, g, b], alpha } = image.colours().unwrap();
+        let Colors { rgb: [r, g, b], alpha } = image.colors().unwrap();
         (0..r.len()).map(|i| [r[i], g[i], b[i], alpha.unwrap()[i]]).collect()
     }
 

@@ -15,7 +15,7 @@ mod color;
 mod filter;
 
 use crate::OutputError;
-use crate::read::{Colours, Image};
+use crate::read::{Colors, Image};
 use color::{hunt_lab, lab_distance, linear_to_ycxcz, ycxcz_to_linear};
 use drypoint_scene::math;
 use filter::{Kernels, separable};
@@ -54,7 +54,7 @@ impl Map {
 ///
 /// # Errors
 /// [`OutputError::Viewing`], [`OutputError::Sizes`], [`OutputError::Layer`] for pictures without pixels,
-/// [`OutputError::NoColour`] for one without colours.
+/// [`OutputError::NoColor`] for one without colours.
 pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputError> {
     if !(1.0..=1000.0).contains(&pixels_per_degree) {
         return Err(OutputError::Viewing { pixels_per_degree });
@@ -68,7 +68,7 @@ pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputE
     }
     let kernels = Kernels::new(pixels_per_degree);
     let [a, b] = [("the first picture", a), ("the second picture", b)].map(|(name, image)| {
-        let rgb = seen(image).ok_or_else(|| OutputError::NoColour { name: name.into(), found: image.names() })?;
+        let rgb = seen(image).ok_or_else(|| OutputError::NoColor { name: name.into(), found: image.names() })?;
         Ok(Eye::new(&rgb, width, height, &kernels))
     });
     let (a, b): (Eye, Eye) = (a?, b?);
@@ -85,7 +85,7 @@ pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputE
 
 /// The linear colours that a viewer sees: laid on white, clamped to [0, 1]. What is no number counts as 0.
 fn seen(image: &Image) -> Option<Vec<[f64; 3]>> {
-    let Colours { rgb, alpha } = image.colours()?;
+    let Colors { rgb, alpha } = image.colors()?;
     let white = |i: usize| alpha.map_or(0.0, |a| 1.0 - unit(a[i]));
     Some((0..image.width * image.height).map(|i| rgb.map(|c| unit(c[i] + white(i)))).collect())
 }
@@ -179,7 +179,7 @@ mod tests {
     }
 
     fn checker(x: usize, y: usize) -> [u8; 3] {
-        [if (x / 4 + y / 4) % 2 == 0 { 230 } else { 20 }; 3]
+        [if (x / 4 + y / 4).is_multiple_of(2) { 230 } else { 20 }; 3]
     }
 
     fn shifted(x: usize, y: usize) -> [u8; 3] {
@@ -337,7 +337,7 @@ mod tests {
         let (a, wide) = (image(2, ramp, 2), image(3, ramp, 2));
         let grey = Image { width: 2, height: 2, channels: vec![("Y".into(), vec![0.0; 4])] };
         assert!(matches!(flip(&a, &wide, 67.0), Err(OutputError::Sizes { .. })));
-        assert!(matches!(flip(&a, &grey, 67.0), Err(OutputError::NoColour { .. })));
+        assert!(matches!(flip(&a, &grey, 67.0), Err(OutputError::NoColor { .. })));
         let none = image(0, ramp, 0);
         assert!(matches!(flip(&none, &none, 67.0), Err(OutputError::Layer { .. })));
         for bad in [0.0, -1.0, f64::NAN, 1e9] {
