@@ -1,0 +1,122 @@
+//! What can go wrong with a file of a picture.
+
+use std::path::PathBuf;
+
+/// A fault in writing, reading, comparing or laying out pictures. The message says what and where,
+/// [`OutputError::help`] what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The file could not be opened, read, written or renamed.
+    #[error("{}: cannot be {action}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// "read" or "written".
+        action: &'static str,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file begins like no format that is read here.
+    #[error("{}: neither a PNG nor an EXR file: it begins with the bytes {found:02x?}", path.display())]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+        /// Its first bytes, eight at most.
+        found: Vec<u8>,
+    },
+    /// The file is damaged, or uses a part of its format that is not supported.
+    #[error("{}: {field}: {fault}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The part of the file.
+        field: String,
+        /// What was found there.
+        fault: String,
+    },
+    /// The header promises more pixels than a file of that length can hold, so nothing was allocated.
+    #[error("{}: its header claims {claimed} bytes of pixels, more than {length} bytes of file can hold", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Bytes that the pixels would take.
+        claimed: u64,
+        /// Length of the file in bytes.
+        length: u64,
+    },
+    /// A picture in colour was needed.
+    #[error("{name}: has no channels R, G and B; it has {}", list(found))]
+    NoColor {
+        /// The file, or the label, of the picture.
+        name: String,
+        /// The channels that it has.
+        found: Vec<String>,
+    },
+    /// A picture without pixels, or a layer whose channels do not fit it.
+    #[error("layer {layer}: {fault}")]
+    Layer {
+        /// Name of the layer.
+        layer: String,
+        /// What does not fit.
+        fault: String,
+    },
+    /// A depth that PNG has for no colour picture.
+    #[error("picture.bits: {bits} bits a channel")]
+    Bits {
+        /// What was asked for.
+        bits: u8,
+    },
+    /// Pictures of different sizes cannot be compared.
+    #[error("the pictures differ in size: {}x{} and {}x{}", a[0], a[1], b[0], b[1])]
+    Sizes {
+        /// Width and height of the first.
+        a: [usize; 2],
+        /// Width and height of the second.
+        b: [usize; 2],
+    },
+    /// A viewing distance at which FLIP's filters have no sensible size.
+    #[error("{pixels_per_degree} pixels per degree")]
+    Viewing {
+        /// What was asked for.
+        pixels_per_degree: f64,
+    },
+    /// Two pictures without a channel of the same name.
+    #[error("no channel is in both pictures: the first has {}, the second {}", list(a), list(b))]
+    NothingInCommon {
+        /// Channels of the first.
+        a: Vec<String>,
+        /// Channels of the second.
+        b: Vec<String>,
+    },
+    /// A contact sheet that cannot be laid out.
+    #[error("sheet: {fault}")]
+    Sheet {
+        /// What is wrong with it.
+        fault: String,
+    },
+}
+
+impl OutputError {
+    /// One line that says what to do.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Io { action: "read", .. } => "check that the file exists and may be read",
+            Self::Io { .. } => "check that the folder exists, may be written to and has room",
+            Self::UnknownFormat { .. } => "convert the picture to PNG or EXR",
+            Self::Malformed { .. } => "write the picture again, as a plain PNG or a flat scan-line EXR",
+            Self::TooLarge { .. } => "the file is damaged or cut off: write or fetch it again",
+            Self::NoColor { .. } => "give a picture with colour channels named R, G and B",
+            Self::Layer { .. } => "ask for the layer with --layers and a picture of at least one pixel",
+            Self::Bits { .. } => "use 8 or 16",
+            Self::Sizes { .. } => "render both with the same --size",
+            Self::Viewing { .. } => "use 1 to 1000 pixels per degree; a desk screen has about 67",
+            Self::NothingInCommon { .. } => "write both pictures with the same --layers",
+            Self::Sheet { .. } => "give at least one picture, and a cell from 16 to 4096 pixels",
+        }
+    }
+}
+
+/// Names in a row, for a message.
+fn list(names: &[String]) -> String {
+    if names.is_empty() { "none".into() } else { names.join(", ") }
+}

@@ -1,0 +1,53 @@
+//! Layers that fit their picture: checked before anything is written.
+
+use crate::OutputError;
+use drypoint_scene::picture::{Layer, LayerKind, Picture};
+
+/// The layer of that kind, if it is there and fits.
+pub(crate) fn fitting(picture: &Picture, kind: LayerKind) -> Result<&Layer, OutputError> {
+    let layer = picture.layer(kind).ok_or_else(|| fault(kind, "the picture does not have it".into()))?;
+    check(picture, layer)?;
+    Ok(layer)
+}
+
+/// Checks that the picture has pixels, and the layer as many channels as its kind, each of one number a pixel.
+pub(crate) fn check(picture: &Picture, layer: &Layer) -> Result<(), OutputError> {
+    let (width, height, names) = (picture.width, picture.height, layer.kind.channels());
+    let pixels = width.checked_mul(height).filter(|&n| n > 0);
+    let lengths: Vec<usize> = layer.channels.iter().map(Vec::len).collect();
+    if lengths.len() == names.len() && lengths.iter().all(|&n| Some(n) == pixels) {
+        Ok(())
+    } else {
+        Err(fault(layer.kind, format!("channels of {lengths:?} numbers for {names:?} of {width}x{height} pixels")))
+    }
+}
+
+/// A side in the range 1 … 2³¹ − 1 that both formats share.
+pub(crate) fn side(pixels: usize, kind: LayerKind) -> Result<u32, OutputError> {
+    match u32::try_from(pixels) {
+        Ok(n) if n > 0 && n < 1 << 31 => Ok(n),
+        _ => Err(fault(kind, format!("a side of {pixels} pixels"))),
+    }
+}
+
+/// What is wrong with a layer.
+pub(crate) fn fault(kind: LayerKind, fault: String) -> OutputError {
+    OutputError::Layer { layer: kind.name().into(), fault }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let layer = |n: usize| Layer { kind: LayerKind::Z, channels: vec![vec![0.0; n]] };
+        let picture = |width, layers| Picture { width, height: 2, layers };
+        assert!(fitting(&picture(3, vec![layer(6)]), LayerKind::Z).is_ok());
+        for (width, layers) in [(3, vec![layer(5)]), (0, vec![layer(0)]), (3, vec![]), (usize::MAX, vec![layer(6)])] {
+            assert!(fitting(&picture(width, layers), LayerKind::Z).is_err());
+        }
+        let beauty = Layer { kind: LayerKind::Beauty, channels: vec![vec![0.0; 6]; 3] };
+        assert!(fitting(&picture(3, vec![beauty]), LayerKind::Beauty).is_err());
+    }
+}

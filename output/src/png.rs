@@ -1,0 +1,137 @@
+//! Writing PNG ([IO-2], [VAL-3]).
+
+use crate::encode::{quantize, straight_srgb};
+use crate::layers::{fault, fitting, side};
+use crate::{OutputError, atomic};
+use drypoint_scene::picture::{LayerKind, Picture, Provenance};
+use png::text_metadata::ITXtChunk;
+use std::path::Path;
+
+/// Keywords of the text chunks: the program and its version, the scene's hash, the plan.
+pub const KEYWORDS: [&str; 3] = ["Software", "Drypoint scene", "Drypoint plan"];
+
+/// Writes the layer `beauty` as an RGBA PNG of 8 or 16 bits a channel, straight alpha, sRGB.
+///
+/// Text chunks carry the provenance, an `sRGB` chunk the colour space; there is no date, so the same picture gives the
+/// same bytes. The file appears whole or not at all.
+///
+/// # Errors
+/// [`OutputError::Bits`], [`OutputError::Layer`] when there is no beauty or it does not fit the picture's size,
+/// [`OutputError::Io`].
+pub fn write_png(picture: &Picture, bits: u8, provenance: &Provenance, path: &Path) -> Result<(), OutputError> {
+    atomic::write(path, &encode_png(picture, bits, provenance)?)
+}
+
+/// The bytes of [`write_png`].
+///
+/// # Errors
+/// As [`write_png`], but for the file's.
+pub fn encode_png(picture: &Picture, bits: u8, provenance: &Provenance) -> Result<Vec<u8>, OutputError> {
+    let depth = match bits {
+        8 => png::BitDepth::Eight,
+        16 => png::BitDepth::Sixteen,
+        _ => return Err(OutputError::Bits { bits }),
+    };
+    let channels = &fitting(picture, LayerKind::Beauty)?.channels;
+    let pixels =
+        (0..channels[0].len()).map(|i| straight_srgb([channels[0][i], channels[1][i], channels[2][i], channels[3][i]]));
+    let data: Vec<u8> = if bits == 8 {
+        pixels.flat_map(|p| p.map(|c| quantize(c, 255) as u8)).collect()
+    } else {
+        pixels.flat_map(|p| p.map(|c| quantize(c, 65535).to_be_bytes())).flatten().collect()
+    };
+
+    let [width, height] = [side(picture.width, LayerKind::Beauty)?, side(picture.height, LayerKind::Beauty)?];
+    let mut info = png::Info::with_size(width, height);
+    info.color_type = png::ColorType::Rgba;
+    info.bit_depth = depth;
+    info.srgb = Some(png::SrgbRenderingIntent::Perceptual);
+    for (keyword, text) in KEYWORDS.into_iter().zip([&provenance.software, &provenance.scene_hash, &provenance.plan]) {
+        info.utf8_text.push(ITXtChunk::new(keyword, text.as_str()));
+    }
+    let mut bytes = Vec::new();
+    write_chunks(&mut bytes, info, &data).map_err(|error| fault(LayerKind::Beauty, error.to_string()))?;
+    Ok(bytes)
+}
+
+fn write_chunks(bytes: &mut Vec<u8>, info: png::Info<'_>, data: &[u8]) -> Result<(), png::EncodingError> {
+    let mut writer = png::Encoder::with_info(bytes, info)?.write_header()?;
+    writer.write_image_data(data)?;
+    writer.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::picture::Layer;
+
+    fn picture(pixels: &[[f64; 4]]) -> Picture {
+        let channels = (0..4).map(|c| pixels.iter().map(|p| p[c]).collect()).collect();
+        Picture { width: pixels.len(), height: 1, layers: vec![Layer { kind: LayerKind::Beauty, channels }] }
+    }
+
+    fn provenance() -> Provenance {
+        Provenance {
+            software: "Drypoint 0.1.0".into(),
+            scene_hash: "00ff".into(),
+            plan: "κ along v: from [contours]\nvalue".into(),
+        }
+    }
+
+    /// Names of the chunks in a PNG, and its pixels without any transformation.
+    fn read(bytes: &[u8]) -> (Vec<String>, png::Info<'static>, Vec<u8>) {
+        let (mut names, mut at) = (Vec::new(), 8);
+        while at < bytes.len() {
+            let length = u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+            names.push(String::from_utf8(bytes[at + 4..at + 8].to_vec()).unwrap());
+            at += 12 + length;
+        }
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut data = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut data).unwrap();
+        (names, reader.info().clone(), data)
+    }
+
+    #[test]
+    fn pixels_of_both_depths() {
+        // Worked out in `encode`: straight, encoded, ties to even, clamped.
+        let pixels = [[0.5, 0.25, 0.0, 0.5], [0.3, 0.2, 0.1, 0.0], [-1.0, 2.0, 0.215_860_500_1, 1.0]];
+        let (_, info, data) = read(&encode_png(&picture(&pixels), 8, &provenance()).unwrap());
+        assert_eq!((info.bit_depth, info.color_type), (png::BitDepth::Eight, png::ColorType::Rgba));
+        assert_eq!(data, [255, 188, 0, 128, 0, 0, 0, 0, 0, 255, 128, 255]);
+        let (_, info, data) = read(&encode_png(&picture(&pixels), 16, &provenance()).unwrap());
+        assert_eq!(info.bit_depth, png::BitDepth::Sixteen);
+        let words: Vec<_> = data.chunks(2).map(|w| u16::from_be_bytes([w[0], w[1]])).collect();
+        assert_eq!(words, [65535, 48192, 0, 32768, 0, 0, 0, 0, 0, 65535, 32896, 65535]);
+    }
+
+    #[test]
+    fn provenance_and_colour_space_but_no_date() {
+        let bytes = encode_png(&picture(&[[1.0; 4]]), 8, &provenance()).unwrap();
+        let (names, info, _) = read(&bytes);
+        assert_eq!(names, ["IHDR", "sRGB", "iTXt", "iTXt", "iTXt", "IDAT", "IEND"]);
+        let texts: Vec<_> =
+            info.utf8_text.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().unwrap())).collect();
+        let expected = provenance();
+        let expected = [expected.software, expected.scene_hash, expected.plan];
+        assert_eq!(texts, KEYWORDS.map(String::from).into_iter().zip(expected).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn same_picture_same_bytes() {
+        let picture = picture(&[[0.1, 0.2, 0.3, 0.4], [0.5; 4]]);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        write_png(&picture, 16, &provenance(), &path).unwrap();
+        assert_eq!(std::fs::read(path).unwrap(), encode_png(&picture, 16, &provenance()).unwrap());
+    }
+
+    #[test]
+    fn bad_requests_are_errors() {
+        assert!(matches!(encode_png(&picture(&[[1.0; 4]]), 12, &provenance()), Err(OutputError::Bits { bits: 12 })));
+        assert!(matches!(
+            encode_png(&Picture { width: 1, height: 1, layers: vec![] }, 8, &provenance()),
+            Err(OutputError::Layer { .. })
+        ));
+    }
+}

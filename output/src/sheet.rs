@@ -1,0 +1,273 @@
+//! Contact sheets: pictures side by side on white, each with its label.
+
+use crate::OutputError;
+use crate::raster::coverage;
+use crate::read::{Colors, Image};
+use crate::text::{CAP_HEIGHT, DESCENT, WEIGHT, fit, strokes, width};
+use drypoint_scene::color::srgb_to_linear;
+use drypoint_scene::picture::{Layer, LayerKind, Picture};
+
+/// How a sheet is laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Pictures in a row; left out: as many as make the sheet about as wide as high.
+    pub columns: Option<usize>,
+    /// Pixels that a picture may take at most in width and height, 16 to 4096.
+    pub cell: usize,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self { columns: None, cell: 256 }
+    }
+}
+
+/// The largest sheet, in pixels: two gibibytes of channels.
+const LARGEST: usize = 1 << 26;
+
+/// sRGB code of the labels' ink.
+const INK: f64 = 0.1;
+
+/// Lays out labelled pictures in rows on white. Each is scaled to fit its cell, by the mean over the area of each new
+/// pixel in linear premultiplied light, and stands in the middle of it, its label below. The sheet's only layer is an
+/// opaque `beauty`.
+///
+/// # Errors
+/// [`OutputError::Sheet`] for no pictures, an empty one, or a sheet that is too large, [`OutputError::NoColor`] with
+/// the label.
+pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, OutputError> {
+    let fault = |fault: String| OutputError::Sheet { fault };
+    if pictures.is_empty() {
+        return Err(fault("there are no pictures".into()));
+    }
+    let cell = layout.cell;
+    if !(16..=4096).contains(&cell) {
+        return Err(fault(format!("a cell of {cell} pixels")));
+    }
+    let root = (1..).find(|n| n * n >= pictures.len()).unwrap_or(1);
+    let columns = layout.columns.unwrap_or(root).clamp(1, pictures.len());
+    let sizes = pictures
+        .iter()
+        .map(|(label, image)| fitted(image, cell).ok_or_else(|| fault(format!("{label} has no pixels"))))
+        .collect::<Result<Vec<_>, _>>()?;
+
+    // Everything is measured by the cell, but letters never get too small to read.
+    let margin = (cell / 16).max(8);
+    let cap = (cell / 26).max(9);
+    let rows: Vec<usize> = sizes.chunks(columns).map(|row| row.iter().map(|s| s[1]).max().unwrap_or(0)).collect();
+    let label_height = 2 * cap + cap / 2;
+    let total_width = margin + columns * (cell + margin);
+    let total_height = margin + rows.iter().map(|height| height + label_height + margin).sum::<usize>();
+    if total_width.saturating_mul(total_height) > LARGEST {
+        return Err(fault(format!("{total_width}x{total_height} pixels are more than {LARGEST}")));
+    }
+
+    let mut ground = Ground::white(total_width, total_height);
+    let mut top = margin;
+    for ((pictures, sizes), height) in pictures.chunks(columns).zip(sizes.chunks(columns)).zip(rows) {
+        for (column, ((label, image), &[w, h])) in pictures.iter().zip(sizes).enumerate() {
+            let left = margin + column * (cell + margin);
+            let pixels = scaled(image, w, h)
+                .ok_or_else(|| OutputError::NoColor { name: label.clone(), found: image.names() })?;
+            ground.lay(&pixels, w, [left + (cell - w) / 2, top + (height - h) / 2]);
+            ground.write(label, [left, top + height], [cell, label_height], cap);
+        }
+        top += height + label_height + margin;
+    }
+    Ok(ground.into_picture())
+}
+
+/// The largest size of the image's proportions within a square cell.
+fn fitted(image: &Image, cell: usize) -> Option<[usize; 2]> {
+    let (w, h) = (image.width, image.height);
+    let longer = w.max(h);
+    let side = |n: usize| ((n as f64 * cell as f64 / longer as f64).round() as usize).max(1);
+    (w.min(h) > 0).then(|| [side(w), side(h)])
+}
+
+/// Linear premultiplied pixels of the image at another size: the mean over the area that each new pixel covers. Nothing
+/// if the image has no colours.
+fn scaled(image: &Image, width: usize, height: usize) -> Option<Vec<[f64; 4]>> {
+    let Colors { rgb: [r, g, b], alpha } = image.colors()?;
+    let opaque;
+    let alpha = match alpha {
+        Some(alpha) => alpha,
+        None => {
+            opaque = vec![1.0; image.width * image.height];
+            &opaque
+        }
+    };
+    let [across, down] = [shares(image.width, width), shares(image.height, height)];
+    let mut rows = vec![[0.0; 4]; width * image.height];
+    for (y, row) in rows.chunks_exact_mut(width).enumerate() {
+        for (pixel, (first, weights)) in row.iter_mut().zip(&across) {
+            for (i, weight) in (y * image.width + first..).zip(weights) {
+                for (sum, channel) in pixel.iter_mut().zip([r, g, b, alpha]) {
+                    *sum += weight * channel[i];
+                }
+            }
+        }
+    }
+    let mut pixels = vec![[0.0; 4]; width * height];
+    for (row, (first, weights)) in pixels.chunks_exact_mut(width).zip(&down) {
+        for (source, weight) in rows[first * width..].chunks_exact(width).zip(weights) {
+            for (pixel, source) in row.iter_mut().zip(source) {
+                for (sum, value) in pixel.iter_mut().zip(source) {
+                    *sum += weight * value;
+                }
+            }
+        }
+    }
+    Some(pixels)
+}
+
+/// For each of `to` equal parts of `from` pixels: the first pixel that it touches, and what share of the part lies in
+/// that and the following ones.
+fn shares(from: usize, to: usize) -> Vec<(usize, Vec<f64>)> {
+    // In units of 1/to of a pixel all ends are whole, so no share is lost to rounding.
+    (0..to)
+        .map(|part| {
+            let (begin, end) = (part * from, (part + 1) * from);
+            let (first, last) = (begin / to, end.div_ceil(to));
+            let share = |pixel: usize| end.min((pixel + 1) * to) - begin.max(pixel * to);
+            (first, (first..last).map(|pixel| share(pixel) as f64 / from as f64).collect())
+        })
+        .collect()
+}
+
+/// An opaque linear picture that things are laid on.
+struct Ground {
+    width: usize,
+    height: usize,
+    channels: [Vec<f64>; 3],
+}
+
+impl Ground {
+    fn white(width: usize, height: usize) -> Self {
+        Self { width, height, channels: [0, 1, 2].map(|_| vec![1.0; width * height]) }
+    }
+
+    /// Composites premultiplied rows of `width` pixels, the first at `corner`.
+    fn lay(&mut self, pixels: &[[f64; 4]], width: usize, corner: [usize; 2]) {
+        for (y, row) in pixels.chunks_exact(width).enumerate() {
+            let start = (corner[1] + y) * self.width + corner[0];
+            for (i, &[r, g, b, a]) in (start..).zip(row) {
+                for (channel, c) in self.channels.iter_mut().zip([r, g, b]) {
+                    channel[i] = c + (1.0 - a) * channel[i];
+                }
+            }
+        }
+    }
+
+    /// Writes a line of text with capitals `cap` pixels high into the middle of a box below `corner`.
+    fn write(&mut self, text: &str, corner: [usize; 2], size: [usize; 2], cap: usize) {
+        let scale = cap as f64 / CAP_HEIGHT;
+        let text = fit(text, size[0] as f64 / scale - WEIGHT);
+        let left = (0.5 * (size[0] as f64 - width(&text) * scale)).round();
+        // What is left above the capitals is as much as below the descenders; whole pixels keep level strokes sharp.
+        let baseline = (0.5 * (size[1] as f64 + (CAP_HEIGHT - DESCENT) * scale)).round();
+        let lines: Vec<Vec<[f64; 2]>> = strokes(&text)
+            .into_iter()
+            .map(|line| line.into_iter().map(|[x, y]| [left + x * scale, baseline - y * scale]).collect())
+            .collect();
+        let ink = srgb_to_linear(INK);
+        let pixels: Vec<[f64; 4]> = coverage(size[0], size[1], &lines, WEIGHT * scale)
+            .into_iter()
+            .map(|a| [a * ink, a * ink, a * ink, a])
+            .collect();
+        self.lay(&pixels, size[0], corner);
+    }
+
+    fn into_picture(self) -> Picture {
+        let opaque = vec![1.0; self.width * self.height];
+        let channels = self.channels.into_iter().chain([opaque]).collect();
+        Picture { width: self.width, height: self.height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image(width: usize, height: usize, value: impl Fn(usize, usize) -> f64, alpha: f64) -> Image {
+        let plane: Vec<f64> = (0..width * height).map(|i| value(i % width, i / width)).collect();
+        let opacity = vec![alpha; plane.len()];
+        let channels = [("R", &plane), ("G", &plane), ("B", &plane), ("A", &opacity)];
+        Image { width, height, channels: channels.map(|(n, v)| (n.to_string(), v.clone())).into() }
+    }
+
+    #[test]
+    fn shares_by_hand() {
+        // Five pixels to two: 2½ each. Two to three: ⅔ each.
+        assert_eq!(shares(5, 2), [(0, vec![0.4, 0.4, 0.2]), (2, vec![0.2, 0.4, 0.4])]);
+        assert_eq!(shares(2, 3), [(0, vec![1.0]), (0, vec![0.5, 0.5]), (1, vec![1.0])]);
+        assert_eq!(shares(3, 3), [(0, vec![1.0]), (1, vec![1.0]), (2, vec![1.0])]);
+    }
+
+    #[test]
+    fn scaling_keeps_the_mean() {
+        let source = image(7, 5, |x, y| (x * 3 + y * y) as f64 / 40.0, 1.0);
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        for (w, h) in [(3, 2), (7, 5), (16, 11)] {
+            let pixels: Vec<f64> = scaled(&source, w, h).unwrap().iter().map(|p| p[0]).collect();
+            // Some hundred roundings of numbers below 1.
+            assert!((mean(&pixels) - mean(&source.channels[0].1)).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn pictures_keep_their_shape_and_their_pixels() {
+        let wide = image(64, 32, |x, _| if x < 32 { 0.25 } else { 0.0 }, 0.5);
+        let layout = Layout { columns: Some(2), cell: 64 };
+        let found = sheet(&[("a".into(), wide.clone()), ("b".into(), image(10, 10, |_, _| 0.5, 1.0))], layout).unwrap();
+        // Margins of 8; letters of 9 px in 22 px; the second picture, scaled up, is 64 high.
+        assert_eq!((found.width, found.height), (8 + 2 * 72, 8 + 64 + 22 + 8));
+        let red = &found.layers[0].channels[0];
+        let at = |x: usize, y: usize| red[y * found.width + x];
+        // The wide one is in the middle of its row: half covered, on white.
+        assert_eq!((at(8, 24), at(71, 24), at(8, 23)), (0.75, 0.5, 1.0));
+        assert_eq!((at(80, 8), at(143, 71), at(144, 71), at(79, 8)), (0.5, 0.5, 1.0, 1.0));
+        assert!(found.layers[0].channels[3].iter().all(|&a| a == 1.0));
+    }
+
+    #[test]
+    fn labels_stand_below_and_inside() {
+        let blank = image(4, 4, |_, _| 1.0, 1.0);
+        let long = "a_label_much_too_long_for_its_cell.nii.gz".to_string();
+        let found = sheet(&[(long, blank)], Layout { columns: None, cell: 64 }).unwrap();
+        let dark: Vec<[usize; 2]> = (0..found.width * found.height)
+            .filter(|&i| found.layers[0].channels[0][i] < 0.9)
+            .map(|i| [i % found.width, i / found.width])
+            .collect();
+        assert!(dark.len() > 100);
+        assert!(dark.iter().all(|[x, y]| (8..72).contains(x) && (72..94).contains(y)));
+    }
+
+    #[test]
+    fn rows_are_filled_in_order() {
+        let one = || ("x".to_string(), image(2, 2, |_, _| 0.5, 1.0));
+        let size = |n: usize, columns| {
+            let pictures: Vec<_> = (0..n).map(|_| one()).collect();
+            let found = sheet(&pictures, Layout { columns, cell: 32 }).unwrap();
+            [(found.width - 8) / 40, (found.height - 8) / 62]
+        };
+        assert_eq!(size(1, None), [1, 1]);
+        assert_eq!(size(5, None), [3, 2]);
+        assert_eq!(size(4, Some(4)), [4, 1]);
+        assert_eq!(size(2, Some(9)), [2, 1]);
+    }
+
+    #[test]
+    fn bad_use_is_an_error() {
+        let one = ("x".to_string(), image(2, 2, |_, _| 0.5, 1.0));
+        assert!(sheet(&[], Layout::default()).is_err());
+        assert!(sheet(std::slice::from_ref(&one), Layout { columns: None, cell: 0 }).is_err());
+        let empty = ("none".to_string(), Image::default());
+        assert_eq!(sheet(&[empty], Layout::default()).unwrap_err().to_string(), "sheet: none has no pixels");
+        let depth = Image { width: 1, height: 1, channels: vec![("Z".into(), vec![1.0])] };
+        let error = sheet(&[("depth".into(), depth)], Layout::default()).unwrap_err();
+        assert_eq!(error.to_string(), "depth: has no channels R, G and B; it has Z");
+        let many = vec![one; 9];
+        assert!(matches!(sheet(&many, Layout { columns: None, cell: 4096 }), Err(OutputError::Sheet { .. })));
+    }
+}
