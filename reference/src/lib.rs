@@ -7,3 +7,4 @@ pub mod number;
 pub mod ray;
 pub mod shading;
 pub mod style_transfer_functions;
+pub mod transfer;

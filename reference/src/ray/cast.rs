@@ -8,6 +8,7 @@ use super::sample::Facts;
 use crate::field::Sampler;
 use crate::field::curvature;
 use crate::number::{Real, Vec3};
+use crate::style_transfer_functions::curvature_along_ray;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
@@ -15,11 +16,11 @@ use drypoint_scene::glam::DVec3;
 /// What comes out of one ray.
 pub(super) struct Cast {
     /// Premultiplied colour and opacity in the blend space, without the background.
-    pub rgba: [f64; 4],
+    pub(super) rgba: [f64; 4],
     /// Sums for the other layers.
-    pub sums: Sums,
+    pub(super) sums: Sums,
     /// Samples evaluated.
-    pub samples: u64,
+    pub(super) samples: u64,
 }
 
 /// Buffers that rays of one thread share.
@@ -185,9 +186,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             }
             _ => None,
         };
-        before.map_or(R::ZERO, |m| {
-            crate::style_transfer_functions::kappa_along_ray(n, m, R::from_f64(self.ray.step), prepared.sign_flip)
-        })
+        curvature_along_ray::kappa(prepared.turn, n, before, R::from_f64(self.ray.step))
     }
 
     /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); 0 where H's own field has no normal.

@@ -4,24 +4,24 @@ use drypoint_scene::picture::LayerKind;
 
 /// A visible sample as the layers see it.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Seen {
+pub(super) struct Seen {
     /// w = (1 − A)·α(Δ).
-    pub weight: f64,
+    pub(super) weight: f64,
     /// Eye depth of the sample's plane.
-    pub depth: f64,
+    pub(super) depth: f64,
     /// The value.
-    pub value: f64,
+    pub(super) value: f64,
     /// N in eye space, v where there is none.
-    pub normal: [f64; 3],
+    pub(super) normal: [f64; 3],
     /// World gradient.
-    pub gradient: [f64; 3],
+    pub(super) gradient: [f64; 3],
     /// κ₁, κ₂ and the scene's κ.
-    pub curvature: [f64; 3],
+    pub(super) curvature: [f64; 3],
 }
 
 /// Sums along one ray.
 #[derive(Clone, Copy, Debug)]
-pub struct Sums {
+pub(super) struct Sums {
     weight: f64,
     first: Option<(f64, f64)>,
     half: f64,
@@ -33,7 +33,7 @@ pub struct Sums {
 
 impl Sums {
     /// Before the first sample.
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let none = [0.0; 3];
         Self {
             weight: 0.0,
@@ -47,7 +47,7 @@ impl Sums {
     }
 
     /// Adds a sample with α > 0; `opacity` is A with this sample included.
-    pub fn add(&mut self, seen: &Seen, opacity: f64) {
+    pub(super) fn add(&mut self, seen: &Seen, opacity: f64) {
         self.weight += seen.weight;
         self.first.get_or_insert((seen.depth, seen.value));
         if self.half == f64::INFINITY && opacity >= 0.5 {
@@ -62,7 +62,7 @@ impl Sums {
     }
 
     /// The channels of a layer other than the beauty. Means are Σwq/Σw; where Σw = 0 they are 0 and depths are +∞.
-    pub fn channels(&self, kind: LayerKind, samples: u64, out: &mut Vec<f64>) {
+    pub(super) fn channels(&self, kind: LayerKind, samples: u64, out: &mut Vec<f64>) {
         let mean = |sum: f64| if self.weight > 0.0 { sum / self.weight } else { 0.0 };
         match kind {
             LayerKind::Beauty => {}
@@ -82,7 +82,7 @@ impl Sums {
 }
 
 /// Whether a layer of a pixel of n×n rays is the mean of theirs; the others are the first ray's ([RAY-6]).
-pub fn averaged(kind: LayerKind) -> bool {
+pub(super) fn averaged(kind: LayerKind) -> bool {
     matches!(
         kind,
         LayerKind::Beauty

@@ -5,7 +5,6 @@ mod gradient_range;
 pub mod lattice;
 mod layers;
 pub mod opacity;
-pub mod piecewise;
 mod prepared;
 mod render;
 mod sample;

@@ -1,15 +1,16 @@
 //! A scene prepared for casting: everything that is decided once a picture, not at samples.
 
 use super::lattice::Lattice;
-use super::piecewise::Piecewise;
 use super::sample::Look;
 use super::skip::Skip;
 use crate::field::Field;
 use crate::number::{Real, Vec3};
+use crate::style_transfer_functions::curvature_along_ray::Turn;
+use crate::transfer::Piecewise;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::tables::{NormalSide, Outside, Scene, SignFlip};
+use drypoint_scene::tables::{NormalSide, Outside};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::Volume;
 
@@ -28,13 +29,13 @@ pub(super) enum KappaSource {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Calls {
     /// The gradient and the normal.
-    pub gradient: bool,
+    pub(super) gradient: bool,
     /// The Hessian.
-    pub hessian: bool,
+    pub(super) hessian: bool,
     /// κ₁ and κ₂, for a layer.
-    pub principal: bool,
+    pub(super) principal: bool,
     /// κ.
-    pub kappa: KappaSource,
+    pub(super) kappa: KappaSource,
 }
 
 /// Which way the shading normal points ([NORM-1]).
@@ -50,7 +51,7 @@ pub(super) enum Side {
 
 impl Side {
     /// The side for a scene's setting; `gradient` is the outward normal itself where values rise outwards.
-    pub fn new(normal: NormalSide, outside: Outside) -> Self {
+    pub(super) fn new(normal: NormalSide, outside: Outside) -> Self {
         match (normal, outside) {
             (NormalSide::Outward, _) | (NormalSide::Gradient, Outside::High) => Self::Outward,
             (NormalSide::Facing, _) => Self::Facing,
@@ -60,7 +61,7 @@ impl Side {
 
     /// The shading normal for an outward one.
     #[inline]
-    pub fn turn<R: Real>(self, outward: Vec3<R>, v: Vec3<R>) -> Vec3<R> {
+    pub(super) fn turn<R: Real>(self, outward: Vec3<R>, v: Vec3<R>) -> Vec3<R> {
         let flip = match self {
             Self::Outward => false,
             Self::Facing => outward.dot(v) < R::ZERO,
@@ -72,54 +73,54 @@ impl Side {
 
 /// A scene ready to be cast.
 pub(super) struct Prepared<'v, R> {
-    pub volume: &'v Volume,
-    pub field: Field<'v, R>,
-    pub view: View,
-    pub lattice: Lattice,
+    pub(super) volume: &'v Volume,
+    pub(super) field: Field<'v, R>,
+    pub(super) view: View,
+    pub(super) lattice: Lattice,
     /// Lowest and highest index position ([SPACE-1]).
-    pub ends: [Vec3<R>; 2],
-    pub skip: Option<Skip>,
-    pub function: Piecewise<R>,
-    pub look: Look<R>,
-    pub calls: Calls,
+    pub(super) ends: [Vec3<R>; 2],
+    pub(super) skip: Option<Skip>,
+    pub(super) function: Piecewise<R>,
+    pub(super) look: Look<R>,
+    pub(super) calls: Calls,
     /// lo and hi − lo of [VAL-2], times the power of two of [SPACE-4]; none where nothing reads |g|.
-    pub gradient_range: Option<(R, R)>,
+    pub(super) gradient_range: Option<(R, R)>,
     /// Δ₀ in world units.
-    pub reference_length: f64,
+    pub(super) reference_length: f64,
     /// A at which a ray ends: 1 − ε ([RAY-2]).
-    pub stop_at: R,
+    pub(super) stop_at: R,
     /// Whether colours are composited encoded ([VAL-3]).
-    pub encode: bool,
+    pub(super) encode: bool,
     /// Whether a layer beyond the beauty is asked for.
-    pub collects: bool,
-    pub layers: Vec<LayerKind>,
-    pub outside: Outside,
-    pub side: Side,
-    /// Whether κ along the ray is between lines, not directions ([STF-5]).
-    pub sign_flip: SignFlip,
+    pub(super) collects: bool,
+    pub(super) layers: Vec<LayerKind>,
+    pub(super) outside: Outside,
+    pub(super) side: Side,
+    /// The angle that κ along the ray is made of ([STF-5]).
+    pub(super) turn: Turn,
     /// ‖g‖ at or below which there is no normal ([PREC-3]).
-    pub no_normal_below: R,
+    pub(super) no_normal_below: R,
     /// Rows of the rotation from world to eye space.
-    pub eye_axes: [Vec3<R>; 3],
+    pub(super) eye_axes: [Vec3<R>; 3],
     /// n of the n×n rays of a pixel.
-    pub samples: usize,
+    pub(super) samples: usize,
 }
 
 impl<R: Real> Prepared<'_, R> {
     /// N of [NORM-1] in world space; none where ‖g‖ is rounding ([PREC-3]).
     #[inline]
-    pub fn outward(&self, g: Vec3<R>) -> Option<Vec3<R>> {
+    pub(super) fn outward(&self, g: Vec3<R>) -> Option<Vec3<R>> {
         crate::field::normal::outward(g, self.outside, self.no_normal_below)
     }
 
     /// A world direction in eye space.
     #[inline]
-    pub fn to_eye(&self, n: Vec3<R>) -> Vec3<R> {
+    pub(super) fn to_eye(&self, n: Vec3<R>) -> Vec3<R> {
         Vec3::new(n.dot(self.eye_axes[0]), n.dot(self.eye_axes[1]), n.dot(self.eye_axes[2]))
     }
 
     /// A gradient with the power of two of [SPACE-4] undone.
-    pub fn true_gradient(&self, g: Vec3<R>) -> DVec3 {
+    pub(super) fn true_gradient(&self, g: Vec3<R>) -> DVec3 {
         let e = self.field.scale_exponent();
         let [x, y, z] = g.to_glam().to_array();
         DVec3::new(
@@ -128,10 +129,4 @@ impl<R: Real> Prepared<'_, R> {
             math::scale_by_power_of_two(z, e),
         )
     }
-}
-
-/// How the angle between two normals counts: lines only act with `normal = "facing"` ([STF-5]).
-pub(super) fn flip_rule(scene: &Scene) -> SignFlip {
-    let rule = scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip);
-    if scene.sampling.normal == NormalSide::Facing { rule } else { SignFlip::Literal }
 }

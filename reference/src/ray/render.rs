@@ -4,20 +4,24 @@ use super::cast::{Scratch, cast};
 use super::gradient_range::quantile_of_norms;
 use super::lattice::Lattice;
 use super::layers::averaged;
-use super::piecewise::Piecewise;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::sample::Look;
 use super::skip::Skip;
 use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
+use crate::style_transfer_functions::curvature_along_ray::Turn;
+use crate::style_transfer_functions::{Contour, Spheres, StyleIndex};
+use crate::transfer::{NodesError, Piecewise};
 use crate::with_sampler;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::{Plan, Quantity};
 use drypoint_scene::style::Style;
-use drypoint_scene::tables::{BlendSpace, GradientRange, Kappa, Length, Number, Scene};
+use drypoint_scene::tables::{
+    BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, Transparency,
+};
 use drypoint_scene::transfer::{Function, Nodes};
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
@@ -70,6 +74,9 @@ pub enum RenderError {
         /// The scene key.
         key: &'static str,
     },
+    /// The nodes make no function.
+    #[error(transparent)]
+    Nodes(#[from] NodesError),
     /// The function's nodes and the styles do not fit.
     #[error("the transfer function names {named} styles, {given} were loaded")]
     Styles {
@@ -179,14 +186,14 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         Function::Style { nodes: Nodes { at, opacity, .. }, .. } => (at, opacity),
         Function::Regular(Nodes { at, opacity, .. }) => (at, opacity),
     };
-    let look = look(inputs, &view, grid.voxel())?;
+    let look = look(inputs, &view)?;
     let layers = if scene.picture.layers.is_empty() { vec![LayerKind::Beauty] } else { scene.picture.layers.clone() };
     Ok(Prepared {
         volume,
         lattice: Lattice { step, along: sampling.step_along, near },
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
-        function: Piecewise::new(at, opacity),
+        function: Piecewise::new(at, opacity)?,
         look,
         calls,
         gradient_range,
@@ -197,7 +204,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         layers,
         outside: scene.volume.outside,
         side: Side::new(sampling.normal, scene.volume.outside),
-        sign_flip: super::prepared::flip_rule(scene),
+        turn: Turn::new(sampling.normal, scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip)),
         no_normal_below: field.no_normal_below(),
         eye_axes: [view.right, view.up, -view.forward].map(Vec3::from_glam),
         samples: scene.picture.samples,
@@ -224,13 +231,35 @@ fn calls(scene: &Scene, plan: &Plan) -> Calls {
 }
 
 /// How visible samples are coloured.
-fn look<R: Real>(inputs: &Inputs<'_>, view: &View, _voxel: f64) -> Result<Look<R>, RenderError> {
+fn look<R: Real>(inputs: &Inputs<'_>, view: &View) -> Result<Look<R>, RenderError> {
+    let Inputs { scene, volume, styles, .. } = *inputs;
     match inputs.function {
         Function::Regular(nodes) => Ok(Look::Regular {
             colors: nodes.color.iter().map(|c| c.map(R::from_f64)).collect(),
-            phong: inputs.scene.shading.as_ref().map(|s| Phong::new(s, inputs.scene.light, view)),
+            phong: scene.shading.as_ref().map(|s| Phong::new(s, scene.light, view)),
         }),
-        Function::Style { names, .. } => Err(RenderError::Styles { named: names.len(), given: inputs.styles.len() }),
+        Function::Style { nodes, names } => {
+            if names.len() != styles.len() {
+                return Err(RenderError::Styles { named: names.len(), given: styles.len() });
+            }
+            let contour = scene
+                .contours
+                .as_ref()
+                .map(|c| {
+                    let thickness = c.thickness.world(volume.grid());
+                    let thickness = thickness.ok_or(RenderError::Length { key: "contours.thickness" })?;
+                    Ok::<_, RenderError>(Contour::new(thickness, c.kappa, c.fade))
+                })
+                .transpose()?;
+            let transfer = scene.transfer.as_ref();
+            Ok(Look::Style {
+                index: StyleIndex::new(&nodes.color),
+                spheres: Spheres::new(styles, transfer.map_or(Mix::Premultiplied, |t| t.mix)),
+                contour,
+                transparency: transfer.map_or(Transparency::Illustrative, |t| t.transparency),
+                frame: transfer.map_or(SphereFrame::Eye, |t| t.sphere_frame),
+            })
+        }
     }
 }
 

@@ -1,19 +1,17 @@
 //! The style transfer function (3.2, 4.1; [STF-3]): from a value to styles, and from styles to a colour.
 
+use super::SphereMap;
 use super::sphere_map::mix;
-use super::{NodesError, Segments, SphereMap};
 use crate::number::Real;
+use crate::transfer::Place;
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::Mix;
 
-/// The texture `tft` with `ift` behind it (4.1): which styles a value shows, how they mix, and its uniform opacity.
-/// Evaluated from the nodes themselves, not from a table of them.
+/// The index function `ift` (4.1): from the nodes of `tft` to the M distinct styles.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StyleFunction<R> {
-    nodes: Segments<R>,
-    opacity: Vec<R>,
-    /// `ift`: node to style. None where node k has style k (M = N), for which the paper skips the lookup.
-    index: Option<Vec<u32>>,
+pub struct StyleIndex {
+    /// None where node k has style k (M = N), for which the paper skips the lookup.
+    of_node: Option<Vec<u32>>,
 }
 
 /// What a value shows: styles j₀ and j₁ in the shares 1 − w and w, with the uniform opacity α_u.
@@ -29,46 +27,32 @@ pub struct Blend<R> {
     pub alpha_u: R,
 }
 
-impl<R: Real> StyleFunction<R> {
-    /// From nodes in non-decreasing order of `at`: uniform opacities in [0, 1], and indices into the styles.
-    ///
-    /// # Errors
-    /// Lists of different length, an opacity outside [0, 1], and what [`Segments::new`] refuses.
-    pub fn new(at: &[f64], opacity: &[f64], style: &[usize]) -> Result<Self, NodesError> {
-        if at.len() != opacity.len() || at.len() != style.len() {
-            return Err(NodesError::Lengths { at: at.len(), opacity: opacity.len(), style: style.len() });
-        }
-        if let Some(node) = opacity.iter().position(|a| !(0.0..=1.0).contains(a)) {
-            return Err(NodesError::Opacity { node, opacity: opacity[node] });
-        }
+impl StyleIndex {
+    /// From the style of each node.
+    pub fn new(style: &[usize]) -> Self {
         let is_identity = style.iter().enumerate().all(|(k, &j)| k == j);
-        Ok(Self {
-            nodes: Segments::new(at)?,
-            opacity: opacity.iter().map(|&a| R::from_f64(a)).collect(),
-            index: (!is_identity).then(|| style.iter().map(|&j| j as u32).collect()),
-        })
+        Self { of_node: (!is_identity).then(|| style.iter().map(|&j| j as u32).collect()) }
     }
 
-    /// (i, α_u) = tft(s), i₀ = ⌊i⌋, i₁ = i₀ + 1, w = i − i₀, j = ift(i) (4.1, steps 1 to 3).
+    /// From (i, α_u) = tft(s), i = i₀ + w, to j₀ = ift(i₀) and j₁ = ift(i₀ + 1) (4.1, steps 2 and 3).
     #[inline]
-    pub fn eval(&self, s: R) -> Blend<R> {
-        let (k, t) = self.nodes.find(s);
-        if t == R::ZERO {
-            let j = self.style(k);
-            return Blend { j0: j, j1: j, w: R::ZERO, alpha_u: self.opacity[k] };
+    pub fn blend<R: Real>(&self, place: &Place<R>) -> Blend<R> {
+        let &Place { node, w, alpha_u } = place;
+        if w == R::ZERO {
+            let j = self.style(node);
+            return Blend { j0: j, j1: j, w, alpha_u };
         }
-        let alpha_u = R::lerp(self.opacity[k], self.opacity[k + 1], t);
-        let j1 = self.style(k + 1);
+        let j1 = self.style(node + 1);
         // A value just below a node can round to the whole way; then the first style has no share.
-        if t >= R::ONE {
+        if w >= R::ONE {
             return Blend { j0: j1, j1, w: R::ZERO, alpha_u };
         }
-        Blend { j0: self.style(k), j1, w: t, alpha_u }
+        Blend { j0: self.style(node), j1, w, alpha_u }
     }
 
     #[inline]
     fn style(&self, k: usize) -> usize {
-        self.index.as_ref().map_or(k, |ift| ift[k] as usize)
+        self.of_node.as_ref().map_or(k, |ift| ift[k] as usize)
     }
 }
 
@@ -135,6 +119,7 @@ fn straight<R: Real>([r, g, b, a]: [R; 4]) -> [R; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::transfer::Piecewise;
 
     /// A style of straight linear texels.
     fn style(side: usize, texel: impl Fn(usize, usize) -> [f64; 4]) -> Style {
@@ -142,52 +127,40 @@ mod tests {
         Style::from_straight("test", side, &texels, true).unwrap()
     }
 
-    fn function(at: &[f64], opacity: &[f64], style: &[usize]) -> StyleFunction<f64> {
-        StyleFunction::new(at, opacity, style).unwrap()
+    fn blend_at(at: &[f64], opacity: &[f64], style: &[usize], s: f64) -> Option<Blend<f64>> {
+        Piecewise::new(at, opacity).unwrap().locate(s).map(|place| StyleIndex::new(style).blend(&place))
     }
 
     #[test]
     fn the_function_by_hand() {
         // The nodes of the scene-file page: wax, wax, metal.
-        let tft = function(&[60.0, 90.0, 180.0], &[0.0, 0.1, 0.9], &[0, 0, 1]);
-        let blend = |j0, j1, w, alpha_u| Blend { j0, j1, w, alpha_u };
-        assert_eq!(tft.eval(60.0), blend(0, 0, 0.0, 0.0));
-        assert_eq!(tft.eval(75.0), blend(0, 0, 0.5, 0.05));
-        assert_eq!(tft.eval(135.0), blend(0, 1, 0.5, 0.5));
+        let at = |s| blend_at(&[60.0, 90.0, 180.0], &[0.0, 0.1, 0.9], &[0, 0, 1], s);
+        let blend = |j0, j1, w, alpha_u| Some(Blend { j0, j1, w, alpha_u });
+        assert_eq!(at(75.0), blend(0, 0, 0.5, 0.05));
+        assert_eq!(at(135.0), blend(0, 1, 0.5, 0.5));
         // Beyond the ends the end nodes hold; at them they hold exactly.
-        assert_eq!(tft.eval(180.0), blend(1, 1, 0.0, 0.9));
-        assert_eq!(tft.eval(1e9), blend(1, 1, 0.0, 0.9));
-        assert_eq!(tft.eval(-1e9), blend(0, 0, 0.0, 0.0));
-        assert_eq!([60.0, 75.0, 135.0, 180.0].map(|s| tft.eval(s).lookups()), [1, 1, 2, 1]);
+        assert_eq!(at(180.0), blend(1, 1, 0.0, 0.9));
+        assert_eq!(at(1e9), blend(1, 1, 0.0, 0.9));
+        assert_eq!([at(60.0), at(-1e9)], [None, None]);
+        assert_eq!([75.0, 135.0, 180.0].map(|s| at(s).unwrap().lookups()), [1, 2, 1]);
     }
 
     #[test]
     fn a_step_shows_the_later_node_at_its_value() {
-        let tft = function(&[0.0, 10.0, 10.0, 20.0], &[0.2, 0.4, 0.6, 0.8], &[0, 1, 2, 3]);
-        assert_eq!(tft.eval(10.0), Blend { j0: 2, j1: 2, w: 0.0, alpha_u: 0.6 });
-        let below = tft.eval(10.0 - 1e-9);
+        let at = |s| blend_at(&[0.0, 10.0, 10.0, 20.0], &[0.2, 0.4, 0.6, 0.8], &[0, 1, 2, 3], s).unwrap();
+        assert_eq!(at(10.0), Blend { j0: 2, j1: 2, w: 0.0, alpha_u: 0.6 });
+        let below = at(10.0 - 1e-9);
         assert_eq!((below.j0, below.j1), (0, 1));
         assert!((below.alpha_u - 0.4).abs() < 1e-9);
     }
 
     #[test]
     fn one_style_per_node_needs_no_index() {
-        let same = |style: &[usize]| function(&[0.0, 1.0, 2.0], &[1.0; 3], style).index.is_none();
+        let same = |style: &[usize]| StyleIndex::new(style).of_node.is_none();
         assert!(same(&[0, 1, 2]));
         assert!(!same(&[0, 1, 0]) && !same(&[1, 0, 2]));
-        assert_eq!(
-            function(&[0.0, 1.0, 2.0], &[1.0; 3], &[0, 1, 0]).eval(1.25),
-            Blend { j0: 1, j1: 0, w: 0.25, alpha_u: 1.0 }
-        );
-    }
-
-    #[test]
-    fn what_is_no_function_is_refused() {
-        let new = StyleFunction::<f64>::new;
-        assert_eq!(new(&[0.0], &[], &[0]), Err(NodesError::Lengths { at: 1, opacity: 0, style: 1 }));
-        assert_eq!(new(&[0.0, 1.0], &[0.5, 1.5], &[0, 0]), Err(NodesError::Opacity { node: 1, opacity: 1.5 }));
-        assert!(new(&[0.0], &[f64::NAN], &[0]).is_err());
-        assert_eq!(new(&[], &[], &[]), Err(NodesError::Empty));
+        let got = blend_at(&[0.0, 1.0, 2.0], &[1.0; 3], &[0, 1, 0], 1.25);
+        assert_eq!(got, Some(Blend { j0: 1, j1: 0, w: 0.25, alpha_u: 1.0 }));
     }
 
     #[test]

@@ -1,0 +1,5 @@
+//! Transfer functions between their nodes.
+
+mod piecewise;
+
+pub use piecewise::{NodesError, Piecewise, Place};
