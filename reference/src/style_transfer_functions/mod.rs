@@ -1,2 +1,22 @@
 //! Bruckner and Gröller, Style Transfer Functions for Illustrative Volume Rendering, Computer Graphics Forum 26(3),
 //! 2007.
+//!
+//! One visible sample passes through here in this order: [`segments`] and [`lookup`] say which styles and what α_u the
+//! value has (3.2, 4.1); [`frame`] says which normal is looked up; [`curvature_along_ray`] gives κ_v (3.3);
+//! [`contour`] turns it into the threshold τ (eq. 1) and pushes the normal outwards; the styles are looked up in their
+//! [`sphere_map`]s; and [`transparency`] makes the opacity (eq. 2), per reference length and not yet corrected for the
+//! step ([VAL-4]).
+
+pub mod contour;
+pub mod curvature_along_ray;
+pub mod frame;
+pub mod gallery;
+pub mod lookup;
+pub mod segments;
+pub mod sphere_map;
+pub mod transparency;
+
+pub use contour::Contour;
+pub use lookup::{Blend, Spheres, StyleFunction};
+pub use segments::{NodesError, Segments};
+pub use sphere_map::SphereMap;

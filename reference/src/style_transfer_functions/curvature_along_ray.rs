@@ -1,0 +1,125 @@
+//! κ_v from two normals along a ray (3.3, Fig. 6; [STF-5]): no second derivative is reconstructed.
+
+use crate::number::{Real, Vec3};
+use drypoint_scene::tables::{NormalSide, SignFlip};
+
+/// What the angle between two normals is measured between.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// The normals, in [0, π].
+    OfNormals,
+    /// The lines that they span, in [0, π/2]: a normal that was flipped towards the eye has not turned.
+    OfLines,
+}
+
+impl Turn {
+    /// The paper's plain angle, except where normals are flipped towards the eye and the scene does not ask for the
+    /// literal reading.
+    pub fn new(normal: NormalSide, flip: SignFlip) -> Self {
+        match (normal, flip) {
+            (NormalSide::Facing, SignFlip::TwoSided) => Self::OfLines,
+            _ => Self::OfNormals,
+        }
+    }
+}
+
+/// κ_v ≈ angle(N here, N at plane k − 1) / Δ_ray, in reciprocal world units, never negative.
+///
+/// `before` is none where the previous plane's sample has no normal, lies outside the box or not beyond `near`; then
+/// κ = 0. On a surface whose normal turns at the rate |dN/ds| along the ray the error is of first order in Δ_ray.
+#[inline]
+pub fn kappa<R: Real>(turn: Turn, n: Vec3<R>, before: Option<Vec3<R>>, delta_ray: R) -> R {
+    let Some(before) = before else { return R::ZERO };
+    let cosine = n.dot(before);
+    let cosine = match turn {
+        Turn::OfNormals => cosine,
+        Turn::OfLines => cosine.abs(),
+    };
+    n.cross(before).length().atan2(cosine) / delta_ray
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    fn unit(x: f64, y: f64, z: f64) -> Vec3<f64> {
+        let v = Vec3::new(x, y, z);
+        v * (1.0 / v.length())
+    }
+
+    #[test]
+    fn by_hand() {
+        // 30° in two world units.
+        let (a, b) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.75f64.sqrt(), 0.5, 0.0));
+        assert!((kappa(Turn::OfNormals, a, Some(b), 2.0) - PI / 12.0).abs() < 1e-16);
+        assert_eq!(kappa(Turn::OfNormals, a, None, 2.0), 0.0);
+        // A flat wall turns nothing, exactly.
+        assert_eq!(kappa(Turn::OfNormals, b, Some(b), 2.0), 0.0);
+    }
+
+    #[test]
+    fn a_thin_sheet_turns_its_normal_round() {
+        let n = unit(0.3, -0.2, 0.9);
+        assert!((kappa(Turn::OfNormals, n, Some(-n), 0.5) - 2.0 * PI).abs() < 1e-15);
+        assert!(kappa(Turn::OfLines, n, Some(-n), 0.5).abs() < 1e-15);
+        let across = unit(0.2, 0.3, 0.0);
+        assert!((kappa(Turn::OfLines, n, Some(across), 1.0) - FRAC_PI_2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn only_facing_normals_are_lines() {
+        for normal in [NormalSide::Outward, NormalSide::Gradient] {
+            assert_eq!(Turn::new(normal, SignFlip::TwoSided), Turn::OfNormals);
+        }
+        assert_eq!(Turn::new(NormalSide::Facing, SignFlip::TwoSided), Turn::OfLines);
+        assert_eq!(Turn::new(NormalSide::Facing, SignFlip::Literal), Turn::OfNormals);
+    }
+
+    /// On a sphere of radius r a step Δ along the ray, from a point at angle θ between N and v, turns the normal by
+    /// atan2(Δ sinθ, r + Δ cosθ): the rate is sinθ/r.
+    #[test]
+    fn spheres_in_closed_form() {
+        for (r, theta) in [(4.0, 0.3), (4.0, FRAC_PI_2), (100.0, 1.2)] {
+            let p = Vec3::new(r * f64::sin(theta), 0.0, r * f64::cos(theta));
+            let mut errors = Vec::new();
+            for delta in [0.5, 0.25, 0.125] {
+                let q = p + Vec3::new(0.0, 0.0, delta);
+                let found = kappa(Turn::OfNormals, unit(p.x, p.y, p.z), Some(unit(q.x, q.y, q.z)), delta);
+                let closed = (delta * theta.sin()).atan2(r + delta * theta.cos()) / delta;
+                assert!((found - closed).abs() < 1e-14, "{r}, {theta}, {delta}");
+                errors.push((found - theta.sin() / r).abs());
+            }
+            assert!(errors[1] < 0.55 * errors[0] && errors[2] < 0.55 * errors[1], "first order or better: {errors:?}");
+        }
+    }
+
+    /// On a cylinder of radius r whose axis is at ψ to the view plane, at its silhouette: the exact normal curvature
+    /// in the view direction is cos²ψ/r, the turn along the ray |cosψ|/r.
+    #[test]
+    fn a_tilted_cylinder_has_the_ratio_one_to_cos_psi() {
+        let r = 5.0;
+        for psi in [0.0f64, 0.4, 1.0, 1.4] {
+            let axis = Vec3::new(0.0, psi.cos(), psi.sin());
+            let normal = |p: Vec3<f64>| {
+                let across = p - axis * axis.dot(p);
+                across * (1.0 / across.length())
+            };
+            let p = Vec3::new(r, 0.0, 0.0);
+            let delta = 1e-4;
+            let ray = kappa(Turn::OfNormals, normal(p), Some(normal(p + Vec3::new(0.0, 0.0, delta))), delta);
+            // CUR-2 with G = e eᵀ/r on the tangent plane, e across the axis, and t = v at the silhouette.
+            let v = Vec3::new(0.0, 0.0, 1.0);
+            let across = v - axis * axis.dot(v);
+            let exact = across.dot(across) / r;
+            // The turn is atan(Δ|cosψ|/r), so the ratio's error is below (Δ/r)².
+            assert!((exact / ray - psi.cos()).abs() < 1e-8, "{psi}");
+        }
+    }
+
+    #[test]
+    fn small_angles_keep_their_digits() {
+        let (a, b) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(1.0, 1e-12, 0.0));
+        assert!((kappa(Turn::OfNormals, a, Some(b), 1.0) / 1e-12 - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,79 @@
+//! Terms of light on a sphere that the styles are put together from.
+//!
+//! N is the unit normal with N_z ≥ 0, x to the right, y up, the eye at +z.
+
+use super::paint::Paint;
+use crate::number::Vec3;
+use drypoint_scene::math;
+
+/// Towards the key light: from the upper left and in front, as plates of medical textbooks are lit.
+pub(super) const KEY: Vec3<f64> = Vec3 { x: -0.48, y: 0.64, z: 0.6 };
+
+/// Towards the light that comes back from the page, at the lower right and somewhat behind.
+pub(super) const BOUNCE: Vec3<f64> = Vec3 { x: 0.64, y: -0.6, z: -0.48 };
+
+/// clamp₀₁((N·L + w)/(1 + w)): Lambert's cosine, wrapped round the sphere by w as in translucent matter.
+pub(super) fn wrapped(n: Vec3<f64>, light: Vec3<f64>, w: f64) -> f64 {
+    ((n.dot(light) + w) / (1.0 + w)).clamp(0.0, 1.0)
+}
+
+/// Blinn's highlight max(0, N·Ĥ)^s.
+pub(super) fn highlight(n: Vec3<f64>, light: Vec3<f64>, s: f64) -> f64 {
+    let h = light + Vec3::new(0.0, 0.0, 1.0);
+    math::pow((n.dot(h) / h.length()).max(0.0), s)
+}
+
+/// t²(3 − 2t) of t = clamp₀₁((x − lo)/(hi − lo)).
+pub(super) fn smoothstep(lo: f64, hi: f64, x: f64) -> f64 {
+    let t = ((x - lo) / (hi - lo)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// Light that comes back from the page into the shadow's edge.
+pub(super) fn reflected(n: Vec3<f64>) -> f64 {
+    smoothstep(0.25, 0.95, n.dot(BOUNCE))
+}
+
+/// The distance from the middle of the sphere's picture, 1 on the circumference.
+pub(super) fn radius(n: Vec3<f64>) -> f64 {
+    (n.x * n.x + n.y * n.y).sqrt()
+}
+
+/// How much of the contour's colour a place takes: 0 up to the radius 0.93, 1 from just inside the circumference on.
+pub(super) fn edge(n: Vec3<f64>) -> f64 {
+    smoothstep(0.93, 0.985, radius(n))
+}
+
+/// The contour's colour laid over `paint`: `dark`, and up to `lit` where the key light falls. Style contours are pushed
+/// to the circumference, so this ring is what they are drawn with.
+pub(super) fn outline(paint: Paint, n: Vec3<f64>, dark: u32, lit: u32) -> Paint {
+    let line = Paint::hex(dark).over(Paint::hex(lit), smoothstep(-0.2, 0.9, n.dot(KEY)));
+    paint.over(line, edge(n))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lights_are_directions() {
+        for light in [KEY, BOUNCE] {
+            assert!((light.length() - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn by_hand() {
+        let front = Vec3::new(0.0, 0.0, 1.0);
+        // (0.6 + 0.5)/1.5; a highlight is 1 halfway between light and eye.
+        assert!((wrapped(front, Vec3::new(0.8, 0.0, 0.6), 0.5) - 1.1 / 1.5).abs() < 1e-15);
+        assert_eq!(wrapped(front, Vec3::new(0.0, 0.0, -1.0), 0.5), 0.0);
+        let side = Vec3::new(1.0, 0.0, 0.0);
+        let half = Vec3::new(0.5f64.sqrt(), 0.0, 0.5f64.sqrt());
+        assert!((highlight(half, side, 100.0) - 1.0).abs() < 1e-13);
+        // cos⁴ 45° = ¼.
+        assert!((highlight(front, side, 4.0) - 0.25).abs() < 1e-15);
+        assert_eq!([0.0, 0.5, 1.0].map(|x| smoothstep(0.0, 1.0, x)), [0.0, 0.5, 1.0]);
+        assert_eq!((edge(front), edge(side)), (0.0, 1.0));
+    }
+}

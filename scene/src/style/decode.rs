@@ -1,0 +1,117 @@
+//! PNG and JPEG bytes as straight RGBA numbers ([VAL-3]).
+
+use super::PictureFault;
+use crate::color::Rgba;
+use image::{ColorType, DynamicImage, ImageError, ImageReader};
+use std::io::Cursor;
+
+/// The largest side of a style's picture, in texels: 512 MiB decoded, far beyond what a lookup can tell apart.
+pub const MAX_SIDE: usize = 4096;
+
+/// Width, height and straight RGBA in [0, 1], row by row from the top. Each channel is divided by 2ⁿ − 1 and nothing
+/// else is done to it; grey is repeated, a missing alpha is 1.
+///
+/// # Errors
+/// Bytes that are no PNG or JPEG, damaged ones, and sides above [`MAX_SIDE`] (seen before anything is allocated).
+pub(super) fn straight(bytes: &[u8]) -> Result<(usize, usize, Vec<Rgba>), PictureFault> {
+    let unreadable = |e: ImageError| PictureFault::Unreadable { reason: e.to_string() };
+    let reader = || ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| unreadable(e.into()));
+    let (width, height) = reader()?.into_dimensions().map_err(unreadable)?;
+    let [width, height] = [width, height].map(|n| n as usize);
+    if width > MAX_SIDE || height > MAX_SIDE {
+        return Err(PictureFault::TooLarge { width, height, limit: MAX_SIDE });
+    }
+    let picture = reader()?.decode().map_err(unreadable)?;
+    Ok((width, height, to_rgba(&picture)?))
+}
+
+/// The texels of a decoded picture, without the decoder's own colour conversions.
+fn to_rgba(picture: &DynamicImage) -> Result<Vec<Rgba>, PictureFault> {
+    let bytes = picture.as_bytes();
+    let numbers: Vec<f64> = match picture.color() {
+        ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => {
+            bytes.iter().map(|&b| f64::from(b) / 255.0).collect()
+        }
+        ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
+            bytes.chunks_exact(2).map(|b| f64::from(u16::from_ne_bytes([b[0], b[1]])) / 65535.0).collect()
+        }
+        other => return Err(PictureFault::Unreadable { reason: format!("texels of type {other:?}") }),
+    };
+    let channels = usize::from(picture.color().channel_count());
+    let rgba = |c: &[f64]| match *c {
+        [grey] => [grey, grey, grey, 1.0],
+        [grey, a] => [grey, grey, grey, a],
+        [r, g, b] => [r, g, b, 1.0],
+        [r, g, b, a, ..] => [r, g, b, a],
+        [] => [0.0; 4],
+    };
+    Ok(numbers.chunks_exact(channels).map(rgba).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::style::Style;
+    use image::{
+        GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, RgbImage, Rgba as Texel, RgbaImage,
+    };
+    use proptest::prelude::*;
+
+    fn png(picture: impl Into<DynamicImage>) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.into().write_to(&mut bytes, ImageFormat::Png).unwrap();
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn every_channel_layout_and_depth() {
+        let first = |bytes: &[u8]| straight(bytes).unwrap().2[0];
+        assert_eq!(first(&png(GrayImage::from_pixel(2, 2, Luma([51])))), [0.2, 0.2, 0.2, 1.0]);
+        assert_eq!(first(&png(GrayAlphaImage::from_pixel(2, 2, LumaA([51, 102])))), [0.2, 0.2, 0.2, 0.4]);
+        assert_eq!(first(&png(RgbImage::from_pixel(2, 2, Rgb([51, 102, 255])))), [0.2, 0.4, 1.0, 1.0]);
+        assert_eq!(first(&png(RgbaImage::from_pixel(2, 2, Texel([0, 51, 102, 153])))), [0.0, 0.2, 0.4, 0.6]);
+        let deep: ImageBuffer<Texel<u16>, Vec<u16>> = ImageBuffer::from_pixel(2, 2, Texel([1, 13107, 65535, 0]));
+        assert_eq!(first(&png(deep)), [1.0 / 65535.0, 0.2, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn rows_come_from_the_top() {
+        let picture = RgbaImage::from_fn(2, 2, |x, y| Texel([x as u8 * 255, y as u8 * 255, 0, 255]));
+        let style = Style::decode("corners", &png(picture), true).unwrap();
+        assert_eq!(style.texel(1, 0), [1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(style.texel(0, 1), [0.0, 1.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn what_is_no_square_picture_is_refused() {
+        let oblong = png(GrayImage::new(3, 2));
+        assert_eq!(Style::decode("s", &oblong, false), Err(PictureFault::NotSquare { width: 3, height: 2 }));
+        let wide = png(GrayImage::new(MAX_SIDE as u32 + 1, 1));
+        assert!(matches!(Style::decode("s", &wide, false), Err(PictureFault::TooLarge { width: 4097, .. })));
+        for bytes in [&b""[..], b"not a picture", &oblong[..oblong.len() / 2]] {
+            assert!(matches!(Style::decode("s", bytes, false), Err(PictureFault::Unreadable { .. })));
+        }
+    }
+
+    #[test]
+    fn a_header_that_promises_a_huge_picture_allocates_nothing() {
+        let mut bytes = png(GrayImage::new(2, 2));
+        // Width and height of IHDR; its checksum no longer fits, which some decoders only notice later.
+        bytes[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
+        assert!(Style::decode("s", &bytes, false).is_err());
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(256))]
+        #[test]
+        fn damaged_pictures_are_errors_and_never_panics(at in 0usize..90, byte: u8, keep in 0usize..=100) {
+            let mut bytes = png(RgbaImage::from_fn(8, 8, |x, y| Texel([x as u8, y as u8, 7, 200])));
+            let length = bytes.len();
+            bytes[at % length] = byte;
+            bytes.truncate(length * keep / 100);
+            if let Ok(style) = Style::decode("s", &bytes, false) {
+                prop_assert_eq!(style.texels.len(), style.side * style.side);
+            }
+        }
+    }
+}

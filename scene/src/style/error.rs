@@ -1,0 +1,118 @@
+//! What can be wrong with a style, a theme or their pictures.
+
+use std::path::PathBuf;
+
+/// Why a picture is no style.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PictureFault {
+    /// Not a PNG or JPEG, or a damaged one.
+    #[error("not a readable PNG or JPEG: {reason}")]
+    Unreadable {
+        /// What the decoder says.
+        reason: String,
+    },
+    /// Width and height differ ([STF-1]).
+    #[error("{width} × {height} texels, but a style is a square picture of a sphere")]
+    NotSquare {
+        /// Texels from left to right.
+        width: usize,
+        /// Texels from top to bottom.
+        height: usize,
+    },
+    /// A side that would ask for more memory than any style is worth.
+    #[error("{width} × {height} texels, but at most {limit} × {limit} are read")]
+    TooLarge {
+        /// Texels from left to right.
+        width: usize,
+        /// Texels from top to bottom.
+        height: usize,
+        /// The largest side.
+        limit: usize,
+    },
+    /// The texels given are not S × S.
+    #[error("{found} texels do not make a square of side {side}")]
+    Texels {
+        /// S.
+        side: usize,
+        /// How many there are.
+        found: usize,
+    },
+}
+
+/// A style or a theme that a scene names and that cannot be had.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StyleError {
+    /// Neither the theme nor `[styles]` has a style of that name.
+    #[error("no style `{name}` in {theme}{}; it has {}", meant(near), list(known))]
+    Unknown {
+        /// The name in the transfer function.
+        name: String,
+        /// The theme that was searched, in words.
+        theme: String,
+        /// The known name that is nearest to it.
+        near: Option<String>,
+        /// All known names, the theme's and those of `[styles]`.
+        known: Vec<String>,
+    },
+    /// No such theme in the program.
+    #[error("no theme `{name}`{}; the program has {}", meant(near), list(known))]
+    UnknownTheme {
+        /// The name in `[styles]`.
+        name: String,
+        /// The theme whose name is nearest to it.
+        near: Option<String>,
+        /// All embedded themes.
+        known: Vec<String>,
+    },
+    /// A theme's folder cannot be listed.
+    #[error("the theme's folder {}: {reason}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// Two pictures of a theme's folder bear one name.
+    #[error("the theme's folder {} has two pictures for the style `{name}`: {}", folder.display(), list(files))]
+    Ambiguous {
+        /// The folder.
+        folder: PathBuf,
+        /// The style.
+        name: String,
+        /// The files' names.
+        files: Vec<String>,
+    },
+    /// A style's file cannot be read.
+    #[error("style `{name}`: {}: {reason}", file.display())]
+    File {
+        /// The style.
+        name: String,
+        /// The file.
+        file: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// A style's picture is no style.
+    #[error("style `{name}`: {}: {fault}", file.display())]
+    Picture {
+        /// The style.
+        name: String,
+        /// The file, or the name of the embedded picture.
+        file: PathBuf,
+        /// What is wrong with it.
+        fault: PictureFault,
+    },
+}
+
+/// `" (did you mean `wax`?)"`, or nothing.
+fn meant(near: &Option<String>) -> String {
+    near.as_ref().map_or_else(String::new, |near| format!(" (did you mean `{near}`?)"))
+}
+
+/// `"`bone`, `wax`"`, or `"none"`.
+fn list(names: &[String]) -> String {
+    if names.is_empty() {
+        return "none".into();
+    }
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
