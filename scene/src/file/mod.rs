@@ -48,7 +48,8 @@ use item::Item;
 use std::path::Path;
 
 /// Reads a scene from the text of a file. Relative paths are resolved against the folder of `file_name`, those of
-/// overrides against the working directory; whether anything is there is not looked at.
+/// overrides against the working directory. Of the files that the scene names only the folder of a theme is looked at, for
+/// the names of its styles.
 ///
 /// # Errors
 /// Every fault of the text and of the overrides, with its place ([SCN-4]).

@@ -176,3 +176,16 @@ fn files_are_found_beside_the_scene_then_in_the_listed_folders() {
     assert!(unreadable.contains(&format!("\n  at {}\n", scenes.join("none.toml").display())), "{unreadable}");
     std::fs::remove_dir_all(&root).unwrap();
 }
+
+#[test]
+fn a_themes_folder_gives_the_names_of_its_styles() {
+    let folder = std::env::temp_dir().join(format!("drypoint-theme-{}", std::process::id()));
+    std::fs::create_dir_all(folder.join("pencils")).unwrap();
+    std::fs::write(folder.join("pencils/soft.png"), "").unwrap();
+    let text = "drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n[styles]\ntheme = \"pencils\"\n[transfer]\nnodes = [{ at = 1, \
+                style = \"soft\" }, { at = 2, style = \"wax\" }]\n";
+    let faults = parse(text, &folder.join("s.toml"), &Overrides::default()).unwrap_err();
+    let whats: Vec<String> = faults.iter().map(|fault| format!("{}; {}", fault.what(), fault.remedy())).collect();
+    assert_eq!(whats, ["there is no style \"wax\"; there is soft"]);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
