@@ -9,6 +9,7 @@ pub mod counts;
 pub mod file;
 pub mod math;
 pub mod phantom;
+pub mod philox;
 pub mod picture;
 pub mod plan;
 pub mod space;
