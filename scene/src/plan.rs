@@ -1,1 +1,309 @@
-//! What a scene calls for ([PLAN-1], [PLAN-3]).
+//! What a scene calls for, and why ([PLAN-1], [PLAN-3]). What is not in the plan is not computed.
+//!
+//! The rules stand with the tables: each says what its effect needs and which line of the scene asked for it. Here
+//! they are gathered and closed under what one quantity needs of another.
+
+use crate::file::Place;
+use crate::file::describe::Section;
+use crate::tables::Scene;
+use crate::tables::scene::sections;
+use std::fmt;
+
+/// What may have to be known at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quantity {
+    /// f.
+    Value,
+    /// g, with it the normal ([REC-2], [NORM-1]).
+    Gradient,
+    /// The normal of the sample before on the ray ([STF-5]).
+    PreviousNormal,
+    /// H, with the gradient of its own field ([REC-3], [CUR-1]).
+    Hessian,
+    /// |g|: ‖g‖ mapped to [0, 1] by its range ([VAL-2]).
+    GradientMagnitudeRange,
+}
+
+impl Quantity {
+    /// Every quantity.
+    pub const ALL: [Self; 5] =
+        [Self::Value, Self::Gradient, Self::PreviousNormal, Self::Hessian, Self::GradientMagnitudeRange];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Value => "value",
+            Self::Gradient => "gradient",
+            Self::PreviousNormal => "previous normal",
+            Self::Hessian => "Hessian",
+            Self::GradientMagnitudeRange => "|g|",
+        }
+    }
+
+    /// What it adds to a picture's work.
+    pub fn adds(self) -> &'static str {
+        match self {
+            Self::Value => "one reconstruction a sample",
+            Self::Gradient => "one gradient a visible sample",
+            Self::PreviousNormal => "one gradient where the sample before has none yet",
+            Self::Hessian => "one Hessian a visible sample",
+            Self::GradientMagnitudeRange => "a norm and a division a visible sample",
+        }
+    }
+
+    /// What it is made of.
+    fn prerequisite(self) -> Option<Self> {
+        match self {
+            Self::Value => None,
+            Self::Gradient => Some(Self::Value),
+            // A sample without a normal has no curvature, and that is tested on `sampling.gradient` too ([PREC-3]).
+            Self::PreviousNormal | Self::Hessian | Self::GradientMagnitudeRange => Some(Self::Gradient),
+        }
+    }
+}
+
+/// A pass over the volume or the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Pass {
+    /// Coefficients of a prefiltered B-spline ([REC-1]).
+    Coefficients,
+    /// Coefficients of the B-spline of the smoothed grid ([REC-3]).
+    SmoothedCoefficients,
+    /// The quantile of ‖g‖ over the voxels, where `gradient_range` is none that is given ([VAL-2]).
+    GradientRange,
+    /// The automatic transfer function from the histogram of values and gradients.
+    AutomaticTransfer,
+    /// The ranges of bricks, by which empty space is skipped ([RAY-2]).
+    Bricks,
+    /// The rays themselves.
+    Rays,
+}
+
+impl Pass {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Coefficients => "B-spline coefficients",
+            Self::SmoothedCoefficients => "smoothed coefficients",
+            Self::GradientRange => "range of |g|",
+            Self::AutomaticTransfer => "automatic function",
+            Self::Bricks => "brick ranges",
+            Self::Rays => "rays",
+        }
+    }
+
+    /// What it adds to a picture's work.
+    pub fn adds(self) -> &'static str {
+        match self {
+            Self::Coefficients => "one filter along each axis, one number a voxel",
+            Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
+            Self::GradientRange | Self::AutomaticTransfer => "one gradient a voxel",
+            Self::Bricks => "one look at each voxel",
+            Self::Rays => "samples² rays a pixel",
+        }
+    }
+}
+
+/// A quantity that an effect needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Need {
+    /// What is needed.
+    pub quantity: Quantity,
+    /// The effect that needs it.
+    pub effect: String,
+    /// The key or table that asked.
+    pub key: String,
+    /// Where the scene says it, or else the table around it; none for a default.
+    pub place: Option<Place>,
+}
+
+/// A pass that an effect needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassNeed {
+    /// What is needed.
+    pub pass: Pass,
+    /// The effect that needs it.
+    pub effect: String,
+    /// The key or table that asked.
+    pub key: String,
+    /// Where the scene says it, or else the table around it; none for a default.
+    pub place: Option<Place>,
+}
+
+/// A key or table that the scene says and that has no effect beside its neighbours ([SCN-4]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct IdleKey {
+    /// The key.
+    pub key: String,
+    /// Where the scene says it.
+    pub place: Place,
+    /// Why it has no effect.
+    pub why: String,
+}
+
+/// What a scene calls for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Quantities at samples, ordered by quantity.
+    pub needs: Vec<Need>,
+    /// Passes, in their order.
+    pub passes: Vec<PassNeed>,
+    /// Keys without effect.
+    pub idle_keys: Vec<IdleKey>,
+    /// What the picture may lack.
+    pub warnings: Vec<String>,
+}
+
+impl Plan {
+    /// The plan of a scene. It depends on the scene alone, not on the volume.
+    pub fn new(scene: &Scene) -> Self {
+        let sections: Vec<Section> = sections().collect();
+        let mut asks = Asks { scene, needs: Vec::new(), passes: Vec::new() };
+        asks.pass(Pass::Rays, "picture", "picture.samples");
+        sections.iter().for_each(|section| (section.asks)(scene, &mut asks));
+        asks.close();
+        sections.iter().for_each(|section| (section.serves)(scene, &mut asks));
+        asks.close();
+        asks.needs.sort_by_key(|need| need.quantity);
+        asks.passes.sort_by_key(|need| need.pass);
+        let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys: Vec::new(), warnings: Vec::new() };
+        let mut idle = Idle { scene, keys: Vec::new() };
+        sections.iter().for_each(|section| (section.idle)(scene, &plan, &mut idle));
+        idle.keys.sort_by(|a, b| (&a.place, &a.key).cmp(&(&b.place, &b.key)));
+        plan.idle_keys = idle.keys;
+        plan
+    }
+
+    /// Whether an effect of the scene needs that quantity.
+    pub fn needs(&self, quantity: Quantity) -> bool {
+        self.needs.iter().any(|need| need.quantity == quantity)
+    }
+
+    /// Whether an effect of the scene needs that pass.
+    pub fn has_pass(&self, pass: Pass) -> bool {
+        self.passes.iter().any(|need| need.pass == pass)
+    }
+
+    /// Warns where the longest distance between samples along a ray exceeds a voxel ([RAY-1]), both in world units.
+    pub fn warn_step(&mut self, longest_step: f64, voxel: f64) {
+        if longest_step > voxel {
+            self.warnings.push(format!(
+                "samples are up to {longest_step:.4} apart along a ray, further than a voxel ({voxel:.4}): structures \
+                 between them are missed; make sampling.step smaller"
+            ));
+        }
+    }
+}
+
+/// Collects what the effects of a scene need.
+#[derive(Debug)]
+pub(crate) struct Asks<'a> {
+    scene: &'a Scene,
+    needs: Vec<Need>,
+    passes: Vec<PassNeed>,
+}
+
+impl Asks<'_> {
+    /// An effect needs a quantity, because of a key.
+    pub(crate) fn need(&mut self, quantity: Quantity, effect: &str, key: &str) {
+        let place = self.place(key);
+        self.needs.push(Need { quantity, effect: effect.into(), key: key.into(), place });
+    }
+
+    /// An effect needs a pass, because of a key.
+    pub(crate) fn pass(&mut self, pass: Pass, effect: &str, key: &str) {
+        let place = self.place(key);
+        self.passes.push(PassNeed { pass, effect: effect.into(), key: key.into(), place });
+    }
+
+    /// Where the scene says a key, or else the table around it.
+    fn place(&self, key: &str) -> Option<Place> {
+        let outer = key.rsplit_once(['.', '[']).map(|(outer, _)| outer);
+        let given = &self.scene.given;
+        given.place(key).or_else(|| outer.and_then(|outer| given.place(outer))).cloned()
+    }
+
+    /// The first that needed a quantity, if anyone does.
+    pub(crate) fn first(&self, quantity: Quantity) -> Option<&Need> {
+        self.needs.iter().find(|need| need.quantity == quantity)
+    }
+
+    /// Adds what the needed quantities are made of, for whoever needed them first.
+    fn close(&mut self) {
+        for quantity in Quantity::ALL.into_iter().rev() {
+            if let (Some(need), Some(prerequisite)) = (self.first(quantity), quantity.prerequisite())
+                && self.first(prerequisite).is_none()
+            {
+                let need = Need { quantity: prerequisite, ..need.clone() };
+                self.needs.push(need);
+            }
+        }
+    }
+}
+
+/// Collects keys without effect.
+#[derive(Debug)]
+pub(crate) struct Idle<'a> {
+    scene: &'a Scene,
+    keys: Vec<IdleKey>,
+}
+
+impl Idle<'_> {
+    /// Whether the scene says a key or table.
+    pub(crate) fn says(&self, key: &str) -> bool {
+        self.scene.given.contains(key)
+    }
+
+    /// Lists a key or table that has no effect, if the scene says it.
+    pub(crate) fn key(&mut self, key: &str, why: &str) {
+        if let Some(place) = self.scene.given.place(key) {
+            self.keys.push(IdleKey { key: key.into(), place: place.clone(), why: why.into() });
+        }
+    }
+}
+
+impl fmt::Display for Plan {
+    /// Effect, what it needs, what that adds, and which line of the scene asked.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let because = |key: &str, place: &Option<Place>| match place {
+            Some(Place::File { line, .. }) => format!("{key} (line {line})"),
+            Some(Place::Set(_)) => format!("{key} (--set)"),
+            None => format!("{key} (default)"),
+        };
+        let head = ["effect", "needs", "adds", "because of"].map(String::from);
+        let needs = self
+            .needs
+            .iter()
+            .map(|n| [n.effect.clone(), n.quantity.name().into(), n.quantity.adds().into(), because(&n.key, &n.place)]);
+        let passes = self
+            .passes
+            .iter()
+            .map(|p| [p.effect.clone(), p.pass.name().into(), p.pass.adds().into(), because(&p.key, &p.place)]);
+        let rows: Vec<[String; 4]> = std::iter::once(head).chain(needs).chain(passes).collect();
+        let width: [usize; 4] =
+            std::array::from_fn(|i| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0));
+        for [effect, needs, adds, because] in &rows {
+            let [a, b, c, _] = width;
+            writeln!(f, "{effect:a$}  {needs:b$}  {adds:c$}  {because}")?;
+        }
+        let idle = self.idle_keys.iter().map(|key| {
+            let place = Some(key.place.clone());
+            format!("  {}: {}", because(&key.key, &place), key.why)
+        });
+        list(f, "without effect", idle)?;
+        list(f, "warnings", self.warnings.iter().map(|warning| format!("  {warning}")))
+    }
+}
+
+fn list(f: &mut fmt::Formatter<'_>, title: &str, lines: impl Iterator<Item = String>) -> fmt::Result {
+    for (i, line) in lines.enumerate() {
+        if i == 0 {
+            writeln!(f, "\n{title}")?;
+        }
+        writeln!(f, "{line}")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

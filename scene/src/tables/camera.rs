@@ -1,5 +1,8 @@
 //! `[camera]`: from where the volume is seen ([RAY-5], [RAY-6]).
 
+use crate::file::describe::{Key, Slot, Table};
+use crate::file::fault::Problem;
+use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, WORLD_LENGTH};
 use crate::tables::Length;
 use glam::DVec3;
 
@@ -12,7 +15,7 @@ pub struct Camera {
     pub direction: DVec3,
     /// Where the camera stands, in world space; none: [RAY-5]'s default from `direction`.
     pub eye: Option<DVec3>,
-    /// Whether the scene gave `direction` itself: with `eye`, it then replaces `target`.
+    /// Whether the scene gave `direction` beside `eye`: it then replaces `target`. False without `eye`.
     pub direction_given: bool,
     /// What the camera looks at, in world space; none: the centre of the volume's box.
     pub target: Option<DVec3>,
@@ -40,7 +43,7 @@ pub enum Projection {
 impl Default for Camera {
     fn default() -> Self {
         Self {
-            projection: Projection::Perspective { fov: 30.0 },
+            projection: Projection::Perspective { fov: FOV },
             direction: DVec3::new(-1.0, -0.4, -0.3),
             eye: None,
             direction_given: false,
@@ -50,3 +53,167 @@ impl Default for Camera {
         }
     }
 }
+
+/// `projection` without what belongs to each.
+#[derive(Clone, Copy, PartialEq)]
+enum Projected {
+    Perspective,
+    Orthographic,
+}
+
+/// Vertical field of view of a first picture, in degrees.
+const FOV: f64 = 30.0;
+
+/// A point in world space.
+const POINT: Numbers<3> = Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free };
+
+/// A direction in world space, of any length.
+const DIRECTION: Numbers<3> = Numbers { what: "a direction [x, y, z]", bounds: Bounds::ANY, rule: Rule::Direction };
+
+/// The description of `[camera]`. `direction` is read after `eye`: without `eye`, whether it was given says nothing.
+pub(crate) static TABLE: Table<Camera> = Table {
+    check: |camera, check| {
+        if !camera.direction_given && camera.eye.is_some() && camera.eye == camera.target {
+            check.fault_in(
+                "eye",
+                Problem::Contradiction {
+                    what: "camera.eye and camera.target are one point".into(),
+                    remedy: "move one of them, or give camera.direction".into(),
+                },
+            );
+        }
+    },
+    idle: |scene, _, idle| {
+        let camera = &scene.camera;
+        match camera.projection {
+            Projection::Perspective { .. } => idle.key("camera.height", "the camera is perspective: fov counts"),
+            Projection::Orthographic { .. } => {
+                idle.key("camera.fov", "the camera is orthographic: height counts");
+                idle.key("camera.near", "the camera is orthographic: depths have any sign");
+            }
+        }
+        if camera.eye.is_some() && camera.direction_given {
+            idle.key("camera.target", "eye and direction say where the camera looks");
+        }
+    },
+    ..Table::new(
+        "[camera]",
+        "From where the volume is seen: along `direction` at the target, or from `eye`.",
+        Camera::default,
+        &[
+            Key::new(
+                "projection",
+                "RAY-6",
+                "How points are projected.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("perspective", Projected::Perspective, "Through the eye."),
+                            ChoiceOption::new("orthographic", Projected::Orthographic, "Along parallel rays."),
+                        ],
+                        later: &[],
+                    },
+                    get: |c: &Camera| {
+                        Some(match c.projection {
+                            Projection::Perspective { .. } => Projected::Perspective,
+                            Projection::Orthographic { .. } => Projected::Orthographic,
+                        })
+                    },
+                    set: |c, projected| {
+                        c.projection = match projected {
+                            Projected::Perspective => Projection::Perspective { fov: FOV },
+                            Projected::Orthographic => Projection::Orthographic { height: None },
+                        }
+                    },
+                },
+            ),
+            Key::new(
+                "fov",
+                "RAY-6",
+                "Vertical field of view in degrees; perspective.",
+                &Slot {
+                    kind: Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" },
+                    get: |c: &Camera| match c.projection {
+                        Projection::Perspective { fov } => Some(fov),
+                        Projection::Orthographic { .. } => None,
+                    },
+                    set: |c, v| {
+                        if let Projection::Perspective { fov } = &mut c.projection {
+                            *fov = v;
+                        }
+                    },
+                },
+            ),
+            Key::new(
+                "height",
+                "RAY-5",
+                "World units from the bottom to the top of the picture; orthographic.",
+                &Slot {
+                    kind: Number { bounds: Bounds::POSITIVE, unit: ", in world units" },
+                    get: |c: &Camera| match c.projection {
+                        Projection::Perspective { .. } => None,
+                        Projection::Orthographic { height } => height,
+                    },
+                    set: |c, v| {
+                        if let Projection::Orthographic { height } = &mut c.projection {
+                            *height = Some(v);
+                        }
+                    },
+                },
+            )
+            .absent("what shows the whole box of the volume"),
+            Key::new(
+                "eye",
+                "RAY-5",
+                "Where the camera stands, in world space. With `direction` beside it, `target` is unused.",
+                &Slot {
+                    kind: POINT,
+                    get: |c: &Camera| c.eye.map(|v| v.to_array()),
+                    set: |c, v| c.eye = Some(DVec3::from_array(v)),
+                },
+            )
+            .absent("so far from the target that the whole box is seen"),
+            Key::new(
+                "direction",
+                "RAY-5",
+                "The way the camera looks, in world space, of any length.",
+                &Slot {
+                    kind: DIRECTION,
+                    get: |c: &Camera| (c.eye.is_none() || c.direction_given).then(|| c.direction.to_array()),
+                    set: |c, v| {
+                        c.direction = DVec3::from_array(v);
+                        c.direction_given = c.eye.is_some();
+                    },
+                },
+            ),
+            Key::new(
+                "target",
+                "RAY-5",
+                "What the camera looks at, in world space.",
+                &Slot {
+                    kind: POINT,
+                    get: |c: &Camera| c.target.map(|v| v.to_array()),
+                    set: |c, v| c.target = Some(DVec3::from_array(v)),
+                },
+            )
+            .absent("the centre of the volume's box"),
+            Key::new(
+                "up",
+                "RAY-6",
+                "Up in the picture, in world space.",
+                &Slot {
+                    kind: DIRECTION,
+                    get: |c: &Camera| Some(c.up.to_array()),
+                    set: |c, v| c.up = DVec3::from_array(v),
+                },
+            ),
+            Key::new(
+                "near",
+                "RAY-1",
+                "Smallest eye depth of a sample; perspective.",
+                &Slot { kind: WORLD_LENGTH, get: |c: &Camera| c.near, set: |c, v| c.near = Some(v) },
+            )
+            .absent("`sampling.step`"),
+        ],
+    )
+};

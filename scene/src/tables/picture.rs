@@ -1,6 +1,18 @@
 //! `[picture]`: what the picture is drawn on.
 
+use crate::file::check::Check;
+use crate::file::describe::{Instead, Key, Kind, Shape, Slot, Table};
+use crate::file::fault::Problem;
+use crate::file::item::Item;
+use crate::file::kind::{
+    Bounds, Choice, ChoiceOption, Colors, Lengths, ListOf, Number, On, Whole, Wholes, nearest_color, parse_color,
+};
+use crate::file::out::Out;
 use crate::picture::LayerKind;
+use crate::plan::Quantity;
+use crate::tables::Length;
+use crate::tables::contours::{Measured, measured_curvature};
+use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
 /// The table `[picture]`.
@@ -53,5 +65,284 @@ impl Default for PictureSettings {
             bits: 8,
             layers: vec![LayerKind::Beauty],
         }
+    }
+}
+
+/// Width and height: at most 2³⁰ pixels, which are 32 GiB of `beauty` alone.
+const SIZE: Wholes<2> = Wholes {
+    what: "a size [width, height]",
+    each: Whole { lo: 1, hi: 1 << 20 },
+    product: 1 << 30,
+    of_what: "pixels in all",
+};
+
+/// Width or height on the page.
+const EXTENT: Lengths = Lengths { on: On::Page, bounds: Bounds::POSITIVE };
+
+/// A length on the page in whole pixels; what is too long for any picture ends at the largest number.
+fn pixels(length: Length, dpi: f64) -> usize {
+    /// Millimetres of an inch.
+    const INCH: f64 = 25.4;
+    match length {
+        Length::Millimetres(mm) => (mm / INCH * dpi).round_ties_even() as usize,
+        Length::Pixels(px) => px.round_ties_even() as usize,
+        // The kind of `width` and `height` lets no other unit pass.
+        Length::World(_) | Length::Voxels(_) | Length::Percent(_) => 0,
+    }
+}
+
+/// The description of `[picture]`. `dpi` is read before the lengths that it turns into pixels.
+pub(crate) static TABLE: Table<PictureSettings> = Table {
+    instead: &[Instead { one: "size", others: &["width", "height"] }],
+    check: |picture, check| {
+        for (one, other) in [("width", "height"), ("height", "width")] {
+            if check.has(one) && !check.has(other) {
+                check.fault_in(
+                    other,
+                    Problem::Missing { expected: format!("{other} beside {one}, such as {other} = \"120 mm\"") },
+                );
+            }
+        }
+        let [width, height] = picture.size.map(|n| n as u64);
+        let complete = check.has("width") && check.has("height") && check.sound(&["width", "height", "dpi"]);
+        if complete && SIZE.fits([width, height]).is_none() {
+            check.fault_in(
+                "width",
+                Problem::Contradiction {
+                    what: format!("picture.width and picture.height make {width} × {height} pixels"),
+                    remedy: format!("change width, height or dpi: expected is {}", SIZE.expected()),
+                },
+            );
+        }
+        check_layers(&picture.layers, check);
+    },
+    asks: |scene, asks| {
+        for (i, layer) in scene.picture.layers.iter().enumerate() {
+            let effect = format!("layer {layer}");
+            let key = format!("picture.layers[{i}]");
+            let curvature = |asks: &mut crate::plan::Asks| match measured_curvature(scene) {
+                Measured::Exact => asks.need(Quantity::Hessian, &effect, &key),
+                Measured::AlongRay => asks.need(Quantity::PreviousNormal, &effect, &key),
+            };
+            match layer {
+                LayerKind::Beauty | LayerKind::Z | LayerKind::Depth | LayerKind::First | LayerKind::Counts => {}
+                LayerKind::Normal | LayerKind::Gradient => asks.need(Quantity::Gradient, &effect, &key),
+                LayerKind::Curvature => {
+                    asks.need(Quantity::Hessian, &effect, &key);
+                    curvature(asks);
+                }
+                LayerKind::CurvatureAlongView => curvature(asks),
+            }
+        }
+    },
+    idle: |_, _, idle| {
+        if !idle.says("picture.width") {
+            idle.key("picture.dpi", "nothing is in mm: size is in pixels");
+        }
+    },
+    ..Table::new(
+        "[picture]",
+        "What the picture is drawn on.",
+        PictureSettings::default,
+        &[
+            Key::new(
+                "dpi",
+                "IO-7",
+                "Pixels per inch, which turns mm into pixels.",
+                &Slot {
+                    kind: Number { bounds: Bounds::POSITIVE, unit: "" },
+                    get: |p: &PictureSettings| Some(p.dpi),
+                    set: |p, v| p.dpi = v,
+                },
+            ),
+            Key::new(
+                "size",
+                "RAY-6",
+                "Width and height in pixels.",
+                &Slot { kind: SIZE, get: |p: &PictureSettings| Some(p.size), set: |p, v| p.size = v },
+            ),
+            Key::new(
+                "width",
+                "IO-7",
+                "Width on the page, with `height` in place of `size`.",
+                &Slot { kind: EXTENT, get: |_| None, set: |p: &mut PictureSettings, v| p.size[0] = pixels(v, p.dpi) },
+            )
+            .absent("`size`"),
+            Key::new(
+                "height",
+                "IO-7",
+                "Height on the page, with `width` in place of `size`.",
+                &Slot { kind: EXTENT, get: |_| None, set: |p: &mut PictureSettings, v| p.size[1] = pixels(v, p.dpi) },
+            )
+            .absent("`size`"),
+            Key::new(
+                "samples",
+                "RAY-6",
+                "n of the n×n rays a pixel.",
+                &Slot {
+                    kind: Whole { lo: 1, hi: 1024 },
+                    get: |p: &PictureSettings| Some(p.samples as u64),
+                    set: |p, v| p.samples = v as usize,
+                },
+            ),
+            Key::new(
+                "background",
+                "IO-6",
+                "What lies behind: a colour, \"none\", or the path of a picture that is stretched to the frame.",
+                &Slot {
+                    kind: Behind,
+                    get: |p: &PictureSettings| Some(p.background.clone()),
+                    set: |p, v| p.background = v,
+                },
+            ),
+            Key::new(
+                "blend_space",
+                "VAL-3",
+                "Which numbers are composited.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("linear", BlendSpace::Linear, "Linear light."),
+                            ChoiceOption::new("srgb", BlendSpace::Srgb, "sRGB-encoded values, to remake old figures."),
+                        ],
+                        later: &[],
+                    },
+                    get: |p: &PictureSettings| Some(p.blend_space),
+                    set: |p, v| p.blend_space = v,
+                },
+            ),
+            Key::new(
+                "bits",
+                "IO-2",
+                "Bits a channel of a PNG.",
+                &Slot { kind: Bits, get: |p: &PictureSettings| Some(p.bits), set: |p, v| p.bits = v },
+            ),
+            Key::new(
+                "layers",
+                "IO-6",
+                "Layers of an EXR.",
+                &Slot {
+                    kind: ListOf { what: "a list of layers", each: LAYER },
+                    get: |p: &PictureSettings| Some(p.layers.clone()),
+                    set: |p, v| p.layers = v,
+                },
+            )
+            .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]),
+        ],
+    )
+};
+
+/// Layers by name.
+const LAYER: Choice<LayerKind> = Choice {
+    options: &[
+        ChoiceOption::new("beauty", LayerKind::Beauty, "The picture."),
+        ChoiceOption::new("Z", LayerKind::Z, "Eye depth where the opacity first reaches ½."),
+        ChoiceOption::new("depth", LayerKind::Depth, "First, half and mean depth."),
+        ChoiceOption::new("normal", LayerKind::Normal, "Mean outward normal in eye space."),
+        ChoiceOption::new("gradient", LayerKind::Gradient, "Mean gradient in world space."),
+        ChoiceOption::new("curvature", LayerKind::Curvature, "Mean κ₁, κ₂ and κ_v."),
+        ChoiceOption::new("curvature.KV", LayerKind::CurvatureAlongView, "Mean κ_v alone, as [contours] has it."),
+        ChoiceOption::new("first", LayerKind::First, "The value at the first visible sample."),
+        ChoiceOption::new("counts", LayerKind::Counts, "Samples evaluated on the ray."),
+    ],
+    later: &[("halo0", "IO-6"), ("halo0.H", "IO-6")],
+};
+
+/// A channel can be in a file once.
+fn check_layers(layers: &[LayerKind], check: &mut Check) {
+    for (i, layer) in layers.iter().enumerate() {
+        let clash = |other: &&LayerKind| other.channels().iter().any(|name| layer.channels().contains(name));
+        if let Some(other) = layers[..i].iter().find(clash) {
+            let what = if other == layer {
+                format!("picture.layers has {layer:?} twice", layer = layer.name())
+            } else {
+                format!("the layers {:?} and {:?} share a channel", other.name(), layer.name())
+            };
+            let remedy = "leave one of them out".into();
+            check.fault_in(&format!("layers[{i}]"), Problem::Contradiction { what, remedy });
+        }
+    }
+}
+
+/// 8 or 16.
+struct Bits;
+
+impl Shape for Bits {
+    fn expected(&self) -> String {
+        "8 or 16".into()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "enum": [8, 16] })
+    }
+}
+
+impl Kind for Bits {
+    type Of = u8;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<u8> {
+        match (Whole { lo: 8, hi: 16 }).of(item) {
+            Some(8) => Some(8),
+            Some(16) => Some(16),
+            _ => check.wrong(item, self.expected()),
+        }
+    }
+
+    fn write(&self, value: &u8) -> Out {
+        Out::Whole(u64::from(*value))
+    }
+}
+
+/// A colour, `"none"` or the path of a picture.
+struct Behind;
+
+impl Shape for Behind {
+    fn expected(&self) -> String {
+        format!("{}, \"none\", or the path of a picture", Colors.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "type": "string", "minLength": 1 })
+    }
+}
+
+impl Kind for Behind {
+    type Of = Background;
+
+    /// What has a point or a separator of folders in it is a path, unless it begins with `#`.
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Background> {
+        match item.text() {
+            Some("none") => Some(Background::None),
+            Some(text) => match parse_color(text) {
+                Some(color) => Some(Background::Color(color)),
+                None if !text.starts_with('#') && text.contains(['.', '/', '\\']) && !text.contains('\0') => {
+                    Some(Background::Picture(check.resolve(text, &item.place)))
+                }
+                None => check.wrong_name(item, self.expected(), nearest_color(text)),
+            },
+            None => check.wrong(item, self.expected()),
+        }
+    }
+
+    fn write(&self, value: &Background) -> Out {
+        match value {
+            Background::None => Out::Text("none".into()),
+            Background::Color(color) => Colors.write(color),
+            Background::Picture(path) => Out::Path(path.clone()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn millimetres_become_pixels() {
+        // An inch at 300 dpi; 180 mm are 2125.98 px.
+        assert_eq!(pixels(Length::Millimetres(25.4), 300.0), 300);
+        assert_eq!(pixels(Length::Millimetres(180.0), 300.0), 2126);
+        assert_eq!(pixels(Length::Pixels(700.0), 300.0), 700);
+        assert_eq!(pixels(Length::Millimetres(1e300), 1e300), usize::MAX);
     }
 }

@@ -1,6 +1,10 @@
 //! `[sampling]`: how the field is reconstructed and where it is sampled.
 
-use crate::tables::Length;
+use crate::file::describe::{Key, Slot, Table};
+use crate::file::fault::Problem;
+use crate::file::kind::{Bounds, Choice, ChoiceOption, Flag, Number as AnyNumber, WORLD_LENGTH};
+use crate::plan::{Pass, Quantity};
+use crate::tables::{Length, Projection};
 
 /// The table `[sampling]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,3 +120,231 @@ impl Default for Sampling {
         }
     }
 }
+
+/// The description of `[sampling]`.
+pub(crate) static TABLE: Table<Sampling> = Table {
+    check: |sampling, check| {
+        let twice_differentiable =
+            matches!(sampling.kernel, Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5);
+        if sampling.hessian == HessianEstimator::Analytic
+            && !twice_differentiable
+            && check.sound(&["kernel", "hessian"])
+        {
+            check.fault_in(
+                "hessian",
+                Problem::Contradiction {
+                    what: "sampling.hessian = \"analytic\" needs a kernel with second derivatives".into(),
+                    remedy: "write kernel = \"bspline\", or hessian = \"central\" or \"gaussian\"".into(),
+                },
+            );
+        }
+    },
+    serves: |scene, asks| {
+        let sampling = &scene.sampling;
+        if matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5) {
+            asks.pass(Pass::Coefficients, "prefiltered kernel", "sampling.kernel");
+        }
+        let hessian = asks.first(Quantity::Hessian).map(|need| need.effect.clone());
+        match (hessian, sampling.hessian) {
+            (Some(effect), HessianEstimator::Gaussian) => {
+                asks.pass(Pass::SmoothedCoefficients, &effect, "sampling.hessian");
+            }
+            (Some(effect), HessianEstimator::Auto) => {
+                asks.pass(Pass::SmoothedCoefficients, &format!("{effect}, integer voxels"), "sampling.hessian");
+            }
+            _ => {}
+        }
+        if sampling.skip_empty {
+            asks.pass(Pass::Bricks, "skipping what shows nothing", "sampling.skip_empty");
+        }
+    },
+    idle: |scene, plan, idle| {
+        let sampling = &scene.sampling;
+        if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
+            idle.key("sampling.step_along", "planes and shells are the same in an orthographic picture");
+        }
+        if !plan.needs(Quantity::Gradient) {
+            idle.key("sampling.gradient", "nothing needs a gradient");
+            idle.key("sampling.normal", "nothing needs a normal");
+        }
+        if !plan.needs(Quantity::Hessian) {
+            idle.key("sampling.hessian", "nothing needs a Hessian");
+            idle.key("sampling.scale", "nothing needs a Hessian");
+        } else if !matches!(sampling.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian) {
+            idle.key("sampling.scale", "only hessian = \"gaussian\" smooths");
+        }
+    },
+    ..Table::new(
+        "[sampling]",
+        "How the field is reconstructed and where it is sampled.",
+        Sampling::default,
+        &[
+            Key::new(
+                "step",
+                "RAY-1",
+                "Δ, the distance between sample planes.",
+                &Slot { kind: WORLD_LENGTH, get: |s: &Sampling| Some(s.step), set: |s, v| s.step = v },
+            ),
+            Key::new(
+                "step_along",
+                "RAY-1",
+                "What the step is measured along.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("plane", StepAlong::Plane, "View-aligned planes."),
+                            ChoiceOption::new("ray", StepAlong::Ray, "Each ray: shells about the eye."),
+                        ],
+                        later: &[],
+                    },
+                    get: |s: &Sampling| Some(s.step_along),
+                    set: |s, v| s.step_along = v,
+                },
+            ),
+            Key::new(
+                "kernel",
+                "REC-1",
+                "Reconstruction of values between voxels.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("trilinear", Kernel::Trilinear, "Three nested interpolations."),
+                            ChoiceOption::new("bspline", Kernel::Bspline, "Cubic B-spline, prefiltered: interpolates."),
+                            ChoiceOption::new("bspline-smooth", Kernel::BsplineSmooth, "Cubic B-spline: smooths."),
+                            ChoiceOption::new("bspline5", Kernel::Bspline5, "Quintic B-spline, prefiltered."),
+                            ChoiceOption::new("catmull-rom", Kernel::CatmullRom, "Interpolating cubic."),
+                        ],
+                        later: &[],
+                    },
+                    get: |s: &Sampling| Some(s.kernel),
+                    set: |s, v| s.kernel = v,
+                },
+            ),
+            Key::new(
+                "gradient",
+                "REC-2",
+                "Gradient of shading.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new(
+                                "central",
+                                GradientEstimator::Central,
+                                "Central differences on the voxels, then trilinear.",
+                            ),
+                            ChoiceOption::new("analytic", GradientEstimator::Analytic, "The derivative of the kernel."),
+                            ChoiceOption::new("sobel", GradientEstimator::Sobel, "Sobel 3×3×3, then trilinear."),
+                            ChoiceOption::new(
+                                "regression",
+                                GradientEstimator::Regression,
+                                "4D linear regression, then trilinear.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |s: &Sampling| Some(s.gradient),
+                    set: |s, v| s.gradient = v,
+                },
+            ),
+            Key::new(
+                "hessian",
+                "REC-3",
+                "Hessian of curvature.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new(
+                                "auto",
+                                HessianEstimator::Auto,
+                                "gaussian for integer files, else analytic where the kernel allows it, else central.",
+                            ),
+                            ChoiceOption::new(
+                                "analytic",
+                                HessianEstimator::Analytic,
+                                "The second derivative of a B-spline kernel.",
+                            ),
+                            ChoiceOption::new(
+                                "central",
+                                HessianEstimator::Central,
+                                "Central differences of the central gradient.",
+                            ),
+                            ChoiceOption::new(
+                                "gaussian",
+                                HessianEstimator::Gaussian,
+                                "Derivatives of the grid smoothed by a Gaussian of width `scale`.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |s: &Sampling| Some(s.hessian),
+                    set: |s, v| s.hessian = v,
+                },
+            ),
+            Key::new(
+                "scale",
+                "REC-3",
+                "σ of the Gaussian.",
+                &Slot { kind: WORLD_LENGTH, get: |s: &Sampling| Some(s.scale), set: |s, v| s.scale = v },
+            ),
+            Key::new(
+                "normal",
+                "NORM-1",
+                "Which of the two unit normals shades.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("outward", NormalSide::Outward, "Outwards, as volume.outside says."),
+                            ChoiceOption::new("facing", NormalSide::Facing, "Outwards, flipped towards the eye."),
+                            ChoiceOption::new("gradient", NormalSide::Gradient, "Along the gradient, as printed."),
+                        ],
+                        later: &[],
+                    },
+                    get: |s: &Sampling| Some(s.normal),
+                    set: |s, v| s.normal = v,
+                },
+            ),
+            Key::new(
+                "number",
+                "PREC-1",
+                "Number type of the samples.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("f64", Number::F64, "The truth."),
+                            ChoiceOption::new("f32", Number::F32, "To see what single precision loses."),
+                        ],
+                        later: &[],
+                    },
+                    get: |s: &Sampling| Some(s.number),
+                    set: |s, v| s.number = v,
+                },
+            ),
+            Key::new(
+                "skip_empty",
+                "RAY-2",
+                "Whether bricks that show nothing are left out; changes no bit.",
+                &Slot { kind: Flag, get: |s: &Sampling| Some(s.skip_empty), set: |s, v| s.skip_empty = v },
+            ),
+            Key::new(
+                "stop_below",
+                "RAY-2",
+                "Transmittance below which a ray ends; 0 is never.",
+                &Slot {
+                    kind: AnyNumber { bounds: Bounds::BELOW_ONE, unit: "" },
+                    get: |s: &Sampling| Some(s.stop_below),
+                    set: |s, v| s.stop_below = v,
+                },
+            ),
+            Key::new(
+                "reference_length",
+                "VAL-4",
+                "Δ₀, the length that opacities are given for.",
+                &Slot {
+                    kind: WORLD_LENGTH,
+                    get: |s: &Sampling| Some(s.reference_length),
+                    set: |s, v| s.reference_length = v,
+                },
+            ),
+        ],
+    )
+};

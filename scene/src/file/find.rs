@@ -1,0 +1,82 @@
+//! Finding the files that a scene names ([SCN-2]).
+
+use super::check::Check;
+use super::fault::Problem;
+use super::names;
+use super::nearest::nearest;
+use super::place::Place;
+use crate::tables::{Background, Scene, StyleSource, VolumeSource};
+use std::path::{Path, PathBuf};
+
+/// The variable that lists folders of volumes.
+const VARIABLE: &str = "DRYPOINT_DATA";
+
+/// The shared data beside a source tree.
+const BESIDE_THE_SOURCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data");
+
+/// The folders in which a volume is looked for that is not where the scene says: those of the environment variable
+/// `DRYPOINT_DATA`, separated as in `PATH`; without the variable the shared data beside the source tree, if it is there.
+pub fn data_folders() -> Vec<PathBuf> {
+    match std::env::var_os(VARIABLE) {
+        Some(list) => std::env::split_paths(&list).filter(|folder| !folder.as_os_str().is_empty()).collect(),
+        None => Some(PathBuf::from(BESIDE_THE_SOURCE)).filter(|folder| folder.is_dir()).into_iter().collect(),
+    }
+}
+
+/// Looks for every file and folder that the scene names, and says which are not there.
+pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
+    if let VolumeSource::File { path, .. } = &mut scene.volume.source
+        && let Some(place) = sound(check, "volume.file")
+    {
+        match find(path, check.unresolved(path, &place), folders) {
+            Some(found) => *path = found,
+            None => {
+                let listed: Vec<String> = folders.iter().map(|folder| folder.display().to_string()).collect();
+                let also = if listed.is_empty() {
+                    format!("{VARIABLE} lists no folder with it")
+                } else {
+                    format!("nor is it in {}", listed.join(" or "))
+                };
+                let problem = Problem::NoFile { path: path.clone(), remedy: format!("write another path; {also}") };
+                check.fault_of("volume.file".into(), &place, problem);
+            }
+        }
+    }
+    if let Background::Picture(path) = &scene.picture.background {
+        must_exist(path, "picture.background", check);
+    }
+    for (name, file) in &scene.styles.files {
+        let key = format!("styles.{}", super::out::key(name));
+        must_exist(&file.path, &key, check);
+    }
+    if let StyleSource::Folder(path) = &scene.styles.theme
+        && !path.is_dir()
+        && let Some(place) = sound(check, "styles.theme")
+    {
+        let known: Vec<String> = names::themes().into_iter().map(Into::into).collect();
+        let name = check.unresolved(path, &place).to_string_lossy().into_owned();
+        let nearest = nearest(&name, known.iter().map(String::as_str)).map(Into::into);
+        let problem = Problem::Reference { what: "theme or folder".into(), name, nearest, known };
+        check.fault_of("styles.theme".into(), &place, problem);
+    }
+}
+
+/// The place of a key that the scene says and that nothing is wrong with so far.
+fn sound(check: &Check, key: &str) -> Option<Place> {
+    check.place(key).filter(|_| check.sound(&[key])).cloned()
+}
+
+fn must_exist(path: &Path, key: &str, check: &mut Check) {
+    if !path.is_file()
+        && let Some(place) = sound(check, key)
+    {
+        let remedy = "write the path of a picture that is there".into();
+        check.fault_of(key.into(), &place, Problem::NoFile { path: path.to_owned(), remedy });
+    }
+}
+
+/// The path, or else what the scene wrote in the first folder that has it.
+fn find(path: &Path, written: &Path, folders: &[PathBuf]) -> Option<PathBuf> {
+    let in_folders = folders.iter().map(|folder| folder.join(written));
+    std::iter::once(path.to_owned()).chain(in_folders).find(|path| path.exists())
+}

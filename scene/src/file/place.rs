@@ -1,0 +1,122 @@
+//! Where in a scene a thing was said.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Where a key or a value stands.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Place {
+    /// In the scene file. Both numbers count from 1; columns are characters, not bytes.
+    File {
+        /// Line.
+        line: usize,
+        /// Column.
+        column: usize,
+    },
+    /// On the command line: what follows `--set`.
+    Set(String),
+}
+
+impl Place {
+    /// The line of the scene file; none for what the command line said.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::File { line, .. } => Some(*line),
+            Self::Set(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File { line, column } => write!(f, "line {line}, column {column}"),
+            Self::Set(text) => write!(f, "--set {text}"),
+        }
+    }
+}
+
+/// Turns byte offsets of a text into places.
+#[derive(Debug)]
+pub(super) struct Lines<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(text: &'a str) -> Self {
+        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+        Self { text, starts }
+    }
+
+    /// The place of a byte; what lies past the end or inside a character counts as just before it.
+    pub(super) fn place(&self, byte: usize) -> Place {
+        let byte = (0..=byte.min(self.text.len())).rev().find(|&b| self.text.is_char_boundary(b)).unwrap_or(0);
+        let line = self.starts.partition_point(|&start| start <= byte);
+        // Never 0: the first line starts at byte 0, which is at most `byte`.
+        let start = self.starts[line - 1];
+        Place::File { line, column: self.text[start..byte].chars().count() + 1 }
+    }
+}
+
+/// The keys that a scene said itself, with their places. It is not part of what the scene means: two scenes that
+/// differ only here are equal.
+#[derive(Clone, Debug, Default)]
+pub struct Given(BTreeMap<String, Place>);
+
+impl PartialEq for Given {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Given {
+    /// Whether the scene said a key, such as `camera.fov` or `transfer.nodes[2].style`, or has a table, such as
+    /// `contours`.
+    pub fn contains(&self, key: &str) -> bool {
+        self.0.contains_key(key)
+    }
+
+    /// Where the scene said it.
+    pub fn place(&self, key: &str) -> Option<&Place> {
+        self.0.get(key)
+    }
+
+    /// The line of the scene file that said it; none for a default and for what the command line said.
+    pub fn line(&self, key: &str) -> Option<usize> {
+        self.place(key).and_then(Place::line)
+    }
+
+    /// Every key and table, in alphabetical order.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Place)> {
+        self.0.iter().map(|(key, place)| (key.as_str(), place))
+    }
+
+    pub(super) fn insert(&mut self, key: String, place: Place) {
+        self.0.insert(key, place);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_and_columns_count_characters_from_one() {
+        let lines = Lines::new("a = 1\nµ = \"é\" x\n");
+        let at = |byte| match lines.place(byte) {
+            Place::File { line, column } => (line, column),
+            Place::Set(_) => unreachable!(),
+        };
+        assert_eq!(at(0), (1, 1));
+        assert_eq!(at(5), (1, 6), "the end of a line belongs to it");
+        assert_eq!(at(6), (2, 1));
+        // µ and é are two bytes each.
+        assert_eq!(at(8), (2, 2));
+        assert_eq!(at(7), (2, 1), "inside µ");
+        assert_eq!(at(16), (2, 9));
+        assert_eq!(at(18), (3, 1));
+        assert_eq!(at(1000), (3, 1));
+        assert_eq!(Lines::new("").place(0), Place::File { line: 1, column: 1 });
+    }
+}

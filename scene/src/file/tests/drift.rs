@@ -1,0 +1,172 @@
+//! Description and struct cannot part: every key that is described is read into the scene and written from it.
+
+use super::*;
+
+/// A key, what must stand beside it to have an effect, and a value that is not its default.
+type Sample = (&'static str, &'static [(&'static str, &'static str)], &'static str);
+
+const NODES: (&str, &str) = ("transfer.nodes", "[{ at = 1, style = \"wax\" }, { at = 9, style = \"wax\" }]");
+const COLORS: (&str, &str) = ("transfer.nodes", "[{ at = 1, color = \"red\" }]");
+const REGULAR: (&str, &str) = ("transfer.kind", "regular");
+const PHANTOM: (&str, &str) = ("volume.phantom.name", "torus");
+const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.type", "u16")];
+const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
+
+const SAMPLES: &[Sample] = &[
+    ("light", &[], "[1, 2, 3]"),
+    ("volume", &[], "{ file = \"b.nrrd\" }"),
+    ("volume.file", &[], "b.nrrd"),
+    ("volume.phantom", &[], "{ name = \"sphere\" }"),
+    ("volume.phantom.name", &[], "sphere"),
+    ("volume.phantom.size", &[PHANTOM], "64"),
+    ("volume.phantom.spacing", &[PHANTOM], "[1, 1, 2]"),
+    ("volume.phantom.type", &[PHANTOM], "i16"),
+    ("volume.phantom.param", &[PHANTOM], "{ R = 20 }"),
+    ("volume.raw", &[], "{ size = [1, 2, 3], type = \"u8\" }"),
+    ("volume.raw.size", &RAW, "[1, 2, 3]"),
+    ("volume.raw.type", &RAW, "f64"),
+    ("volume.raw.endian", &RAW, "big"),
+    ("volume.raw.spacing", &RAW, "[0.5, 0.5, 2]"),
+    ("volume.raw.skip", &RAW, "352"),
+    ("volume.range", &[], "[-1000, 3000]"),
+    ("volume.gradient_range", &[], "[0, 60]"),
+    ("volume.outside", &[], "high"),
+    ("camera", &[], "{ fov = 45 }"),
+    ("camera.projection", &[], "orthographic"),
+    ("camera.fov", &[], "45"),
+    ("camera.height", &[ORTHOGRAPHIC], "256"),
+    ("camera.direction", &[], "[0, 1, 0]"),
+    ("camera.eye", &[], "[1, 2, 3]"),
+    ("camera.target", &[], "[1, 2, 3]"),
+    ("camera.up", &[], "[0, 1, 0]"),
+    ("camera.near", &[], "0.5 voxels"),
+    ("picture", &[], "{ samples = 2 }"),
+    ("picture.size", &[], "[640, 480]"),
+    ("picture.width", &[("picture.height", "120 mm")], "180 mm"),
+    ("picture.height", &[("picture.width", "180 mm")], "120 mm"),
+    ("picture.dpi", &[], "72"),
+    ("picture.samples", &[], "3"),
+    ("picture.background", &[], "none"),
+    ("picture.blend_space", &[], "srgb"),
+    ("picture.bits", &[], "16"),
+    ("picture.layers", &[], "[\"beauty\", \"Z\"]"),
+    ("sampling", &[], "{ step = 1 }"),
+    ("sampling.step", &[], "0.25 voxels"),
+    ("sampling.step_along", &[], "ray"),
+    ("sampling.kernel", &[], "catmull-rom"),
+    ("sampling.gradient", &[], "sobel"),
+    ("sampling.hessian", &[], "central"),
+    ("sampling.scale", &[], "2 voxels"),
+    ("sampling.normal", &[], "facing"),
+    ("sampling.number", &[], "f32"),
+    ("sampling.skip_empty", &[], "false"),
+    ("sampling.stop_below", &[], "0.01"),
+    ("sampling.reference_length", &[], "2"),
+    ("transfer", &[], "{ kind = \"regular\" }"),
+    ("transfer.kind", &[], "regular"),
+    ("transfer.unit", &[], "percentile"),
+    ("transfer.nodes", &[], "[{ at = 1, style = \"wax\" }]"),
+    ("transfer.nodes[0].at", &[NODES], "2"),
+    ("transfer.nodes[0].style", &[NODES], "metal"),
+    ("transfer.nodes[0].opacity", &[NODES], "0.5"),
+    ("transfer.nodes[0].color", &[REGULAR, COLORS], "#00f"),
+    ("transfer.transparency", &[], "plain"),
+    ("transfer.mix", &[], "printed"),
+    ("transfer.sphere_frame", &[], "view"),
+    ("styles", &[], "{ mine = \"b.png\" }"),
+    ("styles.theme", &[], "my/theme"),
+    ("shading", &[], "{}"),
+    ("shading.ambient", &[("shading", "{}")], "0.1"),
+    ("shading.diffuse", &[("shading", "{}")], "0.1"),
+    ("shading.specular", &[("shading", "{}")], "0.1"),
+    ("shading.shininess", &[("shading", "{}")], "5"),
+    ("shading.light", &[("shading", "{}")], "{ world = [1, 0, 0] }"),
+    ("contours", &[], "{}"),
+    ("contours.thickness", &[("contours", "{}")], "3 voxels"),
+    ("contours.kappa", &[("contours", "{}")], "exact"),
+    ("contours.threshold", &[("contours.kappa", "none")], "0.5"),
+    ("contours.sign_flip", &[("contours", "{}")], "literal"),
+    ("contours.fade", &[("contours", "{}")], "[0.02, 0.05]"),
+];
+
+/// Keys that can have one value only, so far.
+const ONE_VALUE: [&str; 5] = ["drypoint", "preset", "transfer.over", "transfer.table", "shading.model"];
+
+fn with(settings: &[(&str, &str)]) -> Result<Scene, Faults> {
+    parse(HEAD, Path::new("scene.toml"), &settings.iter().copied().collect())
+}
+
+#[test]
+fn every_described_key_has_a_sample_and_every_sample_a_key() {
+    let described: Vec<String> = every_key().into_iter().map(|(path, _)| path).collect();
+    let mut sampled: Vec<&str> = SAMPLES.iter().map(|(key, ..)| *key).chain(ONE_VALUE).collect();
+    sampled.sort_unstable();
+    let mut expected = described.clone();
+    expected.sort_unstable();
+    assert_eq!(sampled, expected);
+}
+
+#[test]
+fn every_key_changes_the_scene_and_is_written_back() {
+    for (key, beside, value) in SAMPLES {
+        let without = with(beside);
+        let all: Vec<_> = beside.iter().copied().chain([(*key, *value)]).collect();
+        let changed = with(&all).unwrap_or_else(|faults| panic!("{key}\n{faults}"));
+        // Without `width` a `height` is at fault, and the other way round: there is no scene to compare with.
+        if let Ok(without) = without {
+            assert_ne!(changed, without, "{key}");
+        } else {
+            assert!(["picture.width", "picture.height"].contains(key), "{key}");
+        }
+        let full = write_full(&changed);
+        let back = parse(&full, Path::new("scene.toml"), &Overrides::default()).unwrap();
+        assert_eq!(back, changed, "{key}\n{full}");
+    }
+}
+
+#[test]
+fn every_name_of_every_choice_is_read_and_written_back() {
+    let mut names = 0;
+    for (path, key) in every_key() {
+        for (name, doc) in key.shape.options() {
+            let beside = SAMPLES.iter().find(|(key, ..)| *key == path).map_or(&[][..], |(_, beside, _)| *beside);
+            // An analytic Hessian is refused with kernels that have none.
+            let spline = if name == "analytic" { &[("sampling.kernel", "bspline")][..] } else { &[] };
+            let all: Vec<_> = [beside, spline, &[(path.as_str(), name)]].concat();
+            let scene = with(&all).unwrap_or_else(|faults| panic!("{faults}"));
+            if path != "preset" {
+                let line = format!("{} = {name:?}\n", key.name);
+                let inline = format!("{} = {name:?}", key.name);
+                let full = write_full(&scene);
+                assert!(full.contains(&line) || full.contains(&inline), "{path} {name}\n{full}");
+            }
+            let kebab = name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
+            assert!(kebab, "{path}: {name}");
+            assert!(doc.ends_with('.'), "{path}: {name}: {doc}");
+            names += 1;
+        }
+    }
+    assert!(names > 50, "{names}");
+}
+
+#[test]
+fn keys_are_snake_case_and_documented() {
+    for (path, key) in every_key() {
+        assert!(key.name.bytes().all(|b| b.is_ascii_lowercase() || b == b'_'), "{path}");
+        assert!(key.doc.ends_with('.'), "{path}: {}", key.doc);
+        let says_what_holds = key.required || key.default.is_some() || !key.absent.is_empty();
+        assert!(says_what_holds || path.starts_with("transfer.nodes[0]"), "{path} says nothing of its default");
+    }
+}
+
+#[test]
+fn the_reference_page_has_every_key() {
+    let page = reference_markdown();
+    for (path, key) in every_key() {
+        assert!(page.contains(&format!("| `{}` |", key.name)), "{path}");
+    }
+    // Each row of a table has as many cells as its head.
+    for row in page.lines().filter(|line| line.starts_with('|')) {
+        assert_eq!(row.replace("\\|", "").matches('|').count(), 7, "{row}");
+    }
+}

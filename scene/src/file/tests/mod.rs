@@ -1,0 +1,49 @@
+//! Tests of the walk, the descriptions and what is made from them.
+
+mod drift;
+mod faults;
+mod overrides;
+mod random;
+mod round_trip;
+mod schema;
+
+use super::*;
+use crate::file::describe::{Section, SectionKey};
+
+/// A scene file's first lines.
+const HEAD: &str = "drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n";
+
+/// A scene of [`HEAD`] and more.
+fn scene(rest: &str) -> Scene {
+    match parse(&format!("{HEAD}{rest}"), Path::new("scene.toml"), &Overrides::default()) {
+        Ok(scene) => scene,
+        Err(faults) => panic!("{rest}\n{faults}"),
+    }
+}
+
+/// The faults of a scene of [`HEAD`] and more, as text.
+fn faults(rest: &str) -> String {
+    match parse(&format!("{HEAD}{rest}"), Path::new("scene.toml"), &Overrides::default()) {
+        Ok(_) => panic!("no fault in\n{rest}"),
+        Err(faults) => faults.to_string(),
+    }
+}
+
+/// Every key of every table with its path from the top; `[0]` stands for any item of a list of tables.
+fn every_key() -> Vec<(String, SectionKey)> {
+    fn walk(path: &str, section: Section, all: &mut Vec<(String, SectionKey)>) {
+        for key in section.keys {
+            let path = if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
+            if let Some(table) = key.shape.section() {
+                walk(&path, table, all);
+            }
+            if let Some(table) = key.shape.item_section() {
+                walk(&format!("{path}[0]"), table, all);
+            }
+            all.push((path, key));
+        }
+    }
+    let mut all = Vec::new();
+    walk("", ROOT.section(), &mut all);
+    all
+}

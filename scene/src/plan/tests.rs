@@ -1,0 +1,183 @@
+//! Which scene needs what, and why.
+
+use super::*;
+use crate::file::{Overrides, parse};
+use Quantity::{Gradient, GradientMagnitudeRange, Hessian, PreviousNormal, Value};
+
+fn plan(rest: &str) -> Plan {
+    let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
+    let scene = parse(&text, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
+    Plan::new(&scene)
+}
+
+fn quantities(plan: &Plan) -> Vec<Quantity> {
+    let mut all: Vec<Quantity> = plan.needs.iter().map(|need| need.quantity).collect();
+    all.dedup();
+    all
+}
+
+const REGULAR: &str = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \"red\" }]\n";
+const PLAIN: &str = "[transfer]\ntransparency = \"plain\"\nnodes = [{ at = 1, style = \"wax\" }]\n";
+const ILLUSTRATIVE: &str = "[transfer]\nnodes = [{ at = 1, style = \"wax\" }]\n";
+
+#[test]
+fn a_scene_needs_what_its_effects_need_and_no_more() {
+    let cases: &[(&str, &str, &[Quantity])] = &[
+        (REGULAR, "", &[Value]),
+        (REGULAR, "[shading]\n", &[Value, Gradient]),
+        (PLAIN, "", &[Value, Gradient]),
+        (PLAIN, "[shading]\n", &[Value, Gradient]),
+        (PLAIN, "[contours]\n", &[Value, Gradient, PreviousNormal]),
+        (PLAIN, "[contours]\nkappa = \"exact\"\n", &[Value, Gradient, Hessian]),
+        (PLAIN, "[contours]\nkappa = \"none\"\n", &[Value, Gradient]),
+        (ILLUSTRATIVE, "", &[Value, Gradient, GradientMagnitudeRange]),
+        (PLAIN, "[contours]\nkappa = \"none\"\nfade = [0, 1]\n", &[Value, Gradient, GradientMagnitudeRange]),
+        // Contours of a regular function compute nothing, whatever they ask for.
+        (REGULAR, "[contours]\nkappa = \"exact\"\nfade = [0, 1]\n", &[Value]),
+        // Layers ask for themselves.
+        (REGULAR, "[picture]\nlayers = [\"beauty\", \"Z\", \"depth\", \"first\", \"counts\"]\n", &[Value]),
+        (REGULAR, "[picture]\nlayers = [\"normal\"]\n", &[Value, Gradient]),
+        (REGULAR, "[picture]\nlayers = [\"gradient\"]\n", &[Value, Gradient]),
+        (REGULAR, "[picture]\nlayers = [\"curvature.KV\"]\n", &[Value, Gradient, PreviousNormal]),
+        (REGULAR, "[picture]\nlayers = [\"curvature\"]\n", &[Value, Gradient, PreviousNormal, Hessian]),
+        (REGULAR, "[picture]\nlayers = [\"curvature\"]\n[contours]\nkappa = \"exact\"\n", &[Value, Gradient, Hessian]),
+        (PLAIN, "[picture]\nlayers = [\"curvature.KV\"]\n[contours]\nkappa = \"exact\"\n", &[Value, Gradient, Hessian]),
+    ];
+    for (transfer, rest, expected) in cases {
+        assert_eq!(quantities(&plan(&format!("{transfer}{rest}"))), *expected, "{transfer}{rest}");
+    }
+}
+
+#[test]
+fn a_range_of_gradients_that_is_given_is_not_computed() {
+    let fixed = plan(&format!("gradient_range = [0, 60]\n{ILLUSTRATIVE}"));
+    assert!(fixed.needs(GradientMagnitudeRange) && !fixed.has_pass(Pass::GradientRange));
+    assert!(plan(ILLUSTRATIVE).has_pass(Pass::GradientRange));
+    assert!(!plan(PLAIN).has_pass(Pass::GradientRange));
+}
+
+#[test]
+fn passes_are_those_that_are_called_for() {
+    let passes = |rest: &str| plan(rest).passes.iter().map(|need| need.pass).collect::<Vec<_>>();
+    assert_eq!(passes(REGULAR), [Pass::Bricks, Pass::Rays]);
+    assert_eq!(passes(&format!("{REGULAR}[sampling]\nskip_empty = false\n")), [Pass::Rays]);
+    let automatic = [Pass::GradientRange, Pass::AutomaticTransfer, Pass::Rays];
+    assert_eq!(passes("[sampling]\nskip_empty = false\n"), automatic);
+    for (kernel, prefiltered) in
+        [("trilinear", false), ("bspline", true), ("bspline5", true), ("bspline-smooth", false), ("catmull-rom", false)]
+    {
+        let plan = plan(&format!("[sampling]\nkernel = \"{kernel}\"\n"));
+        assert_eq!(plan.has_pass(Pass::Coefficients), prefiltered, "{kernel}");
+    }
+    let exact = "[contours]\nkappa = \"exact\"\n[sampling]\nhessian =";
+    for (hessian, smoothed) in [("auto", true), ("gaussian", true), ("central", false)] {
+        assert_eq!(plan(&format!("{exact} \"{hessian}\"\n")).has_pass(Pass::SmoothedCoefficients), smoothed);
+    }
+    assert!(!plan("[sampling]\nhessian = \"gaussian\"\n").has_pass(Pass::SmoothedCoefficients));
+}
+
+#[test]
+fn every_need_names_the_line_that_asked() {
+    let plan = plan(&format!("{ILLUSTRATIVE}[contours]\nkappa = \"exact\"\n"));
+    let line = |quantity| {
+        let need = plan.needs.iter().find(|need| need.quantity == quantity).unwrap();
+        (need.effect.as_str(), need.key.as_str(), need.place.as_ref().and_then(Place::line))
+    };
+    assert_eq!(line(Hessian), ("contours", "contours.kappa", Some(7)));
+    // A default is asked for by the table that has it.
+    assert_eq!(line(Gradient), ("styles", "transfer.kind", Some(4)));
+    assert_eq!(line(GradientMagnitudeRange), ("illustrative transparency", "transfer.transparency", Some(4)));
+}
+
+/// What a key can call for is in its description, where documentation and plan both find it.
+#[test]
+fn every_need_is_one_that_the_description_of_its_key_lists() {
+    let listed: Vec<(String, &[Quantity])> = sections()
+        .flat_map(|section| {
+            let table = section.title.trim_matches(['[', ']']).to_owned();
+            section.keys.into_iter().map(move |key| match table.as_str() {
+                "a scene" => (key.name.to_owned(), key.needs),
+                _ => (format!("{table}.{}", key.name), key.needs),
+            })
+        })
+        .collect();
+    let everything = "[contours]\nfade = [0, 1]\n[picture]\nlayers = [\"normal\", \"gradient\", \"curvature\"]\n";
+    for rest in [everything, "[contours]\nkappa = \"exact\"\n", "[shading]\n[transfer]\nkind = \"regular\"\n"] {
+        for need in plan(rest).needs {
+            let key = need.key.split('[').next().unwrap();
+            let (_, needs) = listed.iter().find(|(name, _)| name == key).unwrap_or_else(|| panic!("{key}"));
+            assert!(needs.contains(&need.quantity), "{key} does not list {:?}", need.quantity);
+        }
+    }
+}
+
+#[test]
+fn keys_without_effect_are_listed_not_refused() {
+    let idle = |rest: &str| {
+        plan(rest).idle_keys.into_iter().map(|idle| (idle.key, idle.place.line().unwrap())).collect::<Vec<_>>()
+    };
+    let keys = |rest: &str| idle(rest).into_iter().map(|(key, _)| key).collect::<Vec<_>>();
+    assert_eq!(idle("[camera]\nprojection = \"orthographic\"\nfov = 30\n"), [("camera.fov".into(), 6)]);
+    assert_eq!(keys("[camera]\nheight = 3\n"), ["camera.height"]);
+    assert_eq!(keys("[camera]\neye = [1, 2, 3]\ntarget = [0, 0, 0]\ndirection = [1, 0, 0]\n"), ["camera.target"]);
+    assert!(keys("[camera]\neye = [1, 2, 3]\ntarget = [0, 0, 0]\n").is_empty());
+    assert_eq!(keys(&format!("{REGULAR}[contours]\n")), ["contours"]);
+    assert_eq!(keys(&format!("{REGULAR}transparency = \"plain\"\n[styles]\n")), ["transfer.transparency", "styles"]);
+    assert_eq!(keys("[contours]\nthreshold = 0.3\n"), ["contours.threshold"]);
+    assert_eq!(keys("[contours]\nkappa = \"none\"\nthickness = 1\n"), ["contours.thickness"]);
+    assert_eq!(keys("[contours]\nsign_flip = \"literal\"\n"), ["contours.sign_flip"]);
+    assert!(keys("[sampling]\nnormal = \"facing\"\n[contours]\nsign_flip = \"literal\"\n").is_empty());
+    assert_eq!(keys("[shading]\n"), ["shading"]);
+    assert_eq!(keys(&format!("{REGULAR}[shading]\nspecular = 0\nshininess = 9\n")), ["shading.shininess"]);
+    assert_eq!(
+        keys(&format!("gradient_range = \"max\"\noutside = \"high\"\nrange = [0, 1]\n{REGULAR}")),
+        ["volume.gradient_range", "volume.outside", "volume.range"].map(String::from).into_iter().collect::<Vec<_>>()
+    );
+    assert_eq!(
+        keys(&format!(
+            "{REGULAR}[sampling]\ngradient = \"sobel\"\nhessian = \"central\"\nscale = 1\nnormal = \"facing\"\n"
+        )),
+        ["sampling.gradient", "sampling.hessian", "sampling.scale", "sampling.normal"]
+    );
+    assert_eq!(keys("[sampling]\nscale = 1\n"), ["sampling.scale"]);
+    assert_eq!(keys("[picture]\ndpi = 72\n"), ["picture.dpi"]);
+    assert!(keys("[picture]\ndpi = 72\nwidth = \"9 mm\"\nheight = \"9 mm\"\n").is_empty());
+    assert_eq!(keys(&format!("{ILLUSTRATIVE}[styles]\nmine = \"m.png\"\nwax = \"w.png\"\n")), ["styles.mine"]);
+    assert_eq!(keys("[transfer]\nunit = \"normalized\"\n"), ["transfer.unit"]);
+}
+
+#[test]
+fn steps_longer_than_a_voxel_are_warned_of() {
+    let mut plan = plan("");
+    plan.warn_step(1.0, 1.0);
+    assert!(plan.warnings.is_empty());
+    plan.warn_step(1.25, 1.0);
+    assert_eq!(
+        plan.warnings,
+        ["samples are up to 1.2500 apart along a ray, further than a voxel (1.0000): structures between them are \
+          missed; make sampling.step smaller"]
+    );
+}
+
+#[test]
+fn a_person_reads_effect_need_price_and_reason() {
+    let text = "drypoint = 1\n[volume]\nfile = \"a\"\nrange = [0, 1]\n[transfer]\nkind = \"regular\"\nnodes = [{ at = \
+                1, color = \"red\" }]\n";
+    let settings = [("shading.ambient", "0.1")].into_iter().collect();
+    let mut plan = Plan::new(&parse(text, "s.toml".as_ref(), &settings).unwrap());
+    plan.warnings.push("a warning".into());
+    let expected = "\
+effect                       needs         adds                           because of
+transfer function            value         one reconstruction a sample    transfer (line 5)
+shading                      gradient      one gradient a visible sample  shading (--set)
+skipping what shows nothing  brick ranges  one look at each voxel         sampling.skip_empty (default)
+picture                      rays          samples² rays a pixel          picture.samples (default)
+
+without effect
+  volume.range (line 4): only transfer.unit = \"normalized\" is measured in it
+
+warnings
+  a warning
+";
+    assert_eq!(plan.to_string(), expected);
+}

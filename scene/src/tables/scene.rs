@@ -1,0 +1,274 @@
+//! The scene: the top of a scene file ([SCN-1], [SCN-3]).
+
+use super::styles::check_styles;
+use super::{
+    Camera, Contours, LightDirection, PictureSettings, Sampling, Shading, Styles, Transfer, TransferKind, VolumeSource,
+    VolumeTable,
+};
+use super::{camera, contours, picture, sampling, shading, styles, transfer, volume};
+use crate::file::Given;
+use crate::file::check::Check;
+use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
+use crate::file::item::{Item, Value};
+use crate::file::kind::{Choice, ChoiceOption, TableOf};
+use crate::file::out::Out;
+use crate::plan::Quantity;
+use serde_json::{Value as Json, json};
+use std::path::PathBuf;
+
+/// Everything that a picture is made of, with every default filled in. A table that is absent here is an effect that
+/// does not exist ([SCN-1]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Towards the light, for all that is lit and says nothing else.
+    pub light: LightDirection,
+    /// What is seen.
+    pub volume: VolumeTable,
+    /// From where.
+    pub camera: Camera,
+    /// On what.
+    pub picture: PictureSettings,
+    /// How the field is sampled.
+    pub sampling: Sampling,
+    /// Colours or styles and opacities over the values; none: the volume itself is not drawn.
+    pub transfer: Option<Transfer>,
+    /// The styles that the transfer function names.
+    pub styles: Styles,
+    /// Blinn–Phong shading of a regular transfer function; none: unshaded.
+    pub shading: Option<Shading>,
+    /// Style contours; none: no contour.
+    pub contours: Option<Contours>,
+    /// Which keys the scene said itself, and where. It takes no part in comparisons.
+    pub given: Given,
+}
+
+impl Scene {
+    /// The shortest scene: a volume, every default, and the preset `style`.
+    pub fn for_volume(source: VolumeSource) -> Self {
+        Self { transfer: Some(Transfer::automatic(TransferKind::Style)), ..Self::without_effects(source) }
+    }
+
+    /// A volume, every default, and no effect.
+    fn without_effects(source: VolumeSource) -> Self {
+        Self {
+            light: LightDirection::Head,
+            volume: VolumeTable::new(source),
+            camera: Camera::default(),
+            picture: PictureSettings::default(),
+            sampling: Sampling::default(),
+            transfer: None,
+            styles: Styles::default(),
+            shading: None,
+            contours: None,
+            given: Given::default(),
+        }
+    }
+}
+
+/// The version of the format.
+const VERSION: i64 = 1;
+
+/// `drypoint = 1`.
+struct Version;
+
+impl Shape for Version {
+    fn expected(&self) -> String {
+        format!("{VERSION}, the version of the format that this program reads")
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "const": VERSION })
+    }
+}
+
+impl Kind for Version {
+    type Of = ();
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<()> {
+        if item.value == Value::Whole(VERSION) { Some(()) } else { check.wrong(item, self.expected()) }
+    }
+
+    fn write(&self, (): &()) -> Out {
+        Out::Whole(VERSION as u64)
+    }
+}
+
+/// A part of the format that is not built yet.
+const fn later(name: &'static str, tag: &'static str) -> Later {
+    Later { name, tag }
+}
+
+/// The whole file.
+pub(crate) static ROOT: Table<Scene> = Table {
+    later: &[
+        later("orbit", "STIP-4"),
+        later("page", "IO-7"),
+        later("pen", "IO-7"),
+        later("style_mipmaps", "STF-10"),
+        later("halo", "HALO-1"),
+        later("combine", "VS-3"),
+        later("object", "VS-2"),
+        later("intersection", "VS-4"),
+        later("mesh", "VS-12"),
+        later("box", "VS-8"),
+        later("arrow", "VS-8"),
+        later("fan", "VS-10"),
+        later("label", "VS-10"),
+        later("stipples", "STIP-1"),
+        later("hatching", "HATCH-1"),
+        later("outlines", "HATCH-18"),
+        later("surface", "HATCH-14"),
+        later("conventions", "GPU-6"),
+    ],
+    check: check_styles,
+    idle: |scene, _, idle| {
+        if idle.says("transfer") {
+            idle.key("preset", "the scene has [transfer] itself");
+        }
+        let lit = |transfer: &Transfer| transfer.kind == TransferKind::Regular;
+        match &scene.shading {
+            Some(shading) if scene.transfer.as_ref().is_some_and(lit) => {
+                if shading.light.is_some() {
+                    idle.key("light", "shading.light wins");
+                }
+            }
+            _ => idle.key("light", "nothing is lit: a light acts on [shading] of a regular function"),
+        }
+    },
+    ..Table::new(
+        "a scene",
+        "A scene file is TOML. A table is an effect: what has no table does not exist for the picture and is not \
+         computed. Lengths are numbers in world units or texts with a unit, angles are in degrees, colours sRGB, and \
+         paths relative to the scene file.",
+        || Scene::without_effects(VolumeSource::File { path: PathBuf::new(), raw: None }),
+        &[
+            Key::new(
+                "drypoint",
+                "",
+                "Version of the format.",
+                &Slot { kind: Version, get: |_| Some(()), set: |_, ()| {} },
+            )
+            .required(),
+            Key::new(
+                "preset",
+                "SCN-3",
+                "Whole tables for a scene that lacks them.",
+                &Slot {
+                    kind: Choice {
+                        options: &[ChoiceOption::new("style", (), "An automatic style transfer function.")],
+                        later: &[
+                            ("toon", "HATCH-15"),
+                            ("halo", "HALO-1"),
+                            ("stipple", "STIP-14"),
+                            ("stipple-fig1", "STIP-14"),
+                            ("hatch", "HATCH-17"),
+                            ("hatch-fig4", "HATCH-17"),
+                        ],
+                    },
+                    get: |_| None,
+                    set: |_, ()| {},
+                },
+            )
+            .absent("\"style\" where the scene draws nothing else"),
+            Key::new(
+                "light",
+                "STF-11",
+                "Towards the light, for all that is lit; a table's own `light` wins.",
+                &Slot { kind: shading::Light, get: |s: &Scene| Some(s.light), set: |s, v| s.light = v },
+            ),
+            Key::new(
+                "volume",
+                "IO-1",
+                "The data that is seen.",
+                &Slot {
+                    kind: TableOf(&volume::TABLE),
+                    get: |s: &Scene| Some(s.volume.clone()),
+                    set: |s, v| s.volume = v,
+                },
+            )
+            .required(),
+            Key::new(
+                "camera",
+                "RAY-5",
+                "From where the volume is seen.",
+                &Slot {
+                    kind: TableOf(&camera::TABLE),
+                    get: |s: &Scene| Some(s.camera.clone()),
+                    set: |s, v| s.camera = v,
+                },
+            ),
+            Key::new(
+                "picture",
+                "RAY-6",
+                "What the picture is drawn on.",
+                &Slot {
+                    kind: TableOf(&picture::TABLE),
+                    get: |s: &Scene| Some(s.picture.clone()),
+                    set: |s, v| s.picture = v,
+                },
+            ),
+            Key::new(
+                "sampling",
+                "RAY-1",
+                "How the field is reconstructed and where it is sampled.",
+                &Slot {
+                    kind: TableOf(&sampling::TABLE),
+                    get: |s: &Scene| Some(s.sampling.clone()),
+                    set: |s, v| s.sampling = v,
+                },
+            ),
+            Key::new(
+                "transfer",
+                "STF-3",
+                "Colours or styles, and opacities, over the values.",
+                &Slot {
+                    kind: TableOf(&transfer::TABLE),
+                    get: |s: &Scene| s.transfer.clone(),
+                    set: |s, v| s.transfer = Some(v),
+                },
+            )
+            .absent("the preset's")
+            .needs(&[Quantity::Value]),
+            Key::new(
+                "styles",
+                "STF-12",
+                "The lit-sphere pictures that a transfer function names.",
+                &Slot {
+                    kind: TableOf(&styles::TABLE),
+                    get: |s: &Scene| Some(s.styles.clone()),
+                    set: |s, v| s.styles = v,
+                },
+            ),
+            Key::new(
+                "shading",
+                "STF-11",
+                "Light on a regular transfer function.",
+                &Slot {
+                    kind: TableOf(&shading::TABLE),
+                    get: |s: &Scene| s.shading.clone(),
+                    set: |s, v| s.shading = Some(v),
+                },
+            )
+            .absent("unshaded")
+            .needs(&[Quantity::Gradient]),
+            Key::new(
+                "contours",
+                "STF-6",
+                "Style contours of controlled thickness.",
+                &Slot {
+                    kind: TableOf(&contours::TABLE),
+                    get: |s: &Scene| s.contours.clone(),
+                    set: |s, v| s.contours = Some(v),
+                },
+            )
+            .absent("no contours"),
+        ],
+    )
+};
+
+/// The top and each of its tables.
+pub(crate) fn sections() -> impl Iterator<Item = Section> {
+    let root = ROOT.section();
+    let tables: Vec<Section> = root.keys.iter().filter_map(|key| key.shape.section()).collect();
+    std::iter::once(root).chain(tables)
+}
