@@ -7,4 +7,5 @@ pub mod number;
 pub mod ray;
 pub mod shading;
 pub mod style_transfer_functions;
+pub mod suggest;
 pub mod transfer;

@@ -18,6 +18,7 @@
 pub(crate) mod check;
 mod css;
 pub(crate) mod describe;
+mod embedded;
 pub(crate) mod fault;
 mod find;
 mod full;
@@ -33,6 +34,7 @@ mod set;
 #[cfg(test)]
 mod tests;
 
+pub use embedded::DEFAULT_SCENE;
 pub use fault::{Fault, Faults, Problem};
 pub use find::data_folders;
 pub use full::{identity, write_full};
