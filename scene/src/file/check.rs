@@ -233,9 +233,10 @@ impl Check {
             if others.is_empty() {
                 continue;
             }
-            if set(instead.one) {
+            let (one_set, other_set) = (set(instead.one), others.iter().any(|other| set(other)));
+            if one_set && !other_set {
                 dropped.extend(others);
-            } else if others.iter().any(|other| set(other)) {
+            } else if other_set && !one_set {
                 dropped.insert(instead.one);
             } else {
                 let key = self.key_of(instead.one);

@@ -34,7 +34,7 @@ pub(crate) struct Table<S: 'static> {
 }
 
 impl<S> Table<S> {
-    /// For the keys of a table that no description names otherwise.
+    /// A table with these keys and no more to say of itself.
     pub(crate) const fn new(title: &'static str, doc: &'static str, empty: fn() -> S, keys: &'static [Key<S>]) -> Self {
         Self {
             title,
@@ -104,7 +104,7 @@ pub(crate) struct Later {
 }
 
 /// Keys that exclude each other: `one` in place of all of `others`. What the command line says drives the other out;
-/// both in the file are a fault.
+/// both in the file, or both on the command line, are a fault.
 pub(crate) struct Instead {
     pub(crate) one: &'static str,
     pub(crate) others: &'static [&'static str],

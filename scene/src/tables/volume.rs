@@ -4,8 +4,10 @@ use crate::file::check::Check;
 use crate::file::describe::{Instead, Key, Kind, Later, Names, Shape, Slot, Table};
 use crate::file::fault::Problem;
 use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, PathTo, Rule, TableOf, Text, Whole, Wholes};
+use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, PathTo, Rule, TableOf, Whole, Wholes};
+use crate::file::nearest::nearest;
 use crate::file::out::Out;
+use crate::phantom;
 use crate::plan::{Pass, Quantity};
 use crate::tables::{NormalSide, Unit};
 use crate::volume::VoxelType;
@@ -253,59 +255,115 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
 };
 
 /// The description of `phantom = { … }`.
-static PHANTOM: Table<PhantomSource> = Table::new(
-    "phantom",
-    "A volume with known truth.",
-    || PhantomSource {
-        name: String::new(),
-        size: [128; 3],
-        spacing: [1.0; 3],
-        voxel_type: VoxelType::U8,
-        params: Vec::new(),
-    },
-    &[
-        Key::new(
-            "name",
-            "IO-4",
-            "Which phantom.",
-            &Slot {
-                kind: Text { what: "the name of a phantom" },
-                get: |t: &PhantomSource| Some(t.name.clone()),
-                set: |t, v| t.name = v,
-            },
-        )
-        .required(),
-        Key::new(
-            "size",
-            "IO-4",
-            "Voxels along x, y, z, or one number for all three.",
-            &Slot { kind: PhantomSize, get: |t: &PhantomSource| Some(t.size), set: |t, v| t.size = v },
-        ),
-        Key::new(
-            "spacing",
-            "SPACE-2",
-            "World units between voxels.",
-            &Slot { kind: SPACING, get: |t: &PhantomSource| Some(t.spacing), set: |t, v| t.spacing = v },
-        ),
-        Key::new(
-            "type",
-            "IO-4",
-            "Stored type of a voxel; values are rounded to it.",
-            &Slot { kind: VOXEL_TYPE, get: |t: &PhantomSource| Some(t.voxel_type), set: |t, v| t.voxel_type = v },
-        ),
-        Key::new(
-            "param",
-            "IO-4",
-            "Parameters of the phantom by name.",
-            &Slot {
-                kind: TableOf(&PARAMS),
-                get: |t: &PhantomSource| Some(t.params.clone()).filter(|params| !params.is_empty()),
-                set: |t, v| t.params = v,
-            },
-        )
-        .absent("the phantom's own"),
-    ],
-);
+static PHANTOM: Table<PhantomSource> = Table {
+    check: check_phantom,
+    ..Table::new(
+        "phantom",
+        "A volume with known truth.",
+        || PhantomSource {
+            name: String::new(),
+            size: [128; 3],
+            spacing: [1.0; 3],
+            voxel_type: VoxelType::U8,
+            params: Vec::new(),
+        },
+        &[
+            Key::new(
+                "name",
+                "IO-4",
+                "Which phantom.",
+                &Slot { kind: PhantomName, get: |t: &PhantomSource| Some(t.name.clone()), set: |t, v| t.name = v },
+            )
+            .required(),
+            Key::new(
+                "size",
+                "IO-4",
+                "Voxels along x, y, z, or one number for all three.",
+                &Slot { kind: PhantomSize, get: |t: &PhantomSource| Some(t.size), set: |t, v| t.size = v },
+            ),
+            Key::new(
+                "spacing",
+                "SPACE-2",
+                "World units between voxels.",
+                &Slot { kind: SPACING, get: |t: &PhantomSource| Some(t.spacing), set: |t, v| t.spacing = v },
+            ),
+            Key::new(
+                "type",
+                "IO-4",
+                "Stored type of a voxel; values are rounded to it.",
+                &Slot { kind: VOXEL_TYPE, get: |t: &PhantomSource| Some(t.voxel_type), set: |t, v| t.voxel_type = v },
+            ),
+            Key::new(
+                "param",
+                "IO-4",
+                "Parameters of the phantom by name.",
+                &Slot {
+                    kind: TableOf(&PARAMS),
+                    get: |t: &PhantomSource| Some(t.params.clone()).filter(|params| !params.is_empty()),
+                    set: |t, v| t.params = v,
+                },
+            )
+            .absent("the phantom's own"),
+        ],
+    )
+};
+
+/// The parameters must be those of the phantom, and make one together.
+fn check_phantom(source: &PhantomSource, check: &mut Check) {
+    let Some(about) = phantom::describe().iter().find(|about| about.name == source.name) else { return };
+    for (name, value) in &source.params {
+        let key = format!("param.{}", crate::file::out::key(name));
+        match about.params.iter().find(|param| param.name == name) {
+            None => {
+                let known = about.params.iter().map(|param| param.name);
+                let nearest = nearest(name, known.clone()).map(Into::into);
+                let known = known.map(Into::into).collect();
+                let table = format!("the phantom {:?}", about.name);
+                check.fault_in(&key, Problem::UnknownKey { table, name: name.clone(), nearest, known });
+            }
+            Some(param) if !param.allowed.holds(*value) => {
+                let (found, expected) = (value.to_string(), param.allowed.to_string());
+                check.fault_in(&key, Problem::Value { found, expected, nearest: None });
+            }
+            Some(_) => {}
+        }
+    }
+    if check.sound(&["size", "spacing", "type", "param"])
+        && let Err(error) = phantom::of_source(source)
+    {
+        let remedy = format!("change the parameters: {}", about.doc);
+        check.fault_in("param", Problem::Contradiction { what: error.to_string(), remedy });
+    }
+}
+
+/// The name of a phantom.
+struct PhantomName;
+
+impl Shape for PhantomName {
+    fn expected(&self) -> String {
+        format!("the name of a phantom: {}", phantom::names().join(", "))
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "enum": phantom::names() })
+    }
+}
+
+impl Kind for PhantomName {
+    type Of = String;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<String> {
+        let Some(name) = item.text() else { return check.wrong(item, self.expected()) };
+        if phantom::names().contains(&name) {
+            return Some(name.to_owned());
+        }
+        check.wrong_name(item, self.expected(), nearest(name, phantom::names()).map(Into::into))
+    }
+
+    fn write(&self, value: &String) -> Out {
+        Out::Text(value.clone())
+    }
+}
 
 /// The description of `param = { … }`.
 static PARAMS: Table<Vec<(String, f64)>> = Table {

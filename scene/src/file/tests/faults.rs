@@ -178,11 +178,20 @@ fn values_of_the_volume() {
         assert_eq!(text.lines().next(), Some(what));
         assert!(text.contains("scene.toml:4:"), "{text}");
     }
-    for phantom in
-        ["{}", "{ name = \"torus\", size = 0 }", "{ name = \"torus\", size = [4096, 4096, 4096] }", "\"torus\""]
-    {
+    for (phantom, what, remedy) in [
+        ("{}", "volume.phantom.name is missing", "name = the name of a phantom: sphere, "),
+        ("{ name = \"tours\" }", "volume.phantom.name cannot be \"tours\"", "write \"torus\"; "),
+        ("{ name = \"torus\", param = { Q = 3 } }", "the phantom \"torus\" has no key \"Q\"", "the keys here are R, r"),
+        ("{ name = \"torus\", param = { R = -3 } }", "volume.phantom.param.R cannot be -3", "write a number above 0"),
+        ("{ name = \"torus\", param = { R = \"3\" } }", "volume.phantom.param.R cannot be \"3\"", "write a number"),
+        ("{ name = \"torus\", param = { R = 3, r = 4 } }", "phantom `torus`: ", "change the parameters: "),
+        ("{ name = \"torus\", size = 0 }", "volume.phantom.size cannot be 0", "write a size, a whole number or "),
+        ("{ name = \"torus\", size = [4096, 4096, 4096] }", "volume.phantom.size cannot be [4096, ", "write a size, "),
+        ("\"torus\"", "volume.phantom cannot be \"torus\"", "write a table with the keys name, size, "),
+    ] {
         let text = format!("drypoint = 1\n[volume]\nphantom = {phantom}\n");
-        assert!(parse(&text, Path::new("s"), &Overrides::default()).is_err(), "{phantom}");
+        let text = parse(&text, Path::new("s"), &Overrides::default()).unwrap_err().to_string();
+        assert!(text.starts_with(what) && text.contains(remedy) && text.lines().count() == 3, "{phantom}\n{text}");
     }
 }
 

@@ -118,6 +118,8 @@ fn an_override_drives_out_what_it_stands_for() {
     assert_eq!(scene.volume.source, VolumeSource::File { path: "b.nrrd".into(), raw: None });
     assert_eq!(scene.picture.size, [3, 4]);
     assert!(!scene.given.contains("picture.width"));
+    let both = [("volume.file", "b.nrrd"), ("volume.phantom.name", "torus")];
+    assert!(set(&both).unwrap_err().to_string().starts_with("[volume] has both phantom and file\n  at --set "));
 }
 
 #[test]
