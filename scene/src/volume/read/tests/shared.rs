@@ -146,5 +146,5 @@ fn a_shared_volume_cut_short_is_an_error() {
     folder.put("fuel.raw.gz", &data[..data.len() / 2]);
     let header = std::fs::read(Path::new(&path)).unwrap();
     let error = folder.read("fuel.nhdr", header).unwrap_err();
-    assert!(error.what().contains("bytes where 262144 are expected"), "{error}");
+    assert!(error.what().contains("bytes, expected 262144"), "{error}");
 }
