@@ -36,7 +36,7 @@ pub enum Fault {
     #[error("raw voxels without a description of their layout")]
     NoLayout,
     /// The file does not begin as its format does.
-    #[error("this is not {format}: the file begins with {found} where {expected} is expected")]
+    #[error("this is not {format}: it begins with {found}, expected {expected}")]
     Magic {
         /// The format that the suffix names, with its article.
         format: &'static str,
@@ -61,7 +61,7 @@ pub enum Fault {
     #[error("the format has no such field")]
     UnknownField,
     /// A field that must be there is not.
-    #[error("the header lacks a field: {expected} is expected")]
+    #[error("the field is missing, expected {expected}")]
     Missing {
         /// What the field should hold.
         expected: String,
@@ -70,7 +70,7 @@ pub enum Fault {
     #[error("the field is given a second time")]
     Repeated,
     /// A field that does not hold what it should.
-    #[error("{found} where {expected} is expected")]
+    #[error("found {found}, expected {expected}")]
     Value {
         /// What stands there.
         found: String,
@@ -89,7 +89,7 @@ pub enum Fault {
     #[error("the description of raw voxels is not valid: {0}")]
     Sidecar(String),
     /// Fewer data than the header says.
-    #[error("the data are too short: {found} {unit} where {expected} are expected")]
+    #[error("the data are too short: found {found} {unit}, expected {expected}")]
     Short {
         /// What the header asks for.
         expected: u128,
@@ -99,7 +99,7 @@ pub enum Fault {
         unit: &'static str,
     },
     /// More data than the header says.
-    #[error("the data are too long: {}{found} {unit} where {expected} are expected", if *.at_least { "at least " } else { "" })]
+    #[error("the data are too long: found {}{found} {unit}, expected {expected}", if *.at_least { "at least " } else { "" })]
     Long {
         /// What the header asks for.
         expected: u128,

@@ -77,10 +77,13 @@ fn grid_of(
     origin: DVec3,
     [sizes_field, axes_field, origin_field]: [&str; 3],
 ) -> Result<Grid, ReadError> {
+    if !origin.is_finite() {
+        let fault = Fault::Value { found: format!("{origin}"), expected: "three finite numbers".into() };
+        return Err(ReadError::new(file, fault).field(origin_field));
+    }
     Grid::new(dims, axes, origin).map_err(|error| {
         let field = match &error {
             SpaceError::EmptyAxis { .. } | SpaceError::Overflow { .. } => sizes_field,
-            SpaceError::Singular { .. } if axes.is_finite() && !origin.is_finite() => origin_field,
             SpaceError::Singular { .. } => axes_field,
         };
         ReadError::new(file, error).field(field)

@@ -79,7 +79,7 @@ impl Fields {
         let size = if big_endian { u32::from_be_bytes(first) } else { u32::from_le_bytes(first) };
         if !sizes.contains(&size) {
             let found = quoted(&String::from_utf8_lossy(&start[..start.len().min(8)]));
-            let expected = "the length of a header, 348 or 540,";
+            let expected = "the length of its header, 348 or 540";
             return Err(
                 ReadError::new(file, Fault::Magic { format: "a NIfTI file", found, expected }).field("sizeof_hdr")
             );

@@ -57,13 +57,13 @@ fn nrrd_in_several_files() {
         assert_eq!(voxels(&volume), twelve(), "{data_file}");
     }
     for (data_file, what) in [
-        ("data file: LIST\ns00.raw\n", "1 data files where one for each of the [2] slices is expected"),
+        ("data file: LIST\ns00.raw\n", "found 1 data files, expected one for each of the [2] slices"),
         (
             "data file: LIST 3\ns00.raw\ns03.raw\ns00.raw\ns03.raw\ns00.raw\n",
             "12 voxels cannot be shared out evenly over 5 data files",
         ),
-        ("data file: LIST 0\ns00.raw\n", "`LIST 0` where a number of axes at the end is expected"),
-        ("data file: s%02d.raw 0 x 3\n", "`s%02d.raw 0 x 3` where a name, first, last and step is expected"),
+        ("data file: LIST 0\ns00.raw\n", "found `LIST 0`, expected a number of axes at the end"),
+        ("data file: s%02d.raw 0 x 3\n", "found `s%02d.raw 0 x 3`, expected a name, first, last and step"),
     ] {
         assert_eq!(folder.read("a.nhdr", lines.clone() + data_file).unwrap_err().what(), what);
     }

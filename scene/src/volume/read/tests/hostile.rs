@@ -51,17 +51,26 @@ fn valid() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// Writes the files beside the headers, and reads a file that may be a sidecar.
+thread_local! {
+    /// The files beside the headers, made once for all cases of a test.
+    static FOLDER: Folder = {
+        let folder = Folder::new();
+        let stored = bytes_of(&sample(VoxelType::I16), false);
+        folder.put("data.raw", &stored);
+        folder.put("a.raw", &stored);
+        for (i, slice) in stored.chunks(12).enumerate() {
+            folder.put(&format!("s{i}.raw"), slice);
+        }
+        folder
+    };
+}
+
+/// Reads a file that may need others, or be the sidecar of one.
 fn read_beside(name: &str, bytes: &[u8]) -> Result<Volume, ReadError> {
-    let folder = Folder::new();
-    let stored = bytes_of(&sample(VoxelType::I16), false);
-    folder.put("data.raw", &stored);
-    folder.put("a.raw", &stored);
-    for (i, slice) in stored.chunks(12).enumerate() {
-        folder.put(&format!("s{i}.raw"), slice);
-    }
-    let path = folder.put(name, bytes);
-    if name == "a.raw.toml" { read(&folder.path("a.raw"), None) } else { read(&path, None) }
+    FOLDER.with(|folder| {
+        let path = folder.put(name, bytes);
+        if name == "a.raw.toml" { read(&folder.path("a.raw"), None) } else { read(&path, None) }
+    })
 }
 
 /// One change of a file.

@@ -22,11 +22,11 @@ fn truncated() {
     let header = |encoding| nrrd_lines(U8, "2 3 2", encoding, false) + "\n";
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("raw"), &[0; 11]))),
-        ["the data are too short: 11 bytes where 12 are expected", "head.nrrd, field sizes", AGAIN]
+        ["the data are too short: found 11 bytes, expected 12", "head.nrrd, field sizes", AGAIN]
     );
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("gzip"), &gzip(&[0; 11])))),
-        ["the data are too short: 11 bytes where 12 are expected", "head.nrrd, field sizes", AGAIN]
+        ["the data are too short: found 11 bytes, expected 12", "head.nrrd, field sizes", AGAIN]
     );
     let cut = gzip(&[0; 12]);
     assert_eq!(
@@ -35,22 +35,22 @@ fn truncated() {
     );
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("ascii"), b"1 2 3 4 5 6 7 8 9 10 11   "))),
-        ["the data are too short: 11 numbers where 12 are expected", "head.nrrd, field sizes", AGAIN]
+        ["the data are too short: found 11 numbers, expected 12", "head.nrrd, field sizes", AGAIN]
     );
     folder.put("head.raw", [0; 5]);
     let detached = nrrd_lines(U8, "2 3 2", "raw", false) + "data file: head.raw\n";
     assert_eq!(
         lines(&folder, folder.read("head.nhdr", detached)),
-        ["the data are too short: 5 bytes where 12 are expected", "head.raw, field sizes of head.nhdr", AGAIN]
+        ["the data are too short: found 5 bytes, expected 12", "head.raw, field sizes of head.nhdr", AGAIN]
     );
     let header = Nifti::one(U8, &[2, 3, 2], true);
     assert_eq!(
         lines(&folder, folder.read("head.nii", header.with(&[0; 3]))),
-        ["the data are too short: 3 bytes where 12 are expected", "head.nii, field dim", AGAIN]
+        ["the data are too short: found 3 bytes, expected 12", "head.nii, field dim", AGAIN]
     );
     assert_eq!(
         lines(&folder, folder.read("head.nii", &header.bytes[..300])),
-        ["the data are too short: 300 bytes of the header where 348 are expected", "head.nii", AGAIN]
+        ["the data are too short: found 300 bytes of the header, expected 348", "head.nii", AGAIN]
     );
 }
 
@@ -61,17 +61,17 @@ fn trailing_bytes() {
     for (encoding, data) in [("raw", vec![0; 15]), ("gzip", gzip(&[0; 15]))] {
         assert_eq!(
             lines(&folder, folder.read("head.nrrd", joined(header(encoding), &data))),
-            ["the data are too long: 15 bytes where 12 are expected", "head.nrrd, field sizes", AGAIN]
+            ["the data are too long: found 15 bytes, expected 12", "head.nrrd, field sizes", AGAIN]
         );
     }
     // Counting stops behind 2²⁴ bytes too many, at the end of a step of 2¹⁶.
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("gzip"), &gzip(&vec![0; 20_000_000])))),
-        ["the data are too long: at least 16842764 bytes where 12 are expected", "head.nrrd, field sizes", AGAIN]
+        ["the data are too long: found at least 16842764 bytes, expected 12", "head.nrrd, field sizes", AGAIN]
     );
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("ascii"), b"1 2 3 4 5 6 7 8 9 10 11 12 13"))),
-        ["the data are too long: 13 numbers where 12 are expected", "head.nrrd, field sizes", AGAIN]
+        ["the data are too long: found 13 numbers, expected 12", "head.nrrd, field sizes", AGAIN]
     );
     let after = joined(header("gzip"), &joined(gzip(&[0; 12]), b"junk"));
     let [what, place, _] = lines(&folder, folder.read("head.nrrd", after));
@@ -84,7 +84,7 @@ fn oversized_dims() {
     let header = |sizes, encoding| nrrd_lines(U8, sizes, encoding, false) + "\n";
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("10000 10000 10000", "raw"), &[0; 12]))),
-        ["the data are too short: 12 bytes where 1000000000000 are expected", "head.nrrd, field sizes", AGAIN]
+        ["the data are too short: found 12 bytes, expected 1000000000000", "head.nrrd, field sizes", AGAIN]
     );
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("10000 10000 10000", "gzip"), &[0; 100]))),
@@ -105,20 +105,20 @@ fn oversized_dims() {
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("4294967296 2 18446744073709551616", "raw"), &[0; 12]))),
         [
-            "`4294967296 2 18446744073709551616` where 3 whole numbers, one for each axis is expected",
+            "found `4294967296 2 18446744073709551616`, expected 3 whole numbers, one for each axis",
             "head.nrrd, line 5, field sizes",
             "correct the header"
         ]
     );
     assert_eq!(
         lines(&folder, folder.read("head.nii", Nifti::one(VoxelType::F64, &[32767; 3], true).with(&[0; 8]))),
-        ["the data are too short: 8 bytes where 281449207693304 are expected", "head.nii, field dim", AGAIN]
+        ["the data are too short: found 8 bytes, expected 281449207693304", "head.nii, field dim", AGAIN]
     );
     let layout =
         RawLayout { size: [1 << 40, 1 << 20, 1], voxel_type: U8, big_endian: false, spacing: [1.0; 3], skip: 0 };
     assert_eq!(
         lines(&folder, read(&folder.put("head.raw", [0; 8]), Some(&layout))),
-        ["the data are too short: 8 bytes where 1152921504606846976 are expected", "head.raw, field size", AGAIN]
+        ["the data are too short: found 8 bytes, expected 1152921504606846976", "head.raw, field size", AGAIN]
     );
 }
 
@@ -128,16 +128,12 @@ fn wrong_magic() {
     let suffix = "check that the suffix says what the file holds";
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", b"\x1f\x8b\x08picture")),
-        [
-            "this is not an NRRD file: the file begins with `\\u{1f}�\\u{8}pictu` where NRRD000 is expected",
-            "head.nrrd",
-            suffix
-        ]
+        ["this is not an NRRD file: it begins with `\\u{1f}�\\u{8}pictu`, expected NRRD000", "head.nrrd", suffix]
     );
     assert_eq!(
         lines(&folder, folder.read("head.nii", b"NRRD0004\ntype: uchar\n")),
         [
-            "this is not a NIfTI file: the file begins with `NRRD0004` where the length of a header, 348 or 540, is expected",
+            "this is not a NIfTI file: it begins with `NRRD0004`, expected the length of its header, 348 or 540",
             "head.nii, field sizeof_hdr",
             suffix
         ]
@@ -146,12 +142,12 @@ fn wrong_magic() {
     header.bytes[344..348].copy_from_slice(b"abcd");
     assert_eq!(
         lines(&folder, folder.read("head.nii", header.with(&[0; 12]))),
-        ["`abcd` where `n+1`, `ni1`, `n+2` or `ni2` is expected", "head.nii, field magic", "correct the header"]
+        ["found `abcd`, expected `n+1`, `ni1`, `n+2` or `ni2`", "head.nii, field magic", "correct the header"]
     );
     assert_eq!(
         lines(&folder, folder.read("head.mhd", "NRRD0004\ntype: uchar\n")),
         [
-            "this is not a MetaImage file: the file begins with `NRRD0004` where `ObjectType = Image` is expected",
+            "this is not a MetaImage file: it begins with `NRRD0004`, expected `ObjectType = Image`",
             "head.mhd, line 1",
             suffix
         ]
@@ -165,24 +161,20 @@ fn headers_that_say_the_wrong_thing() {
     assert_eq!(
         lines(&folder, nrrd("type: uint24\n")),
         [
-            "`uint24` where a numeric type such as uint8, short or float is expected",
+            "found `uint24`, expected a numeric type such as uint8, short or float",
             "head.nrrd, line 2, field type",
             "correct the header"
         ]
     );
     assert_eq!(
         lines(&folder, nrrd("type: short\nencoding: raw\n")),
-        [
-            "the header lacks a field: little or big is expected",
-            "head.nrrd, field endian",
-            "add the field to the header"
-        ]
+        ["the field is missing, expected little or big", "head.nrrd, field endian", "add the field to the header"]
     );
     let whole = nrrd_lines(U8, "2 3 2", "raw", false);
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", whole)),
         [
-            "the header lacks a field: a blank line with the data behind it, or the name of their file is expected",
+            "the field is missing, expected a blank line with the data behind it, or the name of their file",
             "head.nrrd, field data file",
             "add the field to the header"
         ]
@@ -214,7 +206,7 @@ fn headers_that_say_the_wrong_thing() {
     let header = nrrd_lines(U8, "2 3 2", "ascii", false) + "\n";
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header, b"1 2 3\n4 5 256 7 8 9 10 11 12"))),
-        ["`256` where a number of type u8 is expected", "head.nrrd, line 10", "correct the header"]
+        ["found `256`, expected a number of type u8", "head.nrrd, line 10", "correct the header"]
     );
 }
 
@@ -279,14 +271,14 @@ fn sidecars() {
     assert_eq!(
         described("size = [2, 3, 2]\ntype = \"byte\"\n"),
         [
-            "`byte` where one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 is expected",
+            "found `byte`, expected one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64",
             "a.raw.toml, field type",
             "correct the header"
         ]
     );
     assert_eq!(
         described("size = [2, 3, 3]\ntype = \"u8\"\n"),
-        ["the data are too short: 12 bytes where 18 are expected", "a.raw, field size of a.raw.toml", AGAIN]
+        ["the data are too short: found 12 bytes, expected 18", "a.raw, field size of a.raw.toml", AGAIN]
     );
     assert_eq!(described("size = [2, 3, 2]\ntype = \"u8\"\nspacing = [1, 0, 1]\n")[1], "a.raw.toml, field spacing");
 }
