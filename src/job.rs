@@ -62,7 +62,7 @@ impl Job {
         let styles = match &function {
             Function::Regular(_) => Vec::new(),
             Function::Style { names, .. } => load_styles(&scene.styles, names.iter().map(String::as_str))
-                .map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))?,
+                .map_err(|e| Failure::new(e, "[styles]", "`drypoint styles` lists the styles of a theme"))?,
         };
         let [width, height] = scene.picture.size;
         let background = match &scene.picture.background {
@@ -102,6 +102,7 @@ impl Job {
             let remedy = match &error {
                 RenderError::Field(_) => "choose another `sampling.kernel` or `sampling.hessian`",
                 RenderError::View(_) => "move `camera.eye` away from `camera.target`, or give `camera.direction`",
+                RenderError::Nodes(_) => "give `transfer.nodes` in ascending order, with opacities in [0, 1]",
                 RenderError::Length { .. } => "give it in world units or in voxels",
                 RenderError::Styles { .. } => "hand over one style for each name",
             };

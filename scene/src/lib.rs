@@ -8,6 +8,7 @@ pub mod color;
 pub mod counts;
 pub mod file;
 pub mod math;
+mod nearest;
 pub mod phantom;
 pub mod philox;
 pub mod picture;

@@ -4,7 +4,8 @@ use super::report::print;
 use super::{Done, Outcome};
 use clap::Args;
 use drypoint::Failure;
-use drypoint::output::compare::{self, Limits, Options};
+use drypoint::output::compare::difference::difference_picture;
+use drypoint::output::compare::{self, Limits, Options, flip};
 use drypoint::output::{OutputError, png, read::read_image};
 use drypoint::scene::picture::Provenance;
 use std::path::PathBuf;
@@ -40,14 +41,8 @@ impl Compare {
         let (a, b) = (read_image(&self.a).map_err(say)?, read_image(&self.b).map_err(say)?);
         let comparison = compare::compare(&a, &b, &Options::default()).map_err(say)?;
         if let Some(path) = &self.diff {
-            let map = comparison.flip_map.as_ref().ok_or_else(|| {
-                Failure::new(
-                    "there are no colours to show a difference of",
-                    self.a.display(),
-                    "compare pictures with R, G and B",
-                )
-            })?;
-            png::write_png(&compare::difference_picture(map), 8, &Provenance::default(), path).map_err(say)?;
+            let map = flip::flip(&a, &b, Options::default().pixels_per_degree).map_err(say)?;
+            png::write_png(&difference_picture(&map), 8, &Provenance::default(), path).map_err(say)?;
         }
         if self.json {
             let json = serde_json::to_string_pretty(&comparison).map_err(|e| {

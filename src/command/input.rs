@@ -56,7 +56,9 @@ pub(super) fn load(path: Option<&PathBuf>, overrides: &Overrides) -> Result<Job,
     let suggested = bare(path.clone(), &volume, [512, 512]);
     // Through the text of the scene, so that overrides act on a bare volume as on any scene.
     let text = file::write_full(&suggested);
-    let scene = file::parse(&text, path, overrides).map_err(faults)?;
+    // The text has the volume's path as it was given; a name without folder leaves it as it is.
+    let name = path.file_name().map_or(path.as_path(), Path::new);
+    let scene = file::parse(&text, name, overrides).map_err(faults)?;
     Ok(job::Job::with_volume(scene, volume)?)
 }
 

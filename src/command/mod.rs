@@ -15,6 +15,7 @@ mod styles;
 
 use clap::{Args, Parser, Subcommand};
 use drypoint::Failure;
+use drypoint::output::atomic;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -84,6 +85,11 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         }
     };
     let talk = cli.talk;
+    // Ctrl-C leaves no half file. Where no handler can be set, the unfinished file has a name of its own beside the target.
+    let _ = ctrlc::set_handler(|| {
+        atomic::remove_unfinished();
+        std::process::exit(2);
+    });
     let result = match cli.verb {
         None => cli.render.run(talk),
         Some(Verb::Render(verb)) => verb.run(talk),

@@ -1,6 +1,6 @@
 //! `schema`: the JSON Schema of scene files.
 
-use super::{Done, Outcome};
+use super::Outcome;
 use clap::Args;
 
 /// Print the JSON Schema of scene files.

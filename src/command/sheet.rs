@@ -38,7 +38,7 @@ impl Sheet {
             let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
             pictures.push((name.split('.').next().unwrap_or_default().to_owned(), self.image(file)?));
         }
-        let layout = Layout { columns: self.columns, cell: self.cell, ..Layout::default() };
+        let layout = Layout { columns: self.columns, cell: self.cell };
         let picture = sheet(&pictures, layout).map_err(|e| Failure::new(&e, self.output.display(), e.help()))?;
         png::write_png(&picture, 8, &Provenance::default(), &self.output)
             .map_err(|e| Failure::new(&e, self.output.display(), e.help()))?;

@@ -7,7 +7,7 @@ use drypoint::Failure;
 use drypoint::output::png;
 use drypoint::reference::style_transfer_functions::gallery::preview_sheet;
 use drypoint::scene::picture::Provenance;
-use drypoint::scene::style::Theme;
+use drypoint::scene::style::{StyleError, Theme};
 use drypoint::scene::tables::StyleSource;
 use std::path::PathBuf;
 
@@ -29,16 +29,21 @@ impl Styles {
         } else {
             StyleSource::Folder(PathBuf::from(&self.theme))
         };
-        let theme = Theme::open(&source).map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))?;
+        let theme = Theme::open(&source).map_err(|e| refused(&e))?;
         let names: Vec<String> = theme.names().map(str::to_owned).collect();
         let Some(output) = &self.output else { return print(&(names.join("\n") + "\n")) };
         let mut styles = Vec::new();
         for style in names.iter().filter_map(|name| theme.style(name)) {
-            styles.push(style.map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))?);
+            styles.push(style.map_err(|e| refused(&e))?);
         }
         png::write_png(&preview_sheet(&styles), 8, &Provenance::default(), output)
             .map_err(|e| Failure::new(&e, output.display(), e.help()))?;
         note(talk, output.display());
         Ok(Done::Yes)
     }
+}
+
+/// A theme or a style that cannot be had.
+fn refused(error: &StyleError) -> Failure {
+    Failure::new(error, "--theme", "give the name of an embedded theme, or a folder of square pictures")
 }

@@ -73,6 +73,7 @@ fn direction(volume: &Volume, boundary: &Boundary) -> DVec3 {
     match volume.anatomy() {
         Some(Anatomy::RightAnteriorSuperior) => return DVec3::new(-0.45, -1.0, -0.2),
         Some(Anatomy::LeftPosteriorSuperior) => return DVec3::new(0.45, 1.0, -0.2),
+        Some(Anatomy::LeftAnteriorSuperior) => return DVec3::new(0.45, -1.0, -0.2),
         None => {}
     }
     let extent = framing::extent(volume, boundary.threshold);

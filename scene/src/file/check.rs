@@ -3,9 +3,9 @@
 use super::describe::{Key, Later, Table};
 use super::fault::{Fault, Problem};
 use super::item::{Entries, Item, Value};
-use super::nearest::nearest;
 use super::out;
 use super::place::{Given, Place};
+use crate::nearest::nearest;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -3,8 +3,8 @@
 use super::check::Check;
 use super::fault::Problem;
 use super::names;
-use super::nearest::nearest;
 use super::place::Place;
+use crate::nearest::nearest;
 use crate::tables::{Background, Scene, StyleSource, VolumeSource};
 use std::path::{Path, PathBuf};
 

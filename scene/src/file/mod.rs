@@ -25,7 +25,6 @@ mod full;
 pub(crate) mod item;
 pub(crate) mod kind;
 pub(crate) mod names;
-pub(crate) mod nearest;
 pub(crate) mod out;
 mod place;
 mod reference;

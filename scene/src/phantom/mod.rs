@@ -138,7 +138,11 @@ pub fn for_type(
 ) -> Result<Box<dyn Phantom>, PhantomError> {
     let about = ALL.iter().find(|about| about.name == name).ok_or_else(|| {
         let known = names();
-        PhantomError::UnknownName { name: name.to_owned(), nearest: error::nearest(name, &known), known }
+        PhantomError::UnknownName {
+            name: name.to_owned(),
+            nearest: crate::nearest::nearest(name, known.iter().copied()),
+            known,
+        }
     })?;
     let args = params::Args::new(about, grid, voxel_type, params)?;
     (about.build)(&args).map_err(|fault| PhantomError::Together { phantom: about.name, fault })

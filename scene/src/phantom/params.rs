@@ -1,8 +1,9 @@
 //! Parameters of phantoms: names, defaults that fit the grid, and what is allowed.
 
 use super::Phantom;
-use super::error::{PhantomError, nearest};
+use super::error::PhantomError;
 use super::placed::{Edge, Formula, Placed};
+use crate::nearest::nearest;
 use crate::space::Grid;
 use crate::volume::VoxelType;
 use std::fmt;
@@ -137,7 +138,7 @@ impl<'a> Args<'a> {
         for (name, value) in given {
             let Some(i) = about.params.iter().position(|p| p.name == name) else {
                 let known: Vec<_> = about.params.iter().map(|p| p.name).collect();
-                let nearest = nearest(name, &known);
+                let nearest = nearest(name, known.iter().copied());
                 return Err(PhantomError::UnknownParam { phantom: about.name, param: name.clone(), nearest, known });
             };
             let param = &about.params[i];

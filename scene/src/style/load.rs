@@ -1,8 +1,8 @@
 //! The styles that a transfer function names, found and decoded.
 
-use super::nearest_name::nearest_name;
 use super::theme::read;
 use super::{Style, StyleError, Theme};
+use crate::nearest::nearest;
 use crate::tables::Styles;
 
 /// The M distinct styles among the names `used`, each once, in the order in which they first occur: the index j of
@@ -35,7 +35,7 @@ fn find(styles: &Styles, theme: &Theme, name: &str) -> Result<Style, StyleError>
             theme.names().map(Into::into).chain(styles.files.iter().map(|(name, _)| name.clone())).collect();
         known.sort();
         known.dedup();
-        let near = nearest_name(name, known.iter().map(String::as_str)).map(Into::into);
+        let near = nearest(name, known.iter().map(String::as_str)).map(Into::into);
         Err(StyleError::Unknown { name: name.into(), theme: theme.to_string(), near, known })
     })
 }

@@ -6,7 +6,6 @@
 mod decode;
 mod error;
 mod load;
-mod nearest_name;
 mod rim;
 mod theme;
 

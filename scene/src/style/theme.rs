@@ -1,7 +1,7 @@
 //! Themes: sets of styles by name ([STF-12]).
 
-use super::nearest_name::nearest_name;
 use super::{Style, StyleError};
+use crate::nearest::nearest;
 use crate::tables::StyleSource;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -115,7 +115,7 @@ pub(super) fn read(name: &str, path: &Path, linear: bool) -> Result<Style, Style
 fn embedded(name: &str) -> Result<BTreeMap<String, Source>, StyleError> {
     let (_, pictures) = EMBEDDED.iter().find(|(theme, _)| *theme == name).ok_or_else(|| StyleError::UnknownTheme {
         name: name.into(),
-        near: nearest_name(name, Theme::embedded_names()).map(Into::into),
+        near: nearest(name, Theme::embedded_names()).map(Into::into),
         known: Theme::embedded_names().map(Into::into).collect(),
     })?;
     Ok(pictures.iter().map(|(style, bytes)| ((*style).into(), Source::Embedded(bytes))).collect())

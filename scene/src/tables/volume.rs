@@ -5,8 +5,8 @@ use crate::file::describe::{Instead, Key, Kind, Later, Names, Shape, Slot, Table
 use crate::file::fault::Problem;
 use crate::file::item::{Item, Value};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, PathTo, Rule, TableOf, Whole, Wholes};
-use crate::file::nearest::nearest;
 use crate::file::out::Out;
+use crate::nearest::nearest;
 use crate::phantom;
 use crate::plan::{Pass, Quantity};
 use crate::tables::{NormalSide, Unit};

@@ -3,8 +3,8 @@
 use crate::file::check::Check;
 use crate::file::describe::{Kind, Shape};
 use crate::file::item::Item;
-use crate::file::nearest::nearest;
 use crate::file::out::Out;
+use crate::nearest::nearest;
 use serde_json::{Value as Json, json};
 
 /// One of several names, each for a value.

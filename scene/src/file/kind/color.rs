@@ -5,8 +5,8 @@ use crate::file::check::Check;
 use crate::file::css::{CSS_COLORS, css_color};
 use crate::file::describe::{Kind, Shape};
 use crate::file::item::Item;
-use crate::file::nearest::nearest;
 use crate::file::out::Out;
+use crate::nearest::nearest;
 use serde_json::{Value as Json, json};
 
 /// A colour: linear, straight red, green, blue and opacity.

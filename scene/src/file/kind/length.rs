@@ -4,8 +4,8 @@ use super::number::Bounds;
 use crate::file::check::Check;
 use crate::file::describe::{Kind, Shape};
 use crate::file::item::{Item, Value};
-use crate::file::nearest::nearest;
 use crate::file::out::Out;
+use crate::nearest::nearest;
 use crate::tables::Length;
 use serde_json::{Value as Json, json};
 
