@@ -5,6 +5,7 @@ use super::layers::{Seen, Sums};
 use super::opacity::correct;
 use super::prepared::{KappaSource, Prepared};
 use super::sample::Facts;
+use super::skip::Found;
 use crate::field::Sampler;
 use crate::field::curvature;
 use crate::number::{Real, Vec3};
@@ -23,12 +24,6 @@ pub(super) struct Cast {
     pub(super) samples: u64,
 }
 
-/// Buffers that rays of one thread share.
-#[derive(Default)]
-pub(super) struct Scratch {
-    intervals: Vec<[f64; 2]>,
-}
-
 /// The state of a ray on its way.
 struct Walk<'p, 'v, R: Real, S> {
     prepared: &'p Prepared<'v, R>,
@@ -42,6 +37,8 @@ struct Walk<'p, 'v, R: Real, S> {
     ratio: R,
     /// The last sample whose outward normal is known, and that normal.
     previous: Option<(i64, Option<Vec3<R>>)>,
+    /// The last opacity that was corrected, and what it became: levels of a function repeat along a ray.
+    corrected: [R; 2],
     rgb: [R; 3],
     opacity: R,
     sums: Sums,
@@ -52,7 +49,7 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
     [i, j]: [f64; 2],
-    scratch: &mut Scratch,
+    found: &mut Found,
     counts: &mut Counts,
 ) -> Cast {
     let view = &prepared.view;
@@ -66,6 +63,7 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
         ratio: R::from_f64(ray.step / prepared.reference_length),
         ray,
         previous: None,
+        corrected: [R::ZERO; 2],
         rgb: [R::ZERO; 3],
         opacity: R::ZERO,
         sums: Sums::new(),
@@ -76,9 +74,8 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
         samples = match &prepared.skip {
             None => walk.run(inside, |_| true, counts).0,
             Some(skip) => {
-                skip.intervals(ray.line(), R::EPSILON.to_f64(), &mut scratch.intervals);
                 let (mut samples, mut next) = (0, inside[0]);
-                for &[near, far] in &scratch.intervals {
+                for &[near, far] in skip.intervals(ray.line(), R::EPSILON.to_f64(), found) {
                     let first = ray.first_at_or_after(near).max(next);
                     let last = ray.last_at_or_before(far).min(inside[1]);
                     let (n, open) = walk.run([first, last], |cell| skip.sees(cell), counts);
@@ -210,7 +207,10 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     #[inline]
     fn composite(&mut self, k: i64, rgb: [R; 3], alpha: R, facts: &Facts<R>) {
         let prepared = self.prepared;
-        let w = (R::ONE - self.opacity) * correct(alpha, self.ratio);
+        if alpha != self.corrected[0] {
+            self.corrected = [alpha, correct(alpha, self.ratio)];
+        }
+        let w = (R::ONE - self.opacity) * self.corrected[1];
         let rgb = if prepared.encode { rgb.map(encoded) } else { rgb };
         for (sum, c) in self.rgb.iter_mut().zip(rgb) {
             *sum += w * c;

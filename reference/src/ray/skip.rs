@@ -3,17 +3,27 @@
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::{BRICK, Bricks};
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 /// The visible bricks of a volume, and a BVH over boxes of them.
 ///
-/// The BVH only proposes intervals of a ray: its boxes are f32, grown outwards. Whether a sample is left out is decided
-/// by the brick of its cell, on the position itself.
+/// The BVH only proposes intervals of a ray. Whether a sample is left out is decided by the brick of its cell, on the
+/// position itself.
 pub struct Skip {
     dims: [usize; 3],
     visible: Vec<bool>,
-    tree: Bvh2,
+    nodes: Vec<Node>,
+}
+
+/// A node of the tree, in f64: the boxes have whole and half numbers for ends, so f32 builds them exactly up to 2²³, and
+/// the walk need not convert.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// Lowest and highest index coordinate on each axis.
+    ends: [[f64; 2]; 3],
+    /// The first of two children side by side; 0, which is nobody's child, for a leaf.
+    children: u32,
 }
 
 /// A box of bricks, both ends included.
@@ -28,13 +38,8 @@ impl Skip {
     pub fn new(bricks: &Bricks, can_see: impl Fn([f64; 2]) -> bool) -> Self {
         let visible: Vec<bool> = bricks.ranges.iter().map(|&r| can_see(r)).collect();
         let boxes: Vec<Aabb> = blocks(&visible, bricks.dims).iter().map(|b| bounds(b, bricks.dims)).collect();
-        let indices = (0..boxes.len() as u32).collect();
-        let tree = if boxes.is_empty() {
-            Bvh2::default()
-        } else {
-            PlocBuilder::new().build(PlocSearchDistance::Low, &boxes, indices, SortPrecision::U64, 0)
-        };
-        Self { dims: bricks.dims, visible, tree }
+        let nodes = if boxes.is_empty() { Vec::new() } else { tree(&boxes) };
+        Self { dims: bricks.dims, visible, nodes }
     }
 
     /// Whether the brick of a cell can show something.
@@ -45,77 +50,91 @@ impl Skip {
 
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
-        self.visible.len() + size_of_val(self.tree.nodes.as_slice())
+        self.visible.len() + size_of_val(self.nodes.as_slice())
     }
 
-    /// Writes the depths at which the line `origin + along · s` can be in a visible brick, in order and without
-    /// overlap, each widened so that no position rounded by `rounding` (relative) is missed.
-    pub fn intervals(&self, [origin, along]: [DVec3; 2], rounding: f64, out: &mut Vec<[f64; 2]>) {
-        out.clear();
-        if self.tree.nodes.is_empty() {
-            return;
-        }
+    /// Finds the depths at which the line `origin + along · s` can be in a visible brick, in order and without overlap,
+    /// each widened so that no position rounded by `rounding` (relative) is missed.
+    pub fn intervals<'f>(&self, [origin, along]: [DVec3; 2], rounding: f64, found: &'f mut Found) -> &'f [[f64; 2]] {
+        let Found { intervals, open } = found;
+        intervals.clear();
+        open.clear();
         let line = Line::new(origin, along, rounding);
-        let mut stack = [0u32; 64];
-        let mut top = 0;
-        let root = &self.tree.nodes[0];
-        if line.meets(root.aabb()).is_none() {
-            return;
-        }
-        let mut node = root;
-        loop {
-            if node.is_leaf() {
-                out.extend(line.meets(node.aabb()));
-            } else {
-                let first = node.first_index as usize;
-                for child in [first, first + 1] {
-                    if line.meets(self.tree.nodes[child].aabb()).is_some() {
-                        stack[top] = child as u32;
-                        top += 1;
-                    }
+        let mut visit = |node: &Node, open: &mut Vec<u32>| {
+            if let Some(interval) = line.meets(&node.ends) {
+                if node.children == 0 {
+                    intervals.push(interval);
+                } else {
+                    open.push(node.children);
                 }
             }
-            if top == 0 {
-                break;
-            }
-            top -= 1;
-            node = &self.tree.nodes[stack[top] as usize];
+        };
+        if let Some(root) = self.nodes.first() {
+            visit(root, open);
         }
-        merge(out);
+        while let Some(children) = open.pop() {
+            let children = children as usize;
+            visit(&self.nodes[children], open);
+            visit(&self.nodes[children + 1], open);
+        }
+        merge(intervals);
+        intervals
     }
+}
+
+/// What a walk through the tree finds, kept from ray to ray for its memory.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    intervals: Vec<[f64; 2]>,
+    open: Vec<u32>,
+}
+
+/// A BVH over boxes, of which there is at least one.
+fn tree(boxes: &[Aabb]) -> Vec<Node> {
+    let indices = (0..boxes.len() as u32).collect();
+    let built = PlocBuilder::new().build(PlocSearchDistance::Low, boxes, indices, SortPrecision::U64, 0);
+    let node = |n: &Bvh2Node| Node {
+        ends: [0, 1, 2].map(|a| [f64::from(n.aabb().min[a]), f64::from(n.aabb().max[a])]),
+        children: if n.is_leaf() { 0 } else { n.first_index },
+    };
+    built.nodes.iter().map(node).collect()
 }
 
 /// A line prepared for slab tests.
 struct Line {
-    origin: DVec3,
-    inverse: DVec3,
-    /// Index-space margin around every box.
-    margin: DVec3,
+    /// 1/along.
+    inverse: [f64; 3],
+    /// Which end of a box the line meets first.
+    first: [usize; 3],
+    /// Depth at the origin of an axis, later and earlier by the margin.
+    enter: [f64; 3],
+    leave: [f64; 3],
 }
 
 impl Line {
     fn new(origin: DVec3, along: DVec3, rounding: f64) -> Self {
-        // Positions inside the volume are sums of numbers up to |origin| plus the volume's own coordinates, of which
-        // the constant stands for those: 2²⁰ voxels along an axis.
-        let margin = (origin.abs() + DVec3::splat(1_048_576.0)) * (8.0 * rounding);
-        Self { origin, inverse: along.recip(), margin }
+        // A line along the other axes meets the ends of this one very far away, or not at all.
+        let inverse = along.to_array().map(|d| if d.abs() < 1e-290 { 1e290 } else { 1.0 / d });
+        // Positions inside the volume are sums of numbers up to |origin| and the volume's own coordinates, of which the
+        // constant stands for the latter: 2²⁰ voxels along an axis.
+        let margin = |axis: usize| (origin[axis].abs() + 1_048_576.0) * 8.0 * rounding * inverse[axis].abs();
+        let at = |axis: usize| origin[axis] * inverse[axis];
+        Self {
+            inverse,
+            first: inverse.map(|i| usize::from(i < 0.0)),
+            enter: [0, 1, 2].map(|a| at(a) + margin(a)),
+            leave: [0, 1, 2].map(|a| at(a) - margin(a)),
+        }
     }
 
     /// Depths at which the line is in a box.
-    #[inline]
-    fn meets(&self, bounds: &Aabb) -> Option<[f64; 2]> {
-        let mut range = [f64::NEG_INFINITY, f64::INFINITY];
-        for axis in 0..3 {
-            let o = self.origin[axis];
-            let lo = f64::from(bounds.min[axis]) - self.margin[axis];
-            let hi = f64::from(bounds.max[axis]) + self.margin[axis];
-            if self.inverse[axis].is_finite() {
-                let (a, b) = ((lo - o) * self.inverse[axis], (hi - o) * self.inverse[axis]);
-                range = [range[0].max(a.min(b)), range[1].min(a.max(b))];
-            } else if o < lo || o > hi {
-                return None;
-            }
-        }
+    #[inline(always)]
+    fn meets(&self, ends: &[[f64; 2]; 3]) -> Option<[f64; 2]> {
+        let enter = |a: usize| ends[a][self.first[a]] * self.inverse[a] - self.enter[a];
+        let leave = |a: usize| ends[a][1 - self.first[a]] * self.inverse[a] - self.leave[a];
+        let later = |a: f64, b: f64| if b > a { b } else { a };
+        let earlier = |a: f64, b: f64| if b < a { b } else { a };
+        let range = [later(later(enter(0), enter(1)), enter(2)), earlier(earlier(leave(0), leave(1)), leave(2))];
         (range[0] <= range[1]).then_some(range)
     }
 }
@@ -232,8 +251,8 @@ mod tests {
                 along[axis_parallel] = 0.0;
             }
             prop_assume!(along.length() > 1e-3);
-            let mut got = Vec::new();
-            skip.intervals([from, along], f64::EPSILON, &mut got);
+            let mut found = Found::default();
+            let got = skip.intervals([from, along], f64::EPSILON, &mut found);
             prop_assert!(got.windows(2).all(|w| w[0][1] < w[1][0]));
             for i in -100..300 {
                 let s = f64::from(i) * 0.02;
@@ -249,8 +268,7 @@ mod tests {
     #[test]
     fn nothing_visible_is_no_interval() {
         let skip = Skip::new(&bricks([1, 1, 1], &[false]), |r| r[1] > 0.5);
-        let mut got = vec![[0.0, 1.0]];
-        skip.intervals([DVec3::ZERO, DVec3::X], f64::EPSILON, &mut got);
-        assert!(got.is_empty());
+        let mut found = Found { intervals: vec![[0.0, 1.0]], open: vec![7] };
+        assert!(skip.intervals([DVec3::ZERO, DVec3::X], f64::EPSILON, &mut found).is_empty());
     }
 }
