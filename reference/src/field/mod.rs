@@ -23,6 +23,7 @@ mod tests;
 
 pub use drypoint_scene::tables::{GradientEstimator, HessianEstimator, Kernel, Outside};
 pub use error::FieldError;
+pub use place::Place;
 pub use sampler::{AnySampler, Sampled, Sampler};
 
 use crate::number::{Mat3, Real, Sym3};
@@ -94,7 +95,8 @@ pub struct Field<'v, R> {
     exponent: i32,
     no_normal_below: R,
     kernel: KernelData<R>,
-    first: First<R>,
+    /// Of the `regression` gradient alone.
+    regression: Option<Regression<R>>,
     second: Second<R>,
 }
 
@@ -106,15 +108,6 @@ enum KernelData<R> {
     BsplineSmooth,
     Bspline5(Coefficients<R>),
     CatmullRom,
-}
-
-/// The estimator of the gradient with what it holds.
-#[derive(Clone, Debug)]
-enum First<R> {
-    Central,
-    Analytic,
-    Sobel,
-    Regression(Regression<R>),
 }
 
 /// The estimator of the Hessian with what it holds.
@@ -171,12 +164,7 @@ impl<'v, R: Real> Field<'v, R> {
                 Kernel::Bspline5 => KernelData::Bspline5(Coefficients::of_voxels(&stencils, 2).prefilter()),
                 Kernel::CatmullRom => KernelData::CatmullRom,
             },
-            first: match how.gradient {
-                GradientEstimator::Central => First::Central,
-                GradientEstimator::Analytic => First::Analytic,
-                GradientEstimator::Sobel => First::Sobel,
-                GradientEstimator::Regression => First::Regression(Regression::new(grid)),
-            },
+            regression: (how.gradient == GradientEstimator::Regression).then(|| Regression::new(grid)),
             second: match how.hessian {
                 _ if rung < Rung::Hessian => Second::NotPrepared,
                 HessianEstimator::Gaussian => Second::Gaussian(hessian::gaussian::smoothed(&stencils, &smoothed)),
@@ -222,7 +210,7 @@ impl<'v, R: Real> Field<'v, R> {
         if let KernelData::Bspline(c) | KernelData::Bspline5(c) = &self.kernel {
             bytes.insert("coefficients".to_owned(), c.bytes());
         }
-        if let First::Regression(regression) = &self.first {
+        if let Some(regression) = &self.regression {
             bytes.insert("regression".to_owned(), regression.bytes());
         }
         if let Second::Gaussian(c) = &self.second {

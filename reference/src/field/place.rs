@@ -4,7 +4,7 @@ use crate::number::{Real, Vec3};
 
 /// A position as its cell and the fractions in [0, 1] from the cell's first voxel on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place<R> {
+pub struct Place<R> {
     /// min(⌊x⌋, max(N − 2, 0)) on each axis.
     pub cell: [usize; 3],
     /// x − cell; 0 on an axis of length 1.
@@ -14,22 +14,24 @@ pub(super) struct Place<R> {
 /// The cells of a grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cells<R> {
+    /// The last voxel of each axis, N − 1.
+    end: [R; 3],
     /// The last cell of each axis, max(N − 2, 0).
-    last: [usize; 3],
-    /// 1, or 0 on an axis of length 1, whose coordinate is ignored.
-    live: [R; 3],
+    last: [R; 3],
 }
 
 impl<R: Real> Cells<R> {
     pub(super) fn new(dims: [usize; 3]) -> Self {
-        Self { last: dims.map(|n| n.max(2) - 2), live: dims.map(|n| if n == 1 { R::ZERO } else { R::ONE }) }
+        let number = |n: usize| R::from_f64(n as f64);
+        Self { end: dims.map(|n| number(n - 1)), last: dims.map(|n| number(n.max(2) - 2)) }
     }
 
+    /// Inside the box of [SPACE-1] the bounds touch nothing but the ignored coordinate of an axis of length 1.
     #[inline(always)]
     fn along(&self, axis: usize, x: R) -> (usize, R) {
-        let (cell, w) = (x * self.live[axis]).split();
-        // Only the last voxel itself lies beyond the last cell.
-        if cell > self.last[axis] { (self.last[axis], R::ONE) } else { (cell, w) }
+        let x = x.min(self.end[axis]).max(R::ZERO);
+        let cell = x.min(self.last[axis]).to_index();
+        (cell, x - R::from_index(cell))
     }
 
     /// The place of a position inside the box of [SPACE-1].
@@ -51,5 +53,19 @@ mod tests {
         assert_eq!(at(0.0, 0.0, 0.0), Place { cell: [0, 0, 0], w: [0.0, 0.0, 0.0] });
         assert_eq!(at(2.75, 0.5, -0.5), Place { cell: [2, 0, 0], w: [0.75, 0.5, 0.0] });
         assert_eq!(at(3.0, 1.0, 0.5), Place { cell: [2, 0, 0], w: [1.0, 1.0, 0.0] });
+        assert_eq!(at(-0.0, 0.0, -0.0), at(0.0, 0.0, 0.0));
+    }
+
+    /// The floor and the way from it, against the definition, at and around whole numbers.
+    #[test]
+    fn cells_are_floors() {
+        let cells = Cells::<f64>::new([300, 2, 2]);
+        for i in 0..299 {
+            let x = f64::from(i);
+            for x in [x, x.next_up(), x + 0.5, (x + 1.0).next_down()] {
+                let at = cells.locate(Vec3::new(x, 0.0, 0.0));
+                assert_eq!((at.cell[0], at.w[0]), (x.floor() as usize, x - x.floor()), "{x}");
+            }
+        }
     }
 }

@@ -2,27 +2,54 @@
 
 use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use super::place::Place;
-use super::{Field, First, Second, gradient, hessian};
+use super::{Field, GradientEstimator, Second, gradient, hessian};
 use crate::number::{Real, Sym3, Vec3};
 
 /// A field at positions in index space, inside the box of [SPACE-1]. Derivatives are those of the world times 2^−e,
 /// e = [`Field::scale_exponent`] ([SPACE-4]).
 pub trait Sampler<R: Real>: Sync {
-    /// The cell of a position, the same for every kernel ([REC-1]).
-    fn cell(&self, p: Vec3<R>) -> [usize; 3];
+    /// The cell of a position and where in it, the same for every kernel ([REC-1]).
+    fn place(&self, p: Vec3<R>) -> Place<R>;
 
-    /// The value, after slope and intercept.
-    fn value(&self, p: Vec3<R>) -> R;
+    /// The value at a place, after slope and intercept.
+    fn value_at(&self, at: Place<R>) -> R;
 
-    /// The gradient by the field's estimator, in world space, times 2^−e.
-    fn gradient(&self, p: Vec3<R>) -> Vec3<R>;
+    /// The gradient at a place by the field's estimator, in world space, times 2^−e.
+    fn gradient_at(&self, at: Place<R>) -> Vec3<R>;
 
-    /// The Hessian by the field's estimator, and the gradient of the field that it belongs to ([CUR-1]), in world
-    /// space, times 2^−e.
+    /// The Hessian at a place by the field's estimator, and the gradient of the field that it belongs to ([CUR-1]), in
+    /// world space, times 2^−e.
     ///
     /// # Panics
     /// If the field was prepared for a lower rung than `Hessian`.
-    fn hessian(&self, p: Vec3<R>) -> (Vec3<R>, Sym3<R>);
+    fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>);
+
+    /// The cell of a position.
+    #[inline(always)]
+    fn cell(&self, p: Vec3<R>) -> [usize; 3] {
+        self.place(p).cell
+    }
+
+    /// [`value_at`](Self::value_at) the place of a position.
+    #[inline(always)]
+    fn value(&self, p: Vec3<R>) -> R {
+        self.value_at(self.place(p))
+    }
+
+    /// [`gradient_at`](Self::gradient_at) the place of a position.
+    #[inline(always)]
+    fn gradient(&self, p: Vec3<R>) -> Vec3<R> {
+        self.gradient_at(self.place(p))
+    }
+
+    /// [`hessian_at`](Self::hessian_at) the place of a position.
+    ///
+    /// # Panics
+    /// If the field was prepared for a lower rung than `Hessian`.
+    #[inline(always)]
+    fn hessian(&self, p: Vec3<R>) -> (Vec3<R>, Sym3<R>) {
+        self.hessian_at(self.place(p))
+    }
 }
 
 /// What a kernel computes, along the index axes and from the numbers that stencils read.
@@ -54,31 +81,30 @@ impl<'f, 'v, R: Real, K> Sampled<'f, 'v, R, K> {
 
 impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
     #[inline(always)]
-    fn cell(&self, p: Vec3<R>) -> [usize; 3] {
-        self.field.cells.locate(p).cell
+    fn place(&self, p: Vec3<R>) -> Place<R> {
+        self.field.cells.locate(p)
     }
 
     #[inline(always)]
-    fn value(&self, p: Vec3<R>) -> R {
-        let read = self.kernel.value(self.field, self.field.cells.locate(p));
-        self.field.to_value(read)
+    fn value_at(&self, at: Place<R>) -> R {
+        self.field.to_value(self.kernel.value(self.field, at))
     }
 
     #[inline(always)]
-    fn gradient(&self, p: Vec3<R>) -> Vec3<R> {
-        let (field, at) = (self.field, self.field.cells.locate(p));
-        let index = match &field.first {
-            First::Central => gradient::central::gradient(field, at),
-            First::Analytic => self.kernel.gradient(field, at),
-            First::Sobel => gradient::sobel::gradient(field, at),
-            First::Regression(regression) => regression.gradient(field, at),
+    fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
+        let field = self.field;
+        let index = match (field.how.gradient, &field.regression) {
+            (GradientEstimator::Central, _) => gradient::central::gradient(field, at),
+            (GradientEstimator::Analytic, _) => self.kernel.gradient(field, at),
+            (_, Some(regression)) => regression.gradient(field, at),
+            (_, None) => gradient::sobel::gradient(field, at),
         };
         field.to_world.apply(index)
     }
 
     #[inline]
-    fn hessian(&self, p: Vec3<R>) -> (Vec3<R>, Sym3<R>) {
-        let (field, at) = (self.field, self.field.cells.locate(p));
+    fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+        let field = self.field;
         let (gradient, hessian) = match &field.second {
             Second::Analytic => self.kernel.second(field, at),
             Second::Central => (gradient::central::gradient(field, at), hessian::central::hessian(field, at)),

@@ -12,10 +12,11 @@ use drypoint_scene::with_access;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stencils<'v> {
     volume: &'v Volume,
-    /// For each axis the number of cells whose 4 voxels from the one before the cell on are all in the grid.
+    /// For each axis the number of cells whose 4 voxels from the one before the cell on are all in the grid; none
+    /// where every stencil has to be read with care.
     inner: [usize; 3],
-    /// Whether an axis has length 1.
-    flat: bool,
+    /// Whether an axis has length 1 or numbers are scaled as they are read.
+    careful: bool,
     /// Stored numbers are read times this power of two; 1 unless they come near the ends of the number type.
     scale: f64,
 }
@@ -28,6 +29,37 @@ pub(super) struct Cross<R> {
     pub y: [[R; 2]; 4],
     /// The two voxels of the cell in the rows at z = −1: y = 0, 1, then at z = 2.
     pub z: [[R; 2]; 4],
+}
+
+/// The corners of a cell: pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1).
+pub(super) type Corners<R> = [[R; 2]; 4];
+
+/// The corners of a cell that lies in the grid.
+#[inline(always)]
+pub(super) fn corners<R: Real>(access: impl Access, [x, y, z]: [usize; 3]) -> Corners<R> {
+    let a = access.window::<2>(x, y, z);
+    [row(a, 0, 0, 0), row(a, 0, 1, 0), row(a, 0, 0, 1), row(a, 0, 1, 1)]
+}
+
+/// The voxels of central differences of a cell for which all lie in the grid.
+#[inline(always)]
+pub(super) fn cross<R: Real>(access: impl Access, [x, y, z]: [usize; 3]) -> Cross<R> {
+    let a = access.window::<4>(x - 1, y - 1, z - 1);
+    Cross {
+        x: [row(a, 0, 1, 1), row(a, 0, 2, 1), row(a, 0, 1, 2), row(a, 0, 2, 2)],
+        y: [row(a, 1, 0, 1), row(a, 1, 3, 1), row(a, 1, 0, 2), row(a, 1, 3, 2)],
+        z: [row(a, 1, 1, 0), row(a, 1, 2, 0), row(a, 1, 1, 3), row(a, 1, 2, 3)],
+    }
+}
+
+#[inline(always)]
+fn row<R: Real, const N: usize>(access: impl Access, x: usize, y: usize, z: usize) -> [R; N] {
+    let voxels = access.row::<N>(x, y, z);
+    let mut row = [R::ZERO; N];
+    for i in 0..N {
+        row[i] = R::from_voxel(voxels[i]);
+    }
+    row
 }
 
 /// The 4³ voxels around a cell, [z][y][x].
@@ -50,8 +82,9 @@ impl<'v> Stencils<'v> {
     /// `R` is the number type that will be read.
     pub(super) fn new<R: Real>(volume: &'v Volume) -> Self {
         let dims = volume.dims();
-        let inner = dims.map(|n| n.max(3) - 3);
-        Self { volume, inner, flat: dims.contains(&1), scale: math::scale_by_power_of_two(1.0, -exponent::<R>(volume)) }
+        let scale = math::scale_by_power_of_two(1.0, -exponent::<R>(volume));
+        let careful = scale != 1.0 || dims.contains(&1);
+        Self { volume, inner: if careful { [0; 3] } else { dims.map(|n| n.max(3) - 3) }, careful, scale }
     }
 
     /// A power of two; the numbers read are the stored ones times it.
@@ -91,51 +124,56 @@ impl<'v> Stencils<'v> {
         inside(0) && inside(1) && inside(2)
     }
 
-    /// What `f` makes of the corners of a cell: pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1). It is
-    /// compiled for each stored type, which spares the way through memory: for what is short and hot.
+    /// The corners of a cell where they cannot simply be read: on axes of length 1 and where numbers are scaled.
     #[inline(always)]
-    pub(super) fn with_corners<R: Real, T>(&self, [x, y, z]: [usize; 3], f: impl Fn([[R; 2]; 4]) -> T) -> T {
-        if self.flat || self.scale != 1.0 {
-            return f(self.careful_corners([x, y, z]));
-        }
-        with_access!(self.volume, |a| {
-            let pair = |y, z| a.row::<2>(x, y, z).map(R::from_voxel);
-            f([pair(y, z), pair(y + 1, z), pair(y, z + 1), pair(y + 1, z + 1)])
-        })
+    pub(super) fn careful_corners<R: Real>(&self, cell: [usize; 3]) -> Option<Corners<R>> {
+        if self.careful { Some(self.read_corners(cell)) } else { None }
     }
 
-    /// What `f` makes of the voxels of central differences at the corners of a cell, continued beyond the border;
-    /// compiled for each stored type.
+    /// The voxels of central differences where some lie beyond the border or cannot simply be read.
     #[inline(always)]
-    pub(super) fn with_cross<R: Real, T>(&self, cell: [usize; 3], f: impl Fn(Cross<R>) -> T) -> T {
-        if !self.inside(cell) || self.scale != 1.0 {
-            return f(self.careful_cross(cell));
-        }
-        let [x, y, z] = cell;
-        with_access!(self.volume, |a| {
-            let four = |y, z| a.row::<4>(x - 1, y, z).map(R::from_voxel);
-            let two = |y, z| a.row::<2>(x, y, z).map(R::from_voxel);
-            f(Cross {
-                x: [four(y, z), four(y + 1, z), four(y, z + 1), four(y + 1, z + 1)],
-                y: [two(y - 1, z), two(y + 2, z), two(y - 1, z + 1), two(y + 2, z + 1)],
-                z: [two(y, z - 1), two(y + 1, z - 1), two(y, z + 2), two(y + 1, z + 2)],
-            })
-        })
+    pub(super) fn careful_cross<R: Real>(&self, cell: [usize; 3]) -> Option<Cross<R>> {
+        if self.inside(cell) { None } else { Some(self.read_cross(cell)) }
     }
 
     /// The voxels from the one before the cell on, continued beyond the border.
     #[inline]
     pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
-        if !self.inside(cell) || self.scale != 1.0 {
-            return self.careful_block(cell);
+        if !self.inside(cell) {
+            return self.read_block(cell);
         }
-        let [x, y, z] = cell.map(|i| i - 1);
+        let mut block = [[[R::ZERO; 4]; 4]; 4];
         with_access!(self.volume, |a| {
-            std::array::from_fn(|k| std::array::from_fn(|j| a.row::<4>(x, y + j, z + k).map(R::from_voxel)))
-        })
+            let a = a.window::<4>(cell[0] - 1, cell[1] - 1, cell[2] - 1);
+            for (k, plane) in block.iter_mut().enumerate() {
+                for (j, line) in plane.iter_mut().enumerate() {
+                    *line = row(a, 0, j, k);
+                }
+            }
+        });
+        block
     }
 
-    /// `N`³ voxels from `start` on, [z][y][x]; an index beyond the grid reads the last voxel of its line.
+    /// The 6³ voxels from the second one before the cell on, [z][y][x]; beyond the border whatever is nearest.
+    #[inline]
+    pub(super) fn large_block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 6]; 6]; 6] {
+        let dims = self.dims();
+        if self.careful || (0..3).any(|a| cell[a] < 2 || cell[a] + 4 > dims[a]) {
+            return self.clamped(cell.map(|i| i as isize - 2));
+        }
+        let mut block = [[[R::ZERO; 6]; 6]; 6];
+        with_access!(self.volume, |a| {
+            let a = a.window::<6>(cell[0] - 2, cell[1] - 2, cell[2] - 2);
+            for (k, plane) in block.iter_mut().enumerate() {
+                for (j, line) in plane.iter_mut().enumerate() {
+                    *line = row(a, 0, j, k);
+                }
+            }
+        });
+        block
+    }
+
+    /// `N`³ voxels from `start` on, [z][y][x]; an index beyond the grid reads the nearest voxel of its line.
     #[inline(never)]
     pub(super) fn clamped<R: Real, const N: usize>(&self, start: [isize; 3]) -> [[[R; N]; N]; N] {
         let dims = self.dims();
@@ -150,14 +188,14 @@ impl<'v> Stencils<'v> {
     }
 
     #[cold]
-    fn careful_corners<R: Real>(&self, cell: [usize; 3]) -> [[R; 2]; 4] {
+    fn read_corners<R: Real>(&self, cell: [usize; 3]) -> Corners<R> {
         let [[a, b], [c, d]] = self.clamped::<R, 2>(cell.map(|i| i as isize));
         [a, b, c, d]
     }
 
     #[cold]
-    fn careful_cross<R: Real>(&self, cell: [usize; 3]) -> Cross<R> {
-        let b = self.careful_block(cell);
+    fn read_cross<R: Real>(&self, cell: [usize; 3]) -> Cross<R> {
+        let b = self.read_block(cell);
         let two = |z: usize, y: usize| [b[z][y][1], b[z][y][2]];
         Cross {
             x: [b[1][1], b[1][2], b[2][1], b[2][2]],
@@ -168,7 +206,7 @@ impl<'v> Stencils<'v> {
 
     /// Reads what is in the grid and continues it outwards along x, then y, then z.
     #[cold]
-    fn careful_block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
+    fn read_block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         let mut b = self.clamped::<R, 4>(cell.map(|i| i as isize - 1));
         let [nx, ny, nz] = self.dims();
         for line in b.iter_mut().flatten() {
@@ -248,7 +286,8 @@ mod tests {
             for (k, j, i) in (0..64).map(|t| (t / 16, t / 4 % 4, t % 4)) {
                 assert_eq!(block[k][j][i], at(span(i), span(j), span(k)), "{cell:?}: {i} {j} {k}");
             }
-            s.with_cross(cell, |c: Cross<f64>| {
+            {
+                let c: Cross<f64> = s.careful_cross(cell).unwrap_or_else(|| with_access!(v, |a| cross(a, cell)));
                 for (n, (y, z)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
                     assert_eq!(c.x[n], [-1, 0, 1, 2].map(|x| at(x, y, z)));
                 }
@@ -258,10 +297,10 @@ mod tests {
                 for (n, (y, z)) in [(0, -1), (1, -1), (0, 2), (1, 2)].into_iter().enumerate() {
                     assert_eq!(c.z[n], [0, 1].map(|x| at(x, y, z)));
                 }
-            });
-            s.with_corners(cell, |c: [[f64; 2]; 4]| {
-                assert_eq!(c, [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(y, z)| [at(0, y, z), at(1, y, z)]));
-            });
+            }
+            let want = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(y, z)| [at(0, y, z), at(1, y, z)]);
+            assert_eq!(with_access!(v, |a| corners::<f64>(a, cell)), want);
+            assert_eq!(s.read_corners::<f64>(cell), want);
         }
     }
 

@@ -6,8 +6,7 @@ use super::opacity::correct;
 use super::prepared::{KappaSource, Prepared};
 use super::sample::Facts;
 use super::skip::Found;
-use crate::field::Sampler;
-use crate::field::curvature;
+use crate::field::{Place, Sampler, curvature};
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray;
 use drypoint_scene::color;
@@ -105,20 +104,20 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         let mut samples = 0;
         for k in first..=last {
             let p = self.ray.position(k);
-            let cell = self.sampler.cell(p);
-            if !sees(cell) {
+            let at = self.sampler.place(p);
+            if !sees(at.cell) {
                 continue;
             }
             samples += 1;
             if let Some(mask) = prepared.volume.mask()
-                && mask.touches_cell(cell)
+                && mask.touches_cell(at.cell)
             {
                 counts.masked += 1;
                 continue;
             }
-            let s = self.sampler.value(p);
+            let s = self.sampler.value_at(at);
             if let Some(place) = prepared.function.locate(s) {
-                let facts = self.facts(k, p, s, counts);
+                let facts = self.facts(k, at, s, counts);
                 let (rgb, alpha) = prepared.look.color(&place, &facts, counts);
                 self.composite(k, rgb, alpha, &facts);
                 if self.opacity >= prepared.stop_at {
@@ -131,13 +130,13 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
 
     /// Everything that the scene calls for at a sample with α_u > 0.
     #[inline]
-    fn facts(&mut self, k: i64, p: Vec3<R>, s: R, counts: &mut Counts) -> Facts<R> {
+    fn facts(&mut self, k: i64, at: Place<R>, s: R, counts: &mut Counts) -> Facts<R> {
         let prepared = self.prepared;
         let mut facts = Facts::without_normal(s, self.v_eye);
         if !prepared.calls.gradient {
             return facts;
         }
-        let g = self.sampler.gradient(p);
+        let g = self.sampler.gradient_at(at);
         counts.gradients += 1;
         facts.gradient = g;
         if let Some((lo, width)) = prepared.gradient_range {
@@ -151,7 +150,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             facts.normal = prepared.to_eye(n);
             facts.n_dot_v = n.dot(self.v_world).abs();
             if prepared.calls.hessian {
-                self.curvatures(p, &mut facts, counts);
+                self.curvatures(at, &mut facts, counts);
             }
             if prepared.calls.kappa == KappaSource::AlongRay {
                 facts.kappa = self.kappa_along_ray(k, n, counts);
@@ -187,10 +186,10 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     }
 
     /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); 0 where H's own field has no normal.
-    fn curvatures(&self, p: Vec3<R>, facts: &mut Facts<R>, counts: &mut Counts) {
+    fn curvatures(&self, at: Place<R>, facts: &mut Facts<R>, counts: &mut Counts) {
         let prepared = self.prepared;
         counts.hessians += 1;
-        let (g, h) = self.sampler.hessian(p);
+        let (g, h) = self.sampler.hessian_at(at);
         if g.length() <= prepared.no_normal_below {
             return;
         }

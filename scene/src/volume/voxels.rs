@@ -10,13 +10,6 @@ pub trait Voxel: Copy + Send + Sync + PartialOrd + 'static {
 
 macro_rules! voxel_types {
     ($($variant:ident $type:ty, $name:literal, $doc:literal;)*) => {
-        $(impl Voxel for $type {
-            #[inline(always)]
-            fn to_f64(self) -> f64 { self as f64 }
-            #[inline(always)]
-            fn to_f32(self) -> f32 { self as f32 }
-        })*
-
         /// Stored voxels, x fastest.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Voxels {
@@ -98,6 +91,53 @@ voxel_types! {
     F64 f64, "f64", "IEEE 754 binary64.";
 }
 
+macro_rules! cast {
+    ($($type:ty)*) => { $(impl Voxel for $type {
+        #[inline(always)]
+        fn to_f64(self) -> f64 { self as f64 }
+        #[inline(always)]
+        fn to_f32(self) -> f32 { self as f32 }
+    })* };
+}
+cast!(u16 i16 u32 i32 u64 i64 f32 f64);
+
+// Bytes are looked up: a sum or difference takes a number of a table as it is, where a conversion of each byte costs
+// three instructions. A gradient of 32 voxels is made in three quarters of the time.
+macro_rules! look_up {
+    ($($type:ty, $wide:ident, $narrow:ident;)*) => { $(
+        static $wide: [f64; 256] = {
+            let mut table = [0.0; 256];
+            let mut i = 0;
+            while i < 256 {
+                table[i] = i as u8 as $type as f64;
+                i += 1;
+            }
+            table
+        };
+
+        static $narrow: [f32; 256] = {
+            let mut table = [0.0; 256];
+            let mut i = 0;
+            while i < 256 {
+                table[i] = i as u8 as $type as f32;
+                i += 1;
+            }
+            table
+        };
+
+        impl Voxel for $type {
+            #[inline(always)]
+            fn to_f64(self) -> f64 { $wide[self as u8 as usize] }
+            #[inline(always)]
+            fn to_f32(self) -> f32 { $narrow[self as u8 as usize] }
+        }
+    )* };
+}
+look_up! {
+    u8, U8_F64, U8_F32;
+    i8, I8_F64, I8_F32;
+}
+
 trait FromF64 {
     fn from_f64(v: f64) -> Self;
 }
@@ -173,9 +213,18 @@ impl Voxels {
 pub trait Access: Copy + Sync {
     /// The stored type.
     type Voxel: Voxel;
+    /// Reads a part of the volume.
+    type Window: Access<Voxel = Self::Voxel>;
 
     /// Voxels along x, y, z.
     fn dims(&self) -> [usize; 3];
+
+    /// The `S`³ voxels from (x, y, z) on, which is the window's (0, 0, 0). That all lie inside the grid is checked here,
+    /// once, and not for each row.
+    ///
+    /// # Panics
+    /// If one lies outside.
+    fn window<const S: usize>(&self, x: usize, y: usize, z: usize) -> Self::Window;
 
     /// `N` neighbours along x from (x, y, z) on, all inside the grid.
     ///
@@ -198,18 +247,36 @@ pub trait Access: Copy + Sync {
 pub struct Linear<'a, V> {
     data: &'a [V],
     dims: [usize; 3],
+    /// From a voxel to the next one along y and along z.
+    strides: [usize; 2],
 }
+
+/// Strides are at most this, so that the compiler knows that an offset inside a window does not overflow, and leaves
+/// out the checks that follow from the window's own. In 32 bits it is a slice of 16384² voxels.
+const LONGEST_STRIDE: usize = usize::MAX >> 4;
 
 impl<'a, V: Voxel> Linear<'a, V> {
     /// Reads `data`, which has the product of `dims` voxels.
+    ///
+    /// # Panics
+    /// If a slice has more than a sixteenth of the voxels that addresses can count.
+    #[inline(always)]
     pub fn new(data: &'a [V], dims: [usize; 3]) -> Self {
         debug_assert_eq!(data.len(), dims.iter().product::<usize>());
-        Self { data, dims }
+        let strides = [dims[0], dims[0] * dims[1]];
+        assert!(strides[0] <= LONGEST_STRIDE && strides[1] <= LONGEST_STRIDE);
+        Self { data, dims, strides }
+    }
+
+    #[inline(always)]
+    fn offset(&self, x: usize, y: usize, z: usize) -> usize {
+        z * self.strides[1] + y * self.strides[0] + x
     }
 }
 
 impl<V: Voxel> Access for Linear<'_, V> {
     type Voxel = V;
+    type Window = Self;
 
     #[inline(always)]
     fn dims(&self) -> [usize; 3] {
@@ -217,9 +284,49 @@ impl<V: Voxel> Access for Linear<'_, V> {
     }
 
     #[inline(always)]
-    fn row<const N: usize>(&self, x: usize, y: usize, z: usize) -> [V; N] {
+    fn window<const S: usize>(&self, x: usize, y: usize, z: usize) -> Self {
+        // Not `offset`: of two independent products the compiler makes a slow vector.
         let start = (z * self.dims[1] + y) * self.dims[0] + x;
+        let data = &self.data[start..][..self.offset(S - 1, S - 1, S - 1) + 1];
+        Self { data, dims: [S; 3], strides: self.strides }
+    }
+
+    #[inline(always)]
+    fn row<const N: usize>(&self, x: usize, y: usize, z: usize) -> [V; N] {
+        let start = self.offset(x, y, z);
         let slice = &self.data[start..start + N];
         std::array::from_fn(|i| slice[i])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_the_numbers_they_stand_for() {
+        for i in 0..=255u8 {
+            assert_eq!((i.to_f64(), i.to_f32()), (f64::from(i), f32::from(i)));
+            let i = i as i8;
+            assert_eq!((i.to_f64(), i.to_f32()), (f64::from(i), f32::from(i)));
+        }
+    }
+
+    #[test]
+    fn rows_and_windows_are_the_voxels_in_order() {
+        let data: Vec<u8> = (0..60).collect();
+        let all = Linear::new(&data, [3, 4, 5]);
+        assert_eq!(all.row::<3>(0, 2, 4), [54, 55, 56]);
+        let part = all.window::<2>(1, 2, 3);
+        for (x, y, z) in (0..8).map(|i| (i % 2, i / 2 % 2, i / 4)) {
+            assert_eq!(part.at(x, y, z), all.at(1 + x, 2 + y, 3 + z));
+        }
+        assert_eq!(part.dims(), [2; 3]);
+    }
+
+    #[test]
+    #[should_panic]
+    fn a_window_beyond_the_last_voxel() {
+        Linear::new(&[0u8; 60], [3, 4, 5]).window::<2>(2, 3, 4);
     }
 }

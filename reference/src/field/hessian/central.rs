@@ -12,7 +12,7 @@ use crate::number::{Real, Sym3};
 /// The interpolated Hessian at a place, along the index axes.
 pub(in crate::field) fn hessian<R: Real>(field: &Field<'_, R>, at: Place<R>) -> Sym3<R> {
     let dims = field.stencils.dims();
-    let block = field.stencils.clamped::<R, 6>(at.cell.map(|i| i as isize - 2));
+    let block = field.stencils.large_block::<R>(at.cell);
     let taps: [Taps<R, 6>; 3] = std::array::from_fn(|axis| taps(at.cell[axis], at.w[axis], dims[axis]));
     tensor::second(|j, k| block[k][j], &taps).1
 }

@@ -3,7 +3,9 @@
 use crate::field::Field;
 use crate::field::place::Place;
 use crate::field::sampler::Interpolant;
+use crate::field::stencil::{self, Corners};
 use crate::number::{Real, Vec3};
+use drypoint_scene::with_access;
 
 /// Three nested interpolations, x then y then z: continuous, interpolates the voxels, exact for f = xyz.
 #[derive(Clone, Copy, Debug)]
@@ -15,24 +17,38 @@ pub(in crate::field) fn bilinear<R: Real>(c: [R; 4], wy: R, wz: R) -> R {
     R::lerp(R::lerp(c[0], c[1], wy), R::lerp(c[2], c[3], wy), wz)
 }
 
+#[inline(always)]
+fn value<R: Real>(rows: Corners<R>, [wx, wy, wz]: [R; 3]) -> R {
+    let x = |r: [R; 2]| R::lerp(r[0], r[1], wx);
+    bilinear([x(rows[0]), x(rows[1]), x(rows[2]), x(rows[3])], wy, wz)
+}
+
+/// Constant along each axis inside a cell, with jumps between cells.
+#[inline(always)]
+fn gradient<R: Real>(r: Corners<R>, [wx, wy, wz]: [R; 3]) -> Vec3<R> {
+    let step = |a: [R; 2]| a[1] - a[0];
+    let along_x = |a: [R; 2], b: [R; 2]| R::lerp(b[0] - a[0], b[1] - a[1], wx);
+    Vec3::new(
+        bilinear([step(r[0]), step(r[1]), step(r[2]), step(r[3])], wy, wz),
+        R::lerp(along_x(r[0], r[1]), along_x(r[2], r[3]), wz),
+        R::lerp(along_x(r[0], r[2]), along_x(r[1], r[3]), wy),
+    )
+}
+
 impl<R: Real> Interpolant<R> for Trilinear {
     #[inline(always)]
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R {
-        let [wx, wy, wz] = at.w;
-        field.stencils.with_corners(at.cell, |rows| bilinear(rows.map(|r| R::lerp(r[0], r[1], wx)), wy, wz))
+        match field.stencils.careful_corners(at.cell) {
+            Some(corners) => value(corners, at.w),
+            None => with_access!(field.volume, |a| value(stencil::corners(a, at.cell), at.w)),
+        }
     }
 
-    /// Constant along each axis inside a cell, with jumps between cells.
     #[inline]
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
-        let [wx, wy, wz] = at.w;
-        let along_x = |a: [R; 2], b: [R; 2]| R::lerp(b[0] - a[0], b[1] - a[1], wx);
-        field.stencils.with_corners(at.cell, |r| {
-            Vec3::new(
-                bilinear(r.map(|r| r[1] - r[0]), wy, wz),
-                R::lerp(along_x(r[0], r[1]), along_x(r[2], r[3]), wz),
-                R::lerp(along_x(r[0], r[2]), along_x(r[1], r[3]), wy),
-            )
-        })
+        match field.stencils.careful_corners(at.cell) {
+            Some(corners) => gradient(corners, at.w),
+            None => with_access!(field.volume, |a| gradient(stencil::corners(a, at.cell), at.w)),
+        }
     }
 }

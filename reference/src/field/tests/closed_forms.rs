@@ -212,7 +212,7 @@ fn both_curvatures_of_a_torus_on_every_grid() {
     let f = |p: DVec3| (a * a - (DVec2::new(p.x, p.y).length() - ring).powi(2) - p.z * p.z) / (2.0 * a);
     for axes in frames() {
         let h = Grid::new([2; 3], axes, DVec3::ZERO).unwrap().spacing().into_iter().fold(0.0, f64::max);
-        for theta in [0.0, 0.7, std::f64::consts::FRAC_PI_2, 2.3, std::f64::consts::PI, -2.0] {
+        for theta in [0.0, 0.7, 1.6, 2.3, std::f64::consts::PI, -2.0] {
             let (sin, cos) = f64::sin_cos(theta);
             let phi = 0.6f64;
             let out = DVec3::new(phi.cos(), phi.sin(), 0.0);
