@@ -5,7 +5,7 @@ use super::layers::{Seen, Sums};
 use super::opacity::correct;
 use super::prepared::{KappaSource, Prepared};
 use super::sample::Facts;
-use super::skip::Found;
+use super::skip::{Boxes, Skip};
 use crate::field::{Place, Sampler, curvature};
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray;
@@ -48,7 +48,7 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
     [i, j]: [f64; 2],
-    found: &mut Found,
+    boxes: Option<&mut Boxes>,
     counts: &mut Counts,
 ) -> Cast {
     let view = &prepared.view;
@@ -70,22 +70,9 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
     let inside = ray.inside(prepared.ends);
     let mut samples = 0;
     if inside[0] <= inside[1] {
-        samples = match &prepared.skip {
-            None => walk.run(inside, |_| true, counts).0,
-            Some(skip) => {
-                let (mut samples, mut next) = (0, inside[0]);
-                for &[near, far] in skip.intervals(ray.line(), R::EPSILON.to_f64(), found) {
-                    let first = ray.first_at_or_after(near).max(next);
-                    let last = ray.last_at_or_before(far).min(inside[1]);
-                    let (n, open) = walk.run([first, last], |cell| skip.sees(cell), counts);
-                    samples += n;
-                    next = next.max(last + 1);
-                    if !open {
-                        break;
-                    }
-                }
-                samples
-            }
+        samples = match (&prepared.skip, boxes) {
+            (Some(skip), Some(boxes)) => walk.run_in(inside, skip, boxes, counts),
+            _ => walk.run(inside, |_| true, counts).0,
         };
     }
     counts.rays += 1;
@@ -96,6 +83,23 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
 }
 
 impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
+    /// Visits the samples of a range that lie in visible bricks. Returns how many were evaluated.
+    #[inline]
+    fn run_in(&mut self, inside: [i64; 2], skip: &Skip, boxes: &mut Boxes, counts: &mut Counts) -> u64 {
+        let (mut samples, mut next) = (0, inside[0]);
+        for &[near, far] in boxes.intervals(self.ray.line(), R::EPSILON.to_f64()) {
+            let first = self.ray.first_at_or_after(near).max(next);
+            let last = self.ray.last_at_or_before(far).min(inside[1]);
+            let (n, open) = self.run([first, last], |cell| skip.sees(cell), counts);
+            samples += n;
+            next = next.max(last + 1);
+            if !open {
+                break;
+            }
+        }
+        samples
+    }
+
     /// Visits the samples first..=last whose cell passes the test. Returns how many were evaluated and whether the ray
     /// is still open.
     #[inline]

@@ -2,11 +2,11 @@
 
 use super::cast::cast;
 use super::gradient_range::quantile_of_norms;
-use super::lattice::Lattice;
+use super::lattice::{IndexRay, Lattice};
 use super::layers::averaged;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::sample::Look;
-use super::skip::{Found, Skip};
+use super::skip::{Beam, Boxes, Skip};
 use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
@@ -323,7 +323,14 @@ fn draw_tile<R: Real, S: Sampler<R>>(
     let [width, height] = prepared.view.size;
     let (right, bottom) = ((x + TILE).min(width), (y + TILE).min(height));
     let mut tile = Tile { x, y, width: right - x, pixels: Vec::new(), counts: Counts::default() };
-    let mut found = Found::default();
+    let mut boxes = prepared.skip.as_ref().map(|skip| {
+        let corner = |i: usize, j: usize| {
+            let ray = prepared.view.ray(i as f64, j as f64);
+            IndexRay::<R>::new(&ray, &prepared.view, &prepared.lattice, prepared.volume.grid()).line()
+        };
+        let corners = [corner(x, y), corner(right, y), corner(right, bottom), corner(x, bottom)];
+        skip.boxes_in(&Beam::new(corners, R::EPSILON.to_f64()))
+    });
     for j in y..bottom {
         for i in x..right {
             let behind = match background {
@@ -331,7 +338,7 @@ fn draw_tile<R: Real, S: Sampler<R>>(
                 Backdrop::Color(c) => color::premultiply(c),
                 Backdrop::Pixels(pixels) => pixels[j * width + i],
             };
-            draw_pixel(prepared, sampler, [i, j], behind, &mut found, &mut tile);
+            draw_pixel(prepared, sampler, [i, j], behind, &mut boxes, &mut tile);
         }
     }
     tile
@@ -343,7 +350,7 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
     sampler: &S,
     [i, j]: [usize; 2],
     behind: Rgba,
-    found: &mut Found,
+    boxes: &mut Option<Boxes>,
     tile: &mut Tile,
 ) {
     let n = prepared.samples;
@@ -352,7 +359,7 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
     for part in 0..n * n {
         let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
         let at = [centre(i, part % n), centre(j, part / n)];
-        let cast = cast(prepared, sampler, at, found, &mut tile.counts);
+        let cast = cast(prepared, sampler, at, boxes.as_mut(), &mut tile.counts);
         let mut values = Vec::new();
         let mut means = Vec::new();
         for &kind in &prepared.layers {
