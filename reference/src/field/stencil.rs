@@ -137,7 +137,7 @@ impl<'v> Stencils<'v> {
     }
 
     /// The voxels from the one before the cell on, continued beyond the border.
-    #[inline]
+    #[inline(never)]
     pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         if !self.inside(cell) {
             return self.read_block(cell);
@@ -155,7 +155,7 @@ impl<'v> Stencils<'v> {
     }
 
     /// The 6³ voxels from the second one before the cell on, [z][y][x]; beyond the border whatever is nearest.
-    #[inline]
+    #[inline(never)]
     pub(super) fn large_block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 6]; 6]; 6] {
         let dims = self.dims();
         if self.careful || (0..3).any(|a| cell[a] < 2 || cell[a] + 4 > dims[a]) {
