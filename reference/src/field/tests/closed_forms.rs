@@ -291,6 +291,17 @@ fn the_automatic_hessian() {
     }
 }
 
+/// Numbers beyond f32 are refused there, and are no trouble in f64.
+#[test]
+fn values_that_the_number_does_not_hold() {
+    let grid = Grid::with_spacing([2, 1, 1], [1.0; 3]).unwrap();
+    let volume = Volume::new(grid, Voxels::F64(vec![0.0, 1e300]), 1.0, 0.0).unwrap();
+    let how = Reconstruction::default();
+    assert_eq!(Field::<f32>::new(&volume, how, Rung::Value).unwrap_err(), FieldError::TooLarge { largest: 1e300 });
+    let field = Field::<f64>::new(&volume, how, Rung::Value).unwrap();
+    assert_eq!(with_sampler!(field, |s| s.value(Vec3::new(0.5, 0.0, 0.0))), 5e299);
+}
+
 /// What no one asks for is not there ([PLAN-1]).
 #[test]
 fn only_what_is_asked_for_is_allocated() {
