@@ -191,6 +191,24 @@ mod tests {
         }
     }
 
+    /// At the border of a plane, x ≥ 0: the six voxels lie on two lines, and h_x joins their weighted means. The line
+    /// k_x = 0 weighs 1, 2, 1, the other 1/√2, 1, 1/√2.
+    #[test]
+    fn at_a_border_the_voxels_that_exist() {
+        let grid = Grid::with_spacing([3, 3, 1], [1.0; 3]).unwrap();
+        let [x, y, z] = fit(&grid, [2, 3, 0]);
+        let diagonal = 1.0 / 2f64.sqrt();
+        let total = 1.0 + 2.0 * diagonal;
+        let want =
+            [(10, -0.25), (13, -0.5), (16, -0.25), (11, diagonal / total), (14, 1.0 / total), (17, diagonal / total)];
+        for (t, w) in want {
+            assert!((x[t] - w).abs() < 1e-15, "{t}: {} {w}", x[t]);
+        }
+        assert_eq!(x.iter().filter(|&&w| w != 0.0).count(), 6);
+        // Along y the sum of w k² is 2 + 2/√2 over four voxels.
+        assert!((y[16] - 1.0 / (2.0 + 2.0 * diagonal)).abs() < 1e-15 && z == [0.0; 27]);
+    }
+
     #[test]
     fn a_line_of_voxels_is_fitted_along_itself_alone() {
         let grid = Grid::with_spacing([3, 1, 1], [2.0, 1.0, 1.0]).unwrap();
