@@ -63,8 +63,8 @@ impl<R: Real> Coefficients<R> {
         self
     }
 
-    /// Samples along each axis replaced by sums over their line: `weights(n, axis)` gives for each of the n samples of
-    /// a line the first that it is made of and the weights from there on; none leaves the axis as it is.
+    /// Samples replaced by sums over their line along one axis: `rows` has for each sample of a line the first one that
+    /// its sum takes and the weights from there on.
     pub(super) fn convolve(mut self, axis: usize, rows: &[(usize, Vec<R>)]) -> Self {
         let [px, py, _] = self.dims;
         let stride = [1, px, px * py][axis];
