@@ -5,7 +5,7 @@ use super::gradient_range::quantile_of_norms;
 use super::lattice::{IndexRay, Lattice};
 use super::layers::averaged;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
-use super::sample::Look;
+use super::sample::{EyeAxes, Look, Styled};
 use super::skip::{Beam, Boxes, Skip};
 use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
@@ -206,7 +206,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         side: Side::new(sampling.normal, scene.volume.outside),
         turn: Turn::new(sampling.normal, scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip)),
         no_normal_below: field.no_normal_below(),
-        eye_axes: [view.right, view.up, -view.forward].map(Vec3::from_glam),
+        eye_axes: eye_axes(&view),
         samples: scene.picture.samples,
         field,
         view,
@@ -228,6 +228,11 @@ fn calls(scene: &Scene, plan: &Plan) -> Calls {
         principal: scene.picture.layers.contains(&LayerKind::Curvature),
         kappa,
     }
+}
+
+/// The rows of the rotation from world to eye space.
+fn eye_axes<R: Real>(view: &View) -> EyeAxes<R> {
+    EyeAxes([view.right, view.up, -view.forward].map(Vec3::from_glam))
 }
 
 /// How visible samples are coloured.
@@ -252,13 +257,14 @@ fn look<R: Real>(inputs: &Inputs<'_>, view: &View) -> Result<Look<R>, RenderErro
                 })
                 .transpose()?;
             let transfer = scene.transfer.as_ref();
-            Ok(Look::Style {
+            Ok(Look::Style(Styled {
                 index: StyleIndex::new(&nodes.color),
                 spheres: Spheres::new(styles, transfer.map_or(Mix::Premultiplied, |t| t.mix)),
                 contour,
                 transparency: transfer.map_or(Transparency::Illustrative, |t| t.transparency),
                 frame: transfer.map_or(SphereFrame::Eye, |t| t.sphere_frame),
-            })
+                eye_axes: eye_axes(view),
+            }))
         }
     }
 }
