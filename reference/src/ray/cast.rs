@@ -108,13 +108,13 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             if !sees(at.cell) {
                 continue;
             }
-            samples += 1;
             if let Some(mask) = mask
                 && mask.touches_cell(at.cell)
             {
                 counts.masked += 1;
                 continue;
             }
+            samples += 1;
             let s = self.sampler.value_at(at);
             if let Some(place) = prepared.function.locate(s) {
                 self.show(k, at, s, &place, counts);

@@ -163,7 +163,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let skip = sampling.skip_empty.then(|| {
         let bricks = field.bricks();
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
-        Skip::new(&bricks, |range| function.can_be_visible(range))
+        Skip::new(&bricks, |range| function.can_be_visible(range, |at| R::from_f64(at).to_f64()))
     });
     if let Some(skip) = &skip {
         counts.bytes.insert("skip".into(), skip.bytes() as u64);
