@@ -373,7 +373,7 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
             if kind == LayerKind::Beauty {
                 values.extend(over(cast.rgba, behind, prepared.encode));
             } else {
-                cast.sums.channels(kind, cast.samples, &mut values);
+                cast.sums.channels(kind, cast.samples, prepared.field.scale_exponent(), &mut values);
             }
             means.resize(values.len(), averaged(kind));
             debug_assert_eq!(values.len() - before, kind.channels().len());
