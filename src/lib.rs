@@ -1,7 +1,7 @@
 //! Drypoint, an illustrative volume renderer: lit-sphere styles, contours of controlled thickness and translucent
 //! volumes from CT, MRI and simulation data.
 //!
-//! This facade holds no formula. [`scene`] says what a picture is made of, [`reference`] computes it, [`output`] writes
+//! This facade holds no formula. [`scene`] says what a picture is made of, [`mod@reference`] computes it, [`output`] writes
 //! it; [`job`] hands from one to the next:
 //!
 //! | step | with |
