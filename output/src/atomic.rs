@@ -13,10 +13,10 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     atomic::write(path, |out| out.write_all(bytes)).map_err(|source| refused(path, source))
 }
 
-/// Whether [`write`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
+/// Whether [`write()`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn check(path: &Path) -> Result<(), OutputError> {
     atomic::check(path).map_err(|source| refused(path, source))
 }

@@ -33,10 +33,10 @@ pub fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
     fs::rename(&beside.path, &target)
 }
 
-/// Whether [`write`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
+/// Whether [`write()`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn check(path: &Path) -> io::Result<()> {
     match Target::of(path)? {
         Target::Direct => Ok(()),

@@ -24,6 +24,9 @@ pub(super) struct Coefficients<R> {
     base: R,
 }
 
+/// In 32 bits 2²⁸ numbers a plane.
+const LONGEST_STRIDE: usize = usize::MAX >> 4;
+
 impl<R: Real> Coefficients<R> {
     /// The voxels, as stencils read them, with room for a spline of degree 2 `pad` + 1.
     pub(super) fn of_voxels(stencils: &Stencils<'_>, pad: usize) -> Self {
@@ -60,8 +63,8 @@ impl<R: Real> Coefficients<R> {
         self
     }
 
-    /// Samples along each axis replaced by sums over their line: `weights(n, axis)` gives for each of the n samples of
-    /// a line the first that it is made of and the weights from there on; none leaves the axis as it is.
+    /// Samples replaced by sums over their line along one axis: `rows` has for each sample of a line the first one that
+    /// its sum takes and the weights from there on.
     pub(super) fn convolve(mut self, axis: usize, rows: &[(usize, Vec<R>)]) -> Self {
         let [px, py, _] = self.dims;
         let stride = [1, px, px * py][axis];
@@ -114,10 +117,13 @@ impl<R: Real> Coefficients<R> {
     pub(super) fn rows<const N: usize>(&self, [x, y, z]: [usize; 3]) -> impl Fn(usize, usize) -> [R; N] + '_ {
         debug_assert_eq!(N, 2 * self.pad + 2);
         let [px, py, _] = self.dims;
-        let start = (z * py + y) * px + x;
+        let plane = px * py;
+        // With this the compiler knows that offsets do not overflow, and that all rows lie in the window if it does.
+        assert!(px <= LONGEST_STRIDE && plane <= LONGEST_STRIDE);
+        let window = &self.data[(z * py + y) * px + x..][..(N - 1) * (plane + px) + N];
         move |j, k| {
-            let from = start + (k * py + j) * px;
-            let row = &self.data[from..from + N];
+            let from = k * plane + j * px;
+            let row = &window[from..from + N];
             std::array::from_fn(|i| row[i])
         }
     }

@@ -9,6 +9,12 @@ pub enum FieldError {
         /// The kernel's name in a scene.
         kernel: &'static str,
     },
+    /// Values that the number type of the samples does not hold.
+    #[error("values up to {largest:e} are too large for the number type of the samples")]
+    TooLarge {
+        /// The largest |value| of the volume.
+        largest: f64,
+    },
     /// A σ of the `gaussian` Hessian that is not a length, or is longer than the sums are made for.
     #[error("scale = {scale} world units is not between 0 and {longest}, which is 1000 voxels")]
     Scale {

@@ -123,7 +123,7 @@ impl<'v, R: Real> Field<'v, R> {
     /// Prepares a volume for a reconstruction.
     ///
     /// # Errors
-    /// [`FieldError::NotSmooth`] and [`FieldError::Scale`], whatever the rung.
+    /// Those of [`FieldError`], whatever the rung.
     pub fn new(volume: &'v Volume, how: Reconstruction, rung: Rung) -> Result<Self, FieldError> {
         let how = Reconstruction { hessian: resolved(&how, volume)?, ..how };
         let grid = volume.grid();
@@ -140,6 +140,11 @@ impl<'v, R: Real> Field<'v, R> {
         // Numbers are read times a power of two, which the slope takes back.
         let read = math::exponent(stencils.scale()) - 1;
         let derivative = math::scale_by_power_of_two(volume.slope(), -read - exponent);
+        let slope = R::from_f64(math::scale_by_power_of_two(volume.slope(), -read));
+        let fits = |x: R| x.to_f64().is_finite();
+        if !(fits(R::from_f64(largest)) && fits(slope) && fits(R::from_f64(volume.intercept()))) {
+            return Err(FieldError::TooLarge { largest });
+        }
         let live = DVec3::from_array(grid.dims().map(|n| if n == 1 { 0.0 } else { 1.0 }));
         let inverse_transpose = grid.inverse_axes().transpose() * DMat3::from_diagonal(live);
 
@@ -150,7 +155,7 @@ impl<'v, R: Real> Field<'v, R> {
             how,
             stencils,
             cells: Cells::new(volume.dims()),
-            slope: R::from_f64(math::scale_by_power_of_two(volume.slope(), -read)),
+            slope,
             intercept: R::from_f64(volume.intercept()),
             to_world: Mat3::from_glam(inverse_transpose * derivative),
             inverse_transpose: Mat3::from_glam(inverse_transpose),

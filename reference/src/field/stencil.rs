@@ -127,7 +127,7 @@ impl<'v> Stencils<'v> {
     /// The corners of a cell where they cannot simply be read: on axes of length 1 and where numbers are scaled.
     #[inline(always)]
     pub(super) fn careful_corners<R: Real>(&self, cell: [usize; 3]) -> Option<Corners<R>> {
-        if self.careful { Some(self.read_corners(cell)) } else { None }
+        if self.careful { Some(self.read_corners(cell[0], cell[1], cell[2])) } else { None }
     }
 
     /// The voxels of central differences where some lie beyond the border or cannot simply be read.
@@ -137,7 +137,7 @@ impl<'v> Stencils<'v> {
     }
 
     /// The voxels from the one before the cell on, continued beyond the border.
-    #[inline]
+    #[inline(never)]
     pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         if !self.inside(cell) {
             return self.read_block(cell);
@@ -155,7 +155,7 @@ impl<'v> Stencils<'v> {
     }
 
     /// The 6³ voxels from the second one before the cell on, [z][y][x]; beyond the border whatever is nearest.
-    #[inline]
+    #[inline(never)]
     pub(super) fn large_block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 6]; 6]; 6] {
         let dims = self.dims();
         if self.careful || (0..3).any(|a| cell[a] < 2 || cell[a] + 4 > dims[a]) {
@@ -188,8 +188,8 @@ impl<'v> Stencils<'v> {
     }
 
     #[cold]
-    fn read_corners<R: Real>(&self, cell: [usize; 3]) -> Corners<R> {
-        let [[a, b], [c, d]] = self.clamped::<R, 2>(cell.map(|i| i as isize));
+    fn read_corners<R: Real>(&self, x: usize, y: usize, z: usize) -> Corners<R> {
+        let [[a, b], [c, d]] = self.clamped::<R, 2>([x as isize, y as isize, z as isize]);
         [a, b, c, d]
     }
 
@@ -286,21 +286,19 @@ mod tests {
             for (k, j, i) in (0..64).map(|t| (t / 16, t / 4 % 4, t % 4)) {
                 assert_eq!(block[k][j][i], at(span(i), span(j), span(k)), "{cell:?}: {i} {j} {k}");
             }
-            {
-                let c: Cross<f64> = s.careful_cross(cell).unwrap_or_else(|| with_access!(v, |a| cross(a, cell)));
-                for (n, (y, z)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
-                    assert_eq!(c.x[n], [-1, 0, 1, 2].map(|x| at(x, y, z)));
-                }
-                for (n, (y, z)) in [(-1, 0), (2, 0), (-1, 1), (2, 1)].into_iter().enumerate() {
-                    assert_eq!(c.y[n], [0, 1].map(|x| at(x, y, z)));
-                }
-                for (n, (y, z)) in [(0, -1), (1, -1), (0, 2), (1, 2)].into_iter().enumerate() {
-                    assert_eq!(c.z[n], [0, 1].map(|x| at(x, y, z)));
-                }
+            let c: Cross<f64> = s.careful_cross(cell).unwrap_or_else(|| with_access!(v, |a| cross(a, cell)));
+            for (n, (y, z)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
+                assert_eq!(c.x[n], [-1, 0, 1, 2].map(|x| at(x, y, z)));
+            }
+            for (n, (y, z)) in [(-1, 0), (2, 0), (-1, 1), (2, 1)].into_iter().enumerate() {
+                assert_eq!(c.y[n], [0, 1].map(|x| at(x, y, z)));
+            }
+            for (n, (y, z)) in [(0, -1), (1, -1), (0, 2), (1, 2)].into_iter().enumerate() {
+                assert_eq!(c.z[n], [0, 1].map(|x| at(x, y, z)));
             }
             let want = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(y, z)| [at(0, y, z), at(1, y, z)]);
             assert_eq!(with_access!(v, |a| corners::<f64>(a, cell)), want);
-            assert_eq!(s.read_corners::<f64>(cell), want);
+            assert_eq!(s.read_corners::<f64>(cell[0], cell[1], cell[2]), want);
         }
     }
 

@@ -62,6 +62,20 @@ pub trait Real:
     fn ln_1p(self) -> Self;
     /// x^y; whole y up to 64 by repeated squaring.
     fn pow(self, y: Self) -> Self;
+    /// x^n by repeated squaring, lowest bit first.
+    #[inline]
+    fn pow_whole(self, mut n: u32) -> Self {
+        let (mut result, mut square) = (Self::ONE, self);
+        while n > 0 {
+            if n & 1 == 1 {
+                result *= square;
+            }
+            square *= square;
+            n >>= 1;
+        }
+        result
+    }
+
     /// The angle of (x, self) from the x axis.
     fn atan2(self, x: Self) -> Self;
 

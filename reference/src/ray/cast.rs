@@ -2,16 +2,16 @@
 
 use super::lattice::IndexRay;
 use super::layers::{Seen, Sums};
-use super::opacity::correct;
+use super::opacity::Correction;
 use super::prepared::{KappaSource, Prepared};
-use super::sample::Facts;
-use super::skip::Found;
+use super::sample::{Facts, Sight};
+use super::skip::{Boxes, Skip};
 use crate::field::{Place, Sampler, curvature};
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray;
+use crate::transfer;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::glam::DVec3;
 
 /// What comes out of one ray.
 pub(super) struct Cast {
@@ -28,13 +28,10 @@ struct Walk<'p, 'v, R: Real, S> {
     prepared: &'p Prepared<'v, R>,
     sampler: &'p S,
     ray: IndexRay<R>,
-    /// v in world space, towards the eye.
-    v_world: Vec3<R>,
-    /// v in eye space.
-    v_eye: Vec3<R>,
-    /// Δ_ray/Δ₀.
-    ratio: R,
-    /// The last sample whose outward normal is known, and that normal.
+    sight: Sight<R>,
+    /// To the opacity of one step on this ray.
+    correction: Correction<R>,
+    /// The last sample whose normal is known, and that normal.
     previous: Option<(i64, Option<Vec3<R>>)>,
     /// The last opacity that was corrected, and what it became: levels of a function repeat along a ray.
     corrected: [R; 2],
@@ -48,7 +45,7 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
     [i, j]: [f64; 2],
-    found: &mut Found,
+    boxes: Option<&mut Boxes>,
     counts: &mut Counts,
 ) -> Cast {
     let view = &prepared.view;
@@ -57,9 +54,8 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
     let mut walk = Walk {
         prepared,
         sampler,
-        v_world: Vec3::from_glam(view.direction_to_world(pixel.v)),
-        v_eye: Vec3::from_glam(pixel.v),
-        ratio: R::from_f64(ray.step / prepared.reference_length),
+        sight: prepared.look.sight(Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v)),
+        correction: Correction::new(ray.step / prepared.reference_length),
         ray,
         previous: None,
         corrected: [R::ZERO; 2],
@@ -70,22 +66,9 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
     let inside = ray.inside(prepared.ends);
     let mut samples = 0;
     if inside[0] <= inside[1] {
-        samples = match &prepared.skip {
-            None => walk.run(inside, |_| true, counts).0,
-            Some(skip) => {
-                let (mut samples, mut next) = (0, inside[0]);
-                for &[near, far] in skip.intervals(ray.line(), R::EPSILON.to_f64(), found) {
-                    let first = ray.first_at_or_after(near).max(next);
-                    let last = ray.last_at_or_before(far).min(inside[1]);
-                    let (n, open) = walk.run([first, last], |cell| skip.sees(cell), counts);
-                    samples += n;
-                    next = next.max(last + 1);
-                    if !open {
-                        break;
-                    }
-                }
-                samples
-            }
+        samples = match (&prepared.skip, boxes) {
+            (Some(skip), Some(boxes)) => walk.run_in(inside, skip, boxes, counts),
+            _ => walk.run(inside, |_| true, counts).0,
         };
     }
     counts.rays += 1;
@@ -96,30 +79,45 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
 }
 
 impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
+    /// Visits the samples of a range that lie in visible bricks. Returns how many were evaluated.
+    #[inline]
+    fn run_in(&mut self, inside: [i64; 2], skip: &Skip, boxes: &mut Boxes, counts: &mut Counts) -> u64 {
+        let (mut samples, mut next) = (0, inside[0]);
+        for &[near, far] in boxes.intervals(self.ray.line(), R::EPSILON.to_f64()) {
+            let first = self.ray.first_at_or_after(near).max(next);
+            let last = self.ray.last_at_or_before(far).min(inside[1]);
+            let (n, open) = self.run([first, last], |cell| skip.sees(cell), counts);
+            samples += n;
+            next = next.max(last + 1);
+            if !open {
+                break;
+            }
+        }
+        samples
+    }
+
     /// Visits the samples first..=last whose cell passes the test. Returns how many were evaluated and whether the ray
     /// is still open.
     #[inline]
     fn run(&mut self, [first, last]: [i64; 2], sees: impl Fn([usize; 3]) -> bool, counts: &mut Counts) -> (u64, bool) {
         let prepared = self.prepared;
+        let mask = prepared.volume.mask();
         let mut samples = 0;
         for k in first..=last {
-            let p = self.ray.position(k);
-            let at = self.sampler.place(p);
+            let at = self.sampler.place(self.ray.position(k));
             if !sees(at.cell) {
                 continue;
             }
-            samples += 1;
-            if let Some(mask) = prepared.volume.mask()
+            if let Some(mask) = mask
                 && mask.touches_cell(at.cell)
             {
                 counts.masked += 1;
                 continue;
             }
+            samples += 1;
             let s = self.sampler.value_at(at);
             if let Some(place) = prepared.function.locate(s) {
-                let facts = self.facts(k, at, s, counts);
-                let (rgb, alpha) = prepared.look.color(&place, &facts, counts);
-                self.composite(k, rgb, alpha, &facts);
+                self.show(k, at, s, &place, counts);
                 if self.opacity >= prepared.stop_at {
                     return (samples, false);
                 }
@@ -128,27 +126,35 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         (samples, true)
     }
 
-    /// Everything that the scene calls for at a sample with α_u > 0.
-    #[inline]
-    fn facts(&mut self, k: i64, at: Place<R>, s: R, counts: &mut Counts) -> Facts<R> {
+    /// Composites a sample with α_u > 0: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
+    fn show(&mut self, k: i64, at: Place<R>, s: R, place: &transfer::Place<R>, counts: &mut Counts) {
         let prepared = self.prepared;
-        let mut facts = Facts::without_normal(s, self.v_eye);
-        if !prepared.calls.gradient {
-            return facts;
+        let facts = if prepared.calls.gradient { self.facts(k, at, counts) } else { Facts::none() };
+        let (rgb, alpha) = prepared.look.color(place, &facts, &self.sight, counts);
+        if alpha != self.corrected[0] {
+            self.corrected = [alpha, self.correction.apply(alpha)];
         }
+        let w = (R::ONE - self.opacity) * self.corrected[1];
+        let rgb = if prepared.encode { rgb.map(encoded) } else { rgb };
+        self.rgb = [self.rgb[0] + w * rgb[0], self.rgb[1] + w * rgb[1], self.rgb[2] + w * rgb[2]];
+        self.opacity += w;
+        if prepared.collects && alpha > R::ZERO {
+            self.collect(k, s, w, &facts);
+        }
+    }
+
+    /// What the scene calls for beyond the value.
+    #[inline]
+    fn facts(&mut self, k: i64, at: Place<R>, counts: &mut Counts) -> Facts<R> {
+        let prepared = self.prepared;
         let g = self.sampler.gradient_at(at);
         counts.gradients += 1;
-        facts.gradient = g;
+        let mut facts = Facts { gradient: g, ..Facts::none() };
         if let Some((lo, width)) = prepared.gradient_range {
-            let norm = g.length();
-            facts.magnitude = if width > R::ZERO { ((norm - lo) / width).clamp_01() } else { R::ZERO };
+            facts.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
         }
-        let outward = prepared.outward(g);
-        if let Some(n) = outward {
-            let n = self.shading_normal(n);
-            facts.has_normal = true;
-            facts.normal = prepared.to_eye(n);
-            facts.n_dot_v = n.dot(self.v_world).abs();
+        facts.normal = self.normal(g);
+        if let Some(n) = facts.normal {
             if prepared.calls.hessian {
                 self.curvatures(at, &mut facts, counts);
             }
@@ -159,15 +165,15 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             counts.without_normal += 1;
         }
         if prepared.calls.kappa == KappaSource::AlongRay {
-            self.previous = Some((k, outward.map(|n| self.shading_normal(n))));
+            self.previous = Some((k, facts.normal));
         }
         facts
     }
 
     /// The normal that shades ([NORM-1]): the outward one, or as the scene turns it.
     #[inline]
-    fn shading_normal(&self, outward: Vec3<R>) -> Vec3<R> {
-        self.prepared.side.turn(outward, self.v_world)
+    fn normal(&self, g: Vec3<R>) -> Option<Vec3<R>> {
+        self.prepared.outward(g).map(|n| self.prepared.side.turn(n, self.sight.v))
     }
 
     /// κ_v from the normal of the sample before on this ray ([STF-5]); 0 where there is none.
@@ -178,7 +184,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             _ if self.ray.has(k - 1, prepared.ends) => {
                 let g = self.sampler.gradient(self.ray.position(k - 1));
                 counts.gradients += 1;
-                prepared.outward(g).map(|n| self.shading_normal(n))
+                self.normal(g)
             }
             _ => None,
         };
@@ -194,7 +200,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             return;
         }
         if prepared.calls.kappa == KappaSource::Exact {
-            facts.kappa = curvature::along_view(g, h, self.v_world, prepared.outside);
+            facts.kappa = curvature::along_view(g, h, self.sight.v, prepared.outside);
         }
         if prepared.calls.principal {
             let c = curvature::principal(g, h, prepared.outside);
@@ -202,31 +208,18 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         }
     }
 
-    /// C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
-    #[inline]
-    fn composite(&mut self, k: i64, rgb: [R; 3], alpha: R, facts: &Facts<R>) {
+    /// Adds a sample with α > 0 to the layers.
+    fn collect(&mut self, k: i64, s: R, w: R, facts: &Facts<R>) {
         let prepared = self.prepared;
-        if alpha != self.corrected[0] {
-            self.corrected = [alpha, correct(alpha, self.ratio)];
-        }
-        let w = (R::ONE - self.opacity) * self.corrected[1];
-        let rgb = if prepared.encode { rgb.map(encoded) } else { rgb };
-        for (sum, c) in self.rgb.iter_mut().zip(rgb) {
-            *sum += w * c;
-        }
-        self.opacity += w;
-        if prepared.collects && alpha > R::ZERO {
-            let gradient = prepared.true_gradient(facts.gradient);
-            let seen = Seen {
-                weight: w.to_f64(),
-                depth: self.ray.depth(k).to_f64(),
-                value: facts.value.to_f64(),
-                normal: facts.normal.to_glam().to_array(),
-                gradient: DVec3::to_array(&gradient),
-                curvature: [facts.principal[0], facts.principal[1], facts.kappa].map(Real::to_f64),
-            };
-            self.sums.add(&seen, self.opacity.to_f64());
-        }
+        let seen = Seen {
+            weight: w.to_f64(),
+            depth: self.ray.depth(k).to_f64(),
+            value: s.to_f64(),
+            normal: prepared.eye_axes.normal(facts, &self.sight).to_glam().to_array(),
+            gradient: prepared.true_gradient(facts.gradient).to_array(),
+            curvature: [facts.principal[0], facts.principal[1], facts.kappa].map(Real::to_f64),
+        };
+        self.sums.add(&seen, self.opacity.to_f64());
     }
 }
 

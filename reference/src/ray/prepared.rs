@@ -1,7 +1,7 @@
 //! A scene prepared for casting: everything that is decided once a picture, not at samples.
 
 use super::lattice::Lattice;
-use super::sample::Look;
+use super::sample::{EyeAxes, Look};
 use super::skip::Skip;
 use crate::field::Field;
 use crate::number::{Real, Vec3};
@@ -100,8 +100,7 @@ pub(super) struct Prepared<'v, R> {
     pub(super) turn: Turn,
     /// ‖g‖ at or below which there is no normal ([PREC-3]).
     pub(super) no_normal_below: R,
-    /// Rows of the rotation from world to eye space.
-    pub(super) eye_axes: [Vec3<R>; 3],
+    pub(super) eye_axes: EyeAxes<R>,
     /// n of the n×n rays of a pixel.
     pub(super) samples: usize,
 }
@@ -111,12 +110,6 @@ impl<R: Real> Prepared<'_, R> {
     #[inline]
     pub(super) fn outward(&self, g: Vec3<R>) -> Option<Vec3<R>> {
         crate::field::normal::outward(g, self.outside, self.no_normal_below)
-    }
-
-    /// A world direction in eye space.
-    #[inline]
-    pub(super) fn to_eye(&self, n: Vec3<R>) -> Vec3<R> {
-        Vec3::new(n.dot(self.eye_axes[0]), n.dot(self.eye_axes[1]), n.dot(self.eye_axes[2]))
     }
 
     /// A gradient with the power of two of [SPACE-4] undone.

@@ -2,11 +2,11 @@
 
 use super::cast::cast;
 use super::gradient_range::quantile_of_norms;
-use super::lattice::Lattice;
+use super::lattice::{IndexRay, Lattice};
 use super::layers::averaged;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
-use super::sample::Look;
-use super::skip::{Found, Skip};
+use super::sample::{EyeAxes, Look, Styled};
+use super::skip::{Beam, Boxes, Skip};
 use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
@@ -163,7 +163,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let skip = sampling.skip_empty.then(|| {
         let bricks = field.bricks();
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
-        Skip::new(&bricks, |range| function.can_be_visible(range))
+        Skip::new(&bricks, |range| function.can_be_visible(range, |at| R::from_f64(at).to_f64()))
     });
     if let Some(skip) = &skip {
         counts.bytes.insert("skip".into(), skip.bytes() as u64);
@@ -206,7 +206,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         side: Side::new(sampling.normal, scene.volume.outside),
         turn: Turn::new(sampling.normal, scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip)),
         no_normal_below: field.no_normal_below(),
-        eye_axes: [view.right, view.up, -view.forward].map(Vec3::from_glam),
+        eye_axes: eye_axes(&view),
         samples: scene.picture.samples,
         field,
         view,
@@ -228,6 +228,11 @@ fn calls(scene: &Scene, plan: &Plan) -> Calls {
         principal: scene.picture.layers.contains(&LayerKind::Curvature),
         kappa,
     }
+}
+
+/// The rows of the rotation from world to eye space.
+fn eye_axes<R: Real>(view: &View) -> EyeAxes<R> {
+    EyeAxes([view.right, view.up, -view.forward].map(Vec3::from_glam))
 }
 
 /// How visible samples are coloured.
@@ -252,13 +257,14 @@ fn look<R: Real>(inputs: &Inputs<'_>, view: &View) -> Result<Look<R>, RenderErro
                 })
                 .transpose()?;
             let transfer = scene.transfer.as_ref();
-            Ok(Look::Style {
+            Ok(Look::Style(Styled {
                 index: StyleIndex::new(&nodes.color),
                 spheres: Spheres::new(styles, transfer.map_or(Mix::Premultiplied, |t| t.mix)),
                 contour,
                 transparency: transfer.map_or(Transparency::Illustrative, |t| t.transparency),
                 frame: transfer.map_or(SphereFrame::Eye, |t| t.sphere_frame),
-            })
+                eye_axes: eye_axes(view),
+            }))
         }
     }
 }
@@ -323,7 +329,14 @@ fn draw_tile<R: Real, S: Sampler<R>>(
     let [width, height] = prepared.view.size;
     let (right, bottom) = ((x + TILE).min(width), (y + TILE).min(height));
     let mut tile = Tile { x, y, width: right - x, pixels: Vec::new(), counts: Counts::default() };
-    let mut found = Found::default();
+    let mut boxes = prepared.skip.as_ref().map(|skip| {
+        let corner = |i: usize, j: usize| {
+            let ray = prepared.view.ray(i as f64, j as f64);
+            IndexRay::<R>::new(&ray, &prepared.view, &prepared.lattice, prepared.volume.grid()).line()
+        };
+        let corners = [corner(x, y), corner(right, y), corner(right, bottom), corner(x, bottom)];
+        skip.boxes_in(&Beam::new(corners, R::EPSILON.to_f64()))
+    });
     for j in y..bottom {
         for i in x..right {
             let behind = match background {
@@ -331,7 +344,7 @@ fn draw_tile<R: Real, S: Sampler<R>>(
                 Backdrop::Color(c) => color::premultiply(c),
                 Backdrop::Pixels(pixels) => pixels[j * width + i],
             };
-            draw_pixel(prepared, sampler, [i, j], behind, &mut found, &mut tile);
+            draw_pixel(prepared, sampler, [i, j], behind, &mut boxes, &mut tile);
         }
     }
     tile
@@ -343,7 +356,7 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
     sampler: &S,
     [i, j]: [usize; 2],
     behind: Rgba,
-    found: &mut Found,
+    boxes: &mut Option<Boxes>,
     tile: &mut Tile,
 ) {
     let n = prepared.samples;
@@ -352,7 +365,7 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
     for part in 0..n * n {
         let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
         let at = [centre(i, part % n), centre(j, part / n)];
-        let cast = cast(prepared, sampler, at, found, &mut tile.counts);
+        let cast = cast(prepared, sampler, at, boxes.as_mut(), &mut tile.counts);
         let mut values = Vec::new();
         let mut means = Vec::new();
         for &kind in &prepared.layers {

@@ -10,20 +10,12 @@ use drypoint_scene::tables::{SphereFrame, Transparency};
 /// What is known of a visible sample. Quantities that the scene does not call for keep their neutral values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facts<R> {
-    /// The value.
-    pub(super) value: R,
     /// World gradient, times the power of two of [SPACE-4].
     pub(super) gradient: Vec3<R>,
+    /// N in world space; none where the gradient is negligible ([PREC-3]) or not asked for.
+    pub(super) normal: Option<Vec3<R>>,
     /// |g| of [VAL-2], in [0, 1].
     pub(super) magnitude: R,
-    /// Whether there is a normal ([PREC-3]).
-    pub(super) has_normal: bool,
-    /// N in eye space; v where there is none.
-    pub(super) normal: Vec3<R>,
-    /// v in eye space.
-    pub(super) v: Vec3<R>,
-    /// |N·v|; 1 where there is no normal.
-    pub(super) n_dot_v: R,
     /// The scene's κ; 0 where there is no normal.
     pub(super) kappa: R,
     /// κ₁ and κ₂.
@@ -31,20 +23,33 @@ pub(super) struct Facts<R> {
 }
 
 impl<R: Real> Facts<R> {
-    /// A sample without a normal: N = v, |N·v| = 1, κ = 0 ([PREC-3]).
+    /// A sample without a normal: κ = 0 ([PREC-3]).
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        Self { gradient: Vec3::zero(), normal: None, magnitude: R::ZERO, kappa: R::ZERO, principal: [R::ZERO; 2] }
+    }
+}
+
+/// Directions that are constant along a ray.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight<R> {
+    /// v, towards the eye, in world space.
+    pub(super) v: Vec3<R>,
+    /// v in eye space.
+    pub(super) v_eye: Vec3<R>,
+    /// Ĥ in world space, where there is Phong shading.
+    pub(super) half: Vec3<R>,
+}
+
+/// World to eye space, for directions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EyeAxes<R>(pub(super) [Vec3<R>; 3]);
+
+impl<R: Real> EyeAxes<R> {
+    /// N in eye space; a sample without a normal has N = v ([PREC-3]).
     #[inline]
-    pub(super) fn without_normal(value: R, v: Vec3<R>) -> Self {
-        Self {
-            value,
-            gradient: Vec3::zero(),
-            magnitude: R::ZERO,
-            has_normal: false,
-            normal: v,
-            v,
-            n_dot_v: R::ONE,
-            kappa: R::ZERO,
-            principal: [R::ZERO; 2],
-        }
+    pub(super) fn normal(&self, facts: &Facts<R>, sight: &Sight<R>) -> Vec3<R> {
+        facts.normal.map_or(sight.v_eye, |n| Vec3::new(n.dot(self.0[0]), n.dot(self.0[1]), n.dot(self.0[2])))
     }
 }
 
@@ -58,60 +63,85 @@ pub(super) enum Look<R> {
         phong: Option<Phong<R>>,
     },
     /// Styles (Bruckner and Gröller 2007).
-    Style {
-        /// ift.
-        index: StyleIndex,
-        /// sft.
-        spheres: Spheres<R>,
-        /// [STF-7], [STF-8].
-        contour: Option<Contour<R>>,
-        /// [STF-9].
-        transparency: Transparency,
-        /// [STF-1].
-        frame: SphereFrame,
-    },
+    Style(Styled<R>),
+}
+
+/// What a style transfer function needs.
+pub(super) struct Styled<R> {
+    /// ift.
+    pub(super) index: StyleIndex,
+    /// sft.
+    pub(super) spheres: Spheres<R>,
+    /// [STF-7], [STF-8].
+    pub(super) contour: Option<Contour<R>>,
+    /// [STF-9].
+    pub(super) transparency: Transparency,
+    /// [STF-1].
+    pub(super) frame: SphereFrame,
+    pub(super) eye_axes: EyeAxes<R>,
 }
 
 impl<R: Real> Look<R> {
+    /// Directions of a ray towards whose eye v points, in world and eye space.
+    pub(super) fn sight(&self, v: Vec3<R>, v_eye: Vec3<R>) -> Sight<R> {
+        let half = match self {
+            Self::Regular { phong: Some(phong), .. } => phong.half_vector(v),
+            _ => Vec3::zero(),
+        };
+        Sight { v, v_eye, half }
+    }
+
     /// Straight colour and opacity per reference length.
-    #[inline]
-    pub(super) fn color(&self, place: &Place<R>, facts: &Facts<R>, counts: &mut Counts) -> ([R; 3], R) {
+    #[inline(always)]
+    pub(super) fn color(
+        &self,
+        place: &Place<R>,
+        facts: &Facts<R>,
+        sight: &Sight<R>,
+        counts: &mut Counts,
+    ) -> ([R; 3], R) {
         match self {
             Self::Regular { colors, phong } => {
                 let rgb = mixed(colors, place);
-                let rgb = match phong {
-                    Some(phong) if facts.has_normal => phong.shade(rgb, facts.normal, facts.v),
+                let rgb = match (phong, facts.normal) {
+                    (Some(phong), Some(n)) => phong.shade(rgb, n, sight.half),
                     _ => rgb,
                 };
                 (rgb, place.alpha_u)
             }
-            Self::Style { index, spheres, contour, transparency, frame } => {
-                let n = frame::on_sphere(*frame, facts.normal, facts.v);
-                // Without contours T = 0, so τ = 0 ([STF-9]).
-                let tau = contour.as_ref().map_or(R::ZERO, |c| c.tau(facts.kappa, facts.magnitude));
-                // A sample without a normal is on no contour, whatever the threshold ([PREC-3]).
-                let on = contour.is_some() && facts.has_normal;
-                let (x, y) = if on { contour::push(n.x, n.y, facts.n_dot_v, tau) } else { (n.x, n.y) };
-                let blend = index.blend(place);
-                counts.style_lookups += blend.lookups();
-                let [r, g, b, alpha_d] = spheres.lookup(&blend, x, y);
-                if alpha_d == R::ZERO {
-                    return ([R::ZERO; 3], R::ZERO);
-                }
-                let share = transparency::share(*transparency, place.alpha_u, facts.n_dot_v, tau, facts.magnitude);
-                ([r / alpha_d, g / alpha_d, b / alpha_d], alpha_d * share)
-            }
+            Self::Style(styled) => styled.color(place, facts, sight, counts),
         }
     }
 }
 
+impl<R: Real> Styled<R> {
+    fn color(&self, place: &Place<R>, facts: &Facts<R>, sight: &Sight<R>, counts: &mut Counts) -> ([R; 3], R) {
+        let n = frame::on_sphere(self.frame, self.eye_axes.normal(facts, sight), sight.v_eye);
+        // |N·v| counts as 1 where there is no normal ([PREC-3]).
+        let n_dot_v = facts.normal.map_or(R::ONE, |n| n.dot(sight.v).abs());
+        // Without contours T = 0, so τ = 0 ([STF-9]).
+        let tau = self.contour.as_ref().map_or(R::ZERO, |c| c.tau(facts.kappa, facts.magnitude));
+        // A sample without a normal is on no contour, whatever the threshold.
+        let on = self.contour.is_some() && facts.normal.is_some();
+        let (x, y) = if on { contour::push(n.x, n.y, n_dot_v, tau) } else { (n.x, n.y) };
+        let blend = self.index.blend(place);
+        counts.style_lookups += blend.lookups();
+        let [r, g, b, alpha_d] = self.spheres.lookup(&blend, x, y);
+        if alpha_d == R::ZERO {
+            return ([R::ZERO; 3], R::ZERO);
+        }
+        let share = transparency::share(self.transparency, place.alpha_u, n_dot_v, tau, facts.magnitude);
+        ([r / alpha_d, g / alpha_d, b / alpha_d], alpha_d * share)
+    }
+}
+
 /// The colour between two nodes: linear straight colours interpolate by themselves ([VAL-3]).
-#[inline]
+#[inline(always)]
 fn mixed<R: Real>(colors: &[[R; 3]], place: &Place<R>) -> [R; 3] {
     let a = colors[place.node];
     if place.w == R::ZERO {
         return a;
     }
     let b = colors[place.node + 1];
-    std::array::from_fn(|i| R::lerp(a[i], b[i], place.w))
+    [R::lerp(a[0], b[0], place.w), R::lerp(a[1], b[1], place.w), R::lerp(a[2], b[2], place.w)]
 }

@@ -53,41 +53,98 @@ impl Skip {
         self.visible.len() + size_of_val(self.nodes.as_slice())
     }
 
-    /// Finds the depths at which the line `origin + along · s` can be in a visible brick, in order and without overlap,
-    /// each widened so that no position rounded by `rounding` (relative) is missed.
-    pub fn intervals<'f>(&self, [origin, along]: [DVec3; 2], rounding: f64, found: &'f mut Found) -> &'f [[f64; 2]] {
-        let Found { intervals, open } = found;
-        intervals.clear();
-        open.clear();
-        let line = Line::new(origin, along, rounding);
+    /// The boxes of visible bricks that a beam of rays can meet: one walk through the tree serves all of them.
+    pub fn boxes_in(&self, beam: &Beam) -> Boxes {
+        let mut boxes = Boxes::default();
+        let mut open = Vec::new();
         let mut visit = |node: &Node, open: &mut Vec<u32>| {
-            if let Some(interval) = line.meets(&node.ends) {
+            if beam.can_meet(&node.ends) {
                 if node.children == 0 {
-                    intervals.push(interval);
+                    boxes.ends.push(node.ends);
                 } else {
                     open.push(node.children);
                 }
             }
         };
         if let Some(root) = self.nodes.first() {
-            visit(root, open);
+            visit(root, &mut open);
         }
         while let Some(children) = open.pop() {
             let children = children as usize;
-            visit(&self.nodes[children], open);
-            visit(&self.nodes[children + 1], open);
+            visit(&self.nodes[children], &mut open);
+            visit(&self.nodes[children + 1], &mut open);
         }
-        merge(intervals);
-        intervals
+        boxes
     }
 }
 
-/// What a walk through the tree finds, kept from ray to ray for its memory.
+/// Boxes of visible bricks, in index space, and what the last line met of them.
 #[derive(Clone, Debug, Default)]
-pub struct Found {
+pub struct Boxes {
+    ends: Vec<[[f64; 2]; 3]>,
     intervals: Vec<[f64; 2]>,
-    open: Vec<u32>,
 }
+
+impl Boxes {
+    /// The depths at which the line `origin + along · s` can be in one of the boxes, in order and without overlap, each
+    /// widened so that no position rounded by `rounding` (relative) is missed.
+    pub fn intervals(&mut self, [origin, along]: [DVec3; 2], rounding: f64) -> &[[f64; 2]] {
+        let line = Line::new(origin, along, rounding);
+        self.intervals.clear();
+        self.intervals.extend(self.ends.iter().filter_map(|ends| line.meets(ends)));
+        merge(&mut self.intervals);
+        &self.intervals
+    }
+}
+
+/// Half-spaces, in index space, that hold all positions of the rays of a tile.
+///
+/// Each goes through two neighbouring corner rays. Positions lie between the corner rays up to their rounding, for which
+/// boxes are grown.
+#[derive(Clone, Copy, Debug)]
+pub struct Beam {
+    planes: [Plane; 4],
+}
+
+/// n·p ≥ least holds inside.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    normal: DVec3,
+    least: f64,
+}
+
+impl Beam {
+    /// From the four corner rays in cyclic order, each as origin and displacement for one unit of depth. A side whose
+    /// corners fall together bounds nothing.
+    pub fn new(corners: [[DVec3; 2]; 4], rounding: f64) -> Self {
+        let at_depth_1 = corners.map(|[origin, along]| origin + along);
+        let centre = (at_depth_1[0] + at_depth_1[1] + at_depth_1[2] + at_depth_1[3]) * 0.25;
+        let planes = std::array::from_fn(|i| {
+            let ([origin, along], p) = (corners[i], at_depth_1[i]);
+            let normal = (at_depth_1[(i + 1) % 4] - p).cross(along);
+            let side = normal.dot(centre - p);
+            if side == 0.0 || !side.is_finite() {
+                return Plane { normal: DVec3::ZERO, least: 0.0 };
+            }
+            let normal = normal * side.signum();
+            let size = normal.abs().dot(origin.abs() + DVec3::splat(INDEX_SCALE));
+            Plane { normal, least: normal.dot(origin) - 16.0 * rounding * size }
+        });
+        Self { planes }
+    }
+
+    /// Whether some point of a box can lie inside: for each plane its farthest corner does.
+    #[inline]
+    fn can_meet(&self, ends: &[[f64; 2]; 3]) -> bool {
+        self.planes.iter().all(|plane| {
+            let farthest = [0, 1, 2].map(|a| ends[a][usize::from(plane.normal[a] > 0.0)]);
+            plane.normal.dot(DVec3::from_array(farthest)) >= plane.least
+        })
+    }
+}
+
+/// A bound on the coordinates inside a volume, for the rounding of positions: 2²⁰ voxels along an axis.
+const INDEX_SCALE: f64 = 1_048_576.0;
 
 /// A BVH over boxes, of which there is at least one.
 fn tree(boxes: &[Aabb]) -> Vec<Node> {
@@ -115,9 +172,8 @@ impl Line {
     fn new(origin: DVec3, along: DVec3, rounding: f64) -> Self {
         // A line along the other axes meets the ends of this one very far away, or not at all.
         let inverse = along.to_array().map(|d| if d.abs() < 1e-290 { 1e290 } else { 1.0 / d });
-        // Positions inside the volume are sums of numbers up to |origin| and the volume's own coordinates, of which the
-        // constant stands for the latter: 2²⁰ voxels along an axis.
-        let margin = |axis: usize| (origin[axis].abs() + 1_048_576.0) * 8.0 * rounding * inverse[axis].abs();
+        // Positions inside the volume are sums of numbers up to |origin| and the volume's own coordinates.
+        let margin = |axis: usize| (origin[axis].abs() + INDEX_SCALE) * 8.0 * rounding * inverse[axis].abs();
         let at = |axis: usize| origin[axis] * inverse[axis];
         Self {
             inverse,
@@ -244,6 +300,10 @@ mod tests {
             from in prop::array::uniform3(-20.0..60.0f64),
             to in prop::array::uniform3(0.0..24.0f64),
             axis_parallel in 0usize..4,
+            perspective in any::<bool>(),
+            // Where the ray stands between the corners of its beam, and how wide that is.
+            between in prop::array::uniform2(0.0..1.0f64),
+            width in prop_oneof![Just(0.0), 1e-9..1e-6f64, 0.01..1.0f64],
         ) {
             let skip = Skip::new(&bricks([5, 4, 3], &visible), |r| r[1] > 0.5);
             let (from, mut along) = (DVec3::from_array(from), DVec3::from_array(to) - DVec3::from_array(from));
@@ -251,12 +311,21 @@ mod tests {
                 along[axis_parallel] = 0.0;
             }
             prop_assume!(along.length() > 1e-3);
-            let mut found = Found::default();
-            let got = skip.intervals([from, along], f64::EPSILON, &mut found);
+            let right = along.any_orthonormal_vector() * width;
+            let up = along.normalize().cross(right);
+            let ray = |x: f64, y: f64| {
+                let aside = right * x + up * y;
+                if perspective { [from, along + aside] } else { [from + aside, along] }
+            };
+            let corners = [ray(-0.5, -0.5), ray(0.5, -0.5), ray(0.5, 0.5), ray(-0.5, 0.5)];
+            let [origin, along] = ray(between[0] - 0.5, between[1] - 0.5);
+            let mut boxes = skip.boxes_in(&Beam::new(corners, f64::EPSILON));
+            let got = boxes.intervals([origin, along], f64::EPSILON).to_vec();
             prop_assert!(got.windows(2).all(|w| w[0][1] < w[1][0]));
-            for i in -100..300 {
+            // Behind a perspective eye there are no samples.
+            for i in (if perspective { 0 } else { -100 })..300 {
                 let s = f64::from(i) * 0.02;
-                let p = from + along * s;
+                let p = origin + along * s;
                 let inside = p.cmpge(DVec3::ZERO).all() && p.cmple(DVec3::new(39.0, 31.0, 23.0)).all();
                 if inside && skip.sees([p.x as usize, p.y as usize, p.z as usize]) {
                     prop_assert!(got.iter().any(|r| r[0] <= s && s <= r[1]), "{s} {p} {got:?}");
@@ -268,7 +337,7 @@ mod tests {
     #[test]
     fn nothing_visible_is_no_interval() {
         let skip = Skip::new(&bricks([1, 1, 1], &[false]), |r| r[1] > 0.5);
-        let mut found = Found { intervals: vec![[0.0, 1.0]], open: vec![7] };
-        assert!(skip.intervals([DVec3::ZERO, DVec3::X], f64::EPSILON, &mut found).is_empty());
+        let everything = Beam::new([[DVec3::ZERO; 2]; 4], f64::EPSILON);
+        assert!(skip.boxes_in(&everything).intervals([DVec3::ZERO, DVec3::X], f64::EPSILON).is_empty());
     }
 }

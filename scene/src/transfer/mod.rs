@@ -58,11 +58,12 @@ impl Function {
         })
     }
 
-    /// Whether a value in [lo, hi] can have α_u > 0.
-    pub fn can_be_visible(&self, range: [f64; 2]) -> bool {
+    /// Whether a value in [lo, hi] can have α_u > 0. `rounded` gives the value of a node as samples are compared with it,
+    /// in their number type: f32 can round a node down to a value that a brick reaches.
+    pub fn can_be_visible(&self, range: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
         match self {
-            Self::Style { nodes, .. } => can_be_visible(&nodes.at, &nodes.opacity, range),
-            Self::Regular(nodes) => can_be_visible(&nodes.at, &nodes.opacity, range),
+            Self::Style { nodes, .. } => can_be_visible(&nodes.at, &nodes.opacity, range, rounded),
+            Self::Regular(nodes) => can_be_visible(&nodes.at, &nodes.opacity, range, rounded),
         }
     }
 }
@@ -70,12 +71,12 @@ impl Function {
 /// Whether a piecewise-linear opacity is above 0 somewhere on [lo, hi].
 ///
 /// On a closed range it is 0 throughout exactly if both nodes of every segment that the range touches have opacity 0;
-/// a segment touched in its end alone counts, which only keeps a brick that shows nothing.
-fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2]) -> bool {
+/// a segment touched in its end alone counts, which only keeps a brick that shows nothing. Rounding keeps nodes in order.
+fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
     let n = at.len();
     // The first node at or above lo and the last at or below hi, widened by the nodes on the other side of the ends.
-    let first = at.partition_point(|&a| a < lo).saturating_sub(1);
-    let last = at.partition_point(|&a| a <= hi).min(n - 1);
+    let first = at.partition_point(|&a| rounded(a) < lo).saturating_sub(1);
+    let last = at.partition_point(|&a| rounded(a) <= hi).min(n - 1);
     opacity[first..=last].iter().any(|&a| a > 0.0)
 }
 
@@ -93,7 +94,17 @@ fn values(nodes: &[Node], unit: Unit, [lo, hi]: [f64; 2], volume: &Volume) -> Ve
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    fn can_be_visible(at: &[f64], opacity: &[f64], range: [f64; 2]) -> bool {
+        super::can_be_visible(at, opacity, range, |a| a)
+    }
+
+    #[test]
+    fn a_node_is_where_it_is_rounded_to() {
+        // 1000.1 is 1000.0999756 in f32, up to where a brick can reach.
+        let (at, opacity, range) = ([1000.1, 1000.1], [0.0, 0.5], [1000.0, f64::from(1000.1f32)]);
+        assert!(!can_be_visible(&at, &opacity, range));
+        assert!(super::can_be_visible(&at, &opacity, range, |a| f64::from(a as f32)));
+    }
 
     #[test]
     fn visible_ranges_of_a_step_on_a_voxel_value() {

@@ -1,7 +1,7 @@
 //! Minimum and maximum over bricks of cells, for empty-space skipping ([RAY-2]).
 
 /// Cells along the side of a brick.
-pub const BRICK: usize = 8;
+pub const BRICK: usize = 4;
 
 /// The range of values that the field can take in each brick of [`BRICK`]³ cells, x fastest.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,6 +10,7 @@
 
 use crate::field::Field;
 use crate::field::place::Place;
+use crate::field::stencil::Block;
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
@@ -67,32 +68,54 @@ impl<R: Real> Regression<R> {
         let [wx, wy, wz] = at.w;
         if inside {
             // All corners have the same weights: interpolating the voxels first costs an eighth.
-            let line = |row: [R; 4]| [0, 1, 2].map(|i: usize| R::lerp(row[i], row[i + 1], wx));
-            let rows = block.map(|plane| plane.map(line));
-            let mix = |a: [R; 3], b: [R; 3], w: R| [0, 1, 2].map(|i: usize| R::lerp(a[i], b[i], w));
-            let planes = rows.map(|plane| [0, 1, 2].map(|j: usize| mix(plane[j], plane[j + 1], wy)));
-            let near = [0, 1, 2].map(|k: usize| [0, 1, 2].map(|j: usize| mix(planes[k][j], planes[k + 1][j], wz)));
-            return self.fitted([3; 3], |i, j, k| near[k][j][i]);
+            return self.fitted([3; 3], &interpolated(&block, at.w));
         }
-        let corner =
-            |i: usize, j: usize, k: usize| self.fitted([x[i], y[j], z[k]], |a, b, c| block[k + c][j + b][i + a]);
+        let corner = |i: usize, j: usize, k: usize| {
+            let around = std::array::from_fn(|t| block[k + t / 9][j + t / 3 % 3][i + t % 3]);
+            self.fitted([x[i], y[j], z[k]], &around)
+        };
         let mix = |a: Vec3<R>, b: Vec3<R>, w: R| a + (b - a) * w;
         let row = |j, k| mix(corner(0, j, k), corner(1, j, k), wx);
         let plane = |k| mix(row(0, k), row(1, k), wy);
         mix(plane(0), plane(1), wz)
     }
 
-    /// The fitted gradient of a voxel from its neighbourhood.
-    fn fitted(&self, s: [usize; 3], voxel: impl Fn(usize, usize, usize) -> R) -> Vec3<R> {
+    /// The fitted gradient of a voxel from its neighbourhood, x fastest.
+    fn fitted(&self, s: [usize; 3], around: &[R; 27]) -> Vec3<R> {
         // The second corner of the one cell of an axis of length 1 lies outside and has no weight.
         let Some([x, y, z]) = self.case(s) else { return Vec3::zero() };
         let mut sum = Vec3::zero();
-        for t in 0..27 {
-            let c = voxel(t % 3, t / 3 % 3, t / 9);
+        for (t, &c) in around.iter().enumerate() {
             sum = sum + Vec3::new(c * x[t], c * y[t], c * z[t]);
         }
         sum
     }
+}
+
+/// The 3³ voxels around a place: those around the corners of its cell, interpolated.
+fn interpolated<R: Real>(block: &Block<R>, [wx, wy, wz]: [R; 3]) -> [R; 27] {
+    let mut rows = [[[R::ZERO; 3]; 4]; 4];
+    for (rows, plane) in rows.iter_mut().zip(block) {
+        for (row, line) in rows.iter_mut().zip(plane) {
+            for i in 0..3 {
+                row[i] = R::lerp(line[i], line[i + 1], wx);
+            }
+        }
+    }
+    let mut planes = [[[R::ZERO; 3]; 3]; 4];
+    for (plane, rows) in planes.iter_mut().zip(&rows) {
+        for (j, row) in plane.iter_mut().enumerate() {
+            for i in 0..3 {
+                row[i] = R::lerp(rows[j][i], rows[j + 1][i], wy);
+            }
+        }
+    }
+    let mut around = [R::ZERO; 27];
+    for (t, c) in around.iter_mut().enumerate() {
+        let (i, j, k) = (t % 3, t / 3 % 3, t / 9);
+        *c = R::lerp(planes[k][j][i], planes[k + 1][j][i], wz);
+    }
+    around
 }
 
 /// The weights of one case, from the normal equations Σ w φφᵀ · (h, d) = Σ w φ f, φ = (k, 1), over the neighbours k
@@ -166,6 +189,24 @@ mod tests {
             let want = if k[0] == 0.0 { 0.0 } else { k[0] / distance / total };
             assert!((w - want).abs() < 1e-16, "{t}: {w} {want}");
         }
+    }
+
+    /// At the border of a plane, x ≥ 0: the six voxels lie on two lines, and h_x joins their weighted means. The line
+    /// k_x = 0 weighs 1, 2, 1, the other 1/√2, 1, 1/√2.
+    #[test]
+    fn at_a_border_the_voxels_that_exist() {
+        let grid = Grid::with_spacing([3, 3, 1], [1.0; 3]).unwrap();
+        let [x, y, z] = fit(&grid, [2, 3, 0]);
+        let diagonal = 1.0 / 2f64.sqrt();
+        let total = 1.0 + 2.0 * diagonal;
+        let want =
+            [(10, -0.25), (13, -0.5), (16, -0.25), (11, diagonal / total), (14, 1.0 / total), (17, diagonal / total)];
+        for (t, w) in want {
+            assert!((x[t] - w).abs() < 1e-15, "{t}: {} {w}", x[t]);
+        }
+        assert_eq!(x.iter().filter(|&&w| w != 0.0).count(), 6);
+        // Along y the sum of w k² is 2 + 2/√2 over four voxels.
+        assert!((y[16] - 1.0 / (2.0 + 2.0 * diagonal)).abs() < 1e-15 && z == [0.0; 27]);
     }
 
     #[test]

@@ -168,18 +168,22 @@ proptest! {
         let voxels = (0..120).map(|i| ((i * 7919 + seed * 31) % 251) as f64).collect();
         let v = volume(dims, voxels, 1.0, 0.0);
         let how = Reconstruction { kernel: KERNELS[kernel], gradient: GRADIENTS[gradient], ..Default::default() };
-        let wide = Field::<f64>::new(&v, how, Rung::Gradient).unwrap();
-        let narrow = Field::<f32>::new(&v, how, Rung::Gradient).unwrap();
+        let wide = Field::<f64>::new(&v, how, Rung::Hessian).unwrap();
+        let narrow = Field::<f32>::new(&v, how, Rung::Hessian).unwrap();
         for p in positions(v.grid(), 20) {
             // The same position in both: one that f32 holds.
             let q = Vec3::new(p.x as f32, p.y as f32, p.z as f32);
             let p = Vec3::new(f64::from(q.x), f64::from(q.y), f64::from(q.z));
-            let (a, ga) = with_sampler!(wide, |s| (s.value(p), s.gradient(p)));
-            let (b, gb) = with_sampler!(narrow, |s| (s.value(q), s.gradient(q)));
-            // As in `reproduction`: 48 ε, times 422 where a quintic was prefiltered; gradients are below 4 in units of 2^e.
+            let (a, ga, (_, ha)) = with_sampler!(wide, |s| (s.value(p), s.gradient(p), s.hessian(p)));
+            let (b, gb, (_, hb)) = with_sampler!(narrow, |s| (s.value(q), s.gradient(q), s.hessian(q)));
+            // As in `reproduction`: 48 ε, times 422 where a quintic was prefiltered; gradients and Hessians are
+            // below 4 in units of 2^e on this grid.
             let c = 48.0 * 422.0 * f64::from(f32::EPSILON);
             prop_assert!((a - f64::from(b)).abs() <= c * 251.0, "{how:?}: {a} {b}");
             prop_assert!((ga.to_glam() - gb.to_glam()).length() <= c * 4.0, "{how:?}: {ga:?} {gb:?}");
+            for (a, b) in entries(ha).into_iter().zip(entries(hb)) {
+                prop_assert!((a - f64::from(b)).abs() <= c * 4.0, "{how:?}: {ha:?} {hb:?}");
+            }
         }
     }
 }

@@ -52,6 +52,23 @@ fn stays<R: Real>(volume: &Volume, how: Reconstruction, positions: &[DVec3]) -> 
     Ok(())
 }
 
+/// Signs that go with the signs of Catmull–Rom's weights: the spline reaches 1.25³ of its samples' half-range.
+#[test]
+fn the_largest_overshoot_there_is() {
+    let sign = |x: f64| if matches!(x as i32 % 4, 1 | 2) { 1.0 } else { -1.0 };
+    let grid = Grid::with_spacing([8; 3], [1.0; 3]).unwrap();
+    let voxels = indices([8; 3]).map(|i| sign(i.x) * sign(i.y) * sign(i.z)).collect();
+    let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
+    let how = Reconstruction { kernel: Kernel::CatmullRom, ..Default::default() };
+    let field = Field::<f64>::new(&volume, how, Rung::Value).unwrap();
+    let [lo, hi] = field.bricks().ranges[0];
+    for (x, want) in [(1.5, 1.953125), (3.5, -1.953125)] {
+        let value = with_sampler!(field, |s| s.value(Vec3::new(x, x, x)));
+        assert_eq!(value, want);
+        assert!(lo <= value && value <= hi);
+    }
+}
+
 /// Ranges are not so wide that nothing is ever skipped: of a constant the range is the constant to a few places, and
 /// trilinear ranges are those of the voxels.
 #[test]
