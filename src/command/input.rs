@@ -48,8 +48,11 @@ impl Flag {
 pub(super) struct Over {
     /// `--set`, then the flags.
     overrides: Overrides,
-    flags: Vec<Flag>,
+    /// Those of `[picture]` alone.
+    picture: Overrides,
+    /// Whether one changes the kind of the transfer function.
     sets_kind: bool,
+    flags: Vec<Flag>,
     /// Whether only the layer `beauty` is wanted: what no one writes is not computed ([PLAN-1]).
     pub beauty_only: bool,
     /// Pixels that the longer side of the picture has, in place of what the scene says.
@@ -61,14 +64,21 @@ impl Over {
     pub(super) fn new(set: &Set, flags: Vec<Flag>) -> Result<Self, Failures> {
         let mut over = Self { flags, ..Self::default() };
         let mut failures = Vec::new();
-        over.sets_kind = set.set.iter().any(|argument| argument.trim_start().starts_with("transfer.kind"));
         for argument in &set.set {
+            over.sets_kind |= argument.trim_start().starts_with("transfer.kind");
+            if argument.trim_start().starts_with("picture.") {
+                // A fault of it is told of the whole.
+                let _ = over.picture.push_argument(argument);
+            }
             if let Err(faults) = over.overrides.push_argument(argument) {
                 failures.extend(faults.iter().map(Failure::from));
             }
         }
         for flag in &over.flags {
             over.overrides.push(flag.key, flag.value.clone());
+            if flag.key.starts_with("picture.") {
+                over.picture.push(flag.key, flag.value.clone());
+            }
         }
         Failures::check(failures).map(|()| over)
     }
@@ -128,8 +138,7 @@ pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
 /// What flags alone say, all else being default: a scene of no volume.
 pub(super) fn settings(flags: Vec<Flag>) -> Result<Scene, Failures> {
     let over = Over::new(&Set::default(), flags)?;
-    let nothing = "drypoint = 1\nvolume.file = \"none\"\n";
-    file::parse(nothing, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
+    file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
 }
 
 /// Whether a path is taken for a scene file.
@@ -150,32 +159,30 @@ pub(super) fn no_input(path: &Path) -> Failure {
 
 /// The scene for a bare volume. It goes through its own text, so that overrides act on it as on any scene.
 fn suggested(path: &Path, volume: &Volume, over: &Over) -> Result<Scene, Failures> {
-    let parsed = |size: [usize; 2]| {
-        let suggested = bare(path.to_path_buf(), volume, size);
-        let mut text = file::write_full(&suggested);
-        if over.sets_kind {
-            // Nodes of one kind do not fit the other: they are found anew.
-            let nodes = Overrides::from_iter([("transfer.nodes", "off")]);
-            let without = file::parse(&text, Path::new(""), &nodes).map_err(|faults| over.failures(faults))?;
-            text = file::write_full(&without);
-        }
-        // A name without folder leaves the volume's path as it was given.
-        let name = format!("the scene for {}", path.file_name().unwrap_or_default().to_string_lossy());
-        let mut scene =
-            file::parse(&text, Path::new(&name), &over.overrides).map_err(|faults| over.failures(faults))?;
-        // Nobody wrote its lines.
-        scene.given.keep_overrides();
-        if !scene.given.contains("volume.file") && !scene.given.contains("volume.phantom") {
-            // Not from the text, where a path that is no Unicode would be another one.
-            scene.volume.source = suggested.volume.source;
-        }
-        Ok::<Scene, Failures>(scene)
-    };
-    const FIRST: [usize; 2] = [512, 512];
-    let scene = parsed(FIRST)?;
-    // The camera frames the content in a picture of one shape.
-    if scene.picture.size == FIRST { Ok(scene) } else { parsed(scene.picture.size) }
+    let parse = |text: &str, name: &str, overrides: &Overrides| file::parse(text, Path::new(name), overrides);
+    // The camera frames the content in a picture of one shape. A fault of that is told below.
+    let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
+    let suggested = bare(path.to_path_buf(), volume, size);
+    let mut text = file::write_full(&suggested);
+    if over.sets_kind {
+        // Nodes of one kind do not fit the other: they are found anew.
+        let nodes = Overrides::from_iter([("transfer.nodes", "off")]);
+        text = parse(&text, "", &nodes).map_or(text, |scene| file::write_full(&scene));
+    }
+    // A name without folder leaves the volume's path as it was given.
+    let name = format!("the scene for {}", path.file_name().unwrap_or_default().to_string_lossy());
+    let mut scene = parse(&text, &name, &over.overrides).map_err(|faults| over.failures(faults))?;
+    // Nobody wrote its lines.
+    scene.given.keep_overrides();
+    if !scene.given.contains("volume.file") && !scene.given.contains("volume.phantom") {
+        // Not from the text, where a path that is no Unicode would be another one.
+        scene.volume.source = suggested.volume.source;
+    }
+    Ok(scene)
 }
+
+/// A scene that says nothing: every key has its default.
+const NOTHING: &str = "drypoint = 1\nvolume.file = \"none\"\n";
 
 /// Warnings of a job and, where asked for, what it is made of.
 pub(super) fn tell(talk: Talk, job: &Job) {

@@ -133,8 +133,8 @@ impl Fault {
             }
             Problem::NotBuilt { .. } => "remove it: this version cannot draw it, and would not ignore it".into(),
             Problem::Value { expected, nearest, .. } => match nearest {
-                Some(name) => format!("write {name:?}; expected is {expected}"),
-                None => format!("write {expected}"),
+                Some(name) if *expected != format!("{name:?}") => format!("write {name:?}; expected is {expected}"),
+                _ => format!("write {expected}"),
             },
             Problem::Reference { what, nearest, known, .. } => {
                 let all = if known.is_empty() {
