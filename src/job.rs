@@ -10,7 +10,7 @@ use drypoint_scene::phantom;
 use drypoint_scene::picture::Provenance;
 use drypoint_scene::plan::Plan;
 use drypoint_scene::style::{Style, load as load_styles};
-use drypoint_scene::tables::{Background, Scene, VolumeSource, VolumeTable};
+use drypoint_scene::tables::{Background, Ids, Scene, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{Volume, read};
@@ -45,6 +45,7 @@ impl Job {
     /// # Errors
     /// As [`Job::load`].
     pub fn with_volume(mut scene: Scene, volume: Volume) -> Result<Self, Failure> {
+        let volume = meant(&scene.volume, volume);
         let Some(transfer) = scene.transfer.as_mut() else {
             return Err(Failure::new(
                 "the scene draws nothing: it has no [transfer]",
@@ -125,12 +126,21 @@ impl Job {
 /// # Errors
 /// What the reader or the phantom says.
 pub fn load_volume(table: &VolumeTable) -> Result<Volume, Failure> {
-    match &table.source {
+    let volume = match &table.source {
         VolumeSource::File { path, raw } => {
             read::read(path, raw.as_ref()).map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))
         }
         VolumeSource::Phantom(source) => phantom::generate(source)
             .map_err(|e| Failure::new(e, "volume.phantom", "`drypoint phantom --list` lists phantoms and parameters")),
+    };
+    volume.map(|volume| meant(table, volume))
+}
+
+/// A volume as its table means it. Once more changes nothing.
+fn meant(table: &VolumeTable, volume: Volume) -> Volume {
+    match table.ids {
+        Ids::Values => volume,
+        Ids::Mask => volume.present(),
     }
 }
 

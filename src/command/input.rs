@@ -3,6 +3,7 @@
 use super::Failures;
 use drypoint::job::{Job, bare};
 use drypoint::scene::file::{self, Overrides};
+use drypoint::scene::tables::{Scene, VolumeSource};
 use drypoint::scene::volume::read;
 use drypoint::{Failure, job};
 use std::path::{Path, PathBuf};
@@ -53,12 +54,14 @@ pub(super) fn load(path: Option<&PathBuf>, overrides: &Overrides) -> Result<Job,
         .into());
     }
     let volume = read::read(path, None).map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))?;
-    let suggested = bare(path.clone(), &volume, [512, 512]);
-    // Through the text of the scene, so that overrides act on a bare volume as on any scene.
-    let text = file::write_full(&suggested);
-    // The text has the volume's path as it was given; a name without folder leaves it as it is.
+    // Through the text of the scene, so that overrides act on a bare volume as on any scene. The text has the volume's
+    // path as it was given; a name without folder leaves it as it is.
     let name = path.file_name().map_or(path.as_path(), Path::new);
-    let scene = file::parse(&text, name, overrides).map_err(faults)?;
+    let through_text = |scene: &Scene| file::parse(&file::write_full(scene), name, overrides);
+    // The camera frames what is shown for the picture's shape, which the overrides may change.
+    let shortest = Scene::for_volume(VolumeSource::File { path: path.clone(), raw: None });
+    let size = through_text(&shortest).map_or(shortest.picture.size, |scene| scene.picture.size);
+    let scene = through_text(&bare(path.clone(), &volume, size)).map_err(faults)?;
     Ok(job::Job::with_volume(scene, volume)?)
 }
 
