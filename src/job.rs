@@ -36,7 +36,7 @@ use drypoint_scene::phantom;
 use drypoint_scene::picture::{Picture, Provenance};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
-use drypoint_scene::tables::{Background, NodeColor, Scene, StepAlong, VolumeSource, VolumeTable};
+use drypoint_scene::tables::{Background, Ids, NodeColor, Scene, StepAlong, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{Volume, read};
@@ -85,6 +85,10 @@ impl Job {
     /// # Errors
     /// As [`Job::load`].
     pub fn with_volume(mut scene: Scene, volume: Volume) -> Result<Self, Failures> {
+        let volume = match scene.volume.ids {
+            Ids::Values => volume,
+            Ids::Mask => volume.present(),
+        };
         // Of the scene as it was given: that its function was found in the data is part of the plan.
         let mut plan = Plan::new(&scene);
         if let (Some(step), Ok(view)) =
