@@ -2,6 +2,8 @@
 
 mod accuracy;
 mod files;
+#[cfg(test)]
+mod pages;
 mod reference;
 mod rings;
 mod styles;
