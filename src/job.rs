@@ -36,7 +36,7 @@ use drypoint_scene::phantom;
 use drypoint_scene::picture::{Picture, Provenance};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
-use drypoint_scene::tables::{Background, NodeColor, Scene, VolumeSource, VolumeTable};
+use drypoint_scene::tables::{Background, NodeColor, Scene, StepAlong, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{Volume, read};
@@ -90,7 +90,11 @@ impl Job {
         if let (Some(step), Ok(view)) =
             (scene.sampling.step.world(volume.grid()), View::new(&scene.camera, volume.grid(), scene.picture.size))
         {
-            plan.warn_step(step * view.largest_stretch(), volume.grid().voxel());
+            let stretch = match scene.sampling.step_along {
+                StepAlong::Plane => view.largest_stretch(),
+                StepAlong::Ray => 1.0,
+            };
+            plan.warn_step(step * stretch, volume.grid().voxel());
         }
         let Some(transfer) = scene.transfer.as_mut() else {
             let place = scene.given.position("transfer");

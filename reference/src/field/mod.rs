@@ -169,7 +169,8 @@ impl<'v, R: Real> Field<'v, R> {
                 Kernel::Bspline5 => KernelData::Bspline5(Coefficients::of_voxels(&stencils, 2).prefilter()),
                 Kernel::CatmullRom => KernelData::CatmullRom,
             },
-            regression: (how.gradient == GradientEstimator::Regression).then(|| Regression::new(grid)),
+            regression: (how.gradient == GradientEstimator::Regression && rung >= Rung::Gradient)
+                .then(|| Regression::new(grid)),
             second: match how.hessian {
                 _ if rung < Rung::Hessian => Second::NotPrepared,
                 HessianEstimator::Gaussian => Second::Gaussian(hessian::gaussian::smoothed(&stencils, &smoothed)),

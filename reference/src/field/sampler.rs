@@ -15,6 +15,9 @@ pub trait Sampler<R: Real>: Sync {
     fn value_at(&self, at: Place<R>) -> R;
 
     /// The gradient at a place by the field's estimator, in world space, times 2^−e.
+    ///
+    /// # Panics
+    /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
     fn gradient_at(&self, at: Place<R>) -> Vec3<R>;
 
     /// The Hessian at a place by the field's estimator, and the gradient of the field that it belongs to ([CUR-1]), in
@@ -96,8 +99,11 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
         let index = match (field.how.gradient, &field.regression) {
             (GradientEstimator::Central, _) => gradient::central::gradient(field, at),
             (GradientEstimator::Analytic, _) => self.kernel.gradient(field, at),
-            (_, Some(regression)) => regression.gradient(field, at),
-            (_, None) => gradient::sobel::gradient(field, at),
+            (GradientEstimator::Sobel, _) => gradient::sobel::gradient(field, at),
+            (GradientEstimator::Regression, Some(regression)) => regression.gradient(field, at),
+            (GradientEstimator::Regression, None) => {
+                panic!("a field prepared without Rung::Gradient was asked for a gradient")
+            }
         };
         field.to_world.apply(index)
     }

@@ -216,7 +216,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             depth: self.ray.depth(k).to_f64(),
             value: s.to_f64(),
             normal: prepared.eye_axes.normal(facts, &self.sight).to_glam().to_array(),
-            gradient: prepared.true_gradient(facts.gradient).to_array(),
+            gradient: facts.gradient.to_glam().to_array(),
             curvature: [facts.principal[0], facts.principal[1], facts.kappa].map(Real::to_f64),
         };
         self.sums.add(&seen, self.opacity.to_f64());

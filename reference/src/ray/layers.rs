@@ -1,5 +1,6 @@
 //! What a ray leaves in the layers of a picture ([IO-6]).
 
+use drypoint_scene::math;
 use drypoint_scene::picture::LayerKind;
 
 /// A visible sample as the layers see it.
@@ -13,7 +14,7 @@ pub(super) struct Seen {
     pub(super) value: f64,
     /// N in eye space, v where there is none.
     pub(super) normal: [f64; 3],
-    /// World gradient.
+    /// World gradient, times the power of two of [SPACE-4].
     pub(super) gradient: [f64; 3],
     /// κ₁, κ₂ and the scene's κ.
     pub(super) curvature: [f64; 3],
@@ -62,7 +63,10 @@ impl Sums {
     }
 
     /// The channels of a layer other than the beauty. Means are Σwq/Σw; where Σw = 0 they are 0 and depths are +∞.
-    pub(super) fn channels(&self, kind: LayerKind, samples: u64, out: &mut Vec<f64>) {
+    ///
+    /// The mean gradient is multiplied by 2^`exponent`, which takes back the power of two of [SPACE-4]: after the mean,
+    /// since the sum of what overflows both ways is no number.
+    pub(super) fn channels(&self, kind: LayerKind, samples: u64, exponent: i32, out: &mut Vec<f64>) {
         let mean = |sum: f64| if self.weight > 0.0 { sum / self.weight } else { 0.0 };
         match kind {
             LayerKind::Beauty => {}
@@ -72,7 +76,9 @@ impl Sums {
                 out.extend([self.first.map_or(f64::INFINITY, |f| f.0), self.half, depth]);
             }
             LayerKind::Normal => out.extend(self.normal.map(mean)),
-            LayerKind::Gradient => out.extend(self.gradient.map(mean)),
+            LayerKind::Gradient => {
+                out.extend(self.gradient.map(|g| math::scale_by_power_of_two(mean(g), exponent)));
+            }
             LayerKind::Curvature => out.extend(self.curvature.map(mean)),
             LayerKind::CurvatureAlongView => out.push(mean(self.curvature[2])),
             LayerKind::First => out.push(self.first.map_or(0.0, |f| f.1)),
@@ -101,27 +107,29 @@ mod tests {
     fn means_and_depths_by_hand() {
         let mut sums = Sums::new();
         let near = Seen { weight: 0.25, depth: 2.0, value: 7.0, normal: [0.0, 0.0, 1.0], ..Seen::default() };
-        let far = Seen { weight: 0.5, depth: 5.0, value: 9.0, normal: [1.0, 0.0, 0.0], ..Seen::default() };
+        let gradient = [3.0, 0.0, 0.0];
+        let far = Seen { weight: 0.5, depth: 5.0, value: 9.0, normal: [1.0, 0.0, 0.0], gradient, ..Seen::default() };
         sums.add(&near, 0.25);
         sums.add(&far, 0.75);
         let channels = |kind| {
             let mut out = Vec::new();
-            sums.channels(kind, 3, &mut out);
+            sums.channels(kind, 3, 2, &mut out);
             out
         };
         assert_eq!(channels(LayerKind::Z), [5.0]);
         assert_eq!(channels(LayerKind::Depth), [2.0, 5.0, 4.0]);
         assert_eq!(channels(LayerKind::First), [7.0]);
         assert_eq!(channels(LayerKind::Normal), [2.0 / 3.0, 0.0, 1.0 / 3.0]);
+        assert_eq!(channels(LayerKind::Gradient), [4.0 * 2.0, 0.0, 0.0]);
         assert_eq!(channels(LayerKind::Counts), [3.0]);
     }
 
     #[test]
     fn a_ray_that_hits_nothing() {
         let mut out = Vec::new();
-        Sums::new().channels(LayerKind::Depth, 0, &mut out);
-        Sums::new().channels(LayerKind::Normal, 0, &mut out);
-        Sums::new().channels(LayerKind::First, 0, &mut out);
+        Sums::new().channels(LayerKind::Depth, 0, 0, &mut out);
+        Sums::new().channels(LayerKind::Normal, 0, 0, &mut out);
+        Sums::new().channels(LayerKind::First, 0, 0, &mut out);
         assert_eq!(out, [f64::INFINITY, f64::INFINITY, f64::INFINITY, 0.0, 0.0, 0.0, 0.0]);
     }
 }

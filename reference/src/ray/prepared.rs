@@ -7,8 +7,6 @@ use crate::field::Field;
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray::Turn;
 use crate::transfer::Piecewise;
-use drypoint_scene::glam::DVec3;
-use drypoint_scene::math;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::tables::{NormalSide, Outside};
 use drypoint_scene::view::View;
@@ -110,16 +108,5 @@ impl<R: Real> Prepared<'_, R> {
     #[inline]
     pub(super) fn outward(&self, g: Vec3<R>) -> Option<Vec3<R>> {
         crate::field::normal::outward(g, self.outside, self.no_normal_below)
-    }
-
-    /// A gradient with the power of two of [SPACE-4] undone.
-    pub(super) fn true_gradient(&self, g: Vec3<R>) -> DVec3 {
-        let e = self.field.scale_exponent();
-        let [x, y, z] = g.to_glam().to_array();
-        DVec3::new(
-            math::scale_by_power_of_two(x, e),
-            math::scale_by_power_of_two(y, e),
-            math::scale_by_power_of_two(z, e),
-        )
     }
 }

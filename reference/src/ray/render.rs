@@ -175,7 +175,8 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
             GradientRange::Fixed(range) => range.map(scaled),
             GradientRange::Quantile(q) => {
                 let bound = field.no_normal_below();
-                let (hi, voxels) = with_sampler!(field, |s| quantile_of_norms(s, volume, bound, q));
+                let gradient = sampling.gradient;
+                let (hi, voxels) = with_sampler!(field, |s| quantile_of_norms(s, volume, gradient, bound, q));
                 counts.preprocess.insert("gradients".into(), voxels);
                 [0.0, hi]
             }
@@ -373,7 +374,7 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
             if kind == LayerKind::Beauty {
                 values.extend(over(cast.rgba, behind, prepared.encode));
             } else {
-                cast.sums.channels(kind, cast.samples, &mut values);
+                cast.sums.channels(kind, cast.samples, prepared.field.scale_exponent(), &mut values);
             }
             means.resize(values.len(), averaged(kind));
             debug_assert_eq!(values.len() - before, kind.channels().len());

@@ -1,0 +1,239 @@
+//! What the tests of the ray caster share: volumes by formula, scenes by hand, and pictures to be asked.
+
+// Each binary uses its own part.
+#![allow(dead_code)]
+
+pub(crate) mod lattice;
+pub(crate) mod random;
+pub(crate) mod strip;
+
+use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
+use drypoint::scene::color::Rgba;
+use drypoint::scene::counts::Counts;
+use drypoint::scene::glam::DVec3;
+use drypoint::scene::picture::{LayerKind, Picture};
+use drypoint::scene::plan::Plan;
+use drypoint::scene::space::Grid;
+use drypoint::scene::style::Style;
+use drypoint::scene::tables::{
+    Background, Camera, GradientRange, Length, Node, NodeColor, Projection, Scene, Transfer, TransferKind, VolumeSource,
+};
+use drypoint::scene::transfer::Function;
+use drypoint::scene::view::View;
+use drypoint::scene::volume::{Volume, Voxels};
+
+/// A volume of f64 voxels on a cubic grid at the world's origin.
+pub(crate) fn volume(dims: [usize; 3], f: impl Fn(DVec3) -> f64) -> Volume {
+    on(Grid::with_spacing(dims, [1.0; 3]).unwrap(), f)
+}
+
+/// A volume of f64 voxels: f of the world position of each.
+pub(crate) fn on(grid: Grid, f: impl Fn(DVec3) -> f64) -> Volume {
+    let voxels = positions(&grid).map(f).collect();
+    Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap()
+}
+
+/// The world position of each voxel, x fastest.
+pub(crate) fn positions(grid: &Grid) -> impl Iterator<Item = DVec3> + use<> {
+    let (grid, [nx, ny, _]) = (grid.clone(), grid.dims());
+    (0..grid.len()).map(move |i| grid.to_world(DVec3::new((i % nx) as f64, (i / nx % ny) as f64, (i / nx / ny) as f64)))
+}
+
+/// The distance to a sphere about the centre of a grid of n³ unit voxels, positive inside.
+pub(crate) fn ball(n: usize, radius: f64) -> Volume {
+    let centre = DVec3::splat((n - 1) as f64 / 2.0);
+    volume([n; 3], |p| radius - (p - centre).length())
+}
+
+/// A field whose iso-surfaces are spheres and that every spline reproduces: (R² − ρ²)/2R about the centre of a grid of n³
+/// unit voxels. The surface at ρ = R has value 0 and ‖g‖ = 1; at value f it is ρ = √(R² − 2Rf), with curvatures 1/ρ.
+pub(crate) fn quadratic_ball(n: usize, radius: f64) -> Volume {
+    let centre = DVec3::splat((n - 1) as f64 / 2.0);
+    volume([n; 3], |p| (radius * radius - (p - centre).length_squared()) / (2.0 * radius))
+}
+
+/// A style of straight linear texels, from the normal (N_x, N_y) at the centre of each.
+pub(crate) fn style(name: &str, side: usize, texel: impl Fn(f64, f64) -> Rgba) -> Style {
+    let at = |k: usize| (2 * k + 1) as f64 / side as f64 - 1.0;
+    let texels: Vec<Rgba> = (0..side * side).map(|t| texel(at(t % side), -at(t / side))).collect();
+    Style::from_straight(name, side, &texels, true).unwrap()
+}
+
+/// One colour everywhere.
+pub(crate) fn plain(name: &str, color: Rgba) -> Style {
+    style(name, 1, |_, _| color)
+}
+
+/// A scene with everything that it names.
+#[derive(Clone)]
+pub(crate) struct Shot {
+    pub(crate) scene: Scene,
+    pub(crate) volume: Volume,
+    /// Every style that a node may name.
+    pub(crate) styles: Vec<Style>,
+    /// A background picture, linear premultiplied.
+    pub(crate) behind: Option<Vec<Rgba>>,
+}
+
+impl Shot {
+    /// A regular function of linear colours: (value, colour, α_u).
+    pub(crate) fn regular(volume: Volume, nodes: &[(f64, [f64; 3], f64)]) -> Self {
+        let nodes = nodes.iter().map(|&(at, c, opacity)| Node { at, color: NodeColor::Color(c), opacity }).collect();
+        Self::new(volume, TransferKind::Regular, nodes, Vec::new())
+    }
+
+    /// A style function: (value, name, α_u).
+    pub(crate) fn styled(volume: Volume, styles: Vec<Style>, nodes: &[(f64, &str, f64)]) -> Self {
+        let node = |&(at, name, opacity): &(f64, &str, f64)| Node { at, color: NodeColor::Style(name.into()), opacity };
+        Self::new(volume, TransferKind::Style, nodes.iter().map(node).collect(), styles)
+    }
+
+    /// An orthographic view of 16 × 16 pixels along +y, before nothing.
+    fn new(volume: Volume, kind: TransferKind, nodes: Vec<Node>, styles: Vec<Style>) -> Self {
+        let mut scene = Scene::for_volume(VolumeSource::File { path: "test".into(), raw: None });
+        scene.transfer = Some(Transfer { nodes: Some(nodes), ..Transfer::automatic(kind) });
+        scene.camera = Camera { direction: DVec3::Y, ..orthographic(None) };
+        scene.picture.size = [16, 16];
+        scene.picture.background = Background::None;
+        scene.volume.gradient_range = GradientRange::Fixed([0.0, 1.0]);
+        Self { scene, volume, styles, behind: None }
+    }
+
+    /// The same with changes to the scene.
+    pub(crate) fn with(&self, change: impl FnOnce(&mut Scene)) -> Self {
+        let mut other = self.clone();
+        change(&mut other.scene);
+        other
+    }
+
+    /// The same with changes to the transfer function's table.
+    pub(crate) fn with_transfer(&self, change: impl FnOnce(&mut Transfer)) -> Self {
+        self.with(|s| change(s.transfer.as_mut().unwrap()))
+    }
+
+    /// The same from another direction.
+    pub(crate) fn seen_along(&self, direction: [f64; 3]) -> Self {
+        self.with(|s| s.camera.direction = direction.into())
+    }
+
+    /// The same with these layers, the beauty first.
+    pub(crate) fn layers(&self, layers: &[LayerKind]) -> Self {
+        self.with(|s| s.picture.layers = [&[LayerKind::Beauty], layers].concat())
+    }
+
+    /// The same with a step in world units that is also the reference length: opacities are those of one sample.
+    pub(crate) fn step(&self, step: f64) -> Self {
+        self.with(|s| {
+            s.sampling.step = Length::World(step);
+            s.sampling.reference_length = Length::World(step);
+        })
+    }
+
+    /// The camera in numbers.
+    pub(crate) fn view(&self) -> View {
+        View::new(&self.scene.camera, self.volume.grid(), self.scene.picture.size).unwrap()
+    }
+
+    /// The transfer function over the volume's values.
+    pub(crate) fn function(&self) -> Function {
+        let range = self.scene.volume.range.unwrap_or_else(|| self.volume.range());
+        Function::new(self.scene.transfer.as_ref().unwrap(), range, &self.volume).unwrap()
+    }
+
+    /// The picture.
+    pub(crate) fn render(&self) -> Shown {
+        let function = self.function();
+        let named: Vec<Style> = match &function {
+            Function::Regular(_) => Vec::new(),
+            Function::Style { names, .. } => {
+                let find = |name: &String| self.styles.iter().find(|s| &s.name == name).unwrap().clone();
+                names.iter().map(find).collect()
+            }
+        };
+        let background = match (&self.behind, &self.scene.picture.background) {
+            (Some(pixels), _) => Backdrop::Pixels(pixels),
+            (None, Background::Color(c)) => Backdrop::Color(*c),
+            (None, _) => Backdrop::None,
+        };
+        let plan = Plan::new(&self.scene);
+        let inputs = Inputs {
+            scene: &self.scene,
+            plan: &plan,
+            volume: &self.volume,
+            function: &function,
+            styles: &named,
+            background,
+        };
+        let (picture, counts) = Renderer::new(inputs).unwrap().frame(&|_| {});
+        Shown { picture, counts }
+    }
+}
+
+/// A picture and what was done for it.
+pub(crate) struct Shown {
+    pub(crate) picture: Picture,
+    pub(crate) counts: Counts,
+}
+
+impl Shown {
+    /// Premultiplied pixels, row by row from the top.
+    pub(crate) fn pixels(&self) -> Vec<Rgba> {
+        let channels = &self.picture.layer(LayerKind::Beauty).unwrap().channels;
+        (0..channels[0].len()).map(|i| [0, 1, 2, 3].map(|c: usize| channels[c][i])).collect()
+    }
+
+    /// A layer pixel by pixel.
+    pub(crate) fn layer<const N: usize>(&self, kind: LayerKind) -> Vec<[f64; N]> {
+        let channels = &self.picture.layer(kind).unwrap().channels;
+        assert_eq!(channels.len(), N);
+        (0..channels[0].len()).map(|i| std::array::from_fn(|c| channels[c][i])).collect()
+    }
+
+    /// A layer of one channel.
+    pub(crate) fn one(&self, kind: LayerKind) -> Vec<f64> {
+        self.layer::<1>(kind).into_iter().map(|[v]| v).collect()
+    }
+
+    /// Every number of a layer, as bits.
+    pub(crate) fn layer_bits(&self, kind: LayerKind) -> Vec<u64> {
+        self.picture.layer(kind).unwrap().channels.iter().flatten().map(|v| v.to_bits()).collect()
+    }
+
+    /// Every number of the picture but the counts of samples, as bits.
+    pub(crate) fn bits(&self) -> Vec<u64> {
+        let shown = self.picture.layers.iter().filter(|l| l.kind != LayerKind::Counts);
+        shown.flat_map(|l| l.channels.iter().flatten()).map(|v| v.to_bits()).collect()
+    }
+
+    /// How many pixels show something.
+    pub(crate) fn covered(&self) -> usize {
+        self.pixels().iter().filter(|p| p[3] > 0.0).count()
+    }
+}
+
+/// An orthographic camera of that height.
+pub(crate) fn orthographic(height: Option<f64>) -> Camera {
+    Camera { projection: Projection::Orthographic { height }, ..Camera::default() }
+}
+
+/// A perspective camera.
+pub(crate) fn perspective(fov: f64) -> Camera {
+    Camera { projection: Projection::Perspective { fov }, ..Camera::default() }
+}
+
+/// The largest difference of two pictures' pixels in any channel.
+pub(crate) fn largest_difference(a: &Shown, b: &Shown) -> f64 {
+    let pairs = a.pixels().into_iter().zip(b.pixels());
+    pairs.flat_map(|(a, b)| [0, 1, 2, 3].map(|c: usize| (a[c] - b[c]).abs())).fold(0.0, f64::max)
+}
+
+/// Every layer beside the beauty that can stand with the others in one file.
+pub(crate) const LAYERS: [LayerKind; 7] = [
+    LayerKind::Z,
+    LayerKind::Depth,
+    LayerKind::Normal,
+    LayerKind::Gradient,
+    LayerKind::Curvature,
+    LayerKind::First,
+    LayerKind::Counts,
+];

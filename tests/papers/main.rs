@@ -1,0 +1,6 @@
+//! The papers, checked in pictures of phantoms whose truth is known: one file a paper.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod style_transfer_functions;

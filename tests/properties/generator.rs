@@ -1,0 +1,220 @@
+//! Scenes at random: every effect, kernel, camera and odd volume that the caster knows, small enough for hundreds.
+
+use crate::common::random::Random;
+use crate::common::{LAYERS, Shot, orthographic, perspective, plain, style};
+use drypoint::scene::glam::{DMat3, DVec3};
+use drypoint::scene::space::Grid;
+use drypoint::scene::style::Style;
+use drypoint::scene::tables::{
+    Background, BlendSpace, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Length,
+    LightDirection, Mix, NormalSide, Number, Outside, Shading, SignFlip, SphereFrame, StepAlong, Transparency, Unit,
+};
+use drypoint::scene::volume::{Volume, VoxelType, Voxels};
+
+pub(crate) const KERNELS: [Kernel; 5] =
+    [Kernel::Trilinear, Kernel::Bspline, Kernel::BsplineSmooth, Kernel::Bspline5, Kernel::CatmullRom];
+
+/// Voxels along each axis: odd ones, and some with several bricks.
+pub(crate) fn dims(r: &mut Random) -> [usize; 3] {
+    match r.below(8) {
+        0 => [1, 1, 1],
+        1 => [1, 2 + r.below(20), 1],
+        2 => [2, 2, 2],
+        3 => [2 + r.below(20), 1, 2 + r.below(12)],
+        4 => [3, 2, 9 + r.below(12)],
+        _ => [0; 3].map(|_| 2 + r.below(20)),
+    }
+}
+
+/// A grid of those dims: cubic, anisotropic or sheared.
+pub(crate) fn grid(r: &mut Random, dims: [usize; 3]) -> Grid {
+    let spacing = [0; 3].map(|_| if r.once_in(2) { 1.0 } else { r.between(0.3, 3.0) });
+    let mut axes = DMat3::from_diagonal(spacing.into());
+    if r.once_in(3) {
+        axes.y_axis += DVec3::new(r.between(-0.4, 0.4), 0.0, r.between(-0.4, 0.4));
+        axes.z_axis.x += r.between(-0.4, 0.4);
+    }
+    let origin = if r.once_in(2) { DVec3::ZERO } else { DVec3::from_array(r.direction()) * 100.0 };
+    Grid::new(dims, axes, origin).unwrap()
+}
+
+/// Values on a grid: waves, noise of few levels with flat parts, a spike in nothing.
+fn values(r: &mut Random, grid: &Grid) -> Vec<f64> {
+    let levels = 1 + r.below(5);
+    let (a, b, c) = (r.between(0.2, 1.2), r.between(0.2, 1.2), r.between(0.2, 1.2));
+    let kind = r.below(4);
+    let spike = r.below(grid.len());
+    crate::common::positions(grid)
+        .enumerate()
+        .map(|(i, p)| match kind {
+            0 => 50.0 + 40.0 * ((a * p.x).sin() + (b * p.y).cos() * (c * p.z).sin()),
+            1 => (r.below(levels + 1) as f64 / levels as f64) * 100.0,
+            2 => {
+                if i == spike {
+                    100.0
+                } else {
+                    0.0
+                }
+            }
+            _ => {
+                if (a * p.x).sin() + (b * p.y).sin() + (c * p.z).sin() > 0.5 {
+                    100.0
+                } else {
+                    10.0
+                }
+            }
+        })
+        .collect()
+}
+
+/// A volume of a random stored type, with slope and intercept, and holes if it can have them.
+pub(crate) fn volume(r: &mut Random, grid: Grid) -> Volume {
+    let mut values = values(r, &grid);
+    let stored = r.pick(&[VoxelType::U8, VoxelType::I16, VoxelType::F32, VoxelType::F64]);
+    if !stored.is_integer() && grid.len() > 8 && r.once_in(3) {
+        for _ in 0..1 + r.below(6) {
+            let i = r.below(values.len());
+            values[i] = r.pick(&[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
+        }
+        values[0] = 3.0;
+    }
+    let [slope, intercept] = r.pick(&[[1.0, 0.0], [1.0, 0.0], [-0.37, 12.5], [0.001, 1000.0], [2.0, -1024.0]]);
+    Volume::new(grid, Voxels::from_f64(&values, stored), slope, intercept).unwrap()
+}
+
+/// Values of nodes in ascending order: voxels' own, between and beyond them, some twice.
+fn at(r: &mut Random, volume: &Volume, n: usize) -> Vec<f64> {
+    let [lo, hi] = volume.range();
+    let reach = (hi - lo).max(1.0);
+    let mut at: Vec<f64> = (0..n)
+        .map(|_| match r.below(5) {
+            0 | 1 => volume.value(volume.dims().map(|n| r.below(n))),
+            2 => hi + reach * r.between(0.0, 0.5),
+            _ => r.between(lo - 0.1 * reach, hi + 0.1 * reach),
+        })
+        .collect();
+    at.sort_by(f64::total_cmp);
+    if n > 1 && r.once_in(2) {
+        at[n - 1] = at[n - 2];
+    }
+    at
+}
+
+fn opacity(r: &mut Random) -> f64 {
+    match r.below(5) {
+        0 | 1 => 0.0,
+        2 => 1.0,
+        _ => r.unit(),
+    }
+}
+
+fn styles() -> Vec<Style> {
+    vec![
+        plain("grey", [0.4, 0.5, 0.6, 1.0]),
+        plain("clear", [1.0, 0.0, 0.0, 0.0]),
+        style("ramp", 9, |x, y| [0.5 + 0.5 * x, 0.5 + 0.5 * y, 0.3, 0.2 + 0.8 * (x * x + y * y).min(1.0)]),
+        style("tiny", 2, |x, y| [x.abs(), y.abs(), 1.0, 0.9]),
+    ]
+}
+
+fn function(r: &mut Random, volume: Volume) -> Shot {
+    let n = 1 + r.below(4);
+    let at = at(r, &volume, n);
+    let mut shot = if r.once_in(3) {
+        let nodes: Vec<_> = at.iter().map(|&a| (a, [r.unit(), r.unit(), r.unit()], opacity(r))).collect();
+        Shot::regular(volume, &nodes)
+    } else {
+        let nodes: Vec<_> = at.iter().map(|&a| (a, r.pick(&["grey", "clear", "ramp", "tiny"]), opacity(r))).collect();
+        Shot::styled(volume, styles(), &nodes)
+    };
+    let t = shot.scene.transfer.as_mut().unwrap();
+    t.mix = r.pick(&[Mix::Premultiplied, Mix::Printed]);
+    t.transparency = r.pick(&[Transparency::Illustrative, Transparency::Illustrative, Transparency::Plain]);
+    t.sphere_frame = r.pick(&[SphereFrame::Eye, SphereFrame::View]);
+    if r.once_in(4) {
+        t.unit = Unit::Percentile;
+        let nodes = t.nodes.as_mut().unwrap();
+        let last = nodes.len().max(2) - 1;
+        nodes.iter_mut().enumerate().for_each(|(i, node)| node.at = 100.0 * i as f64 / last as f64);
+    }
+    shot
+}
+
+/// A camera, with the eye inside at times.
+pub(crate) fn camera(r: &mut Random, grid: &Grid) -> drypoint::scene::tables::Camera {
+    let mut camera = if r.once_in(2) {
+        perspective(r.pick(&[5.0, 30.0, 70.0, 120.0, 160.0]))
+    } else {
+        orthographic(if r.once_in(2) { None } else { Some(grid.radius() * r.between(0.5, 3.0)) })
+    };
+    let axes = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]];
+    camera.direction = if r.once_in(3) { r.pick(&axes) } else { r.direction() }.into();
+    if r.once_in(3) {
+        camera.eye = Some(grid.centre() + DVec3::from_array(r.direction()) * grid.radius() * r.between(0.0, 3.0));
+        camera.direction_given = true;
+    }
+    if r.once_in(4) {
+        camera.near = Some(Length::Voxels(r.between(0.1, 3.0)));
+    }
+    camera
+}
+
+/// The scene of a seed.
+pub(crate) fn scene(seed: u64) -> Shot {
+    let r = &mut Random(seed);
+    let dims = dims(r);
+    let grid = grid(r, dims);
+    let volume = volume(r, grid.clone());
+    let mut shot = function(r, volume).layers(&LAYERS);
+    let s = &mut shot.scene;
+    s.camera = camera(r, &grid);
+    s.volume.outside = r.pick(&[Outside::Low, Outside::High]);
+    s.volume.gradient_range = r.pick(&[
+        GradientRange::Quantile(0.999),
+        GradientRange::Quantile(0.5),
+        GradientRange::Fixed([0.0, 30.0]),
+        GradientRange::Fixed([4.0, 4.0]),
+    ]);
+    s.picture.size = r.pick(&[[9, 7], [7, 9], [8, 8], [1, 1], [17, 2]]);
+    s.picture.samples = r.pick(&[1, 1, 1, 2]);
+    s.picture.blend_space = r.pick(&[BlendSpace::Linear, BlendSpace::Linear, BlendSpace::Srgb]);
+    s.picture.background =
+        r.pick(&[Background::None, Background::Color([1.0; 4]), Background::Color([0.2, 0.5, 0.9, 0.4])]);
+    let sampling = &mut s.sampling;
+    sampling.step = Length::Voxels(r.pick(&[0.1, 0.5, 0.5, 1.0, 3.0]));
+    sampling.reference_length = Length::Voxels(r.pick(&[0.2, 1.0, 1.0, 7.0]));
+    sampling.step_along = r.pick(&[StepAlong::Plane, StepAlong::Plane, StepAlong::Ray]);
+    sampling.kernel = r.pick(&KERNELS);
+    sampling.gradient = r.pick(&[
+        GradientEstimator::Central,
+        GradientEstimator::Analytic,
+        GradientEstimator::Sobel,
+        GradientEstimator::Regression,
+    ]);
+    sampling.hessian = match sampling.kernel {
+        Kernel::Trilinear | Kernel::CatmullRom => {
+            r.pick(&[HessianEstimator::Auto, HessianEstimator::Central, HessianEstimator::Gaussian])
+        }
+        _ => r.pick(&[HessianEstimator::Auto, HessianEstimator::Analytic, HessianEstimator::Gaussian]),
+    };
+    sampling.scale = Length::Voxels(r.pick(&[0.1, 1.0, 2.0]));
+    sampling.normal = r.pick(&[NormalSide::Outward, NormalSide::Outward, NormalSide::Facing, NormalSide::Gradient]);
+    sampling.number = r.pick(&[Number::F64, Number::F64, Number::F32]);
+    sampling.stop_below = r.pick(&[0.0, 0.0, 0.01, 0.5]);
+    if r.once_in(2) {
+        s.shading = Some(Shading {
+            shininess: r.pick(&[0.0, 1.0, 17.3]),
+            light: r.pick(&[None, Some(LightDirection::World(DVec3::new(1.0, -2.0, 0.5)))]),
+            ..Shading::default()
+        });
+    }
+    if r.once_in(2) {
+        s.contours = Some(Contours {
+            thickness: Length::Voxels(r.pick(&[0.0, 1.0, 2.0, 50.0])),
+            kappa: r.pick(&[Kappa::Ray, Kappa::Ray, Kappa::Exact, Kappa::None { threshold: 0.4 }]),
+            sign_flip: r.pick(&[SignFlip::TwoSided, SignFlip::Literal]),
+            fade: r.pick(&[None, None, Some([0.1, 0.4]), Some([0.2, 0.2])]),
+        });
+    }
+    shot
+}
