@@ -221,8 +221,12 @@ fn styles<'a>(scene: &Scene, names: impl Iterator<Item = &'a str>, failures: &mu
 /// A style or theme that cannot be had, at the key that names it.
 fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
     let own = |name: &String| scene.styles.files.iter().any(|(known, _)| known == name);
+    let is_bare = |name: &String| name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
     let key = match error {
-        StyleError::File { name, .. } | StyleError::Picture { name, .. } if own(name) => format!("styles.{name}"),
+        StyleError::File { name, .. } | StyleError::Picture { name, .. } if own(name) && is_bare(name) => {
+            format!("styles.{name}")
+        }
+        StyleError::File { name, .. } | StyleError::Picture { name, .. } if own(name) => format!("styles.{name:?}"),
         StyleError::Unknown { .. } => "transfer.nodes".into(),
         _ => "styles.theme".into(),
     };

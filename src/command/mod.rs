@@ -111,7 +111,7 @@ fn exit_code(outcome: Outcome) -> ExitCode {
         Ok(Done::Yes) => ExitCode::SUCCESS,
         Ok(Done::Different) => ExitCode::FAILURE,
         Err(failures) => {
-            eprintln!("{failures}");
+            report::say(failures);
             ExitCode::from(BAD)
         }
     }

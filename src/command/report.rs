@@ -29,8 +29,14 @@ pub(super) fn print_json(text: serde_json::Result<String>) -> Outcome {
 /// A line on standard error, unless `-q`.
 pub(super) fn note(talk: Talk, text: impl std::fmt::Display) {
     if !talk.quiet {
-        eprintln!("{text}");
+        say(text);
     }
+}
+
+/// A line on standard error.
+pub(super) fn say(text: impl std::fmt::Display) {
+    // Where standard error is closed nobody hears it, and work goes on.
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// Time until a bar is shown: what is done by then needs none.

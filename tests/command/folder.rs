@@ -39,8 +39,10 @@ impl Folder {
         fn walk(folder: &Path, found: &mut Vec<(PathBuf, u64)>) {
             for entry in std::fs::read_dir(folder).unwrap() {
                 let entry = entry.unwrap();
-                let is_folder = entry.file_type().unwrap().is_dir();
-                found.push((entry.path(), if is_folder { 0 } else { entry.metadata().unwrap().len() }));
+                // A file that is being replaced may be gone by now.
+                let Ok(metadata) = entry.metadata() else { continue };
+                let is_folder = metadata.is_dir();
+                found.push((entry.path(), if is_folder { 0 } else { metadata.len() }));
                 if is_folder {
                     walk(&entry.path(), found);
                 }

@@ -1,6 +1,7 @@
 //! Verbs, flags, and how wrong ones are refused.
 
 use crate::folder::Folder;
+use std::process::Stdio;
 
 #[test]
 fn without_a_verb_it_renders() {
@@ -80,4 +81,26 @@ fn what_is_not_built_yet_says_so() {
         folder.refused("render --backend gpu"),
         "error: the GPU backend is not built yet ([GPU-1])\n  at: --backend gpu\n  try: leave --backend out: the CPU renders\n"
     );
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let folder = Folder::new();
+    let mut child = folder.command(["schema"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), &b""[..]));
+}
+
+#[test]
+fn nor_is_a_closed_standard_error() {
+    let folder = Folder::new();
+    folder.scene("");
+    let mut child = folder.command(["-v", "scene.toml"]).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stderr.take());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert!(folder.path("scene.png").is_file());
+    let mut child = folder.command(["gone.toml"]).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stderr.take());
+    assert_eq!(child.wait().unwrap().code(), Some(2));
 }

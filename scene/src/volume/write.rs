@@ -70,7 +70,7 @@ pub fn write_nrrd(volume: &Volume, path: &Path) -> Result<(), WriteError> {
 /// bit; a masked voxel is written as NaN. The stored type is kept where values are as stored; NRRD has no slope and no
 /// intercept, so with them the values are written, in f64. The same volume gives the same bytes.
 ///
-/// There is never half a file under its name ([`atomic::write`]).
+/// There is never half a file under its name ([`atomic::write()`]).
 ///
 /// # Errors
 /// Whatever the operating system refuses.
