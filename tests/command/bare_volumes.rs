@@ -25,7 +25,7 @@ fn the_content_is_framed_in_a_picture_of_any_shape() {
         let (n, [left, right, top, bottom]) = covered(&folder, "a.png");
         let shorter = w.min(h) as f64;
         let share = ((right - left).max(bottom - top) as f64 + 1.0) / shorter;
-        // The bounds for automatic pictures: 60 … 95 % of the shorter side.
+        // What automatic pictures keep: 60 … 95 % of the shorter side.
         assert!((0.6..=0.95).contains(&share), "{w}x{h}: {share}");
         assert!(n > w * h / 20, "{w}x{h}: {n} pixels");
     }

@@ -42,7 +42,7 @@ fn both_curvatures_of_a_torus_have_their_signs() {
         {
             assert_eq!(point["hessian_estimator"], estimator);
             let (k1, k2) = (number(&point["k1"]), number(&point["k2"]));
-            // The bound for central differences on a curvature 1/r, 1.2 h²/r² of it; the B-spline is closer.
+            // A bound for central differences on a curvature 1/r, 1.2 h²/r² of it; the B-spline is closer.
             let bound = 1.2 / (TUBE * TUBE) / TUBE;
             assert!((k1 - 1.0 / TUBE).abs() < bound, "{kernel}: {k1} for {}", 1.0 / TUBE);
             assert!((k2 - along_ring).abs() < bound, "{kernel}: {k2} for {along_ring}");

@@ -85,12 +85,12 @@ impl<R: Real> IndexRay<R> {
 
     /// A k at or before the first sample with at least that eye depth, close to it.
     pub fn first_at_or_after(&self, depth: f64) -> i64 {
-        (depth / self.depth_step.to_f64() - 0.5).floor() as i64 - 1
+        ((depth / self.depth_step.to_f64() - 0.5).floor() as i64).saturating_sub(1)
     }
 
     /// A k at or after the last sample with at most that eye depth, close to it.
     pub fn last_at_or_before(&self, depth: f64) -> i64 {
-        (depth / self.depth_step.to_f64() - 0.5).ceil() as i64 + 1
+        ((depth / self.depth_step.to_f64() - 0.5).ceil() as i64).saturating_add(1)
     }
 
     /// Origin and displacement for one unit of depth, in index space.
@@ -127,8 +127,11 @@ fn contains<R: Real>(lo: Vec3<R>, hi: Vec3<R>, p: Vec3<R>) -> bool {
     p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z
 }
 
-/// The smallest k with (k + ½)Δ > near.
+/// The smallest k with (k + ½)Δ > near. Beyond 2⁵² steps, where halves are lost, there is none.
 fn first_beyond(near: f64, step: f64) -> i64 {
+    if near / step >= (1u64 << 52) as f64 {
+        return i64::MAX;
+    }
     let mut k = (near / step - 0.5).floor() as i64 - 1;
     while (k as f64 + 0.5) * step <= near {
         k += 1;
@@ -149,6 +152,7 @@ mod tests {
         // near = ½Δ: depth ½Δ is not beyond.
         assert_eq!(first_beyond(0.25, 0.5), 1);
         assert_eq!(first_beyond(0.249, 0.5), 0);
+        assert_eq!(first_beyond(1e30, 0.5), i64::MAX);
     }
 
     proptest! {

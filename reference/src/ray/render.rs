@@ -199,7 +199,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         calls,
         gradient_range,
         reference_length: world(sampling.reference_length, "sampling.reference_length")?,
-        stop_at: R::from_f64(1.0 - sampling.stop_below),
+        stop_at: R::from_f64(stop_at(sampling.stop_below, scene.picture.blend_space)),
         encode: scene.picture.blend_space == BlendSpace::Srgb,
         collects: layers.iter().any(|&l| l != LayerKind::Beauty && l != LayerKind::Counts),
         layers,
@@ -212,6 +212,15 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         field,
         view,
     })
+}
+
+/// The A at which a ray ends, so that what is left out is at most ε·c_max in linear light ([RAY-2]). What is left out of
+/// an encoded sum is decoded with it, and sRGB's curve is nowhere steeper than 2.4/1.055 ≈ 2.275, at its upper end.
+fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
+    match blend_space {
+        BlendSpace::Linear => 1.0 - epsilon,
+        BlendSpace::Srgb => 1.0 - epsilon * 1.055 / 2.4,
+    }
 }
 
 /// What visible samples have to know, by the plan.

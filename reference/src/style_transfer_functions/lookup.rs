@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn the_function_by_hand() {
-        // The nodes of the scene-file page: wax, wax, metal.
+        // Three nodes: wax, wax, metal.
         let at = |s| blend_at(&[60.0, 90.0, 180.0], &[0.0, 0.1, 0.9], &[0, 0, 1], s);
         let blend = |j0, j1, w, alpha_u| Some(Blend { j0, j1, w, alpha_u });
         assert_eq!(at(75.0), blend(0, 0, 0.5, 0.05));

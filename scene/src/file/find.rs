@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 /// The variable that lists folders of volumes.
 const VARIABLE: &str = "DRYPOINT_DATA";
 
-/// The shared data beside a source tree.
-const BESIDE_THE_SOURCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data");
+/// Where volumes lie beside a source tree, from its root: only what is run from there finds them.
+const BESIDE_THE_SOURCE: &str = "../shared/data";
 
 /// The folders in which a volume is looked for that is not where the scene says: those of the environment variable
-/// `DRYPOINT_DATA`, separated as in `PATH`; without the variable the shared data beside the source tree, if it is there.
+/// `DRYPOINT_DATA`, separated as in `PATH`; without the variable `../shared/data`, if it is there.
 pub fn data_folders() -> Vec<PathBuf> {
     match std::env::var_os(VARIABLE) {
         Some(list) => std::env::split_paths(&list).filter(|folder| !folder.as_os_str().is_empty()).collect(),

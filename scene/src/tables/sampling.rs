@@ -27,7 +27,7 @@ pub struct Sampling {
     pub number: Number,
     /// Whether bricks that show nothing are left out ([RAY-2]).
     pub skip_empty: bool,
-    /// ε: the transmittance below which a ray ends; 0 = never ([RAY-2]).
+    /// ε: the transmittance below which a ray ends; 0: only where nothing more can show ([RAY-2]).
     pub stop_below: f64,
     /// Δ₀, the length that opacities are given for ([VAL-4]).
     pub reference_length: Length,
@@ -328,7 +328,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
             Key::new(
                 "stop_below",
                 "RAY-2",
-                "Transmittance below which a ray ends; 0 is never.",
+                "Transmittance below which a ray ends; 0: only where nothing more can show.",
                 &Slot {
                     kind: AnyNumber { bounds: Bounds::BELOW_ONE, unit: "" },
                     get: |s: &Sampling| Some(s.stop_below),

@@ -142,6 +142,14 @@ pub(crate) static TABLE: Description<Transfer> = Description {
                 );
                 check.fault_in(&key, Problem::Contradiction { what, remedy });
             }
+            if transfer.unit == Unit::Percentile
+                && let Some(node) = transfer.nodes.as_ref().and_then(|nodes| nodes.get(i))
+                && !(0.0..=100.0).contains(&node.at)
+            {
+                let what = format!("{} is no percentile", node.at);
+                let remedy = "write a number from 0 to 100, or another transfer.unit".into();
+                check.fault_in(&format!("nodes[{i}].at"), Problem::Contradiction { what, remedy });
+            }
             i += 1;
         }
     },

@@ -92,7 +92,7 @@ fn quintic_spline_on_a_logistic_edge_has_order_four() {
     assert!((order - 4.0).abs() <= 0.4, "order {order}, errors {errors:?}");
 }
 
-/// Central differences of the distance field at the voxels, the 1.2 h²/r² at every one.
+/// Central differences of the distance field at the voxels: within 1.2 h²/r² at every one.
 #[test]
 fn central_differences_of_the_distance_field() {
     let how = Reconstruction { hessian: HessianEstimator::Central, ..Default::default() };
