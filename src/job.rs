@@ -1,26 +1,53 @@
-//! From a scene to a picture: load what the scene names, hand it to the renderer.
+//! From a scene to a picture: load what the scene names, hand it to the renderer, write what comes back.
+//!
+//! ```
+//! use drypoint::job::Job;
+//! use drypoint::scene::file::{Overrides, parse};
+//!
+//! let text = r##"
+//! drypoint = 1
+//! [volume]
+//! phantom = { name = "torus", size = 24 }
+//! [picture]
+//! size = [32, 24]
+//! [transfer]
+//! nodes = [{ at = 100, style = "wax", opacity = 0 }, { at = 150, style = "wax", opacity = 1 }]
+//! "##;
+//! let scene = parse(text, "torus.toml".as_ref(), &Overrides::default())?;
+//! let job = Job::load(scene)?;
+//! let (picture, counts) = job.renderer()?.frame(&|_share| ());
+//! assert_eq!((picture.width, picture.height), (32, 24));
+//! assert!(counts.gradients > 0 && counts.hessians == 0);
+//!
+//! let path = std::env::temp_dir().join(format!("drypoint-torus-{}.png", std::process::id()));
+//! job.write(&picture, &path)?;
+//! # std::fs::remove_file(&path)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-use crate::Failure;
+use crate::{Failure, Failures, Format};
 use drypoint_output::read::read_background;
+use drypoint_output::{OutputError, exr, png};
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint_reference::suggest;
 use drypoint_scene::color::Rgba;
-use drypoint_scene::file::identity;
+use drypoint_scene::file::{Given, identity};
 use drypoint_scene::phantom;
-use drypoint_scene::picture::Provenance;
+use drypoint_scene::picture::{Picture, Provenance};
 use drypoint_scene::plan::Plan;
-use drypoint_scene::style::{Style, load as load_styles};
-use drypoint_scene::tables::{Background, Scene, StepAlong, VolumeSource, VolumeTable};
+use drypoint_scene::style::{Style, StyleError, load as load_styles};
+use drypoint_scene::tables::{Background, Ids, NodeColor, Scene, StepAlong, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{Volume, read};
-use std::path::PathBuf;
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
 
 /// A scene with everything that it names.
 pub struct Job {
-    /// The scene.
+    /// The scene. A transfer function without nodes has those that were found in the data.
     pub scene: Scene,
-    /// What it calls for.
+    /// What the scene called for, as it was given.
     pub plan: Plan,
     /// Its volume.
     pub volume: Volume,
@@ -34,43 +61,35 @@ impl Job {
     /// data.
     ///
     /// # Errors
-    /// What cannot be read, does not exist, or draws nothing.
-    pub fn load(scene: Scene) -> Result<Self, Failure> {
-        let volume = load_volume(&scene.volume)?;
-        Self::with_volume(scene, volume)
+    /// All that cannot be read, does not exist, or draws nothing.
+    pub fn load(scene: Scene) -> Result<Self, Failures> {
+        match load_volume(&scene.volume, &scene.given) {
+            Ok(volume) => Self::with_volume(scene, volume),
+            Err(failure) => {
+                // What else is wrong does not wait for the volume.
+                let nodes = scene.transfer.iter().flat_map(|transfer| transfer.nodes.iter().flatten());
+                let named = nodes.filter_map(|node| match &node.color {
+                    NodeColor::Style(name) => Some(name.as_str()),
+                    NodeColor::Color(_) => None,
+                });
+                let mut others = Vec::new();
+                styles(&scene, named, &mut others);
+                background(&scene, &mut others);
+                Err(Failures::new(failure, others))
+            }
+        }
     }
 
     /// The same for a volume that is already loaded.
     ///
     /// # Errors
     /// As [`Job::load`].
-    pub fn with_volume(mut scene: Scene, volume: Volume) -> Result<Self, Failure> {
-        let Some(transfer) = scene.transfer.as_mut() else {
-            return Err(Failure::new(
-                "the scene draws nothing: it has no [transfer]",
-                volume_name(&scene.volume),
-                "add a [transfer] table, or leave out what replaces it",
-            ));
+    pub fn with_volume(mut scene: Scene, volume: Volume) -> Result<Self, Failures> {
+        let volume = match scene.volume.ids {
+            Ids::Values => volume,
+            Ids::Mask => volume.present(),
         };
-        if transfer.nodes.is_none() {
-            suggest::fill_function(transfer, &volume, scene.volume.outside);
-        }
-        let range = scene.volume.range.unwrap_or_else(|| volume.range());
-        let function = Function::new(transfer, range, &volume).ok_or_else(|| {
-            Failure::new("the transfer function has no node", volume_name(&scene.volume), "give it `nodes`")
-        })?;
-        let styles = match &function {
-            Function::Regular(_) => Vec::new(),
-            Function::Style { names, .. } => load_styles(&scene.styles, names.iter().map(String::as_str))
-                .map_err(|e| Failure::new(e, "[styles]", "`drypoint styles` lists the styles of a theme"))?,
-        };
-        let [width, height] = scene.picture.size;
-        let background = match &scene.picture.background {
-            Background::Picture(path) => Some(
-                read_background(path, width, height).map_err(|e| Failure::new(&e, "picture.background", e.help()))?,
-            ),
-            Background::None | Background::Color(_) => None,
-        };
+        // Of the scene as it was given: that its function was found in the data is part of the plan.
         let mut plan = Plan::new(&scene);
         if let (Some(step), Ok(view)) =
             (scene.sampling.step.world(volume.grid()), View::new(&scene.camera, volume.grid(), scene.picture.size))
@@ -81,14 +100,35 @@ impl Job {
             };
             plan.warn_step(step * stretch, volume.grid().voxel());
         }
+        let Some(transfer) = scene.transfer.as_mut() else {
+            let place = scene.given.position("transfer");
+            return Err(Failure::new("the scene draws nothing", place, "add a [transfer] table").into());
+        };
+        if transfer.nodes.is_none() {
+            suggest::fill_function(transfer, &volume, scene.volume.outside);
+        }
+        let range = scene.volume.range.unwrap_or_else(|| volume.range());
+        let Some(function) = Function::new(transfer, range, &volume) else {
+            let place = scene.given.position("transfer.nodes");
+            return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
+        };
+        let named = match &function {
+            Function::Regular(_) => [].iter(),
+            Function::Style { names, .. } => names.iter(),
+        };
+        let mut failures = Vec::new();
+        let styles = styles(&scene, named.map(String::as_str), &mut failures);
+        let background = background(&scene, &mut failures);
+        Failures::check(failures)?;
         Ok(Self { scene, plan, volume, function, styles, background })
     }
 
     /// The scene made ready for any number of frames.
     ///
     /// # Errors
-    /// A reconstruction that does not exist, a camera without direction.
+    /// A reconstruction that does not exist, a camera without direction, a picture for which there is no memory.
     pub fn renderer(&self) -> Result<Renderer<'_>, Failure> {
+        self.room()?;
         let background = match (&self.background, &self.scene.picture.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
             (None, Background::Color(color)) => Backdrop::Color(*color),
@@ -103,50 +143,101 @@ impl Job {
             background,
         };
         Renderer::new(inputs).map_err(|error| {
-            let remedy = match &error {
-                RenderError::Field(_) => "choose another `sampling.kernel` or `sampling.hessian`",
-                RenderError::View(_) => "move `camera.eye` away from `camera.target`, or give `camera.direction`",
-                RenderError::Nodes(_) => "give `transfer.nodes` in ascending order, with opacities in [0, 1]",
-                RenderError::Length { .. } => "give it in world units or in voxels",
-                RenderError::Styles { .. } => "hand over one style for each name",
+            let (key, remedy) = match &error {
+                RenderError::Field(_) => ("sampling", "choose another sampling.kernel or sampling.hessian"),
+                RenderError::View(_) => ("camera", "move camera.eye away from camera.target, or give camera.direction"),
+                RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
+                RenderError::Length { key } => (*key, "give it in world units or in voxels"),
+                RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
             };
-            Failure::new(error, volume_name(&self.scene.volume), remedy)
+            Failure::new(&error, self.scene.given.position(key), remedy)
         })
     }
 
-    /// What a picture of this job says of its origin ([IO-2]).
+    /// Whether there is memory for a picture: its channels, and once more while they are gathered from tiles.
+    fn room(&self) -> Result<(), Failure> {
+        let [width, height] = self.scene.picture.size;
+        let channels: usize = self.scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
+        let numbers = width.saturating_mul(height).saturating_mul(channels.saturating_mul(2));
+        Vec::<f64>::new().try_reserve_exact(numbers).map_err(|_| {
+            let what = format!("there is no memory for a picture of {width} × {height} pixels");
+            Failure::new(what, self.scene.given.position("picture.size"), "make it smaller, or ask for fewer layers")
+        })
+    }
+
+    /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
     pub fn provenance(&self) -> Provenance {
+        let hash = Sha256::digest(identity(&self.scene));
         Provenance {
             software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
-            scene_hash: identity(&self.scene),
-            plan: self.plan.to_string(),
+            scene_hash: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
+            plan: Plan::new(&self.scene).summary(),
         }
+    }
+
+    /// Writes a picture of this job, as PNG or EXR by the suffix. The file appears whole or not at all.
+    ///
+    /// # Errors
+    /// A suffix of no format, or what the operating system refuses.
+    pub fn write(&self, picture: &Picture, path: &Path) -> Result<(), Failure> {
+        let provenance = self.provenance();
+        let written = match Format::of(path)? {
+            Format::Png => png::write_png(picture, self.scene.picture.bits, &provenance, path),
+            Format::Exr => exr::write_exr(picture, &provenance, path),
+        };
+        written.map_err(|error| Failure::picture(&error, path.display()))
     }
 }
 
-/// Reads or generates a scene's volume.
-///
-/// # Errors
-/// What the reader or the phantom says.
-pub fn load_volume(table: &VolumeTable) -> Result<Volume, Failure> {
-    match &table.source {
-        VolumeSource::File { path, raw } => {
-            read::read(path, raw.as_ref()).map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))
-        }
-        VolumeSource::Phantom(source) => phantom::generate(source)
-            .map_err(|e| Failure::new(e, "volume.phantom", "`drypoint phantom --list` lists phantoms and parameters")),
-    }
-}
-
-/// A scene for a bare volume: an automatic function, a camera that frames the content, a pleasant style.
+/// A scene for a bare volume: an automatic function, a camera that frames the content in a picture of `size` pixels, a
+/// pleasant style.
 pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2]) -> Scene {
     suggest::scene(VolumeSource::File { path, raw: None }, volume, size)
 }
 
-/// How a message names a volume.
-fn volume_name(table: &VolumeTable) -> String {
+/// Reads or generates a scene's volume.
+fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
     match &table.source {
-        VolumeSource::File { path, .. } => path.display().to_string(),
-        VolumeSource::Phantom(source) => format!("phantom {}", source.name),
+        VolumeSource::File { path, raw } => read::read(path, raw.as_ref()).map_err(Failure::from),
+        VolumeSource::Phantom(source) => phantom::generate(source).map_err(|error| {
+            let remedy = "`drypoint phantom --list` lists phantoms and parameters";
+            Failure::new(error, given.position("volume.phantom"), remedy)
+        }),
     }
+}
+
+/// The styles of those names; what is wrong goes to `failures`.
+fn styles<'a>(scene: &Scene, names: impl Iterator<Item = &'a str>, failures: &mut Vec<Failure>) -> Vec<Style> {
+    let mut styles = Vec::new();
+    for name in names {
+        match load_styles(&scene.styles, [name]) {
+            Ok(style) => styles.extend(style),
+            Err(error) => failures.push(style_failure(scene, &error)),
+        }
+    }
+    styles
+}
+
+/// A style or theme that cannot be had, at the key that names it.
+fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
+    let own = |name: &String| scene.styles.files.iter().any(|(known, _)| known == name);
+    let is_bare = |name: &String| name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
+    let key = match error {
+        StyleError::File { name, .. } | StyleError::Picture { name, .. } if own(name) && is_bare(name) => {
+            format!("styles.{name}")
+        }
+        StyleError::File { name, .. } | StyleError::Picture { name, .. } if own(name) => format!("styles.{name:?}"),
+        StyleError::Unknown { .. } => "transfer.nodes".into(),
+        _ => "styles.theme".into(),
+    };
+    Failure::new(error, scene.given.position(&key), error.help())
+}
+
+/// The pixels behind, where the scene has a picture there; what is wrong goes to `failures`.
+fn background(scene: &Scene, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
+    let Background::Picture(path) = &scene.picture.background else { return None };
+    let [width, height] = scene.picture.size;
+    let pixels = read_background(path, width, height);
+    let failed = |error| Failure::new(&error, scene.given.position("picture.background"), OutputError::help(&error));
+    pixels.map_err(|error| failures.push(failed(error))).ok()
 }

@@ -1,13 +1,25 @@
 //! Drypoint, an illustrative volume renderer: lit-sphere styles, contours of controlled thickness and translucent
 //! volumes from CT, MRI and simulation data.
 //!
-//! This facade holds no formula. [`scene`] says what a picture is made of, [`reference`] computes it, [`output`] writes
-//! it; [`job`] hands from one to the next.
+//! This facade holds no formula. [`scene`] says what a picture is made of, [`mod@reference`] computes it, [`output`] writes
+//! it; [`job`] hands from one to the next:
+//!
+//! | step | with |
+//! |---|---|
+//! | a scene from a file or a text | [`scene::file::load`], [`scene::file::parse`] |
+//! | a scene for a bare volume | [`scene::volume::read::read`], [`job::bare`] |
+//! | everything that it names | [`job::Job::load`], [`job::Job::with_volume`] |
+//! | a picture, and what it took | [`job::Job::renderer`], then [`reference::ray::Renderer::frame`] |
+//! | a file | [`job::Job::write`] |
+//!
+//! Whatever can go wrong is a [`Failure`]: what, where, and what to do.
 
 pub mod failure;
+pub mod format;
 pub mod job;
 
 pub use drypoint_output as output;
 pub use drypoint_reference as reference;
 pub use drypoint_scene as scene;
-pub use failure::Failure;
+pub use failure::{Failure, Failures};
+pub use format::Format;

@@ -184,6 +184,15 @@ impl Plan {
         self.passes.iter().any(|need| need.pass == pass)
     }
 
+    /// Effects, what they need, and the keys that asked, one a line: the plan as a picture's metadata has it ([IO-2]).
+    /// Without places and notes for the author, so that every file that says the same scene has the same.
+    pub fn summary(&self) -> String {
+        let needs = self.needs.iter().map(|n| (&n.effect, n.quantity.name(), &n.key));
+        let passes = self.passes.iter().map(|p| (&p.effect, p.pass.name(), &p.key));
+        let lines = needs.chain(passes).map(|(effect, needs, key)| format!("{effect}: {needs}, because of {key}\n"));
+        lines.collect()
+    }
+
     /// Warns where the longest distance between samples along a ray exceeds a voxel ([RAY-1]), both in world units.
     pub fn warn_step(&mut self, longest_step: f64, voxel: f64) {
         if longest_step > voxel {

@@ -1,13 +1,14 @@
 //! `compare`: two pictures.
 
-use super::report::print;
-use super::{Done, Outcome};
+use super::report::{print, print_json};
+use super::{Done, Outcome, Talk, report, target};
 use clap::Args;
-use drypoint::Failure;
 use drypoint::output::compare::difference::difference_picture;
 use drypoint::output::compare::{self, Limits, Options, flip};
-use drypoint::output::{OutputError, png, read::read_image};
+use drypoint::output::read::read_image;
+use drypoint::output::{OutputError, png};
 use drypoint::scene::picture::Provenance;
+use drypoint::{Failure, Failures, Format};
 use std::path::PathBuf;
 
 /// Compare two pictures: largest and RMS difference of every layer, and FLIP of the colours.
@@ -20,41 +21,53 @@ pub(super) struct Compare {
     /// As JSON
     #[arg(long)]
     json: bool,
-    /// Write a picture of the difference (FLIP)
+    /// Write a picture of the difference (FLIP), as PNG
     #[arg(long, value_name = "FILE")]
     diff: Option<PathBuf>,
     /// Exit with 1 where the largest difference exceeds this
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = limit)]
     max: Option<f64>,
     /// Exit with 1 where the RMS difference exceeds this
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = limit)]
     rms: Option<f64>,
     /// Exit with 1 where the mean FLIP exceeds this
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = limit)]
     flip: Option<f64>,
 }
 
+/// A bound that something can exceed: NaN is none, and would let everything pass.
+fn limit(text: &str) -> Result<f64, &'static str> {
+    let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x >= 0.0);
+    number.ok_or("a bound is a number of at least 0")
+}
+
 impl Compare {
-    pub(super) fn run(self) -> Outcome {
-        let say =
-            |e: OutputError| Failure::new(&e, format_args!("{} and {}", self.a.display(), self.b.display()), e.help());
-        let (a, b) = (read_image(&self.a).map_err(say)?, read_image(&self.b).map_err(say)?);
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        if let Some(path) = &self.diff {
+            target::picture(path, &[Format::Png])?;
+        }
+        let say = |error: OutputError| {
+            Failure::picture(&error, format_args!("{} and {}", self.a.display(), self.b.display()))
+        };
+        let (a, b) = match (read_image(&self.a).map_err(say), read_image(&self.b).map_err(say)) {
+            (Ok(a), Ok(b)) => (a, b),
+            (Err(first), second) => return Err(Failures::new(first, second.err())),
+            (Ok(_), Err(second)) => return Err(second.into()),
+        };
         let comparison = compare::compare(&a, &b, &Options::default()).map_err(say)?;
         if let Some(path) = &self.diff {
             let map = flip::flip(&a, &b, Options::default().pixels_per_degree).map_err(say)?;
             png::write_png(&difference_picture(&map), 8, &Provenance::default(), path).map_err(say)?;
+            report::note(talk, path.display());
         }
         if self.json {
-            let json = serde_json::to_string_pretty(&comparison).map_err(|e| {
-                Failure::new("the comparison cannot be written as JSON", e, "this is a fault of the program")
-            })?;
-            print(&format!("{json}\n"))?;
+            print_json(serde_json::to_string_pretty(&comparison))?;
         } else {
-            print(&comparison.to_string())?;
+            print(&format!("{comparison}\n"))?;
         }
         let exceeded = comparison.exceeded(&Limits { max: self.max, rms: self.rms, flip: self.flip });
         for line in &exceeded {
-            eprintln!("{line}");
+            report::note(talk, line);
         }
         Ok(if exceeded.is_empty() { Done::Yes } else { Done::Different })
     }

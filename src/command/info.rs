@@ -1,8 +1,8 @@
 //! `info`: what a volume file holds.
 
-use super::{Outcome, report::print};
+use super::report::{Progress, print, print_json};
+use super::{Outcome, Talk};
 use clap::Args;
-use drypoint::Failure;
 use drypoint::scene::volume::{info, read};
 use std::path::PathBuf;
 
@@ -18,14 +18,11 @@ pub(super) struct Info {
 }
 
 impl Info {
-    pub(super) fn run(self) -> Outcome {
-        let volume = read::read(&self.volume, None).map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))?;
-        let info = info::Info::new(&self.volume, &volume);
-        if !self.json {
-            return print(&info.to_string());
-        }
-        let json = serde_json::to_string_pretty(&info)
-            .map_err(|e| Failure::new("the facts cannot be written as JSON", e, "this is a fault of the program"))?;
-        print(&format!("{json}\n"))
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        let info = {
+            let _reading = Progress::new(talk, "reading");
+            info::Info::new(&self.volume, &read::read(&self.volume, None)?)
+        };
+        if self.json { print_json(serde_json::to_string_pretty(&info)) } else { print(&format!("{info}\n")) }
     }
 }

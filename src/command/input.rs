@@ -1,10 +1,13 @@
 //! What a verb is given: a scene, a bare volume, or nothing, which is the embedded scene.
 
-use super::Failures;
+use super::Talk;
+use super::report::note;
 use drypoint::job::{Job, bare};
-use drypoint::scene::file::{self, Overrides};
-use drypoint::scene::volume::read;
-use drypoint::{Failure, job};
+use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
+use drypoint::scene::picture::LayerKind;
+use drypoint::scene::tables::{Scene, VolumeSource};
+use drypoint::scene::volume::{Volume, read};
+use drypoint::{Failure, Failures};
 use std::path::{Path, PathBuf};
 
 /// `--set key=value`, as a verb takes them.
@@ -15,18 +18,127 @@ pub(super) struct Set {
     pub set: Vec<String>,
 }
 
-impl Set {
-    /// The overrides, with more of the verb's own flags after them.
-    pub(super) fn overrides(&self, more: &[(&str, String)]) -> Result<Overrides, Failures> {
-        let mut overrides = Overrides::default();
-        for argument in &self.set {
-            overrides.push_argument(argument).map_err(faults)?;
-        }
-        for (key, value) in more {
-            overrides.push(*key, value.clone());
-        }
-        Ok(overrides)
+/// A flag that stands for a scene key.
+pub(super) struct Flag {
+    /// The key.
+    pub key: &'static str,
+    /// Its value, as a scene file has it.
+    pub value: String,
+    /// The flag as it was typed, for messages.
+    pub typed: String,
+}
+
+impl Flag {
+    /// A flag whose value is a name, whatever TOML would make of it.
+    pub(super) fn name(key: &'static str, flag: &str, value: &str) -> Self {
+        Self { key, value: format!("{value:?}"), typed: format!("{flag} {}", value.trim()) }
     }
+
+    /// A flag whose value is a number or a text with a unit.
+    pub(super) fn length(key: &'static str, flag: &str, value: &str) -> Self {
+        match value.trim().parse::<f64>() {
+            Ok(number) => Self { value: format!("{number:?}"), ..Self::name(key, flag, value) },
+            Err(_) => Self::name(key, flag, value),
+        }
+    }
+}
+
+/// What goes over a scene.
+#[derive(Default)]
+pub(super) struct Over {
+    /// `--set`, then the flags.
+    overrides: Overrides,
+    /// Those of `[picture]` alone.
+    picture: Overrides,
+    /// Whether one changes the kind of the transfer function.
+    sets_kind: bool,
+    flags: Vec<Flag>,
+    /// Whether only the layer `beauty` is wanted: what no one writes is not computed ([PLAN-1]).
+    pub beauty_only: bool,
+    /// Pixels that the longer side of the picture has, in place of what the scene says.
+    pub longer_side: Option<usize>,
+}
+
+impl Over {
+    /// From a verb's `--set`s and its own flags, which go over them.
+    pub(super) fn new(set: &Set, flags: Vec<Flag>) -> Result<Self, Failures> {
+        let mut over = Self { flags, ..Self::default() };
+        let mut failures = Vec::new();
+        for argument in &set.set {
+            over.sets_kind |= argument.trim_start().starts_with("transfer.kind");
+            if argument.trim_start().starts_with("picture.") {
+                // A fault of it is told of the whole.
+                let _ = over.picture.push_argument(argument);
+            }
+            if let Err(faults) = over.overrides.push_argument(argument) {
+                failures.extend(faults.iter().map(Failure::from));
+            }
+        }
+        for flag in &over.flags {
+            over.overrides.push(flag.key, flag.value.clone());
+            if flag.key.starts_with("picture.") {
+                over.picture.push(flag.key, flag.value.clone());
+            }
+        }
+        Failures::check(failures).map(|()| over)
+    }
+
+    /// The faults of a scene; what a flag said is shown as it was typed.
+    fn failures(&self, faults: Faults) -> Failures {
+        let failure = |fault: &Fault| {
+            let flag = match &fault.place {
+                Place::Set(text) => self.flags.iter().find(|flag| *text == format!("{}={}", flag.key, flag.value)),
+                Place::File { .. } => None,
+            };
+            match flag {
+                Some(flag) => Failure::new(fault.what(), &flag.typed, fault.remedy()),
+                None => Failure::from(fault),
+            }
+        };
+        let mut each = faults.iter().map(failure);
+        match each.next() {
+            Some(first) => Failures::new(first, each),
+            // A list of faults is never empty.
+            None => faults.clone().into(),
+        }
+    }
+}
+
+/// Loads what a verb is given.
+pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
+    let finished = |mut scene: Scene| {
+        if over.beauty_only {
+            scene.picture.layers = vec![LayerKind::Beauty];
+        }
+        if let Some(side) = over.longer_side {
+            let [width, height] = scene.picture.size;
+            scene.picture.size = [width, height].map(|n| (n * side).div_ceil(width.max(height)));
+        }
+        scene
+    };
+    let Some(path) = path else {
+        let scene = file::parse(file::DEFAULT_SCENE, Path::new("the embedded scene"), &over.overrides);
+        return Job::load(finished(scene.map_err(|faults| over.failures(faults))?));
+    };
+    if is_scene(path) {
+        let scene = file::load(path, &over.overrides).map_err(|faults| over.failures(faults))?;
+        return Job::load(finished(scene));
+    }
+    if !read::is_volume(path) {
+        return Err(no_input(path).into());
+    }
+    let volume = read::read(path, None)?;
+    let scene = finished(suggested(path, &volume, over)?);
+    match &scene.volume.source {
+        VolumeSource::File { path: shown, raw: None } if shown == path => Job::with_volume(scene, volume),
+        _ => Job::load(scene),
+    }
+}
+
+/// What flags alone say, all else being default: a scene of no volume.
+pub(super) fn settings(flags: Vec<Flag>) -> Result<Scene, Failures> {
+    let over = Over::new(&Set::default(), flags)?;
+    file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
 }
 
 /// Whether a path is taken for a scene file.
@@ -34,35 +146,68 @@ pub(super) fn is_scene(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
-/// Loads a job.
-pub(super) fn load(path: Option<&PathBuf>, overrides: &Overrides) -> Result<Job, Failures> {
-    let Some(path) = path else {
-        let scene = file::parse(file::DEFAULT_SCENE, Path::new("the embedded scene"), overrides).map_err(faults)?;
-        return Ok(Job::load(scene)?);
+/// Why a path is neither a scene nor a volume.
+pub(super) fn no_input(path: &Path) -> Failure {
+    let what = match std::fs::metadata(path) {
+        Ok(found) if found.is_dir() => "a folder is neither a scene nor a volume".into(),
+        Ok(_) => "the suffix is neither that of a scene nor of a volume".into(),
+        Err(error) => format!("the file cannot be read: {error}"),
     };
-    if is_scene(path) {
-        let scene = file::load(path, overrides).map_err(faults)?;
-        return Ok(Job::load(scene)?);
-    }
-    if !read::is_volume(path) {
-        return Err(Failure::new(
-            "neither a scene nor a volume",
-            path.display(),
-            "scenes end in .toml; volumes in .nrrd, .nhdr, .nii, .nii.gz, .hdr, .mhd, .mha or .raw",
-        )
-        .into());
-    }
-    let volume = read::read(path, None).map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))?;
-    let suggested = bare(path.clone(), &volume, [512, 512]);
-    // Through the text of the scene, so that overrides act on a bare volume as on any scene.
-    let text = file::write_full(&suggested);
-    // The text has the volume's path as it was given; a name without folder leaves it as it is.
-    let name = path.file_name().map_or(path.as_path(), Path::new);
-    let scene = file::parse(&text, name, overrides).map_err(faults)?;
-    Ok(job::Job::with_volume(scene, volume)?)
+    let suffixes = read::EXTENSIONS.map(|suffix| format!(".{suffix}")).join(", ");
+    Failure::new(what, path.display(), format!("check the path; scenes end in .toml, volumes in {suffixes}"))
 }
 
-/// All faults of a scene.
-pub(super) fn faults(faults: file::Faults) -> Failures {
-    Failures(faults.iter().map(|f| Failure::new(f.what(), f.position(), f.remedy())).collect())
+/// The scene for a bare volume. It goes through its own text, so that overrides act on it as on any scene.
+fn suggested(path: &Path, volume: &Volume, over: &Over) -> Result<Scene, Failures> {
+    let parse = |text: &str, name: &str, overrides: &Overrides| file::parse(text, Path::new(name), overrides);
+    // The camera frames the content in a picture of one shape. A fault of that is told below.
+    let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
+    let suggested = bare(path.to_path_buf(), volume, size);
+    let mut text = file::write_full(&suggested);
+    if over.sets_kind {
+        // Nodes of one kind do not fit the other: they are found anew.
+        let nodes = Overrides::from_iter([("transfer.nodes", "off")]);
+        text = parse(&text, "", &nodes).map_or(text, |scene| file::write_full(&scene));
+    }
+    // A name without folder leaves the volume's path as it was given.
+    let name = format!("the scene for {}", path.file_name().unwrap_or_default().to_string_lossy());
+    let mut scene = parse(&text, &name, &over.overrides).map_err(|faults| over.failures(faults))?;
+    // Nobody wrote its lines.
+    scene.given.keep_overrides();
+    if !scene.given.contains("volume.file") && !scene.given.contains("volume.phantom") {
+        // Not from the text, where a path that is no Unicode would be another one.
+        scene.volume.source = suggested.volume.source;
+    }
+    Ok(scene)
+}
+
+/// A scene that says nothing: every key has its default.
+const NOTHING: &str = "drypoint = 1\nvolume.file = \"none\"\n";
+
+/// Warnings of a job and, where asked for, what it is made of.
+pub(super) fn tell(talk: Talk, job: &Job) {
+    for warning in &job.plan.warnings {
+        note(talk, format_args!("warning: {warning}"));
+    }
+    if let Some(mask) = job.volume.mask() {
+        let (voxels, are) = if mask.count() == 1 { ("voxel", "is") } else { ("voxels", "are") };
+        note(
+            talk,
+            format_args!("warning: {} {voxels} {are} NaN or infinite: the cells around are transparent", mask.count()),
+        );
+    }
+    if talk.verbose {
+        let [nx, ny, nz] = job.volume.dims();
+        let voxels = job.volume.voxels();
+        let source = match &job.scene.volume.source {
+            VolumeSource::File { path, .. } => path.display().to_string(),
+            VolumeSource::Phantom(phantom) => format!("phantom {}", phantom.name),
+        };
+        note(talk, format_args!("{source}: {nx} × {ny} × {nz} voxels, {}\n\n{}", voxels.voxel_type().name(), job.plan));
+    }
+}
+
+/// Every file of a list that is not there, so that work does not end in the middle.
+pub(super) fn all_there(files: &[PathBuf]) -> Result<(), Failures> {
+    Failures::check(files.iter().filter(|file| !file.is_file()).map(|file| no_input(file)))
 }

@@ -1,5 +1,6 @@
 //! The verbs of the command line, one file each; exit codes are decided here and nowhere else.
 
+mod arguments;
 mod compare;
 mod completions;
 mod info;
@@ -11,22 +12,26 @@ mod render;
 mod report;
 mod schema;
 mod sheet;
+mod stats;
 mod styles;
+mod target;
 
+use arguments::Arguments;
 use clap::{Args, Parser, Subcommand};
-use drypoint::Failure;
-use drypoint::output::atomic;
+use drypoint::Failures;
+use drypoint::scene::atomic;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Illustrations from volumes: CT, MRI and simulation data in lit-sphere styles with contours of controlled thickness.
+///
+/// Without a verb it renders: `drypoint head.nii.gz` is `drypoint render head.nii.gz`. Exit codes: 0 done, 1 a
+/// comparison failed, 2 bad use or bad input, 130 interrupted.
 #[derive(Debug, Parser)]
-#[command(name = "drypoint", version, about, propagate_version = true, args_conflicts_with_subcommands = true)]
+#[command(name = "drypoint", version, propagate_version = true, subcommand_required = true)]
 struct Cli {
     #[command(subcommand)]
-    verb: Option<Verb>,
-    #[command(flatten)]
-    render: render::Render,
+    verb: Verb,
     #[command(flatten)]
     talk: Talk,
 }
@@ -38,7 +43,7 @@ struct Talk {
     #[arg(short, long, global = true)]
     quiet: bool,
     /// Say more: what was loaded, the plan, the counts
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, conflicts_with = "quiet")]
     verbose: bool,
 }
 
@@ -74,60 +79,67 @@ enum Done {
     Different,
 }
 
-/// Runs a command line. 0: done; 1: a comparison failed; 2: bad use or bad input.
-pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match Cli::try_parse_from(arguments) {
-        Ok(cli) => cli,
-        Err(error) => {
-            // Printing can only fail on a closed pipe, where nobody reads.
-            let _ = error.print();
-            return if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS };
-        }
-    };
-    let talk = cli.talk;
-    // Ctrl-C leaves no half file. Where no handler can be set, the unfinished file has a name of its own beside the target.
+type Outcome = Result<Done, Failures>;
+
+/// Bad use or bad input.
+const BAD: u8 = 2;
+
+/// What shells expect of a program that SIGINT ended: 128 and the number of the signal. Scripts can so tell an
+/// interrupt from bad input.
+const INTERRUPTED: i32 = 130;
+
+/// Runs a command line. 0: done; 1: a comparison failed; 2: bad use or bad input; 130: interrupted.
+pub(crate) fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
+    // Ctrl-C leaves no half file. Where no handler can be set, the unfinished file has a name of its own.
     let _ = ctrlc::set_handler(|| {
         atomic::remove_unfinished();
-        std::process::exit(2);
+        std::process::exit(INTERRUPTED);
     });
-    let result = match cli.verb {
-        None => cli.render.run(talk),
-        Some(Verb::Render(verb)) => verb.run(talk),
-        Some(Verb::Info(verb)) => verb.run(),
-        Some(Verb::Probe(verb)) => verb.run(),
-        Some(Verb::Phantom(verb)) => verb.run(talk),
-        Some(Verb::Plan(verb)) => verb.run(),
-        Some(Verb::Styles(verb)) => verb.run(talk),
-        Some(Verb::Compare(verb)) => verb.run(),
-        Some(Verb::Sheet(verb)) => verb.run(talk),
-        Some(Verb::Schema(verb)) => verb.run(),
-        Some(Verb::Completions(verb)) => verb.run(),
-    };
-    match result {
+    match parsed(words) {
+        Ok(Ok(cli)) => exit_code(cli.run()),
+        Ok(Err(help)) => {
+            // Printing can only fail on a closed pipe, where nobody reads.
+            let _ = help.print();
+            ExitCode::SUCCESS
+        }
+        Err(failures) => exit_code(Err(failures)),
+    }
+}
+
+fn exit_code(outcome: Outcome) -> ExitCode {
+    match outcome {
         Ok(Done::Yes) => ExitCode::SUCCESS,
-        Ok(Done::Different) => ExitCode::from(1),
+        Ok(Done::Different) => ExitCode::FAILURE,
         Err(failures) => {
-            for failure in failures.0 {
-                eprintln!("{failure}");
-            }
-            ExitCode::from(2)
+            report::say(failures);
+            ExitCode::from(BAD)
         }
     }
 }
 
-/// Everything that was wrong.
-struct Failures(Vec<Failure>);
-
-impl From<Failure> for Failures {
-    fn from(failure: Failure) -> Self {
-        Self(vec![failure])
+/// The verb and its arguments, or the help or version that was asked for.
+fn parsed(words: impl IntoIterator<Item = OsString>) -> Result<Result<Cli, clap::Error>, Failures> {
+    let Arguments { words, verb } = Arguments::new(words)?;
+    match Cli::try_parse_from(words) {
+        Err(error) if error.use_stderr() => Err(arguments::refused(&error, &verb).into()),
+        result => Ok(result),
     }
 }
 
-impl From<Vec<Failure>> for Failures {
-    fn from(failures: Vec<Failure>) -> Self {
-        Self(failures)
+impl Cli {
+    fn run(self) -> Outcome {
+        let talk = self.talk;
+        match self.verb {
+            Verb::Render(verb) => verb.run(talk),
+            Verb::Info(verb) => verb.run(talk),
+            Verb::Probe(verb) => verb.run(talk),
+            Verb::Phantom(verb) => verb.run(talk),
+            Verb::Plan(verb) => verb.run(talk),
+            Verb::Styles(verb) => verb.run(talk),
+            Verb::Compare(verb) => verb.run(talk),
+            Verb::Sheet(verb) => verb.run(talk),
+            Verb::Schema(verb) => verb.run(),
+            Verb::Completions(verb) => verb.run(),
+        }
     }
 }
-
-type Outcome = Result<Done, Failures>;

@@ -1,35 +1,38 @@
 //! `phantom`: a volume with known truth.
 
-use super::report::{note, print};
+use super::report::{Progress, note, print};
 use super::{Done, Outcome, Talk};
 use clap::Args;
-use drypoint::Failure;
-use drypoint::scene::phantom;
+use clap::builder::PossibleValuesParser;
+use drypoint::scene::phantom::PhantomError;
 use drypoint::scene::tables::PhantomSource;
-use drypoint::scene::volume::{VoxelType, write};
-use std::path::PathBuf;
+use drypoint::scene::volume::VoxelType;
+use drypoint::scene::volume::write::{WriteError, write_nrrd};
+use drypoint::scene::{atomic, phantom};
+use drypoint::{Failure, Failures};
+use std::path::{Path, PathBuf};
 
 /// Write a phantom as an NRRD volume.
 #[derive(Debug, Args)]
 pub(super) struct Phantom {
     /// Which phantom; `--list` shows all
-    #[arg(required_unless_present = "list")]
+    #[arg(required_unless_present = "list", value_parser = PossibleValuesParser::new(phantom::names()), hide_possible_values = true)]
     name: Option<String>,
     /// Where to write (.nrrd)
     #[arg(short, long, value_name = "FILE", required_unless_present = "list")]
     output: Option<PathBuf>,
     /// Voxels along each axis: one number, or three as X,Y,Z
-    #[arg(long, value_delimiter = ',', default_value = "128")]
+    #[arg(long, value_name = "N", value_delimiter = ',', default_value = "128")]
     size: Vec<usize>,
     /// World units between voxels: one number, or three as X,Y,Z
-    #[arg(long, value_delimiter = ',', default_value = "1")]
+    #[arg(long, value_name = "X", value_delimiter = ',', default_value = "1")]
     spacing: Vec<f64>,
-    /// Stored type: u8, i8, u16, i16, u32, i32, u64, i64, f32, f64
-    #[arg(long = "type", value_name = "TYPE", default_value = "u8")]
+    /// Stored type
+    #[arg(long = "type", value_name = "TYPE", default_value = "u8", value_parser = PossibleValuesParser::new(VoxelType::ALL.iter().map(|t| t.name())))]
     voxel_type: String,
     /// A parameter of the phantom, such as R=40
-    #[arg(long, value_name = "K=V")]
-    param: Vec<String>,
+    #[arg(long, value_name = "K=V", value_parser = parameter)]
+    param: Vec<(String, f64)>,
     /// List the phantoms and their parameters
     #[arg(long)]
     list: bool,
@@ -38,28 +41,36 @@ pub(super) struct Phantom {
 impl Phantom {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let (false, Some(name), Some(output)) = (self.list, &self.name, &self.output) else { return print(&list()) };
-        let voxel_type = VoxelType::from_name(&self.voxel_type).ok_or_else(|| {
-            let known: Vec<_> = VoxelType::ALL.iter().map(|t| t.name()).collect();
-            Failure::new(
-                format!("there is no type `{}`", self.voxel_type),
-                "--type",
-                format!("one of {}", known.join(", ")),
-            )
-        })?;
+        checked(output)?;
         let source = PhantomSource {
             name: name.clone(),
             size: three(&self.size, "--size")?,
             spacing: three(&self.spacing, "--spacing")?,
-            voxel_type,
-            params: self.param.iter().map(|p| parameter(p)).collect::<Result<_, _>>()?,
+            voxel_type: VoxelType::from_name(&self.voxel_type).unwrap_or(VoxelType::U8),
+            params: self.param,
         };
-        let volume = phantom::generate(&source).map_err(|e| {
-            Failure::new(e, format!("phantom {name}"), "`drypoint phantom --list` lists phantoms and parameters")
+        let _making = Progress::new(talk, name);
+        let volume = phantom::generate(&source).map_err(|error| {
+            let remedy = match &error {
+                PhantomError::Memory { .. } => "ask for fewer voxels with --size",
+                PhantomError::Space(_) => "give other numbers with --size or --spacing",
+                _ => "`drypoint phantom --list` lists phantoms and parameters",
+            };
+            Failure::new(&error, format_args!("drypoint phantom {name}"), remedy)
         })?;
-        write::write_nrrd(&volume, output).map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))?;
+        write_nrrd(&volume, output).map_err(Failure::from)?;
         note(talk, output.display());
         Ok(Done::Yes)
     }
+}
+
+/// The name must end as what is written, and be one that can be written now.
+fn checked(output: &Path) -> Result<(), Failures> {
+    if !output.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("nrrd")) {
+        let what = "a phantom is written as NRRD";
+        return Err(Failure::new(what, output.display(), "give a name that ends in .nrrd").into());
+    }
+    atomic::check(output).map_err(|source| Failure::from(WriteError { file: output.to_path_buf(), source }).into())
 }
 
 /// One number for all axes, or three.
@@ -67,15 +78,14 @@ fn three<T: Copy>(given: &[T], flag: &str) -> Result<[T; 3], Failure> {
     match *given {
         [a] => Ok([a; 3]),
         [a, b, c] => Ok([a, b, c]),
-        _ => Err(Failure::new(format!("{} numbers", given.len()), flag, "give one, or three as X,Y,Z")),
+        _ => Err(Failure::new(format!("{} numbers for three axes", given.len()), flag, "give one, or three as X,Y,Z")),
     }
 }
 
 /// `k=v`.
-fn parameter(text: &str) -> Result<(String, f64), Failure> {
-    text.split_once('=')
-        .and_then(|(k, v)| Some((k.trim().to_owned(), v.trim().parse::<f64>().ok().filter(|v| v.is_finite())?)))
-        .ok_or_else(|| Failure::new(format!("`{text}` is no parameter"), "--param", "write it as R=40"))
+fn parameter(text: &str) -> Result<(String, f64), &'static str> {
+    let pair = text.split_once('=').and_then(|(k, v)| Some((k.trim().to_owned(), v.trim().parse::<f64>().ok()?)));
+    pair.ok_or("a parameter is a name and a number, such as R=40")
 }
 
 /// Every phantom with its parameters.

@@ -1,8 +1,8 @@
 //! `plan`: what a scene calls for, and why.
 
-use super::Outcome;
-use super::input::{self, Set};
-use super::report::print;
+use super::input::{self, Over, Set};
+use super::report::{Progress, print};
+use super::{Outcome, Talk};
 use clap::Args;
 use drypoint::scene::file::write_full;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ pub(super) struct Plan {
     /// A scene or a volume; without either, the embedded scene
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Print the scene with every default filled in, as a valid scene
+    /// Print the scene with every default filled in, as a valid scene; its paths are those from the working directory
     #[arg(long)]
     full: bool,
     #[command(flatten)]
@@ -21,8 +21,12 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn run(self) -> Outcome {
-        let job = input::load(self.input.as_ref(), &self.set.overrides(&[])?)?;
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        let over = Over::new(&self.set, Vec::new())?;
+        let job = {
+            let _loading = Progress::new(talk, "loading");
+            input::load(self.input.as_deref(), &over)?
+        };
         print(&if self.full { write_full(&job.scene) } else { job.plan.to_string() })
     }
 }

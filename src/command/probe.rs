@@ -1,157 +1,157 @@
 //! `probe`: value, derivatives and curvature at points.
 
-use super::Outcome;
-use super::report::print;
+use super::input::{self, Flag};
+use super::report::{Progress, print};
+use super::{Outcome, Talk};
 use clap::{Args, ValueEnum};
-use drypoint::Failure;
 use drypoint::reference::field::probe::{Probe as Probed, at_index};
-use drypoint::reference::field::{Field, GradientEstimator, HessianEstimator, Kernel, Outside, Reconstruction, Rung};
+use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::space::Grid;
 use drypoint::scene::volume::read;
+use drypoint::{Failure, Failures};
 use serde_json::json;
 use std::io::BufRead;
 use std::path::PathBuf;
 
 /// Print value, gradient, Hessian, normal and curvatures at points, as one JSON array.
+///
+/// Each object says in hessian_estimator which estimator made hessian, k1, k2, e1, e2, mean, gaussian and kv. Where
+/// there is no normal, normal, e1 and e2 are null and the curvatures 0.
 #[derive(Debug, Args)]
 pub(super) struct Probe {
     /// A volume
     #[arg(value_name = "VOLUME")]
     volume: PathBuf,
-    /// A point; without one, points come from standard input, one a line
-    #[arg(long, value_name = "X,Y,Z", num_args = 1.., allow_hyphen_values = true)]
-    at: Vec<String>,
+    /// Points; without one, they come from standard input, one a line
+    #[arg(long, value_name = "X,Y,Z", num_args = 1.., value_parser = vector)]
+    at: Vec<DVec3>,
     /// The space of the points; derivatives are always in world units
     #[arg(long, value_enum, default_value_t = Space::World)]
     space: Space,
     /// The direction towards the eye, in world space, for the curvature along it
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
-    view: Option<String>,
-    /// Kernel
-    #[arg(long, value_enum, default_value_t = KernelName::Trilinear)]
-    kernel: KernelName,
-    /// Gradient estimator
-    #[arg(long, value_enum, default_value_t = GradientName::Central)]
-    gradient: GradientName,
-    /// Hessian estimator
-    #[arg(long, value_enum, default_value_t = HessianName::Auto)]
-    hessian: HessianName,
-    /// σ of the gaussian Hessian, in world units [default: one voxel]
-    #[arg(long, value_name = "LENGTH")]
-    scale: Option<f64>,
-    /// Which values lie outside
-    #[arg(long, value_enum, default_value_t = OutsideName::Low)]
-    outside: OutsideName,
-}
-
-macro_rules! names {
-    ($name:ident of $type:ty { $($variant:ident $text:literal = $value:expr;)* }) => {
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-        enum $name { $(#[value(name = $text)] $variant,)* }
-        impl From<$name> for $type {
-            fn from(name: $name) -> Self {
-                match name { $($name::$variant => $value,)* }
-            }
-        }
-    };
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction)]
+    view: Option<DVec3>,
+    /// trilinear, bspline, bspline-smooth, bspline5 or catmull-rom
+    #[arg(long, value_name = "NAME", default_value = "trilinear")]
+    kernel: String,
+    /// central, analytic, sobel or regression
+    #[arg(long, value_name = "NAME", default_value = "central")]
+    gradient: String,
+    /// auto, analytic, central or gaussian
+    #[arg(long, value_name = "NAME", default_value = "auto")]
+    hessian: String,
+    /// σ of the gaussian Hessian: a number in world units, or such as "2 voxels"
+    #[arg(long, value_name = "LENGTH", default_value = "1 voxel")]
+    scale: String,
+    /// Which values lie outside: low or high
+    #[arg(long, value_name = "NAME", default_value = "low")]
+    outside: String,
 }
 
 /// The space of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Space {
+    /// The file's own coordinates
     World,
+    /// Voxel centres at whole numbers from 0
     Index,
 }
 
-names!(KernelName of Kernel {
-    Trilinear "trilinear" = Kernel::Trilinear;
-    Bspline "bspline" = Kernel::Bspline;
-    BsplineSmooth "bspline-smooth" = Kernel::BsplineSmooth;
-    Bspline5 "bspline5" = Kernel::Bspline5;
-    CatmullRom "catmull-rom" = Kernel::CatmullRom;
-});
-names!(GradientName of GradientEstimator {
-    Central "central" = GradientEstimator::Central;
-    Analytic "analytic" = GradientEstimator::Analytic;
-    Sobel "sobel" = GradientEstimator::Sobel;
-    Regression "regression" = GradientEstimator::Regression;
-});
-names!(HessianName of HessianEstimator {
-    Auto "auto" = HessianEstimator::Auto;
-    Analytic "analytic" = HessianEstimator::Analytic;
-    Central "central" = HessianEstimator::Central;
-    Gaussian "gaussian" = HessianEstimator::Gaussian;
-});
-names!(OutsideName of Outside {
-    Low "low" = Outside::Low;
-    High "high" = Outside::High;
-});
-
 impl Probe {
-    pub(super) fn run(self) -> Outcome {
-        let points = self.points()?;
-        let view = self.view.as_deref().map(|text| vector(text, "--view")).transpose()?;
-        if view.is_some_and(|v| v.length() == 0.0) {
-            return Err(
-                Failure::new("the view direction has no length", "--view", "give a direction such as 0,0,1").into()
-            );
-        }
-        let volume = read::read(&self.volume, None).map_err(|e| Failure::new(e.what(), e.place(), e.remedy()))?;
-        let how = Reconstruction {
-            kernel: self.kernel.into(),
-            gradient: self.gradient.into(),
-            hessian: self.hessian.into(),
-            scale: self.scale.unwrap_or_else(|| volume.grid().voxel()),
-            outside: self.outside.into(),
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        let settings = input::settings(vec![
+            Flag::name("sampling.kernel", "--kernel", &self.kernel),
+            Flag::name("sampling.gradient", "--gradient", &self.gradient),
+            Flag::name("sampling.hessian", "--hessian", &self.hessian),
+            Flag::length("sampling.scale", "--scale", &self.scale),
+            Flag::name("volume.outside", "--outside", &self.outside),
+        ])?;
+        let points = if self.at.is_empty() { from_input()? } else { self.at.clone() };
+        let _working = Progress::new(talk, "probing");
+        let volume = read::read(&self.volume, None)?;
+        let refused = |fault: &dyn std::fmt::Display| {
+            Failure::new(fault, self.volume.display(), "choose another --kernel, --hessian or --scale")
         };
-        let refused = |e: &dyn std::fmt::Display| {
-            Failure::new(e, self.volume.display(), "choose another --kernel, --hessian or --scale")
+        let sampling = settings.sampling;
+        let how = Reconstruction {
+            kernel: sampling.kernel,
+            gradient: sampling.gradient,
+            hessian: sampling.hessian,
+            scale: sampling.scale.world(volume.grid()).ok_or_else(|| refused(&"--scale is no length in the volume"))?,
+            outside: settings.volume.outside,
         };
         let field = Field::<f64>::new(&volume, how, Rung::Hessian).map_err(|e| refused(&e))?;
-        let mut objects = Vec::new();
+        let (mut objects, mut failures) = (Vec::new(), Vec::new());
         for point in points {
             let index = match self.space {
                 Space::Index => point,
-                Space::World => volume.grid().to_index(point),
+                Space::World => index_of(volume.grid(), point),
             };
-            let probed = at_index(&field, index, view).ok_or_else(|| {
-                let [lo, hi] = volume.grid().index_box();
-                Failure::new(
-                    "the point lies outside the volume",
-                    format!("point {},{},{}", point.x, point.y, point.z),
-                    format!("in index space the volume reaches from {lo} to {hi}"),
-                )
-            })?;
-            objects.push(object(&probed, field.hessian_estimator()));
-        }
-        print(&format!("{:#}\n", serde_json::Value::Array(objects)))
-    }
-
-    /// The points of the command line, or of standard input.
-    fn points(&self) -> Result<Vec<DVec3>, Failure> {
-        if !self.at.is_empty() {
-            return self.at.iter().map(|text| vector(text, "--at")).collect();
-        }
-        let mut points = Vec::new();
-        for (i, line) in std::io::stdin().lock().lines().enumerate() {
-            let place = format!("standard input, line {}", i + 1);
-            let line = line.map_err(|e| Failure::new("standard input cannot be read", &place, e))?;
-            if !line.trim().is_empty() {
-                points.push(vector(&line, &place)?);
+            match at_index(&field, index, self.view) {
+                Some(probed) => objects.push(object(&probed, field.hessian_estimator())),
+                None => failures.push(self.outside_of(volume.grid(), point, index)),
             }
         }
-        Ok(points)
+        Failures::check(failures)?;
+        // A point a line.
+        let lines: Vec<String> = objects.iter().map(|object| format!("\n{object}")).collect();
+        print(&format!("[{}\n]\n", lines.join(",")))
+    }
+
+    fn outside_of(&self, grid: &Grid, point: DVec3, index: DVec3) -> Failure {
+        let text = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);
+        let [lo, hi] = grid.index_box();
+        let what = match self.space {
+            Space::Index => format!("the point {} lies outside the volume", text(point)),
+            Space::World => {
+                format!("the point {}, {} in index space, lies outside the volume", text(point), text(index))
+            }
+        };
+        let remedy = format!("in index space the volume reaches from {} to {}", text(lo), text(hi));
+        Failure::new(what, self.volume.display(), remedy)
     }
 }
 
+/// The index position of a world position. One that lies outside by no more than the rounding of both is taken to the
+/// border: 21.7 at a spacing of 0.7 is voxel 31, not 31.000000000000004.
+fn index_of(grid: &Grid, world: DVec3) -> DVec3 {
+    let index = grid.to_index(world);
+    let [lo, hi] = grid.index_box();
+    let border = index.clamp(lo, hi);
+    let rounding =
+        16.0 * f64::EPSILON * world.abs().max(grid.to_world(border).abs()).max(grid.origin().abs()).max_element();
+    if (grid.to_world(border) - world).abs().max_element() <= rounding { border } else { index }
+}
+
+/// The points of standard input, one a line, or every line that is none.
+fn from_input() -> Result<Vec<DVec3>, Failures> {
+    let (mut points, mut failures) = (Vec::new(), Vec::new());
+    for (i, line) in std::io::stdin().lock().lines().enumerate() {
+        let place = format!("standard input, line {}", i + 1);
+        let line = line.map_err(|error| Failure::new(error, &place, "give points as text, one a line"))?;
+        match vector(&line) {
+            _ if line.trim().is_empty() => {}
+            Ok(point) => points.push(point),
+            Err(expected) => failures.push(Failure::new(format!("{:?} is no point", line.trim()), place, expected)),
+        }
+    }
+    Failures::check(failures).map(|()| points)
+}
+
 /// Three finite numbers, separated by commas or spaces.
-fn vector(text: &str, place: &str) -> Result<DVec3, Failure> {
+fn vector(text: &str) -> Result<DVec3, &'static str> {
     let parts: Result<Vec<f64>, _> =
         text.split([',', ' ', '\t']).filter(|s| !s.is_empty()).map(str::parse::<f64>).collect();
     match parts.as_deref() {
         Ok([x, y, z]) if x.is_finite() && y.is_finite() && z.is_finite() => Ok(DVec3::new(*x, *y, *z)),
-        _ => Err(Failure::new(format!("`{}` is no point", text.trim()), place, "write three numbers as X,Y,Z")),
+        _ => Err("a point is three numbers, as X,Y,Z"),
     }
+}
+
+/// Three numbers, not all 0.
+fn direction(text: &str) -> Result<DVec3, &'static str> {
+    vector(text).ok().filter(|v| *v != DVec3::ZERO).ok_or("a direction is three numbers that are not all 0, as X,Y,Z")
 }
 
 /// One point as the JSON object that `probe` prints.
@@ -163,7 +163,7 @@ fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
         "value": p.value,
         "gradient": three(p.gradient),
         "hessian": [row(0), row(1), row(2)],
-        "hessian_estimator": format!("{estimator:?}").to_lowercase(),
+        "hessian_estimator": name(estimator),
         "normal": p.normal.map(three),
         "k1": p.k1,
         "k2": p.k2,
@@ -176,4 +176,14 @@ fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
         object.insert("kv".into(), json!(kv));
     }
     object
+}
+
+/// An estimator's name in a scene. A field has decided what `auto` is.
+fn name(estimator: HessianEstimator) -> &'static str {
+    match estimator {
+        HessianEstimator::Auto => "auto",
+        HessianEstimator::Analytic => "analytic",
+        HessianEstimator::Central => "central",
+        HessianEstimator::Gaussian => "gaussian",
+    }
 }

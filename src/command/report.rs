@@ -2,63 +2,89 @@
 
 use super::{Done, Outcome, Talk};
 use drypoint::Failure;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{ErrorKind, IsTerminal, Write};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// Writes to standard output. A reader that has gone away is no error.
 pub(super) fn print(text: &str) -> Outcome {
-    match std::io::stdout().write_all(text.as_bytes()) {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::new("standard output cannot be written", error, "").into())
+            Err(Failure::new(error, "standard output", "send it to a place that has room").into())
         }
         _ => Ok(Done::Yes),
+    }
+}
+
+/// A value, as `serde_json` has it, on standard output.
+pub(super) fn print_json(text: serde_json::Result<String>) -> Outcome {
+    match text {
+        Ok(text) => print(&(text + "\n")),
+        Err(error) => Err(Failure::new(error, "the result as JSON", "leave --json out").into()),
     }
 }
 
 /// A line on standard error, unless `-q`.
 pub(super) fn note(talk: Talk, text: impl std::fmt::Display) {
     if !talk.quiet {
-        eprintln!("{text}");
+        say(text);
     }
 }
 
-/// A progress bar on a terminal for what takes over a second; nothing where output is piped or quiet.
+/// A line on standard error.
+pub(super) fn say(text: impl std::fmt::Display) {
+    // Where standard error is closed nobody hears it, and work goes on.
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// Time until a bar is shown: what is done by then needs none.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// What is being done, on a terminal, for what takes over a second; nothing where output is piped or quiet.
 pub(super) struct Progress {
     bar: Option<ProgressBar>,
-    start: Instant,
-    shown: AtomicU64,
+    has_share: AtomicBool,
 }
 
 impl Progress {
-    /// A bar that is not shown yet.
-    pub(super) fn new(talk: Talk) -> Self {
+    /// Begins without a known share: a spinner with a text.
+    pub(super) fn new(talk: Talk, doing: impl std::fmt::Display) -> Self {
         let bar = (!talk.quiet && std::io::stderr().is_terminal()).then(|| {
-            let bar = ProgressBar::hidden();
-            bar.set_length(1000);
-            if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {eta} left") {
+            let bar =
+                ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden()).with_message(doing.to_string());
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
                 bar.set_style(style);
             }
+            let shown = bar.clone();
+            std::thread::spawn(move || {
+                std::thread::sleep(PATIENCE);
+                if !shown.is_finished() {
+                    shown.set_draw_target(ProgressDrawTarget::stderr());
+                    shown.enable_steady_tick(Duration::from_millis(100));
+                }
+            });
             bar
         });
-        Self { bar, start: Instant::now(), shown: AtomicU64::new(0) }
+        Self { bar, has_share: AtomicBool::new(false) }
     }
 
-    /// Hears the share that is done, in [0, 1].
+    /// Hears the share that is done, in [0, 1], and shows it from then on.
     pub(super) fn hear(&self, share: f64) {
         let Some(bar) = &self.bar else { return };
-        if self.start.elapsed() < Duration::from_secs(1) {
-            return;
-        }
-        if self.shown.swap(1, Ordering::Relaxed) == 0 {
-            bar.set_draw_target(indicatif::ProgressDrawTarget::stderr());
+        if !self.has_share.swap(true, Ordering::Relaxed) {
+            bar.reset_eta();
+            if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {percent:>3} %  {eta} left") {
+                bar.set_style(style);
+            }
         }
         bar.set_position((share * 1000.0) as u64);
     }
+}
 
-    /// Takes the bar away.
-    pub(super) fn clear(&self) {
+impl Drop for Progress {
+    fn drop(&mut self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }

@@ -1,6 +1,6 @@
 //! `schema`: the JSON Schema of scene files.
 
-use super::Outcome;
+use super::{Outcome, report::print_json};
 use clap::Args;
 
 /// Print the JSON Schema of scene files.
@@ -9,6 +9,6 @@ pub(super) struct Schema {}
 
 impl Schema {
     pub(super) fn run(self) -> Outcome {
-        super::report::print(&format!("{:#}\n", drypoint::scene::file::schema()))
+        print_json(serde_json::to_string_pretty(&drypoint::scene::file::schema()))
     }
 }

@@ -1,14 +1,15 @@
 //! `sheet`: many pictures on one.
 
-use super::input::{self, Set};
-use super::report::note;
-use super::{Done, Failures, Outcome, Talk};
+use super::input::{self, Over, Set};
+use super::report::{Progress, note};
+use super::{Done, Outcome, Talk, target};
 use clap::Args;
-use drypoint::Failure;
+use clap::builder::RangedU64ValueParser;
 use drypoint::output::png;
 use drypoint::output::read::{Image, read_image};
 use drypoint::output::sheet::{Layout, sheet};
 use drypoint::scene::picture::Provenance;
+use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
 
 /// Write a contact sheet of volumes, scenes or pictures; volumes and scenes are rendered.
@@ -17,14 +18,14 @@ pub(super) struct Sheet {
     /// Volumes, scenes (.toml) or pictures (.png, .exr)
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Where to write (.png)
+    /// Where to write, as PNG
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Pixels along the side of a cell
-    #[arg(long, default_value_t = 256)]
+    #[arg(long, default_value_t = 256, value_parser = RangedU64ValueParser::<usize>::new().range(16..=4096))]
     cell: usize,
     /// Pictures in a row [default: about as many as there are rows]
-    #[arg(long)]
+    #[arg(long, value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     columns: Option<usize>,
     #[command(flatten)]
     set: Set,
@@ -32,30 +33,39 @@ pub(super) struct Sheet {
 
 impl Sheet {
     pub(super) fn run(self, talk: Talk) -> Outcome {
+        target::picture(&self.output, &[Format::Png])?;
+        input::all_there(&self.files)?;
+        let mut over = Over::new(&self.set, Vec::new())?;
+        (over.beauty_only, over.longer_side) = (true, Some(self.cell));
         let mut pictures = Vec::new();
         for file in &self.files {
-            note(talk, file.display());
-            let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-            pictures.push((name.split('.').next().unwrap_or_default().to_owned(), self.image(file)?));
+            pictures.push((target::stem(file), image(file, &over, talk)?));
         }
         let layout = Layout { columns: self.columns, cell: self.cell };
-        let picture = sheet(&pictures, layout).map_err(|e| Failure::new(&e, self.output.display(), e.help()))?;
-        png::write_png(&picture, 8, &Provenance::default(), &self.output)
-            .map_err(|e| Failure::new(&e, self.output.display(), e.help()))?;
+        let failed = |error| Failure::picture(&error, self.output.display());
+        let picture = sheet(&pictures, layout).map_err(failed)?;
+        png::write_png(&picture, 8, &Provenance::default(), &self.output).map_err(failed)?;
         note(talk, self.output.display());
         Ok(Done::Yes)
     }
+}
 
-    /// One cell: a picture as it is, anything else rendered at the cell's size.
-    fn image(&self, file: &Path) -> Result<Image, Failures> {
-        let suffix = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-        if matches!(suffix.as_str(), "png" | "exr") {
-            return Ok(read_image(file).map_err(|e| Failure::new(&e, file.display(), e.help()))?);
+/// One cell: a picture as it is, anything else rendered to fit.
+fn image(file: &Path, over: &Over, talk: Talk) -> Result<Image, Failures> {
+    if Format::of(file).is_ok() {
+        let image = read_image(file).map_err(|error| Failure::picture(&error, file.display()))?;
+        if image.colors().is_none() {
+            let what = format!("the picture has no channels R, G and B; it has {}", image.names().join(", "));
+            return Err(Failure::new(what, file.display(), "give a picture with colours").into());
         }
-        let size = format!("[{0}, {0}]", self.cell);
-        let overrides = self.set.overrides(&[("picture.size", size)])?;
-        let job = input::load(Some(&file.to_path_buf()), &overrides)?;
-        let (picture, _) = job.renderer()?.frame(&|_| ());
-        Ok(Image::from(&picture))
+        return Ok(image);
     }
+    let job = {
+        let _loading = Progress::new(talk, file.display());
+        input::load(Some(file), over)?
+    };
+    input::tell(talk, &job);
+    let progress = Progress::new(talk, file.display());
+    let (picture, _) = job.renderer()?.frame(&|share| progress.hear(share));
+    Ok(Image::from(&picture))
 }

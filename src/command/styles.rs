@@ -1,14 +1,14 @@
 //! `styles`: the styles of a theme.
 
 use super::report::{note, print};
-use super::{Done, Outcome, Talk};
+use super::{Done, Outcome, Talk, target};
 use clap::Args;
-use drypoint::Failure;
 use drypoint::output::png;
 use drypoint::reference::style_transfer_functions::gallery::preview_sheet;
 use drypoint::scene::picture::Provenance;
 use drypoint::scene::style::{StyleError, Theme};
 use drypoint::scene::tables::StyleSource;
+use drypoint::{Failure, Failures, Format};
 use std::path::PathBuf;
 
 /// List the styles of a theme; with -o, write a sheet of spheres.
@@ -17,33 +17,43 @@ pub(super) struct Styles {
     /// An embedded theme, or a folder of pictures
     #[arg(long, value_name = "NAME|FOLDER", default_value = "textbook")]
     theme: String,
-    /// Write a preview sheet (.png)
+    /// Write a preview sheet, as PNG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
 impl Styles {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let source = if Theme::embedded_names().any(|name| name == self.theme) {
-            StyleSource::Embedded(self.theme.clone())
-        } else {
-            StyleSource::Folder(PathBuf::from(&self.theme))
-        };
-        let theme = Theme::open(&source).map_err(|e| refused(&e))?;
-        let names: Vec<String> = theme.names().map(str::to_owned).collect();
-        let Some(output) = &self.output else { return print(&(names.join("\n") + "\n")) };
-        let mut styles = Vec::new();
-        for style in names.iter().filter_map(|name| theme.style(name)) {
-            styles.push(style.map_err(|e| refused(&e))?);
+        if let Some(output) = &self.output {
+            target::picture(output, &[Format::Png])?;
         }
+        let folder = PathBuf::from(&self.theme);
+        let source = if folder.is_dir() && !Theme::embedded_names().any(|name| name == self.theme) {
+            StyleSource::Folder(folder)
+        } else {
+            StyleSource::Embedded(self.theme.clone())
+        };
+        let refused = |error: StyleError| Failure::new(&error, format_args!("--theme {}", self.theme), error.help());
+        let theme = Theme::open(&source).map_err(refused)?;
+        let names: Vec<&str> = theme.names().collect();
+        if names.is_empty() {
+            let place = format!("--theme {}", self.theme);
+            return Err(Failure::new("the theme has no style", place, "put square pictures into its folder").into());
+        }
+        let Some(output) = &self.output else {
+            return print(&names.iter().map(|name| format!("{name}\n")).collect::<String>());
+        };
+        let (mut styles, mut failures) = (Vec::new(), Vec::new());
+        for style in names.iter().filter_map(|name| theme.style(name)) {
+            match style {
+                Ok(style) => styles.push(style),
+                Err(error) => failures.push(refused(error)),
+            }
+        }
+        Failures::check(failures)?;
         png::write_png(&preview_sheet(&styles), 8, &Provenance::default(), output)
-            .map_err(|e| Failure::new(&e, output.display(), e.help()))?;
+            .map_err(|error| Failure::picture(&error, output.display()))?;
         note(talk, output.display());
         Ok(Done::Yes)
     }
-}
-
-/// A theme or a style that cannot be had.
-fn refused(error: &StyleError) -> Failure {
-    Failure::new(error, "--theme", "give the name of an embedded theme, or a folder of square pictures")
 }

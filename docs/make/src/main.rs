@@ -1,14 +1,31 @@
 //! Writes the generated pages and pictures of the repository.
 
+mod accuracy;
+mod files;
+#[cfg(test)]
+mod pages;
+mod reference;
+mod rings;
 mod styles;
 
 use std::process::ExitCode;
 
+/// A page or a set of pictures: the word that asks for it, and what writes it.
+type Page = (&'static str, fn() -> Result<(), String>);
+
+const PAGES: [Page; 4] = [
+    ("accuracy", accuracy::write),
+    ("reference", reference::write),
+    ("rings", rings::write),
+    ("styles", styles::write),
+];
+
 fn main() -> ExitCode {
-    let what = std::env::args().nth(1);
-    let done = match what.as_deref() {
-        Some("styles") => styles::write(),
-        _ => Err("usage: drypoint-docs styles".into()),
+    let what = std::env::args().nth(1).unwrap_or_default();
+    let done = match PAGES.iter().find(|(name, _)| *name == what) {
+        Some((_, write)) => write(),
+        None if what == "all" => PAGES.iter().try_for_each(|(_, write)| write()),
+        None => Err(format!("usage: drypoint-docs {}|all", PAGES.map(|(name, _)| name).join("|"))),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

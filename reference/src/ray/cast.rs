@@ -2,7 +2,7 @@
 
 use super::lattice::IndexRay;
 use super::layers::{Seen, Sums};
-use super::opacity::correct;
+use super::opacity::Correction;
 use super::prepared::{KappaSource, Prepared};
 use super::sample::{Facts, Sight};
 use super::skip::{Boxes, Skip};
@@ -29,8 +29,8 @@ struct Walk<'p, 'v, R: Real, S> {
     sampler: &'p S,
     ray: IndexRay<R>,
     sight: Sight<R>,
-    /// Δ_ray/Δ₀.
-    ratio: R,
+    /// To the opacity of one step on this ray.
+    correction: Correction<R>,
     /// The last sample whose normal is known, and that normal.
     previous: Option<(i64, Option<Vec3<R>>)>,
     /// The last opacity that was corrected, and what it became: levels of a function repeat along a ray.
@@ -55,7 +55,7 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
         prepared,
         sampler,
         sight: prepared.look.sight(Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v)),
-        ratio: R::from_f64(ray.step / prepared.reference_length),
+        correction: Correction::new(ray.step / prepared.reference_length),
         ray,
         previous: None,
         corrected: [R::ZERO; 2],
@@ -132,7 +132,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         let facts = if prepared.calls.gradient { self.facts(k, at, counts) } else { Facts::none() };
         let (rgb, alpha) = prepared.look.color(place, &facts, &self.sight, counts);
         if alpha != self.corrected[0] {
-            self.corrected = [alpha, correct(alpha, self.ratio)];
+            self.corrected = [alpha, self.correction.apply(alpha)];
         }
         let w = (R::ONE - self.opacity) * self.corrected[1];
         let rgb = if prepared.encode { rgb.map(encoded) } else { rgb };

@@ -1,164 +1,243 @@
-//! Where the data have their strongest boundary, from a histogram of values and differences.
+//! Which surfaces of a volume a first picture shows.
 
-use drypoint_scene::volume::{Access, Volume, Voxel};
-use drypoint_scene::with_access;
-use rayon::prelude::*;
+use super::levels::{LEVELS, Level, Levels};
+use drypoint_scene::tables::Outside;
+use drypoint_scene::volume::Volume;
 
-/// Values that a first picture shows.
+/// A surface to show, in data values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Surface {
+    /// The value that separates inside from outside.
+    pub value: f64,
+    /// How much the values change in one voxel across it, at least a few levels.
+    pub step: f64,
+}
+
+/// What a first picture shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Boundary {
-    /// The value that separates content from its surroundings.
-    pub threshold: f64,
-    /// From fully transparent to fully opaque.
-    pub ramp: [f64; 2],
-    /// A value that separates denser content, if there is a second boundary.
-    pub denser: Option<f64>,
+    /// The opaque surface: the content's own, or what lies in it.
+    pub main: Surface,
+    /// A hull to be seen through, if there is something in it.
+    pub hull: Option<Surface>,
+    /// Whether the content is made of thin parts: vessels, shells, flames.
+    pub thin: bool,
 }
 
-const BINS: usize = 512;
-
-/// For each value the pairs of face neighbours that it lies between: how many, and the sum of their differences.
-///
-/// The pairs are the area of the surface at that value; the mean difference is how sharp it is.
-struct Crossings {
-    lo: f64,
-    width: f64,
-    count: Vec<f64>,
-    difference: Vec<f64>,
+/// A local maximum of the score.
+#[derive(Clone, Copy, Debug)]
+struct Peak {
+    /// From the outside, as a share of the range.
+    share: f64,
+    score: f64,
+    level: Level,
 }
+
+/// Levels to either side that a maximum stands above.
+const REACH: usize = 6;
+/// Surfaces with a score or a strength below these shares of the best are not looked at.
+const SIGNIFICANT: [f64; 2] = [0.15, 0.1];
+/// Content fills at least this share of the voxels.
+const SOMETHING: f64 = 1e-3;
+/// A surface that the box cuts off over more than this share of its faces is a view of the box.
+const BOXED: f64 = 0.5;
+/// Two surfaces around volumes in at least this ratio are of one body.
+const SAME_BODY: f64 = 0.6;
+/// A kernel's share of its hull's volume.
+const KERNEL: [f64; 2] = [0.05, 0.5];
+/// Simplicity below which a kernel is clutter, and a body made of thin parts.
+const CLUTTER: f64 = 1.0 / 70.0;
+const THIN: f64 = 1.0 / 35.0;
+/// Agreement below which a kernel is noise.
+const NOISE: f64 = 0.3;
+/// A field of which a lower value is worth showing around its main surface agrees with itself.
+const SMOOTH: f64 = 0.94;
+/// The hull that such a field gets holds this many times the volume.
+const HULL: f64 = 2.2;
+/// And at most this share of the box, whose walls would cut it.
+const ROOM: f64 = 0.3;
+/// A step of fewer levels is taken for this many: a ramp across one or two values of an integer shows the rounding.
+const LEAST_STEP: f64 = 0.03;
+/// A surface lies at least this share of its step above what is outside.
+const EDGE: f64 = 0.5;
+/// Skin against air, and bone, in Hounsfield units.
+const SKIN_AND_BONE: [f64; 2] = [-350.0, 190.0];
 
 impl Boundary {
-    /// The value whose surface has the greatest product of area and squared sharpness.
-    pub(super) fn find(volume: &Volume) -> Self {
-        let [lo, hi] = volume.range();
-        if hi <= lo {
+    /// The surfaces with the greatest product of area, squared sharpness and simplicity: sharp against noise, simple
+    /// against clutter, and little cut by the box. Of several the outermost is the content's, and one inside it with a
+    /// part of its volume is the kernel that is shown through it.
+    pub(super) fn find(volume: &Volume, outside: Outside) -> Self {
+        let Some(levels) = Levels::of(volume, outside) else {
             // A constant volume: everything is content.
-            return Self { threshold: lo, ramp: [lo - 1.0, lo], denser: None };
-        }
-        let crossings = Crossings::of(volume);
-        let strength = |b: usize| {
-            let n = crossings.count[b];
-            if n > 0.0 { crossings.difference[b] * crossings.difference[b] / n } else { 0.0 }
+            let [value, _] = volume.range();
+            let main = Surface { value, step: value.abs().max(1.0) };
+            return Self { main, hull: None, thin: false };
         };
-        let best = (0..BINS).fold(0, |best, b| if strength(b) > strength(best) { b } else { best });
-        let sharpness =
-            if crossings.count[best] > 0.0 { crossings.difference[best] / crossings.count[best] } else { 0.0 };
-        let threshold = crossings.value(best);
-        // A quarter of the step across one voxel on either side keeps the surface thin and its edge soft.
-        let half = (0.25 * sharpness).clamp(crossings.width, 0.25 * (hi - lo));
-        let ramp = [(threshold - half).max(lo), (threshold + half).min(hi)];
-        Self { threshold, ramp, denser: crossings.denser(best, sharpness, strength) }
+        if let Some(known) = skin_and_bone(volume, outside, &levels) {
+            return known;
+        }
+        let peaks = peaks(&levels);
+        let body = body(&peaks).unwrap_or(Peak { share: 0.5, score: 0.0, level: *levels.at(0.5) });
+        let surface = |share| surface(&levels, share);
+        let thin = body.level.simplicity < THIN;
+        if let Some(kernel) = kernel(&peaks, &body) {
+            return Self { main: surface(kernel.share), hull: Some(surface(body.share)), thin };
+        }
+        let hull = hull(&levels, &body).map(surface);
+        Self { main: surface(body.share), hull, thin }
+    }
+
+    /// Where content begins: at the hull, or at the main surface.
+    pub(super) fn outermost(&self) -> Surface {
+        self.hull.unwrap_or(self.main)
     }
 }
 
-impl Crossings {
-    fn of(volume: &Volume) -> Self {
-        let [lo, hi] = volume.range();
-        let width = (hi - lo) / BINS as f64;
-        let (slope, intercept) = (volume.slope(), volume.intercept());
-        let [nx, ny, nz] = volume.dims();
-        let bin = |v: f64| (((v - lo) / width) as usize).min(BINS - 1);
-        // Increments where a pair begins and ends, summed afterwards: a pair costs the same however far it reaches.
-        let steps = with_access!(volume, |a| {
-            let value = |x, y, z| slope * a.at(x, y, z).to_f64() + intercept;
-            (0..nz)
-                .into_par_iter()
-                .map(|z| {
-                    let mut steps = vec![[0.0; 2]; BINS + 1];
-                    let mut pair = |p: f64, q: f64| {
-                        let (from, to, d) = (bin(p.min(q)), bin(p.max(q)), (p - q).abs());
-                        steps[from][0] += 1.0;
-                        steps[from][1] += d;
-                        steps[to][0] -= 1.0;
-                        steps[to][1] -= d;
-                    };
-                    for y in 0..ny {
-                        for x in 0..nx {
-                            let v = value(x, y, z);
-                            if x + 1 < nx {
-                                pair(v, value(x + 1, y, z));
-                            }
-                            if y + 1 < ny {
-                                pair(v, value(x, y + 1, z));
-                            }
-                            if z + 1 < nz {
-                                pair(v, value(x, y, z + 1));
-                            }
-                        }
-                    }
-                    steps
-                })
-                .collect::<Vec<_>>()
-        });
-        let (mut count, mut difference) = (Vec::with_capacity(BINS), Vec::with_capacity(BINS));
-        let (mut n, mut d) = (0.0, 0.0);
-        for b in 0..BINS {
-            for slice in &steps {
-                n += slice[b][0];
-                d += slice[b][1];
-            }
-            count.push(n.max(0.0));
-            difference.push(d.max(0.0));
-        }
-        Self { lo, width, count, difference }
-    }
+fn surface(levels: &Levels, share: f64) -> Surface {
+    let step = levels.at(share).step.max(LEAST_STEP);
+    // Where content is cut out of nothing, its edge rises in one voxel and every value of it is an edge: one well above
+    // the bottom is the smoothest.
+    let share = share.max(EDGE * step);
+    let step = step.min(share / EDGE);
+    Surface { value: levels.value(share), step: (levels.value(1.0) - levels.value(0.0)).abs() * step }
+}
 
-    /// The value at the upper end of a bin, which its pairs lie around.
-    fn value(&self, bin: usize) -> f64 {
-        self.lo + (bin as f64 + 1.0) * self.width
-    }
+/// A patient's CT is recognized by its scale, on which skin and bone are known.
+fn skin_and_bone(volume: &Volume, outside: Outside, levels: &Levels) -> Option<Boundary> {
+    let [lo, hi] = volume.range();
+    let hounsfield = volume.anatomy().is_some() && lo < -900.0 && hi > 500.0 && outside == Outside::Low;
+    let [skin, bone] = SKIN_AND_BONE.map(|value| (value, levels.share(value)));
+    // Cut out of a body, a scan has no skin to show; a head of wax has no bone.
+    let whole = hounsfield && levels.at(skin.1).cut < BOXED && levels.at(bone.1).inside > SOMETHING;
+    let [hull, main] = [skin, bone].map(|(value, share)| Surface { value, ..surface(levels, share) });
+    whole.then_some(Boundary { main, hull: Some(hull), thin: false })
+}
 
-    /// A second boundary above the first: a local maximum of strength, well apart and not negligible.
-    fn denser(&self, first: usize, sharpness: f64, strength: impl Fn(usize) -> f64) -> Option<f64> {
-        let apart = first + ((sharpness / self.width) as usize / 2).max(BINS / 16);
-        let best = (apart..BINS).fold(None, |best: Option<usize>, b| match best {
-            Some(a) if strength(a) >= strength(b) => best,
-            _ => Some(b),
-        })?;
-        // On the flank of the first boundary the strongest is the nearest: that is no maximum of its own.
-        (best > apart && best + 1 < BINS && strength(best) > 0.02 * strength(first)).then(|| self.value(best))
+/// Area times squared confirmed difference, favouring surfaces that hold much with little area and that the box does
+/// not cut.
+fn score(level: &Level) -> f64 {
+    let open = 1.0 - level.cut;
+    strength(level) * level.simplicity * level.simplicity.sqrt() * (open * open) * (open * open)
+}
+
+fn strength(level: &Level) -> f64 {
+    let confirmed = level.step * level.agreement;
+    level.area * (confirmed * confirmed)
+}
+
+/// Local maxima of the smoothed score, from the outside inwards.
+fn peaks(levels: &Levels) -> Vec<Peak> {
+    let scores: Vec<f64> = levels.all().iter().map(score).collect();
+    let mean = |b: usize| {
+        let near = &scores[b.saturating_sub(3)..(b + 4).min(LEVELS)];
+        near.iter().sum::<f64>() / near.len() as f64
+    };
+    let smooth: Vec<f64> = (0..LEVELS).map(mean).collect();
+    let most = |range: &[f64]| range.iter().copied().fold(0.0, f64::max);
+    let strongest = levels.all().iter().map(strength).fold(0.0, f64::max);
+    let all: Vec<Peak> = (0..LEVELS)
+        .filter(|&b| {
+            let (before, after) = (b.saturating_sub(REACH)..b, b + 1..(b + 1 + REACH).min(LEVELS));
+            smooth[b] >= most(&smooth[before]) && smooth[b] > most(&smooth[after])
+        })
+        .map(|b| Peak { share: (b as f64 + 1.0) / LEVELS as f64, score: smooth[b], level: levels.all()[b] })
+        .filter(|peak| peak.level.inside > SOMETHING && strength(&peak.level) > SIGNIFICANT[1] * strongest)
+        .collect();
+    let open: Vec<Peak> = all.iter().filter(|peak| peak.level.cut < BOXED).copied().collect();
+    let mut chosen = if open.is_empty() { all } else { open };
+    let best = chosen.iter().map(|peak| peak.score).fold(0.0, f64::max);
+    chosen.retain(|peak| peak.score >= SIGNIFICANT[0] * best);
+    chosen
+}
+
+/// The outermost surface; of those around nearly the same volume the best.
+fn body(peaks: &[Peak]) -> Option<Peak> {
+    let first = peaks.first()?;
+    let of_the_body = peaks.iter().filter(|peak| peak.level.inside >= SAME_BODY * first.level.inside);
+    of_the_body.copied().reduce(|best, peak| if peak.score > best.score { peak } else { best })
+}
+
+/// The best surface well inside the body.
+fn kernel(peaks: &[Peak], body: &Peak) -> Option<Peak> {
+    let [least, most] = KERNEL.map(|share| share * body.level.inside);
+    let inside = peaks.iter().filter(|peak| {
+        let clear = peak.level.simplicity > CLUTTER && peak.level.agreement > NOISE;
+        peak.share > body.share && clear && (least..=most).contains(&peak.level.inside)
+    });
+    inside.copied().reduce(|best, peak| if peak.score > best.score { peak } else { best })
+}
+
+/// A lower value of a smooth field whose surface lies well around the body's and is as simple.
+fn hull(levels: &Levels, body: &Peak) -> Option<f64> {
+    if body.level.agreement < SMOOTH {
+        return None;
     }
+    let share = (1..LEVELS)
+        .rev()
+        .map(|b| b as f64 / LEVELS as f64)
+        .find(|&share| share < body.share && levels.at(share).inside >= HULL * body.level.inside)?;
+    let level = levels.at(share);
+    let free = level.inside < ROOM && levels.at(share - LEAST_STEP).cut < 0.01;
+    let clear = free && level.simplicity >= body.level.simplicity && level.agreement >= SMOOTH;
+    clear.then_some(share)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::{radius, volume};
     use super::*;
-    use drypoint_scene::space::Grid;
-    use drypoint_scene::volume::Voxels;
+    use drypoint_scene::volume::Anatomy;
 
-    fn volume(value: impl Fn([usize; 3]) -> f64) -> Volume {
-        let n = 32;
-        let voxels = (0..n * n * n).map(|i| value([i % n, i / n % n, i / (n * n)])).collect();
-        Volume::new(Grid::with_spacing([n; 3], [1.0; 3]).unwrap(), Voxels::F64(voxels), 1.0, 0.0).unwrap()
-    }
-
-    fn radius([x, y, z]: [usize; 3]) -> f64 {
-        let square = |i: usize| (i as f64 - 15.5).powi(2);
-        (square(x) + square(y) + square(z)).sqrt()
+    fn edge(d: f64) -> f64 {
+        1.0 / (1.0 + (-d / 0.7).exp())
     }
 
     #[test]
     fn a_ball_in_noise_is_found_between_the_two() {
         // A deterministic ripple of ±5 around 20 outside and around 200 inside.
         let ripple = |p: [usize; 3]| ((p[0] * 7 + p[1] * 13 + p[2] * 29) % 11) as f64 - 5.0;
-        let b = Boundary::find(&volume(|p| ripple(p) + if radius(p) < 10.0 { 200.0 } else { 20.0 }));
-        assert!(b.threshold > 25.0 && b.threshold < 195.0, "{b:?}");
-        assert!(b.ramp[0] < b.threshold && b.threshold < b.ramp[1]);
+        let ball = volume(|p| ripple(p) + if radius(p) < 10.0 { 200.0 } else { 20.0 });
+        let b = Boundary::find(&ball, Outside::Low);
+        assert!(b.main.value > 25.0 && b.main.value < 195.0 && b.hull.is_none() && !b.thin, "{b:?}");
     }
 
     #[test]
-    fn a_kernel_inside_a_shell_is_a_second_boundary() {
-        // Smooth edges, so that the jump into the kernel does not cross the first boundary's values.
-        let edge = |d: f64| 1.0 / (1.0 + (-d / 0.7).exp());
-        let b = Boundary::find(&volume(|p| 100.0 * edge(13.0 - radius(p)) + 100.0 * edge(7.0 - radius(p))));
-        assert!(b.threshold > 20.0 && b.threshold < 80.0, "{b:?}");
-        assert!(b.denser.is_some_and(|d| d > 110.0 && d < 190.0), "{b:?}");
+    fn a_kernel_inside_a_shell_is_shown_through_it() {
+        let nested = |p| 100.0 * edge(13.0 - radius(p)) + 100.0 * edge(7.0 - radius(p));
+        let b = Boundary::find(&volume(nested), Outside::Low);
+        let hull = b.hull.unwrap();
+        assert!(hull.value > 20.0 && hull.value < 80.0 && b.main.value > 110.0 && b.main.value < 190.0, "{b:?}");
+        // The same in mirrored values.
+        let mirrored = Boundary::find(&volume(|p| -nested(p)), Outside::High);
+        assert!((mirrored.main.value + b.main.value).abs() < 1.0 && mirrored.hull.is_some(), "{mirrored:?}");
     }
 
     #[test]
     fn a_constant_volume_is_all_content() {
-        let b = Boundary::find(&volume(|_| 7.0));
-        assert_eq!((b.threshold, b.denser), (7.0, None));
-        assert!(b.ramp[0] < b.ramp[1]);
+        let b = Boundary::find(&volume(|_| 7.0), Outside::Low);
+        assert!(b.main.value == 7.0 && b.main.step > 0.0 && b.hull.is_none());
+    }
+
+    #[test]
+    fn what_fills_the_box_is_looked_into() {
+        // Tissue up to the walls, with a hole that is sharper than the dense ball in it.
+        let centred = |p: [usize; 3], at: usize| (0..3).map(|a| (p[a] as f64 - at as f64).powi(2)).sum::<f64>().sqrt();
+        let v = volume(|p| 100.0 - 100.0 * edge(4.0 - centred(p, 8)) + 60.0 * edge(6.0 - centred(p, 20)));
+        let b = Boundary::find(&v, Outside::Low);
+        assert!(b.outermost().value > 105.0 && b.outermost().value < 155.0, "{b:?}");
+    }
+
+    #[test]
+    fn skin_and_bone_are_known_on_the_scale_of_hounsfield() {
+        let patient = volume(|p| match radius(p) {
+            r if r < 5.0 => 900.0,
+            r if r < 13.0 => 40.0,
+            _ => -1000.0,
+        });
+        let b = Boundary::find(&patient.clone().with_anatomy(Some(Anatomy::LeftPosteriorSuperior)), Outside::Low);
+        assert_eq!((b.hull.map(|hull| hull.value), b.main.value), (Some(-350.0), 190.0));
+        // Without a patient the numbers mean nothing.
+        assert_ne!(Boundary::find(&patient, Outside::Low).main.value, 190.0);
     }
 }

@@ -1,26 +1,28 @@
 //! A camera that frames the content of a volume.
 
+use super::body::Body;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
-use drypoint_scene::volume::{Access, Volume, Voxel};
-use drypoint_scene::with_access;
+use drypoint_scene::space::Grid;
 
-/// Share of the narrower half of the picture that the content reaches.
-const FILL: f64 = 0.84;
+/// Share of the shorter side of the picture that the content takes.
+const FILL: f64 = 0.86;
 
 /// Where a camera stands and what it looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fit {
     pub eye: DVec3,
     pub target: DVec3,
+    /// World units from top to bottom of the picture, at the target.
+    pub height: f64,
 }
 
-/// The nearest perspective camera in a direction from which every voxel at or above a threshold projects into the
-/// frame's middle, as [`FILL`] says, with the content centred.
+/// The nearest perspective camera in a direction from which all content projects into the frame's middle, as [`FILL`]
+/// says, and is centred there.
 ///
 /// With the content's points at (x, y) across and z along the view, |x − a| ≤ t(d + z) for the half width t of the frame
 /// at depth 1 asks for d ≥ (x − a)/t − z and d ≥ (a − x)/t − z: the best a balances the two maxima.
-pub(super) fn fit(volume: &Volume, threshold: f64, direction: DVec3, up: DVec3, fov: f64, size: [usize; 2]) -> Fit {
+pub(super) fn fit(grid: &Grid, body: &Body, direction: DVec3, up: DVec3, fov: f64, size: [usize; 2]) -> Fit {
     let forward = direction.normalize();
     let right = forward.cross(up).normalize();
     let up = right.cross(forward);
@@ -30,8 +32,8 @@ pub(super) fn fit(volume: &Volume, threshold: f64, direction: DVec3, up: DVec3, 
     let t = FILL * tan * (width / height).min(1.0);
     let mut most = [f64::NEG_INFINITY; 4];
     let mut nearest = f64::INFINITY;
-    for p in outline(volume, threshold) {
-        let p = volume.grid().to_world(p);
+    for p in body.ends() {
+        let p = grid.to_world(p);
         let (x, y, z) = (p.dot(right), p.dot(up), p.dot(forward));
         for (m, v) in most.iter_mut().zip([x / t - z, -x / t - z, y / t - z, -y / t - z]) {
             *m = m.max(v);
@@ -41,53 +43,18 @@ pub(super) fn fit(volume: &Volume, threshold: f64, direction: DVec3, up: DVec3, 
     let distance = ((most[0] + most[1]) / 2.0).max((most[2] + most[3]) / 2.0);
     let (a, b) = (t * (most[0] - most[1]) / 2.0, t * (most[2] - most[3]) / 2.0);
     // The eye lies at depth −distance; never inside the content.
-    let depth = (-distance).min(nearest - volume.grid().voxel());
+    let depth = (-distance).min(nearest - grid.voxel());
     let eye = right * a + up * b + forward * depth;
-    Fit { eye, target: eye + forward * (volume.grid().centre() - eye).dot(forward).max(volume.grid().voxel()) }
-}
-
-/// Extent of the content along the world axes.
-pub(super) fn extent(volume: &Volume, threshold: f64) -> DVec3 {
-    let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for p in outline(volume, threshold) {
-        let p = volume.grid().to_world(p);
-        (lo, hi) = (lo.min(p), hi.max(p));
-    }
-    hi - lo
-}
-
-/// The first and the last voxel at or above a threshold in each row along x, in index space: their projections have the
-/// same outline as those of all. The corners of the volume where there is none.
-fn outline(volume: &Volume, threshold: f64) -> Vec<DVec3> {
-    let (slope, intercept) = (volume.slope(), volume.intercept());
-    let [nx, ny, nz] = volume.dims();
-    let mut points = Vec::new();
-    with_access!(volume, |a| {
-        for z in 0..nz {
-            for y in 0..ny {
-                let shown = |x: &usize| slope * a.at(*x, y, z).to_f64() + intercept >= threshold;
-                if let (Some(first), Some(last)) = ((0..nx).find(shown), (0..nx).rfind(shown)) {
-                    for x in [first, last] {
-                        points.push(DVec3::new(x as f64, y as f64, z as f64));
-                    }
-                }
-            }
-        }
-    });
-    if points.is_empty() {
-        let [lo, hi] = volume.grid().index_box();
-        points.extend([lo, hi]);
-    }
-    points
+    let away = (grid.centre() - eye).dot(forward).max(grid.voxel());
+    Fit { eye, target: eye + forward * away, height: 2.0 * tan * away }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drypoint_scene::space::Grid;
     use drypoint_scene::tables::{Camera, Projection};
     use drypoint_scene::view::View;
-    use drypoint_scene::volume::Voxels;
+    use drypoint_scene::volume::{Volume, Voxels};
 
     #[test]
     fn the_content_touches_the_frame_of_the_fill_and_is_centred() {
@@ -99,8 +66,9 @@ mod tests {
         let grid = Grid::with_spacing([n; 3], [1.0, 1.0, 2.5]).unwrap();
         let volume = Volume::new(grid, Voxels::U8(voxels), 1.0, 0.0).unwrap();
         let direction = DVec3::new(-0.6, 1.0, -0.45);
+        let body = Body::of(&volume, 100.0);
         for size in [[400, 400], [600, 400], [300, 500]] {
-            let fit = fit(&volume, 100.0, direction, DVec3::Z, 30.0, size);
+            let fit = fit(volume.grid(), &body, direction, DVec3::Z, 30.0, size);
             let camera = Camera {
                 projection: Projection::Perspective { fov: 30.0 },
                 eye: Some(fit.eye),
@@ -109,7 +77,7 @@ mod tests {
             };
             let view = View::new(&camera, volume.grid(), size).unwrap();
             let (mut lo, mut hi) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-            for p in outline(&volume, 100.0) {
+            for p in body.ends() {
                 let at = view.project(volume.grid().to_world(p)).unwrap();
                 for axis in 0..2 {
                     lo[axis] = lo[axis].min(at[axis]);
@@ -129,7 +97,7 @@ mod tests {
     fn an_empty_volume_is_framed_whole() {
         let volume =
             Volume::new(Grid::with_spacing([4; 3], [1.0; 3]).unwrap(), Voxels::U8(vec![0; 64]), 1.0, 0.0).unwrap();
-        let fit = fit(&volume, 10.0, DVec3::Y, DVec3::Z, 30.0, [100, 100]);
+        let fit = fit(volume.grid(), &Body::of(&volume, 10.0), DVec3::Y, DVec3::Z, 30.0, [100, 100]);
         assert!(fit.eye.is_finite() && fit.eye.y < 0.0);
     }
 }

@@ -3,31 +3,77 @@
 //! Nothing here is a paper's. The choices are meant for a first look and stand in the scene that they make, so that they
 //! can be changed.
 
+mod body;
 mod boundary;
 mod framing;
+mod labels;
+mod levels;
+mod look;
+mod stance;
 
+use body::Body;
 use boundary::Boundary;
-use drypoint_scene::color;
-use drypoint_scene::glam::DVec3;
 use drypoint_scene::tables::{
-    Camera, Contours, Length, Node, NodeColor, Outside, Projection, Scene, Transfer, TransferKind, Unit, VolumeSource,
+    Camera, Contours, GradientEstimator, HessianEstimator, Ids, Kappa, Kernel, Length, Outside, Projection, Scene,
+    Transfer, Unit, VolumeSource,
 };
-use drypoint_scene::volume::{Anatomy, Volume};
+use drypoint_scene::volume::Volume;
+use look::Palette;
+use stance::Stance;
 
 /// Vertical field of view of a suggested camera, in degrees.
 const FOV: f64 = 30.0;
 
-/// A scene for a bare volume: an opaque surface where the data have their strongest boundary, denser material in a
-/// second style, contours, and a camera that frames what is shown.
+/// Thickness of contours as a share of the picture's height: 2½ of 512 pixels.
+const LINE: f64 = 0.005;
+
+/// Voxels of which a smoothed copy in f64 is worth its memory: a quarter of a GiB.
+const SMOOTHED: usize = 1 << 25;
+
+/// A scene for a bare volume: an opaque surface in a translucent hull, or alone, with contours, framed by a camera. A
+/// volume of labels is shown as the surface of all of them.
 pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2]) -> Scene {
-    let mut scene = Scene::for_volume(source);
-    let boundary = Boundary::find(volume);
-    if let Some(transfer) = &mut scene.transfer {
-        transfer.nodes = Some(nodes(&boundary, transfer.kind, Outside::Low));
+    let ids = if labels::are_ids(volume) { Ids::Mask } else { Ids::Values };
+    match ids {
+        Ids::Values => of_values(source, volume, size),
+        Ids::Mask => of_labels(source, &volume.present(), size),
     }
-    let direction = direction(volume, &boundary);
-    let up = up(volume, direction);
-    let fit = framing::fit(volume, boundary.threshold, direction, up, FOV, size);
+}
+
+/// Gives a transfer function without nodes those of the volume's strongest boundaries.
+pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside) {
+    let boundary = Boundary::find(volume, outside);
+    transfer.unit = Unit::Value;
+    transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
+}
+
+fn of_values(source: VolumeSource, volume: &Volume, size: [usize; 2]) -> Scene {
+    let mut scene = Scene::for_volume(source);
+    let boundary = Boundary::find(volume, Outside::Low);
+    if let Some(transfer) = &mut scene.transfer {
+        transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, Outside::Low));
+    }
+    frame(&mut scene, volume, boundary.outermost().value, size);
+    scene
+}
+
+/// The step from 0 to 1 between voxels is rounded off by a smoothing kernel, or every voxel would show.
+fn of_labels(source: VolumeSource, present: &Volume, size: [usize; 2]) -> Scene {
+    let mut scene = Scene::for_volume(source);
+    scene.volume.ids = Ids::Mask;
+    scene.sampling.kernel = Kernel::BsplineSmooth;
+    if let Some(transfer) = &mut scene.transfer {
+        transfer.nodes = Some(look::label_nodes());
+    }
+    frame(&mut scene, present, 0.5, size);
+    scene
+}
+
+/// Camera, picture and lines for the content from a value on.
+fn frame(scene: &mut Scene, volume: &Volume, value: f64, size: [usize; 2]) {
+    let body = Body::of(volume, value);
+    let Stance { direction, up } = Stance::of(volume, &body);
+    let fit = framing::fit(volume.grid(), &body, direction, up, FOV, size);
     scene.picture.size = size;
     scene.camera = Camera {
         projection: Projection::Perspective { fov: FOV },
@@ -36,56 +82,93 @@ pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2]) -> Scene {
         up,
         ..Camera::default()
     };
-    scene.contours = Some(Contours { thickness: Length::Voxels(1.0), fade: Some([0.05, 0.2]), ..Contours::default() });
-    scene
-}
-
-/// Gives a transfer function without nodes those of the volume's strongest boundary.
-pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside) {
-    transfer.unit = Unit::Value;
-    transfer.nodes = Some(nodes(&Boundary::find(volume), transfer.kind, outside));
-}
-
-/// From transparent to opaque across the boundary, and on to a second look for denser material.
-fn nodes(boundary: &Boundary, kind: TransferKind, outside: Outside) -> Vec<Node> {
-    let look = |style: &str, srgb: [f64; 3]| match kind {
-        TransferKind::Style => NodeColor::Style(style.into()),
-        TransferKind::Regular => NodeColor::Color(srgb.map(color::srgb_to_linear)),
-    };
-    let (wax, bone) = (look("wax", [0.91, 0.75, 0.52]), look("bone", [0.93, 0.89, 0.80]));
-    let node = |at, color: &NodeColor, opacity| Node { at, color: color.clone(), opacity };
-    let [lo, hi] = boundary.ramp;
-    let mut nodes = match outside {
-        Outside::Low => vec![node(lo, &wax, 0.0), node(hi, &wax, 0.9)],
-        Outside::High => vec![node(lo, &wax, 0.9), node(hi, &wax, 0.0)],
-    };
-    if let (Outside::Low, Some(denser)) = (outside, boundary.denser) {
-        let half = (denser - hi) * 0.25;
-        nodes.push(node(denser - half, &wax, 0.9));
-        nodes.push(node(denser + half, &bone, 0.95));
+    // Slices leave terraces on what is scanned, and noise leaves grain: normals over 3³ voxels, and curvatures of a
+    // smoothed grid, draw neither.
+    scene.sampling.gradient = GradientEstimator::Sobel;
+    let smoothed = volume.grid().len() <= SMOOTHED;
+    if smoothed {
+        scene.sampling.hessian = HessianEstimator::Gaussian;
+        scene.sampling.scale = Length::Voxels(2.0);
     }
-    nodes
+    scene.contours = Some(Contours {
+        kappa: if smoothed { Kappa::Exact } else { Kappa::Ray },
+        thickness: Length::World(three_digits(LINE * fit.height)),
+        fade: Some([0.02, 0.1]),
+        ..Contours::default()
+    });
 }
 
-/// The way the camera looks. A patient is seen from the front; a flat slab from its broad side; anything else over a
-/// corner.
-fn direction(volume: &Volume, boundary: &Boundary) -> DVec3 {
-    match volume.anatomy() {
-        Some(Anatomy::RightAnteriorSuperior) => return DVec3::new(-0.45, -1.0, -0.2),
-        Some(Anatomy::LeftPosteriorSuperior) => return DVec3::new(0.45, 1.0, -0.2),
-        Some(Anatomy::LeftAnteriorSuperior) => return DVec3::new(0.45, -1.0, -0.2),
-        None => {}
+/// A length that a person would write. The scale is a power of ten by multiplication and division alone.
+fn three_digits(length: f64) -> f64 {
+    let mut scale = 1.0;
+    while length / scale >= 1000.0 {
+        scale *= 10.0;
     }
-    let extent = framing::extent(volume, boundary.threshold);
-    let (longest, shortest) = (extent.max_element(), extent.min_element());
-    if shortest < 0.4 * longest && extent.z == shortest {
-        return DVec3::new(-0.25, 0.5, -1.0);
+    while length / scale < 100.0 && scale > 1e-300 {
+        scale /= 10.0;
     }
-    DVec3::new(-0.6, 1.0, -0.45)
+    // Once more through the decimal text, so that no digits of rounding are left.
+    let rounded = (length / scale).round() * scale;
+    format!("{rounded:.3e}").parse().unwrap_or(rounded)
 }
 
-/// World z, unless the camera looks along it.
-fn up(volume: &Volume, direction: DVec3) -> DVec3 {
-    let along_z = direction.normalize().z.abs() > 0.8 && volume.anatomy().is_none();
-    if along_z { DVec3::Y } else { DVec3::Z }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::space::Grid;
+    use drypoint_scene::volume::{VoxelType, Voxels};
+
+    /// 32³ voxels of a type.
+    pub(super) fn typed(value: impl Fn([usize; 3]) -> f64, to: VoxelType) -> Volume {
+        let n = 32;
+        let values: Vec<f64> = (0..n * n * n).map(|i| value([i % n, i / n % n, i / (n * n)])).collect();
+        let grid = Grid::with_spacing([n; 3], [1.0; 3]).unwrap();
+        Volume::new(grid, Voxels::from_f64(&values, to), 1.0, 0.0).unwrap()
+    }
+
+    pub(super) fn volume(value: impl Fn([usize; 3]) -> f64) -> Volume {
+        typed(value, VoxelType::F64)
+    }
+
+    /// Distance from the middle of such a volume.
+    pub(super) fn radius([x, y, z]: [usize; 3]) -> f64 {
+        let square = |i: usize| (i as f64 - 15.5).powi(2);
+        (square(x) + square(y) + square(z)).sqrt()
+    }
+
+    fn source() -> VolumeSource {
+        VolumeSource::File { path: "x.nrrd".into(), raw: None }
+    }
+
+    #[test]
+    fn labels_are_shown_as_one_body() {
+        let ids = typed(|p| if radius(p) < 10.0 { 3.0 + (p[2] / 16) as f64 } else { 0.0 }, VoxelType::U8);
+        let of_ids = scene(source(), &ids, [64, 64]);
+        assert_eq!((of_ids.volume.ids, of_ids.sampling.kernel), (Ids::Mask, Kernel::BsplineSmooth));
+        let soft = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
+        assert_eq!(scene(source(), &soft, [64, 64]).volume.ids, Ids::Values);
+    }
+
+    #[test]
+    fn lines_are_as_thick_in_every_volume() {
+        let lines = |scale: f64| {
+            let grid = Grid::with_spacing([32; 3], [scale; 3]).unwrap();
+            let ball = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
+            let ball = Volume::new(grid, ball.voxels().clone(), 1.0, 0.0).unwrap();
+            match scene(source(), &ball, [64, 64]).contours.unwrap().thickness {
+                Length::World(w) => w / scale,
+                Length::Voxels(_) => panic!("in world units"),
+            }
+        };
+        // Rounded to three digits: half a unit of the third.
+        assert!((lines(1.0) / lines(0.013) - 1.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn lengths_are_short_numbers() {
+        for (length, short) in [(1.23456, 1.23), (0.000987654, 0.000988), (123456.0, 123000.0), (99.96, 100.0)] {
+            assert_eq!(three_digits(length), short);
+        }
+        assert_eq!(three_digits(0.0), 0.0);
+    }
 }

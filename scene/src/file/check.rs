@@ -26,7 +26,7 @@ impl Check {
             folder: file.parent().unwrap_or(Path::new("")).to_owned(),
             path: String::new(),
             faults: Vec::new(),
-            given: Given::default(),
+            given: Given::new(file),
             styles: Vec::new(),
         }
     }

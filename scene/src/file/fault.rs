@@ -1,6 +1,6 @@
 //! What can be wrong with a scene, in the three lines of the command line's errors: what, where, what to do.
 
-use super::place::Place;
+use super::place::{Place, position};
 use std::fmt;
 use std::path::PathBuf;
 
@@ -115,12 +115,8 @@ impl Fault {
 
     /// The second line: where.
     pub fn position(&self) -> String {
-        let place = match &self.place {
-            Place::File { .. } if matches!(self.problem, Problem::Unreadable { .. }) => self.file.display().to_string(),
-            Place::File { line, column } => format!("{}:{line}:{column}", self.file.display()),
-            Place::Set(text) => format!("--set {text}"),
-        };
-        one_line(if self.key.is_empty() { place } else { format!("{place}, key {}", self.key) })
+        let place = Some(&self.place).filter(|_| !matches!(self.problem, Problem::Unreadable { .. }));
+        one_line(position(&self.file, place, &self.key))
     }
 
     /// The third line: what to do.
@@ -137,8 +133,8 @@ impl Fault {
             }
             Problem::NotBuilt { .. } => "remove it: this version cannot draw it, and would not ignore it".into(),
             Problem::Value { expected, nearest, .. } => match nearest {
-                Some(name) => format!("write {name:?}; expected is {expected}"),
-                None => format!("write {expected}"),
+                Some(name) if *expected != format!("{name:?}") => format!("write {name:?}; expected is {expected}"),
+                _ => format!("write {expected}"),
             },
             Problem::Reference { what, nearest, known, .. } => {
                 let all = if known.is_empty() {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::path::{Path, PathBuf};
 
 /// Where a key or a value stands.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,7 +63,10 @@ impl<'a> Lines<'a> {
 /// The keys that a scene said itself, with their places. It is not part of what the scene means: two scenes that
 /// differ only here are equal.
 #[derive(Clone, Debug, Default)]
-pub struct Given(BTreeMap<String, Place>);
+pub struct Given {
+    file: PathBuf,
+    keys: BTreeMap<String, Place>,
+}
 
 impl PartialEq for Given {
     fn eq(&self, _: &Self) -> bool {
@@ -71,15 +75,19 @@ impl PartialEq for Given {
 }
 
 impl Given {
+    pub(super) fn new(file: &Path) -> Self {
+        Self { file: file.to_owned(), keys: BTreeMap::new() }
+    }
+
     /// Whether the scene said a key, such as `camera.fov` or `transfer.nodes[2].style`, or has a table, such as
     /// `contours`.
     pub fn contains(&self, key: &str) -> bool {
-        self.0.contains_key(key)
+        self.keys.contains_key(key)
     }
 
     /// Where the scene said it.
     pub fn place(&self, key: &str) -> Option<&Place> {
-        self.0.get(key)
+        self.keys.get(key)
     }
 
     /// The line of the scene file that said it; none for a default and for what the command line said.
@@ -89,11 +97,35 @@ impl Given {
 
     /// Every key and table, in alphabetical order.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Place)> {
-        self.0.iter().map(|(key, place)| (key.as_str(), place))
+        self.keys.iter().map(|(key, place)| (key.as_str(), place))
+    }
+
+    /// Where a message says that a key stands: file, line and column as far as they are known, and the key.
+    pub fn position(&self, key: &str) -> String {
+        position(&self.file, self.place(key), key)
+    }
+
+    /// Forgets what the file said, for a scene that nobody wrote. What the command line said stays.
+    pub fn keep_overrides(&mut self) {
+        self.keys.retain(|_, place| matches!(place, Place::Set(_)));
     }
 
     pub(super) fn insert(&mut self, key: String, place: Place) {
-        self.0.insert(key, place);
+        self.keys.insert(key, place);
+    }
+}
+
+/// A place and a key in one line: the second of an error.
+pub(super) fn position(file: &Path, place: Option<&Place>, key: &str) -> String {
+    let place = match place {
+        Some(Place::File { line, column }) => format!("{}:{line}:{column}", file.display()),
+        Some(Place::Set(text)) => format!("--set {text}"),
+        None => file.display().to_string(),
+    };
+    match (place.as_str(), key) {
+        (_, "") => place,
+        ("", _) => format!("key {key}"),
+        _ => format!("{place}, key {key}"),
     }
 }
 
@@ -118,5 +150,18 @@ mod tests {
         assert_eq!(at(18), (3, 1));
         assert_eq!(at(1000), (3, 1));
         assert_eq!(Lines::new("").place(0), Place::File { line: 1, column: 1 });
+    }
+
+    #[test]
+    fn a_position_says_what_is_known() {
+        let mut given = Given::new(Path::new("a/scene.toml"));
+        given.insert("camera.fov".into(), Place::File { line: 3, column: 7 });
+        given.insert("picture.bits".into(), Place::Set("picture.bits=16".into()));
+        assert_eq!(given.position("camera.fov"), "a/scene.toml:3:7, key camera.fov");
+        assert_eq!(given.position("picture.bits"), "--set picture.bits=16, key picture.bits");
+        assert_eq!(given.position("camera.up"), "a/scene.toml, key camera.up");
+        assert_eq!(Given::default().position("camera.up"), "key camera.up");
+        given.keep_overrides();
+        assert!(!given.contains("camera.fov") && given.contains("picture.bits"));
     }
 }

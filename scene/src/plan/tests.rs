@@ -181,3 +181,22 @@ warnings
 ";
     assert_eq!(plan.to_string(), expected);
 }
+
+#[test]
+fn every_file_that_says_the_same_scene_has_the_same_summary() {
+    let scene = parse(
+        "drypoint = 1\n[volume]\nfile = \"a\"\n[shading]\n[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \
+         \"red\" }]\n",
+        "s.toml".as_ref(),
+        &Default::default(),
+    )
+    .unwrap();
+    let full = parse(&crate::file::write_full(&scene), "full.toml".as_ref(), &Default::default()).unwrap();
+    assert_ne!(Plan::new(&full).to_string(), Plan::new(&scene).to_string(), "places differ");
+    assert_eq!(Plan::new(&full).summary(), Plan::new(&scene).summary());
+    assert_eq!(
+        Plan::new(&scene).summary(),
+        "transfer function: value, because of transfer\nshading: gradient, because of shading\nskipping what shows \
+         nothing: brick ranges, because of sampling.skip_empty\npicture: rays, because of picture.samples\n"
+    );
+}

@@ -104,6 +104,26 @@ pub enum StyleError {
     },
 }
 
+impl StyleError {
+    /// One line that says what to do.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Unknown { .. } => "name a style of the theme, or give it a picture in [styles]",
+            Self::UnknownTheme { .. } => "name an embedded theme, or a folder of pictures",
+            Self::Folder { .. } => "give a folder of pictures that may be read",
+            Self::Ambiguous { .. } => "keep one of them",
+            Self::File { .. } => "give a picture that may be read",
+            Self::Picture { fault, .. } => match fault {
+                PictureFault::Unreadable { .. } => "give a picture in PNG or JPEG",
+                PictureFault::NotSquare { .. } | PictureFault::Texels { .. } => {
+                    "cut the picture to the square around its sphere"
+                }
+                PictureFault::TooLarge { .. } => "scale the picture down",
+            },
+        }
+    }
+}
+
 /// `" (did you mean `wax`?)"`, or nothing.
 fn meant(near: &Option<String>) -> String {
     near.as_ref().map_or_else(String::new, |near| format!(" (did you mean `{near}`?)"))

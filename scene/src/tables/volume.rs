@@ -19,6 +19,8 @@ use std::path::PathBuf;
 pub struct VolumeTable {
     /// Where the voxels come from.
     pub source: VolumeSource,
+    /// What the values mean.
+    pub ids: Ids,
     /// The value range of `normalized` ([VAL-1]); none: the volume's own.
     pub range: Option<[f64; 2]>,
     /// The range of ‖g‖ that |g| maps to [0, 1] ([VAL-2]).
@@ -71,6 +73,15 @@ pub struct PhantomSource {
     pub params: Vec<(String, f64)>,
 }
 
+/// What the values of a volume mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ids {
+    /// A quantity: between two values lie all that are between them.
+    Values,
+    /// Ids of parts, between which nothing lies: what has an id above 0 is 1, all else 0.
+    Mask,
+}
+
 /// What |g| = 1 stands for ([VAL-2]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GradientRange {
@@ -92,7 +103,13 @@ pub enum Outside {
 impl VolumeTable {
     /// The table with every default, for a source.
     pub fn new(source: VolumeSource) -> Self {
-        Self { source, range: None, gradient_range: GradientRange::Quantile(0.999), outside: Outside::Low }
+        Self {
+            source,
+            ids: Ids::Values,
+            range: None,
+            gradient_range: GradientRange::Quantile(0.999),
+            outside: Outside::Low,
+        }
     }
 }
 
@@ -212,6 +229,26 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
                 },
             )
             .absent("the file's header, or FILE.toml beside it"),
+            Key::new(
+                "ids",
+                "STF-13",
+                "What the values mean: quantities, or the ids of parts that are shown as one.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("values", Ids::Values, "Each value stands for itself."),
+                            ChoiceOption::new(
+                                "mask",
+                                Ids::Mask,
+                                "Every value above 0 counts as 1, every other as 0; the surface lies at 0.5.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |t: &VolumeTable| Some(t.ids),
+                    set: |t, v| t.ids = v,
+                },
+            ),
             Key::new(
                 "range",
                 "VAL-1",

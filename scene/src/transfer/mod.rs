@@ -94,8 +94,6 @@ fn values(nodes: &[Node], unit: Unit, [lo, hi]: [f64; 2], volume: &Volume) -> Ve
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-
     fn can_be_visible(at: &[f64], opacity: &[f64], range: [f64; 2]) -> bool {
         super::can_be_visible(at, opacity, range, |a| a)
     }

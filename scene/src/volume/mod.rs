@@ -17,6 +17,7 @@ pub use mask::Mask;
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 
 use crate::space::Grid;
+use rayon::prelude::*;
 
 /// Anatomical directions of the world axes, as far as a file names them ([SPACE-2]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,6 +118,22 @@ impl Volume {
         Self { anatomy, ..self }
     }
 
+    /// The same places with 1 where the value is above 0, and 0 elsewhere: what a volume of labels is a picture of.
+    pub fn present(&self) -> Self {
+        let (slope, intercept) = (self.slope, self.intercept);
+        let dims = self.dims();
+        let present: Vec<u8> = with_access!(self, |access| {
+            let above = |i: usize| {
+                let stored = access.at(i % dims[0], i / dims[0] % dims[1], i / (dims[0] * dims[1]));
+                u8::from(slope * stored.to_f64() + intercept > 0.0)
+            };
+            (0..self.voxels.len()).into_par_iter().map(above).collect()
+        });
+        let voxels = Voxels::U8(present);
+        let range = voxels.range();
+        Self { grid: self.grid.clone(), voxels, slope: 1.0, intercept: 0.0, mask: self.mask.clone(), range, ..*self }
+    }
+
     /// Where the voxels lie.
     pub fn grid(&self) -> &Grid {
         &self.grid
@@ -169,5 +186,26 @@ impl Volume {
     pub fn value(&self, [x, y, z]: [usize; 3]) -> f64 {
         let [nx, ny, _] = self.dims();
         self.slope * self.voxels.get((z * ny + y) * nx + x) + self.intercept
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_above_zero_is_present() {
+        // Values 2·stored − 3: −3, −1, 1, 3.
+        let grid = Grid::with_spacing([2, 2, 1], [1.0; 3]).unwrap();
+        let volume = Volume::new(grid.clone(), Voxels::I16(vec![0, 1, 2, 3]), 2.0, -3.0).unwrap();
+        let present = volume.with_anatomy(Some(Anatomy::RightAnteriorSuperior)).present();
+        assert_eq!(present.voxels(), &Voxels::U8(vec![0, 0, 1, 1]));
+        assert_eq!((present.range(), present.value([1, 1, 0])), ([0.0, 1.0], 1.0));
+        assert_eq!(present.anatomy(), Some(Anatomy::RightAnteriorSuperior));
+        // It is its own: what is present stays so.
+        assert_eq!(present.present().voxels(), present.voxels());
+        // The mask of what was not finite stays.
+        let holes = Volume::new(grid, Voxels::F32(vec![1.0, f32::NAN, 0.0, -1.0]), 1.0, 0.0).unwrap().present();
+        assert_eq!(holes.mask().map(Mask::count), Some(1));
     }
 }

@@ -2,12 +2,12 @@
 
 use super::bytes::Stored;
 use super::{Access, Volume, VoxelType};
+use crate::atomic;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use glam::DVec3;
 use std::fmt;
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// How the voxels of a written file are stored.
@@ -70,58 +70,23 @@ pub fn write_nrrd(volume: &Volume, path: &Path) -> Result<(), WriteError> {
 /// bit; a masked voxel is written as NaN. The stored type is kept where values are as stored; NRRD has no slope and no
 /// intercept, so with them the values are written, in f64. The same volume gives the same bytes.
 ///
-/// The file is written beside its place and then renamed: there is never half a file under its name.
+/// There is never half a file under its name ([`atomic::write()`]).
 ///
 /// # Errors
 /// Whatever the operating system refuses.
 pub fn write_nrrd_as(volume: &Volume, path: &Path, encoding: Encoding) -> Result<(), WriteError> {
-    let failed = |source| WriteError { file: path.to_path_buf(), source };
-    let (part, file) = Part::create(path).map_err(failed)?;
-    let mut out = BufWriter::new(file);
-    let written = write_header(volume, encoding, &mut out).and_then(|()| match encoding {
-        Encoding::Raw => write_voxels(volume, &mut out),
-        Encoding::Gzip => {
-            let mut encoder = GzEncoder::new(&mut out, Compression::default());
-            write_voxels(volume, &mut encoder)?;
-            encoder.finish().map(|_| ())
+    let filled = atomic::write(path, |out| {
+        write_header(volume, encoding, out)?;
+        match encoding {
+            Encoding::Raw => write_voxels(volume, out),
+            Encoding::Gzip => {
+                let mut encoder = GzEncoder::new(out, Compression::default());
+                write_voxels(volume, &mut encoder)?;
+                encoder.finish().map(|_| ())
+            }
         }
     });
-    written.and_then(|()| out.into_inner()?.sync_all()).and_then(|()| part.rename(path)).map_err(failed)
-}
-
-/// A file beside the one that is to be, removed again unless it takes that one's place.
-struct Part {
-    path: PathBuf,
-    done: bool,
-}
-
-impl Part {
-    fn create(target: &Path) -> io::Result<(Self, File)> {
-        let Some(name) = target.file_name() else {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"));
-        };
-        let mut hidden = std::ffi::OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}.part", std::process::id()));
-        let path = target.with_file_name(hidden);
-        let file = File::create(&path)?;
-        Ok((Self { path, done: false }, file))
-    }
-
-    fn rename(mut self, target: &Path) -> io::Result<()> {
-        std::fs::rename(&self.path, target)?;
-        self.done = true;
-        Ok(())
-    }
-}
-
-impl Drop for Part {
-    fn drop(&mut self) {
-        if !self.done {
-            // Nothing is left to do where even this fails.
-            let _ = std::fs::remove_file(&self.path);
-        }
-    }
+    filled.map_err(|source| WriteError { file: path.to_path_buf(), source })
 }
 
 /// Whether a value is what is stored.
@@ -129,7 +94,7 @@ fn as_stored(volume: &Volume) -> bool {
     volume.slope() == 1.0 && volume.intercept() == 0.0
 }
 
-fn write_header(volume: &Volume, encoding: Encoding, out: &mut impl Write) -> io::Result<()> {
+fn write_header(volume: &Volume, encoding: Encoding, out: &mut dyn Write) -> io::Result<()> {
     let voxel_type = if as_stored(volume) { volume.voxels().voxel_type() } else { VoxelType::F64 };
     let name = match voxel_type {
         VoxelType::U8 => "uint8",

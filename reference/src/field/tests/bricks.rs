@@ -1,6 +1,7 @@
 //! No sample leaves the range of its brick ([RAY-2]).
 
 use super::*;
+use drypoint_scene::volume::BRICK;
 use proptest::prelude::*;
 
 proptest! {
@@ -82,11 +83,14 @@ fn ranges_are_tight() {
     };
     let close = |[a, b]: [f64; 2], [c, d]: [f64; 2]| (a - c).abs() < 1e-6 && (b - d).abs() < 1e-6;
     let trilinear = of(Kernel::Trilinear);
-    assert_eq!(trilinear.dims, [3, 1, 1]);
-    assert!(close(trilinear.ranges[0], [4.0, 4.0]) && close(trilinear.ranges[1], [4.0, 8.0]));
-    assert!(close(trilinear.ranges[2], [8.0, 8.0]));
+    assert_eq!(trilinear.dims, [19, 8, 8].map(|cells: usize| cells.div_ceil(BRICK)));
+    // The jump is in cell 11.
+    for (brick, range) in trilinear.ranges[..trilinear.dims[0]].iter().enumerate() {
+        let want = [if brick * BRICK <= 11 { 4.0 } else { 8.0 }, if (brick + 1) * BRICK > 11 { 8.0 } else { 4.0 }];
+        assert!(close(*range, want), "{brick}: {range:?}");
+    }
     assert!(close(of(Kernel::BsplineSmooth).ranges[0], [4.0, 4.0]));
     let catmull_rom = of(Kernel::CatmullRom);
     assert!(close(catmull_rom.ranges[0], [4.0, 4.0]));
-    assert!(close(catmull_rom.ranges[1], [6.0 - 2.0 * 1.954, 6.0 + 2.0 * 1.954]));
+    assert!(close(catmull_rom.ranges[11 / BRICK], [6.0 - 2.0 * 1.954, 6.0 + 2.0 * 1.954]));
 }

@@ -28,6 +28,7 @@ const SAMPLES: &[Sample] = &[
     ("volume.raw.endian", &RAW, "big"),
     ("volume.raw.spacing", &RAW, "[0.5, 0.5, 2]"),
     ("volume.raw.skip", &RAW, "352"),
+    ("volume.ids", &[], "mask"),
     ("volume.range", &[], "[-1000, 3000]"),
     ("volume.gradient_range", &[], "[0, 60]"),
     ("volume.outside", &[], "high"),

@@ -1,0 +1,177 @@
+//! The content of a volume as runs of voxels: what a camera frames and on what a thing stands.
+
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::volume::{Access, Volume, Voxel};
+use drypoint_scene::with_access;
+use rayon::prelude::*;
+
+/// Connected parts with less than this share of the largest part's solid voxels are not framed: specks, head rests.
+const PART: f64 = 0.01;
+
+/// Voxels from `first` to `last` along x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Run {
+    first: usize,
+    last: usize,
+    y: usize,
+    z: usize,
+    /// Voxels all of whose six neighbours belong to the content, and a little for the others.
+    solid: f64,
+}
+
+/// The voxels at or above a value, without small parts.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    dims: [usize; 3],
+    runs: Vec<Run>,
+}
+
+impl Body {
+    /// The content of a volume. Everything, where nothing reaches the value.
+    pub(super) fn of(volume: &Volume, value: f64) -> Self {
+        let dims = volume.dims();
+        let rows = with_access!(volume, |a| runs(volume, a, value));
+        let runs = large_parts(&rows, dims);
+        if runs.is_empty() {
+            let [nx, ny, nz] = dims;
+            let row = |i: usize| Run { first: 0, last: nx - 1, y: i % ny, z: i / ny, solid: 0.0 };
+            return Self { dims, runs: (0..ny * nz).map(row).collect() };
+        }
+        Self { dims, runs }
+    }
+
+    /// The ends of all runs in index space: their projections have the same outline as those of all voxels.
+    pub(super) fn ends(&self) -> impl Iterator<Item = DVec3> {
+        self.runs.iter().flat_map(|run| [run.first, run.last].map(|x| DVec3::new(x as f64, run.y as f64, run.z as f64)))
+    }
+
+    /// Voxels of the content in each slice across an axis.
+    pub(super) fn slices(&self, axis: usize) -> Vec<f64> {
+        let mut slices = vec![0.0; self.dims[axis]];
+        for run in &self.runs {
+            match axis {
+                0 => slices[run.first..=run.last].iter_mut().for_each(|n| *n += 1.0),
+                1 => slices[run.y] += (run.last - run.first + 1) as f64,
+                _ => slices[run.z] += (run.last - run.first + 1) as f64,
+            }
+        }
+        slices
+    }
+}
+
+/// The runs of every row, row after row.
+fn runs<A: Access>(volume: &Volume, a: A, value: f64) -> Vec<Vec<Run>> {
+    let [nx, ny, nz] = a.dims();
+    let (slope, intercept) = (volume.slope(), volume.intercept());
+    let shown = |x: usize, y: usize, z: usize| slope * a.at(x, y, z).to_f64() + intercept >= value;
+    // What lies beyond the box counts as content: a cut is no surface.
+    let solid = |x: usize, y: usize, z: usize| {
+        (y == 0 || shown(x, y - 1, z))
+            && (y + 1 == ny || shown(x, y + 1, z))
+            && (z == 0 || shown(x, y, z - 1))
+            && (z + 1 == nz || shown(x, y, z + 1))
+    };
+    (0..ny * nz)
+        .into_par_iter()
+        .map(|row| {
+            let (y, z) = (row % ny, row / ny);
+            let mut runs: Vec<Run> = Vec::new();
+            for x in (0..nx).filter(|&x| shown(x, y, z)) {
+                match runs.last_mut() {
+                    Some(run) if run.last + 1 == x => run.last = x,
+                    _ => runs.push(Run { first: x, last: x, y, z, solid: 0.0 }),
+                }
+            }
+            for run in &mut runs {
+                let inner =
+                    if run.first == 0 { 0 } else { run.first + 1 }..if run.last + 1 == nx { nx } else { run.last };
+                let whole = inner.filter(|&x| solid(x, y, z)).count();
+                // Thin parts have no solid voxel; among themselves their length counts.
+                run.solid = whole as f64 + 1e-3 * (run.last - run.first + 1) as f64;
+            }
+            runs
+        })
+        .collect()
+}
+
+/// The runs of connected parts that are not small beside the largest. Voxels that share a corner are connected.
+fn large_parts(rows: &[Vec<Run>], [_, ny, nz]: [usize; 3]) -> Vec<Run> {
+    let all: Vec<Run> = rows.iter().flatten().copied().collect();
+    let mut starts = Vec::with_capacity(rows.len() + 1);
+    starts.push(0);
+    rows.iter().for_each(|row| starts.push(starts[starts.len() - 1] + row.len()));
+    let mut parent: Vec<usize> = (0..all.len()).collect();
+    for z in 0..nz {
+        for y in 0..ny {
+            // Each pair of neighbouring rows once.
+            for (dy, dz) in [(-1, 0), (-1, -1), (0, -1), (1, -1)] {
+                let (Some(v), Some(w)) = (y.checked_add_signed(dy).filter(|v| *v < ny), z.checked_add_signed(dz))
+                else {
+                    continue;
+                };
+                let (mut i, mut j) = (starts[z * ny + y], starts[w * ny + v]);
+                let (end_i, end_j) = (starts[z * ny + y + 1], starts[w * ny + v + 1]);
+                while i < end_i && j < end_j {
+                    if all[i].first <= all[j].last + 1 && all[j].first <= all[i].last + 1 {
+                        let (a, b) = (root(&mut parent, i), root(&mut parent, j));
+                        parent[a.max(b)] = a.min(b);
+                    }
+                    if all[i].last < all[j].last { i += 1 } else { j += 1 }
+                }
+            }
+        }
+    }
+    let mut size = vec![0.0; all.len()];
+    for (i, run) in all.iter().enumerate() {
+        size[root(&mut parent, i)] += run.solid;
+    }
+    let least = PART * size.iter().copied().fold(0.0, f64::max);
+    (0..all.len()).filter(|&i| size[root(&mut parent, i)] >= least).map(|i| all[i]).collect()
+}
+
+/// The first run of a part. The path to it is halved on the way.
+fn root(parent: &mut [usize], mut i: usize) -> usize {
+    while parent[i] != i {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    i
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::volume;
+    use super::*;
+
+    fn ends(body: &Body) -> [DVec3; 2] {
+        let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        body.ends().for_each(|p| (lo, hi) = (lo.min(p), hi.max(p)));
+        [lo, hi]
+    }
+
+    #[test]
+    fn specks_and_sheets_are_not_framed_and_thin_branches_are() {
+        let block = |[x, y, z]: [usize; 3]| (8..20).contains(&x) && (8..20).contains(&y) && (8..20).contains(&z);
+        let branch = |[x, y, z]: [usize; 3]| x >= 19 && x < 30 && y == x - 10 && z == 12;
+        let speck = |p: [usize; 3]| p == [2, 2, 2] || p == [2, 2, 3];
+        let sheet = |[x, y, _]: [usize; 3]| y == 29 && x > 3;
+        let v = volume(|p| if block(p) || branch(p) || speck(p) || sheet(p) { 9.0 } else { 0.0 });
+        let body = Body::of(&v, 5.0);
+        assert_eq!(ends(&body), [DVec3::splat(8.0), DVec3::new(29.0, 19.0, 19.0)]);
+        let slices = body.slices(0);
+        assert_eq!((slices[7], slices[8], slices[19], slices[29], slices[30]), (0.0, 144.0, 144.0, 1.0, 0.0));
+        assert_eq!((body.slices(1)[19], body.slices(2)[12]), (145.0, 154.0));
+    }
+
+    #[test]
+    fn lines_alone_are_content() {
+        let body = Body::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), 0.5);
+        assert_eq!(ends(&body), [DVec3::new(7.0, 4.0, 5.0), DVec3::new(31.0, 4.0, 5.0)]);
+    }
+
+    #[test]
+    fn nothing_is_everything() {
+        let body = Body::of(&volume(|_| 0.0), 1.0);
+        assert_eq!(ends(&body), [DVec3::ZERO, DVec3::splat(31.0)]);
+    }
+}

@@ -1,0 +1,104 @@
+//! Telling a volume of labels from a scan or a simulation.
+
+use drypoint_scene::volume::{Access, Volume, Voxel};
+use drypoint_scene::with_access;
+use rayon::prelude::*;
+
+/// Of the neighbours that both have an id, at least this share has the same one.
+const EQUAL: f64 = 0.7;
+/// Of the places in a row where something changes, at most this share passes a value between two others. Ids jump;
+/// what was measured or computed passes what is between.
+const BETWEEN: f64 = 0.1;
+
+/// Whether the voxels are ids of parts: whole numbers, mostly equal to their neighbours, that jump where they change.
+pub(super) fn are_ids(volume: &Volume) -> bool {
+    if !volume.voxels().voxel_type().is_integer() || volume.range()[1] <= 0.0 {
+        return false;
+    }
+    let c = with_access!(volume, |a| count(volume, a));
+    let share = |part: u64, all: u64| part as f64 / all.max(1) as f64;
+    c.changes > 0 && share(c.equal, c.pairs) >= EQUAL && share(c.between, c.changes) <= BETWEEN
+}
+
+/// Counts over all rows along all axes.
+#[derive(Clone, Copy, Default)]
+struct Rows {
+    /// Neighbours neither of which is 0, and those that are equal.
+    pairs: u64,
+    equal: u64,
+    /// Three in a row of which a neighbour differs from a middle other than 0, and those that rise or fall throughout.
+    changes: u64,
+    between: u64,
+}
+
+impl Rows {
+    fn add(&mut self, [p, q, r]: [f64; 3]) {
+        if p != 0.0 && q != 0.0 {
+            self.pairs += 1;
+            self.equal += u64::from(p == q);
+        }
+        if q != 0.0 && (p != q || q != r) {
+            self.changes += 1;
+            self.between += u64::from((p < q && q < r) || (p > q && q > r));
+        }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            pairs: self.pairs + other.pairs,
+            equal: self.equal + other.equal,
+            changes: self.changes + other.changes,
+            between: self.between + other.between,
+        }
+    }
+}
+
+fn count<A: Access>(volume: &Volume, a: A) -> Rows {
+    let [nx, ny, nz] = volume.dims();
+    let (slope, intercept) = (volume.slope(), volume.intercept());
+    let value = |x, y, z| slope * a.at(x, y, z).to_f64() + intercept;
+    // Sums of whole numbers: the order of the parts does not show.
+    (0..nz)
+        .into_par_iter()
+        .map(|z| {
+            let mut rows = Rows::default();
+            for y in 0..ny {
+                for x in 0..nx {
+                    let here = value(x, y, z);
+                    if x + 2 < nx {
+                        rows.add([here, value(x + 1, y, z), value(x + 2, y, z)]);
+                    }
+                    if y + 2 < ny {
+                        rows.add([here, value(x, y + 1, z), value(x, y + 2, z)]);
+                    }
+                    if z + 2 < nz {
+                        rows.add([here, value(x, y, z + 1), value(x, y, z + 2)]);
+                    }
+                }
+            }
+            rows
+        })
+        .reduce(Rows::default, Rows::plus)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{radius, typed};
+    use super::*;
+    use drypoint_scene::volume::VoxelType;
+
+    #[test]
+    fn parts_with_ids_are_labels_and_smooth_or_noisy_data_are_not() {
+        let parts = |p: [usize; 3]| if radius(p) > 12.0 { 0.0 } else { 1.0 + (p[0] / 11 + 40 * (p[1] / 16)) as f64 };
+        assert!(are_ids(&typed(parts, VoxelType::I16)));
+        assert!(are_ids(&typed(|p| f64::from(u8::from(radius(p) < 9.0)), VoxelType::U8)));
+        // The same numbers as floating point are no ids.
+        assert!(!are_ids(&typed(parts, VoxelType::F32)));
+        // A ball with a soft edge, flat inside; a ramp; noise; one value everywhere.
+        assert!(!are_ids(&typed(|p| 255.0 / (1.0 + (radius(p) - 9.0).exp()), VoxelType::U8)));
+        assert!(!are_ids(&typed(radius, VoxelType::U16)));
+        assert!(!are_ids(&typed(|p| ((p[0] * 7 + p[1] * 13 + p[2] * 29) % 11) as f64, VoxelType::U8)));
+        assert!(!are_ids(&typed(|_| 3.0, VoxelType::U8)));
+        assert!(!are_ids(&typed(|_| 0.0, VoxelType::U8)));
+    }
+}

@@ -1,0 +1,248 @@
+//! What the voxels say about the surface at each value, in one pass over them.
+
+use drypoint_scene::math;
+use drypoint_scene::tables::Outside;
+use drypoint_scene::volume::histogram::Histogram;
+use drypoint_scene::volume::{Access, Volume, Voxel};
+use drypoint_scene::with_access;
+use rayon::prelude::*;
+
+/// The surface at one value. Lengths and areas are in voxels and their faces, differences in shares of the range.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Level {
+    /// Pairs of face neighbours that the value lies between.
+    pub area: f64,
+    /// Mean difference of these pairs: how much the values change in one voxel.
+    pub step: f64,
+    /// How much of the differences the voxels before and after each pair confirm: 1 at a clean boundary, 0 in noise.
+    pub agreement: f64,
+    /// Share of all voxels that lie inside.
+    pub inside: f64,
+    /// Share of the voxels on the faces of the box that lie inside: content that the box cuts.
+    pub cut: f64,
+    /// Area of a surface that could hold the same volume, over this one's; a cube's is 1/6.
+    pub simplicity: f64,
+}
+
+/// The levels of a volume between two values.
+#[derive(Clone, Debug)]
+pub(super) struct Levels {
+    lo: f64,
+    hi: f64,
+    outside: Outside,
+    levels: Vec<Level>,
+}
+
+/// Levels that are told apart.
+pub(super) const LEVELS: usize = 256;
+
+/// Increments at the bins where pairs begin and end: a pair costs the same however far it reaches.
+#[derive(Clone)]
+struct Sums {
+    /// Pairs, their differences, and what of these is confirmed.
+    pairs: Vec<[f64; 3]>,
+    voxels: Vec<f64>,
+    on_faces: Vec<f64>,
+}
+
+impl Levels {
+    /// Counts the levels of a volume. For `outside` high the values are mirrored, so that what is inside is above.
+    /// None where all voxels have one value.
+    pub(super) fn of(volume: &Volume, outside: Outside) -> Option<Self> {
+        let [lo, hi] = robust_range(volume);
+        let per_value = 1.0 / (hi - lo);
+        if !(hi > lo && per_value.is_finite() && per_value > 0.0) {
+            return None;
+        }
+        let (slope, intercept) = (volume.slope(), volume.intercept());
+        let [nx, ny, nz] = volume.dims();
+        let slices: Vec<Sums> = with_access!(volume, |a| {
+            let share = |x: usize, y: usize, z: usize| {
+                let u = ((slope * a.at(x, y, z).to_f64() + intercept - lo) * per_value).clamp(0.0, 1.0);
+                if outside == Outside::Low { u } else { 1.0 - u }
+            };
+            // Four voxels in a row along an axis, the outer two repeated at the borders.
+            let around = |i: usize, n: usize| [i.saturating_sub(1), i, i + 1, (i + 2).min(n - 1)];
+            (0..nz)
+                .into_par_iter()
+                .map(|z| {
+                    let mut sums = Sums::default();
+                    for y in 0..ny {
+                        for x in 0..nx {
+                            sums.voxel(share(x, y, z), [(x, nx), (y, ny), (z, nz)]);
+                            if x + 1 < nx {
+                                sums.pair(around(x, nx).map(|x| share(x, y, z)));
+                            }
+                            if y + 1 < ny {
+                                sums.pair(around(y, ny).map(|y| share(x, y, z)));
+                            }
+                            if z + 1 < nz {
+                                sums.pair(around(z, nz).map(|z| share(x, y, z)));
+                            }
+                        }
+                    }
+                    sums
+                })
+                .collect()
+        });
+        Some(Self { lo, hi, outside, levels: levels(&slices) })
+    }
+
+    /// Level by level, from the outside inwards.
+    pub(super) fn all(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// The data value in the middle of a level, or at a share of the range from the outside.
+    pub(super) fn value(&self, share: f64) -> f64 {
+        let u = if self.outside == Outside::Low { share } else { 1.0 - share };
+        self.lo + u * (self.hi - self.lo)
+    }
+
+    /// The share of the range at which a value lies, from the outside.
+    pub(super) fn share(&self, value: f64) -> f64 {
+        let u = ((value - self.lo) / (self.hi - self.lo)).clamp(0.0, 1.0);
+        if self.outside == Outside::Low { u } else { 1.0 - u }
+    }
+
+    /// The level at a share of the range.
+    pub(super) fn at(&self, share: f64) -> &Level {
+        &self.levels[bin(share)]
+    }
+}
+
+fn bin(share: f64) -> usize {
+    ((share * LEVELS as f64) as usize).min(LEVELS - 1)
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        Self { pairs: vec![[0.0; 3]; LEVELS], voxels: vec![0.0; LEVELS], on_faces: vec![0.0; LEVELS] }
+    }
+}
+
+impl Sums {
+    fn voxel(&mut self, u: f64, place: [(usize, usize); 3]) {
+        let b = bin(u);
+        self.voxels[b] += 1.0;
+        // A corner lies on three faces. An axis of one voxel has no faces to cut.
+        let faces = place.iter().filter(|(_, n)| *n > 1).filter(|(i, n)| *i == 0 || *i + 1 == *n).count();
+        self.on_faces[b] += faces as f64;
+    }
+
+    /// The pair in the middle of four voxels in a row.
+    fn pair(&mut self, [before, p, q, after]: [f64; 4]) {
+        let (from, to) = (bin(p.min(q)), bin(p.max(q)));
+        if from == to {
+            return;
+        }
+        let (step, wide) = (q - p, after - before);
+        let confirmed = step.abs().min(wide.abs()) * if step * wide > 0.0 { 1.0 } else { -1.0 };
+        for (c, amount) in [1.0, step.abs(), confirmed].into_iter().enumerate() {
+            self.pairs[from][c] += amount;
+            self.pairs[to][c] -= amount;
+        }
+    }
+}
+
+/// Running sums over the bins, slice after slice so that the order of additions is fixed.
+fn levels(slices: &[Sums]) -> Vec<Level> {
+    let total = |column: &dyn Fn(&Sums) -> f64| slices.iter().map(column).sum::<f64>();
+    let all = total(&|s| s.voxels.iter().sum());
+    let all_on_faces = total(&|s| s.on_faces.iter().sum());
+    let (mut inside, mut on_faces) = (all, all_on_faces);
+    let mut pairs = [0.0f64; 3];
+    (0..LEVELS)
+        .map(|b| {
+            for (c, sum) in pairs.iter_mut().enumerate() {
+                *sum += total(&|s| s.pairs[b][c]);
+            }
+            inside -= total(&|s| s.voxels[b]);
+            on_faces -= total(&|s| s.on_faces[b]);
+            let [area, steps, confirmed] = pairs;
+            if area < 0.5 {
+                // Sums of differences leave rounding behind; counts are exact.
+                return Level { inside: inside / all, ..Level::default() };
+            }
+            Level {
+                area,
+                step: steps / area,
+                agreement: (confirmed / steps).clamp(0.0, 1.0),
+                inside: inside / all,
+                cut: if all_on_faces > 0.0 { on_faces / all_on_faces } else { 0.0 },
+                simplicity: (math::pow(inside, 2.0 / 3.0) / area).min(1.0 / 6.0),
+            }
+        })
+        .collect()
+}
+
+/// The volume's range, or the range of nearly all of its voxels where a few far ones would leave all others in the
+/// same levels.
+fn robust_range(volume: &Volume) -> [f64; 2] {
+    /// Share of the voxels that may lie beyond either end.
+    const BEYOND: f64 = 5e-4;
+    let [lo, hi] = volume.range();
+    let histogram = Histogram::new(volume, 4096);
+    let beyond = BEYOND * histogram.total() as f64;
+    let mut sum = 0.0;
+    let (mut first, mut last) = (0, histogram.bins.len() - 1);
+    for (b, &n) in histogram.bins.iter().enumerate() {
+        if sum <= beyond {
+            first = b;
+        }
+        sum += n as f64;
+        if sum >= histogram.total() as f64 - beyond {
+            last = b;
+            break;
+        }
+    }
+    let [most_lo, most_hi] = [histogram.edges(first)[0], histogram.edges(last)[1]];
+    if most_hi - most_lo < (hi - lo) / 16.0 { [most_lo, most_hi] } else { [lo, hi] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{radius, volume};
+    use super::*;
+
+    #[test]
+    fn a_box_by_hand() {
+        // 10 × 10 × 10 voxels of 200 in 0: 600 faces, no step smaller than the whole range, nothing on the box.
+        let inside = |i: usize| (11..21).contains(&i);
+        let v = volume(|[x, y, z]| if inside(x) && inside(y) && inside(z) { 200.0 } else { 0.0 });
+        let levels = Levels::of(&v, Outside::Low).unwrap();
+        let middle = levels.at(0.5);
+        assert_eq!((middle.area, middle.step, middle.agreement, middle.cut), (600.0, 1.0, 1.0, 0.0));
+        // The running sum takes 31 768 voxels off 32 768.
+        assert!((middle.inside - 1000.0 / 32768.0).abs() < 1e-15);
+        assert!((middle.simplicity - 1.0 / 6.0).abs() < 1e-12);
+        assert_eq!((levels.value(0.25), levels.share(150.0)), (50.0, 0.75));
+    }
+
+    #[test]
+    fn mirrored_data_have_the_same_levels() {
+        let ball = |p| if radius(p) < 10.0 { 200.0 } else { 20.0 };
+        let low = Levels::of(&volume(ball), Outside::Low).unwrap();
+        let high = Levels::of(&volume(|p| -ball(p)), Outside::High).unwrap();
+        assert_eq!(low.all(), high.all());
+        assert_eq!(low.value(0.3), -high.value(0.3));
+    }
+
+    #[test]
+    fn noise_confirms_nothing() {
+        // A ripple whose neighbours have nothing to do with each other.
+        let ripple = |[x, y, z]: [usize; 3]| ((x * 7919 + y * 104_729 + z * 1_299_709) * 2_654_435_761 >> 7) % 256;
+        let noise = Levels::of(&volume(|p| ripple(p) as f64), Outside::Low).unwrap();
+        assert!(noise.at(0.5).agreement < 0.2, "{:?}", noise.at(0.5));
+        let clean = Levels::of(&volume(|p| radius(p)), Outside::High).unwrap();
+        assert!(clean.at(0.5).agreement > 0.95, "{:?}", clean.at(0.5));
+    }
+
+    #[test]
+    fn one_hot_voxel_does_not_take_all_levels() {
+        let hot = volume(|p| if p == [3, 3, 3] { 1e9 } else { radius(p) });
+        let levels = Levels::of(&hot, Outside::Low).unwrap();
+        assert!(levels.value(1.0) < 1e6, "{}", levels.value(1.0));
+        assert!(Levels::of(&volume(|_| 7.0), Outside::Low).is_none());
+    }
+}

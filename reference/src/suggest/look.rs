@@ -1,0 +1,136 @@
+//! The styles and opacities of the surfaces that a first picture shows.
+
+use super::boundary::{Boundary, Surface};
+use drypoint_scene::color::srgb_to_linear;
+use drypoint_scene::math;
+use drypoint_scene::tables::{Node, NodeColor, Outside, TransferKind};
+use drypoint_scene::volume::Volume;
+
+/// A style, and its colour for a function without styles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Look {
+    style: &'static str,
+    srgb: [f64; 3],
+}
+
+const SKIN: Look = Look { style: "skin", srgb: [0.91, 0.68, 0.55] };
+const BONE: Look = Look { style: "bone", srgb: [0.93, 0.89, 0.80] };
+const GLASS: Look = Look { style: "glass", srgb: [0.22, 0.62, 0.70] };
+const WAX: Look = Look { style: "wax", srgb: [0.91, 0.75, 0.52] };
+const VESSEL: Look = Look { style: "vessel", srgb: [0.76, 0.20, 0.17] };
+const TONE: Look = Look { style: "tone", srgb: [0.75, 0.68, 0.62] };
+
+/// The looks of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Palette {
+    hull: Look,
+    main: Look,
+}
+
+impl Palette {
+    /// Patients are of skin and bone, thin branches red as vessels are, anything else is of wax under glass.
+    pub(super) fn of(volume: &Volume, boundary: &Boundary) -> Self {
+        match (volume.anatomy().is_some(), boundary.hull.is_some()) {
+            (true, true) => Self { hull: SKIN, main: BONE },
+            (false, true) => Self { hull: GLASS, main: WAX },
+            (_, false) if boundary.thin => Self { hull: GLASS, main: VESSEL },
+            (true, false) => Self { hull: SKIN, main: SKIN },
+            (false, false) => Self { hull: GLASS, main: WAX },
+        }
+    }
+}
+
+/// What a hull hides of what lies behind it, in one voxel where it is densest.
+const HULL: f64 = 0.22;
+
+/// Of an opaque surface, in one voxel.
+const SOLID: f64 = 0.95;
+
+/// A hull is a thin layer, transparent on both sides; the main surface is opaque from there on inwards.
+pub(super) fn nodes(boundary: &Boundary, palette: Palette, kind: TransferKind, outside: Outside) -> Vec<Node> {
+    let inwards = if outside == Outside::Low { 1.0 } else { -1.0 };
+    let node = |surface: &Surface, steps: f64, look: Look, opacity: f64| {
+        let color = match kind {
+            TransferKind::Style => NodeColor::Style(look.style.into()),
+            TransferKind::Regular => NodeColor::Color(look.srgb.map(srgb_to_linear)),
+        };
+        Node { at: short(surface.value + inwards * steps * surface.step, surface.step), color, opacity }
+    };
+    let main = &boundary.main;
+    let mut nodes = Vec::new();
+    if let Some(hull) = &boundary.hull {
+        // The layer ends where the main surface begins.
+        let gap = (main.value - hull.value).abs() - RAMP[0] * main.step;
+        let half = (LAYER * hull.step).min(gap.max(0.0)) / hull.step;
+        nodes.push(node(hull, -half, palette.hull, 0.0));
+        nodes.push(node(hull, 0.0, palette.hull, HULL));
+        nodes.push(node(hull, half, palette.hull, 0.0));
+    }
+    nodes.push(node(main, -RAMP[0], palette.main, 0.0));
+    nodes.push(node(main, RAMP[1], palette.main, SOLID));
+    if outside == Outside::High {
+        nodes.reverse();
+    }
+    nodes
+}
+
+/// A value that a person would write: to about a hundredth of a step, by a power of ten.
+fn short(value: f64, step: f64) -> f64 {
+    let digits = (2.0 - math::log2(step) / math::log2(10.0)).ceil();
+    // Through the decimal text, so that no digits of rounding are left. Beyond the whole numbers nothing is short.
+    if !(0.0..=15.0).contains(&digits) {
+        return if digits < 0.0 { value.round() } else { value };
+    }
+    format!("{value:.*}", digits as usize).parse().unwrap_or(value)
+}
+
+/// Half the thickness of a hull's layer, in voxels.
+const LAYER: f64 = 0.45;
+
+/// How far the ramp of an opaque surface reaches outwards and inwards, in voxels: little outwards, where a hull's own
+/// matter may come close to it.
+const RAMP: [f64; 2] = [0.1, 0.25];
+
+/// The surface of all labels, on values from 0 to 1.
+pub(super) fn label_nodes() -> Vec<Node> {
+    let node = |at, opacity| Node { at, color: NodeColor::Style(TONE.style.into()), opacity };
+    vec![node(0.4, 0.0), node(0.6, SOLID)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_ascend_from_transparent_to_opaque() {
+        let hull = Some(Surface { value: 40.0, step: 20.0 });
+        for main in [Surface { value: 100.0, step: 40.0 }, Surface { value: 45.0, step: 40.0 }] {
+            let low = Boundary { main, hull, thin: false };
+            let palette = Palette { hull: GLASS, main: WAX };
+            let nodes = nodes(&low, palette, TransferKind::Style, Outside::Low);
+            assert!(nodes.windows(2).all(|pair| pair[0].at <= pair[1].at), "{nodes:?}");
+            assert_eq!([nodes[0].opacity, nodes[2].opacity, nodes[3].opacity], [0.0; 3]);
+        }
+    }
+
+    #[test]
+    fn values_are_short() {
+        // A hundredth of the step is 0.2386, so one digit; 0.00055, so four; 5, none.
+        assert_eq!(short(48.853_446, 23.86), 48.9);
+        assert_eq!(short(0.123_456_7, 0.055), 0.1235);
+        assert_eq!(short(-349.7, 500.0), -350.0);
+        assert_eq!(short(1e20, 1e18), 1e20);
+        assert_eq!(short(1.5e-20, 1e-20), 1.5e-20);
+    }
+
+    #[test]
+    fn mirrored_values_have_mirrored_nodes() {
+        let main = |value| Boundary { main: Surface { value, step: 4.0 }, hull: None, thin: true };
+        let palette = Palette { hull: GLASS, main: WAX };
+        let low = nodes(&main(10.0), palette, TransferKind::Regular, Outside::Low);
+        let mut high = nodes(&main(-10.0), palette, TransferKind::Regular, Outside::High);
+        high.reverse();
+        let pairs = low.iter().zip(&high);
+        assert!(pairs.clone().count() == 2 && pairs.into_iter().all(|(a, b)| a.at == -b.at && a.opacity == b.opacity));
+    }
+}

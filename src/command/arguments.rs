@@ -1,0 +1,145 @@
+//! The command line before and after `clap`: the default verb, verbs that are not built yet, points that begin with a
+//! minus, and wrong use in three lines as every other error.
+
+use super::Cli;
+use clap::CommandFactory;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use drypoint::Failure;
+use std::ffi::OsString;
+use std::path::Path;
+
+/// Verbs of the specification that this version does not have, and where it has them.
+const LATER: &[(&str, &str)] = &[
+    ("validate", "GPU-1"),
+    ("cost", "COST-1"),
+    ("pick", "HALO-12"),
+    ("paint", "VS-6"),
+    ("points", "STIP-16"),
+    ("strokes", "STIP-16"),
+    ("halo", "HALO-4"),
+    ("wedge", "STIP-17"),
+];
+
+/// The verb of a command line that names none.
+const DEFAULT: &str = "render";
+
+/// A command line with its verb in place.
+pub(super) struct Arguments {
+    /// What `clap` is to parse.
+    pub words: Vec<OsString>,
+    /// The verb, for messages.
+    pub verb: String,
+}
+
+impl Arguments {
+    /// Puts the default verb in front of what is not one: options, a file, or nothing.
+    ///
+    /// # Errors
+    /// A verb that is not built yet.
+    pub(super) fn new(words: impl IntoIterator<Item = OsString>) -> Result<Self, Failure> {
+        let mut words: Vec<OsString> = words.into_iter().collect();
+        if words.is_empty() {
+            words.push("drypoint".into());
+        }
+        let talk = |word: &OsString| matches!(word.to_str(), Some("-q" | "--quiet" | "-v" | "--verbose"));
+        let at = 1 + words[1..].iter().take_while(|word| talk(word)).count();
+        let first = words.get(at).and_then(|word| word.to_str()).unwrap_or_default().to_owned();
+        let second = words.get(at + 1).and_then(|word| word.to_str()).unwrap_or_default();
+        if let Some((verb, tag)) = LATER.iter().find(|(verb, _)| *verb == first) {
+            return Err(not_built(verb, tag));
+        }
+        if (&*first, second) == ("styles", "extract") {
+            return Err(not_built("styles extract", "STF-2"));
+        }
+        let own = ["help", "-h", "--help", "-V", "--version"].contains(&&*first);
+        if own || Cli::command().find_subcommand(&first).is_some() || is_word(&first) {
+            if first == "probe" {
+                protect_points(&mut words[at..]);
+            }
+            return Ok(Self { words, verb: first });
+        }
+        words.insert(at, DEFAULT.into());
+        Ok(Self { words, verb: DEFAULT.into() })
+    }
+}
+
+fn not_built(verb: &str, tag: &str) -> Failure {
+    let verbs: Vec<String> = Cli::command().get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
+    let remedy = format!("the verbs of this version are {}", verbs.join(", "));
+    Failure::new(format!("`{verb}` is not built yet ([{tag}])"), format!("drypoint {verb}"), remedy)
+}
+
+/// Whether what stands where a verb is expected is more likely a misspelt one than a file: letters only, and no such
+/// file.
+fn is_word(first: &str) -> bool {
+    !first.is_empty() && first.bytes().all(|b| b.is_ascii_alphabetic()) && !Path::new(first).exists()
+}
+
+/// Points may begin with a minus, which `clap` takes for an option. A blank in front does not change a number.
+fn protect_points(words: &mut [OsString]) {
+    for word in words {
+        let text = word.to_str().unwrap_or_default();
+        let number =
+            text.strip_prefix('-').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'));
+        if number {
+            *word = format!(" {text}").into();
+        }
+    }
+}
+
+/// Wrong use, in three lines.
+pub(super) fn refused(error: &clap::Error, verb: &str) -> Failure {
+    let text = error.render().to_string();
+    // The first paragraph says what is wrong; what follows are hints and the usage.
+    let what = text.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
+    let what = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
+        (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) => format!("there is no verb {word:?}"),
+        _ => what.split_whitespace().collect::<Vec<_>>().join(" "),
+    };
+    let known = Cli::command().find_subcommand(verb).is_some();
+    let place = if known { format!("drypoint {verb}") } else { "drypoint".into() };
+    let suggested = [ContextKind::SuggestedArg, ContextKind::SuggestedSubcommand, ContextKind::SuggestedValue];
+    let meant = suggested.into_iter().find_map(|kind| match error.get(kind)? {
+        ContextValue::String(one) => Some(one.clone()),
+        ContextValue::Strings(some) => some.first().cloned(),
+        _ => None,
+    });
+    let help = format!("`{place} --help` tells what there is");
+    let remedy = meant.map_or(help.clone(), |name| format!("write {name}; {help}"));
+    Failure::new(what, place, remedy)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(line: &str) -> String {
+        let arguments = Arguments::new(line.split(' ').map(OsString::from)).unwrap_or_else(|e| panic!("{e}"));
+        arguments.words.iter().map(|w| w.to_str().unwrap()).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn the_default_verb_stands_behind_what_is_said_of_talking() {
+        assert_eq!(words("drypoint"), "drypoint render");
+        assert_eq!(words("drypoint -q -v a.toml"), "drypoint -q -v render a.toml");
+        assert_eq!(words("drypoint --size 3x4"), "drypoint render --size 3x4");
+        assert_eq!(words("drypoint folder/scene"), "drypoint render folder/scene");
+        for same in ["drypoint -q render x", "drypoint --help", "drypoint help probe", "drypoint rendre", "drypoint -V"]
+        {
+            assert_eq!(words(same), same);
+        }
+    }
+
+    #[test]
+    fn a_point_may_begin_with_a_minus() {
+        assert_eq!(words("drypoint probe a --at -1,2 -.5,0 -x"), "drypoint probe a --at  -1,2  -.5,0 -x");
+    }
+
+    #[test]
+    fn what_is_not_built_says_so() {
+        for line in ["drypoint cost a.toml", "drypoint -q cost", "drypoint styles extract a.png"] {
+            let failure = Arguments::new(line.split(' ').map(OsString::from)).err().unwrap();
+            assert!(failure.what.contains("is not built yet (["), "{failure}");
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! The JSON object of `--stats` ([PLAN-2]).
+
+use drypoint::Failure;
+use drypoint::scene::counts::Counts;
+use serde_json::{Map, Value, json};
+
+/// What the frames of `--repeat` took.
+pub(super) struct Times {
+    /// Seconds of each frame, in ascending order; at least one.
+    wall: Vec<f64>,
+    /// Processor seconds of all of them, where the system says.
+    cpu: Option<f64>,
+}
+
+impl Times {
+    /// From the seconds of each frame, at least one, and the processor's for all.
+    pub(super) fn new(mut wall: Vec<f64>, cpu: Option<f64>) -> Self {
+        wall.sort_by(f64::total_cmp);
+        Self { wall, cpu }
+    }
+
+    fn median(&self) -> f64 {
+        let n = self.wall.len();
+        (self.wall[(n - 1) / 2] + self.wall[n / 2]) / 2.0
+    }
+}
+
+/// The counts on one line, with `times` where frames were repeated. What was not done is 0, never left out.
+pub(super) fn line(mut counts: Counts, times: Option<&Times>) -> Result<String, Failure> {
+    counts.preprocess.entry("gradients".into()).or_default();
+    let samples = counts.samples as f64;
+    let mut object: Map<String, Value> = match serde_json::to_value(counts) {
+        Ok(Value::Object(object)) => object,
+        _ => return Err(Failure::new("the counts cannot be written as JSON", "--stats", "leave --stats out")),
+    };
+    if let Some(times) = times {
+        object.insert("median_s".into(), json!(times.median()));
+        object.insert("min_s".into(), json!(times.wall[0]));
+        object.insert("cpu_s".into(), json!(times.cpu.map(|all| all / times.wall.len() as f64)));
+        object.insert("samples_M".into(), json!(samples / 1e6));
+    }
+    Ok(format!("{}\n", Value::Object(object)))
+}
+
+/// Processor seconds that this process has used, where the system says so in its process table.
+pub(super) fn cpu_seconds() -> Option<f64> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // Fields 14 and 15 (user and system time in ticks of 1/100 s), counted behind the name in parentheses.
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
+    let (user, system) = (fields.next()?.parse::<f64>().ok()?, fields.next()?.parse::<f64>().ok()?);
+    Some((user + system) / 100.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_by_hand() {
+        let median = |wall: &[f64]| Times::new(wall.to_vec(), None).median();
+        assert_eq!(median(&[3.0]), 3.0);
+        assert_eq!(median(&[4.0, 1.0]), 2.5);
+        assert_eq!(median(&[9.0, 1.0, 2.0]), 2.0);
+    }
+}

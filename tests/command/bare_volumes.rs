@@ -1,0 +1,101 @@
+//! `render` of a volume without a scene.
+
+use crate::folder::Folder;
+use drypoint::output::read::read_image;
+
+/// Pixels with α > ½, and the box that they fill: left, right, top, bottom.
+fn covered(folder: &Folder, name: &str) -> (usize, [usize; 4]) {
+    let image = read_image(&folder.path(name)).unwrap();
+    let alpha = image.channel("A").unwrap();
+    let (mut n, mut ends) = (0, [usize::MAX, 0, usize::MAX, 0]);
+    for (i, _) in alpha.iter().enumerate().filter(|(_, a)| **a > 0.5) {
+        let (x, y) = (i % image.width, i / image.width);
+        ends = [ends[0].min(x), ends[1].max(x), ends[2].min(y), ends[3].max(y)];
+        n += 1;
+    }
+    (n, ends)
+}
+
+#[test]
+fn the_content_is_framed_in_a_picture_of_any_shape() {
+    let folder = Folder::new();
+    folder.torus();
+    for [w, h] in [[60, 60], [120, 40], [40, 120]] {
+        folder.good(&format!("render torus.nrrd --size {w}x{h} --set picture.background=none -o a.png"));
+        let (n, [left, right, top, bottom]) = covered(&folder, "a.png");
+        let shorter = w.min(h) as f64;
+        let share = ((right - left).max(bottom - top) as f64 + 1.0) / shorter;
+        // The bounds for automatic pictures: 60 … 95 % of the shorter side.
+        assert!((0.6..=0.95).contains(&share), "{w}x{h}: {share}");
+        assert!(n > w * h / 20, "{w}x{h}: {n} pixels");
+    }
+}
+
+#[test]
+fn overrides_act_on_it_as_on_any_scene() {
+    let folder = Folder::new();
+    folder.torus();
+    let small = "render torus.nrrd --size 24x24";
+    folder.good(&format!("{small} -o a.png"));
+    folder.good(&format!("{small} --set contours=off -o b.png"));
+    assert_ne!(folder.read("a.png"), folder.read("b.png"));
+    folder.good(&format!("{small} --preset style -o c.png"));
+    assert_eq!(folder.read("a.png"), folder.read("c.png"));
+    // Another volume in its place is the one that is drawn.
+    folder.good("-q phantom sphere --size 24 --type f64 -o sphere.nrrd");
+    folder.good(&format!("{small} --set volume.file=sphere.nrrd --set picture.background=none -o d.png"));
+    folder.good(&format!("{small} --set picture.background=none -o e.png"));
+    assert_ne!(covered(&folder, "d.png"), covered(&folder, "e.png"));
+}
+
+#[test]
+fn another_kind_of_function_gets_nodes_of_its_own() {
+    let folder = Folder::new();
+    folder.torus();
+    folder.good("render torus.nrrd --size 24x24 --set transfer.kind=regular --set picture.background=none -o a.png");
+    let (n, _) = covered(&folder, "a.png");
+    assert!(n > 24 * 24 / 20, "{n} pixels");
+    let plan = folder.good("plan torus.nrrd --set transfer.kind=regular --set shading.ambient=0.2");
+    assert!(plan.contains("\nshading ") && !plan.contains("styles"), "{plan}");
+}
+
+#[test]
+fn faults_do_not_point_at_lines_that_nobody_wrote() {
+    let folder = Folder::new();
+    folder.torus();
+    let plan = folder.good("plan torus.nrrd --set camera.near=1 --set volume.range=[0,1]");
+    assert!(!plan.contains("line "), "{plan}");
+    assert!(
+        plan.ends_with(
+            "without effect\n  volume.range (--set): only transfer.unit = \"normalized\" is measured in it\n"
+        ),
+        "{plan}"
+    );
+    assert_eq!(
+        folder.refused("render torus.nrrd --set sampling.kernl=bspline"),
+        "error: [sampling] has no key \"kernl\"\n  at: --set sampling.kernl=bspline, key sampling.kernl\n  try: write \"kernel\"; the keys here are step, step_along, kernel, gradient, hessian, scale, normal, number, skip_empty, stop_below, reference_length\n"
+    );
+}
+
+#[test]
+fn invalid_voxels_are_a_warning_and_a_picture() {
+    let folder = Folder::new();
+    // A ball of 12³ voxels; two of them NaN and one infinite.
+    let mut voxels: Vec<f32> = (0..12 * 12 * 12)
+        .map(|i| {
+            let d = [i % 12, i / 12 % 12, i / 144].map(|c| (c as f32 - 5.5) * (c as f32 - 5.5));
+            6.0 - (d[0] + d[1] + d[2]).sqrt()
+        })
+        .collect();
+    (voxels[700], voxels[800], voxels[900]) = (f32::NAN, f32::INFINITY, f32::NAN);
+    let bytes: Vec<u8> = voxels.iter().flat_map(|v| v.to_le_bytes()).collect();
+    folder.write("ball.raw", bytes);
+    folder.write("ball.raw.toml", "size = [12, 12, 12]\ntype = \"f32\"\n");
+    let said = folder.line("render ball.raw --size 24x24 --stats");
+    assert_eq!(said.err, "warning: 3 voxels are NaN or infinite: the cells around are transparent\nball.png\n");
+    let stats: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    assert!(stats["masked"].as_u64().unwrap() > 0 && stats["bytes"]["mask"].as_u64().unwrap() > 0, "{stats}");
+    assert!(read_image(&folder.path("ball.png")).unwrap().channels.iter().flat_map(|c| &c.1).all(|v| v.is_finite()));
+    assert!(folder.good("info ball.raw").contains("invalid    3 (NaN or infinite)"));
+    assert_eq!(folder.line("-q render ball.raw --size 8x8").err, "", "-q says nothing but errors");
+}

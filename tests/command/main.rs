@@ -1,0 +1,20 @@
+//! The command as people and scripts use it: the real binary in a folder of its own.
+
+mod bad_input;
+mod bare_volumes;
+mod compare;
+mod folder;
+mod generated;
+mod info;
+mod interrupt;
+mod output;
+mod overrides;
+mod phantom;
+mod plan;
+mod probe;
+mod raw;
+mod repeatable;
+mod sheet;
+mod stats;
+mod styles;
+mod usage;

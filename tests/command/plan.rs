@@ -1,0 +1,51 @@
+//! `plan`.
+
+use crate::folder::Folder;
+
+#[test]
+fn it_says_what_is_needed_and_which_line_asked() {
+    let folder = Folder::new();
+    folder.scene("[camera]\nprojection = \"orthographic\"\nfov = 30\n[contours]\n");
+    let plan = folder.good("plan scene.toml");
+    for line in [
+        "effect                       needs            adds                                               because of",
+        "styles                       gradient         one gradient a visible sample                      transfer.kind (line 6)",
+        "contours                     previous normal  one gradient where the sample before has none yet  contours.kappa (line 11)",
+        "  camera.fov (line 10): the camera is orthographic: height counts",
+    ] {
+        assert!(plan.lines().any(|l| l == line), "{line}\n{plan}");
+    }
+    let plan = folder.good("plan scene.toml --set contours=off --set sampling.step=3");
+    assert!(!plan.contains("contours"), "{plan}");
+    assert!(plan.contains("\nwarnings\n  samples are up to 3.0000 apart along a ray"), "{plan}");
+}
+
+#[test]
+fn a_function_that_is_found_in_the_data_is_part_of_the_plan() {
+    let folder = Folder::new();
+    folder.write("scene.toml", "drypoint = 1\nvolume.phantom = { name = \"torus\", size = 16 }\n");
+    let plan = folder.good("plan scene.toml");
+    assert!(plan.contains(" automatic function "), "{plan}");
+}
+
+#[test]
+fn the_full_scene_is_a_scene_and_gives_the_same_picture() {
+    let folder = Folder::new();
+    folder.torus();
+    folder.scene("[contours]\nfade = [0.1, 0.3]\n[sampling]\nkernel = \"catmull-rom\"\n");
+    folder.write("short.toml", "drypoint = 1\nvolume.file = \"torus.nrrd\"\npicture.size = [20, 20]\n");
+    for input in ["scene.toml", "short.toml", "torus.nrrd", ""] {
+        let small = match input {
+            "" => "--set picture.size=[21,17] --set volume.phantom.size=24",
+            "torus.nrrd" => "--set picture.size=[21,17]",
+            _ => "",
+        };
+        folder.write("full.toml", folder.good(&format!("plan --full {input} {small}")));
+        for suffix in ["png", "exr"] {
+            folder.good(&format!("render {input} {small} -o a.{suffix}"));
+            folder.good(&format!("render full.toml -o b.{suffix}"));
+            assert!(folder.read(&format!("a.{suffix}")) == folder.read(&format!("b.{suffix}")), "{input} {suffix}");
+        }
+        assert_eq!(folder.good("plan --full full.toml").into_bytes(), folder.read("full.toml"), "{input}");
+    }
+}

@@ -1,0 +1,71 @@
+//! Volumes without a header.
+
+use crate::folder::Folder;
+
+/// 8×6×4 voxels of 16 bits, highest byte first, behind 5 bytes of something else.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    let mut bytes = b"intro".to_vec();
+    for i in 0..8 * 6 * 4u16 {
+        bytes.extend((i % 8 * 100).to_be_bytes());
+    }
+    folder.write("a.raw", bytes);
+    folder
+}
+
+const LAYOUT: &str = "size = [8, 6, 4]\ntype = \"u16\"\nendian = \"big\"\nspacing = [1, 2, 3]\nskip = 5\n";
+
+#[test]
+fn a_sidecar_and_a_key_say_the_same() {
+    let folder = folder();
+    folder.write(
+        "scene.toml",
+        format!(
+            "drypoint = 1\n[volume]\nfile = \"a.raw\"\nraw = {{ {} }}\n[picture]\nsize = [16, 16]\n",
+            LAYOUT.trim().replace('\n', ", ")
+        ),
+    );
+    folder.good("render scene.toml -o key.exr --layers beauty,first");
+    folder.write("a.raw.toml", LAYOUT);
+    folder.good("render scene.toml --set volume.raw=off -o sidecar.exr --layers beauty,first");
+    let compared = folder.line("compare key.exr sidecar.exr --max 0");
+    assert_eq!(compared.code, Some(0), "{}", compared.out);
+    folder.good("render a.raw --size 16x16");
+    let info: serde_json::Value = serde_json::from_str(&folder.good("info a.raw --json")).unwrap();
+    assert_eq!(info["dims"], serde_json::json!([8, 6, 4]));
+    assert_eq!(info["spacing"], serde_json::json!([1.0, 2.0, 3.0]));
+    assert_eq!(info["range"], serde_json::json!([0.0, 700.0]));
+}
+
+#[test]
+fn any_suffix_may_have_a_sidecar() {
+    let folder = folder();
+    folder.write("a.dat", folder.read("a.raw"));
+    folder.write("a.dat.toml", LAYOUT);
+    folder.good("render a.dat --size 8x8");
+    assert!(folder.path("a.png").is_file());
+}
+
+#[test]
+fn layouts_that_do_not_fit() {
+    let folder = folder();
+    assert_eq!(
+        folder.refused("render a.raw"),
+        "error: raw voxels without a description of their layout\n  at: a.raw\n  try: open the header that belongs to it, or describe it in a.raw.toml with size, type, endian, spacing and skip\n"
+    );
+    folder.write("a.raw.toml", LAYOUT.replace("4]", "5]"));
+    assert_eq!(
+        folder.refused("render a.raw"),
+        "error: the data are too short: found 384 bytes, expected 480\n  at: a.raw, field size of a.raw.toml\n  try: get the file again, or correct the sizes and the type in the header\n"
+    );
+    folder.write("a.raw.toml", LAYOUT.replace("u16", "short"));
+    assert_eq!(
+        folder.refused("info a.raw"),
+        "error: found `short`, expected one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64\n  at: a.raw.toml, field type\n  try: correct the header\n"
+    );
+    folder.write("a.raw.toml", LAYOUT.replace("skip", "offset"));
+    assert_eq!(
+        folder.refused("info a.raw"),
+        "error: the description of raw voxels is not valid: unknown field `offset`, expected one of `size`, `type`, `endian`, `spacing`, `skip`\n  at: a.raw.toml, line 5\n  try: correct the header\n"
+    );
+}

@@ -1,0 +1,123 @@
+//! A bare volume gives a good picture by itself: four measures, taken on the picture.
+
+use crate::data;
+use crate::measure::{Measures, measure};
+use drypoint::job::{Job, bare};
+use drypoint::scene::file::{Overrides, parse, write_full};
+use drypoint::scene::tables::{Background, Ids, PhantomSource};
+use drypoint::scene::volume::write::write_nrrd;
+use drypoint::scene::volume::{Volume, VoxelType, read};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// The picture of a volume that is all that is given.
+fn picture_of(path: &Path, volume: Volume) -> (Measures, Ids) {
+    let mut scene = bare(path.to_owned(), &volume, [160, 160]);
+    scene.picture.background = Background::None;
+    let ids = scene.volume.ids;
+    let job = Job::with_volume(scene, volume).unwrap();
+    (measure(&job.renderer().unwrap().frame(&|_| ()).0), ids)
+}
+
+/// What is wrong with a picture.
+fn faults(m: &Measures) -> Vec<String> {
+    let mut faults = Vec::new();
+    let mut demand = |holds: bool, what: String| faults.extend((!holds).then_some(what));
+    demand(m.finite, "a pixel is not finite".into());
+    demand((0.60..=0.95).contains(&m.filled), format!("content fills {:.2} of the shorter side", m.filled));
+    demand((0.05..=0.90).contains(&m.covered), format!("{:.3} of the pixels are covered", m.covered));
+    demand(m.lightness >= 40.0, format!("L* spans {:.1}", m.lightness));
+    demand(m.clipped <= 0.2, format!("a channel is clipped in {:.2}", m.clipped));
+    faults
+}
+
+/// Every volume of a folder, by name.
+fn volumes(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut paths: Vec<PathBuf> = entries.filter(|path| read::is_volume(path)).collect();
+    paths.sort();
+    paths
+}
+
+#[test]
+fn every_shared_volume_gives_a_good_picture() {
+    let Some(folder) = data() else {
+        println!("skipped: no data");
+        return;
+    };
+    let start = Instant::now();
+    let mut wrong = Vec::new();
+    let mut seen = 0;
+    for path in volumes(&folder) {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let Ok(volume) = read::read(&path, None) else { continue };
+        let (m, ids) = picture_of(&path, volume);
+        println!("{name}: {m:?}");
+        wrong.extend(faults(&m).into_iter().map(|fault| format!("{name}: {fault}")));
+        if (ids == Ids::Mask) != name.contains("_label") {
+            wrong.push(format!("{name}: taken for {ids:?}"));
+        }
+        seen += 1;
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(seen >= 26, "{seen} volumes");
+    // Half a minute on two cores; more is a sign that something has become slow.
+    assert!(start.elapsed() < Duration::from_secs(600), "{:?}", start.elapsed());
+}
+
+fn phantom(name: &str) -> Volume {
+    let source = PhantomSource {
+        name: name.into(),
+        size: [48; 3],
+        spacing: [1.0; 3],
+        voxel_type: VoxelType::U8,
+        params: Vec::new(),
+    };
+    drypoint::scene::phantom::generate(&source).unwrap()
+}
+
+#[test]
+fn every_phantom_gives_a_good_picture() {
+    let mut wrong = Vec::new();
+    for name in drypoint::scene::phantom::names() {
+        let (m, ids) = picture_of(Path::new("phantom.nrrd"), phantom(name));
+        // A half-space and a constant are boxes: a lit sphere shows a plane in one tone.
+        let flat = ["plane", "constant"].contains(&name);
+        let of_interest = faults(&m).into_iter().filter(|fault| !(flat && fault.starts_with("L*")));
+        wrong.extend(of_interest.map(|fault| format!("{name}: {fault}")));
+        // Six constant values that jump at their borders are what a volume of labels is.
+        if (ids == Ids::Mask) != (name == "shepp-logan") {
+            wrong.push(format!("{name}: taken for {ids:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_scene_of_a_label_volume_is_a_scene_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("labels.nrrd");
+    write_nrrd(&phantom("shepp-logan"), &path).unwrap();
+    let volume = read::read(&path, None).unwrap();
+    let suggested = bare(path, &volume, [24, 24]);
+    assert_eq!(suggested.volume.ids, Ids::Mask);
+    let full = write_full(&suggested);
+    let again = parse(&full, &folder.path().join("labels.toml"), &Overrides::default()).unwrap();
+    assert_eq!(again, suggested, "{full}");
+    let picture = |job: Job| job.renderer().unwrap().frame(&|_| ()).0;
+    let (given, loaded) = (Job::with_volume(suggested, volume).unwrap(), Job::load(again).unwrap());
+    assert_eq!(loaded.volume.range(), [0.0, 1.0]);
+    assert_eq!(picture(given), picture(loaded));
+}
+
+#[test]
+fn the_camera_frames_what_is_shown_in_pictures_of_any_shape() {
+    for size in [[90, 60], [60, 90]] {
+        let volume = phantom("torus");
+        let mut scene = bare("torus.nrrd".into(), &volume, size);
+        scene.picture.background = Background::None;
+        let job = Job::with_volume(scene, volume).unwrap();
+        let filled = measure(&job.renderer().unwrap().frame(&|_| ()).0).filled;
+        assert!((0.75..=0.95).contains(&filled), "{size:?}: {filled}");
+    }
+}
