@@ -6,6 +6,7 @@ use drypoint::reference::field::{Field, Reconstruction, Rung, Sampler};
 use drypoint::reference::number::{Real, Vec3};
 use drypoint::reference::ray::lattice::{IndexRay, Lattice};
 use drypoint::reference::with_sampler;
+use drypoint::scene::glam::DVec3;
 
 /// One sample of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +17,8 @@ pub(crate) struct Sighted {
     pub(crate) value: f64,
     /// Whether a corner of its cell is masked.
     pub(crate) masked: bool,
-    /// Whether it has a normal.
-    pub(crate) has_normal: bool,
+    /// The unit gradient in world space; none where it is negligible.
+    pub(crate) gradient: Option<DVec3>,
 }
 
 /// The samples inside the box of the ray of each pixel, in the number type of the caster.
@@ -47,11 +48,12 @@ pub(crate) fn sighted<R: Real>(shot: &Shot) -> Vec<Vec<Sighted>> {
                 (first..=last)
                     .map(|k| {
                         let p = ray.position(k);
+                        let g = sampler.gradient(p);
                         Sighted {
                             k,
                             value: sampler.value(p).to_f64(),
                             masked: shot.volume.mask().is_some_and(|mask| mask.touches_cell(sampler.cell(p))),
-                            has_normal: sampler.gradient(p).length() > field.no_normal_below(),
+                            gradient: (g.length() > field.no_normal_below()).then(|| g.to_glam().normalize()),
                         }
                     })
                     .collect()

@@ -56,7 +56,7 @@ fn an_unshaded_scene_computes_no_gradient() {
 #[test]
 fn shaded_and_style_scenes_compute_one_gradient_a_visible_sample() {
     let seen = visible(&regular());
-    let flat = sighted::<f64>(&regular()).iter().flatten().filter(|s| !s.has_normal).count() as u64;
+    let flat = sighted::<f64>(&regular()).iter().flatten().filter(|s| s.gradient.is_none()).count() as u64;
     assert!(flat > 0 && flat < seen);
     let lit = counts(&regular().with(|s| s.shading = Some(Shading::default())));
     assert_eq!((lit.gradients, lit.hessians, lit.style_lookups, lit.without_normal), (seen, 0, 0, flat));
@@ -85,7 +85,7 @@ fn contours_along_the_ray_look_back_only_where_they_must() {
         for (i, s) in ray.iter().enumerate().filter(|(_, s)| s.value > 0.0) {
             seen += 1;
             let before = i.checked_sub(1).map(|i| ray[i]);
-            back += u64::from(s.has_normal && before.is_some_and(|b| b.value <= 0.0));
+            back += u64::from(s.gradient.is_some() && before.is_some_and(|b| b.value <= 0.0));
         }
     }
     let c = counts(&shot);

@@ -121,6 +121,9 @@ fn layers_of_three_samples_by_hand() {
     assert!((DVec3::from_array(shown.layer::<3>(LayerKind::Normal)[0]) - DVec3::Z).length() < 1e-15);
     assert!((DVec3::from_array(shown.layer::<3>(LayerKind::Gradient)[0]) - DVec3::Y).length() < 1e-15);
     assert_eq!(shown.layer::<3>(LayerKind::Curvature)[0], [0.0; 3]);
+    // ½ itself is reached: A = ½ at the first sample.
+    let half = shot.with_transfer(|t| t.nodes.as_mut().unwrap()[0].opacity = 0.5).render();
+    assert_eq!(half.one(LayerKind::Z), [2.5]);
     // Half is never reached: no hit at ½, but a first and a mean.
     let clear = shot.with_transfer(|t| t.nodes.as_mut().unwrap().iter_mut().for_each(|n| n.opacity = 0.1));
     let shown = clear.render();

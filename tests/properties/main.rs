@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod along_ray;
 mod generator;
 mod order;
 mod scenes;

@@ -61,6 +61,27 @@ fn eq_2_by_hand_at_every_pixel() {
     }
 }
 
+/// A sample without a normal counts as seen along it, |N·v| = 1, and κ as 0 ([PREC-3]): α_u^(3/2) of a flat field, whatever
+/// the thickness; under a constant threshold τ the exponent is ½ + 1 − τ.
+#[test]
+fn a_flat_field_is_seen_along_its_normal() {
+    for (kappa, exponent) in [
+        (Kappa::Ray, 1.5),
+        (Kappa::Exact, 1.5),
+        (Kappa::None { threshold: 0.25 }, 1.25),
+        (Kappa::None { threshold: 1.0 }, 0.5),
+    ] {
+        let glass = plain("glass", [0.5, 0.25, 1.0, 0.75]);
+        let shot = Shot::styled(volume([9; 3], |_| 100.1), vec![glass], &[(0.0, "glass", 0.4)])
+            .with(|s| s.contours = Some(Contours { kappa, thickness: Length::World(50.0), ..Contours::default() }));
+        let shown = one_sample(&shot, [0.1, 0.9, 0.4], 4.0).render();
+        assert_eq!(shown.counts.without_normal, 256);
+        for pixel in shown.pixels() {
+            assert!((pixel[3] - 0.75 * 0.4f64.powf(exponent)).abs() < 1e-15, "{kappa:?} {pixel:?}");
+        }
+    }
+}
+
 /// α_u = 1 gives α = α_d and α_u = 0 gives nothing, exactly, on contours and off them; plain transparency too.
 #[test]
 fn the_ends_of_alpha_u_are_exact() {
