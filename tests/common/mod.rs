@@ -221,6 +221,11 @@ pub(crate) fn perspective(fov: f64) -> Camera {
     Camera { projection: Projection::Perspective { fov }, ..Camera::default() }
 }
 
+/// 1 − (1 − α)^(Δ/Δ₀) ([VAL-4]), as it is written.
+pub(crate) fn corrected(alpha: f64, ratio: f64) -> f64 {
+    1.0 - (1.0 - alpha).powf(ratio)
+}
+
 /// The largest difference of two pictures' pixels in any channel.
 pub(crate) fn largest_difference(a: &Shown, b: &Shown) -> f64 {
     let pairs = a.pixels().into_iter().zip(b.pixels());

@@ -3,8 +3,7 @@
 use super::generator::{camera, grid};
 use crate::common::lattice::sighted;
 use crate::common::random::Random;
-use crate::common::{Shot, plain};
-use drypoint::reference::ray::opacity::correct;
+use crate::common::{Shot, corrected, plain};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind::CurvatureAlongView;
 use drypoint::scene::tables::{
@@ -62,7 +61,7 @@ fn the_turn_since_the_plane_before() {
                 let lines = normal == NormalSide::Facing && flip == SignFlip::TwoSided;
                 a.cross(b).length().atan2(if lines { a.dot(b).abs() } else { a.dot(b) }) / ray_step
             };
-            let weight = correct(alpha, ray_step / grid.voxel());
+            let weight = corrected(alpha, ray_step / grid.voxel());
             let (mut sum, mut weights, mut through) = (0.0, 0.0, 1.0);
             for i in (0..ray.len()).filter(|&i| ray[i].value >= cut && !ray[i].masked) {
                 let before = i.checked_sub(1).and_then(n);

@@ -1,8 +1,7 @@
 //! Eq. 2 in pictures ([STF-9]) and the order of the correction ([VAL-4]).
 
 use super::one_sample;
-use crate::common::{Shot, ball, orthographic, plain, volume};
-use drypoint::reference::ray::opacity::correct;
+use crate::common::{Shot, ball, corrected, orthographic, plain, volume};
 use drypoint::reference::style_transfer_functions::contour::fade;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -127,12 +126,12 @@ fn a_slab_under_eq_2_converges_because_correction_comes_last() {
         let whole = 1.0 - (1.0 - alpha).powf(length / 8.0);
         for halvings in 0..5 {
             let step = 1.1 / f64::from(1 << halvings);
-            let bound = correct(alpha, step / 8.0);
+            let bound = corrected(alpha, step / 8.0);
             assert!(bound <= -(1.0 - alpha).ln() * step / 8.0);
             for pixel in shot.with(|s| s.sampling.step = Length::World(step)).render().pixels() {
                 assert!((pixel[3] - whole).abs() <= bound + 1e-12, "Δ {step}: {} {whole} ± {bound}", pixel[3]);
             }
-            let first: f64 = correct(alpha_u, step / 8.0);
+            let first = corrected(alpha_u, step / 8.0);
             let wrong = 1.0 - (1.0 - first.powf(exponent)).powf(length / step);
             // A slab at an exponent above 1 vanishes instead.
             assert!(halvings < 4 || (wrong - whole).abs() > 4.0 * bound, "{wrong} {whole} {bound}");
