@@ -83,7 +83,8 @@ fn runs<A: Access>(volume: &Volume, a: A, value: f64) -> Vec<Vec<Run>> {
                 }
             }
             for run in &mut runs {
-                let inner = if run.first == 0 { 0 } else { run.first + 1 }..if run.last + 1 == nx { nx } else { run.last };
+                let inner =
+                    if run.first == 0 { 0 } else { run.first + 1 }..if run.last + 1 == nx { nx } else { run.last };
                 let whole = inner.filter(|&x| solid(x, y, z)).count();
                 // Thin parts have no solid voxel; among themselves their length counts.
                 run.solid = whole as f64 + 1e-3 * (run.last - run.first + 1) as f64;
@@ -104,7 +105,8 @@ fn large_parts(rows: &[Vec<Run>], [_, ny, nz]: [usize; 3]) -> Vec<Run> {
         for y in 0..ny {
             // Each pair of neighbouring rows once.
             for (dy, dz) in [(-1, 0), (-1, -1), (0, -1), (1, -1)] {
-                let (Some(v), Some(w)) = (y.checked_add_signed(dy).filter(|v| *v < ny), z.checked_add_signed(dz)) else {
+                let (Some(v), Some(w)) = (y.checked_add_signed(dy).filter(|v| *v < ny), z.checked_add_signed(dz))
+                else {
                     continue;
                 };
                 let (mut i, mut j) = (starts[z * ny + y], starts[w * ny + v]);
@@ -150,7 +152,7 @@ mod tests {
     #[test]
     fn specks_and_sheets_are_not_framed_and_thin_branches_are() {
         let block = |[x, y, z]: [usize; 3]| (8..20).contains(&x) && (8..20).contains(&y) && (8..20).contains(&z);
-        let branch = |[x, y, z]: [usize; 3]| x >= 19 && x < 30 && y == x - 10 && z == 12;
+        let branch = |[x, y, z]: [usize; 3]| (19..30).contains(&x) && y == x - 10 && z == 12;
         let speck = |p: [usize; 3]| p == [2, 2, 2] || p == [2, 2, 3];
         let sheet = |[x, y, _]: [usize; 3]| y == 29 && x > 3;
         let v = volume(|p| if block(p) || branch(p) || speck(p) || sheet(p) { 9.0 } else { 0.0 });

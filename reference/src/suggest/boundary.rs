@@ -173,9 +173,10 @@ fn hull(levels: &Levels, body: &Peak) -> Option<f64> {
     if body.level.agreement < SMOOTH {
         return None;
     }
-    let share = (1..LEVELS).rev().map(|b| b as f64 / LEVELS as f64).find(|&share| {
-        share < body.share && levels.at(share).inside >= HULL * body.level.inside
-    })?;
+    let share = (1..LEVELS)
+        .rev()
+        .map(|b| b as f64 / LEVELS as f64)
+        .find(|&share| share < body.share && levels.at(share).inside >= HULL * body.level.inside)?;
     let level = levels.at(share);
     let free = level.inside < ROOM && levels.at(share - LEAST_STEP).cut < 0.01;
     let clear = free && level.simplicity >= body.level.simplicity && level.agreement >= SMOOTH;

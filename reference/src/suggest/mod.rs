@@ -157,7 +157,7 @@ mod tests {
             let ball = Volume::new(grid, ball.voxels().clone(), 1.0, 0.0).unwrap();
             match scene(source(), &ball, [64, 64]).contours.unwrap().thickness {
                 Length::World(w) => w / scale,
-                Length::Voxels(_) => panic!("in world units"),
+                other => panic!("{other:?} is not in world units"),
             }
         };
         // Rounded to three digits: half a unit of the third.

@@ -46,7 +46,13 @@ impl Stance {
         let longest = extent.into_iter().fold(0.0, f64::max);
         let flat = |a: usize| extent[a] < FLAT * longest;
         // Along y when z is up, along z when y is up: the picture is that of a slice, turned.
-        let (mut along, mut across) = if up == 2 { (1, 0) } else if up == 1 { (2, 0) } else { (1, 2) };
+        let (mut along, mut across) = if up == 2 {
+            (1, 0)
+        } else if up == 1 {
+            (2, 0)
+        } else {
+            (1, 2)
+        };
         if flat(across) && !flat(along) {
             (along, across) = (across, along);
         }
@@ -73,9 +79,8 @@ impl Stance {
 /// The axis that is up, and whether it is up towards its end.
 fn standing(body: &Body, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
     let faces = (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]);
-    let (axis, side) = faces.clone().fold((2, 0), |best, face| {
-        if cuts[face.0][face.1] > cuts[best.0][best.1] { face } else { best }
-    });
+    let (axis, side) =
+        faces.clone().fold((2, 0), |best, face| if cuts[face.0][face.1] > cuts[best.0][best.1] { face } else { best });
     let foot = cuts[axis][side];
     let others = faces.filter(|face| *face != (axis, side)).map(|(a, s)| cuts[a][s]).fold(0.0, f64::max);
     if foot < SIZE || foot < FOOT * others {
@@ -135,9 +140,8 @@ mod tests {
     #[test]
     fn a_bust_stands_on_its_neck() {
         // A head whose crown is the first slice, and whose neck goes on beyond the last.
-        let s = stance(|p| {
-            ball(p, [16.0, 16.0, 12.0], 10.0) || ((p[0] - 16.0).hypot(p[1] - 16.0) < 4.0 && p[2] > 12.0)
-        });
+        let s =
+            stance(|p| ball(p, [16.0, 16.0, 12.0], 10.0) || ((p[0] - 16.0).hypot(p[1] - 16.0) < 4.0 && p[2] > 12.0));
         assert_eq!(s.up, -DVec3::Z);
         assert!(s.direction.z > 0.0, "seen from above its crown");
         // A leg that widens to where it is cut stands on its foot.
