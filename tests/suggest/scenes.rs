@@ -1,1 +1,85 @@
-//! x
+//! The scenes that come with the program.
+
+use crate::data;
+use crate::measure::measure;
+use drypoint::job::Job;
+use drypoint::scene::file::{Overrides, load};
+use drypoint::scene::plan::Quantity;
+use drypoint::scene::tables::VolumeSource;
+use std::path::{Path, PathBuf};
+
+/// Every scene file in a folder and the folders in it.
+fn scenes(folder: &Path) -> Vec<PathBuf> {
+    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    entries.sort();
+    let found = entries.into_iter().flat_map(|path| if path.is_dir() { scenes(&path) } else { vec![path] });
+    found.filter(|path| path.extension().is_some_and(|suffix| suffix == "toml")).collect()
+}
+
+fn all() -> Vec<PathBuf> {
+    scenes(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes"))
+}
+
+/// Whether a scene needs no file.
+fn is_of_a_phantom(path: &Path) -> bool {
+    std::fs::read_to_string(path).unwrap().contains("\nphantom = ")
+}
+
+#[test]
+fn every_scene_gives_a_picture() {
+    let here = data().is_some();
+    let mut seen = 0;
+    for path in all() {
+        if !here && !is_of_a_phantom(&path) {
+            println!("skipped: no data for {}", path.display());
+            continue;
+        }
+        let small = [("picture.size", "[64, 64]"), ("picture.background", "none")];
+        let scene = load(&path, &small.into_iter().collect()).unwrap_or_else(|faults| panic!("{faults}"));
+        let job = Job::load(scene).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
+        assert_eq!(job.plan.idle_keys, [], "{}: keys without effect", path.display());
+        let m = measure(&job.renderer().unwrap().frame(&|_| ()).0);
+        assert!(m.finite && (0.05..=0.90).contains(&m.covered), "{}: {m:?}", path.display());
+        seen += 1;
+    }
+    assert!(seen >= if here { 6 } else { 1 }, "{seen} scenes");
+}
+
+#[test]
+fn the_unshaded_scene_needs_only_values() {
+    if data().is_none() {
+        println!("skipped: no data");
+        return;
+    }
+    let path = all().into_iter().find(|path| path.ends_with("engine-unshaded.toml")).unwrap();
+    let job = Job::load(load(&path, &Overrides::default()).unwrap()).unwrap();
+    let needs: Vec<Quantity> = job.plan.needs.iter().map(|need| need.quantity).collect();
+    assert_eq!(needs, [Quantity::Value]);
+}
+
+#[test]
+fn the_regular_twin_differs_in_its_colours_alone() {
+    if data().is_none() {
+        println!("skipped: no data");
+        return;
+    }
+    let scene = |name: &str| {
+        let path = all().into_iter().find(|path| path.ends_with(name)).unwrap();
+        load(&path, &Overrides::default()).unwrap()
+    };
+    let (styled, regular) = (scene("engine.toml"), scene("engine-regular.toml"));
+    let opacities = |scene: &drypoint::scene::tables::Scene| -> Vec<[f64; 2]> {
+        scene.transfer.as_ref().unwrap().nodes.iter().flatten().map(|node| [node.at, node.opacity]).collect()
+    };
+    assert_eq!(opacities(&styled), opacities(&regular));
+    assert_eq!((styled.camera, styled.picture), (regular.camera, regular.picture));
+    assert_eq!((styled.sampling, styled.volume), (regular.sampling, regular.volume));
+    assert!(regular.shading.is_some() && regular.contours.is_none());
+}
+
+#[test]
+fn the_embedded_scene_needs_no_file() {
+    let scene = load(&all()[0], &Overrides::default()).unwrap();
+    assert!(matches!(scene.volume.source, VolumeSource::Phantom(_)));
+    assert!(all()[0].ends_with("default.toml"));
+}

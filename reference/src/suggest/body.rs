@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn specks_and_sheets_are_not_framed_and_thin_branches_are() {
         let block = |[x, y, z]: [usize; 3]| (8..20).contains(&x) && (8..20).contains(&y) && (8..20).contains(&z);
-        let branch = |[x, y, z]: [usize; 3]| x >= 19 && x < 30 && y == x - 10 && z == 12;
+        let branch = |[x, y, z]: [usize; 3]| (19..30).contains(&x) && y == x - 10 && z == 12;
         let speck = |p: [usize; 3]| p == [2, 2, 2] || p == [2, 2, 3];
         let sheet = |[x, y, _]: [usize; 3]| y == 29 && x > 3;
         let v = volume(|p| if block(p) || branch(p) || speck(p) || sheet(p) { 9.0 } else { 0.0 });
