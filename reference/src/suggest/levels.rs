@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn noise_confirms_nothing() {
         // A ripple whose neighbours have nothing to do with each other.
-        let ripple = |[x, y, z]: [usize; 3]| ((x * 7919 + y * 104_729 + z * 1_299_709) * 2_654_435_761 >> 7) % 256;
+        let ripple = |[x, y, z]: [usize; 3]| (((x * 7919 + y * 104_729 + z * 1_299_709) * 2_654_435_761) >> 7) % 256;
         let noise = Levels::of(&volume(|p| ripple(p) as f64), Outside::Low).unwrap();
         assert!(noise.at(0.5).agreement < 0.2, "{:?}", noise.at(0.5));
         let clean = Levels::of(&volume(radius), Outside::High).unwrap();
