@@ -61,10 +61,9 @@ fn anchors(text: &str) -> Vec<String> {
     text.lines().filter(|line| line.starts_with('#')).map(anchor).map(|a: String| a.replace(' ', "-")).collect()
 }
 
-/// Where the links of a page lead: `[text](target)`, pictures not among them.
+/// Where the links and the pictures of a page lead: `[text](target)`.
 fn links(text: &str) -> impl Iterator<Item = &str> {
-    let lines = text.lines().filter(|line| !line.contains("!["));
-    lines
+    text.lines()
         .flat_map(|line| line.split("](").skip(1))
         .filter_map(|rest| rest.split(')').next())
         .filter(|t| !t.contains("://"))
