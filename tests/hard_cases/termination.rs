@@ -2,7 +2,7 @@
 
 use crate::common::{Shot, ball, largest_difference};
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Background, Length, Shading};
+use drypoint::scene::tables::{Background, BlendSpace, Length, Shading};
 
 /// A soft ball with a bright core behind a dark shell: what is cut off is the brightest there is.
 fn soft() -> Shot {
@@ -13,22 +13,55 @@ fn soft() -> Shot {
 }
 
 /// Where A ≥ 1 − ε what is left out has a weight of at most ε in all, of colours up to c_max; the background, which is
-/// drawn with 1 − A, among them.
+/// drawn with 1 − A, among them. In linear light also where the sums are encoded.
 #[test]
 fn the_error_is_bounded_by_epsilon() {
-    for (shading, brightest) in
-        [(None, 1.0), (Some(Shading { ambient: 0.5, diffuse: 1.0, specular: 0.8, ..Shading::default() }), 2.3)]
-    {
-        let shot = soft().with(|s| s.shading = shading);
-        let whole = shot.render();
-        for epsilon in [1e-6, 1e-3, 0.1, 0.5, 0.99] {
-            let cut = shot.with(|s| s.sampling.stop_below = epsilon).render();
-            let difference = largest_difference(&whole, &cut);
-            assert!(difference <= epsilon * brightest + 1e-15, "{epsilon}: {difference}");
-            assert!(cut.counts.samples <= whole.counts.samples);
-            if epsilon >= 0.1 {
-                assert!(difference > 0.0 && cut.counts.samples < whole.counts.samples, "{epsilon}");
+    let bright = Shading { ambient: 0.5, diffuse: 1.0, specular: 0.8, ..Shading::default() };
+    for (shading, brightest) in [(None, 1.0), (Some(bright), 2.3)] {
+        for (space, background) in [
+            (BlendSpace::Linear, Background::Color([1.0, 0.9, 0.8, 1.0])),
+            (BlendSpace::Srgb, Background::Color([1.0, 0.9, 0.8, 1.0])),
+            (BlendSpace::Srgb, Background::Color([0.0, 0.0, 0.0, 1.0])),
+        ] {
+            let shot = soft().with(|s| {
+                s.shading = shading.clone();
+                s.picture.blend_space = space;
+                s.picture.background = background;
+            });
+            let whole = shot.render();
+            for epsilon in [1e-6, 1e-3, 0.1, 0.5, 0.99] {
+                let cut = shot.with(|s| s.sampling.stop_below = epsilon).render();
+                let difference = largest_difference(&whole, &cut);
+                assert!(difference <= epsilon * brightest + 1e-15, "{space:?} {epsilon}: {difference}");
+                assert!(cut.counts.samples <= whole.counts.samples);
+                if epsilon >= 0.1 {
+                    assert!(difference > 0.0 && cut.counts.samples < whole.counts.samples, "{epsilon}");
+                }
             }
+        }
+    }
+}
+
+/// The worst that can be cut off: black up to A = 1 − ε, then nothing but white, composited encoded.
+#[test]
+fn encoded_sums_keep_the_bound_where_the_curve_is_steepest() {
+    for epsilon in [0.02, 0.2, 0.6] {
+        for share in [0.999_9, 1.0, 1.000_1, 2.0] {
+            // One black sample leaves `share` of what the bound lets through, all others are white and opaque.
+            let through = (epsilon * share / 2.4f64).min(0.99);
+            let slab = crate::common::volume([4, 3, 4], |p| p.y);
+            let nodes = [(0.0, [0.0; 3], 1.0 - through), (0.5, [1.0; 3], 1.0), (2.0, [1.0; 3], 1.0)];
+            let shot = Shot::regular(slab, &nodes).step(1.0).with(|s| {
+                s.picture.blend_space = BlendSpace::Srgb;
+                s.picture.size = [1, 1];
+                // Planes at half depths: one in each voxel's plane.
+                s.camera.eye = Some(drypoint::scene::glam::DVec3::new(1.5, -0.5, 1.5));
+                s.camera.direction_given = true;
+            });
+            let cut = shot.with(|s| s.sampling.stop_below = epsilon);
+            let difference = largest_difference(&shot.render(), &cut.render());
+            assert!(difference <= epsilon, "{epsilon} {share}: {difference}");
+            assert_eq!(difference > 0.0, share < 1.000_01, "{epsilon} {share}: {difference}");
         }
     }
 }

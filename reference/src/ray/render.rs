@@ -215,11 +215,12 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
 }
 
 /// The A at which a ray ends, so that what is left out is at most ε·c_max in linear light ([RAY-2]). What is left out of
-/// an encoded sum is decoded with it, and sRGB's curve is nowhere steeper than 2.4/1.055 ≈ 2.275, at its upper end.
+/// an encoded sum, at most the encoded c_max times its weight, is decoded with it; and sRGB's curve f, of which shading can
+/// make the part above 1 count too, has c·f′(c) ≤ 2.4 f(c).
 fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
     match blend_space {
         BlendSpace::Linear => 1.0 - epsilon,
-        BlendSpace::Srgb => 1.0 - epsilon * 1.055 / 2.4,
+        BlendSpace::Srgb => 1.0 - epsilon / 2.4,
     }
 }
 
