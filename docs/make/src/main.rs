@@ -1,6 +1,7 @@
 //! Writes the generated pages and pictures of the repository.
 
 mod accuracy;
+mod figures;
 mod files;
 #[cfg(test)]
 mod pages;
@@ -13,8 +14,9 @@ use std::process::ExitCode;
 /// A page or a set of pictures: the word that asks for it, and what writes it.
 type Page = (&'static str, fn() -> Result<(), String>);
 
-const PAGES: [Page; 4] = [
+const PAGES: [Page; 5] = [
     ("accuracy", accuracy::write),
+    ("figures", figures::write),
     ("reference", reference::write),
     ("rings", rings::write),
     ("styles", styles::write),
