@@ -22,12 +22,14 @@ pub enum Quantity {
     Hessian,
     /// |g|: ‖g‖ mapped to [0, 1] by its range ([VAL-2]).
     GradientMagnitudeRange,
+    /// The id of the part that the sample belongs to ([STF-13]).
+    Label,
 }
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Self; 5] =
-        [Self::Value, Self::Gradient, Self::PreviousNormal, Self::Hessian, Self::GradientMagnitudeRange];
+    pub const ALL: [Self; 6] =
+        [Self::Value, Self::Gradient, Self::PreviousNormal, Self::Hessian, Self::GradientMagnitudeRange, Self::Label];
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -37,6 +39,7 @@ impl Quantity {
             Self::PreviousNormal => "previous normal",
             Self::Hessian => "Hessian",
             Self::GradientMagnitudeRange => "|g|",
+            Self::Label => "label",
         }
     }
 
@@ -48,13 +51,14 @@ impl Quantity {
             Self::PreviousNormal => "one gradient where the sample before has none yet",
             Self::Hessian => "one Hessian a visible sample",
             Self::GradientMagnitudeRange => "a norm and a division a visible sample",
+            Self::Label => "one look at a label volume, or at eight of its voxels, a sample",
         }
     }
 
     /// What it is made of.
     fn prerequisite(self) -> Option<Self> {
         match self {
-            Self::Value => None,
+            Self::Value | Self::Label => None,
             Self::Gradient => Some(Self::Value),
             // A sample without a normal has no curvature, and that is tested on `sampling.gradient` too ([PREC-3]).
             Self::PreviousNormal | Self::Hessian | Self::GradientMagnitudeRange => Some(Self::Gradient),
