@@ -79,6 +79,8 @@ pub enum Pass {
     AutomaticTransfer,
     /// The ranges of bricks, by which empty space is skipped ([RAY-2]).
     Bricks,
+    /// The mip chains of the styles ([STF-10]).
+    StyleMipmaps,
     /// The rays themselves.
     Rays,
 }
@@ -92,6 +94,7 @@ impl Pass {
             Self::GradientRange => "range of |g|",
             Self::AutomaticTransfer => "automatic function",
             Self::Bricks => "brick ranges",
+            Self::StyleMipmaps => "style mip-maps",
             Self::Rays => "rays",
         }
     }
@@ -103,6 +106,7 @@ impl Pass {
             Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
             Self::GradientRange | Self::AutomaticTransfer => "one gradient a voxel",
             Self::Bricks => "one look at each voxel",
+            Self::StyleMipmaps => "one look at each texel of a style, a third of it more to keep",
             Self::Rays => "samples² rays a pixel",
         }
     }

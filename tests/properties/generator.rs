@@ -7,7 +7,8 @@ use drypoint::scene::space::Grid;
 use drypoint::scene::style::Style;
 use drypoint::scene::tables::{
     Background, BlendSpace, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Length,
-    LightDirection, Mix, NormalSide, Number, Outside, Shading, SignFlip, SphereFrame, StepAlong, Transparency, Unit,
+    LightDirection, Mix, NormalSide, Number, Outside, Shading, SignFlip, SphereFrame, StepAlong, StyleMipmaps,
+    Transparency, Unit,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -214,6 +215,13 @@ pub(crate) fn scene(seed: u64) -> Shot {
             kappa: r.pick(&[Kappa::Ray, Kappa::Ray, Kappa::Exact, Kappa::None { threshold: 0.4 }]),
             sign_flip: r.pick(&[SignFlip::TwoSided, SignFlip::Literal]),
             fade: r.pick(&[None, None, Some([0.1, 0.4]), Some([0.2, 0.2])]),
+        });
+    }
+    if r.once_in(3) {
+        s.style_mipmaps = Some(StyleMipmaps {
+            curvature_bias: r.pick(&[0.0, 1.0, 3.0]),
+            gradient_bias: r.pick(&[0.0, 1.0, 2.5]),
+            turn: r.pick(&[0.0, 2.0 / 256.0, 0.3]),
         });
     }
     shot

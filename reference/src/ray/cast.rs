@@ -149,7 +149,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         let prepared = self.prepared;
         let g = self.sampler.gradient_at(at);
         counts.gradients += 1;
-        let mut facts = Facts { gradient: g, ..Facts::none() };
+        let mut facts = Facts { depth: self.ray.depth(k), gradient: g, ..Facts::none() };
         if let Some((lo, width)) = prepared.gradient_range {
             facts.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
         }

@@ -11,7 +11,7 @@ use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
 use crate::style_transfer_functions::curvature_along_ray::Turn;
-use crate::style_transfer_functions::{Contour, Spheres, StyleIndex};
+use crate::style_transfer_functions::{Contour, Detail, Footprint, Spheres, StyleIndex};
 use crate::transfer::{NodesError, Piecewise};
 use crate::with_sampler;
 use drypoint_scene::color::{self, Rgba};
@@ -20,7 +20,7 @@ use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::{Plan, Quantity};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{
-    BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, Transparency,
+    BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, StyleMipmaps, Transparency,
 };
 use drypoint_scene::transfer::{Function, Nodes};
 use drypoint_scene::view::{View, ViewError};
@@ -188,6 +188,11 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         Function::Regular(Nodes { at, opacity, .. }) => (at, opacity),
     };
     let look = look(inputs, &view)?;
+    if let Look::Style(styled) = &look
+        && let Some(bytes) = styled.spheres.mipmap_bytes()
+    {
+        counts.bytes.insert("style_mipmaps".into(), bytes as u64);
+    }
     let layers = if scene.picture.layers.is_empty() { vec![LayerKind::Beauty] } else { scene.picture.layers.clone() };
     Ok(Prepared {
         volume,
@@ -268,15 +273,30 @@ fn look<R: Real>(inputs: &Inputs<'_>, view: &View) -> Result<Look<R>, RenderErro
                 })
                 .transpose()?;
             let transfer = scene.transfer.as_ref();
+            let spheres = Spheres::new(styles, transfer.map_or(Mix::Premultiplied, |t| t.mix));
+            let mipmaps = scene.style_mipmaps.as_ref();
             Ok(Look::Style(Styled {
                 index: StyleIndex::new(&nodes.color),
-                spheres: Spheres::new(styles, transfer.map_or(Mix::Premultiplied, |t| t.mix)),
+                spheres: if mipmaps.is_some() { spheres.with_mipmaps(styles) } else { spheres },
+                detail: mipmaps.map(|table| detail(table, scene, view, volume.grid().voxel())),
                 contour,
                 transparency: transfer.map_or(Transparency::Illustrative, |t| t.transparency),
                 frame: transfer.map_or(SphereFrame::Eye, |t| t.sphere_frame),
                 eye_axes: eye_axes(view),
             }))
         }
+    }
+}
+
+/// The level of detail of styles ([STF-10]), in rays of the picture.
+fn detail<R: Real>(table: &StyleMipmaps, scene: &Scene, view: &View, voxel: f64) -> Detail<R> {
+    let rays = R::from_f64(voxel * scene.picture.samples as f64 / view.pixel);
+    Detail {
+        curvature_bias: R::from_f64(table.measured_curvature_bias(scene)),
+        gradient_bias: R::from_f64(table.gradient_bias),
+        turn: R::from_f64(table.turn),
+        voxel: R::from_f64(voxel),
+        footprint: if view.perspective { Footprint::Perspective(rays) } else { Footprint::Orthographic(rays) },
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
-use crate::style_transfer_functions::{Contour, Spheres, StyleIndex, contour, frame, transparency};
+use crate::style_transfer_functions::{Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
 use crate::transfer::Place;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{SphereFrame, Transparency};
@@ -10,6 +10,8 @@ use drypoint_scene::tables::{SphereFrame, Transparency};
 /// What is known of a visible sample. Quantities that the scene does not call for keep their neutral values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facts<R> {
+    /// Eye depth.
+    pub(super) depth: R,
     /// World gradient, times the power of two of [SPACE-4].
     pub(super) gradient: Vec3<R>,
     /// N in world space; none where the gradient is negligible ([PREC-3]) or not asked for.
@@ -26,7 +28,8 @@ impl<R: Real> Facts<R> {
     /// A sample without a normal: κ = 0 ([PREC-3]).
     #[inline(always)]
     pub(super) fn none() -> Self {
-        Self { gradient: Vec3::zero(), normal: None, magnitude: R::ZERO, kappa: R::ZERO, principal: [R::ZERO; 2] }
+        let zero = R::ZERO;
+        Self { depth: zero, gradient: Vec3::zero(), normal: None, magnitude: zero, kappa: zero, principal: [zero; 2] }
     }
 }
 
@@ -72,6 +75,8 @@ pub(super) struct Styled<R> {
     pub(super) index: StyleIndex,
     /// sft.
     pub(super) spheres: Spheres<R>,
+    /// [STF-10]; none: each lookup reads the style itself.
+    pub(super) detail: Option<Detail<R>>,
     /// [STF-7], [STF-8].
     pub(super) contour: Option<Contour<R>>,
     /// [STF-9].
@@ -126,7 +131,13 @@ impl<R: Real> Styled<R> {
         let (x, y) = if on { contour::push(n.x, n.y, n_dot_v, tau) } else { (n.x, n.y) };
         let blend = self.index.blend(place);
         counts.style_lookups += blend.lookups();
-        let [r, g, b, alpha_d] = self.spheres.lookup(&blend, x, y);
+        let [r, g, b, alpha_d] = match &self.detail {
+            None => self.spheres.lookup(&blend, x, y),
+            Some(detail) => {
+                let below_last = detail.below_last(facts.depth, facts.kappa, facts.magnitude);
+                self.spheres.lookup_level(&blend, x, y, below_last)
+            }
+        };
         if alpha_d == R::ZERO {
             return ([R::ZERO; 3], R::ZERO);
         }

@@ -1,7 +1,7 @@
 //! The style transfer function (3.2, 4.1; [STF-3]): from a value to styles, and from styles to a colour.
 
-use super::SphereMap;
 use super::sphere_map::mix;
+use super::{MipMap, SphereMap};
 use crate::number::Real;
 use crate::transfer::Place;
 use drypoint_scene::style::Style;
@@ -74,13 +74,25 @@ impl<R: Real> Blend<R> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spheres<R> {
     maps: Vec<SphereMap<R>>,
+    /// The chain of each style, where the scene has `[style_mipmaps]`.
+    chains: Vec<MipMap<R>>,
     mix: Mix,
 }
 
 impl<R: Real> Spheres<R> {
     /// The styles in the order of their indices j.
     pub fn new(styles: &[Style], mix: Mix) -> Self {
-        Self { maps: styles.iter().map(SphereMap::new).collect(), mix }
+        Self { maps: styles.iter().map(SphereMap::new).collect(), chains: Vec::new(), mix }
+    }
+
+    /// The same with a mip chain for each of the styles, which are those that it was made from.
+    pub fn with_mipmaps(self, styles: &[Style]) -> Self {
+        Self { chains: styles.iter().map(MipMap::new).collect(), ..self }
+    }
+
+    /// The size of the mip chains in memory; none without them.
+    pub fn mipmap_bytes(&self) -> Option<usize> {
+        (!self.chains.is_empty()).then(|| self.chains.iter().map(MipMap::bytes).sum())
     }
 
     /// Style j.
@@ -95,11 +107,26 @@ impl<R: Real> Spheres<R> {
     /// by itself, so that a transparent style still lends its colour, and multiplies afterwards.
     #[inline]
     pub fn lookup(&self, blend: &Blend<R>, nx: R, ny: R) -> [R; 4] {
-        let first = self.maps[blend.j0].sample(nx, ny);
+        self.mixed(blend, |j| self.maps[j].sample(nx, ny))
+    }
+
+    /// The same in the mip chains ([STF-10]), at the level of detail `below_last` of [`Detail::below_last`]. Levels are
+    /// those of one style; styles mix after.
+    ///
+    /// [`Detail::below_last`]: super::Detail::below_last
+    #[inline]
+    pub fn lookup_level(&self, blend: &Blend<R>, nx: R, ny: R, below_last: R) -> [R; 4] {
+        self.mixed(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
+    }
+
+    /// The mix of what is looked up in each style.
+    #[inline(always)]
+    fn mixed(&self, blend: &Blend<R>, sft: impl Fn(usize) -> [R; 4]) -> [R; 4] {
+        let first = sft(blend.j0);
         if blend.is_pure() {
             return first;
         }
-        let second = self.maps[blend.j1].sample(nx, ny);
+        let second = sft(blend.j1);
         match self.mix {
             Mix::Premultiplied => mix(first, second, blend.w),
             Mix::Printed => {

@@ -91,6 +91,10 @@ const SAMPLES: &[Sample] = &[
     ("contours.threshold", &[("contours.kappa", "none")], "0.5"),
     ("contours.sign_flip", &[("contours", "{}")], "literal"),
     ("contours.fade", &[("contours", "{}")], "[0.02, 0.05]"),
+    ("style_mipmaps", &[], "{}"),
+    ("style_mipmaps.curvature_bias", &[("style_mipmaps", "{}")], "0"),
+    ("style_mipmaps.gradient_bias", &[("style_mipmaps", "{}")], "2.5"),
+    ("style_mipmaps.turn", &[("style_mipmaps", "{}")], "0.02"),
 ];
 
 /// Keys that can have one value only, so far.
