@@ -38,7 +38,7 @@ use drypoint_scene::plan::Plan;
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
 use drypoint_scene::tables::{Background, Ids, NodeColor, Scene, StepAlong, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::Function;
-use drypoint_scene::view::View;
+use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::{Volume, read};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -145,7 +145,10 @@ impl Job {
         Renderer::new(inputs).map_err(|error| {
             let (key, remedy) = match &error {
                 RenderError::Field(_) => ("sampling", "choose another sampling.kernel or sampling.hessian"),
-                RenderError::View(_) => ("camera", "move camera.eye away from camera.target, or give camera.direction"),
+                RenderError::View(ViewError::HeightOnPage) => ("camera.height", "give it in world units or in voxels"),
+                RenderError::View(ViewError::NoDirection) => {
+                    ("camera", "move camera.eye away from camera.target, or give camera.direction")
+                }
                 RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
                 RenderError::Length { key } => (*key, "give it in world units or in voxels"),
                 RenderError::Styles { .. } => ("styles", "hand over one style for each name"),

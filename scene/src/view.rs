@@ -30,6 +30,9 @@ pub enum ViewError {
     /// Eye and target are one point, or a direction has no length.
     #[error("the camera has no direction to look in")]
     NoDirection,
+    /// `camera.height` is a length on the page ([SCN-2]); a scene file cannot say one.
+    #[error("camera.height is a length on the page, not in the volume")]
+    HeightOnPage,
 }
 
 /// One ray: p(s) = origin + s · along, s the eye depth of a plane.
@@ -49,7 +52,7 @@ impl View {
     /// Resolves a camera for a volume and a picture of `size` pixels.
     ///
     /// # Errors
-    /// Eye and target at one point, or a direction without length.
+    /// Eye and target at one point, a direction without length, or a height on the page.
     pub fn new(camera: &Camera, grid: &Grid, size: [usize; 2]) -> Result<Self, ViewError> {
         let [width, height] = size.map(|n| n as f64);
         let (target, r) = (camera.target.unwrap_or_else(|| grid.centre()), grid.radius());
@@ -66,7 +69,8 @@ impl View {
                 (true, 2.0 * half / height, r * (1.0 + t * t).sqrt() / t)
             }
             Projection::Orthographic { height: given } => {
-                let world = given.unwrap_or(2.0 * r * (height / width).max(1.0));
+                let whole = 2.0 * r * (height / width).max(1.0);
+                let world = given.map_or(Some(whole), |given| given.world(grid)).ok_or(ViewError::HeightOnPage)?;
                 (false, world / height, 0.0)
             }
         };
@@ -147,6 +151,7 @@ fn least_axis(u: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tables::Length;
 
     fn grid() -> Grid {
         Grid::with_spacing([11, 11, 11], [1.0; 3]).unwrap()
@@ -168,7 +173,7 @@ mod tests {
     #[test]
     fn pixels_of_an_orthographic_view() {
         let camera = Camera {
-            projection: Projection::Orthographic { height: Some(8.0) },
+            projection: Projection::Orthographic { height: Some(Length::World(8.0)) },
             direction: DVec3::new(0.0, 1.0, 0.0),
             ..Camera::default()
         };
@@ -180,6 +185,21 @@ mod tests {
         assert_eq!(ray.v, DVec3::Z);
         assert_eq!(view.project(DVec3::new(2.0, -40.0, 8.0)), Some([0.5, 0.5]));
         assert_eq!(view.to_eye(DVec3::new(5.0, 6.0, 5.0)), DVec3::new(0.0, 0.0, -1.0));
+    }
+
+    #[test]
+    fn a_height_in_voxels_is_one_in_world_units() {
+        // Spacings of 2, 3 and ½: a voxel is the smallest of them ([SPACE-5]).
+        let grid = Grid::with_spacing([5, 5, 5], [2.0, 3.0, 0.5]).unwrap();
+        let view = |height| {
+            let camera = Camera { projection: Projection::Orthographic { height: Some(height) }, ..Camera::default() };
+            View::new(&camera, &grid, [7, 10])
+        };
+        assert_eq!(view(Length::Voxels(300.0)), view(Length::World(150.0)));
+        assert_eq!(view(Length::Voxels(300.0)).unwrap().pixel, 15.0);
+        for page in [Length::Millimetres(80.0), Length::Pixels(80.0), Length::Percent(80.0)] {
+            assert_eq!(view(page), Err(ViewError::HeightOnPage));
+        }
     }
 
     #[test]

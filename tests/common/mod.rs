@@ -211,9 +211,9 @@ impl Shown {
     }
 }
 
-/// An orthographic camera of that height.
+/// An orthographic camera of that height in world units.
 pub(crate) fn orthographic(height: Option<f64>) -> Camera {
-    Camera { projection: Projection::Orthographic { height }, ..Camera::default() }
+    Camera { projection: Projection::Orthographic { height: height.map(Length::World) }, ..Camera::default() }
 }
 
 /// A perspective camera.

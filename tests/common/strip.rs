@@ -1,8 +1,8 @@
 //! Contour rings, measured in pictures: a row of pixels through the middle of a ball.
 
-use super::{Shot, style};
+use super::{Shot, orthographic, style};
 use drypoint::scene::style::Style;
-use drypoint::scene::tables::{Contours, Projection};
+use drypoint::scene::tables::Contours;
 
 /// A style whose red and green are the normal that is looked up: (1 + N_x)/2 and (1 + N_y)/2.
 pub(crate) fn ramp() -> Style {
@@ -23,7 +23,7 @@ pub(crate) struct Ring {
 pub(crate) fn strip(shot: &Shot, contours: &Contours, pixel: f64, width: usize, [from, end]: [usize; 2]) -> [Ring; 2] {
     let row = shot.with(|s| {
         s.picture.size = [width, 1];
-        s.camera.projection = Projection::Orthographic { height: Some(pixel) };
+        s.camera.projection = orthographic(Some(pixel)).projection;
     });
     let without = row.render().pixels();
     let with = row.with(|s| s.contours = Some(contours.clone())).render().pixels();

@@ -1,14 +1,14 @@
 //! Scenes at random: every effect, kernel, camera and odd volume that the caster knows, small enough for hundreds.
 
 use crate::common::random::Random;
-use crate::common::{LAYERS, Shot, orthographic, perspective, plain, style};
+use crate::common::{LAYERS, Shot, perspective, plain, style};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::Style;
 use drypoint::scene::tables::{
-    Background, BlendSpace, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Length,
-    LightDirection, Mix, NormalSide, Number, Outside, Shading, SignFlip, SphereFrame, StepAlong, StyleMipmaps,
-    Transparency, Unit,
+    Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel,
+    Length, LightDirection, Mix, NormalSide, Number, Outside, Projection, Shading, SignFlip, SphereFrame, StepAlong,
+    StyleMipmaps, Transparency, Unit,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -142,11 +142,16 @@ fn function(r: &mut Random, volume: Volume) -> Shot {
 }
 
 /// A camera, with the eye inside at times.
-pub(crate) fn camera(r: &mut Random, grid: &Grid) -> drypoint::scene::tables::Camera {
+pub(crate) fn camera(r: &mut Random, grid: &Grid) -> Camera {
     let mut camera = if r.once_in(2) {
         perspective(r.pick(&[5.0, 30.0, 70.0, 120.0, 160.0]))
     } else {
-        orthographic(if r.once_in(2) { None } else { Some(grid.radius() * r.between(0.5, 3.0)) })
+        let height = match r.below(4) {
+            0 | 1 => None,
+            2 => Some(Length::World(grid.radius() * r.between(0.5, 3.0))),
+            _ => Some(Length::Voxels(r.between(2.0, 60.0))),
+        };
+        Camera { projection: Projection::Orthographic { height }, ..Camera::default() }
     };
     let axes = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]];
     camera.direction = if r.once_in(3) { r.pick(&axes) } else { r.direction() }.into();

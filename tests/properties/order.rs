@@ -25,7 +25,7 @@ fn more_rows_above_and_below_change_no_pixel() {
         let with = |rows: usize| {
             shot.with(|s| {
                 s.picture.size = [width, rows];
-                s.camera.projection = Projection::Orthographic { height: Some(0.5 * rows as f64) };
+                s.camera.projection = crate::common::orthographic(Some(0.5 * rows as f64)).projection;
             })
             .render()
             .pixels()

@@ -5,16 +5,16 @@
 //!
 //! | body | level of `high` | of 255 | shape |
 //! |---|---|---|---|
-//! | veil | ⅕ | 51 | a ball of radius 0.33, drawn out like a tent along the spines |
+//! | veil | ⅕ | 51 | a ball of radius 0.33, drawn out like a tent over the spines, to 0.46 |
 //! | knot | ⅖ | 102 | a trefoil tube of radius 0.034, wound about the z axis at radius 0.13 |
 //! | marrow | 1 | 255 | a thread of radius 0.012 inside the knot |
 //! | core | 1 | 255 | a ball of radius 0.04 |
-//! | skeleton | 1 | 255 | a lattice shell of radius 0.265 with 42 pores; 20 spines from its joints to 0.455 |
+//! | skeleton | 1 | 255 | a lattice shell of radius 0.265 with 42 pores; 20 spines from its joints to 0.44 |
 //!
 //! What is meant to be seen through has the low levels, close together, so nothing opaque lies on the way up to
-//! another value, and an edge that leads up to what is solid passes the translucent levels in a fraction of a voxel,
-//! where it gathers next to no opacity. A transfer function addresses the veil at 12…40, the knot at 72…108 and what
-//! is solid from 165 on.
+//! another value. An edge passes every value between its two sides, so what is solid lies under the veil to the tips of
+//! its spines: no edge of it passes the veil's own values, 12…40, and draws a second veil around it. It does pass the
+//! knot's, 94…110 about its level, in a fraction of a voxel where it gathers little opacity. Solid is all from 165 on.
 //! Labels: 1 veil, 2 knot, 3 marrow, 4 core, 5 skeleton.
 
 use super::jet::{Scalar, length_squared};
@@ -42,7 +42,7 @@ pub(super) const SPECIMEN: About = About {
 };
 
 /// Radius of the veil between the spines, and how far it follows them outwards.
-const VEIL: [f64; 2] = [0.33, 0.085];
+const VEIL: [f64; 2] = [0.33, 0.13];
 /// Ring, winding radius and tube of the knot.
 const KNOT: [f64; 3] = [0.13, 0.056, 0.034];
 /// Radius of the thread in the knot.
@@ -53,7 +53,7 @@ const LATTICE: [f64; 2] = [0.265, 0.016];
 /// sin² of half the angle from a pore's centre to its rim.
 const PORE: f64 = 0.0138;
 /// Radius of a spine where it starts, and how far out it ends.
-const SPINE: [f64; 2] = [0.0145, 0.455];
+const SPINE: [f64; 2] = [0.0145, 0.44];
 /// Radius of the fillets where bodies of the skeleton meet.
 const FILLET: f64 = 0.006;
 /// Below this length a distance to a line or a shell is rounded off, which keeps it smooth.
@@ -210,7 +210,8 @@ mod tests {
             (pore * 0.30, 51.0, 1),                // under the veil
             (spine * 0.265, 255.0, 5),             // a joint of the lattice
             (spine * 0.38, 255.0, 5),              // a spine
-            (DVec3::Z * 0.36, 0.0, 0),             // beyond the veil
+            (spine * 0.45, 51.0, 1),               // the veil over its tip
+            (DVec3::Z * 0.38, 0.0, 0),             // beyond the veil
         ] {
             assert_near(specimen.value(centre + p), level, 0.15);
             assert_eq!(specimen.label(centre + p), label, "{p}");

@@ -35,8 +35,8 @@ pub enum Projection {
     },
     /// Along parallel rays.
     Orthographic {
-        /// World units from the bottom to the top of the picture; none: [RAY-5]'s default.
-        height: Option<f64>,
+        /// From the bottom to the top of the picture, in the world; none: [RAY-5]'s default.
+        height: Option<Length>,
     },
 }
 
@@ -147,9 +147,9 @@ pub(crate) static TABLE: Table<Camera> = Table {
             Key::new(
                 "height",
                 "RAY-5",
-                "World units from the bottom to the top of the picture; orthographic.",
+                "From the bottom to the top of the picture; orthographic.",
                 &Slot {
-                    kind: Number { bounds: Bounds::POSITIVE, unit: ", in world units" },
+                    kind: WORLD_LENGTH,
                     get: |c: &Camera| match c.projection {
                         Projection::Perspective { .. } => None,
                         Projection::Orthographic { height } => height,

@@ -38,7 +38,7 @@ const SAMPLES: &[Sample] = &[
     ("camera", &[], "{ fov = 45 }"),
     ("camera.projection", &[], "orthographic"),
     ("camera.fov", &[], "45"),
-    ("camera.height", &[ORTHOGRAPHIC], "256"),
+    ("camera.height", &[ORTHOGRAPHIC], "300 voxels"),
     ("camera.direction", &[], "[0, 1, 0]"),
     ("camera.eye", &[], "[1, 2, 3]"),
     ("camera.target", &[], "[1, 2, 3]"),

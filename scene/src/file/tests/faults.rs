@@ -76,6 +76,11 @@ fn a_wrong_value_says_what_may_stand_there() {
             "write a length above 0: a number in world units, or such as \"2 voxels\"",
         ),
         (
+            "[camera]\nprojection = \"orthographic\"\nheight = \"180 mm\"\n",
+            "camera.height cannot be \"180 mm\"",
+            "write a length above 0: a number in world units, or such as \"2 voxels\"",
+        ),
+        (
             "[sampling]\nstep = 0\n",
             "sampling.step cannot be 0",
             "write a length above 0: a number in world units, or such as \"2 voxels\"",

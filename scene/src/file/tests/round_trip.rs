@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::tables::{
-    Background, Camera, LightDirection, NodeColor, PhantomSource, PictureSettings, Projection, Sampling, Shading,
-    Styles, VolumeSource,
+    Background, Camera, Length, LightDirection, NodeColor, PhantomSource, PictureSettings, Projection, Sampling,
+    Shading, Styles, VolumeSource,
 };
 use crate::volume::VoxelType;
 use glam::DVec3;
@@ -84,7 +84,7 @@ fn keys_mean_what_they_say() {
             params: vec![("R".into(), 20.0), ("r".into(), 8.0)],
         })
     );
-    assert_eq!(scene.camera.projection, Projection::Orthographic { height: Some(256.0) });
+    assert_eq!(scene.camera.projection, Projection::Orthographic { height: Some(Length::World(256.0)) });
     assert!(scene.camera.direction_given);
     // 180 mm at 72 dpi are 510.24 px, 120 mm are 340.16.
     assert_eq!(scene.picture.size, [510, 340]);
