@@ -7,17 +7,19 @@ mod pages;
 mod reference;
 mod rings;
 mod styles;
+mod switches;
 
 use std::process::ExitCode;
 
 /// A page or a set of pictures: the word that asks for it, and what writes it.
 type Page = (&'static str, fn() -> Result<(), String>);
 
-const PAGES: [Page; 4] = [
+const PAGES: [Page; 5] = [
     ("accuracy", accuracy::write),
     ("reference", reference::write),
     ("rings", rings::write),
     ("styles", styles::write),
+    ("switches", switches::write),
 ];
 
 fn main() -> ExitCode {
