@@ -70,8 +70,8 @@ fn a_thin_sheet_is_contour_behind_unless_its_normals_face_the_eye() {
     assert!((opacity(NormalSide::Facing) - over(plain, plain)).abs() < 1e-14);
 }
 
-/// n exactly along v: the lookup is the middle of the style, which has no direction to be pushed along (r = 0 stays 0, not
-/// 0/0), the direction of κ_v is lost and the mean curvature stands in, and |N·v| = 1 exactly. A wall seen straight on, in a
+/// n exactly along v: the lookup is the middle of the style, which has no direction to be pushed along (r = 0 stays 0),
+/// the direction of κ_v is lost and the mean curvature stands in, and |N·v| = 1 exactly. A wall seen straight on, in a
 /// style that tells its middle from everything else, under every κ and under a threshold that makes all of it contour.
 #[test]
 fn a_wall_seen_straight_on() {

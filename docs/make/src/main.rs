@@ -8,6 +8,7 @@ mod pages;
 mod reference;
 mod rings;
 mod styles;
+mod switches;
 
 use std::process::ExitCode;
 
@@ -20,6 +21,7 @@ const PAGES: [Page; 5] = [
     ("reference", reference::write),
     ("rings", rings::write),
     ("styles", styles::write),
+    ("switches", switches::write),
 ];
 
 fn main() -> ExitCode {
