@@ -16,5 +16,5 @@ pub mod sphere_map;
 pub mod transparency;
 
 pub use contour::Contour;
-pub use lookup::{Blend, Spheres, StyleIndex};
+pub use lookup::{Blend, Blend2, Spheres, StyleIndex};
 pub use sphere_map::SphereMap;
