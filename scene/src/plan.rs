@@ -22,14 +22,29 @@ pub enum Quantity {
     Hessian,
     /// |g|: ‖g‖ mapped to [0, 1] by its range ([VAL-2]).
     GradientMagnitudeRange,
-    /// The id of the part that the sample belongs to ([STF-13]).
+    /// The id of the part that a sample belongs to ([STF-13]).
     Label,
+    /// The distance to a point ([STF-4]).
+    Distance,
+    /// The distance to a label ([STF-4]).
+    LabelDistance,
+    /// The value of a further volume ([STF-4]).
+    FurtherVolume,
 }
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Self; 6] =
-        [Self::Value, Self::Gradient, Self::PreviousNormal, Self::Hessian, Self::GradientMagnitudeRange, Self::Label];
+    pub const ALL: [Self; 9] = [
+        Self::Value,
+        Self::Gradient,
+        Self::PreviousNormal,
+        Self::Hessian,
+        Self::GradientMagnitudeRange,
+        Self::Label,
+        Self::Distance,
+        Self::LabelDistance,
+        Self::FurtherVolume,
+    ];
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -40,6 +55,9 @@ impl Quantity {
             Self::Hessian => "Hessian",
             Self::GradientMagnitudeRange => "|g|",
             Self::Label => "label",
+            Self::Distance => "distance",
+            Self::LabelDistance => "distance to a label",
+            Self::FurtherVolume => "further volume",
         }
     }
 
@@ -51,14 +69,16 @@ impl Quantity {
             Self::PreviousNormal => "one gradient where the sample before has none yet",
             Self::Hessian => "one Hessian a visible sample",
             Self::GradientMagnitudeRange => "a norm and a division a visible sample",
-            Self::Label => "one look at a label volume, or at eight of its voxels, a sample",
+            Self::Label => "one look at the labels a visible sample",
+            Self::Distance => "one norm a visible sample",
+            Self::LabelDistance | Self::FurtherVolume => "one trilinear reconstruction a visible sample",
         }
     }
 
     /// What it is made of.
     fn prerequisite(self) -> Option<Self> {
         match self {
-            Self::Value | Self::Label => None,
+            Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume => None,
             Self::Gradient => Some(Self::Value),
             // A sample without a normal has no curvature, and that is tested on `sampling.gradient` too ([PREC-3]).
             Self::PreviousNormal | Self::Hessian | Self::GradientMagnitudeRange => Some(Self::Gradient),
@@ -77,6 +97,8 @@ pub enum Pass {
     GradientRange,
     /// The automatic transfer function from the histogram of values and gradients.
     AutomaticTransfer,
+    /// The distance of every voxel to a label ([STF-4]).
+    LabelDistances,
     /// The ranges of bricks, by which empty space is skipped ([RAY-2]).
     Bricks,
     /// The mip chains of the styles ([STF-10]).
@@ -93,6 +115,7 @@ impl Pass {
             Self::SmoothedCoefficients => "smoothed coefficients",
             Self::GradientRange => "range of |g|",
             Self::AutomaticTransfer => "automatic function",
+            Self::LabelDistances => "distances to a label",
             Self::Bricks => "brick ranges",
             Self::StyleMipmaps => "style mip-maps",
             Self::Rays => "rays",
@@ -105,6 +128,7 @@ impl Pass {
             Self::Coefficients => "one filter along each axis, one number a voxel",
             Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
             Self::GradientRange | Self::AutomaticTransfer => "one gradient a voxel",
+            Self::LabelDistances => "one search a voxel of the labels, one number each",
             Self::Bricks => "one look at each voxel",
             Self::StyleMipmaps => "one look at each texel of a style, a third of it more to keep",
             Self::Rays => "samples² rays a pixel",

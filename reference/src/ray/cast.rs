@@ -3,13 +3,15 @@
 use super::lattice::IndexRay;
 use super::layers::{Seen, Sums};
 use super::opacity::Correction;
-use super::prepared::{KappaSource, Prepared};
+use super::over_two::OverTwo;
+use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::{Facts, Sight};
 use super::skip::{Boxes, Skip};
 use crate::field::{Place, Sampler, curvature};
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray;
 use crate::transfer;
+use crate::transfer::over::Here;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
 
@@ -126,11 +128,45 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         (samples, true)
     }
 
-    /// Composites a sample with α_u > 0: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
+    /// Shows a sample whose value can be seen.
     fn show(&mut self, k: i64, at: Place<R>, s: R, place: &transfer::Place<R>, counts: &mut Counts) {
         let prepared = self.prepared;
-        let facts = if prepared.calls.gradient { self.facts(k, at, counts) } else { Facts::none() };
+        if let Some(over_two) = &prepared.over_two {
+            return self.show_over_two(over_two, k, at, s, counts);
+        }
+        let mut facts = Facts::none();
+        self.learn(k, at, prepared.calls, &mut facts, counts);
+        counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
         let (rgb, alpha) = prepared.look.color(place, &facts, &self.sight, counts);
+        self.composite(k, s, rgb, alpha, &facts);
+    }
+
+    /// The same where the function is over two quantities: what they need is asked first, and the rest only where α_u > 0.
+    fn show_over_two(&mut self, over_two: &OverTwo<'_, R>, k: i64, at: Place<R>, s: R, counts: &mut Counts) {
+        let prepared = self.prepared;
+        let mut facts = Facts::none();
+        self.learn(k, at, over_two.first, &mut facts, counts);
+        let of_normal = |x: R| if facts.normal.is_some() { x } else { R::ZERO };
+        let here = Here {
+            position: self.ray.position(k),
+            place: at,
+            value: s,
+            gradient: of_normal(facts.gradient.length()),
+            magnitude: of_normal(facts.magnitude),
+            principal: facts.principal,
+            kappa: facts.kappa,
+        };
+        let Some(patch) = over_two.locate(&here) else { return };
+        self.learn(k, at, over_two.rest, &mut facts, counts);
+        counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
+        let (rgb, alpha) = prepared.look.color(&patch, &facts, &self.sight, counts);
+        self.composite(k, s, rgb, alpha, &facts);
+    }
+
+    /// Composites a sample: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
+    #[inline(always)]
+    fn composite(&mut self, k: i64, s: R, rgb: [R; 3], alpha: R, facts: &Facts<R>) {
+        let prepared = self.prepared;
         if alpha != self.corrected[0] {
             self.corrected = [alpha, self.correction.apply(alpha)];
         }
@@ -139,35 +175,35 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.rgb = [self.rgb[0] + w * rgb[0], self.rgb[1] + w * rgb[1], self.rgb[2] + w * rgb[2]];
         self.opacity += w;
         if prepared.collects && alpha > R::ZERO {
-            self.collect(k, s, w, &facts);
+            self.collect(k, s, w, facts);
         }
     }
 
-    /// What the scene calls for beyond the value.
-    #[inline]
-    fn facts(&mut self, k: i64, at: Place<R>, counts: &mut Counts) -> Facts<R> {
+    /// Adds what is called for to what is known of a sample beyond its value.
+    #[inline(always)]
+    fn learn(&mut self, k: i64, at: Place<R>, calls: Calls, facts: &mut Facts<R>, counts: &mut Counts) {
         let prepared = self.prepared;
-        let g = self.sampler.gradient_at(at);
-        counts.gradients += 1;
-        let mut facts = Facts { depth: self.ray.depth(k), gradient: g, ..Facts::none() };
-        if let Some((lo, width)) = prepared.gradient_range {
-            facts.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
-        }
-        facts.normal = self.normal(g);
-        if let Some(n) = facts.normal {
-            if prepared.calls.hessian {
-                self.curvatures(at, &mut facts, counts);
+        if calls.gradient {
+            let g = self.sampler.gradient_at(at);
+            counts.gradients += 1;
+            facts.gradient = g;
+            facts.depth = self.ray.depth(k);
+            if let Some((lo, width)) = prepared.gradient_range {
+                facts.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
             }
-            if prepared.calls.kappa == KappaSource::AlongRay {
+            facts.normal = self.normal(g);
+        }
+        if let Some(n) = facts.normal {
+            if calls.hessian {
+                self.curvatures(at, calls, facts, counts);
+            }
+            if calls.kappa == KappaSource::AlongRay {
                 facts.kappa = self.kappa_along_ray(k, n, counts);
             }
-        } else {
-            counts.without_normal += 1;
         }
-        if prepared.calls.kappa == KappaSource::AlongRay {
+        if calls.kappa == KappaSource::AlongRay {
             self.previous = Some((k, facts.normal));
         }
-        facts
     }
 
     /// The normal that shades ([NORM-1]): the outward one, or as the scene turns it.
@@ -192,17 +228,17 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     }
 
     /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); 0 where H's own field has no normal.
-    fn curvatures(&self, at: Place<R>, facts: &mut Facts<R>, counts: &mut Counts) {
+    fn curvatures(&self, at: Place<R>, calls: Calls, facts: &mut Facts<R>, counts: &mut Counts) {
         let prepared = self.prepared;
         counts.hessians += 1;
         let (g, h) = self.sampler.hessian_at(at);
         if g.length() <= prepared.no_normal_below {
             return;
         }
-        if prepared.calls.kappa == KappaSource::Exact {
+        if calls.kappa == KappaSource::Exact {
             facts.kappa = curvature::along_view(g, h, self.sight.v, prepared.outside);
         }
-        if prepared.calls.principal {
+        if calls.principal {
             let c = curvature::principal(g, h, prepared.outside);
             facts.principal = [c.k1, c.k2];
         }

@@ -4,6 +4,7 @@ use super::cast::cast;
 use super::gradient_range::quantile_of_norms;
 use super::lattice::{IndexRay, Lattice};
 use super::layers::averaged;
+use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::sample::{EyeAxes, Look, Styled};
 use super::skip::{Beam, Boxes, Skip};
@@ -12,7 +13,7 @@ use crate::number::{Real, Vec3};
 use crate::shading::Phong;
 use crate::style_transfer_functions::curvature_along_ray::Turn;
 use crate::style_transfer_functions::{Contour, Detail, Footprint, Spheres, StyleIndex};
-use crate::transfer::{NodesError, Piecewise};
+use crate::transfer::{NodesError, Piecewise, gate};
 use crate::with_sampler;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
@@ -20,9 +21,10 @@ use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::{Plan, Quantity};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{
-    BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, StyleMipmaps, Transparency,
+    Axis, BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, StyleMipmaps,
+    Transparency,
 };
-use drypoint_scene::transfer::{Function, Nodes};
+use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
@@ -42,6 +44,8 @@ pub struct Inputs<'a> {
     pub volume: &'a Volume,
     /// Its transfer function, over the volume's values.
     pub function: &'a Function,
+    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
+    pub further: [Option<&'a Volume>; 2],
     /// The styles that the function names, in the order of [`Function::Style::names`].
     pub styles: &'a [Style],
     /// What lies behind.
@@ -77,6 +81,18 @@ pub enum RenderError {
     /// The nodes make no function.
     #[error(transparent)]
     Nodes(#[from] NodesError),
+    /// A quantity of the function is a volume that was not handed over.
+    #[error("the transfer function is over a further volume, and none was loaded")]
+    NoFurtherVolume,
+    /// A quantity of the function reads labels, and there are none.
+    #[error("the transfer function reads labels, and there are none")]
+    NoLabels,
+    /// A distance to a label that no voxel has.
+    #[error("no voxel has the label {id}")]
+    NoSuchLabel {
+        /// The label.
+        id: u32,
+    },
     /// The function's nodes and the styles do not fit.
     #[error("the transfer function names {named} styles, {given} were loaded")]
     Styles {
@@ -141,7 +157,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let sampling = &scene.sampling;
     let world = |length: Length, key| length.world(grid).ok_or(RenderError::Length { key });
     let step = world(sampling.step, "sampling.step")?;
-    let calls = calls(scene, plan);
+    let calls = calls(scene, plan, function);
     let rung = if calls.hessian {
         Rung::Hessian
     } else if calls.gradient {
@@ -183,9 +199,13 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         };
         (R::from_f64(lo), R::from_f64(hi - lo))
     });
-    let (at, opacity) = match function {
-        Function::Style { nodes: Nodes { at, opacity, .. }, .. } => (at, opacity),
-        Function::Regular(Nodes { at, opacity, .. }) => (at, opacity),
+    let (at, opacity, rows) = function.nodes();
+    let (over_value, over_two) = match rows {
+        None => (Piecewise::new(at, opacity)?, None),
+        Some(rows) => {
+            let over_two = OverTwo::new((at, opacity), rows, inputs, &field, calls, counts)?;
+            (gate::over_value(at, opacity, rows)?, Some(over_two))
+        }
     };
     let look = look(inputs, &view)?;
     if let Look::Style(styled) = &look
@@ -199,7 +219,8 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         lattice: Lattice { step, along: sampling.step_along, near },
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
-        function: Piecewise::new(at, opacity)?,
+        function: over_value,
+        over_two,
         look,
         calls,
         gradient_range,
@@ -230,7 +251,7 @@ fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
 }
 
 /// What visible samples have to know, by the plan.
-fn calls(scene: &Scene, plan: &Plan) -> Calls {
+fn calls(scene: &Scene, plan: &Plan, function: &Function) -> Calls {
     let kappa = if plan.needs(Quantity::PreviousNormal) {
         KappaSource::AlongRay
     } else if plan.needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
@@ -241,7 +262,8 @@ fn calls(scene: &Scene, plan: &Plan) -> Calls {
     Calls {
         gradient: plan.needs(Quantity::Gradient),
         hessian: plan.needs(Quantity::Hessian),
-        principal: scene.picture.layers.contains(&LayerKind::Curvature),
+        principal: scene.picture.layers.contains(&LayerKind::Curvature)
+            || function.nodes().2.is_some_and(|rows| rows.over.iter().any(Axis::is_principal)),
         kappa,
     }
 }

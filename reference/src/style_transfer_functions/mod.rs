@@ -17,6 +17,6 @@ pub mod sphere_map;
 pub mod transparency;
 
 pub use contour::Contour;
-pub use lookup::{Blend, Spheres, StyleIndex};
+pub use lookup::{Blend, Blend2, Spheres, StyleIndex};
 pub use mipmaps::{Detail, Footprint, MipMap};
 pub use sphere_map::SphereMap;

@@ -6,6 +6,8 @@
 pub mod camera;
 pub mod contours;
 pub mod length;
+pub mod nodes;
+pub mod over;
 pub mod picture;
 pub mod sampling;
 pub mod scene;
@@ -13,11 +15,14 @@ pub mod shading;
 pub mod style_mipmaps;
 pub mod styles;
 pub mod transfer;
+mod transfer_rules;
 pub mod volume;
 
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use length::Length;
+pub use nodes::{Row, RowAt};
+pub use over::{Axis, LabelKey, Over};
 pub use picture::{Background, BlendSpace, PictureSettings};
 pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Number, Sampling, StepAlong};
 pub use scene::Scene;

@@ -32,10 +32,6 @@ fn a_part_that_is_not_built_says_so() {
         ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
         ("[[box]]\n", "[[box]]"),
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),
-        ("[transfer]\nover = [\"value\", \"label\"]\n", "a function over two quantities"),
-        ("[transfer]\nover = \"gradient-magnitude\"\n", "transfer.over = \"gradient-magnitude\""),
-        ("[transfer]\nover = { distance = [0, 0, 0] }\n", "a function over another quantity"),
-        ("[transfer]\nrows = []\n", "transfer.rows"),
         ("[shading]\nmodel = \"toon\"\n", "shading.model = \"toon\""),
         ("[shading]\nmodel = \"lighting-function\"\n", "shading.model = \"lighting-function\""),
         ("[shading.toon]\noffset = 0\n", "shading.toon"),
@@ -218,8 +214,9 @@ fn what_must_be_there() {
     assert_eq!(
         faults("[transfer]\nnodes = [{ style = \"wax\" }, { at = 3 }]\n"),
         "transfer.nodes[0].at is missing\n  at scene.toml:5:10, key transfer.nodes[0].at\n  write at = a \
-         number\ntransfer.nodes[1].style is missing\n  at scene.toml:5:29, key transfer.nodes[1].style\n  write style = \
-         \"…\", or color = \"#rrggbb\" in a regular function"
+         number, or two numbers [x, y] in a function over two quantities\ntransfer.nodes[1].style is missing\n  at \
+         scene.toml:5:29, key transfer.nodes[1].style\n  write style = \"…\", or color = \"#rrggbb\" in a regular \
+         function"
     );
 }
 
