@@ -2,7 +2,7 @@
 
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
-use crate::style_transfer_functions::{Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
+use crate::style_transfer_functions::{Blend, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
 use crate::transfer::Place;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{SphereFrame, Transparency};
@@ -133,16 +133,22 @@ impl<R: Real> Styled<R> {
         counts.style_lookups += blend.lookups();
         let [r, g, b, alpha_d] = match &self.detail {
             None => self.spheres.lookup(&blend, x, y),
-            Some(detail) => {
-                let below_last = detail.below_last(facts.depth, facts.kappa, facts.magnitude);
-                self.spheres.lookup_level(&blend, x, y, below_last)
-            }
+            Some(detail) => self.filtered(detail, &blend, [x, y], facts),
         };
         if alpha_d == R::ZERO {
             return ([R::ZERO; 3], R::ZERO);
         }
         let share = transparency::share(self.transparency, place.alpha_u, n_dot_v, tau, facts.magnitude);
         ([r / alpha_d, g / alpha_d, b / alpha_d], alpha_d * share)
+    }
+}
+
+impl<R: Real> Styled<R> {
+    /// The lookup in the mip chains ([STF-10]), kept out of the code of scenes without them.
+    #[inline(never)]
+    fn filtered(&self, detail: &Detail<R>, blend: &Blend<R>, [x, y]: [R; 2], facts: &Facts<R>) -> [R; 4] {
+        let below_last = detail.below_last(facts.depth, facts.kappa, facts.magnitude);
+        self.spheres.lookup_level(blend, x, y, below_last)
     }
 }
 
