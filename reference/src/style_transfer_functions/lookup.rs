@@ -140,7 +140,7 @@ impl<R: Real> Spheres<R> {
     }
 
     /// The same in the mip chains ([STF-10]), as [`Spheres::lookup_level`].
-    #[inline]
+    #[inline(never)]
     pub fn lookup2_level(&self, blend: &Blend2<R>, nx: R, ny: R, below_last: R) -> [R; 4] {
         self.mixed2(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
     }
@@ -183,10 +183,10 @@ impl<R: Real> Spheres<R> {
     }
 
     /// The same in the mip chains ([STF-10]), at the level of detail `below_last` of [`Detail::below_last`]. Levels are
-    /// those of one style; styles mix after.
+    /// those of one style; styles mix after. Out of line: scenes without mip-maps do without its code.
     ///
     /// [`Detail::below_last`]: super::Detail::below_last
-    #[inline]
+    #[inline(never)]
     pub fn lookup_level(&self, blend: &Blend<R>, nx: R, ny: R, below_last: R) -> [R; 4] {
         self.mixed(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
     }
