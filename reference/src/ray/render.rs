@@ -17,7 +17,7 @@ use crate::with_sampler;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
-use drypoint_scene::plan::{Plan, Quantity};
+use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{
     BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, Transparency,
@@ -160,7 +160,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     counts.bytes.extend(field.bytes());
     let view = View::new(&scene.camera, grid, scene.picture.size)?;
     let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
-    let skip = sampling.skip_empty.then(|| {
+    let skip = plan.has_pass(Pass::Bricks).then(|| {
         let bricks = field.bricks();
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
         Skip::new(&bricks, |range| function.can_be_visible(range, |at| R::from_f64(at).to_f64()))
