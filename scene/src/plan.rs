@@ -51,6 +51,15 @@ impl Quantity {
         }
     }
 
+    /// What it adds where only the first visible sample of each ray needs it.
+    fn adds_at_first(self) -> &'static str {
+        match self {
+            Self::Gradient | Self::PreviousNormal => "one gradient a ray",
+            Self::Hessian => "one Hessian a ray",
+            Self::Value | Self::GradientMagnitudeRange => self.adds(),
+        }
+    }
+
     /// What it is made of.
     fn prerequisite(self) -> Option<Self> {
         match self {
@@ -109,12 +118,21 @@ impl Pass {
 pub struct Need {
     /// What is needed.
     pub quantity: Quantity,
+    /// Whether only the first visible sample of each ray needs it: layers `first.*` ([IO-6]).
+    pub first_only: bool,
     /// The effect that needs it.
     pub effect: String,
     /// The key or table that asked.
     pub key: String,
     /// Where the scene says it, or else the table around it; none for a default.
     pub place: Option<Place>,
+}
+
+impl Need {
+    /// What it adds to a picture's work.
+    pub fn adds(&self) -> &'static str {
+        if self.first_only { self.quantity.adds_at_first() } else { self.quantity.adds() }
+    }
 }
 
 /// A pass that an effect needs.
@@ -174,8 +192,13 @@ impl Plan {
         plan
     }
 
-    /// Whether an effect of the scene needs that quantity.
+    /// Whether an effect of the scene needs that quantity at every visible sample.
     pub fn needs(&self, quantity: Quantity) -> bool {
+        self.needs.iter().any(|need| need.quantity == quantity && !need.first_only)
+    }
+
+    /// Whether an effect of the scene needs that quantity at the first visible sample of a ray, or at every one.
+    pub fn needs_at_first(&self, quantity: Quantity) -> bool {
         self.needs.iter().any(|need| need.quantity == quantity)
     }
 
@@ -213,10 +236,15 @@ pub(crate) struct Asks<'a> {
 }
 
 impl Asks<'_> {
-    /// An effect needs a quantity, because of a key.
+    /// An effect needs a quantity at every visible sample, because of a key.
     pub(crate) fn need(&mut self, quantity: Quantity, effect: &str, key: &str) {
+        self.need_where(quantity, false, effect, key);
+    }
+
+    /// An effect needs a quantity at the first visible sample of each ray alone, or at every one, because of a key.
+    pub(crate) fn need_where(&mut self, quantity: Quantity, first_only: bool, effect: &str, key: &str) {
         let place = self.place(key);
-        self.needs.push(Need { quantity, effect: effect.into(), key: key.into(), place });
+        self.needs.push(Need { quantity, first_only, effect: effect.into(), key: key.into(), place });
     }
 
     /// An effect needs a pass, because of a key.
@@ -237,11 +265,13 @@ impl Asks<'_> {
         self.needs.iter().find(|need| need.quantity == quantity)
     }
 
-    /// Adds what the needed quantities are made of, for whoever needed them first.
+    /// Adds what the needed quantities are made of, for whoever needed them first: where they are needed.
     fn close(&mut self) {
-        for quantity in Quantity::ALL.into_iter().rev() {
-            if let (Some(need), Some(prerequisite)) = (self.first(quantity), quantity.prerequisite())
-                && self.first(prerequisite).is_none()
+        for (quantity, first_only) in Quantity::ALL.into_iter().rev().flat_map(|q| [(q, false), (q, true)]) {
+            let is = |need: &Need, quantity| need.quantity == quantity && need.first_only == first_only;
+            let need = self.needs.iter().find(|need| is(need, quantity));
+            if let (Some(need), Some(prerequisite)) = (need, quantity.prerequisite())
+                && !self.needs.iter().any(|n| is(n, prerequisite) || (n.quantity == prerequisite && !n.first_only))
             {
                 let need = Need { quantity: prerequisite, ..need.clone() };
                 self.needs.push(need);
@@ -283,7 +313,7 @@ impl fmt::Display for Plan {
         let needs = self
             .needs
             .iter()
-            .map(|n| [n.effect.clone(), n.quantity.name().into(), n.quantity.adds().into(), because(&n.key, &n.place)]);
+            .map(|n| [n.effect.clone(), n.quantity.name().into(), n.adds().into(), because(&n.key, &n.place)]);
         let passes = self
             .passes
             .iter()

@@ -3,7 +3,7 @@
 use super::lattice::IndexRay;
 use super::layers::{Seen, Sums};
 use super::opacity::Correction;
-use super::prepared::{KappaSource, Prepared};
+use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::{Facts, Sight};
 use super::skip::{Boxes, Skip};
 use crate::field::{Place, Sampler, curvature};
@@ -129,7 +129,8 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     /// Composites a sample with α_u > 0: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
     fn show(&mut self, k: i64, at: Place<R>, s: R, place: &transfer::Place<R>, counts: &mut Counts) {
         let prepared = self.prepared;
-        let facts = if prepared.calls.gradient { self.facts(k, at, counts) } else { Facts::none() };
+        let mut facts = Facts::none();
+        self.learn(k, at, prepared.calls, &mut facts, counts);
         let (rgb, alpha) = prepared.look.color(place, &facts, &self.sight, counts);
         if alpha != self.corrected[0] {
             self.corrected = [alpha, self.correction.apply(alpha)];
@@ -139,35 +140,38 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.rgb = [self.rgb[0] + w * rgb[0], self.rgb[1] + w * rgb[1], self.rgb[2] + w * rgb[2]];
         self.opacity += w;
         if prepared.collects && alpha > R::ZERO {
+            if let (Some(first), true) = (prepared.first, self.sums.is_empty()) {
+                self.learn(k, at, first, &mut facts, counts);
+            }
             self.collect(k, s, w, &facts);
         }
     }
 
-    /// What the scene calls for beyond the value.
-    #[inline]
-    fn facts(&mut self, k: i64, at: Place<R>, counts: &mut Counts) -> Facts<R> {
+    /// Adds what is called for to what is known of a sample beyond its value.
+    #[inline(always)]
+    fn learn(&mut self, k: i64, at: Place<R>, calls: Calls, facts: &mut Facts<R>, counts: &mut Counts) {
         let prepared = self.prepared;
-        let g = self.sampler.gradient_at(at);
-        counts.gradients += 1;
-        let mut facts = Facts { gradient: g, ..Facts::none() };
-        if let Some((lo, width)) = prepared.gradient_range {
-            facts.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
-        }
-        facts.normal = self.normal(g);
-        if let Some(n) = facts.normal {
-            if prepared.calls.hessian {
-                self.curvatures(at, &mut facts, counts);
+        if calls.gradient {
+            let g = self.sampler.gradient_at(at);
+            counts.gradients += 1;
+            facts.gradient = g;
+            if let Some((lo, width)) = prepared.gradient_range {
+                facts.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
             }
-            if prepared.calls.kappa == KappaSource::AlongRay {
+            facts.normal = self.normal(g);
+            counts.without_normal += u64::from(facts.normal.is_none());
+        }
+        if let Some(n) = facts.normal {
+            if calls.hessian {
+                self.curvatures(at, calls, facts, counts);
+            }
+            if calls.kappa == KappaSource::AlongRay {
                 facts.kappa = self.kappa_along_ray(k, n, counts);
             }
-        } else {
-            counts.without_normal += 1;
         }
-        if prepared.calls.kappa == KappaSource::AlongRay {
+        if calls.kappa == KappaSource::AlongRay {
             self.previous = Some((k, facts.normal));
         }
-        facts
     }
 
     /// The normal that shades ([NORM-1]): the outward one, or as the scene turns it.
@@ -192,17 +196,17 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     }
 
     /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); 0 where H's own field has no normal.
-    fn curvatures(&self, at: Place<R>, facts: &mut Facts<R>, counts: &mut Counts) {
+    fn curvatures(&self, at: Place<R>, calls: Calls, facts: &mut Facts<R>, counts: &mut Counts) {
         let prepared = self.prepared;
         counts.hessians += 1;
         let (g, h) = self.sampler.hessian_at(at);
         if g.length() <= prepared.no_normal_below {
             return;
         }
-        if prepared.calls.kappa == KappaSource::Exact {
+        if calls.kappa == KappaSource::Exact {
             facts.kappa = curvature::along_view(g, h, self.sight.v, prepared.outside);
         }
-        if prepared.calls.principal {
+        if calls.principal {
             let c = curvature::principal(g, h, prepared.outside);
             facts.principal = [c.k1, c.k2];
         }

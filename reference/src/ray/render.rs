@@ -3,7 +3,7 @@
 use super::cast::cast;
 use super::gradient_range::quantile_of_norms;
 use super::lattice::{IndexRay, Lattice};
-use super::layers::averaged;
+use super::layers::{Sums, pooled};
 use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::sample::{EyeAxes, Look, Styled};
 use super::skip::{Beam, Boxes, Skip};
@@ -141,10 +141,10 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let sampling = &scene.sampling;
     let world = |length: Length, key| length.world(grid).ok_or(RenderError::Length { key });
     let step = world(sampling.step, "sampling.step")?;
-    let calls = calls(scene, plan);
-    let rung = if calls.hessian {
+    let (calls, first) = calls(scene, plan);
+    let rung = if plan.needs_at_first(Quantity::Hessian) {
         Rung::Hessian
-    } else if calls.gradient {
+    } else if plan.needs_at_first(Quantity::Gradient) {
         Rung::Gradient
     } else {
         Rung::Value
@@ -197,6 +197,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         function: Piecewise::new(at, opacity)?,
         look,
         calls,
+        first,
         gradient_range,
         reference_length: world(sampling.reference_length, "sampling.reference_length")?,
         stop_at: R::from_f64(stop_at(sampling.stop_below, scene.picture.blend_space)),
@@ -224,21 +225,36 @@ fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
     }
 }
 
-/// What visible samples have to know, by the plan.
-fn calls(scene: &Scene, plan: &Plan) -> Calls {
-    let kappa = if plan.needs(Quantity::PreviousNormal) {
-        KappaSource::AlongRay
-    } else if plan.needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
-        KappaSource::Exact
-    } else {
-        KappaSource::None
+/// What visible samples have to know, by the plan, and what the first of a ray has to know beyond that.
+fn calls(scene: &Scene, plan: &Plan) -> (Calls, Option<Calls>) {
+    let kappa = |needs: &dyn Fn(Quantity) -> bool| {
+        if needs(Quantity::PreviousNormal) {
+            KappaSource::AlongRay
+        } else if needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
+            KappaSource::Exact
+        } else {
+            KappaSource::None
+        }
     };
-    Calls {
+    let asks_for = |layer| scene.picture.layers.contains(&layer);
+    let calls = Calls {
         gradient: plan.needs(Quantity::Gradient),
         hessian: plan.needs(Quantity::Hessian),
-        principal: scene.picture.layers.contains(&LayerKind::Curvature),
+        principal: asks_for(LayerKind::Curvature),
+        kappa: kappa(&|quantity| plan.needs(quantity)),
+    };
+    let principal = asks_for(LayerKind::FirstCurvature) && !calls.principal;
+    let kappa = match calls.kappa {
+        KappaSource::None => kappa(&|quantity| plan.needs_at_first(quantity)),
+        KappaSource::AlongRay | KappaSource::Exact => KappaSource::None,
+    };
+    let first = Calls {
+        gradient: plan.needs_at_first(Quantity::Gradient) && !calls.gradient,
+        hessian: principal || kappa == KappaSource::Exact,
+        principal,
         kappa,
-    }
+    };
+    (calls, (first.gradient || first.hessian || first.kappa != KappaSource::None).then_some(first))
 }
 
 /// The rows of the rotation from world to eye space.
@@ -361,7 +377,8 @@ fn draw_tile<R: Real, S: Sampler<R>>(
     tile
 }
 
-/// Casts the n×n rays of one pixel through the centres of its parts and appends its channels ([RAY-6]).
+/// Casts the n×n rays of one pixel through the centres of its parts and appends its channels ([RAY-6]): of the beauty the
+/// mean; of the layers that are means themselves the mean over all samples of the pixel; of the others the first ray's.
 fn draw_pixel<R: Real, S: Sampler<R>>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
@@ -371,31 +388,27 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
     tile: &mut Tile,
 ) {
     let n = prepared.samples;
-    let start = tile.pixels.len();
     let share = 1.0 / (n * n) as f64;
+    let mut beauty = [0.0; 4];
+    let (mut first, mut all) = (None, Sums::new());
     for part in 0..n * n {
         let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
         let at = [centre(i, part % n), centre(j, part / n)];
         let cast = cast(prepared, sampler, at, boxes.as_mut(), &mut tile.counts);
-        let mut values = Vec::new();
-        let mut means = Vec::new();
-        for &kind in &prepared.layers {
-            let before = values.len();
-            if kind == LayerKind::Beauty {
-                values.extend(over(cast.rgba, behind, prepared.encode));
-            } else {
-                cast.sums.channels(kind, cast.samples, prepared.field.scale_exponent(), &mut values);
-            }
-            means.resize(values.len(), averaged(kind));
-            debug_assert_eq!(values.len() - before, kind.channels().len());
+        for (mean, c) in beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
+            *mean += c * share;
         }
-        if part == 0 {
-            let first = values.iter().zip(&means).map(|(&v, &mean)| if mean && n > 1 { v * share } else { v });
-            tile.pixels.extend(first);
+        all.pool(&cast.sums);
+        first.get_or_insert((cast.sums, cast.samples));
+    }
+    // A pixel has at least one part.
+    let (first, samples) = first.unwrap_or((Sums::new(), 0));
+    for &kind in &prepared.layers {
+        if kind == LayerKind::Beauty {
+            tile.pixels.extend(beauty);
         } else {
-            for ((sum, v), _) in tile.pixels[start..].iter_mut().zip(values).zip(&means).filter(|(_, mean)| **mean) {
-                *sum += v * share;
-            }
+            let sums = if pooled(kind) { &all } else { &first };
+            sums.channels(kind, samples, prepared.field.scale_exponent(), &mut tile.pixels);
         }
     }
 }

@@ -163,11 +163,11 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
             idle.key("sampling.step_along", "planes and shells are the same in an orthographic picture");
         }
-        if !plan.needs(Quantity::Gradient) {
+        if !plan.needs_at_first(Quantity::Gradient) {
             idle.key("sampling.gradient", "nothing needs a gradient");
             idle.key("sampling.normal", "nothing needs a normal");
         }
-        if !plan.needs(Quantity::Hessian) {
+        if !plan.needs_at_first(Quantity::Hessian) {
             idle.key("sampling.hessian", "nothing needs a Hessian");
             idle.key("sampling.scale", "nothing needs a Hessian");
         } else if !matches!(sampling.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian) {
