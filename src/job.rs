@@ -31,6 +31,7 @@ use drypoint_output::{OutputError, exr, png};
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint_reference::suggest;
 use drypoint_scene::color::Rgba;
+use drypoint_scene::counts::Counts;
 use drypoint_scene::file::{Given, identity};
 use drypoint_scene::phantom;
 use drypoint_scene::picture::{Picture, Provenance};
@@ -51,6 +52,8 @@ pub struct Job {
     pub plan: Plan,
     /// Its volume.
     pub volume: Volume,
+    /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
+    pub counts: Counts,
     function: Function,
     styles: Vec<Style>,
     background: Option<Vec<Rgba>>,
@@ -91,6 +94,7 @@ impl Job {
         };
         // Of the scene as it was given: that its function was found in the data is part of the plan.
         let mut plan = Plan::new(&scene);
+        plan.settle(&scene, is_integer(&volume));
         if let (Some(step), Ok(view)) =
             (scene.sampling.step.world(volume.grid()), View::new(&scene.camera, volume.grid(), scene.picture.size))
         {
@@ -104,8 +108,9 @@ impl Job {
             let place = scene.given.position("transfer");
             return Err(Failure::new("the scene draws nothing", place, "add a [transfer] table").into());
         };
+        let mut counts = Counts::default();
         if transfer.nodes.is_none() {
-            suggest::fill_function(transfer, &volume, scene.volume.outside);
+            suggest::fill_function(transfer, &volume, scene.volume.outside, &mut counts);
         }
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
         let Some(function) = Function::new(transfer, range, &volume) else {
@@ -120,7 +125,7 @@ impl Job {
         let styles = styles(&scene, named.map(String::as_str), &mut failures);
         let background = background(&scene, &mut failures);
         Failures::check(failures)?;
-        Ok(Self { scene, plan, volume, function, styles, background })
+        Ok(Self { scene, plan, volume, counts, function, styles, background })
     }
 
     /// The scene made ready for any number of frames.
@@ -142,7 +147,7 @@ impl Job {
             styles: &self.styles,
             background,
         };
-        Renderer::new(inputs).map_err(|error| {
+        let renderer = Renderer::new(inputs).map_err(|error| {
             let (key, remedy) = match &error {
                 RenderError::Field(_) => ("sampling", "choose another sampling.kernel or sampling.hessian"),
                 RenderError::View(ViewError::HeightOnPage) => ("camera.height", "give it in world units or in voxels"),
@@ -154,7 +159,8 @@ impl Job {
                 RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
             };
             Failure::new(&error, self.scene.given.position(key), remedy)
-        })
+        })?;
+        Ok(renderer)
     }
 
     /// Whether there is memory for a picture: its channels, and once more while they are gathered from tiles.
@@ -171,10 +177,12 @@ impl Job {
     /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
     pub fn provenance(&self) -> Provenance {
         let hash = Sha256::digest(identity(&self.scene));
+        let mut plan = Plan::new(&self.scene);
+        plan.settle(&self.scene, is_integer(&self.volume));
         Provenance {
             software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
             scene_hash: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
-            plan: Plan::new(&self.scene).summary(),
+            plan: plan.summary(),
         }
     }
 
@@ -193,9 +201,14 @@ impl Job {
 }
 
 /// A scene for a bare volume: an automatic function, a camera that frames the content in a picture of `size` pixels, a
-/// pleasant style.
-pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2]) -> Scene {
-    suggest::scene(VolumeSource::File { path, raw: None }, volume, size)
+/// pleasant style. What was looked at for it goes to `counts`.
+pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+    suggest::scene(VolumeSource::File { path, raw: None }, volume, size, counts)
+}
+
+/// Whether a volume's file is of integers ([REC-3]).
+fn is_integer(volume: &Volume) -> bool {
+    volume.voxels().voxel_type().is_integer()
 }
 
 /// Reads or generates a scene's volume.

@@ -80,7 +80,7 @@ pub enum Pass {
     SmoothedCoefficients,
     /// The quantile of ‖g‖ over the voxels, where `gradient_range` is none that is given ([VAL-2]).
     GradientRange,
-    /// The automatic transfer function from the histogram of values and gradients.
+    /// The automatic transfer function, from values and their differences between neighbours.
     AutomaticTransfer,
     /// The ranges of bricks, by which empty space is skipped ([RAY-2]).
     Bricks,
@@ -106,7 +106,8 @@ impl Pass {
         match self {
             Self::Coefficients => "one filter along each axis, one number a voxel",
             Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
-            Self::GradientRange | Self::AutomaticTransfer => "one gradient a voxel",
+            Self::GradientRange => "one gradient a voxel",
+            Self::AutomaticTransfer => "one look at each voxel and its neighbours",
             Self::Bricks => "one look at each voxel",
             Self::Rays => "samples² rays a pixel",
         }
@@ -140,6 +141,8 @@ impl Need {
 pub struct PassNeed {
     /// What is needed.
     pub pass: Pass,
+    /// Whether only a volume of integers needs it: the scene leaves it to the volume ([`Plan::settle`]).
+    pub integer_only: bool,
     /// The effect that needs it.
     pub effect: String,
     /// The key or table that asked.
@@ -173,7 +176,8 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan of a scene. It depends on the scene alone, not on the volume.
+    /// The plan of a scene. It depends on the scene alone; what the scene leaves to the volume is in it until
+    /// [`Plan::settle`].
     pub fn new(scene: &Scene) -> Self {
         let sections: Vec<Section> = sections().collect();
         let mut asks = Asks { scene, needs: Vec::new(), passes: Vec::new() };
@@ -187,8 +191,7 @@ impl Plan {
         let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys: Vec::new(), warnings: Vec::new() };
         let mut idle = Idle { scene, keys: Vec::new() };
         sections.iter().for_each(|section| (section.idle)(scene, &plan, &mut idle));
-        idle.keys.sort_by(|a, b| (&a.place, &a.key).cmp(&(&b.place, &b.key)));
-        plan.idle_keys = idle.keys;
+        plan.idle_keys = idle.sorted();
         plan
     }
 
@@ -205,6 +208,18 @@ impl Plan {
     /// Whether an effect of the scene needs that pass.
     pub fn has_pass(&self, pass: Pass) -> bool {
         self.passes.iter().any(|need| need.pass == pass)
+    }
+
+    /// Takes out what the scene leaves to the volume and this one does not need: smoothing with `hessian = "auto"`, which
+    /// is for files of integers ([REC-3]).
+    pub fn settle(&mut self, scene: &Scene, integer: bool) {
+        if integer || !self.passes.iter().any(|need| need.integer_only) {
+            return;
+        }
+        self.passes.retain(|need| !need.integer_only);
+        let mut idle = Idle { scene, keys: std::mem::take(&mut self.idle_keys) };
+        idle.key("sampling.scale", "hessian = \"auto\" smooths integers only, and the file has none");
+        self.idle_keys = idle.sorted();
     }
 
     /// Effects, what they need, and the keys that asked, one a line: the plan as a picture's metadata has it ([IO-2]).
@@ -249,8 +264,13 @@ impl Asks<'_> {
 
     /// An effect needs a pass, because of a key.
     pub(crate) fn pass(&mut self, pass: Pass, effect: &str, key: &str) {
+        self.pass_where(pass, false, effect, key);
+    }
+
+    /// An effect needs a pass, if the file is of integers or in any case, because of a key.
+    pub(crate) fn pass_where(&mut self, pass: Pass, integer_only: bool, effect: &str, key: &str) {
         let place = self.place(key);
-        self.passes.push(PassNeed { pass, effect: effect.into(), key: key.into(), place });
+        self.passes.push(PassNeed { pass, integer_only, effect: effect.into(), key: key.into(), place });
     }
 
     /// Where the scene says a key, or else the table around it.
@@ -291,6 +311,12 @@ impl Idle<'_> {
     /// Whether the scene says a key or table.
     pub(crate) fn says(&self, key: &str) -> bool {
         self.scene.given.contains(key)
+    }
+
+    /// In the order of the scene.
+    fn sorted(mut self) -> Vec<IdleKey> {
+        self.keys.sort_by(|a, b| (&a.place, &a.key).cmp(&(&b.place, &b.key)));
+        self.keys
     }
 
     /// Lists a key or table that has no effect, if the scene says it.

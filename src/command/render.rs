@@ -79,6 +79,7 @@ impl Render {
         let loaded = start.elapsed().as_secs_f64();
         input::tell(talk, &job);
         let (picture, mut counts, times) = self.frames(&job, talk)?;
+        counts.add(&job.counts);
         counts.seconds.insert("load".into(), loaded);
         let start = Instant::now();
         job.write(&picture, &target.path)?;

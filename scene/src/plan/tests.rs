@@ -75,6 +75,21 @@ fn what_only_first_samples_need_is_asked_there_alone() {
 }
 
 #[test]
+fn what_a_scene_leaves_to_the_volume_is_settled_by_it() {
+    let text = format!("drypoint = 1\n[volume]\nfile = \"a\"\n{PLAIN}[contours]\nkappa = \"exact\"\n[sampling]\n");
+    for (hessian, integers, floats) in [("auto", true, false), ("gaussian", true, true), ("central", false, false)] {
+        let text = format!("{text}scale = 2\nhessian = \"{hessian}\"\n");
+        let scene = parse(&text, "s.toml".as_ref(), &Overrides::default()).unwrap();
+        for (integer, smooths) in [(true, integers), (false, floats)] {
+            let mut plan = Plan::new(&scene);
+            plan.settle(&scene, integer);
+            assert_eq!(plan.has_pass(Pass::SmoothedCoefficients), smooths, "{hessian} {integer}");
+            assert_eq!(plan.idle_keys.iter().any(|idle| idle.key == "sampling.scale"), !smooths, "{hessian} {integer}");
+        }
+    }
+}
+
+#[test]
 fn a_range_of_gradients_that_is_given_is_not_computed() {
     let fixed = plan(&format!("gradient_range = [0, 60]\n{ILLUSTRATIVE}"));
     assert!(fixed.needs(GradientMagnitudeRange) && !fixed.has_pass(Pass::GradientRange));
