@@ -25,7 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::{Failure, Failures, Format};
+use crate::{Failure, Failures, Format, memory};
 use drypoint_output::read::read_background;
 use drypoint_output::{OutputError, exr, png};
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
@@ -133,7 +133,6 @@ impl Job {
     /// # Errors
     /// A reconstruction that does not exist, a camera without direction, a picture for which there is no memory.
     pub fn renderer(&self) -> Result<Renderer<'_>, Failure> {
-        self.room()?;
         let background = match (&self.background, &self.scene.picture.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
             (None, Background::Color(color)) => Backdrop::Color(*color),
@@ -160,18 +159,10 @@ impl Job {
             };
             Failure::new(&error, self.scene.given.position(key), remedy)
         })?;
-        Ok(renderer)
-    }
-
-    /// Whether there is memory for a picture: its channels, and once more while they are gathered from tiles.
-    fn room(&self) -> Result<(), Failure> {
-        let [width, height] = self.scene.picture.size;
+        // Of what is left: the picture's channels, and as much again while they are encoded.
         let channels: usize = self.scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
-        let numbers = width.saturating_mul(height).saturating_mul(channels.saturating_mul(2));
-        Vec::<f64>::new().try_reserve_exact(numbers).map_err(|_| {
-            let what = format!("there is no memory for a picture of {width} × {height} pixels");
-            Failure::new(what, self.scene.given.position("picture.size"), "make it smaller, or ask for fewer layers")
-        })
+        room(&self.scene, 2 * 8 * channels)?;
+        Ok(renderer)
     }
 
     /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
@@ -209,6 +200,16 @@ pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Count
 /// Whether a volume's file is of integers ([REC-3]).
 fn is_integer(volume: &Volume) -> bool {
     volume.voxels().voxel_type().is_integer()
+}
+
+/// Whether there is memory for so many bytes a pixel.
+fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
+    let [width, height] = scene.picture.size;
+    let needed = [width, height, bytes].into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
+    memory::room(needed).map_err(|no_room| {
+        let what = format!("a picture of {width} × {height} pixels needs {no_room}");
+        Failure::new(what, scene.given.position("picture.size"), "make it smaller, or ask for fewer layers")
+    })
 }
 
 /// Reads or generates a scene's volume.
@@ -253,6 +254,10 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
 fn background(scene: &Scene, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
     let Background::Picture(path) = &scene.picture.background else { return None };
     let [width, height] = scene.picture.size;
+    if let Err(failure) = room(scene, size_of::<Rgba>()) {
+        failures.push(failure);
+        return None;
+    }
     let pixels = read_background(path, width, height);
     let failed = |error| Failure::new(&error, scene.given.position("picture.background"), OutputError::help(&error));
     pixels.map_err(|error| failures.push(failed(error))).ok()

@@ -31,6 +31,9 @@ use std::time::Instant;
 /// Pixels along the side of a tile, the work of one thread at a time.
 const TILE: usize = 16;
 
+/// Tiles that are drawn before they are gathered: a million pixels, so that a huge picture is not in memory twice.
+const BATCH: usize = 4096;
+
 /// What a picture is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
@@ -316,24 +319,26 @@ fn draw<R: Real, S: Sampler<R>>(
     let [width, height] = prepared.view.size;
     let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let tiles: Vec<Tile> = (0..across * down)
-        .into_par_iter()
-        .map(|t| {
-            let tile = draw_tile(prepared, sampler, background, [t % across * TILE, t / across * TILE]);
-            let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            progress(n as f64 / (across * down) as f64);
-            tile
-        })
-        .collect();
     let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();
     let mut counts = Counts::default();
     let mut channels = vec![vec![0.0; width * height]; per_pixel];
-    for tile in &tiles {
-        counts.add(&tile.counts);
-        for (i, pixel) in tile.pixels.chunks_exact(per_pixel).enumerate() {
-            let at = (tile.y + i / tile.width) * width + tile.x + i % tile.width;
-            for (channel, value) in channels.iter_mut().zip(pixel) {
-                channel[at] = *value;
+    for first in (0..across * down).step_by(BATCH) {
+        let tiles: Vec<Tile> = (first..(first + BATCH).min(across * down))
+            .into_par_iter()
+            .map(|t| {
+                let tile = draw_tile(prepared, sampler, background, [t % across * TILE, t / across * TILE]);
+                let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                progress(n as f64 / (across * down) as f64);
+                tile
+            })
+            .collect();
+        for tile in &tiles {
+            counts.add(&tile.counts);
+            for (i, pixel) in tile.pixels.chunks_exact(per_pixel).enumerate() {
+                let at = (tile.y + i / tile.width) * width + tile.x + i % tile.width;
+                for (channel, value) in channels.iter_mut().zip(pixel) {
+                    channel[at] = *value;
+                }
             }
         }
     }
