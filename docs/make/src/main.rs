@@ -6,6 +6,7 @@ mod files;
 mod pages;
 mod reference;
 mod rings;
+mod rules;
 mod styles;
 
 use std::process::ExitCode;
@@ -13,10 +14,11 @@ use std::process::ExitCode;
 /// A page or a set of pictures: the word that asks for it, and what writes it.
 type Page = (&'static str, fn() -> Result<(), String>);
 
-const PAGES: [Page; 4] = [
+const PAGES: [Page; 5] = [
     ("accuracy", accuracy::write),
     ("reference", reference::write),
     ("rings", rings::write),
+    ("rules", rules::write),
     ("styles", styles::write),
 ];
 
