@@ -25,12 +25,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::{Failure, Failures, Format};
+use crate::{Failure, Failures, Format, memory};
 use drypoint_output::read::read_background;
 use drypoint_output::{OutputError, exr, png};
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint_reference::suggest;
 use drypoint_scene::color::Rgba;
+use drypoint_scene::counts::Counts;
 use drypoint_scene::file::{Given, identity};
 use drypoint_scene::phantom;
 use drypoint_scene::picture::{Picture, Provenance};
@@ -51,6 +52,8 @@ pub struct Job {
     pub plan: Plan,
     /// Its volume.
     pub volume: Volume,
+    /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
+    pub counts: Counts,
     function: Function,
     further: [Option<Volume>; 2],
     styles: Vec<Style>,
@@ -92,6 +95,7 @@ impl Job {
         };
         // Of the scene as it was given: that its function was found in the data is part of the plan.
         let mut plan = Plan::new(&scene);
+        plan.settle(&scene, is_integer(&volume));
         if let (Some(step), Ok(view)) =
             (scene.sampling.step.world(volume.grid()), View::new(&scene.camera, volume.grid(), scene.picture.size))
         {
@@ -105,8 +109,9 @@ impl Job {
             let place = scene.given.position("transfer");
             return Err(Failure::new("the scene draws nothing", place, "add a [transfer] table").into());
         };
+        let mut counts = Counts::default();
         if transfer.is_automatic() {
-            suggest::fill_function(transfer, &volume, scene.volume.outside);
+            suggest::fill_function(transfer, &volume, scene.volume.outside, &mut counts);
         }
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
         let found = Function::new(transfer, range, &volume, &|_| None);
@@ -126,7 +131,7 @@ impl Job {
         let background = background(&scene, &mut failures);
         let further = further(&scene, &mut failures);
         Failures::check(failures)?;
-        Ok(Self { scene, plan, volume, function, further, styles, background })
+        Ok(Self { scene, plan, volume, counts, function, further, styles, background })
     }
 
     /// The scene made ready for any number of frames.
@@ -134,7 +139,6 @@ impl Job {
     /// # Errors
     /// A reconstruction that does not exist, a camera without direction, a picture for which there is no memory.
     pub fn renderer(&self) -> Result<Renderer<'_>, Failure> {
-        self.room()?;
         let background = match (&self.background, &self.scene.picture.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
             (None, Background::Color(color)) => Backdrop::Color(*color),
@@ -149,7 +153,7 @@ impl Job {
             styles: &self.styles,
             background,
         };
-        Renderer::new(inputs).map_err(|error| {
+        let renderer = Renderer::new(inputs).map_err(|error| {
             let (key, remedy) = match &error {
                 RenderError::Field(_) => ("sampling", "choose another sampling.kernel or sampling.hessian"),
                 RenderError::View(ViewError::HeightOnPage) => ("camera.height", "give it in world units or in voxels"),
@@ -164,27 +168,22 @@ impl Job {
                 RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
             };
             Failure::new(&error, self.scene.given.position(key), remedy)
-        })
-    }
-
-    /// Whether there is memory for a picture: its channels, and once more while they are gathered from tiles.
-    fn room(&self) -> Result<(), Failure> {
-        let [width, height] = self.scene.picture.size;
+        })?;
+        // Of what is left: the picture's channels, and as much again while they are encoded.
         let channels: usize = self.scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
-        let numbers = width.saturating_mul(height).saturating_mul(channels.saturating_mul(2));
-        Vec::<f64>::new().try_reserve_exact(numbers).map_err(|_| {
-            let what = format!("there is no memory for a picture of {width} × {height} pixels");
-            Failure::new(what, self.scene.given.position("picture.size"), "make it smaller, or ask for fewer layers")
-        })
+        room(&self.scene, 2 * 8 * channels)?;
+        Ok(renderer)
     }
 
     /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
     pub fn provenance(&self) -> Provenance {
         let hash = Sha256::digest(identity(&self.scene));
+        let mut plan = Plan::new(&self.scene);
+        plan.settle(&self.scene, is_integer(&self.volume));
         Provenance {
             software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
             scene_hash: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
-            plan: Plan::new(&self.scene).summary(),
+            plan: plan.summary(),
         }
     }
 
@@ -203,9 +202,24 @@ impl Job {
 }
 
 /// A scene for a bare volume: an automatic function, a camera that frames the content in a picture of `size` pixels, a
-/// pleasant style.
-pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2]) -> Scene {
-    suggest::scene(VolumeSource::File { path, raw: None }, volume, size)
+/// pleasant style. What was looked at for it goes to `counts`.
+pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+    suggest::scene(VolumeSource::File { path, raw: None }, volume, size, counts)
+}
+
+/// Whether a volume's file is of integers ([REC-3]).
+fn is_integer(volume: &Volume) -> bool {
+    volume.voxels().voxel_type().is_integer()
+}
+
+/// Whether there is memory for so many bytes a pixel.
+fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
+    let [width, height] = scene.picture.size;
+    let needed = [width, height, bytes].into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
+    memory::room(needed).map_err(|no_room| {
+        let what = format!("a picture of {width} × {height} pixels needs {no_room}");
+        Failure::new(what, scene.given.position("picture.size"), "make it smaller, or ask for fewer layers")
+    })
 }
 
 /// Reads or generates a scene's volume.
@@ -273,6 +287,10 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
 fn background(scene: &Scene, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
     let Background::Picture(path) = &scene.picture.background else { return None };
     let [width, height] = scene.picture.size;
+    if let Err(failure) = room(scene, size_of::<Rgba>()) {
+        failures.push(failure);
+        return None;
+    }
     let pixels = read_background(path, width, height);
     let failed = |error| Failure::new(&error, scene.given.position("picture.background"), OutputError::help(&error));
     pixels.map_err(|error| failures.push(failed(error))).ok()

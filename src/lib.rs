@@ -18,6 +18,7 @@ pub mod failure;
 pub mod format;
 pub mod job;
 pub mod labels;
+mod memory;
 
 pub use drypoint_output as output;
 pub use drypoint_reference as reference;

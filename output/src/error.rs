@@ -101,7 +101,7 @@ impl OutputError {
     pub fn help(&self) -> &'static str {
         match self {
             Self::Io { action: "read", .. } => "check that the file exists and may be read",
-            Self::Io { .. } => "check that the folder exists, may be written to and has room",
+            Self::Io { source, .. } => drypoint_scene::atomic::remedy(source),
             Self::UnknownFormat { .. } => "convert the picture to PNG or EXR",
             Self::Malformed { .. } => "write the picture again, as a plain PNG or a flat scan-line EXR",
             Self::TooLarge { .. } => "the file is damaged or cut off: write or fetch it again",

@@ -86,7 +86,7 @@ mod tests {
         };
         let layers = LayerKind::ALL
             .into_iter()
-            .filter(|kind| *kind != LayerKind::CurvatureAlongView)
+            .filter(|kind| ![LayerKind::CurvatureAlongView, LayerKind::FirstCurvatureAlongView].contains(kind))
             .map(|kind| Layer {
                 kind,
                 channels: kind.channels().iter().map(|_| (0..width * height).map(|_| value()).collect()).collect(),

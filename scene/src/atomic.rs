@@ -44,6 +44,20 @@ pub fn check(path: &Path) -> io::Result<()> {
     }
 }
 
+/// What to do where [`write()`] or [`check`] was refused, in one line.
+pub fn remedy(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::IsADirectory => "give the name of a file, such as one in that folder",
+        io::ErrorKind::NotFound => "make the folder first, or give a path in one that is there",
+        io::ErrorKind::NotADirectory => "give a path in a folder",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "give a path in a folder that you may write to: a file is written beside its place, then renamed"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or give a path elsewhere",
+        _ => "check that the folder exists, may be written to and has room",
+    }
+}
+
 /// Removes what interrupted writes have left beside their targets. For the handler of an interrupt.
 pub fn remove_unfinished() {
     for path in std::mem::take(&mut *unfinished()) {
@@ -153,6 +167,27 @@ mod tests {
             assert!(put(&refused, b"x").is_err() && check(&refused).is_err(), "{}", refused.display());
         }
         assert_eq!(names(folder.path()), ["a.png"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_may_not_be_written_to_is_told_as_that() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        put(&path, b"old").unwrap();
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o555)).unwrap();
+        // Some users may write anywhere.
+        if File::create(folder.path().join("b")).is_ok() {
+            println!("skipped: this user may write to every folder");
+            return;
+        }
+        for error in [put(&path, b"new").unwrap_err(), check(&path).unwrap_err()] {
+            assert_eq!(error.kind(), io::ErrorKind::PermissionDenied);
+            assert!(remedy(&error).contains("a folder that you may write to"));
+        }
+        assert_eq!((fs::read(&path).unwrap(), names(folder.path())), (b"old".into(), vec!["a.png".into()]));
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
     }
 
     #[test]

@@ -42,13 +42,19 @@ pub enum LayerKind {
     CurvatureAlongView,
     /// The value at the first sample with α > 0: `first.VALUE`.
     First,
+    /// N there, in eye space: `first.normal.X` and so on.
+    FirstNormal,
+    /// `K1`, `K2` and `KV` there: `first.curvature.K1` and so on.
+    FirstCurvature,
+    /// Only the scene's κ there: `first.curvature.KV`; computes no Hessian by itself.
+    FirstCurvatureAlongView,
     /// Samples evaluated on the ray: `counts.SAMPLES`.
     Counts,
 }
 
 impl LayerKind {
     /// Every layer, in the order of the documentation.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 12] = [
         Self::Beauty,
         Self::Z,
         Self::Depth,
@@ -57,6 +63,9 @@ impl LayerKind {
         Self::Curvature,
         Self::CurvatureAlongView,
         Self::First,
+        Self::FirstNormal,
+        Self::FirstCurvature,
+        Self::FirstCurvatureAlongView,
         Self::Counts,
     ];
 
@@ -71,6 +80,9 @@ impl LayerKind {
             Self::Curvature => "curvature",
             Self::CurvatureAlongView => "curvature.KV",
             Self::First => "first",
+            Self::FirstNormal => "first.normal",
+            Self::FirstCurvature => "first.curvature",
+            Self::FirstCurvatureAlongView => "first.curvature.KV",
             Self::Counts => "counts",
         }
     }
@@ -91,6 +103,9 @@ impl LayerKind {
             Self::Curvature => &["curvature.K1", "curvature.K2", "curvature.KV"],
             Self::CurvatureAlongView => &["curvature.KV"],
             Self::First => &["first.VALUE"],
+            Self::FirstNormal => &["first.normal.X", "first.normal.Y", "first.normal.Z"],
+            Self::FirstCurvature => &["first.curvature.K1", "first.curvature.K2", "first.curvature.KV"],
+            Self::FirstCurvatureAlongView => &["first.curvature.KV"],
             Self::Counts => &["counts.SAMPLES"],
         }
     }

@@ -75,6 +75,15 @@ impl Quantity {
         }
     }
 
+    /// What it adds where only the first visible sample of each ray needs it.
+    fn adds_at_first(self) -> &'static str {
+        match self {
+            Self::Gradient | Self::PreviousNormal => "one gradient a ray",
+            Self::Hessian => "one Hessian a ray",
+            _ => self.adds(),
+        }
+    }
+
     /// What it is made of.
     fn prerequisite(self) -> Option<Self> {
         match self {
@@ -95,7 +104,7 @@ pub enum Pass {
     SmoothedCoefficients,
     /// The quantile of ‖g‖ over the voxels, where `gradient_range` is none that is given ([VAL-2]).
     GradientRange,
-    /// The automatic transfer function from the histogram of values and gradients.
+    /// The automatic transfer function, from values and their differences between neighbours.
     AutomaticTransfer,
     /// The distance of every voxel to a label ([STF-4]).
     LabelDistances,
@@ -127,7 +136,8 @@ impl Pass {
         match self {
             Self::Coefficients => "one filter along each axis, one number a voxel",
             Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
-            Self::GradientRange | Self::AutomaticTransfer => "one gradient a voxel",
+            Self::GradientRange => "one gradient a voxel",
+            Self::AutomaticTransfer => "one look at each voxel and its neighbours",
             Self::LabelDistances => "one search a voxel of the labels, one number each",
             Self::Bricks => "one look at each voxel",
             Self::StyleMipmaps => "one look at each texel of a style, a third of it more to keep",
@@ -141,6 +151,8 @@ impl Pass {
 pub struct Need {
     /// What is needed.
     pub quantity: Quantity,
+    /// Whether only the first visible sample of each ray needs it: layers `first.*` ([IO-6]).
+    pub first_only: bool,
     /// The effect that needs it.
     pub effect: String,
     /// The key or table that asked.
@@ -149,11 +161,20 @@ pub struct Need {
     pub place: Option<Place>,
 }
 
+impl Need {
+    /// What it adds to a picture's work.
+    pub fn adds(&self) -> &'static str {
+        if self.first_only { self.quantity.adds_at_first() } else { self.quantity.adds() }
+    }
+}
+
 /// A pass that an effect needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassNeed {
     /// What is needed.
     pub pass: Pass,
+    /// Whether only a volume of integers needs it: the scene leaves it to the volume ([`Plan::settle`]).
+    pub integer_only: bool,
     /// The effect that needs it.
     pub effect: String,
     /// The key or table that asked.
@@ -187,7 +208,8 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan of a scene. It depends on the scene alone, not on the volume.
+    /// The plan of a scene. It depends on the scene alone; what the scene leaves to the volume is in it until
+    /// [`Plan::settle`].
     pub fn new(scene: &Scene) -> Self {
         let sections: Vec<Section> = sections().collect();
         let mut asks = Asks { scene, needs: Vec::new(), passes: Vec::new() };
@@ -201,19 +223,35 @@ impl Plan {
         let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys: Vec::new(), warnings: Vec::new() };
         let mut idle = Idle { scene, keys: Vec::new() };
         sections.iter().for_each(|section| (section.idle)(scene, &plan, &mut idle));
-        idle.keys.sort_by(|a, b| (&a.place, &a.key).cmp(&(&b.place, &b.key)));
-        plan.idle_keys = idle.keys;
+        plan.idle_keys = idle.sorted();
         plan
     }
 
-    /// Whether an effect of the scene needs that quantity.
+    /// Whether an effect of the scene needs that quantity at every visible sample.
     pub fn needs(&self, quantity: Quantity) -> bool {
+        self.needs.iter().any(|need| need.quantity == quantity && !need.first_only)
+    }
+
+    /// Whether an effect of the scene needs that quantity at the first visible sample of a ray, or at every one.
+    pub fn needs_at_first(&self, quantity: Quantity) -> bool {
         self.needs.iter().any(|need| need.quantity == quantity)
     }
 
     /// Whether an effect of the scene needs that pass.
     pub fn has_pass(&self, pass: Pass) -> bool {
         self.passes.iter().any(|need| need.pass == pass)
+    }
+
+    /// Takes out what the scene leaves to the volume and this one does not need: smoothing with `hessian = "auto"`, which
+    /// is for files of integers ([REC-3]).
+    pub fn settle(&mut self, scene: &Scene, integer: bool) {
+        if integer || !self.passes.iter().any(|need| need.integer_only) {
+            return;
+        }
+        self.passes.retain(|need| !need.integer_only);
+        let mut idle = Idle { scene, keys: std::mem::take(&mut self.idle_keys) };
+        idle.key("sampling.scale", "hessian = \"auto\" smooths integers only, and the file has none");
+        self.idle_keys = idle.sorted();
     }
 
     /// Effects, what they need, and the keys that asked, one a line: the plan as a picture's metadata has it ([IO-2]).
@@ -245,16 +283,26 @@ pub(crate) struct Asks<'a> {
 }
 
 impl Asks<'_> {
-    /// An effect needs a quantity, because of a key.
+    /// An effect needs a quantity at every visible sample, because of a key.
     pub(crate) fn need(&mut self, quantity: Quantity, effect: &str, key: &str) {
+        self.need_where(quantity, false, effect, key);
+    }
+
+    /// An effect needs a quantity at the first visible sample of each ray alone, or at every one, because of a key.
+    pub(crate) fn need_where(&mut self, quantity: Quantity, first_only: bool, effect: &str, key: &str) {
         let place = self.place(key);
-        self.needs.push(Need { quantity, effect: effect.into(), key: key.into(), place });
+        self.needs.push(Need { quantity, first_only, effect: effect.into(), key: key.into(), place });
     }
 
     /// An effect needs a pass, because of a key.
     pub(crate) fn pass(&mut self, pass: Pass, effect: &str, key: &str) {
+        self.pass_where(pass, false, effect, key);
+    }
+
+    /// An effect needs a pass, if the file is of integers or in any case, because of a key.
+    pub(crate) fn pass_where(&mut self, pass: Pass, integer_only: bool, effect: &str, key: &str) {
         let place = self.place(key);
-        self.passes.push(PassNeed { pass, effect: effect.into(), key: key.into(), place });
+        self.passes.push(PassNeed { pass, integer_only, effect: effect.into(), key: key.into(), place });
     }
 
     /// Where the scene says a key, or else the table around it.
@@ -269,11 +317,13 @@ impl Asks<'_> {
         self.needs.iter().find(|need| need.quantity == quantity)
     }
 
-    /// Adds what the needed quantities are made of, for whoever needed them first.
+    /// Adds what the needed quantities are made of, for whoever needed them first: where they are needed.
     fn close(&mut self) {
-        for quantity in Quantity::ALL.into_iter().rev() {
-            if let (Some(need), Some(prerequisite)) = (self.first(quantity), quantity.prerequisite())
-                && self.first(prerequisite).is_none()
+        for (quantity, first_only) in Quantity::ALL.into_iter().rev().flat_map(|q| [(q, false), (q, true)]) {
+            let is = |need: &Need, quantity| need.quantity == quantity && need.first_only == first_only;
+            let need = self.needs.iter().find(|need| is(need, quantity));
+            if let (Some(need), Some(prerequisite)) = (need, quantity.prerequisite())
+                && !self.needs.iter().any(|n| is(n, prerequisite) || (n.quantity == prerequisite && !n.first_only))
             {
                 let need = Need { quantity: prerequisite, ..need.clone() };
                 self.needs.push(need);
@@ -293,6 +343,12 @@ impl Idle<'_> {
     /// Whether the scene says a key or table.
     pub(crate) fn says(&self, key: &str) -> bool {
         self.scene.given.contains(key)
+    }
+
+    /// In the order of the scene.
+    fn sorted(mut self) -> Vec<IdleKey> {
+        self.keys.sort_by(|a, b| (&a.place, &a.key).cmp(&(&b.place, &b.key)));
+        self.keys
     }
 
     /// Lists a key or table that has no effect, if the scene says it.
@@ -315,7 +371,7 @@ impl fmt::Display for Plan {
         let needs = self
             .needs
             .iter()
-            .map(|n| [n.effect.clone(), n.quantity.name().into(), n.quantity.adds().into(), because(&n.key, &n.place)]);
+            .map(|n| [n.effect.clone(), n.quantity.name().into(), n.adds().into(), because(&n.key, &n.place)]);
         let passes = self
             .passes
             .iter()

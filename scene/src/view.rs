@@ -110,20 +110,6 @@ impl View {
         self.direction_to_eye(p - self.eye)
     }
 
-    /// Where a world position falls on the picture, in pixels from the top left corner; none behind a perspective eye.
-    pub fn project(&self, p: DVec3) -> Option<[f64; 2]> {
-        let e = self.to_eye(p);
-        let scale = if self.perspective {
-            if e.z >= 0.0 {
-                return None;
-            }
-            self.pixel * -e.z
-        } else {
-            self.pixel
-        };
-        Some([self.size[0] as f64 / 2.0 + e.x / scale, self.size[1] as f64 / 2.0 - e.y / scale])
-    }
-
     /// The largest Δ_ray / Δ of the picture: 1/cosφ in its corner, 1 for orthographic views ([VAL-4]).
     pub fn largest_stretch(&self) -> f64 {
         1.0 / self.ray(0.0, 0.0).cos_phi
@@ -183,7 +169,6 @@ mod tests {
         assert_eq!(ray.origin, DVec3::new(5.0 - 3.0, 5.0, 5.0 + 3.0));
         assert_eq!(ray.along, DVec3::Y);
         assert_eq!(ray.v, DVec3::Z);
-        assert_eq!(view.project(DVec3::new(2.0, -40.0, 8.0)), Some([0.5, 0.5]));
         assert_eq!(view.to_eye(DVec3::new(5.0, 6.0, 5.0)), DVec3::new(0.0, 0.0, -1.0));
     }
 

@@ -3,6 +3,7 @@
 use super::Talk;
 use super::report::note;
 use drypoint::job::{Job, bare};
+use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{Scene, VolumeSource};
@@ -128,11 +129,14 @@ pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
         return Err(no_input(path).into());
     }
     let volume = read::read(path, None)?;
-    let scene = finished(suggested(path, &volume, over)?);
-    match &scene.volume.source {
+    let mut counts = Counts::default();
+    let scene = finished(suggested(path, &volume, over, &mut counts)?);
+    let mut job = match &scene.volume.source {
         VolumeSource::File { path: shown, raw: None } if shown == path => Job::with_volume(scene, volume),
         _ => Job::load(scene),
-    }
+    }?;
+    job.counts.add(&counts);
+    Ok(job)
 }
 
 /// What flags alone say, all else being default: a scene of no volume.
@@ -158,11 +162,11 @@ pub(super) fn no_input(path: &Path) -> Failure {
 }
 
 /// The scene for a bare volume. It goes through its own text, so that overrides act on it as on any scene.
-fn suggested(path: &Path, volume: &Volume, over: &Over) -> Result<Scene, Failures> {
+fn suggested(path: &Path, volume: &Volume, over: &Over, counts: &mut Counts) -> Result<Scene, Failures> {
     let parse = |text: &str, name: &str, overrides: &Overrides| file::parse(text, Path::new(name), overrides);
     // The camera frames the content in a picture of one shape. A fault of that is told below.
     let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
-    let suggested = bare(path.to_path_buf(), volume, size);
+    let suggested = bare(path.to_path_buf(), volume, size, counts);
     let mut text = file::write_full(&suggested);
     if over.sets_kind {
         // Nodes of one kind do not fit the other: they are found anew.

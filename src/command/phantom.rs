@@ -66,7 +66,7 @@ impl Phantom {
 
 /// The name must end as what is written, and be one that can be written now.
 fn checked(output: &Path) -> Result<(), Failures> {
-    if !output.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("nrrd")) {
+    if !output.is_dir() && !output.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("nrrd")) {
         let what = "a phantom is written as NRRD";
         return Err(Failure::new(what, output.display(), "give a name that ends in .nrrd").into());
     }

@@ -4,7 +4,7 @@ use super::input::{self, Flag};
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::{Args, ValueEnum};
-use drypoint::reference::field::probe::{Probe as Probed, at_index};
+use drypoint::reference::field::probe::{Probe as Probed, at_index, at_world};
 use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
@@ -84,13 +84,13 @@ impl Probe {
         let field = Field::<f64>::new(&volume, how, Rung::Hessian).map_err(|e| refused(&e))?;
         let (mut objects, mut failures) = (Vec::new(), Vec::new());
         for point in points {
-            let index = match self.space {
-                Space::Index => point,
-                Space::World => index_of(volume.grid(), point),
+            let probed = match self.space {
+                Space::Index => at_index(&field, point, self.view),
+                Space::World => at_world(&field, point, self.view),
             };
-            match at_index(&field, index, self.view) {
+            match probed {
                 Some(probed) => objects.push(object(&probed, field.hessian_estimator())),
-                None => failures.push(self.outside_of(volume.grid(), point, index)),
+                None => failures.push(self.outside_of(volume.grid(), point)),
             }
         }
         Failures::check(failures)?;
@@ -99,29 +99,19 @@ impl Probe {
         print(&format!("[{}\n]\n", lines.join(",")))
     }
 
-    fn outside_of(&self, grid: &Grid, point: DVec3, index: DVec3) -> Failure {
+    fn outside_of(&self, grid: &Grid, point: DVec3) -> Failure {
         let text = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);
         let [lo, hi] = grid.index_box();
         let what = match self.space {
             Space::Index => format!("the point {} lies outside the volume", text(point)),
             Space::World => {
-                format!("the point {}, {} in index space, lies outside the volume", text(point), text(index))
+                let index = text(grid.to_index(point));
+                format!("the point {}, {index} in index space, lies outside the volume", text(point))
             }
         };
         let remedy = format!("in index space the volume reaches from {} to {}", text(lo), text(hi));
         Failure::new(what, self.volume.display(), remedy)
     }
-}
-
-/// The index position of a world position. One that lies outside by no more than the rounding of both is taken to the
-/// border: 21.7 at a spacing of 0.7 is voxel 31, not 31.000000000000004.
-fn index_of(grid: &Grid, world: DVec3) -> DVec3 {
-    let index = grid.to_index(world);
-    let [lo, hi] = grid.index_box();
-    let border = index.clamp(lo, hi);
-    let rounding =
-        16.0 * f64::EPSILON * world.abs().max(grid.to_world(border).abs()).max(grid.origin().abs()).max_element();
-    if (grid.to_world(border) - world).abs().max_element() <= rounding { border } else { index }
 }
 
 /// The points of standard input, one a line, or every line that is none.

@@ -33,7 +33,7 @@ pub(super) struct Render {
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Layers of an EXR, separated by commas: beauty, Z, depth, normal, gradient, curvature, curvature.KV, first,
-    /// counts. The default name then ends in .exr
+    /// first.normal, first.curvature, first.curvature.KV, counts. The default name then ends in .exr
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     layers: Vec<String>,
     #[command(flatten)]
@@ -79,6 +79,7 @@ impl Render {
         let loaded = start.elapsed().as_secs_f64();
         input::tell(talk, &job);
         let (picture, mut counts, times) = self.frames(&job, talk)?;
+        counts.add(&job.counts);
         counts.seconds.insert("load".into(), loaded);
         let start = Instant::now();
         job.write(&picture, &target.path)?;

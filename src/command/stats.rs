@@ -27,7 +27,9 @@ impl Times {
 
 /// The counts on one line, with `times` where frames were repeated. What was not done is 0, never left out.
 pub(super) fn line(mut counts: Counts, times: Option<&Times>) -> Result<String, Failure> {
-    counts.preprocess.entry("gradients".into()).or_default();
+    for quantity in ["differences", "gradients"] {
+        counts.preprocess.entry(quantity.into()).or_default();
+    }
     let samples = counts.samples as f64;
     let mut object: Map<String, Value> = match serde_json::to_value(counts) {
         Ok(Value::Object(object)) => object,

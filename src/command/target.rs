@@ -22,7 +22,7 @@ pub(super) fn stem(input: &Path) -> String {
 /// A picture's file of one format, which can be written now.
 ///
 /// # Errors
-/// A wrong suffix, a pattern for several frames, a folder that is not there or may not be written to.
+/// A wrong suffix, a pattern for several frames, a folder, or a folder that is not there or may not be written to.
 pub(super) fn picture(path: &Path, formats: &[Format]) -> Result<Format, Failure> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     if name.contains('#') {
@@ -31,6 +31,10 @@ pub(super) fn picture(path: &Path, formats: &[Format]) -> Result<Format, Failure
             path.display(),
             "give a name without #",
         ));
+    }
+    if path.is_dir() {
+        // Its suffix does not matter.
+        writable(path)?;
     }
     let format = Format::of(path)?;
     if !formats.contains(&format) {

@@ -27,23 +27,84 @@ fn places_that_cannot_be_written_to_are_refused_before_any_work() {
     folder.torus();
     folder.scene("");
     std::fs::create_dir(folder.path("taken.png")).unwrap();
+    std::fs::create_dir(folder.path("taken")).unwrap();
     // The volume is not even looked at.
-    for (name, what) in [
-        ("gone/out.png", "the picture cannot be written: No such file or directory (os error 2)"),
-        ("torus.nrrd/out.png", "the picture cannot be written: Not a directory (os error 20)"),
-        ("taken.png", "the picture cannot be written: it is a folder"),
+    let a_file = "give the name of a file, such as one in that folder";
+    for (name, what, remedy) in [
+        (
+            "gone/out.png",
+            "No such file or directory (os error 2)",
+            "make the folder first, or give a path in one that is there",
+        ),
+        ("torus.nrrd/out.png", "Not a directory (os error 20)", "give a path in a folder"),
+        ("taken.png", "it is a folder", a_file),
+        ("taken.png/", "it is a folder", a_file),
+        ("taken", "it is a folder", a_file),
+        (".", "it is a folder", a_file),
     ] {
-        let expected = format!(
-            "error: {what}\n  at: {name}\n  try: check that the folder exists, may be written to and has room\n"
-        );
+        let expected = format!("error: the picture cannot be written: {what}\n  at: {name}\n  try: {remedy}\n");
         for line in ["render missing.nrrd", "render scene.toml", "styles", "sheet missing.nrrd"] {
             assert_eq!(folder.refused(&format!("{line} -o {name}")), expected);
         }
     }
-    assert_eq!(
-        folder.refused("phantom torus -o gone/out.nrrd"),
-        "error: the volume cannot be written: No such file or directory (os error 2)\n  at: gone/out.nrrd\n  try: give a path in a folder that exists, may be written and has room\n"
-    );
+    for (name, what, remedy) in [
+        (
+            "gone/out.nrrd",
+            "No such file or directory (os error 2)",
+            "make the folder first, or give a path in one that is there",
+        ),
+        ("taken", "it is a folder", a_file),
+    ] {
+        let expected = format!("error: the volume cannot be written: {what}\n  at: {name}\n  try: {remedy}\n");
+        assert_eq!(folder.refused(&format!("phantom torus -o {name}")), expected);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_without_permission_is_told_as_that() {
+    use std::fs::{Permissions, set_permissions};
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new();
+    folder.scene("");
+    std::fs::create_dir(folder.path("locked")).unwrap();
+    set_permissions(folder.path("locked"), Permissions::from_mode(0o555)).unwrap();
+    // Some users may write anywhere.
+    if std::fs::File::create(folder.path("locked/a")).is_ok() {
+        println!("skipped: this user may write to every folder");
+        return;
+    }
+    let expected = "error: the picture cannot be written: Permission denied (os error 13)\n  at: locked/out.png\n  try: give \
+                    a path in a folder that you may write to: a file is written beside its place, then renamed\n";
+    assert_eq!(folder.refused("render scene.toml -o locked/out.png"), expected);
+    set_permissions(folder.path("locked"), Permissions::from_mode(0o755)).unwrap();
+}
+
+/// With little address space a picture is drawn or refused, and the process never aborted: neither where its channels do
+/// not fit nor where they do and their encoding does not.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_picture_for_which_there_is_no_memory_is_refused() {
+    let folder = Folder::new();
+    // Rays along a face of the box: nearly all of them miss it at once.
+    folder.scene("[camera]\nprojection = \"orthographic\"\nheight = 1e6\n");
+    let render = |line: &str| {
+        let limited = format!("ulimit -v 400000 && exec \"$0\" -q render scene.toml --threads 1 {line}");
+        let mut command = std::process::Command::new("sh");
+        command.arg("-c").arg(limited).arg(env!("CARGO_BIN_EXE_drypoint"));
+        let said = command.current_dir(folder.path("")).env("DRYPOINT_DATA", "").output().unwrap();
+        (said.status.code(), String::from_utf8(said.stderr).unwrap())
+    };
+    let (code, err) = render("--size 32768x32768 --layers normal,curvature,depth,gradient -o a.exr");
+    let what = "error: a picture of 32768 × 32768 pixels needs 192.00 GiB of memory, ";
+    assert!(code == Some(2) && err.starts_with(what) && err.contains("smaller, or ask for fewer layers"), "{err}");
+    let sides = [500, 1000, 1400, 1700, 2000, 2400, 3000, 4000];
+    let codes = sides.map(|side| {
+        let (code, err) = render(&format!("--size {side}x{side} -o a.png"));
+        assert!(matches!(code, Some(0 | 2)) && (code == Some(0)) == err.is_empty(), "{side}: {code:?}\n{err}");
+        code
+    });
+    assert_eq!((codes[0], codes[7]), (Some(0), Some(2)), "{codes:?}");
 }
 
 #[test]
@@ -81,7 +142,7 @@ fn layers_belong_to_an_exr() {
     );
     assert_eq!(
         folder.refused("render scene.toml --layers Z,nomal"),
-        "error: picture.layers[1] cannot be \"nomal\"\n  at: --layers Z,nomal\n  try: write \"normal\"; expected is \"beauty\", \"Z\", \"depth\", \"normal\", \"gradient\", \"curvature\", \"curvature.KV\", \"first\" or \"counts\"\n"
+        "error: picture.layers[1] cannot be \"nomal\"\n  at: --layers Z,nomal\n  try: write \"normal\"; expected is \"beauty\", \"Z\", \"depth\", \"normal\", \"gradient\", \"curvature\", \"curvature.KV\", \"first\", \"first.normal\", \"first.curvature\", \"first.curvature.KV\" or \"counts\"\n"
     );
     folder.good("render scene.toml --layers beauty,Z,curvature,counts -o all.exr");
     let image = read_image(&folder.path("all.exr")).unwrap();

@@ -29,6 +29,21 @@ fn a_function_that_is_found_in_the_data_is_part_of_the_plan() {
 }
 
 #[test]
+fn what_the_volume_decides_is_in_the_plan_as_it_decided() {
+    let folder = Folder::new();
+    folder.torus();
+    let scene = "drypoint = 1\nvolume.file = \"torus.nrrd\"\ncontours.kappa = \"exact\"\nsampling.scale = 2\n";
+    folder.write("scene.toml", scene);
+    // In f64 nothing is smoothed.
+    let plan = folder.good("plan scene.toml");
+    assert!(plan.contains("\ncontours ") && !plan.contains("smoothed coefficients"), "{plan}");
+    assert!(plan.contains("  sampling.scale (line 4): hessian = \"auto\" smooths integers only"), "{plan}");
+    folder.good("-q phantom torus --size 24 --type u8 -o torus.nrrd");
+    let plan = folder.good("plan scene.toml");
+    assert!(plan.contains("\ncontours, integer voxels ") && !plan.contains("sampling.scale (line 4)"), "{plan}");
+}
+
+#[test]
 fn the_full_scene_is_a_scene_and_gives_the_same_picture() {
     let folder = Folder::new();
     folder.torus();

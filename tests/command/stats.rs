@@ -58,8 +58,23 @@ fn what_was_not_done_is_zero() {
     for name in ["gradients", "hessians", "style_lookups", "without_normal"] {
         assert_eq!(stats[name], 0, "{name}");
     }
-    assert_eq!(stats["preprocess"]["gradients"], 0);
+    assert_eq!([&stats["preprocess"]["gradients"], &stats["preprocess"]["differences"]], [0, 0]);
     assert!(stats["samples"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn what_is_looked_at_for_an_automatic_function_is_counted() {
+    let folder = Folder::new();
+    folder.torus();
+    folder.write("scene.toml", "drypoint = 1\nvolume.file = \"torus.nrrd\"\npicture.size = [8, 8]\n");
+    assert_eq!(stats(&folder, "")["preprocess"]["differences"], 24 * 24 * 24);
+    // A bare volume's function is found before its scene is made.
+    let bare = folder.good("render torus.nrrd --size 8x8 --stats -o a.png");
+    assert_eq!(serde_json::from_str::<Value>(&bare).unwrap()["preprocess"]["differences"], 24 * 24 * 24);
+    // Labels have no boundary to look for.
+    folder.good("-q phantom shepp-logan --size 24 --type u8 -o labels.nrrd");
+    let labels = folder.good("render labels.nrrd --size 8x8 --stats -o a.png");
+    assert_eq!(serde_json::from_str::<Value>(&labels).unwrap()["preprocess"]["differences"], 0);
 }
 
 #[test]

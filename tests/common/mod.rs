@@ -236,12 +236,14 @@ pub(crate) fn largest_difference(a: &Shown, b: &Shown) -> f64 {
 }
 
 /// Every layer beside the beauty that can stand with the others in one file.
-pub(crate) const LAYERS: [LayerKind; 7] = [
+pub(crate) const LAYERS: [LayerKind; 9] = [
     LayerKind::Z,
     LayerKind::Depth,
     LayerKind::Normal,
     LayerKind::Gradient,
     LayerKind::Curvature,
     LayerKind::First,
+    LayerKind::FirstNormal,
+    LayerKind::FirstCurvature,
     LayerKind::Counts,
 ];

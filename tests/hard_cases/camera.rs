@@ -101,9 +101,14 @@ fn the_default_camera_frames_the_volume() {
                     let camera = Camera { direction: direction.into(), ..camera };
                     let view = View::new(&camera, &grid, size).unwrap();
                     for corner in grid.world_corners() {
-                        let [x, y] = view.project(corner).unwrap();
-                        let inside = |x: f64, n: usize| x >= -1e-9 && x <= n as f64 + 1e-9;
-                        assert!(inside(x, size[0]) && inside(y, size[1]), "{size:?} {direction:?}: {x} {y}");
+                        // Before the eye, and from the middle of the picture in pixels no more than half a side.
+                        let e = view.to_eye(corner);
+                        let pixel = if view.perspective { view.pixel * -e.z } else { view.pixel };
+                        let inside = |across: f64, n: usize| (across / pixel).abs() <= n as f64 / 2.0 + 1e-9;
+                        assert!(
+                            pixel > 0.0 && inside(e.x, size[0]) && inside(e.y, size[1]),
+                            "{size:?} {direction:?}: {e}"
+                        );
                     }
                     // The bounding sphere touches the nearer pair of the frame's sides.
                     let smaller = size[0].min(size[1]) as f64 / 2.0 * view.pixel;

@@ -1,6 +1,6 @@
 //! What is not called for is not done ([PLAN-1], [PLAN-2]): counts against a walk along every ray that asks each sample.
 
-use crate::common::lattice::sighted;
+use crate::common::lattice::{Sighted, sighted};
 use crate::common::{LAYERS, Shot, ball, on, perspective, plain};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
@@ -123,6 +123,42 @@ fn hessians_are_for_exact_contours_and_the_layer_of_curvatures_alone() {
     }
 }
 
+/// What only the first visible sample of a ray has to know is computed there alone ([IO-6]); what every sample knows
+/// anyway, not again.
+#[test]
+fn layers_of_the_first_sample_cost_one_sample_a_ray() {
+    use LayerKind::{Curvature, FirstCurvature, FirstCurvatureAlongView, FirstNormal, Normal};
+    let layers = |shot: &Shot, kinds: &[LayerKind]| counts(&shot.layers(kinds));
+    let shot = regular();
+    let rays = sighted::<f64>(&shot);
+    // All above −2, which is all of the box: the first sample is the first of the ray, and has none before it.
+    let firsts: Vec<_> = rays.iter().filter_map(|ray| ray.iter().find(|s| s.value > -2.0)).collect();
+    let (hit, flat) = (firsts.len() as u64, firsts.iter().filter(|s| s.gradient.is_none()).count() as u64);
+    assert!(hit > 50 && visible(&shot) > 5 * hit);
+    let c = layers(&shot, &[FirstNormal]);
+    assert_eq!((c.gradients, c.hessians, c.without_normal), (hit, 0, flat));
+    let c = layers(&shot, &[FirstCurvature]);
+    assert_eq!((c.gradients, c.hessians), (hit, hit - flat));
+    let c = layers(&shot, &[FirstCurvatureAlongView]);
+    assert_eq!((c.gradients, c.hessians), (hit, 0), "nothing lies before the first sample of the box");
+    // With the surround clear, the sample before the first has no normal at hand: one gradient more.
+    let ball = shot.with_transfer(|t| t.nodes.as_mut().unwrap()[0].at = 0.0);
+    let seen = |s: &&Sighted| s.value > 0.0;
+    let hit = rays.iter().filter(|ray| ray.iter().any(|s| seen(&s))).count() as u64;
+    let c = layers(&ball, &[FirstCurvature]);
+    assert_eq!((c.gradients, c.hessians), (2 * hit, hit));
+    // A style scene has the gradients; with exact contours the Hessian of κ_v, but not κ₁ and κ₂.
+    let style = styled();
+    assert_eq!(layers(&style, &[FirstNormal]).gradients, counts(&style).gradients);
+    let exact = style.with(|s| s.contours = Some(Contours { kappa: Kappa::Exact, ..Contours::default() }));
+    let (c, first) = (counts(&exact), layers(&exact, &[FirstCurvatureAlongView]));
+    assert_eq!((first.gradients, first.hessians), (c.gradients, c.hessians));
+    // Beside the means they cost nothing.
+    let means = layers(&shot, &[Normal, Curvature]);
+    let all = layers(&shot, &[Normal, Curvature, FirstNormal, FirstCurvature]);
+    assert_eq!((all.gradients, all.hessians), (means.gradients, means.hessians));
+}
+
 /// The range of |g| is looked for only if something reads |g| and the scene does not give it.
 #[test]
 fn the_range_of_gradients_is_found_only_if_it_is_read() {
@@ -196,7 +232,7 @@ fn buffers_are_those_that_are_called_for() {
     assert_eq!(names(&regression), ["picture", "volume"]);
     assert_eq!(names(&regression.with(|s| s.shading = Some(Shading::default()))), ["picture", "regression", "volume"]);
     assert_eq!(counts(&regular()).bytes["volume"], 8000 * 8);
-    assert_eq!(counts(&regular().layers(&LAYERS)).bytes["picture"], 256 * 8 * (4 + 1 + 3 + 3 + 3 + 3 + 1 + 1));
+    assert_eq!(counts(&regular().layers(&LAYERS)).bytes["picture"], 256 * 8 * (4 + 1 + 3 + 3 + 3 + 3 + 1 + 3 + 3 + 1));
 }
 
 /// A volume of u8 is read as it is stored.

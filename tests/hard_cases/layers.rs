@@ -48,6 +48,8 @@ fn layers_of_an_opaque_ball_in_closed_form() {
         let depth = shown.layer::<3>(LayerKind::Depth);
         let [normal, gradient] = [LayerKind::Normal, LayerKind::Gradient].map(|kind| shown.layer::<3>(kind));
         let curvature = shown.layer::<3>(LayerKind::Curvature);
+        let [first_normal, first_curvature] =
+            [LayerKind::FirstNormal, LayerKind::FirstCurvature].map(|kind| shown.layer::<3>(kind));
         let counts = shown.one(LayerKind::Counts);
         let mut seen = 0;
         for (t, pixel) in shown.pixels().into_iter().enumerate() {
@@ -67,6 +69,7 @@ fn layers_of_an_opaque_ball_in_closed_form() {
                 assert_eq!(pixel, [0.0; 4]);
                 assert_eq!((z[t], depth[t]), (f64::INFINITY, [f64::INFINITY; 3]));
                 assert_eq!((first[t], normal[t], gradient[t], curvature[t]), (0.0, [0.0; 3], [0.0; 3], [0.0; 3]));
+                assert_eq!((first_normal[t], first_curvature[t]), ([0.0; 3], [0.0; 3]));
                 assert_eq!(counts[t], ks.len() as f64, "pixel {t}");
                 continue;
             };
@@ -84,6 +87,9 @@ fn layers_of_an_opaque_ball_in_closed_form() {
             assert!((DVec3::from_array(gradient[t]) - world).length() < 1e-12, "{:?} {world}", gradient[t]);
             assert!((first[t] - (RADIUS * RADIUS - r * r) / (2.0 * RADIUS)).abs() < 1e-12);
             assert!(curvature[t].iter().all(|k| (k * r - 1.0).abs() < 1e-11), "{:?} {}", curvature[t], 1.0 / r);
+            // One sample is its own mean.
+            let off = |a: [f64; 3], b: [f64; 3]| (DVec3::from_array(a) - DVec3::from_array(b)).length();
+            assert!(off(first_normal[t], normal[t]) < 1e-15 && off(first_curvature[t], curvature[t]) < 1e-15);
             // Without skipping every sample up to the hit is evaluated, and none after it.
             assert_eq!(counts[t], ks.iter().filter(|&&k| k <= hit).count() as f64, "pixel {t}");
             seen += 1;
@@ -144,6 +150,9 @@ fn a_mean_normal_is_no_unit_vector() {
             s.picture.size = [1, 1];
             s.camera.projection = orthographic(Some(1.0)).projection;
         });
+    // The first of them is towards the eye.
+    let first = shot.layers(&[LayerKind::FirstNormal]).render();
+    assert_eq!(first.layer::<3>(LayerKind::FirstNormal), [[0.0, 0.0, 1.0]]);
     // Weights ½ and ¼, normals towards and away from the eye.
     let n = shot.render().layer::<3>(LayerKind::Normal)[0];
     assert!((DVec3::from_array(n) - DVec3::new(0.0, 0.0, 1.0 / 3.0)).length() < 1e-15, "{n:?}");
@@ -188,6 +197,74 @@ fn layers_do_not_disturb_each_other() {
     }
     let kv = shot.layers(&[LayerKind::CurvatureAlongView]).render().one(LayerKind::CurvatureAlongView);
     assert_eq!(kv, all.layer::<3>(LayerKind::Curvature).iter().map(|k| k[2]).collect::<Vec<_>>());
+}
+
+/// What is computed for the first sample alone is what every sample would have had there: with κ along the ray and exact,
+/// before and behind what a style has with α_d = 0.
+#[test]
+fn the_first_sample_knows_the_same_when_only_it_is_asked() {
+    use LayerKind::{Curvature, First, FirstCurvature, FirstNormal, Normal};
+    let clear = plain("clear", [0.0; 4]);
+    let glass = plain("glass", [0.2, 0.5, 0.8, 0.7]);
+    let nodes = [(-3.0, "clear", 1.0), (1.0, "clear", 1.0), (1.0, "glass", 0.3)];
+    for kappa in [Kappa::Ray, Kappa::Exact] {
+        let regular = Shot::regular(ball(14, 5.0), &[(-1.0, [1.0; 3], 0.0), (3.0, [1.0; 3], 0.5)]);
+        let styled = Shot::styled(ball(14, 5.0), vec![clear.clone(), glass.clone()], &nodes);
+        for shot in [regular, styled] {
+            let shot = shot.seen_along([0.3, 0.8, -0.5]).with(|s| {
+                s.contours = Some(Contours { kappa, ..Contours::default() });
+            });
+            let all = shot.layers(&[Normal, Curvature, First, FirstNormal, FirstCurvature]).render();
+            let alone = shot.layers(&[FirstNormal, FirstCurvature]).render();
+            for kind in [LayerKind::Beauty, FirstNormal, FirstCurvature] {
+                assert_eq!(all.layer_bits(kind), alone.layer_bits(kind), "{kind} {kappa:?}");
+            }
+            // The ball's own curvature at its first visible sample, to the error of central differences.
+            let firsts = all.one(First).into_iter().zip(all.layer::<3>(FirstCurvature)).zip(all.pixels());
+            for ((value, [k1, k2, _]), _) in firsts.filter(|(_, p)| p[3] > 0.0) {
+                let expected = 1.0 / (5.0 - value);
+                assert!(
+                    (k1 - expected).abs() < 0.35 * expected && (k2 - expected).abs() < 0.35 * expected,
+                    "{k1} {k2}"
+                );
+            }
+        }
+    }
+}
+
+/// Of a pixel of several rays a mean is that over all their samples ([RAY-6]): each ray counts with its opacity, and one
+/// that sees nothing, not at all.
+#[test]
+fn means_of_a_pixel_of_several_rays_by_hand() {
+    // f = xz, which trilinear interpolation and central differences have exactly: ∇f = (z, 0, x).
+    let field = volume([3, 3, 3], |p| p.x * p.z);
+    // Rays at x and z of ½ and 3/2, from the upper left: values ¾, 2¼, ¼, ¾ with α = ½, ¼, 0, ½.
+    let node = |at: f64, opacity| (at, [1.0; 3], opacity);
+    let shot = Shot::regular(field, &[node(0.5, 0.0), node(0.5, 0.5), node(1.0, 0.5), node(1.0, 0.25)])
+        .layers(&[LayerKind::Gradient, LayerKind::First, LayerKind::Depth])
+        .step(5.0)
+        .with(|s| {
+            s.picture.size = [1, 1];
+            s.picture.samples = 2;
+            s.camera = orthographic(Some(2.0));
+            s.camera.direction = DVec3::Y;
+            s.camera.direction_given = true;
+            // One sample in the box, at y = 1 and depth 2.5: those before and behind lie outside.
+            s.camera.eye = Some(DVec3::new(1.0, -1.5, 1.0));
+        });
+    let shown = shot.render();
+    assert_eq!(shown.pixels()[0], [(0.5 + 0.25 + 0.5) / 4.0; 4]);
+    // (½ (3/2, ½) + ¼ (3/2, 3/2) + ½ (½, 3/2)) / 1¼ = (1.1, 1.1).
+    let [x, y, z] = shown.layer::<3>(LayerKind::Gradient)[0];
+    assert!((x - 1.1).abs() < 1e-15 && y == 0.0 && (z - 1.1).abs() < 1e-15, "{x} {z}");
+    // Depths and what is first are the first ray's, also where that sees nothing.
+    assert_eq!((shown.layer::<3>(LayerKind::Depth)[0], shown.one(LayerKind::First)[0]), ([2.5; 3], 0.75));
+    let blind = shot.with(|s| s.camera.up = -DVec3::Z).with(|s| s.camera.direction = -DVec3::Y);
+    let blind = blind.with(|s| s.camera.eye = Some(DVec3::new(1.0, 3.5, 1.0))).render();
+    assert_eq!((blind.layer::<3>(LayerKind::Depth)[0], blind.one(LayerKind::First)[0]), ([f64::INFINITY; 3], 0.0));
+    assert_eq!(blind.pixels()[0], shown.pixels()[0]);
+    let [x, _, z] = blind.layer::<3>(LayerKind::Gradient)[0];
+    assert!((x - 1.1).abs() < 1e-15 && (z - 1.1).abs() < 1e-15, "{x} {z}");
 }
 
 /// Values so steep that gradients overflow in the world's units: the mean of infinities of both signs is not asked for,

@@ -156,6 +156,15 @@ fn the_range_of_gradients_leaves_out_stencils_that_touch_a_mask() {
     let border = DVec3::new(10.0, 4.0, 4.0);
     is(largest(with(&[DVec3::ZERO], border), central), 16.0);
     is(largest(with(&[DVec3::new(9.0, 4.0, 4.0)], border), central), 4.0);
+    // Sobel's smoothing across takes ¼ of all of these, and of the 1 beside the low spike.
+    let (sobel, regression) = (GradientEstimator::Sobel, GradientEstimator::Regression);
+    is(largest(with(&[DVec3::ZERO], border), sobel), 16.0);
+    is(largest(with(&[DVec3::new(9.0, 4.0, 4.0)], border), sobel), 4.0);
+    // The regression reads whole cubes: with holes at the corners about the spike, it might as well not be there; with a
+    // hole elsewhere it rules.
+    let rest = largest(with(&corners, DVec3::splat(-1.0)), regression);
+    is(largest(with(&corners, spike), regression), rest);
+    assert!(largest(with(&[far], spike), regression) > 1.05 * rest, "{rest}");
 }
 
 /// Every voxel but one is masked: nothing is visible where no cell is whole, and nothing is undefined.

@@ -3,6 +3,7 @@
 use crate::data;
 use crate::measure::{Measures, measure};
 use drypoint::job::{Job, bare};
+use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse, write_full};
 use drypoint::scene::tables::{Background, Ids, PhantomSource};
 use drypoint::scene::volume::write::write_nrrd;
@@ -12,7 +13,7 @@ use std::time::{Duration, Instant};
 
 /// The picture of a volume that is all that is given.
 fn picture_of(path: &Path, volume: Volume) -> (Measures, Ids) {
-    let mut scene = bare(path.to_owned(), &volume, [160, 160]);
+    let mut scene = bare(path.to_owned(), &volume, [160, 160], &mut Counts::default());
     scene.picture.background = Background::None;
     let ids = scene.volume.ids;
     let job = Job::with_volume(scene, volume).unwrap();
@@ -99,7 +100,7 @@ fn the_scene_of_a_label_volume_is_a_scene_file() {
     let path = folder.path().join("labels.nrrd");
     write_nrrd(&phantom("shepp-logan"), &path).unwrap();
     let volume = read::read(&path, None).unwrap();
-    let suggested = bare(path, &volume, [24, 24]);
+    let suggested = bare(path, &volume, [24, 24], &mut Counts::default());
     assert_eq!(suggested.volume.ids, Ids::Mask);
     let full = write_full(&suggested);
     let again = parse(&full, &folder.path().join("labels.toml"), &Overrides::default()).unwrap();
@@ -114,7 +115,7 @@ fn the_scene_of_a_label_volume_is_a_scene_file() {
 fn the_camera_frames_what_is_shown_in_pictures_of_any_shape() {
     for size in [[90, 60], [60, 90]] {
         let volume = phantom("torus");
-        let mut scene = bare("torus.nrrd".into(), &volume, size);
+        let mut scene = bare("torus.nrrd".into(), &volume, size, &mut Counts::default());
         scene.picture.background = Background::None;
         let job = Job::with_volume(scene, volume).unwrap();
         let filled = measure(&job.renderer().unwrap().frame(&|_| ()).0).filled;

@@ -7,6 +7,7 @@ mod files;
 mod pages;
 mod reference;
 mod rings;
+mod rules;
 mod styles;
 mod switches;
 
@@ -20,6 +21,7 @@ const PAGES: &[Page] = &[
     ("figures", figures::write),
     ("reference", reference::write),
     ("rings", rings::write),
+    ("rules", rules::write),
     ("styles", styles::write),
     ("switches", switches::write),
 ];

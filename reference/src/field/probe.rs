@@ -73,10 +73,19 @@ pub fn at_index(field: &Field<'_, f64>, index: DVec3, view: Option<DVec3>) -> Op
     })
 }
 
-/// Probes a field at a position in world space; otherwise as [`at_index`].
+/// Probes a field at a position in world space; otherwise as [`at_index`]. A position that lies outside by no more than
+/// the rounding of its way to index space is taken to the border: 21.7 at a spacing of 0.7 is voxel 31, not
+/// 31.000000000000004.
 ///
 /// # Panics
 /// If the field was prepared for a lower rung than `Hessian`.
 pub fn at_world(field: &Field<'_, f64>, world: DVec3, view: Option<DVec3>) -> Option<Probe> {
-    at_index(field, field.volume().grid().to_index(world), view)
+    let grid = field.volume().grid();
+    let index = grid.to_index(world);
+    let [lo, hi] = grid.index_box();
+    let border = index.clamp(lo, hi);
+    let back = grid.to_world(border);
+    let rounding = 16.0 * f64::EPSILON * world.abs().max(back.abs()).max(grid.origin().abs()).max_element();
+    let near = (back - world).abs().max_element() <= rounding;
+    at_index(field, if near { border } else { index }, view)
 }

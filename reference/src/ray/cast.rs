@@ -138,7 +138,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.learn(k, at, prepared.calls, &mut facts, counts);
         counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
         let (rgb, alpha) = prepared.look.color(place, &facts, &self.sight, counts);
-        self.composite(k, s, rgb, alpha, &facts);
+        self.composite(k, at, s, rgb, alpha, facts, counts);
     }
 
     /// The same where the function is over two quantities: what they need is asked first, and the rest only where α_u > 0.
@@ -160,12 +160,22 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.learn(k, at, over_two.rest, &mut facts, counts);
         counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
         let (rgb, alpha) = prepared.look.color(&patch, &facts, &self.sight, counts);
-        self.composite(k, s, rgb, alpha, &facts);
+        self.composite(k, at, s, rgb, alpha, facts, counts);
     }
 
     /// Composites a sample: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
     #[inline(always)]
-    fn composite(&mut self, k: i64, s: R, rgb: [R; 3], alpha: R, facts: &Facts<R>) {
+    #[expect(clippy::too_many_arguments, reason = "a sample and what is known of it")]
+    fn composite(
+        &mut self,
+        k: i64,
+        at: Place<R>,
+        s: R,
+        rgb: [R; 3],
+        alpha: R,
+        mut facts: Facts<R>,
+        counts: &mut Counts,
+    ) {
         let prepared = self.prepared;
         if alpha != self.corrected[0] {
             self.corrected = [alpha, self.correction.apply(alpha)];
@@ -175,7 +185,11 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.rgb = [self.rgb[0] + w * rgb[0], self.rgb[1] + w * rgb[1], self.rgb[2] + w * rgb[2]];
         self.opacity += w;
         if prepared.collects && alpha > R::ZERO {
-            self.collect(k, s, w, facts);
+            if let (Some(first), true) = (prepared.first, self.sums.is_empty()) {
+                self.learn(k, at, first, &mut facts, counts);
+                counts.without_normal += u64::from(first.gradient && facts.normal.is_none());
+            }
+            self.collect(k, s, w, &facts);
         }
     }
 

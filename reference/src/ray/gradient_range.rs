@@ -68,3 +68,67 @@ fn touches(mask: &Mask, dims: [usize; 3], voxel: [usize; 3], estimator: Gradient
     };
     (0..3).any(|axis| is_masked(std::array::from_fn(|a| if a == axis { along(a) } else { across(a) })))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::{Field, HessianEstimator, Kernel, Outside, Reconstruction, Rung};
+    use crate::with_sampler;
+    use drypoint_scene::space::Grid;
+    use drypoint_scene::volume::Voxels;
+
+    /// Voxels of a grid, x fastest.
+    fn voxels([nx, ny, nz]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+        (0..nx * ny * nz).map(move |i| [i % nx, i / nx % ny, i / (nx * ny)])
+    }
+
+    /// A rough field without symmetries, with another value at one voxel.
+    fn rough(dims: [usize; 3], hole: [usize; 3], there: f64) -> Vec<f64> {
+        let value = |[x, y, z]: [usize; 3]| ((x * 37 + y * 101 + z * 53 + x * y * 7 + y * z * 11) % 29) as f64;
+        voxels(dims).map(|v| if v == hole { there } else { value(v) }).collect()
+    }
+
+    /// ∇f at every voxel.
+    fn gradients(dims: [usize; 3], values: Vec<f64>, gradient: GradientEstimator) -> Vec<Vec3<f64>> {
+        let grid = Grid::with_spacing(dims, [1.0; 3]).unwrap();
+        let volume = Volume::new(grid, Voxels::F64(values), 1.0, 0.0).unwrap();
+        let how = Reconstruction {
+            kernel: Kernel::Trilinear,
+            gradient,
+            hessian: HessianEstimator::Auto,
+            scale: 1.0,
+            outside: Outside::Low,
+        };
+        let field = Field::new(&volume, how, Rung::Gradient).unwrap();
+        let at = |v: [usize; 3]| Vec3::from_glam(v.map(|i| i as f64).into());
+        let exponent = field.scale_exponent();
+        let unscaled =
+            |g: Vec3<f64>| g.to_glam().to_array().map(|c| drypoint_scene::math::scale_by_power_of_two(c, exponent));
+        voxels(dims).map(|v| Vec3::from_glam(unscaled(with_sampler!(field, |s| s.gradient(at(v)))).into())).collect()
+    }
+
+    /// A voxel is left out if its gradient depends on a masked one, or it is one: whatever the mask is filled with, what
+    /// counts does not change. And no other voxel is left out.
+    #[test]
+    fn what_is_left_out_is_what_depends_on_the_mask() {
+        use GradientEstimator::{Central, Regression, Sobel};
+        for dims in [[5, 4, 6], [4, 3, 2], [6, 1, 3], [2, 2, 5]] {
+            for hole in voxels(dims) {
+                let grid = Grid::with_spacing(dims, [1.0; 3]).unwrap();
+                let masked = Volume::new(grid, Voxels::F64(rough(dims, hole, f64::NAN)), 1.0, 0.0).unwrap();
+                for estimator in [Central, Sobel, Regression] {
+                    let [low, high] = [10.0, 300.0].map(|there| gradients(dims, rough(dims, hole, there), estimator));
+                    for ((v, low), high) in voxels(dims).zip(low).zip(high) {
+                        let depends = (low - high).length() > 1e-6;
+                        let left_out = touches(masked.mask().unwrap(), dims, v, estimator);
+                        assert_eq!(
+                            left_out,
+                            depends || v == hole,
+                            "{estimator:?} {dims:?}, hole {hole:?}, voxel {v:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

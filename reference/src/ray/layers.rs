@@ -24,7 +24,7 @@ pub(super) struct Seen {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sums {
     weight: f64,
-    first: Option<(f64, f64)>,
+    first: Option<Seen>,
     half: f64,
     depth: f64,
     normal: [f64; 3],
@@ -47,10 +47,15 @@ impl Sums {
         }
     }
 
+    /// Whether no sample with α > 0 was added yet.
+    pub(super) fn is_empty(&self) -> bool {
+        self.first.is_none()
+    }
+
     /// Adds a sample with α > 0; `opacity` is A with this sample included.
     pub(super) fn add(&mut self, seen: &Seen, opacity: f64) {
         self.weight += seen.weight;
-        self.first.get_or_insert((seen.depth, seen.value));
+        self.first.get_or_insert(*seen);
         if self.half == f64::INFINITY && opacity >= 0.5 {
             self.half = seen.depth;
         }
@@ -62,18 +67,30 @@ impl Sums {
         }
     }
 
+    /// Adds another ray of the same pixel to the means ([RAY-6]): they are then those over the samples of both, so a ray
+    /// counts with its opacity, and one that sees nothing not at all. Depths and what is first stay this ray's.
+    pub(super) fn pool(&mut self, other: &Self) {
+        self.weight += other.weight;
+        for axis in 0..3 {
+            self.normal[axis] += other.normal[axis];
+            self.gradient[axis] += other.gradient[axis];
+            self.curvature[axis] += other.curvature[axis];
+        }
+    }
+
     /// The channels of a layer other than the beauty. Means are Σwq/Σw; where Σw = 0 they are 0 and depths are +∞.
     ///
     /// The mean gradient is multiplied by 2^`exponent`, which takes back the power of two of [SPACE-4]: after the mean,
     /// since the sum of what overflows both ways is no number.
     pub(super) fn channels(&self, kind: LayerKind, samples: u64, exponent: i32, out: &mut Vec<f64>) {
         let mean = |sum: f64| if self.weight > 0.0 { sum / self.weight } else { 0.0 };
+        let first = self.first.unwrap_or_default();
         match kind {
             LayerKind::Beauty => {}
             LayerKind::Z => out.push(self.half),
             LayerKind::Depth => {
                 let depth = if self.weight > 0.0 { self.depth / self.weight } else { f64::INFINITY };
-                out.extend([self.first.map_or(f64::INFINITY, |f| f.0), self.half, depth]);
+                out.extend([self.first.map_or(f64::INFINITY, |f| f.depth), self.half, depth]);
             }
             LayerKind::Normal => out.extend(self.normal.map(mean)),
             LayerKind::Gradient => {
@@ -81,22 +98,18 @@ impl Sums {
             }
             LayerKind::Curvature => out.extend(self.curvature.map(mean)),
             LayerKind::CurvatureAlongView => out.push(mean(self.curvature[2])),
-            LayerKind::First => out.push(self.first.map_or(0.0, |f| f.1)),
+            LayerKind::First => out.push(first.value),
+            LayerKind::FirstNormal => out.extend(first.normal),
+            LayerKind::FirstCurvature => out.extend(first.curvature),
+            LayerKind::FirstCurvatureAlongView => out.push(first.curvature[2]),
             LayerKind::Counts => out.push(samples as f64),
         }
     }
 }
 
-/// Whether a layer of a pixel of n×n rays is the mean of theirs; the others are the first ray's ([RAY-6]).
-pub(super) fn averaged(kind: LayerKind) -> bool {
-    matches!(
-        kind,
-        LayerKind::Beauty
-            | LayerKind::Normal
-            | LayerKind::Gradient
-            | LayerKind::Curvature
-            | LayerKind::CurvatureAlongView
-    )
+/// Whether a layer of a pixel of n×n rays is a mean over all of them; the others are the first ray's ([RAY-6]).
+pub(super) fn pooled(kind: LayerKind) -> bool {
+    matches!(kind, LayerKind::Normal | LayerKind::Gradient | LayerKind::Curvature | LayerKind::CurvatureAlongView)
 }
 
 #[cfg(test)]

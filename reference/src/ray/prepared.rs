@@ -85,6 +85,8 @@ pub(super) struct Prepared<'v, R> {
     pub(super) over_two: Option<OverTwo<'v, R>>,
     pub(super) look: Look<R>,
     pub(super) calls: Calls,
+    /// What the first visible sample of a ray has to know beyond that, for the layers `first.*`; none if nothing.
+    pub(super) first: Option<Calls>,
     /// lo and hi − lo of [VAL-2], times the power of two of [SPACE-4]; none where nothing reads |g|.
     pub(super) gradient_range: Option<(R, R)>,
     /// Δ₀ in world units.

@@ -3,7 +3,7 @@
 use super::cast::cast;
 use super::gradient_range::quantile_of_norms;
 use super::lattice::{IndexRay, Lattice};
-use super::layers::averaged;
+use super::layers::{Sums, pooled};
 use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::sample::{EyeAxes, Look, Styled};
@@ -18,7 +18,7 @@ use crate::with_sampler;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
-use drypoint_scene::plan::{Plan, Quantity};
+use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{
     Axis, BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, StyleMipmaps,
@@ -32,6 +32,9 @@ use std::time::Instant;
 
 /// Pixels along the side of a tile, the work of one thread at a time.
 const TILE: usize = 16;
+
+/// Tiles that are drawn before they are gathered: a million pixels, so that a huge picture is not in memory twice.
+const BATCH: usize = 4096;
 
 /// What a picture is made of.
 #[derive(Clone, Copy, Debug)]
@@ -157,10 +160,10 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let sampling = &scene.sampling;
     let world = |length: Length, key| length.world(grid).ok_or(RenderError::Length { key });
     let step = world(sampling.step, "sampling.step")?;
-    let calls = calls(scene, plan, function);
-    let rung = if calls.hessian {
+    let (calls, first) = calls(scene, plan, function);
+    let rung = if plan.needs_at_first(Quantity::Hessian) {
         Rung::Hessian
-    } else if calls.gradient {
+    } else if plan.needs_at_first(Quantity::Gradient) {
         Rung::Gradient
     } else {
         Rung::Value
@@ -176,7 +179,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     counts.bytes.extend(field.bytes());
     let view = View::new(&scene.camera, grid, scene.picture.size)?;
     let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
-    let skip = sampling.skip_empty.then(|| {
+    let skip = plan.has_pass(Pass::Bricks).then(|| {
         let bricks = field.bricks();
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
         Skip::new(&bricks, |range| function.can_be_visible(range, |at| R::from_f64(at).to_f64()))
@@ -223,6 +226,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         over_two,
         look,
         calls,
+        first,
         gradient_range,
         reference_length: world(sampling.reference_length, "sampling.reference_length")?,
         stop_at: R::from_f64(stop_at(sampling.stop_below, scene.picture.blend_space)),
@@ -250,22 +254,37 @@ fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
     }
 }
 
-/// What visible samples have to know, by the plan.
-fn calls(scene: &Scene, plan: &Plan, function: &Function) -> Calls {
-    let kappa = if plan.needs(Quantity::PreviousNormal) {
-        KappaSource::AlongRay
-    } else if plan.needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
-        KappaSource::Exact
-    } else {
-        KappaSource::None
+/// What visible samples have to know, by the plan, and what the first of a ray has to know beyond that.
+fn calls(scene: &Scene, plan: &Plan, function: &Function) -> (Calls, Option<Calls>) {
+    let kappa = |needs: &dyn Fn(Quantity) -> bool| {
+        if needs(Quantity::PreviousNormal) {
+            KappaSource::AlongRay
+        } else if needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
+            KappaSource::Exact
+        } else {
+            KappaSource::None
+        }
     };
-    Calls {
+    let asks_for = |layer| scene.picture.layers.contains(&layer);
+    let calls = Calls {
         gradient: plan.needs(Quantity::Gradient),
         hessian: plan.needs(Quantity::Hessian),
-        principal: scene.picture.layers.contains(&LayerKind::Curvature)
+        principal: asks_for(LayerKind::Curvature)
             || function.nodes().2.is_some_and(|rows| rows.over.iter().any(Axis::is_principal)),
+        kappa: kappa(&|quantity| plan.needs(quantity)),
+    };
+    let principal = asks_for(LayerKind::FirstCurvature) && !calls.principal;
+    let kappa = match calls.kappa {
+        KappaSource::None => kappa(&|quantity| plan.needs_at_first(quantity)),
+        KappaSource::AlongRay | KappaSource::Exact => KappaSource::None,
+    };
+    let first = Calls {
+        gradient: plan.needs_at_first(Quantity::Gradient) && !calls.gradient,
+        hessian: principal || kappa == KappaSource::Exact,
+        principal,
         kappa,
-    }
+    };
+    (calls, (first.gradient || first.hessian || first.kappa != KappaSource::None).then_some(first))
 }
 
 /// The rows of the rotation from world to eye space.
@@ -342,24 +361,26 @@ fn draw<R: Real, S: Sampler<R>>(
     let [width, height] = prepared.view.size;
     let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let tiles: Vec<Tile> = (0..across * down)
-        .into_par_iter()
-        .map(|t| {
-            let tile = draw_tile(prepared, sampler, background, [t % across * TILE, t / across * TILE]);
-            let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            progress(n as f64 / (across * down) as f64);
-            tile
-        })
-        .collect();
     let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();
     let mut counts = Counts::default();
     let mut channels = vec![vec![0.0; width * height]; per_pixel];
-    for tile in &tiles {
-        counts.add(&tile.counts);
-        for (i, pixel) in tile.pixels.chunks_exact(per_pixel).enumerate() {
-            let at = (tile.y + i / tile.width) * width + tile.x + i % tile.width;
-            for (channel, value) in channels.iter_mut().zip(pixel) {
-                channel[at] = *value;
+    for first in (0..across * down).step_by(BATCH) {
+        let tiles: Vec<Tile> = (first..(first + BATCH).min(across * down))
+            .into_par_iter()
+            .map(|t| {
+                let tile = draw_tile(prepared, sampler, background, [t % across * TILE, t / across * TILE]);
+                let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                progress(n as f64 / (across * down) as f64);
+                tile
+            })
+            .collect();
+        for tile in &tiles {
+            counts.add(&tile.counts);
+            for (i, pixel) in tile.pixels.chunks_exact(per_pixel).enumerate() {
+                let at = (tile.y + i / tile.width) * width + tile.x + i % tile.width;
+                for (channel, value) in channels.iter_mut().zip(pixel) {
+                    channel[at] = *value;
+                }
             }
         }
     }
@@ -403,7 +424,8 @@ fn draw_tile<R: Real, S: Sampler<R>>(
     tile
 }
 
-/// Casts the n×n rays of one pixel through the centres of its parts and appends its channels ([RAY-6]).
+/// Casts the n×n rays of one pixel through the centres of its parts and appends its channels ([RAY-6]): of the beauty the
+/// mean; of the layers that are means themselves the mean over all samples of the pixel; of the others the first ray's.
 fn draw_pixel<R: Real, S: Sampler<R>>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
@@ -413,31 +435,27 @@ fn draw_pixel<R: Real, S: Sampler<R>>(
     tile: &mut Tile,
 ) {
     let n = prepared.samples;
-    let start = tile.pixels.len();
     let share = 1.0 / (n * n) as f64;
+    let mut beauty = [0.0; 4];
+    let (mut first, mut all) = (None, Sums::new());
     for part in 0..n * n {
         let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
         let at = [centre(i, part % n), centre(j, part / n)];
         let cast = cast(prepared, sampler, at, boxes.as_mut(), &mut tile.counts);
-        let mut values = Vec::new();
-        let mut means = Vec::new();
-        for &kind in &prepared.layers {
-            let before = values.len();
-            if kind == LayerKind::Beauty {
-                values.extend(over(cast.rgba, behind, prepared.encode));
-            } else {
-                cast.sums.channels(kind, cast.samples, prepared.field.scale_exponent(), &mut values);
-            }
-            means.resize(values.len(), averaged(kind));
-            debug_assert_eq!(values.len() - before, kind.channels().len());
+        for (mean, c) in beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
+            *mean += c * share;
         }
-        if part == 0 {
-            let first = values.iter().zip(&means).map(|(&v, &mean)| if mean && n > 1 { v * share } else { v });
-            tile.pixels.extend(first);
+        all.pool(&cast.sums);
+        first.get_or_insert((cast.sums, cast.samples));
+    }
+    // A pixel has at least one part.
+    let (first, samples) = first.unwrap_or((Sums::new(), 0));
+    for &kind in &prepared.layers {
+        if kind == LayerKind::Beauty {
+            tile.pixels.extend(beauty);
         } else {
-            for ((sum, v), _) in tile.pixels[start..].iter_mut().zip(values).zip(&means).filter(|(_, mean)| **mean) {
-                *sum += v * share;
-            }
+            let sums = if pooled(kind) { &all } else { &first };
+            sums.channels(kind, samples, prepared.field.scale_exponent(), &mut tile.pixels);
         }
     }
 }

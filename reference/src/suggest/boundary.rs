@@ -67,24 +67,24 @@ impl Boundary {
     /// The surfaces with the greatest product of area, squared sharpness and simplicity: sharp against noise, simple
     /// against clutter, and little cut by the box. Of several the outermost is the content's, and one inside it with a
     /// part of its volume is the kernel that is shown through it.
-    pub(super) fn find(volume: &Volume, outside: Outside) -> Self {
-        let Some(levels) = Levels::of(volume, outside) else {
+    pub(super) fn find(levels: Option<&Levels>, volume: &Volume, outside: Outside) -> Self {
+        let Some(levels) = levels else {
             // A constant volume: everything is content.
             let [value, _] = volume.range();
             let main = Surface { value, step: value.abs().max(1.0) };
             return Self { main, hull: None, thin: false };
         };
-        if let Some(known) = skin_and_bone(volume, outside, &levels) {
+        if let Some(known) = skin_and_bone(volume, outside, levels) {
             return known;
         }
-        let peaks = peaks(&levels);
+        let peaks = peaks(levels);
         let body = body(&peaks).unwrap_or(Peak { share: 0.5, score: 0.0, level: *levels.at(0.5) });
-        let surface = |share| surface(&levels, share);
+        let surface = |share| surface(levels, share);
         let thin = body.level.simplicity < THIN;
         if let Some(kernel) = kernel(&peaks, &body) {
             return Self { main: surface(kernel.share), hull: Some(surface(body.share)), thin };
         }
-        let hull = hull(&levels, &body).map(surface);
+        let hull = hull(levels, &body).map(surface);
         Self { main: surface(body.share), hull, thin }
     }
 
@@ -189,6 +189,10 @@ mod tests {
     use super::*;
     use drypoint_scene::volume::Anatomy;
 
+    fn find(volume: &Volume, outside: Outside) -> Boundary {
+        Boundary::find(Levels::of(volume, outside).as_ref(), volume, outside)
+    }
+
     fn edge(d: f64) -> f64 {
         1.0 / (1.0 + (-d / 0.7).exp())
     }
@@ -198,24 +202,24 @@ mod tests {
         // A deterministic ripple of ±5 around 20 outside and around 200 inside.
         let ripple = |p: [usize; 3]| ((p[0] * 7 + p[1] * 13 + p[2] * 29) % 11) as f64 - 5.0;
         let ball = volume(|p| ripple(p) + if radius(p) < 10.0 { 200.0 } else { 20.0 });
-        let b = Boundary::find(&ball, Outside::Low);
+        let b = find(&ball, Outside::Low);
         assert!(b.main.value > 25.0 && b.main.value < 195.0 && b.hull.is_none() && !b.thin, "{b:?}");
     }
 
     #[test]
     fn a_kernel_inside_a_shell_is_shown_through_it() {
         let nested = |p| 100.0 * edge(13.0 - radius(p)) + 100.0 * edge(7.0 - radius(p));
-        let b = Boundary::find(&volume(nested), Outside::Low);
+        let b = find(&volume(nested), Outside::Low);
         let hull = b.hull.unwrap();
         assert!(hull.value > 20.0 && hull.value < 80.0 && b.main.value > 110.0 && b.main.value < 190.0, "{b:?}");
         // The same in mirrored values.
-        let mirrored = Boundary::find(&volume(|p| -nested(p)), Outside::High);
+        let mirrored = find(&volume(|p| -nested(p)), Outside::High);
         assert!((mirrored.main.value + b.main.value).abs() < 1.0 && mirrored.hull.is_some(), "{mirrored:?}");
     }
 
     #[test]
     fn a_constant_volume_is_all_content() {
-        let b = Boundary::find(&volume(|_| 7.0), Outside::Low);
+        let b = find(&volume(|_| 7.0), Outside::Low);
         assert!(b.main.value == 7.0 && b.main.step > 0.0 && b.hull.is_none());
     }
 
@@ -224,7 +228,7 @@ mod tests {
         // Tissue up to the walls, with a hole that is sharper than the dense ball in it.
         let centred = |p: [usize; 3], at: usize| (0..3).map(|a| (p[a] as f64 - at as f64).powi(2)).sum::<f64>().sqrt();
         let v = volume(|p| 100.0 - 100.0 * edge(4.0 - centred(p, 8)) + 60.0 * edge(6.0 - centred(p, 20)));
-        let b = Boundary::find(&v, Outside::Low);
+        let b = find(&v, Outside::Low);
         assert!(b.outermost().value > 105.0 && b.outermost().value < 155.0, "{b:?}");
     }
 
@@ -235,9 +239,9 @@ mod tests {
             r if r < 13.0 => 40.0,
             _ => -1000.0,
         });
-        let b = Boundary::find(&patient.clone().with_anatomy(Some(Anatomy::LeftPosteriorSuperior)), Outside::Low);
+        let b = find(&patient.clone().with_anatomy(Some(Anatomy::LeftPosteriorSuperior)), Outside::Low);
         assert_eq!((b.hull.map(|hull| hull.value), b.main.value), (Some(-350.0), 190.0));
         // Without a patient the numbers mean nothing.
-        assert_ne!(Boundary::find(&patient, Outside::Low).main.value, 190.0);
+        assert_ne!(find(&patient, Outside::Low).main.value, 190.0);
     }
 }

@@ -78,17 +78,19 @@ mod tests {
             let view = View::new(&camera, volume.grid(), size).unwrap();
             let (mut lo, mut hi) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
             for p in body.ends() {
-                let at = view.project(volume.grid().to_world(p)).unwrap();
-                for axis in 0..2 {
-                    lo[axis] = lo[axis].min(at[axis]);
-                    hi[axis] = hi[axis].max(at[axis]);
+                // From the middle of the picture, in pixels.
+                let e = view.to_eye(volume.grid().to_world(p));
+                for (axis, across) in [e.x, e.y].into_iter().enumerate() {
+                    let at = across / (view.pixel * -e.z);
+                    lo[axis] = lo[axis].min(at);
+                    hi[axis] = hi[axis].max(at);
                 }
             }
             let short = size[0].min(size[1]) as f64;
             let share = ((hi[0] - lo[0]) / short).max((hi[1] - lo[1]) / short);
             assert!((share - FILL).abs() < 0.01, "{size:?}: {share}");
             // The wider of the two directions is centred exactly; the other by its own balance.
-            let off = |axis: usize| ((lo[axis] + hi[axis]) / 2.0 - size[axis] as f64 / 2.0).abs() / short;
+            let off = |axis: usize| ((lo[axis] + hi[axis]) / 2.0).abs() / short;
             assert!(off(0) < 0.03 && off(1) < 0.03, "{size:?}: {lo:?} {hi:?}");
         }
     }

@@ -13,11 +13,13 @@ mod stance;
 
 use body::Body;
 use boundary::Boundary;
+use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
     Camera, Contours, GradientEstimator, HessianEstimator, Ids, Kappa, Kernel, Length, Outside, Projection, Scene,
     Transfer, Unit, VolumeSource,
 };
 use drypoint_scene::volume::Volume;
+use levels::Levels;
 use look::Palette;
 use stance::Stance;
 
@@ -31,25 +33,34 @@ const LINE: f64 = 0.005;
 const SMOOTHED: usize = 1 << 25;
 
 /// A scene for a bare volume: an opaque surface in a translucent hull, or alone, with contours, framed by a camera. A
-/// volume of labels is shown as the surface of all of them.
-pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2]) -> Scene {
+/// volume of labels is shown as the surface of all of them. Voxels that were looked at go to `counts`.
+pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     let ids = if labels::are_ids(volume) { Ids::Mask } else { Ids::Values };
     match ids {
-        Ids::Values => of_values(source, volume, size),
+        Ids::Values => of_values(source, volume, size, counts),
         Ids::Mask => of_labels(source, &volume.present(), size),
     }
 }
 
-/// Gives a transfer function without nodes those of the volume's strongest boundaries.
-pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside) {
-    let boundary = Boundary::find(volume, outside);
+/// Gives a transfer function without nodes those of the volume's strongest boundaries. Voxels that were looked at go to
+/// `counts`.
+pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside, counts: &mut Counts) {
+    let boundary = boundary(volume, outside, counts);
     transfer.unit = Unit::Value;
     transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
 }
 
-fn of_values(source: VolumeSource, volume: &Volume, size: [usize; 2]) -> Scene {
+/// The strongest boundaries, by the differences of each voxel to its neighbours; a constant volume has none to look at.
+fn boundary(volume: &Volume, outside: Outside, counts: &mut Counts) -> Boundary {
+    let levels = Levels::of(volume, outside);
+    let voxels = levels.as_ref().map_or(0, |_| volume.grid().len() as u64);
+    *counts.preprocess.entry("differences".into()).or_default() += voxels;
+    Boundary::find(levels.as_ref(), volume, outside)
+}
+
+fn of_values(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     let mut scene = Scene::for_volume(source);
-    let boundary = Boundary::find(volume, Outside::Low);
+    let boundary = boundary(volume, Outside::Low, counts);
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, Outside::Low));
     }
@@ -136,17 +147,18 @@ mod tests {
         (square(x) + square(y) + square(z)).sqrt()
     }
 
-    fn source() -> VolumeSource {
-        VolumeSource::File { path: "x.nrrd".into(), raw: None }
+    fn suggested(volume: &Volume) -> Scene {
+        let source = VolumeSource::File { path: "x.nrrd".into(), raw: None };
+        scene(source, volume, [64, 64], &mut Counts::default())
     }
 
     #[test]
     fn labels_are_shown_as_one_body() {
         let ids = typed(|p| if radius(p) < 10.0 { 3.0 + (p[2] / 16) as f64 } else { 0.0 }, VoxelType::U8);
-        let of_ids = scene(source(), &ids, [64, 64]);
+        let of_ids = suggested(&ids);
         assert_eq!((of_ids.volume.ids, of_ids.sampling.kernel), (Ids::Mask, Kernel::BsplineSmooth));
         let soft = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
-        assert_eq!(scene(source(), &soft, [64, 64]).volume.ids, Ids::Values);
+        assert_eq!(suggested(&soft).volume.ids, Ids::Values);
     }
 
     #[test]
@@ -155,7 +167,7 @@ mod tests {
             let grid = Grid::with_spacing([32; 3], [scale; 3]).unwrap();
             let ball = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
             let ball = Volume::new(grid, ball.voxels().clone(), 1.0, 0.0).unwrap();
-            match scene(source(), &ball, [64, 64]).contours.unwrap().thickness {
+            match suggested(&ball).contours.unwrap().thickness {
                 Length::World(w) => w / scale,
                 other => panic!("{other:?} is not in world units"),
             }

@@ -5,7 +5,7 @@ use super::out::Out;
 use crate::tables::scene::ROOT;
 
 /// A page of Markdown with every table and key: what may stand there, the default, what it does, what it can make a
-/// picture compute ([PLAN-1]), and the rule of the specification.
+/// picture compute ([PLAN-1]), and the rule, which `rules.md` explains.
 pub fn reference_markdown() -> String {
     let mut page = String::from("# Scene file reference\n");
     write(&mut page, "", &ROOT.section());
@@ -26,7 +26,7 @@ fn write(page: &mut String, path: &str, section: &Section) {
         page.push_str(&format!("| *any name* | {} | | {} | | |\n", escaped(&shape.expected()), escaped(doc)));
     }
     if !section.later.is_empty() {
-        let name = |later: &Later| format!("`{}` ({})", later.name, later.tag);
+        let name = |later: &Later| format!("`{}` ({})", later.name, rule(later.tag));
         let names: Vec<String> = section.later.iter().map(name).collect();
         page.push_str(&format!("\nNot built yet: {}.\n", names.join(", ")));
     }
@@ -57,7 +57,13 @@ fn row(key: &SectionKey) -> String {
         Some(value) => format!("`{}`", value.toml()),
     };
     let needs: Vec<String> = key.needs.iter().map(|need| escaped(need.name())).collect();
-    format!("| `{}` | {values} | {default} | {} | {} | {} |\n", key.name, escaped(key.doc), needs.join(", "), key.tag)
+    let (name, does, rule) = (key.name, escaped(key.doc), rule(key.tag));
+    format!("| `{name}` | {values} | {default} | {does} | {} | {rule} |\n", needs.join(", "))
+}
+
+/// A rule's tag, as a link to where it is explained.
+fn rule(tag: &str) -> String {
+    if tag.is_empty() { String::new() } else { format!("[{tag}](rules.md#{})", tag.to_lowercase()) }
 }
 
 /// Text for a cell of a table.

@@ -203,18 +203,36 @@ mod tests {
         let strand = DVec3::new(ring + a, 0.0, 0.0);
         let pore = DVec3::X;
         for (p, level, label) in [
-            (DVec3::ZERO, 255.0, 4),               // core
-            (strand, 255.0, 3),                    // marrow
-            (strand + 0.023 * DVec3::Z, 102.0, 2), // knot
-            (pore * 0.265, 51.0, 1),               // a pore of the lattice
-            (pore * 0.30, 51.0, 1),                // under the veil
-            (spine * 0.265, 255.0, 5),             // a joint of the lattice
-            (spine * 0.38, 255.0, 5),              // a spine
-            (spine * 0.45, 51.0, 1),               // the veil over its tip
-            (DVec3::Z * 0.38, 0.0, 0),             // beyond the veil
+            (DVec3::ZERO, 255.0, 4),                                         // core
+            (strand, 255.0, 3),                                              // marrow
+            (strand + 0.023 * DVec3::Z, 102.0, 2),                           // knot
+            (pore * 0.265, 51.0, 1),                                         // a pore of the lattice
+            (pore * 0.30, 51.0, 1),                                          // under the veil
+            (spine * 0.265, 255.0, 5),                                       // a joint of the lattice
+            (spine * 0.38, 255.0, 5),                                        // a spine
+            (spine * 0.43 + 0.02 * spine.any_orthonormal_vector(), 51.0, 1), // the veil about its tip
+            (DVec3::Z * 0.38, 0.0, 0),                                       // beyond the veil
         ] {
             assert_near(specimen.value(centre + p), level, 0.15);
             assert_eq!(specimen.label(centre + p), label, "{p}");
+        }
+    }
+
+    /// Where there is skeleton outside the lattice there is veil, several edges deep: no edge of it passes the veil's
+    /// values.
+    #[test]
+    fn the_veil_covers_the_spines() {
+        let w = 0.5 / 159.0;
+        let it = Specimen::new(1.0, w, 255.0);
+        for spine in &it.spines {
+            let side = spine.any_orthonormal_vector();
+            for i in 0..200 {
+                for across in [0.0, 0.005, 0.01, 0.015] {
+                    let p = *spine * (0.25 + 0.00125 * f64::from(i)) + side * across;
+                    let [veil, .., skeleton] = it.bodies(p.to_array());
+                    assert!(skeleton < 0.0 || veil > 4.0 * w, "{p}: {veil} {skeleton}");
+                }
+            }
         }
     }
 

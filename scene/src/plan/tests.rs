@@ -61,6 +61,47 @@ fn a_scene_needs_what_its_effects_need_and_no_more() {
 }
 
 #[test]
+fn what_only_first_samples_need_is_asked_there_alone() {
+    let needs = |rest: &str| -> Vec<(Quantity, bool)> {
+        plan(rest).needs.iter().map(|need| (need.quantity, need.first_only)).collect()
+    };
+    let layers = |names: &str| format!("{REGULAR}[picture]\nlayers = [{names}]\n");
+    let (every, first) = (false, true);
+    assert_eq!(needs(&layers("\"first.normal\"")), [(Value, every), (Gradient, first)]);
+    assert_eq!(
+        needs(&layers("\"first.curvature\"")),
+        [(Value, every), (Gradient, first), (PreviousNormal, first), (Hessian, first)]
+    );
+    assert_eq!(
+        needs(&format!("{}[contours]\nkappa = \"exact\"\n", layers("\"first.curvature.KV\""))),
+        [(Value, every), (Gradient, first), (Hessian, first)]
+    );
+    // What every sample needs anyway is made of what every sample needs.
+    assert_eq!(
+        needs(&layers("\"first.curvature\", \"normal\"")),
+        [(Value, every), (Gradient, every), (PreviousNormal, first), (Hessian, first)]
+    );
+    let plan = plan(&layers("\"first.normal\""));
+    assert!(plan.needs_at_first(Gradient) && !plan.needs(Gradient) && !plan.needs_at_first(Hessian));
+    assert!(plan.to_string().contains("layer first.normal           gradient      one gradient a ray "), "{plan}");
+}
+
+#[test]
+fn what_a_scene_leaves_to_the_volume_is_settled_by_it() {
+    let text = format!("drypoint = 1\n[volume]\nfile = \"a\"\n{PLAIN}[contours]\nkappa = \"exact\"\n[sampling]\n");
+    for (hessian, integers, floats) in [("auto", true, false), ("gaussian", true, true), ("central", false, false)] {
+        let text = format!("{text}scale = 2\nhessian = \"{hessian}\"\n");
+        let scene = parse(&text, "s.toml".as_ref(), &Overrides::default()).unwrap();
+        for (integer, smooths) in [(true, integers), (false, floats)] {
+            let mut plan = Plan::new(&scene);
+            plan.settle(&scene, integer);
+            assert_eq!(plan.has_pass(Pass::SmoothedCoefficients), smooths, "{hessian} {integer}");
+            assert_eq!(plan.idle_keys.iter().any(|idle| idle.key == "sampling.scale"), !smooths, "{hessian} {integer}");
+        }
+    }
+}
+
+#[test]
 fn a_range_of_gradients_that_is_given_is_not_computed() {
     let fixed = plan(&format!("gradient_range = [0, 60]\n{ILLUSTRATIVE}"));
     assert!(fixed.needs(GradientMagnitudeRange) && !fixed.has_pass(Pass::GradientRange));
@@ -117,9 +158,9 @@ fn every_need_is_one_that_the_description_of_its_key_lists() {
         .collect();
     let everything =
         "[contours]\nfade = [0, 1]\n[style_mipmaps]\n[picture]\nlayers = [\"normal\", \"gradient\", \"curvature\"]\n";
-    for rest in
-        [everything, "[style_mipmaps]\n[contours]\nkappa = \"exact\"\n", "[shading]\n[transfer]\nkind = \"regular\"\n"]
-    {
+    let firsts = "[picture]\nlayers = [\"first.normal\", \"first.curvature\"]\n[transfer]\nkind = \"regular\"\n";
+    let exact = "[style_mipmaps]\n[contours]\nkappa = \"exact\"\n";
+    for rest in [everything, firsts, exact, "[shading]\n[transfer]\nkind = \"regular\"\n"] {
         for need in plan(rest).needs {
             let key = need.key.split('[').next().unwrap();
             let (_, needs) = listed.iter().find(|(name, _)| name == key).unwrap_or_else(|| panic!("{key}"));

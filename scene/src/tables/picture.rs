@@ -120,19 +120,20 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
         for (i, layer) in scene.picture.layers.iter().enumerate() {
             let effect = format!("layer {layer}");
             let key = format!("picture.layers[{i}]");
-            let curvature = |asks: &mut crate::plan::Asks| match measured_curvature(scene) {
-                Measured::Exact => asks.need(Quantity::Hessian, &effect, &key),
-                Measured::AlongRay => asks.need(Quantity::PreviousNormal, &effect, &key),
+            let along_view = match measured_curvature(scene) {
+                Measured::Exact => Quantity::Hessian,
+                Measured::AlongRay => Quantity::PreviousNormal,
             };
-            match layer {
-                LayerKind::Beauty | LayerKind::Z | LayerKind::Depth | LayerKind::First | LayerKind::Counts => {}
-                LayerKind::Normal | LayerKind::Gradient => asks.need(Quantity::Gradient, &effect, &key),
-                LayerKind::Curvature => {
-                    asks.need(Quantity::Hessian, &effect, &key);
-                    curvature(asks);
-                }
-                LayerKind::CurvatureAlongView => curvature(asks),
-            }
+            let (needs, first_only): (&[Quantity], bool) = match layer {
+                LayerKind::Beauty | LayerKind::Z | LayerKind::Depth | LayerKind::First | LayerKind::Counts => continue,
+                LayerKind::Normal | LayerKind::Gradient => (&[Quantity::Gradient], false),
+                LayerKind::Curvature => (&[Quantity::Hessian, along_view], false),
+                LayerKind::CurvatureAlongView => (&[along_view], false),
+                LayerKind::FirstNormal => (&[Quantity::Gradient], true),
+                LayerKind::FirstCurvature => (&[Quantity::Hessian, along_view], true),
+                LayerKind::FirstCurvatureAlongView => (&[along_view], true),
+            };
+            needs.iter().for_each(|&quantity| asks.need_where(quantity, first_only, &effect, &key));
         }
     },
     idle: |_, _, idle| {
@@ -243,6 +244,9 @@ const LAYER: Choice<LayerKind> = Choice {
         ChoiceOption::new("curvature", LayerKind::Curvature, "Mean κ₁, κ₂ and κ_v."),
         ChoiceOption::new("curvature.KV", LayerKind::CurvatureAlongView, "Mean κ_v alone, as [contours] has it."),
         ChoiceOption::new("first", LayerKind::First, "The value at the first visible sample."),
+        ChoiceOption::new("first.normal", LayerKind::FirstNormal, "Outward normal there, in eye space."),
+        ChoiceOption::new("first.curvature", LayerKind::FirstCurvature, "κ₁, κ₂ and κ_v there."),
+        ChoiceOption::new("first.curvature.KV", LayerKind::FirstCurvatureAlongView, "κ_v there, as [contours] has it."),
         ChoiceOption::new("counts", LayerKind::Counts, "Samples evaluated on the ray."),
     ],
     later: &[("halo0", "IO-6"), ("halo0.H", "IO-6")],

@@ -145,14 +145,10 @@ pub(crate) static TABLE: Table<Sampling> = Table {
             asks.pass(Pass::Coefficients, "prefiltered kernel", "sampling.kernel");
         }
         let hessian = asks.first(Quantity::Hessian).map(|need| need.effect.clone());
-        match (hessian, sampling.hessian) {
-            (Some(effect), HessianEstimator::Gaussian) => {
-                asks.pass(Pass::SmoothedCoefficients, &effect, "sampling.hessian");
-            }
-            (Some(effect), HessianEstimator::Auto) => {
-                asks.pass(Pass::SmoothedCoefficients, &format!("{effect}, integer voxels"), "sampling.hessian");
-            }
-            _ => {}
+        if let (Some(effect), HessianEstimator::Gaussian | HessianEstimator::Auto) = (hessian, sampling.hessian) {
+            let integer_only = sampling.hessian == HessianEstimator::Auto;
+            let effect = if integer_only { format!("{effect}, integer voxels") } else { effect };
+            asks.pass_where(Pass::SmoothedCoefficients, integer_only, &effect, "sampling.hessian");
         }
         if sampling.skip_empty {
             asks.pass(Pass::Bricks, "skipping what shows nothing", "sampling.skip_empty");
@@ -163,11 +159,11 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
             idle.key("sampling.step_along", "planes and shells are the same in an orthographic picture");
         }
-        if !plan.needs(Quantity::Gradient) {
+        if !plan.needs_at_first(Quantity::Gradient) {
             idle.key("sampling.gradient", "nothing needs a gradient");
             idle.key("sampling.normal", "nothing needs a normal");
         }
-        if !plan.needs(Quantity::Hessian) {
+        if !plan.needs_at_first(Quantity::Hessian) {
             idle.key("sampling.hessian", "nothing needs a Hessian");
             idle.key("sampling.scale", "nothing needs a Hessian");
         } else if !matches!(sampling.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian) {

@@ -195,8 +195,8 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
         if !plan.needs(Quantity::GradientMagnitudeRange) {
             idle.key("volume.gradient_range", "nothing reads |g|");
         }
-        let turned = scene.sampling.normal == NormalSide::Outward || plan.needs(Quantity::Hessian);
-        if !(turned && plan.needs(Quantity::Gradient)) {
+        let turned = scene.sampling.normal == NormalSide::Outward || plan.needs_at_first(Quantity::Hessian);
+        if !(turned && plan.needs_at_first(Quantity::Gradient)) {
             idle.key("volume.outside", "nothing reads an outward normal or a signed curvature");
         }
     },

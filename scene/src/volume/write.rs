@@ -42,7 +42,7 @@ impl WriteError {
 
     /// What to do, in one line.
     pub fn remedy(&self) -> String {
-        "give a path in a folder that exists, may be written and has room".into()
+        atomic::remedy(&self.source).into()
     }
 }
 

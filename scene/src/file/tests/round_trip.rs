@@ -197,3 +197,18 @@ fn the_identity_of_a_scene_does_not_depend_on_folders() {
     assert!(identity(&here).contains("file = \"a.nrrd\"") && identity(&here).contains("mine = \"m.png\""));
     assert_ne!(identity(&here), identity(&scene("")));
 }
+
+/// The same scene must give the same bytes wherever its files lie ([IO-2]): beside it, found through `DRYPOINT_DATA`, or
+/// written out in full from another folder. So folders do not count, and files of one name in two folders are not told
+/// apart: the identity is the scene's, not its data's.
+#[test]
+fn the_identity_of_a_scene_has_names_without_folders() {
+    let of = |file: &str| {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"{file}\"\n");
+        identity(&parse(&text, Path::new("s.toml"), &Overrides::default()).unwrap())
+    };
+    assert_eq!(of("a/x.nrrd"), of("b/x.nrrd"));
+    assert_eq!(of("a/x.nrrd"), of("/data/c/../x.nrrd"));
+    assert_ne!(of("a/x.nrrd"), of("a/y.nrrd"));
+    assert_ne!(of("a/x.nrrd"), of("a/x.nhdr"));
+}
