@@ -37,8 +37,8 @@ use drypoint_scene::phantom;
 use drypoint_scene::picture::{Picture, Provenance};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
-use drypoint_scene::tables::{Background, Ids, NodeColor, Scene, StepAlong, VolumeSource, VolumeTable};
-use drypoint_scene::transfer::Function;
+use drypoint_scene::tables::{Axis, Background, Ids, NodeColor, Scene, StepAlong, Transfer, VolumeSource, VolumeTable};
+use drypoint_scene::transfer::{Function, FunctionError};
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::{Volume, read};
 use sha2::{Digest, Sha256};
@@ -55,6 +55,7 @@ pub struct Job {
     /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
     pub counts: Counts,
     function: Function,
+    further: [Option<Volume>; 2],
     styles: Vec<Style>,
     background: Option<Vec<Rgba>>,
 }
@@ -70,7 +71,7 @@ impl Job {
             Ok(volume) => Self::with_volume(scene, volume),
             Err(failure) => {
                 // What else is wrong does not wait for the volume.
-                let nodes = scene.transfer.iter().flat_map(|transfer| transfer.nodes.iter().flatten());
+                let nodes = scene.transfer.iter().flat_map(Transfer::all_nodes);
                 let named = nodes.filter_map(|node| match &node.color {
                     NodeColor::Style(name) => Some(name.as_str()),
                     NodeColor::Color(_) => None,
@@ -109,13 +110,17 @@ impl Job {
             return Err(Failure::new("the scene draws nothing", place, "add a [transfer] table").into());
         };
         let mut counts = Counts::default();
-        if transfer.nodes.is_none() {
+        if transfer.is_automatic() {
             suggest::fill_function(transfer, &volume, scene.volume.outside, &mut counts);
         }
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
-        let Some(function) = Function::new(transfer, range, &volume) else {
-            let place = scene.given.position("transfer.nodes");
-            return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
+        let found = Function::new(transfer, range, &volume, &|_| None);
+        let function = match found.map_err(|error| function_failure(&error, &scene.given))? {
+            Some(function) => function,
+            None => {
+                let place = scene.given.position("transfer.nodes");
+                return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
+            }
         };
         let named = match &function {
             Function::Regular(_) => [].iter(),
@@ -124,8 +129,9 @@ impl Job {
         let mut failures = Vec::new();
         let styles = styles(&scene, named.map(String::as_str), &mut failures);
         let background = background(&scene, &mut failures);
+        let further = further(&scene, &mut failures);
         Failures::check(failures)?;
-        Ok(Self { scene, plan, volume, counts, function, styles, background })
+        Ok(Self { scene, plan, volume, counts, function, further, styles, background })
     }
 
     /// The scene made ready for any number of frames.
@@ -143,6 +149,7 @@ impl Job {
             plan: &self.plan,
             volume: &self.volume,
             function: &self.function,
+            further: self.further.each_ref().map(Option::as_ref),
             styles: &self.styles,
             background,
         };
@@ -154,6 +161,9 @@ impl Job {
                     ("camera", "move camera.eye away from camera.target, or give camera.direction")
                 }
                 RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
+                RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
+                RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
+                RenderError::NoSuchLabel { .. } => ("transfer.over", "name a label that the label volume has"),
                 RenderError::Length { key } => (*key, "give it in world units or in voxels"),
                 RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
             };
@@ -221,6 +231,29 @@ fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
             Failure::new(error, given.position("volume.phantom"), remedy)
         }),
     }
+}
+
+/// The further volumes that the transfer function is over; what is wrong goes to `failures`.
+fn further(scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Volume>; 2] {
+    let axes = scene.transfer.as_ref().map_or(&[][..], |transfer| transfer.over.axes());
+    [0, 1].map(|i| match axes.get(i) {
+        Some(Axis::Volume(path)) => read::read(path, None).map_err(|error| failures.push(Failure::from(error))).ok(),
+        _ => None,
+    })
+}
+
+/// What makes no function, at the key that says it.
+fn function_failure(error: &FunctionError, given: &Given) -> Failure {
+    let (key, remedy) = match error {
+        FunctionError::UnknownLabel { row: Some(row), .. } => {
+            (format!("transfer.rows[{row}].at"), "write an id, or name the labels with volume.label_names")
+        }
+        FunctionError::UnknownLabel { row: None, .. } => {
+            ("transfer.over".into(), "write an id, or name the labels with volume.label_names")
+        }
+        FunctionError::LabelTwice { row, .. } => (format!("transfer.rows[{row}].at"), "keep one row for each label"),
+    };
+    Failure::new(error, given.position(&key), remedy)
 }
 
 /// The styles of those names; what is wrong goes to `failures`.

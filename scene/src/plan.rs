@@ -22,12 +22,29 @@ pub enum Quantity {
     Hessian,
     /// |g|: ‖g‖ mapped to [0, 1] by its range ([VAL-2]).
     GradientMagnitudeRange,
+    /// The id of the part that a sample belongs to ([STF-13]).
+    Label,
+    /// The distance to a point ([STF-4]).
+    Distance,
+    /// The distance to a label ([STF-4]).
+    LabelDistance,
+    /// The value of a further volume ([STF-4]).
+    FurtherVolume,
 }
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Self; 5] =
-        [Self::Value, Self::Gradient, Self::PreviousNormal, Self::Hessian, Self::GradientMagnitudeRange];
+    pub const ALL: [Self; 9] = [
+        Self::Value,
+        Self::Gradient,
+        Self::PreviousNormal,
+        Self::Hessian,
+        Self::GradientMagnitudeRange,
+        Self::Label,
+        Self::Distance,
+        Self::LabelDistance,
+        Self::FurtherVolume,
+    ];
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -37,6 +54,10 @@ impl Quantity {
             Self::PreviousNormal => "previous normal",
             Self::Hessian => "Hessian",
             Self::GradientMagnitudeRange => "|g|",
+            Self::Label => "label",
+            Self::Distance => "distance",
+            Self::LabelDistance => "distance to a label",
+            Self::FurtherVolume => "further volume",
         }
     }
 
@@ -48,6 +69,9 @@ impl Quantity {
             Self::PreviousNormal => "one gradient where the sample before has none yet",
             Self::Hessian => "one Hessian a visible sample",
             Self::GradientMagnitudeRange => "a norm and a division a visible sample",
+            Self::Label => "one look at the labels a visible sample",
+            Self::Distance => "one norm a visible sample",
+            Self::LabelDistance | Self::FurtherVolume => "one trilinear reconstruction a visible sample",
         }
     }
 
@@ -56,14 +80,14 @@ impl Quantity {
         match self {
             Self::Gradient | Self::PreviousNormal => "one gradient a ray",
             Self::Hessian => "one Hessian a ray",
-            Self::Value | Self::GradientMagnitudeRange => self.adds(),
+            _ => self.adds(),
         }
     }
 
     /// What it is made of.
     fn prerequisite(self) -> Option<Self> {
         match self {
-            Self::Value => None,
+            Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume => None,
             Self::Gradient => Some(Self::Value),
             // A sample without a normal has no curvature, and that is tested on `sampling.gradient` too ([PREC-3]).
             Self::PreviousNormal | Self::Hessian | Self::GradientMagnitudeRange => Some(Self::Gradient),
@@ -82,8 +106,12 @@ pub enum Pass {
     GradientRange,
     /// The automatic transfer function, from values and their differences between neighbours.
     AutomaticTransfer,
+    /// The distance of every voxel to a label ([STF-4]).
+    LabelDistances,
     /// The ranges of bricks, by which empty space is skipped ([RAY-2]).
     Bricks,
+    /// The mip chains of the styles ([STF-10]).
+    StyleMipmaps,
     /// The rays themselves.
     Rays,
 }
@@ -96,7 +124,9 @@ impl Pass {
             Self::SmoothedCoefficients => "smoothed coefficients",
             Self::GradientRange => "range of |g|",
             Self::AutomaticTransfer => "automatic function",
+            Self::LabelDistances => "distances to a label",
             Self::Bricks => "brick ranges",
+            Self::StyleMipmaps => "style mip-maps",
             Self::Rays => "rays",
         }
     }
@@ -108,7 +138,9 @@ impl Pass {
             Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
             Self::GradientRange => "one gradient a voxel",
             Self::AutomaticTransfer => "one look at each voxel and its neighbours",
+            Self::LabelDistances => "one search a voxel of the labels, one number each",
             Self::Bricks => "one look at each voxel",
+            Self::StyleMipmaps => "one look at each texel of a style, a third of it more to keep",
             Self::Rays => "samples² rays a pixel",
         }
     }

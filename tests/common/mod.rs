@@ -71,6 +71,8 @@ pub(crate) struct Shot {
     pub(crate) volume: Volume,
     /// Every style that a node may name.
     pub(crate) styles: Vec<Style>,
+    /// Further volumes that the function is over.
+    pub(crate) further: [Option<Volume>; 2],
     /// A background picture, linear premultiplied.
     pub(crate) behind: Option<Vec<Rgba>>,
 }
@@ -96,7 +98,7 @@ impl Shot {
         scene.picture.size = [16, 16];
         scene.picture.background = Background::None;
         scene.volume.gradient_range = GradientRange::Fixed([0.0, 1.0]);
-        Self { scene, volume, styles, behind: None }
+        Self { scene, volume, styles, further: [None, None], behind: None }
     }
 
     /// The same with changes to the scene.
@@ -137,7 +139,7 @@ impl Shot {
     /// The transfer function over the volume's values.
     pub(crate) fn function(&self) -> Function {
         let range = self.scene.volume.range.unwrap_or_else(|| self.volume.range());
-        Function::new(self.scene.transfer.as_ref().unwrap(), range, &self.volume).unwrap()
+        Function::new(self.scene.transfer.as_ref().unwrap(), range, &self.volume, &|_| None).unwrap().unwrap()
     }
 
     /// The picture.
@@ -161,6 +163,7 @@ impl Shot {
             plan: &plan,
             volume: &self.volume,
             function: &function,
+            further: self.further.each_ref().map(Option::as_ref),
             styles: &named,
             background,
         };

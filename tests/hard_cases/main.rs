@@ -14,4 +14,5 @@ mod offset;
 mod phong;
 mod probe;
 mod slabs;
+mod styles;
 mod termination;

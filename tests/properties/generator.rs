@@ -1,5 +1,6 @@
 //! Scenes at random: every effect, kernel, camera and odd volume that the caster knows, small enough for hundreds.
 
+use super::over_two::over_two;
 use crate::common::random::Random;
 use crate::common::{LAYERS, Shot, perspective, plain, style};
 use drypoint::scene::glam::{DMat3, DVec3};
@@ -8,7 +9,7 @@ use drypoint::scene::style::Style;
 use drypoint::scene::tables::{
     Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel,
     Length, LightDirection, Mix, NormalSide, Number, Outside, Projection, Shading, SignFlip, SphereFrame, StepAlong,
-    Transparency, Unit,
+    StyleMipmaps, Transparency, Unit,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -84,7 +85,7 @@ pub(crate) fn volume(r: &mut Random, grid: Grid) -> Volume {
 }
 
 /// Values of nodes in ascending order: voxels' own, between and beyond them, some twice.
-fn at(r: &mut Random, volume: &Volume, n: usize) -> Vec<f64> {
+pub(crate) fn at(r: &mut Random, volume: &Volume, n: usize) -> Vec<f64> {
     let [lo, hi] = volume.range();
     let reach = (hi - lo).max(1.0);
     let mut at: Vec<f64> = (0..n)
@@ -101,7 +102,7 @@ fn at(r: &mut Random, volume: &Volume, n: usize) -> Vec<f64> {
     at
 }
 
-fn opacity(r: &mut Random) -> f64 {
+pub(crate) fn opacity(r: &mut Random) -> f64 {
     match r.below(5) {
         0 | 1 => 0.0,
         2 => 1.0,
@@ -221,6 +222,16 @@ pub(crate) fn scene(seed: u64) -> Shot {
             sign_flip: r.pick(&[SignFlip::TwoSided, SignFlip::Literal]),
             fade: r.pick(&[None, None, Some([0.1, 0.4]), Some([0.2, 0.2])]),
         });
+    }
+    if r.once_in(3) {
+        s.style_mipmaps = Some(StyleMipmaps {
+            curvature_bias: r.pick(&[0.0, 1.0, 3.0]),
+            gradient_bias: r.pick(&[0.0, 1.0, 2.5]),
+            turn: r.pick(&[0.0, 2.0 / 256.0, 0.3]),
+        });
+    }
+    if r.once_in(3) {
+        over_two(r, &mut shot);
     }
     shot
 }

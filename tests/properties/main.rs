@@ -6,5 +6,6 @@ mod common;
 mod along_ray;
 mod generator;
 mod order;
+mod over_two;
 mod scenes;
 mod skipping;

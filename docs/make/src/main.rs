@@ -1,6 +1,7 @@
 //! Writes the generated pages and pictures of the repository.
 
 mod accuracy;
+mod figures;
 mod files;
 #[cfg(test)]
 mod pages;
@@ -8,18 +9,21 @@ mod reference;
 mod rings;
 mod rules;
 mod styles;
+mod switches;
 
 use std::process::ExitCode;
 
 /// A page or a set of pictures: the word that asks for it, and what writes it.
 type Page = (&'static str, fn() -> Result<(), String>);
 
-const PAGES: [Page; 5] = [
+const PAGES: &[Page] = &[
     ("accuracy", accuracy::write),
+    ("figures", figures::write),
     ("reference", reference::write),
     ("rings", rings::write),
     ("rules", rules::write),
     ("styles", styles::write),
+    ("switches", switches::write),
 ];
 
 fn main() -> ExitCode {
@@ -27,7 +31,10 @@ fn main() -> ExitCode {
     let done = match PAGES.iter().find(|(name, _)| *name == what) {
         Some((_, write)) => write(),
         None if what == "all" => PAGES.iter().try_for_each(|(_, write)| write()),
-        None => Err(format!("usage: drypoint-docs {}|all", PAGES.map(|(name, _)| name).join("|"))),
+        None => Err(format!(
+            "usage: drypoint-docs {}|all",
+            PAGES.iter().map(|(name, _)| *name).collect::<Vec<_>>().join("|")
+        )),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

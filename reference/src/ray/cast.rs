@@ -3,6 +3,7 @@
 use super::lattice::IndexRay;
 use super::layers::{Seen, Sums};
 use super::opacity::Correction;
+use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::{Facts, Sight};
 use super::skip::{Boxes, Skip};
@@ -10,6 +11,7 @@ use crate::field::{Place, Sampler, curvature};
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray;
 use crate::transfer;
+use crate::transfer::over::Here;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
 
@@ -126,12 +128,53 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         (samples, true)
     }
 
-    /// Composites a sample with α_u > 0: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
+    /// Shows a sample whose value can be seen.
     fn show(&mut self, k: i64, at: Place<R>, s: R, place: &transfer::Place<R>, counts: &mut Counts) {
         let prepared = self.prepared;
+        if let Some(over_two) = &prepared.over_two {
+            return self.show_over_two(over_two, k, at, s, counts);
+        }
         let mut facts = Facts::none();
         self.learn(k, at, prepared.calls, &mut facts, counts);
+        counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
         let (rgb, alpha) = prepared.look.color(place, &facts, &self.sight, counts);
+        self.composite(k, at, s, (rgb, alpha), &mut facts, counts);
+    }
+
+    /// The same where the function is over two quantities: what they need is asked first, and the rest only where α_u > 0.
+    fn show_over_two(&mut self, over_two: &OverTwo<'_, R>, k: i64, at: Place<R>, s: R, counts: &mut Counts) {
+        let prepared = self.prepared;
+        let mut facts = Facts::none();
+        self.learn(k, at, over_two.first, &mut facts, counts);
+        let of_normal = |x: R| if facts.normal.is_some() { x } else { R::ZERO };
+        let here = Here {
+            position: self.ray.position(k),
+            place: at,
+            value: s,
+            gradient: of_normal(facts.gradient.length()),
+            magnitude: of_normal(facts.magnitude),
+            principal: facts.principal,
+            kappa: facts.kappa,
+        };
+        let Some(patch) = over_two.locate(&here) else { return };
+        self.learn(k, at, over_two.rest, &mut facts, counts);
+        counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
+        let (rgb, alpha) = prepared.look.color(&patch, &facts, &self.sight, counts);
+        self.composite(k, at, s, (rgb, alpha), &mut facts, counts);
+    }
+
+    /// Composites a sample: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
+    #[inline(always)]
+    fn composite(
+        &mut self,
+        k: i64,
+        at: Place<R>,
+        s: R,
+        (rgb, alpha): ([R; 3], R),
+        facts: &mut Facts<R>,
+        counts: &mut Counts,
+    ) {
+        let prepared = self.prepared;
         if alpha != self.corrected[0] {
             self.corrected = [alpha, self.correction.apply(alpha)];
         }
@@ -141,9 +184,10 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.opacity += w;
         if prepared.collects && alpha > R::ZERO {
             if let (Some(first), true) = (prepared.first, self.sums.is_empty()) {
-                self.learn(k, at, first, &mut facts, counts);
+                self.learn(k, at, first, facts, counts);
+                counts.without_normal += u64::from(first.gradient && facts.normal.is_none());
             }
-            self.collect(k, s, w, &facts);
+            self.collect(k, s, w, facts);
         }
     }
 
@@ -155,11 +199,11 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             let g = self.sampler.gradient_at(at);
             counts.gradients += 1;
             facts.gradient = g;
+            facts.depth = self.ray.depth(k);
             if let Some((lo, width)) = prepared.gradient_range {
                 facts.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
             }
             facts.normal = self.normal(g);
-            counts.without_normal += u64::from(facts.normal.is_none());
         }
         if let Some(n) = facts.normal {
             if calls.hessian {

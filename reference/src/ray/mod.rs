@@ -5,6 +5,7 @@ mod gradient_range;
 pub mod lattice;
 mod layers;
 pub mod opacity;
+mod over_two;
 mod prepared;
 mod render;
 mod sample;

@@ -1,6 +1,7 @@
 //! A scene prepared for casting: everything that is decided once a picture, not at samples.
 
 use super::lattice::Lattice;
+use super::over_two::OverTwo;
 use super::sample::{EyeAxes, Look};
 use super::skip::Skip;
 use crate::field::Field;
@@ -24,13 +25,13 @@ pub(super) enum KappaSource {
 }
 
 /// What a visible sample has to know; from the plan.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Calls {
     /// The gradient and the normal.
     pub(super) gradient: bool,
     /// The Hessian.
     pub(super) hessian: bool,
-    /// κ₁ and κ₂, for a layer.
+    /// κ₁ and κ₂, for a layer or an axis.
     pub(super) principal: bool,
     /// κ.
     pub(super) kappa: KappaSource,
@@ -78,7 +79,10 @@ pub(super) struct Prepared<'v, R> {
     /// Lowest and highest index position ([SPACE-1]).
     pub(super) ends: [Vec3<R>; 2],
     pub(super) skip: Option<Skip>,
+    /// α_u over the value; with two quantities, the values at which it can be above 0.
     pub(super) function: Piecewise<R>,
+    /// The function itself where it is over two quantities.
+    pub(super) over_two: Option<OverTwo<'v, R>>,
     pub(super) look: Look<R>,
     pub(super) calls: Calls,
     /// What the first visible sample of a ray has to know beyond that, for the layers `first.*`; none if nothing.

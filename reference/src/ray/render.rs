@@ -4,6 +4,7 @@ use super::cast::cast;
 use super::gradient_range::quantile_of_norms;
 use super::lattice::{IndexRay, Lattice};
 use super::layers::{Sums, pooled};
+use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::sample::{EyeAxes, Look, Styled};
 use super::skip::{Beam, Boxes, Skip};
@@ -11,8 +12,8 @@ use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
 use crate::style_transfer_functions::curvature_along_ray::Turn;
-use crate::style_transfer_functions::{Contour, Spheres, StyleIndex};
-use crate::transfer::{NodesError, Piecewise};
+use crate::style_transfer_functions::{Contour, Detail, Footprint, Spheres, StyleIndex};
+use crate::transfer::{NodesError, Piecewise, gate};
 use crate::with_sampler;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
@@ -20,9 +21,10 @@ use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{
-    BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, Transparency,
+    Axis, BlendSpace, GradientRange, Kappa, Length, Mix, Number, Scene, SignFlip, SphereFrame, StyleMipmaps,
+    Transparency,
 };
-use drypoint_scene::transfer::{Function, Nodes};
+use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
@@ -45,6 +47,8 @@ pub struct Inputs<'a> {
     pub volume: &'a Volume,
     /// Its transfer function, over the volume's values.
     pub function: &'a Function,
+    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
+    pub further: [Option<&'a Volume>; 2],
     /// The styles that the function names, in the order of [`Function::Style::names`].
     pub styles: &'a [Style],
     /// What lies behind.
@@ -80,6 +84,18 @@ pub enum RenderError {
     /// The nodes make no function.
     #[error(transparent)]
     Nodes(#[from] NodesError),
+    /// A quantity of the function is a volume that was not handed over.
+    #[error("the transfer function is over a further volume, and none was loaded")]
+    NoFurtherVolume,
+    /// A quantity of the function reads labels, and there are none.
+    #[error("the transfer function reads labels, and there are none")]
+    NoLabels,
+    /// A distance to a label that no voxel has.
+    #[error("no voxel has the label {id}")]
+    NoSuchLabel {
+        /// The label.
+        id: u32,
+    },
     /// The function's nodes and the styles do not fit.
     #[error("the transfer function names {named} styles, {given} were loaded")]
     Styles {
@@ -144,7 +160,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let sampling = &scene.sampling;
     let world = |length: Length, key| length.world(grid).ok_or(RenderError::Length { key });
     let step = world(sampling.step, "sampling.step")?;
-    let (calls, first) = calls(scene, plan);
+    let (calls, first) = calls(scene, plan, function);
     let rung = if plan.needs_at_first(Quantity::Hessian) {
         Rung::Hessian
     } else if plan.needs_at_first(Quantity::Gradient) {
@@ -186,18 +202,28 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         };
         (R::from_f64(lo), R::from_f64(hi - lo))
     });
-    let (at, opacity) = match function {
-        Function::Style { nodes: Nodes { at, opacity, .. }, .. } => (at, opacity),
-        Function::Regular(Nodes { at, opacity, .. }) => (at, opacity),
+    let (at, opacity, rows) = function.nodes();
+    let (over_value, over_two) = match rows {
+        None => (Piecewise::new(at, opacity)?, None),
+        Some(rows) => {
+            let over_two = OverTwo::new((at, opacity), rows, inputs, &field, calls, counts)?;
+            (gate::over_value(at, opacity, rows)?, Some(over_two))
+        }
     };
     let look = look(inputs, &view)?;
+    if let Look::Style(styled) = &look
+        && let Some(bytes) = styled.spheres.mipmap_bytes()
+    {
+        counts.bytes.insert("style_mipmaps".into(), bytes as u64);
+    }
     let layers = if scene.picture.layers.is_empty() { vec![LayerKind::Beauty] } else { scene.picture.layers.clone() };
     Ok(Prepared {
         volume,
         lattice: Lattice { step, along: sampling.step_along, near },
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
-        function: Piecewise::new(at, opacity)?,
+        function: over_value,
+        over_two,
         look,
         calls,
         first,
@@ -229,7 +255,7 @@ fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
 }
 
 /// What visible samples have to know, by the plan, and what the first of a ray has to know beyond that.
-fn calls(scene: &Scene, plan: &Plan) -> (Calls, Option<Calls>) {
+fn calls(scene: &Scene, plan: &Plan, function: &Function) -> (Calls, Option<Calls>) {
     let kappa = |needs: &dyn Fn(Quantity) -> bool| {
         if needs(Quantity::PreviousNormal) {
             KappaSource::AlongRay
@@ -243,7 +269,8 @@ fn calls(scene: &Scene, plan: &Plan) -> (Calls, Option<Calls>) {
     let calls = Calls {
         gradient: plan.needs(Quantity::Gradient),
         hessian: plan.needs(Quantity::Hessian),
-        principal: asks_for(LayerKind::Curvature),
+        principal: asks_for(LayerKind::Curvature)
+            || function.nodes().2.is_some_and(|rows| rows.over.iter().any(Axis::is_principal)),
         kappa: kappa(&|quantity| plan.needs(quantity)),
     };
     let principal = asks_for(LayerKind::FirstCurvature) && !calls.principal;
@@ -287,15 +314,30 @@ fn look<R: Real>(inputs: &Inputs<'_>, view: &View) -> Result<Look<R>, RenderErro
                 })
                 .transpose()?;
             let transfer = scene.transfer.as_ref();
+            let spheres = Spheres::new(styles, transfer.map_or(Mix::Premultiplied, |t| t.mix));
+            let mipmaps = scene.style_mipmaps.as_ref();
             Ok(Look::Style(Styled {
                 index: StyleIndex::new(&nodes.color),
-                spheres: Spheres::new(styles, transfer.map_or(Mix::Premultiplied, |t| t.mix)),
+                spheres: if mipmaps.is_some() { spheres.with_mipmaps(styles) } else { spheres },
+                detail: mipmaps.map(|table| detail(table, scene, view, volume.grid().voxel())),
                 contour,
                 transparency: transfer.map_or(Transparency::Illustrative, |t| t.transparency),
                 frame: transfer.map_or(SphereFrame::Eye, |t| t.sphere_frame),
                 eye_axes: eye_axes(view),
             }))
         }
+    }
+}
+
+/// The level of detail of styles ([STF-10]), in rays of the picture.
+fn detail<R: Real>(table: &StyleMipmaps, scene: &Scene, view: &View, voxel: f64) -> Detail<R> {
+    let rays = R::from_f64(voxel * scene.picture.samples as f64 / view.pixel);
+    Detail {
+        curvature_bias: R::from_f64(table.measured_curvature_bias(scene)),
+        gradient_bias: R::from_f64(table.gradient_bias),
+        turn: R::from_f64(table.turn),
+        voxel: R::from_f64(voxel),
+        footprint: if view.perspective { Footprint::Perspective(rays) } else { Footprint::Orthographic(rays) },
     }
 }
 

@@ -2,14 +2,16 @@
 
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
-use crate::style_transfer_functions::{Contour, Spheres, StyleIndex, contour, frame, transparency};
-use crate::transfer::Place;
+use crate::style_transfer_functions::{Blend2, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
+use crate::transfer::{Patch, Place};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{SphereFrame, Transparency};
 
 /// What is known of a visible sample. Quantities that the scene does not call for keep their neutral values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facts<R> {
+    /// Eye depth.
+    pub(super) depth: R,
     /// World gradient, times the power of two of [SPACE-4].
     pub(super) gradient: Vec3<R>,
     /// N in world space; none where the gradient is negligible ([PREC-3]) or not asked for.
@@ -26,7 +28,8 @@ impl<R: Real> Facts<R> {
     /// A sample without a normal: κ = 0 ([PREC-3]).
     #[inline(always)]
     pub(super) fn none() -> Self {
-        Self { gradient: Vec3::zero(), normal: None, magnitude: R::ZERO, kappa: R::ZERO, principal: [R::ZERO; 2] }
+        let zero = R::ZERO;
+        Self { depth: zero, gradient: Vec3::zero(), normal: None, magnitude: zero, kappa: zero, principal: [zero; 2] }
     }
 }
 
@@ -72,6 +75,8 @@ pub(super) struct Styled<R> {
     pub(super) index: StyleIndex,
     /// sft.
     pub(super) spheres: Spheres<R>,
+    /// [STF-10]; none: each lookup reads the style itself.
+    pub(super) detail: Option<Detail<R>>,
     /// [STF-7], [STF-8].
     pub(super) contour: Option<Contour<R>>,
     /// [STF-9].
@@ -95,19 +100,19 @@ impl<R: Real> Look<R> {
     #[inline(always)]
     pub(super) fn color(
         &self,
-        place: &Place<R>,
+        place: &impl Between<R>,
         facts: &Facts<R>,
         sight: &Sight<R>,
         counts: &mut Counts,
     ) -> ([R; 3], R) {
         match self {
             Self::Regular { colors, phong } => {
-                let rgb = mixed(colors, place);
+                let rgb = place.color(colors);
                 let rgb = match (phong, facts.normal) {
                     (Some(phong), Some(n)) => phong.shade(rgb, n, sight.half),
                     _ => rgb,
                 };
-                (rgb, place.alpha_u)
+                (rgb, place.alpha_u())
             }
             Self::Style(styled) => styled.color(place, facts, sight, counts),
         }
@@ -115,7 +120,7 @@ impl<R: Real> Look<R> {
 }
 
 impl<R: Real> Styled<R> {
-    fn color(&self, place: &Place<R>, facts: &Facts<R>, sight: &Sight<R>, counts: &mut Counts) -> ([R; 3], R) {
+    fn color(&self, place: &impl Between<R>, facts: &Facts<R>, sight: &Sight<R>, counts: &mut Counts) -> ([R; 3], R) {
         let n = frame::on_sphere(self.frame, self.eye_axes.normal(facts, sight), sight.v_eye);
         // |N·v| counts as 1 where there is no normal ([PREC-3]).
         let n_dot_v = facts.normal.map_or(R::ONE, |n| n.dot(sight.v).abs());
@@ -124,24 +129,101 @@ impl<R: Real> Styled<R> {
         // A sample without a normal is on no contour, whatever the threshold.
         let on = self.contour.is_some() && facts.normal.is_some();
         let (x, y) = if on { contour::push(n.x, n.y, n_dot_v, tau) } else { (n.x, n.y) };
-        let blend = self.index.blend(place);
-        counts.style_lookups += blend.lookups();
-        let [r, g, b, alpha_d] = self.spheres.lookup(&blend, x, y);
+        let level = self.detail.as_ref().map(|d| d.below_last(facts.depth, facts.kappa, facts.magnitude));
+        let [r, g, b, alpha_d] = place.style(&self.index, &self.spheres, [x, y], level, counts);
         if alpha_d == R::ZERO {
             return ([R::ZERO; 3], R::ZERO);
         }
-        let share = transparency::share(self.transparency, place.alpha_u, n_dot_v, tau, facts.magnitude);
+        let share = transparency::share(self.transparency, place.alpha_u(), n_dot_v, tau, facts.magnitude);
         ([r / alpha_d, g / alpha_d, b / alpha_d], alpha_d * share)
     }
 }
 
-/// The colour between two nodes: linear straight colours interpolate by themselves ([VAL-3]).
-#[inline(always)]
-fn mixed<R: Real>(colors: &[[R; 3]], place: &Place<R>) -> [R; 3] {
-    let a = colors[place.node];
-    if place.w == R::ZERO {
-        return a;
+/// A place between the nodes of a function over one quantity or two.
+pub(super) trait Between<R: Real> {
+    /// α_u, above 0.
+    fn alpha_u(&self) -> R;
+
+    /// The colour between the nodes' linear straight colours, which interpolate by themselves ([VAL-3]).
+    fn color(&self, colors: &[[R; 3]]) -> [R; 3];
+
+    /// The style between the nodes' styles, looked up at (N_x, N_y): linear, premultiplied. `level` is that of
+    /// [`Detail::below_last`] in the mip chains; none: the styles themselves.
+    fn style(
+        &self,
+        index: &StyleIndex,
+        spheres: &Spheres<R>,
+        n: [R; 2],
+        level: Option<R>,
+        counts: &mut Counts,
+    ) -> [R; 4];
+}
+
+impl<R: Real> Between<R> for Place<R> {
+    #[inline(always)]
+    fn alpha_u(&self) -> R {
+        self.alpha_u
     }
-    let b = colors[place.node + 1];
-    [R::lerp(a[0], b[0], place.w), R::lerp(a[1], b[1], place.w), R::lerp(a[2], b[2], place.w)]
+
+    #[inline(always)]
+    fn color(&self, colors: &[[R; 3]]) -> [R; 3] {
+        let a = colors[self.node];
+        if self.w == R::ZERO {
+            return a;
+        }
+        mixed(a, colors[self.node + 1], self.w)
+    }
+
+    #[inline(always)]
+    fn style(
+        &self,
+        index: &StyleIndex,
+        spheres: &Spheres<R>,
+        [x, y]: [R; 2],
+        level: Option<R>,
+        counts: &mut Counts,
+    ) -> [R; 4] {
+        let blend = index.blend(self);
+        counts.style_lookups += blend.lookups();
+        match level {
+            None => spheres.lookup(&blend, x, y),
+            Some(level) => spheres.lookup_level(&blend, x, y, level),
+        }
+    }
+}
+
+impl<R: Real> Between<R> for Patch<R> {
+    #[inline]
+    fn alpha_u(&self) -> R {
+        self.alpha_u
+    }
+
+    #[inline]
+    fn color(&self, colors: &[[R; 3]]) -> [R; 3] {
+        let [a, b] = &self.rows;
+        if self.w == R::ZERO { a.color(colors) } else { mixed(a.color(colors), b.color(colors), self.w) }
+    }
+
+    #[inline]
+    fn style(
+        &self,
+        index: &StyleIndex,
+        spheres: &Spheres<R>,
+        [x, y]: [R; 2],
+        level: Option<R>,
+        counts: &mut Counts,
+    ) -> [R; 4] {
+        let blend = Blend2::new(index, self);
+        counts.style_lookups += blend.lookups();
+        match level {
+            None => spheres.lookup2(&blend, x, y),
+            Some(level) => spheres.lookup2_level(&blend, x, y, level),
+        }
+    }
+}
+
+/// Channel by channel, a + w(b − a).
+#[inline(always)]
+fn mixed<R: Real>(a: [R; 3], b: [R; 3], w: R) -> [R; 3] {
+    [R::lerp(a[0], b[0], w), R::lerp(a[1], b[1], w), R::lerp(a[2], b[2], w)]
 }

@@ -1,9 +1,9 @@
 //! The style transfer function (3.2, 4.1; [STF-3]): from a value to styles, and from styles to a colour.
 
-use super::SphereMap;
 use super::sphere_map::mix;
+use super::{MipMap, SphereMap};
 use crate::number::Real;
-use crate::transfer::Place;
+use crate::transfer::{Patch, Place};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::Mix;
 
@@ -70,22 +70,106 @@ impl<R: Real> Blend<R> {
     }
 }
 
+/// What two quantities show (4.2): the styles of two rows, mixed in the shares 1 − w and w.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blend2<R> {
+    /// j₀₀ and j₁₀, j₀₁ and j₁₁, each pair with w_x.
+    pub rows: [Blend<R>; 2],
+    /// w_y, the share of the second row, in [0, 1).
+    pub w: R,
+}
+
+impl<R: Real> Blend2<R> {
+    /// From the places in two rows: four lookups in ift.
+    #[inline]
+    pub fn new(index: &StyleIndex, patch: &Patch<R>) -> Self {
+        Self { rows: patch.rows.each_ref().map(|place| index.blend(place)), w: patch.w }
+    }
+
+    /// j₀₀, j₁₀, j₀₁, j₁₁; one without a share is its neighbour.
+    #[inline]
+    fn styles(&self) -> [usize; 4] {
+        let [a, b] = self.rows.map(|row| [row.j0, if row.is_pure() { row.j0 } else { row.j1 }]);
+        let b = if self.w == R::ZERO { a } else { b };
+        [a[0], a[1], b[0], b[1]]
+    }
+
+    /// How many style pictures a lookup reads: each once, one to four ([PLAN-2]).
+    #[inline]
+    pub fn lookups(&self) -> u64 {
+        let j = self.styles();
+        (0..4).map(|i| u64::from(!j[..i].contains(&j[i]))).sum()
+    }
+}
+
 /// The texture `sft` (4.1): the distinct styles of a transfer function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spheres<R> {
     maps: Vec<SphereMap<R>>,
+    /// The chain of each style, where the scene has `[style_mipmaps]`.
+    chains: Vec<MipMap<R>>,
     mix: Mix,
 }
 
 impl<R: Real> Spheres<R> {
     /// The styles in the order of their indices j.
     pub fn new(styles: &[Style], mix: Mix) -> Self {
-        Self { maps: styles.iter().map(SphereMap::new).collect(), mix }
+        Self { maps: styles.iter().map(SphereMap::new).collect(), chains: Vec::new(), mix }
+    }
+
+    /// The same with a mip chain for each of the styles, which are those that it was made from.
+    pub fn with_mipmaps(self, styles: &[Style]) -> Self {
+        Self { chains: styles.iter().map(MipMap::new).collect(), ..self }
+    }
+
+    /// The size of the mip chains in memory; none without them.
+    pub fn mipmap_bytes(&self) -> Option<usize> {
+        (!self.chains.is_empty()).then(|| self.chains.iter().map(MipMap::bytes).sum())
     }
 
     /// Style j.
     pub fn map(&self, j: usize) -> &SphereMap<R> {
         &self.maps[j]
+    }
+
+    /// (r, g, b, α_d) = (sft(n, j₀₀)(1 − w_x) + sft(n, j₁₀) w_x)(1 − w_y) + (sft(n, j₀₁)(1 − w_x) + sft(n, j₁₁) w_x) w_y
+    /// (4.2); mixed as [`lookup`](Self::lookup) does.
+    #[inline]
+    pub fn lookup2(&self, blend: &Blend2<R>, nx: R, ny: R) -> [R; 4] {
+        self.mixed2(blend, |j| self.maps[j].sample(nx, ny))
+    }
+
+    /// The same in the mip chains ([STF-10]), as [`Spheres::lookup_level`].
+    #[inline]
+    pub fn lookup2_level(&self, blend: &Blend2<R>, nx: R, ny: R, below_last: R) -> [R; 4] {
+        self.mixed2(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
+    }
+
+    /// The mix of what is looked up in each style of two rows.
+    #[inline(always)]
+    fn mixed2(&self, blend: &Blend2<R>, sft: impl Fn(usize) -> [R; 4]) -> [R; 4] {
+        let j = blend.styles();
+        let same = j.iter().all(|&k| k == j[0]);
+        if same || blend.w == R::ZERO {
+            return self.mixed(&blend.rows[0], sft);
+        }
+        let mut texels = [[R::ZERO; 4]; 4];
+        for i in 0..4 {
+            texels[i] = match j[..i].iter().position(|&k| k == j[i]) {
+                Some(read) => texels[read],
+                None => {
+                    let texel = sft(j[i]);
+                    if self.mix == Mix::Printed { straight(texel) } else { texel }
+                }
+            };
+        }
+        // A row of one style has the same texel twice, which any share returns exactly.
+        let row = |i: usize| mix(texels[2 * i], texels[2 * i + 1], blend.rows[i].w);
+        let [r, g, b, a] = mix(row(0), row(1), blend.w);
+        match self.mix {
+            Mix::Premultiplied => [r, g, b, a],
+            Mix::Printed => [r * a, g * a, b * a, a],
+        }
     }
 
     /// (r, g, b, α_d) = sft(n, j₀)(1 − w) + sft(n, j₁) w (4.1, step 4), linear and premultiplied by α_d. A style
@@ -95,11 +179,26 @@ impl<R: Real> Spheres<R> {
     /// by itself, so that a transparent style still lends its colour, and multiplies afterwards.
     #[inline]
     pub fn lookup(&self, blend: &Blend<R>, nx: R, ny: R) -> [R; 4] {
-        let first = self.maps[blend.j0].sample(nx, ny);
+        self.mixed(blend, |j| self.maps[j].sample(nx, ny))
+    }
+
+    /// The same in the mip chains ([STF-10]), at the level of detail `below_last` of [`Detail::below_last`]. Levels are
+    /// those of one style; styles mix after.
+    ///
+    /// [`Detail::below_last`]: super::Detail::below_last
+    #[inline]
+    pub fn lookup_level(&self, blend: &Blend<R>, nx: R, ny: R, below_last: R) -> [R; 4] {
+        self.mixed(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
+    }
+
+    /// The mix of what is looked up in each style.
+    #[inline(always)]
+    fn mixed(&self, blend: &Blend<R>, sft: impl Fn(usize) -> [R; 4]) -> [R; 4] {
+        let first = sft(blend.j0);
         if blend.is_pure() {
             return first;
         }
-        let second = self.maps[blend.j1].sample(nx, ny);
+        let second = sft(blend.j1);
         match self.mix {
             Mix::Premultiplied => mix(first, second, blend.w),
             Mix::Printed => {
@@ -176,6 +275,60 @@ mod tests {
         assert_eq!(printed, [0.375, 0.0, 0.375, 0.75]);
         let premultiplied = Spheres::<f64>::new(&styles, Mix::Premultiplied).lookup(&half, 0.0, 0.0);
         assert_eq!(premultiplied, [0.25, 0.0, 0.5, 0.75]);
+    }
+
+    fn blend2(j: [usize; 4], wx: [f64; 2], w: f64) -> Blend2<f64> {
+        let row = |j0, j1, w| Blend { j0, j1, w, alpha_u: 1.0 };
+        Blend2 { rows: [row(j[0], j[1], wx[0]), row(j[2], j[3], wx[1])], w }
+    }
+
+    #[test]
+    fn four_styles_by_hand() {
+        // Straight red, green, blue and white of opacities 1, ½, ½ and 0; a quarter across, half way down.
+        let color = |r, g, b, a| style(1, move |_, _| [r, g, b, a]);
+        let styles = [
+            color(1.0, 0.0, 0.0, 1.0),
+            color(0.0, 1.0, 0.0, 0.5),
+            color(0.0, 0.0, 1.0, 0.5),
+            color(1.0, 1.0, 1.0, 0.0),
+        ];
+        let blend = blend2([0, 1, 2, 3], [0.25, 0.25], 0.5);
+        assert_eq!(blend.lookups(), 4);
+        // The shares are 3/8, 1/8, 3/8, 1/8 of (1, 0, 0, 1), (0, ½, 0, ½), (0, 0, ½, ½), 0.
+        let premultiplied = Spheres::<f64>::new(&styles, Mix::Premultiplied).lookup2(&blend, 0.0, 0.0);
+        assert_eq!(premultiplied, [0.375, 0.0625, 0.1875, 0.625]);
+        // Printed: a lookup of opacity 0 has no colour; RGB (3/8, 1/8, 3/8), times 5/8.
+        let printed = Spheres::<f64>::new(&styles, Mix::Printed).lookup2(&blend, 0.0, 0.0);
+        assert_eq!(printed, [0.234375, 0.078125, 0.234375, 0.625]);
+    }
+
+    #[test]
+    fn each_style_is_read_once_and_only_where_it_has_a_share() {
+        assert_eq!(blend2([0, 1, 1, 0], [0.5, 0.5], 0.5).lookups(), 2);
+        assert_eq!(blend2([0, 0, 0, 0], [0.5, 0.5], 0.5).lookups(), 1);
+        assert_eq!(blend2([0, 1, 2, 3], [0.5, 0.0], 0.5).lookups(), 3);
+        assert_eq!(blend2([0, 1, 2, 3], [0.5, 0.5], 0.0).lookups(), 2);
+        let poison = Style { name: "poison".into(), side: 1, texels: vec![[f64::NAN; 4]] };
+        let styles = [style(1, |_, _| [0.5, 0.25, 0.125, 1.0]), style(1, |_, _| [0.25, 0.5, 0.0, 1.0]), poison];
+        for mix in [Mix::Premultiplied, Mix::Printed] {
+            let spheres = Spheres::<f64>::new(&styles, mix);
+            assert_eq!(spheres.lookup2(&blend2([0, 1, 2, 2], [0.5, 0.5], 0.0), 0.0, 0.0), [0.375, 0.375, 0.0625, 1.0]);
+            assert_eq!(spheres.lookup2(&blend2([0, 2, 1, 2], [0.0, 0.0], 0.5), 0.0, 0.0), [0.375, 0.375, 0.0625, 1.0]);
+        }
+    }
+
+    #[test]
+    fn two_rows_alike_are_one() {
+        let styles =
+            [style(4, |i, j| [i as f64 / 3.0, 0.2, j as f64, 0.3]), style(2, |_, j| [0.7, j as f64, 0.3, 0.9])];
+        for mix in [Mix::Premultiplied, Mix::Printed] {
+            let spheres = Spheres::<f64>::new(&styles, mix);
+            for (j1, w) in [(1, 0.3), (0, 0.3), (1, 0.0)] {
+                let row = Blend { j0: 0, j1, w, alpha_u: 1.0 };
+                let both = Blend2 { rows: [row; 2], w: 0.7 };
+                assert_eq!(spheres.lookup2(&both, 0.3, -0.2), spheres.lookup(&row, 0.3, -0.2));
+            }
+        }
     }
 
     #[test]

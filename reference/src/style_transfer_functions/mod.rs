@@ -4,7 +4,7 @@
 //! One visible sample passes through here in this order: [`crate::transfer`] says where the value lies and what α_u it has,
 //! [`lookup`] which styles (3.2, 4.1); [`frame`] says which normal is looked up; [`curvature_along_ray`] gives κ_v (3.3);
 //! [`contour`] turns it into the threshold τ (eq. 1) and pushes the normal outwards; the styles are looked up in their
-//! [`sphere_map`]s; and [`transparency`] makes the opacity (eq. 2), per reference length and not yet corrected for the
+//! [`sphere_map`]s, or in their [`mipmaps`] (4.3); and [`transparency`] makes the opacity (eq. 2), per reference length and not yet corrected for the
 //! step ([VAL-4]).
 
 pub mod contour;
@@ -12,9 +12,11 @@ pub mod curvature_along_ray;
 pub mod frame;
 pub mod gallery;
 pub mod lookup;
+pub mod mipmaps;
 pub mod sphere_map;
 pub mod transparency;
 
 pub use contour::Contour;
-pub use lookup::{Blend, Spheres, StyleIndex};
+pub use lookup::{Blend, Blend2, Spheres, StyleIndex};
+pub use mipmaps::{Detail, Footprint, MipMap};
 pub use sphere_map::SphereMap;

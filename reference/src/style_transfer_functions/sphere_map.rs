@@ -1,6 +1,7 @@
 //! The lookup of a lit sphere by a normal (3.1; [STF-1]).
 
 use crate::number::Real;
+use drypoint_scene::color::Rgba;
 use drypoint_scene::style::Style;
 
 /// One style's picture, sampled.
@@ -13,7 +14,17 @@ pub struct SphereMap<R> {
 impl<R: Real> SphereMap<R> {
     /// From a decoded style, whose texels outside the disk are already extended from its rim.
     pub fn new(style: &Style) -> Self {
-        Self { side: style.side, texels: style.texels.iter().map(|texel| texel.map(R::from_f64)).collect() }
+        Self::from_texels(style.side, &style.texels)
+    }
+
+    /// From S × S texels with the same property.
+    pub(super) fn from_texels(side: usize, texels: &[Rgba]) -> Self {
+        Self { side, texels: texels.iter().map(|texel| texel.map(R::from_f64)).collect() }
+    }
+
+    /// The size of the texels in memory.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.texels.as_slice())
     }
 
     /// Linear premultiplied (r, g, b, α_d) of the normal (N_x, N_y, ±N_z): bilinear, x then y, at

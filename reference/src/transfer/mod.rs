@@ -1,5 +1,11 @@
 //! Transfer functions between their nodes.
 
+pub mod gate;
+pub mod over;
 mod piecewise;
+mod plane;
+mod stops;
 
 pub use piecewise::{NodesError, Piecewise, Place};
+pub use plane::{Patch, Plane};
+pub use stops::{Coordinate, Stops};

@@ -34,7 +34,7 @@ pub struct Place<R> {
     pub node: usize,
     /// w = i − i₀, in [0, 1]: a value just below a node can round to the whole way.
     pub w: R,
-    /// α_u, above 0.
+    /// α_u, above 0; in a row of a function over two quantities it may be 0.
     pub alpha_u: R,
 }
 
@@ -90,26 +90,11 @@ impl<R: Real> Piecewise<R> {
     /// No node, lists of different length, a wrong order, positions whose range is not finite, an opacity outside
     /// [0, 1].
     pub fn new(at: &[f64], opacity: &[f64]) -> Result<Self, NodesError> {
-        let (&lowest, &highest) = at.first().zip(at.last()).ok_or(NodesError::Empty)?;
-        if at.len() != opacity.len() {
-            return Err(NodesError::Lengths { at: at.len(), opacity: opacity.len() });
-        }
-        if let Some(node) = opacity.iter().position(|a| !(0.0..=1.0).contains(a)) {
-            return Err(NodesError::Opacity { node, opacity: opacity[node] });
-        }
-        if let Some(&odd) = at.iter().find(|a| !a.is_finite()) {
-            return Err(NodesError::Range { first: lowest, last: odd });
-        }
-        if let Some(node) = (1..at.len()).find(|&k| at[k] < at[k - 1]) {
-            return Err(NodesError::Order { node, at: at[node], before: at[node - 1] });
-        }
+        check::<R>(at, opacity)?;
         let at: Vec<R> = at.iter().map(|&a| R::from_f64(a)).collect();
         let opacity: Vec<R> = opacity.iter().map(|&a| R::from_f64(a)).collect();
         let (first, last) = (at[0].to_f64(), at[at.len() - 1].to_f64());
         let width = (at[at.len() - 1] - at[0]).to_f64();
-        if !width.is_finite() {
-            return Err(NodesError::Range { first: lowest, last: highest });
-        }
         let segment = |v: f64| at.iter().rposition(|a| a.to_f64() <= v).unwrap_or(0);
         let parts = (0..=PARTS)
             .map(|part| {
@@ -165,6 +150,28 @@ impl<R: Real> Piecewise<R> {
         }
         k
     }
+}
+
+/// Whether nodes make a function: at least one, an opacity in [0, 1] for each, in non-decreasing order, and positions
+/// whose range is finite in this type.
+pub(super) fn check<R: Real>(at: &[f64], opacity: &[f64]) -> Result<(), NodesError> {
+    let (&lowest, &highest) = at.first().zip(at.last()).ok_or(NodesError::Empty)?;
+    if at.len() != opacity.len() {
+        return Err(NodesError::Lengths { at: at.len(), opacity: opacity.len() });
+    }
+    if let Some(node) = opacity.iter().position(|a| !(0.0..=1.0).contains(a)) {
+        return Err(NodesError::Opacity { node, opacity: opacity[node] });
+    }
+    if let Some(&odd) = at.iter().find(|a| !a.is_finite()) {
+        return Err(NodesError::Range { first: lowest, last: odd });
+    }
+    if let Some(node) = (1..at.len()).find(|&k| at[k] < at[k - 1]) {
+        return Err(NodesError::Order { node, at: at[node], before: at[node - 1] });
+    }
+    if !(R::from_f64(highest) - R::from_f64(lowest)).to_f64().is_finite() {
+        return Err(NodesError::Range { first: lowest, last: highest });
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -42,6 +42,18 @@ fn a_scene_needs_what_its_effects_need_and_no_more() {
         (REGULAR, "[picture]\nlayers = [\"curvature\"]\n", &[Value, Gradient, PreviousNormal, Hessian]),
         (REGULAR, "[picture]\nlayers = [\"curvature\"]\n[contours]\nkappa = \"exact\"\n", &[Value, Gradient, Hessian]),
         (PLAIN, "[picture]\nlayers = [\"curvature.KV\"]\n[contours]\nkappa = \"exact\"\n", &[Value, Gradient, Hessian]),
+        // Mip-maps have the κ of the contours, or else the one along the ray; a bias of 0 needs nothing.
+        (PLAIN, "[style_mipmaps]\n", &[Value, Gradient, PreviousNormal, GradientMagnitudeRange]),
+        (PLAIN, "[style_mipmaps]\ngradient_bias = 0\n", &[Value, Gradient, PreviousNormal]),
+        (PLAIN, "[style_mipmaps]\ncurvature_bias = 0\n", &[Value, Gradient, GradientMagnitudeRange]),
+        (PLAIN, "[style_mipmaps]\ncurvature_bias = 0\ngradient_bias = 0\n", &[Value, Gradient]),
+        (
+            PLAIN,
+            "[style_mipmaps]\n[contours]\nkappa = \"exact\"\n",
+            &[Value, Gradient, Hessian, GradientMagnitudeRange],
+        ),
+        (PLAIN, "[style_mipmaps]\n[contours]\nkappa = \"none\"\n", &[Value, Gradient, GradientMagnitudeRange]),
+        (REGULAR, "[style_mipmaps]\n", &[Value]),
     ];
     for (transfer, rest, expected) in cases {
         assert_eq!(quantities(&plan(&format!("{transfer}{rest}"))), *expected, "{transfer}{rest}");
@@ -115,6 +127,8 @@ fn passes_are_those_that_are_called_for() {
         assert_eq!(plan(&format!("{exact} \"{hessian}\"\n")).has_pass(Pass::SmoothedCoefficients), smoothed);
     }
     assert!(!plan("[sampling]\nhessian = \"gaussian\"\n").has_pass(Pass::SmoothedCoefficients));
+    assert!(plan(&format!("{PLAIN}[style_mipmaps]\n")).has_pass(Pass::StyleMipmaps));
+    assert!(![PLAIN, &format!("{REGULAR}[style_mipmaps]\n")].iter().any(|s| plan(s).has_pass(Pass::StyleMipmaps)));
 }
 
 #[test]
@@ -142,9 +156,11 @@ fn every_need_is_one_that_the_description_of_its_key_lists() {
             })
         })
         .collect();
-    let everything = "[contours]\nfade = [0, 1]\n[picture]\nlayers = [\"normal\", \"gradient\", \"curvature\"]\n";
+    let everything =
+        "[contours]\nfade = [0, 1]\n[style_mipmaps]\n[picture]\nlayers = [\"normal\", \"gradient\", \"curvature\"]\n";
     let firsts = "[picture]\nlayers = [\"first.normal\", \"first.curvature\"]\n[transfer]\nkind = \"regular\"\n";
-    for rest in [everything, firsts, "[contours]\nkappa = \"exact\"\n", "[shading]\n[transfer]\nkind = \"regular\"\n"] {
+    let exact = "[style_mipmaps]\n[contours]\nkappa = \"exact\"\n";
+    for rest in [everything, firsts, exact, "[shading]\n[transfer]\nkind = \"regular\"\n"] {
         for need in plan(rest).needs {
             let key = need.key.split('[').next().unwrap();
             let (_, needs) = listed.iter().find(|(name, _)| name == key).unwrap_or_else(|| panic!("{key}"));
@@ -170,6 +186,10 @@ fn keys_without_effect_are_listed_not_refused() {
     assert_eq!(keys("[contours]\nsign_flip = \"literal\"\n"), ["contours.sign_flip"]);
     assert!(keys("[sampling]\nnormal = \"facing\"\n[contours]\nsign_flip = \"literal\"\n").is_empty());
     assert_eq!(keys("[shading]\n"), ["shading"]);
+    assert_eq!(keys(&format!("{REGULAR}[style_mipmaps]\n")), ["style_mipmaps"]);
+    let constant = "[contours]\nkappa = \"none\"\n[style_mipmaps]\ncurvature_bias =";
+    assert_eq!(keys(&format!("{constant} 1\n")), ["style_mipmaps.curvature_bias"]);
+    assert!(keys(&format!("{constant} 0\n")).is_empty());
     assert_eq!(keys(&format!("{REGULAR}[shading]\nspecular = 0\nshininess = 9\n")), ["shading.shininess"]);
     assert_eq!(
         keys(&format!("gradient_range = \"max\"\noutside = \"high\"\nrange = [0, 1]\n{REGULAR}")),

@@ -6,12 +6,14 @@
 mod decode;
 mod error;
 mod load;
+mod mipmaps;
 mod rim;
 mod theme;
 
 pub use decode::MAX_SIDE;
 pub use error::{PictureFault, StyleError};
 pub use load::load;
+pub use mipmaps::MipLevel;
 pub use rim::is_inside;
 pub use theme::Theme;
 

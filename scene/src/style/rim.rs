@@ -42,9 +42,16 @@ fn nearest(rows: &[Range<usize>], i: usize, j: usize) -> [usize; 2] {
 /// Gives each texel outside the disk the colour of its nearest inside one.
 pub(super) fn extend(side: usize, texels: &mut [Rgba]) {
     let rows: Vec<Range<usize>> = (0..side).map(|j| inside_of_row(side, j)).collect();
+    extend_rows(&rows, texels);
+}
+
+/// The same where the inside columns of every row are given: none empty, symmetric, and no longer than in a row nearer to
+/// the middle.
+pub(super) fn extend_rows(rows: &[Range<usize>], texels: &mut [Rgba]) {
+    let side = rows.len();
     for j in 0..side {
         for i in (0..rows[j].start).chain(rows[j].end..side) {
-            let [from, row] = nearest(&rows, i, j);
+            let [from, row] = nearest(rows, i, j);
             texels[j * side + i] = texels[row * side + from];
         }
     }

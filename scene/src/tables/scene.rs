@@ -2,10 +2,10 @@
 
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, LightDirection, PictureSettings, Sampling, Shading, Styles, Transfer, TransferKind, VolumeSource,
-    VolumeTable,
+    Camera, Contours, LightDirection, PictureSettings, Sampling, Shading, StyleMipmaps, Styles, Transfer, TransferKind,
+    VolumeSource, VolumeTable,
 };
-use super::{camera, contours, picture, sampling, shading, styles, transfer, volume};
+use super::{camera, contours, picture, sampling, shading, style_mipmaps, styles, transfer, volume};
 use crate::file::Given;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
@@ -38,6 +38,8 @@ pub struct Scene {
     pub shading: Option<Shading>,
     /// Style contours; none: no contour.
     pub contours: Option<Contours>,
+    /// Mip-maps of the styles; none: each lookup reads the style itself.
+    pub style_mipmaps: Option<StyleMipmaps>,
     /// Which keys the scene said itself, and where. It takes no part in comparisons.
     pub given: Given,
 }
@@ -60,6 +62,7 @@ impl Scene {
             styles: Styles::default(),
             shading: None,
             contours: None,
+            style_mipmaps: None,
             given: Given::default(),
         }
     }
@@ -104,7 +107,6 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("orbit", "STIP-4"),
         later("page", "IO-7"),
         later("pen", "IO-7"),
-        later("style_mipmaps", "STF-10"),
         later("halo", "HALO-1"),
         later("combine", "VS-3"),
         later("object", "VS-2"),
@@ -262,6 +264,17 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 },
             )
             .absent("no contours"),
+            Key::new(
+                "style_mipmaps",
+                "STF-10",
+                "Styles read at the level of detail that the picture can show.",
+                &Slot {
+                    kind: TableOf(&style_mipmaps::TABLE),
+                    get: |s: &Scene| s.style_mipmaps.clone(),
+                    set: |s, v| s.style_mipmaps = Some(v),
+                },
+            )
+            .absent("no mip-maps"),
         ],
     )
 };

@@ -8,7 +8,7 @@ use crate::file::kind::{Flag, PathTo, TableOf};
 use crate::file::names;
 use crate::file::out::Out;
 use crate::nearest::nearest;
-use crate::tables::{NodeColor, Scene, TransferKind};
+use crate::tables::{Node, NodeColor, Scene, TransferKind};
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
@@ -58,8 +58,9 @@ pub(crate) static TABLE: Table<Styles> = Table {
         let Some(transfer) = &scene.transfer else { return };
         if transfer.kind == TransferKind::Regular {
             idle.key("styles", "a regular function names no style");
-        } else if let Some(nodes) = &transfer.nodes {
-            let named = |style: &str| nodes.iter().any(|node| matches!(&node.color, NodeColor::Style(s) if s == style));
+        } else if !transfer.is_automatic() {
+            let is = |node: &Node, style: &str| matches!(&node.color, NodeColor::Style(s) if s == style);
+            let named = |style: &str| transfer.all_nodes().any(|node| is(node, style));
             for (name, _) in scene.styles.files.iter().filter(|(name, _)| !named(name)) {
                 idle.key(&format!("styles.{}", crate::file::out::key(name)), "no node names it");
             }

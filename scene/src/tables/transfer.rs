@@ -1,10 +1,12 @@
-//! `[transfer]`: colours or styles, and opacities, over the values.
+//! `[transfer]`: colours or styles, and opacities, over the values or over two quantities.
 
-use crate::file::Problem;
+use super::nodes::{NodeList, Nodes, ROWS, Row};
+use super::over::{Axis, Over, OverKind};
+use super::transfer_rules as rules;
 use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table as Description};
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, ListOf, Number, TableOf, Text, Whole};
+use crate::file::describe::{Instead, Key, Kind, Shape, Slot, Table as Description};
+use crate::file::item::Item;
+use crate::file::kind::{Choice, ChoiceOption, Whole};
 use crate::file::out::Out;
 use crate::plan::{Pass, Quantity};
 use crate::tables::Projection;
@@ -15,10 +17,14 @@ use serde_json::{Value as Json, json};
 pub struct Transfer {
     /// Styles or colours.
     pub kind: TransferKind,
-    /// What `at` is measured in.
+    /// The value, or two quantities ([STF-4]).
+    pub over: Over,
+    /// What `at` of values is measured in; `normalized` for gradient magnitudes too.
     pub unit: Unit,
-    /// Nodes in non-decreasing order of `at`; none: an automatic function.
+    /// Nodes over the value in non-decreasing order of `at`; with no rows either: an automatic function.
     pub nodes: Option<Vec<Node>>,
+    /// Nodes over two quantities; a full grid is as many rows with the same places.
+    pub rows: Option<Vec<Row>>,
     /// How styles become opacity ([STF-9]).
     pub transparency: Transparency,
     /// How two styles mix ([STF-3]).
@@ -52,7 +58,7 @@ pub enum Unit {
 /// One node of a transfer function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Value.
+    /// The value, or the first of two quantities.
     pub at: f64,
     /// Style or colour.
     pub color: NodeColor,
@@ -110,54 +116,49 @@ impl Transfer {
     pub fn automatic(kind: TransferKind) -> Self {
         Self {
             kind,
+            over: Over::Value,
             unit: Unit::Value,
             nodes: None,
+            rows: None,
             transparency: Transparency::Illustrative,
             mix: Mix::Premultiplied,
             sphere_frame: SphereFrame::Eye,
             table: Table::Exact,
         }
     }
+
+    /// Whether the function is left to be found from the data.
+    pub fn is_automatic(&self) -> bool {
+        self.nodes.is_none() && self.rows.is_none()
+    }
+
+    /// Every node, row by row.
+    pub fn all_nodes(&self) -> impl Iterator<Item = &Node> {
+        let rows = self.rows.iter().flatten().flat_map(|row| &row.nodes);
+        self.nodes.iter().flatten().chain(rows)
+    }
 }
 
 /// The description of `[transfer]`.
 pub(crate) static TABLE: Description<Transfer> = Description {
-    later: &[Later { name: "rows", tag: "STF-4" }],
+    instead: &[Instead { one: "rows", others: &["nodes"] }],
     check: |transfer, check| {
-        if !check.sound(&["kind"]) {
-            return;
+        if check.sound(&["kind"]) {
+            rules::kind(transfer.kind, check);
         }
-        let (wrong, right, kind) = match transfer.kind {
-            TransferKind::Style => ("color", "style", "style"),
-            TransferKind::Regular => ("style", "color", "regular"),
-        };
-        let mut i = 0;
-        while check.has(&format!("nodes[{i}]")) {
-            let key = format!("nodes[{i}].{wrong}");
-            if check.has(&key) && !check.has(&format!("nodes[{i}].{right}")) {
-                let what = format!("a node of a {kind} function has a {wrong}");
-                let remedy = format!(
-                    "give it a {right}, or write kind = {:?}",
-                    if wrong == "color" { "regular" } else { "style" }
-                );
-                check.fault_in(&key, Problem::Contradiction { what, remedy });
-            }
-            if transfer.unit == Unit::Percentile
-                && let Some(node) = transfer.nodes.as_ref().and_then(|nodes| nodes.get(i))
-                && !(0.0..=100.0).contains(&node.at)
-            {
-                let what = format!("{} is no percentile", node.at);
-                let remedy = "write a number from 0 to 100, or another transfer.unit".into();
-                check.fault_in(&format!("nodes[{i}].at"), Problem::Contradiction { what, remedy });
-            }
-            i += 1;
+        if check.sound(&["over", "nodes", "rows"]) {
+            rules::over(transfer, check);
+            rules::percentiles(transfer, check);
         }
     },
     asks: |scene, asks| {
         let Some(transfer) = &scene.transfer else { return };
         asks.need(Quantity::Value, "transfer function", "transfer");
-        if transfer.nodes.is_none() {
+        if transfer.is_automatic() {
             asks.pass(Pass::AutomaticTransfer, "automatic function", "transfer.nodes");
+        }
+        if transfer.over != Over::Value {
+            transfer.over.axes().iter().for_each(|axis| axis.asks(scene, transfer.unit, asks));
         }
         if transfer.kind == TransferKind::Style {
             asks.need(Quantity::Gradient, "styles", "transfer.kind");
@@ -168,8 +169,10 @@ pub(crate) static TABLE: Description<Transfer> = Description {
     },
     idle: |scene, _, idle| {
         let Some(transfer) = &scene.transfer else { return };
-        if transfer.nodes.is_none() {
+        if transfer.is_automatic() {
             idle.key("transfer.unit", "an automatic function has no nodes to measure");
+        } else if !transfer.over.axes().iter().any(|axis| matches!(axis, Axis::Value | Axis::GradientMagnitude)) {
+            idle.key("transfer.unit", "it measures values and gradient magnitudes, and the function is over others");
         }
         if transfer.kind == TransferKind::Regular {
             for key in ["transfer.transparency", "transfer.mix", "transfer.sphere_frame"] {
@@ -181,7 +184,8 @@ pub(crate) static TABLE: Description<Transfer> = Description {
     },
     ..Description::new(
         "[transfer]",
-        "Colours or styles, and opacities, over the values. Without `nodes` the function is automatic.",
+        "Colours or styles, and opacities, over the values or over two quantities. Without `nodes` and `rows` the \
+         function is automatic.",
         || Transfer::automatic(TransferKind::Style),
         &[
             Key::new(
@@ -204,13 +208,24 @@ pub(crate) static TABLE: Description<Transfer> = Description {
             Key::new(
                 "over",
                 "STF-4",
-                "The quantity that the function is over.",
-                &Slot { kind: Over, get: |_| Some(()), set: |_, ()| {} },
-            ),
+                "What the function is over: the value, or two quantities, such as [\"value\", \"gradient-magnitude\"]. \
+                 Quantities: \"value\"; \"gradient-magnitude\", in value per world unit; \"label\", the id of the part; \
+                 \"k1\", \"k2\", \"mean\", \"gaussian\" and \"kv\", curvatures in reciprocal world units; or a table with \
+                 one of the keys below. Of two \"value\" is best one: it tells what space is empty.",
+                &Slot { kind: OverKind, get: |t: &Transfer| Some(t.over.clone()), set: |t, v| t.over = v },
+            )
+            .needs(&[
+                Quantity::Gradient,
+                Quantity::GradientMagnitudeRange,
+                Quantity::PreviousNormal,
+                Quantity::Hessian,
+                Quantity::Label,
+            ]),
             Key::new(
                 "unit",
                 "VS-11",
-                "What `at` is measured in.",
+                "What `at` of values is measured in; with \"normalized\" gradient magnitudes are |g|, by \
+                 `volume.gradient_range`.",
                 &Slot {
                     kind: Choice {
                         options: &[
@@ -227,10 +242,26 @@ pub(crate) static TABLE: Description<Transfer> = Description {
             Key::new(
                 "nodes",
                 "STF-3",
-                "Nodes in non-decreasing order of `at`. Of two at one value the later one holds at the value itself.",
-                &Slot { kind: Nodes, get: |t: &Transfer| t.nodes.clone(), set: |t, v| t.nodes = Some(v) },
+                "Nodes in non-decreasing order of `at`. Of two at one value the later one holds at the value itself. \
+                 Over two quantities each has at = [x, y], and they form a full grid, row by row.",
+                &Slot {
+                    kind: Nodes,
+                    get: |t: &Transfer| t.nodes.clone().map(NodeList::Line),
+                    set: |t, list| match list {
+                        NodeList::Line(nodes) => t.nodes = Some(nodes),
+                        NodeList::Grid(rows) => t.rows = Some(rows),
+                    },
+                },
             )
-            .absent("an automatic function"),
+            .absent("`rows`, or an automatic function"),
+            Key::new(
+                "rows",
+                "STF-4",
+                "Nodes over two quantities: each row has its own over the first one. Between rows the function is \
+                 interpolated; a label without a row shows nothing.",
+                &Slot { kind: ROWS, get: |t: &Transfer| t.rows.clone(), set: |t, v| t.rows = Some(v) },
+            )
+            .absent("`nodes`"),
             Key::new(
                 "transparency",
                 "STF-9",
@@ -293,204 +324,6 @@ pub(crate) static TABLE: Description<Transfer> = Description {
         ],
     )
 };
-
-/// The description of a node. A colour's opacity multiplies `opacity`, so `color` is read after it.
-static NODE: Description<Node> = Description {
-    check: |_, check| match (check.has("style"), check.has("color")) {
-        (true, true) => {
-            let what = "a node has both style and color".into();
-            let remedy = "keep the style in a style function, the color in a regular one".into();
-            check.fault_in("color", Problem::Contradiction { what, remedy });
-        }
-        (false, false) => {
-            let expected = "style = \"…\", or color = \"#rrggbb\" in a regular function".into();
-            check.fault_in("style", Problem::Missing { expected });
-        }
-        (true, false) | (false, true) => {}
-    },
-    ..Description::new(
-        "a node",
-        "One node of a transfer function.",
-        || Node { at: 0.0, color: NodeColor::Style(String::new()), opacity: 1.0 },
-        &[
-            Key::new(
-                "at",
-                "STF-3",
-                "The value.",
-                &Slot {
-                    kind: Number { bounds: Bounds::ANY, unit: "" },
-                    get: |n: &Node| Some(n.at),
-                    set: |n, v| n.at = v,
-                },
-            )
-            .required(),
-            Key::new(
-                "style",
-                "STF-3",
-                "The name of a style; in a style function.",
-                &Slot {
-                    kind: StyleName,
-                    get: |n: &Node| match &n.color {
-                        NodeColor::Style(name) => Some(name.clone()).filter(|name| !name.is_empty()),
-                        NodeColor::Color(_) => None,
-                    },
-                    set: |n, v| n.color = NodeColor::Style(v),
-                },
-            ),
-            Key::new(
-                "opacity",
-                "VAL-4",
-                "Opacity for a `sampling.reference_length`.",
-                &Slot {
-                    kind: Number { bounds: Bounds::UNIT, unit: "" },
-                    get: |n: &Node| Some(n.opacity),
-                    set: |n, v| n.opacity = v,
-                },
-            ),
-            Key::new(
-                "color",
-                "VAL-3",
-                "A colour; in a regular function. Its own opacity multiplies `opacity`.",
-                &Slot {
-                    kind: Colors,
-                    get: |n: &Node| match n.color {
-                        NodeColor::Style(_) => None,
-                        NodeColor::Color([r, g, b]) => Some([r, g, b, 1.0]),
-                    },
-                    set: |n, [r, g, b, a]| {
-                        n.color = NodeColor::Color([r, g, b]);
-                        n.opacity *= a;
-                    },
-                },
-            ),
-        ],
-    )
-};
-
-/// A list of nodes in order.
-struct Nodes;
-
-/// The nodes, whatever their order.
-const NODES: ListOf<TableOf<Node>> = ListOf { what: "a list of nodes", each: TableOf(&NODE) };
-
-impl Shape for Nodes {
-    fn expected(&self) -> String {
-        NODES.expected()
-    }
-
-    fn schema(&self) -> Json {
-        NODES.schema()
-    }
-
-    fn item_section(&self) -> Option<Section> {
-        NODES.item_section()
-    }
-}
-
-impl Kind for Nodes {
-    type Of = Vec<Node>;
-
-    fn read(&self, item: &Item, check: &mut Check) -> Option<Vec<Node>> {
-        let nodes = NODES.read(item, check);
-        // The order is looked at in the document, so that it is judged beside other faults of the nodes.
-        let at = |node: &Item| match &node.value {
-            Value::Table(entries) => entries.get("at").and_then(|entry| entry.item.number()),
-            _ => None,
-        };
-        let values: Vec<Option<f64>> = item.list().unwrap_or_default().iter().map(at).collect();
-        let mut ordered = true;
-        for (i, pair) in values.windows(2).enumerate() {
-            if let [Some(before), Some(after)] = pair
-                && after < before
-            {
-                ordered = false;
-                let what = format!("node {} at {after} stands after node {i} at {before}", i + 1);
-                let remedy = "put the nodes in non-decreasing order of `at`".into();
-                let tail = format!("[{}].at", i + 1);
-                check.fault_in_list(&tail, Problem::Contradiction { what, remedy });
-            }
-        }
-        nodes.filter(|_| ordered)
-    }
-
-    fn write(&self, value: &Vec<Node>) -> Out {
-        NODES.write(value)
-    }
-}
-
-/// The name of a style, which must be known once the whole scene is read.
-struct StyleName;
-
-/// A name.
-const NAME: Text = Text { what: "the name of a style" };
-
-impl Shape for StyleName {
-    fn expected(&self) -> String {
-        NAME.expected()
-    }
-
-    fn schema(&self) -> Json {
-        NAME.schema()
-    }
-}
-
-impl Kind for StyleName {
-    type Of = String;
-
-    fn read(&self, item: &Item, check: &mut Check) -> Option<String> {
-        let name = NAME.read(item, check)?;
-        check.refer_to_style(&name, &item.place);
-        Some(name)
-    }
-
-    fn write(&self, value: &String) -> Out {
-        NAME.write(value)
-    }
-}
-
-/// `"value"`; further quantities and pairs of them are not built yet.
-struct Over;
-
-impl Over {
-    const ONE: Choice<()> = Choice {
-        options: &[ChoiceOption::new("value", (), "The value of the volume.")],
-        later: &[
-            ("gradient-magnitude", "STF-4"),
-            ("label", "STF-4"),
-            ("k1", "STF-4"),
-            ("k2", "STF-4"),
-            ("mean", "STF-4"),
-            ("gaussian", "STF-4"),
-            ("kv", "STF-4"),
-        ],
-    };
-}
-
-impl Shape for Over {
-    fn expected(&self) -> String {
-        Self::ONE.expected()
-    }
-
-    fn schema(&self) -> Json {
-        Self::ONE.schema()
-    }
-}
-
-impl Kind for Over {
-    type Of = ();
-
-    fn read(&self, item: &Item, check: &mut Check) -> Option<()> {
-        match item.value {
-            Value::List(_) => check.not_built(&item.place, "a function over two quantities".into(), "STF-4"),
-            Value::Table(_) => check.not_built(&item.place, "a function over another quantity".into(), "STF-4"),
-            _ => Self::ONE.read(item, check),
-        }
-    }
-
-    fn write(&self, value: &()) -> Out {
-        Self::ONE.write(value)
-    }
-}
 
 /// `"exact"`; a number of entries is what a GPU does, and nothing here evaluates it yet.
 struct Evaluation;

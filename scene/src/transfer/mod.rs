@@ -1,21 +1,39 @@
-//! Transfer functions over data values: piecewise-linear nodes, and what a range of values can make visible ([RAY-2]).
+//! Transfer functions over data values and other quantities: piecewise-linear nodes, and what a range of values can make
+//! visible ([RAY-2]).
 
-use crate::tables::{Node, NodeColor, Transfer, Unit};
+use crate::tables::{Axis, Node, NodeColor, Over, Row, RowAt, Transfer, Unit};
 use crate::volume::Volume;
 use crate::volume::histogram::quantiles;
+use std::cmp::Ordering;
+use std::ops::Range;
 
-/// The nodes of a transfer function over data values, in non-decreasing order ([STF-3]).
+/// The nodes of a transfer function ([STF-3]); over two quantities those of all rows, row after row ([STF-4]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nodes<C> {
-    /// The value of each node.
+    /// The value of each node, or the first of the two quantities; in non-decreasing order, in each row anew.
     pub at: Vec<f64>,
     /// α_u of each node, per reference length.
     pub opacity: Vec<f64>,
     /// What each node shows: an index j into the distinct styles, or a linear straight colour.
     pub color: Vec<C>,
+    /// How the nodes are rows of a function over two quantities; none: they are one line over the value.
+    pub rows: Option<Rows>,
 }
 
-/// A transfer function of either kind, over data values.
+/// The rows of a transfer function over two quantities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rows {
+    /// The quantities: the first along a row, the second from row to row.
+    pub over: [Axis<u32>; 2],
+    /// Where each row stands: in non-decreasing order, for labels in ascending order of their ids.
+    pub at: Vec<f64>,
+    /// The first node of each row.
+    pub first: Vec<usize>,
+    /// Whether gradient magnitudes are |g| of [VAL-2], not ‖g‖ in value per world unit.
+    pub normalized: bool,
+}
+
+/// A transfer function of either kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Function {
     /// Styles by their index in [`Function::Style::names`].
@@ -29,12 +47,63 @@ pub enum Function {
     Regular(Nodes<[f64; 3]>),
 }
 
+/// A name or an id that a transfer function gives and that makes no function.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FunctionError {
+    /// No label has that name.
+    #[error("there is no label {name:?}")]
+    UnknownLabel {
+        /// The name.
+        name: String,
+        /// The row that stands at it; none where a distance to it is asked for.
+        row: Option<usize>,
+    },
+    /// Two rows stand at one label, by its name and by its id or another name.
+    #[error("row {row} stands at label {id}, as another one does")]
+    LabelTwice {
+        /// The later of the two.
+        row: usize,
+        /// The label.
+        id: u32,
+    },
+}
+
 impl Function {
-    /// Turns the nodes of a scene into nodes over the values of a volume. `None` where the scene leaves the function
-    /// to be found from the data.
-    pub fn new(transfer: &Transfer, range: [f64; 2], volume: &Volume) -> Option<Self> {
-        let nodes = transfer.nodes.as_ref()?;
-        let at = values(nodes, transfer.unit, range, volume);
+    /// Turns the nodes of a scene into nodes over the values of a volume. `id_of` knows the labels by their names. `None`
+    /// where the scene leaves the function to be found from the data.
+    ///
+    /// # Errors
+    /// A label that `id_of` does not know, or that has two rows.
+    pub fn new(
+        transfer: &Transfer,
+        range: [f64; 2],
+        volume: &Volume,
+        id_of: &dyn Fn(&str) -> Option<u32>,
+    ) -> Result<Option<Self>, FunctionError> {
+        if transfer.is_automatic() {
+            return Ok(None);
+        }
+        let to_values = |at: Vec<f64>, axis: Option<&Axis>| match axis {
+            None | Some(Axis::Value) => values(at, transfer.unit, range, volume),
+            Some(_) => at,
+        };
+        let (lines, rows) = match (&transfer.over, &transfer.rows) {
+            (Over::Two(axes), Some(rows)) => {
+                let (order, rows_at) = standing(rows, id_of)?;
+                let lines: Vec<&[Node]> = order.iter().map(|&row| rows[row].nodes.as_slice()).collect();
+                let first = lines.iter().scan(0, |next, line| Some(std::mem::replace(next, *next + line.len())));
+                let unknown = |name: &str| FunctionError::UnknownLabel { name: name.into(), row: None };
+                let [x, y] = axes;
+                let over = [x.resolved(id_of).map_err(unknown)?, y.resolved(id_of).map_err(unknown)?];
+                let normalized = transfer.unit == Unit::Normalized;
+                let at = to_values(rows_at, Some(y));
+                let rows = Rows { over, at, first: first.collect(), normalized };
+                (lines, Some(rows))
+            }
+            _ => (vec![transfer.nodes.as_deref().unwrap_or_default()], None),
+        };
+        let nodes: Vec<&Node> = lines.into_iter().flatten().collect();
+        let at = to_values(nodes.iter().map(|n| n.at).collect(), rows.as_ref().map(|_| &transfer.over.axes()[0]));
         let opacity = nodes.iter().map(|n| n.opacity).collect();
         let mut names: Vec<String> = Vec::new();
         let mut styles = Vec::new();
@@ -51,21 +120,70 @@ impl Function {
                 }
             }
         }
-        Some(if names.is_empty() {
-            Self::Regular(Nodes { at, opacity, color: colors })
+        Ok(Some(if names.is_empty() {
+            Self::Regular(Nodes { at, opacity, color: colors, rows })
         } else {
-            Self::Style { nodes: Nodes { at, opacity, color: styles }, names }
-        })
+            Self::Style { nodes: Nodes { at, opacity, color: styles, rows }, names }
+        }))
     }
 
-    /// Whether a value in [lo, hi] can have α_u > 0. `rounded` gives the value of a node as samples are compared with it,
-    /// in their number type: f32 can round a node down to a value that a brick reaches.
-    pub fn can_be_visible(&self, range: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
+    /// The positions and opacities of the nodes, and their rows.
+    pub fn nodes(&self) -> (&[f64], &[f64], Option<&Rows>) {
         match self {
-            Self::Style { nodes, .. } => can_be_visible(&nodes.at, &nodes.opacity, range, rounded),
-            Self::Regular(nodes) => can_be_visible(&nodes.at, &nodes.opacity, range, rounded),
+            Self::Style { nodes: Nodes { at, opacity, rows, .. }, .. } => (at, opacity, rows.as_ref()),
+            Self::Regular(Nodes { at, opacity, rows, .. }) => (at, opacity, rows.as_ref()),
         }
     }
+
+    /// Whether a value in [lo, hi] can have α_u > 0, for any second quantity. `rounded` gives the value of a node as
+    /// samples are compared with it, in their number type: f32 can round a node down to a value that a brick reaches.
+    pub fn can_be_visible(&self, range: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
+        let (at, opacity, rows) = self.nodes();
+        let Some(rows) = rows else { return can_be_visible(at, opacity, range, rounded) };
+        match &rows.over {
+            [Axis::Value, _] => {
+                rows.spans(at.len()).any(|span| can_be_visible(&at[span.clone()], &opacity[span], range, &rounded))
+            }
+            [_, Axis::Value] => {
+                let highest = |span: Range<usize>| opacity[span].iter().copied().fold(0.0, f64::max);
+                let highest: Vec<f64> = rows.spans(at.len()).map(highest).collect();
+                can_be_visible(&rows.at, &highest, range, rounded)
+            }
+            _ => opacity.iter().any(|&a| a > 0.0),
+        }
+    }
+}
+
+impl Rows {
+    /// The nodes of each row, of `nodes` in all.
+    pub fn spans(&self, nodes: usize) -> impl Iterator<Item = Range<usize>> {
+        let ends = self.first.iter().skip(1).copied().chain([nodes]);
+        self.first.iter().copied().zip(ends).map(|(first, end)| first..end)
+    }
+}
+
+/// The order in which rows are kept, and where each stands then: as they are written, where some are labels by their
+/// ids.
+fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<usize>, Vec<f64>), FunctionError> {
+    let at = |(row, r): (usize, &Row)| match &r.at {
+        RowAt::Number(at) => Ok(*at),
+        RowAt::Name(name) => {
+            let unknown = || FunctionError::UnknownLabel { name: name.clone(), row: Some(row) };
+            id_of(name).map(f64::from).ok_or_else(unknown)
+        }
+    };
+    let at: Vec<f64> = rows.iter().enumerate().map(at).collect::<Result<_, _>>()?;
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    // Numbers are in order already, and the sort keeps the order of equals, 0 and −0 among them.
+    order.sort_by(|&a, &b| at[a].partial_cmp(&at[b]).unwrap_or(Ordering::Equal));
+    let named = |row: usize| matches!(rows[row].at, RowAt::Name(_));
+    for pair in order.windows(2) {
+        if at[pair[0]] == at[pair[1]] && (named(pair[0]) || named(pair[1])) {
+            return Err(FunctionError::LabelTwice { row: pair[1], id: at[pair[1]] as u32 });
+        }
+    }
+    let at = order.iter().map(|&row| at[row]).collect();
+    Ok((order, at))
 }
 
 /// Whether a piecewise-linear opacity is above 0 somewhere on [lo, hi].
@@ -80,13 +198,13 @@ fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl
     opacity[first..=last].iter().any(|&a| a > 0.0)
 }
 
-/// The values that nodes stand at.
-fn values(nodes: &[Node], unit: Unit, [lo, hi]: [f64; 2], volume: &Volume) -> Vec<f64> {
+/// The values of numbers in a unit.
+fn values(at: Vec<f64>, unit: Unit, [lo, hi]: [f64; 2], volume: &Volume) -> Vec<f64> {
     match unit {
-        Unit::Value => nodes.iter().map(|n| n.at).collect(),
-        Unit::Normalized => nodes.iter().map(|n| lo + n.at * (hi - lo)).collect(),
+        Unit::Value => at,
+        Unit::Normalized => at.iter().map(|n| lo + n * (hi - lo)).collect(),
         Unit::Percentile => {
-            let shares: Vec<f64> = nodes.iter().map(|n| n.at / 100.0).collect();
+            let shares: Vec<f64> = at.iter().map(|n| n / 100.0).collect();
             quantiles(volume, &shares)
         }
     }

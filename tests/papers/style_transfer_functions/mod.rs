@@ -2,6 +2,7 @@
 
 mod curvature;
 mod lookup;
+mod mipmaps;
 mod rings;
 mod transparency;
 

@@ -7,6 +7,8 @@ type Sample = (&'static str, &'static [(&'static str, &'static str)], &'static s
 
 const NODES: (&str, &str) = ("transfer.nodes", "[{ at = 1, style = \"wax\" }, { at = 9, style = \"wax\" }]");
 const COLORS: (&str, &str) = ("transfer.nodes", "[{ at = 1, color = \"red\" }]");
+const OVER: (&str, &str) = ("transfer.over", "[\"value\", \"k1\"]");
+const ROWS: (&str, &str) = ("transfer.rows", "[{ at = 1, nodes = [{ at = 1, style = \"wax\" }] }]");
 const REGULAR: (&str, &str) = ("transfer.kind", "regular");
 const PHANTOM: (&str, &str) = ("volume.phantom.name", "torus");
 const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.type", "u16")];
@@ -29,6 +31,9 @@ const SAMPLES: &[Sample] = &[
     ("volume.raw.spacing", &RAW, "[0.5, 0.5, 2]"),
     ("volume.raw.skip", &RAW, "352"),
     ("volume.ids", &[], "mask"),
+    ("volume.labels", &[], "parts.nrrd"),
+    ("volume.label_names", &[], "parts.csv"),
+    ("volume.label_lookup", &[], "smooth"),
     ("volume.range", &[], "[-1000, 3000]"),
     ("volume.gradient_range", &[], "[0, 60]"),
     ("volume.outside", &[], "high"),
@@ -65,12 +70,19 @@ const SAMPLES: &[Sample] = &[
     ("sampling.reference_length", &[], "2"),
     ("transfer", &[], "{ kind = \"regular\" }"),
     ("transfer.kind", &[], "regular"),
+    ("transfer.over", &[OVER, ROWS], "[\"value\", \"k2\"]"),
+    ("transfer.over[0].distance", &[("transfer.over", "[{ distance = [0, 0, 0] }, \"value\"]"), ROWS], "[1, 2, 3]"),
+    ("transfer.over[0].distance_to_label", &[("transfer.over", "[{ distance_to_label = 3 }, \"value\"]"), ROWS], "4"),
+    ("transfer.over[0].volume", &[("transfer.over", "[{ volume = \"a.nrrd\" }, \"value\"]"), ROWS], "b.nrrd"),
     ("transfer.unit", &[], "percentile"),
     ("transfer.nodes", &[], "[{ at = 1, style = \"wax\" }]"),
     ("transfer.nodes[0].at", &[NODES], "2"),
     ("transfer.nodes[0].style", &[NODES], "metal"),
     ("transfer.nodes[0].opacity", &[NODES], "0.5"),
     ("transfer.nodes[0].color", &[REGULAR, COLORS], "#00f"),
+    ("transfer.rows", &[OVER, ROWS], "[{ at = 1, nodes = [{ at = 2, style = \"wax\" }] }]"),
+    ("transfer.rows[0].at", &[OVER, ROWS], "2"),
+    ("transfer.rows[0].nodes", &[OVER, ROWS], "[{ at = 1, style = \"metal\" }]"),
     ("transfer.transparency", &[], "plain"),
     ("transfer.mix", &[], "printed"),
     ("transfer.sphere_frame", &[], "view"),
@@ -88,10 +100,14 @@ const SAMPLES: &[Sample] = &[
     ("contours.threshold", &[("contours.kappa", "none")], "0.5"),
     ("contours.sign_flip", &[("contours", "{}")], "literal"),
     ("contours.fade", &[("contours", "{}")], "[0.02, 0.05]"),
+    ("style_mipmaps", &[], "{}"),
+    ("style_mipmaps.curvature_bias", &[("style_mipmaps", "{}")], "0"),
+    ("style_mipmaps.gradient_bias", &[("style_mipmaps", "{}")], "2.5"),
+    ("style_mipmaps.turn", &[("style_mipmaps", "{}")], "0.02"),
 ];
 
 /// Keys that can have one value only, so far.
-const ONE_VALUE: [&str; 5] = ["drypoint", "preset", "transfer.over", "transfer.table", "shading.model"];
+const ONE_VALUE: [&str; 4] = ["drypoint", "preset", "transfer.table", "shading.model"];
 
 fn with(settings: &[(&str, &str)]) -> Result<Scene, Faults> {
     parse(HEAD, Path::new("scene.toml"), &settings.iter().copied().collect())

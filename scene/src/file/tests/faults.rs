@@ -32,10 +32,6 @@ fn a_part_that_is_not_built_says_so() {
         ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
         ("[[box]]\n", "[[box]]"),
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),
-        ("[transfer]\nover = [\"value\", \"label\"]\n", "a function over two quantities"),
-        ("[transfer]\nover = \"gradient-magnitude\"\n", "transfer.over = \"gradient-magnitude\""),
-        ("[transfer]\nover = { distance = [0, 0, 0] }\n", "a function over another quantity"),
-        ("[transfer]\nrows = []\n", "transfer.rows"),
         ("[shading]\nmodel = \"toon\"\n", "shading.model = \"toon\""),
         ("[shading]\nmodel = \"lighting-function\"\n", "shading.model = \"lighting-function\""),
         ("[shading.toon]\noffset = 0\n", "shading.toon"),
@@ -48,14 +44,14 @@ fn a_part_that_is_not_built_says_so() {
         assert_eq!(text.lines().count(), 3, "{text}");
     }
     let text = parse(
-        "drypoint = 1\npreset = \"stipple\"\n[volume]\nfile = \"a\"\nlabels = \"b\"\n",
+        "drypoint = 1\npreset = \"stipple\"\n[volume]\nfile = \"a\"\n[[halo]]\n",
         Path::new("s"),
         &Overrides::default(),
     )
     .unwrap_err()
     .to_string();
     assert!(text.contains("preset = \"stipple\" is not built yet ([STIP-14])\n  at s:2:10"), "{text}");
-    assert!(text.contains("volume.labels is not built yet ([STF-13])\n  at s:5:1"), "{text}");
+    assert!(text.contains("[[halo]] is not built yet ([HALO-1])\n  at s:5:3"), "{text}");
 }
 
 #[test]
@@ -207,7 +203,7 @@ fn what_must_be_there() {
         text(""),
         "drypoint is missing\n  at s.toml:1:1, key drypoint\n  write drypoint = 1, the version of the format that this \
          program reads\nvolume is missing\n  at s.toml:1:1, key volume\n  write [volume], a table with the keys file, \
-         phantom, raw, ids, range, gradient_range, outside"
+         phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside"
     );
     assert_eq!(
         text("drypoint = 2\n[volume]\n"),
@@ -218,8 +214,9 @@ fn what_must_be_there() {
     assert_eq!(
         faults("[transfer]\nnodes = [{ style = \"wax\" }, { at = 3 }]\n"),
         "transfer.nodes[0].at is missing\n  at scene.toml:5:10, key transfer.nodes[0].at\n  write at = a \
-         number\ntransfer.nodes[1].style is missing\n  at scene.toml:5:29, key transfer.nodes[1].style\n  write style = \
-         \"…\", or color = \"#rrggbb\" in a regular function"
+         number, or two numbers [x, y] in a function over two quantities\ntransfer.nodes[1].style is missing\n  at \
+         scene.toml:5:29, key transfer.nodes[1].style\n  write style = \"…\", or color = \"#rrggbb\" in a regular \
+         function"
     );
 }
 

@@ -2,6 +2,7 @@
 
 mod drift;
 mod faults;
+mod over;
 mod overrides;
 mod random;
 mod round_trip;

@@ -46,6 +46,13 @@ fn json_of(text: &str) -> Value {
     serde_json::to_value(text.parse::<toml::Table>().unwrap()).unwrap()
 }
 
+/// The word of a schema, or what has it among the schemas of which one holds; a list's items, a table itself.
+fn either<'a>(schema: &'a Value, word: &str) -> &'a Value {
+    let all = schema["anyOf"].as_array().into_iter().flatten();
+    let has = all.chain([schema]).find(|schema| schema.get(word).is_some()).unwrap_or(schema);
+    if word == "items" { &has[word] } else { has }
+}
+
 #[test]
 fn every_key_is_in_the_schema_with_its_documentation_and_default() {
     let schema = schema();
@@ -55,7 +62,7 @@ fn every_key_is_in_the_schema_with_its_documentation_and_default() {
             let (name, is_item) = step.strip_suffix("[0]").map_or((step, false), |name| (name, true));
             at = &at["properties"][name];
             if is_item {
-                at = &at["items"];
+                at = either(either(at, "items"), "properties");
             }
         }
         let doc = at["description"].as_str().unwrap_or_else(|| panic!("{path} is not in the schema"));

@@ -1,0 +1,60 @@
+//! Table 1 of Bruckner and Gröller 2007: frames of a style transfer function beside those of a regular one with Phong
+//! shading, for the four opacity settings of Fig. 7. Same values, opacities, camera and steps; early termination at
+//! 1/255, empty space skipped ([STF-11]).
+//!
+//! `cargo bench --bench table_1`
+
+use drypoint::job::Job;
+use drypoint::scene::file::{Overrides, load};
+use std::path::Path;
+use std::time::Instant;
+
+/// Frames of each kind, in turns after one that warms up.
+const ROUNDS: usize = 9;
+
+/// What the paper's table has, in frames a second: regular and style.
+const PAPER: [(&str, [f64; 2]); 4] = [("a", [11.7, 11.9]), ("b", [10.5, 9.6]), ("c", [10.1, 8.1]), ("d", [12.5, 12.8])];
+
+fn main() -> Result<(), String> {
+    println!("| Fig. 7 | regular, ms | style, ms | style : regular | without contours | the paper's |");
+    println!("|---|--:|--:|--:|--:|--:|");
+    for (name, [regular, style]) in PAPER {
+        let jobs = [
+            job(&format!("figure_7_{name}_regular"), &[])?,
+            job(&format!("figure_7_{name}"), &[])?,
+            job(&format!("figure_7_{name}"), &["contours=off"])?,
+        ];
+        let [a, b, c] = in_turns(&jobs)?;
+        println!("| {name} | {:.0} | {:.0} | {:.2} | {:.2} | {:.2} |", a * 1e3, b * 1e3, b / a, c / a, regular / style);
+    }
+    Ok(())
+}
+
+fn job(name: &str, changes: &[&str]) -> Result<Job, String> {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/style_transfer_functions").join(name);
+    let mut overrides = Overrides::default();
+    for change in ["picture.size=[512, 512]", "sampling.stop_below=0.00392156862745098"].iter().chain(changes) {
+        overrides.push_argument(change).map_err(|e| e.to_string())?;
+    }
+    let scene = load(&file.with_extension("toml"), &overrides).map_err(|e| e.to_string())?;
+    Job::load(scene).map_err(|e| e.to_string())
+}
+
+/// The median seconds of a frame of each.
+fn in_turns<const N: usize>(jobs: &[Job; N]) -> Result<[f64; N], String> {
+    let mut seconds = [const { Vec::new() }; N];
+    let renderers = jobs.iter().map(Job::renderer).collect::<Result<Vec<_>, _>>().map_err(|e| e.to_string())?;
+    for round in 0..=ROUNDS {
+        for (renderer, seconds) in renderers.iter().zip(&mut seconds) {
+            let start = Instant::now();
+            std::hint::black_box(renderer.frame(&|_| ()));
+            if round > 0 {
+                seconds.push(start.elapsed().as_secs_f64());
+            }
+        }
+    }
+    Ok(seconds.map(|mut s| {
+        s.sort_by(f64::total_cmp);
+        s[s.len() / 2]
+    }))
+}

@@ -1,0 +1,95 @@
+//! The papers' figures, remade with our own scenes: every `figure_*.toml` of `data/scenes` is a picture in
+//! `docs/pictures`.
+
+use crate::files;
+use drypoint::job::Job;
+use drypoint::output::encode::{quantize, straight_srgb};
+use drypoint::scene::color::srgb_to_linear;
+use drypoint::scene::file::{Overrides, load};
+use drypoint::scene::picture::{Layer, LayerKind, Picture};
+use drypoint::scene::tables::Background;
+use std::path::{Path, PathBuf};
+
+/// The most bytes of a picture in `docs`.
+const LARGEST: usize = 300_000;
+
+/// The darkest κ_v of a map of curvature, per world unit.
+const BLACK: f64 = 1.0;
+
+/// Renders every figure. A scene with the layer `curvature.KV` is shown as a map of it.
+///
+/// # Errors
+/// What the renderer or the system says, and a file that is too large for a page.
+pub(crate) fn write() -> Result<(), String> {
+    for scene in scenes()? {
+        let (Some(paper), Some(name)) = (scene.parent().and_then(Path::file_name), scene.file_stem()) else { continue };
+        let file = format!("pictures/{}/{}.png", paper.display(), name.display());
+        let bytes = opaque_png(&picture(&scene)?).map_err(|e| format!("{file}: {e}"))?;
+        if bytes.len() > LARGEST {
+            return Err(format!(
+                "{file} has {} bytes, more than {LARGEST}: make the scene's picture smaller",
+                bytes.len()
+            ));
+        }
+        files::write(&file, &bytes)?;
+    }
+    Ok(())
+}
+
+/// The scenes of figures, but not the twins with regular functions, which are there to be timed.
+fn scenes() -> Result<Vec<PathBuf>, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes");
+    let entries = |folder: &Path| -> Result<Vec<PathBuf>, String> {
+        let read = std::fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+        Ok(read.map_err(|e| format!("{}: {e}", folder.display()))?.iter().map(|entry| entry.path()).collect())
+    };
+    let mut scenes = Vec::new();
+    for paper in entries(&root)?.iter().filter(|path| path.is_dir()) {
+        scenes.extend(entries(paper)?.into_iter().filter(|path| {
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            path.extension().is_some_and(|e| e == "toml") && stem.starts_with("figure_") && !stem.ends_with("_regular")
+        }));
+    }
+    scenes.sort();
+    Ok(scenes)
+}
+
+fn picture(scene: &Path) -> Result<Picture, String> {
+    let mut scene = load(scene, &Overrides::default()).map_err(|e| e.to_string())?;
+    let is_map = scene.picture.layers.contains(&LayerKind::CurvatureAlongView);
+    if is_map {
+        scene.picture.background = Background::None;
+    }
+    let job = Job::load(scene).map_err(|e| e.to_string())?;
+    let (picture, _) = job.renderer().map_err(|e| e.to_string())?.frame(&|_| ());
+    if is_map { map(&picture).ok_or_else(|| "the picture has no curvature".into()) } else { Ok(picture) }
+}
+
+/// |κ_v| as grey on white: the darker, the more curved; as faint as the picture is.
+fn map(picture: &Picture) -> Option<Picture> {
+    let alpha = &picture.layer(LayerKind::Beauty)?.channels[3];
+    let kappa = &picture.layer(LayerKind::CurvatureAlongView)?.channels[0];
+    let light = |(k, a): (&f64, &f64)| 1.0 - a * (1.0 - srgb_to_linear((1.0 - k.abs() / BLACK).max(0.0)));
+    let grey: Vec<f64> = kappa.iter().zip(alpha).map(light).collect();
+    let opaque = vec![1.0; grey.len()];
+    let channels = vec![grey.clone(), grey.clone(), grey, opaque];
+    Some(Picture { layers: vec![Layer { kind: LayerKind::Beauty, channels }], ..*picture })
+}
+
+/// An opaque picture as 8 bits of sRGB without alpha, the smallest file.
+fn opaque_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
+    let channels = picture.layer(LayerKind::Beauty).map_or(&[][..], |layer| &layer.channels);
+    let mut data = Vec::with_capacity(3 * picture.width * picture.height);
+    for i in 0..picture.width * picture.height {
+        let [r, g, b, _] = straight_srgb([channels[0][i], channels[1][i], channels[2][i], 1.0]);
+        data.extend([r, g, b].map(|c| quantize(c, 255) as u8));
+    }
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, picture.width as u32, picture.height as u32);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(png::Compression::High);
+    encoder.write_header()?.write_image_data(&data)?;
+    Ok(file)
+}

@@ -1,0 +1,139 @@
+//! Samples of a transfer function over two quantities ([STF-4]): what is asked of them, and in which order.
+
+use super::prepared::{Calls, KappaSource};
+use super::render::{Inputs, RenderError};
+use crate::field::Field;
+use crate::number::Real;
+use crate::transfer::over::{Differential, Distance, Further, Here, Magnitude, Measure, Value};
+use crate::transfer::{Patch, Plane};
+use drypoint_scene::counts::Counts;
+use drypoint_scene::math;
+use drypoint_scene::tables::Axis;
+use drypoint_scene::transfer::Rows;
+
+/// A function over two quantities, with what measures them.
+pub(super) struct OverTwo<'v, R> {
+    plane: Plane<R>,
+    measures: [Box<dyn Measure<R> + 'v>; 2],
+    /// What the quantities need of a sample, asked before α_u is known.
+    pub(super) first: Calls,
+    /// What else a visible sample has to know.
+    pub(super) rest: Calls,
+}
+
+impl<'v, R: Real> OverTwo<'v, R> {
+    /// From a function's nodes and rows. `calls` is all that a visible sample has to know.
+    ///
+    /// # Errors
+    /// Nodes that make no function, a label volume or a further volume that was not handed over or cannot be read, a label
+    /// that no voxel has.
+    pub(super) fn new(
+        (at, opacity): (&[f64], &[f64]),
+        rows: &Rows,
+        inputs: &Inputs<'v>,
+        field: &Field<'_, R>,
+        calls: Calls,
+        counts: &mut Counts,
+    ) -> Result<Self, RenderError> {
+        let [across, down] = [0, 1].map(|i| measure(&rows.over[i], i, rows.normalized, inputs));
+        let measures = [across?, down?];
+        for measure in &measures {
+            if let Some((name, bytes)) = measure.bytes() {
+                *counts.bytes.entry(name.into()).or_default() += bytes;
+            }
+            if let Some((name, voxels)) = measure.preprocess() {
+                *counts.preprocess.entry(name.into()).or_default() += voxels;
+            }
+        }
+        let scaled = |axis: &Axis<u32>, at: &[f64]| -> Vec<f64> {
+            let by = if *axis == Axis::GradientMagnitude && !rows.normalized { -field.scale_exponent() } else { 0 };
+            at.iter().map(|&a| math::scale_by_power_of_two(a, by)).collect()
+        };
+        let rows_at = scaled(&rows.over[1], &rows.at);
+        let plane = Plane::new(&scaled(&rows.over[0], at), opacity, &Rows { at: rows_at, ..rows.clone() })?;
+        let (first, rest) = calls.split(&rows.over);
+        Ok(Self { plane, measures, first, rest })
+    }
+
+    /// Where a sample falls between the nodes; none where it is transparent.
+    #[inline]
+    pub(super) fn locate(&self, here: &Here<R>) -> Option<Patch<R>> {
+        let [x, y] = &self.measures;
+        self.plane.locate(x.at(here), y.at(here))
+    }
+}
+
+/// What measures a quantity.
+fn measure<'v, R: Real>(
+    axis: &Axis<u32>,
+    which: usize,
+    normalized: bool,
+    inputs: &Inputs<'v>,
+) -> Result<Box<dyn Measure<R> + 'v>, RenderError> {
+    let data = inputs.volume.grid();
+    Ok(match axis {
+        Axis::Value => Box::new(Value),
+        Axis::GradientMagnitude if normalized => Box::new(Magnitude::Normalized),
+        Axis::GradientMagnitude => Box::new(Magnitude::Scaled),
+        Axis::K1 => Box::new(Differential::K1),
+        Axis::K2 => Box::new(Differential::K2),
+        Axis::Mean => Box::new(Differential::Mean),
+        Axis::Gaussian => Box::new(Differential::Gaussian),
+        Axis::AlongView => Box::new(Differential::AlongView),
+        Axis::Distance(point) => Box::new(Distance::new(data, *point)),
+        Axis::Volume(_) => {
+            let volume = inputs.further[which].ok_or(RenderError::NoFurtherVolume)?;
+            Box::new(Further::new(volume, volume.grid(), data)?)
+        }
+        Axis::Label | Axis::DistanceToLabel(_) => return Err(RenderError::NoLabels),
+    })
+}
+
+impl Calls {
+    /// What two quantities need of it, and the rest.
+    fn split(self, over: &[Axis<u32>; 2]) -> (Self, Self) {
+        let any = |is: fn(&Axis<u32>) -> bool| over.iter().any(is);
+        let along_view = any(|axis| *axis == Axis::AlongView);
+        let hessian = any(Axis::is_principal) || along_view && self.kappa == KappaSource::Exact;
+        // What one Hessian gives is taken from it at once.
+        let kappa = match self.kappa {
+            KappaSource::Exact if hessian => KappaSource::Exact,
+            KappaSource::AlongRay if along_view => KappaSource::AlongRay,
+            _ => KappaSource::None,
+        };
+        let gradient = hessian || along_view || any(|axis| *axis == Axis::GradientMagnitude);
+        let first = Self { gradient, hessian, principal: hessian && self.principal, kappa };
+        let rest = Self {
+            gradient: self.gradient && !gradient,
+            hessian: self.hessian && !hessian,
+            principal: self.principal && !first.principal,
+            kappa: if kappa == KappaSource::None { self.kappa } else { KappaSource::None },
+        };
+        (first, rest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NONE: Calls = Calls { gradient: false, hessian: false, principal: false, kappa: KappaSource::None };
+
+    #[test]
+    fn quantities_ask_first_for_what_they_need() {
+        let styled = Calls { gradient: true, hessian: true, principal: true, kappa: KappaSource::Exact };
+        let split = |calls: Calls, axis| calls.split(&[Axis::Value, axis]);
+        assert_eq!(split(styled, Axis::Label), (NONE, styled));
+        let gradient = Calls { gradient: true, ..NONE };
+        assert_eq!(split(styled, Axis::GradientMagnitude), (gradient, Calls { gradient: false, ..styled }));
+        // One Hessian gives all that it can.
+        assert_eq!(split(styled, Axis::Mean), (styled, NONE));
+        assert_eq!(split(styled, Axis::AlongView), (styled, NONE));
+        let along_ray = Calls { kappa: KappaSource::AlongRay, ..styled };
+        let rest = Calls { kappa: KappaSource::AlongRay, ..NONE };
+        assert_eq!(split(along_ray, Axis::K1), (Calls { kappa: KappaSource::None, ..styled }, rest));
+        let first = Calls { gradient: true, kappa: KappaSource::AlongRay, ..NONE };
+        let rest = Calls { hessian: true, principal: true, ..NONE };
+        assert_eq!(split(along_ray, Axis::AlongView), (first, rest));
+    }
+}

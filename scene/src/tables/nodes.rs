@@ -1,0 +1,443 @@
+//! Nodes of a transfer function, in a line, on a full grid, or in rows of their own ([STF-3], [STF-4]).
+
+use super::{Node, NodeColor};
+use crate::file::Problem;
+use crate::file::check::Check;
+use crate::file::describe::{Key, Kind, Section, Shape, Slot, Table};
+use crate::file::item::{Item, Value};
+use crate::file::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf, Text};
+use crate::file::out::Out;
+use serde_json::{Value as Json, json};
+
+/// A row of nodes of a function over two quantities: a function of its own over the first one ([STF-4]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Where it stands on the axis of the second quantity.
+    pub at: RowAt,
+    /// Nodes over the first quantity, in non-decreasing order of `at`.
+    pub nodes: Vec<Node>,
+}
+
+/// Where a row stands.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RowAt {
+    /// At a number; for labels, an id.
+    Number(f64),
+    /// At the label of that name.
+    Name(String),
+}
+
+/// What `nodes` can be.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum NodeList {
+    /// Each `at` is a number.
+    Line(Vec<Node>),
+    /// Each `at` is a pair: a full grid, cut into its rows.
+    Grid(Vec<Row>),
+}
+
+/// Where a node stands, as the scene writes it.
+#[derive(Clone, Copy, PartialEq)]
+enum At {
+    One(f64),
+    Two([f64; 2]),
+}
+
+/// A node as the scene writes it.
+struct Written {
+    at: At,
+    color: NodeColor,
+    opacity: f64,
+}
+
+impl Written {
+    /// The node in its row.
+    fn node(&self) -> Node {
+        let (At::One(at) | At::Two([at, _])) = self.at;
+        Node { at, color: self.color.clone(), opacity: self.opacity }
+    }
+}
+
+/// The description of a node. A colour's opacity multiplies `opacity`, so `color` is read after it.
+static NODE: Table<Written> = Table {
+    check: |_, check| match (check.has("style"), check.has("color")) {
+        (true, true) => {
+            let what = "a node has both style and color".into();
+            let remedy = "keep the style in a style function, the color in a regular one".into();
+            check.fault_in("color", Problem::Contradiction { what, remedy });
+        }
+        (false, false) => {
+            let expected = "style = \"…\", or color = \"#rrggbb\" in a regular function".into();
+            check.fault_in("style", Problem::Missing { expected });
+        }
+        (true, false) | (false, true) => {}
+    },
+    ..Table::new(
+        "a node",
+        "One node of a transfer function.",
+        || Written { at: At::One(0.0), color: NodeColor::Style(String::new()), opacity: 1.0 },
+        &[
+            Key::new(
+                "at",
+                "STF-3",
+                "The value; the two quantities in a grid over two; the first of them in a row.",
+                &Slot { kind: AtKind, get: |n: &Written| Some(n.at), set: |n, v| n.at = v },
+            )
+            .required(),
+            Key::new(
+                "style",
+                "STF-3",
+                "The name of a style; in a style function.",
+                &Slot {
+                    kind: StyleName,
+                    get: |n: &Written| match &n.color {
+                        NodeColor::Style(name) => Some(name.clone()).filter(|name| !name.is_empty()),
+                        NodeColor::Color(_) => None,
+                    },
+                    set: |n, v| n.color = NodeColor::Style(v),
+                },
+            ),
+            Key::new(
+                "opacity",
+                "VAL-4",
+                "Opacity for a `sampling.reference_length`.",
+                &Slot {
+                    kind: Number { bounds: Bounds::UNIT, unit: "" },
+                    get: |n: &Written| Some(n.opacity),
+                    set: |n, v| n.opacity = v,
+                },
+            ),
+            Key::new(
+                "color",
+                "VAL-3",
+                "A colour; in a regular function. Its own opacity multiplies `opacity`.",
+                &Slot {
+                    kind: Colors,
+                    get: |n: &Written| match n.color {
+                        NodeColor::Style(_) => None,
+                        NodeColor::Color([r, g, b]) => Some([r, g, b, 1.0]),
+                    },
+                    set: |n, [r, g, b, a]| {
+                        n.color = NodeColor::Color([r, g, b]);
+                        n.opacity *= a;
+                    },
+                },
+            ),
+        ],
+    )
+};
+
+/// Where a node stands: a number, or a pair of them.
+struct AtKind;
+
+const ONE: Number = Number { bounds: Bounds::ANY, unit: "" };
+const PAIR: Numbers<2> = Numbers { what: "two numbers [x, y]", bounds: Bounds::ANY, rule: Rule::Free };
+
+impl Shape for AtKind {
+    fn expected(&self) -> String {
+        format!("{}, or {} in a function over two quantities", ONE.expected(), PAIR.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [ONE.schema(), PAIR.schema()] })
+    }
+}
+
+impl Kind for AtKind {
+    type Of = At;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<At> {
+        let one = item.number().map(At::One);
+        one.or_else(|| PAIR.of(item).map(At::Two)).or_else(|| check.wrong(item, self.expected()))
+    }
+
+    fn write(&self, value: &At) -> Out {
+        match value {
+            At::One(x) => ONE.write(x),
+            At::Two(pair) => PAIR.write(pair),
+        }
+    }
+}
+
+/// The name of a style, which must be known once the whole scene is read.
+struct StyleName;
+
+const STYLE_NAME: Text = Text { what: "the name of a style" };
+
+impl Shape for StyleName {
+    fn expected(&self) -> String {
+        STYLE_NAME.expected()
+    }
+
+    fn schema(&self) -> Json {
+        STYLE_NAME.schema()
+    }
+}
+
+impl Kind for StyleName {
+    type Of = String;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<String> {
+        let name = STYLE_NAME.read(item, check)?;
+        check.refer_to_style(&name, &item.place);
+        Some(name)
+    }
+
+    fn write(&self, value: &String) -> Out {
+        STYLE_NAME.write(value)
+    }
+}
+
+/// A list of nodes in order: of `at`, or row by row.
+pub(super) struct Nodes;
+
+/// The nodes, whatever their order.
+const NODES: ListOf<TableOf<Written>> = ListOf { what: "a list of nodes", each: TableOf(&NODE) };
+
+impl Shape for Nodes {
+    fn expected(&self) -> String {
+        NODES.expected()
+    }
+
+    fn schema(&self) -> Json {
+        NODES.schema()
+    }
+
+    fn item_section(&self) -> Option<Section> {
+        NODES.item_section()
+    }
+}
+
+impl Kind for Nodes {
+    type Of = NodeList;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<NodeList> {
+        let nodes = NODES.read(item, check);
+        // The order is looked at in the document, so that it is judged beside other faults of the nodes.
+        let at: Vec<Option<At>> = item.list().unwrap_or_default().iter().map(at_of).collect();
+        if let Some(i) = mixed(&at) {
+            let what = format!("node {i} has {} at, node 0 another", if one(at[i]) { "one number" } else { "a pair" });
+            let remedy = "give every node a number, or every node a pair [x, y]".into();
+            check.fault_in_list(&format!("[{i}].at"), Problem::Contradiction { what, remedy });
+            return None;
+        }
+        let disorder: Vec<(usize, String)> = at.windows(2).enumerate().filter_map(disordered).collect();
+        let ordered = disorder.is_empty();
+        for (i, what) in disorder {
+            let remedy = match at[i] {
+                Some(At::Two(_)) => "put the nodes row by row, each row in non-decreasing order of x, rows of y",
+                _ => "put the nodes in non-decreasing order of `at`",
+            };
+            let problem = Problem::Contradiction { what, remedy: remedy.into() };
+            check.fault_in_list(&format!("[{i}].at"), problem);
+        }
+        let nodes = nodes.filter(|_| ordered)?;
+        if matches!(nodes[0].at, At::One(_)) {
+            return Some(NodeList::Line(nodes.iter().map(Written::node).collect()));
+        }
+        match rows(&nodes) {
+            Ok(rows) => Some(NodeList::Grid(rows)),
+            Err([x, y]) => {
+                let what = format!("the nodes are no full grid: there is none at [{x}, {y}]");
+                let remedy = "add it, or give each row its own nodes with transfer.rows".into();
+                check.fault(&item.place, Problem::Contradiction { what, remedy });
+                None
+            }
+        }
+    }
+
+    fn write(&self, value: &NodeList) -> Out {
+        let written = |node: &Node, at: At| Written { at, color: node.color.clone(), opacity: node.opacity };
+        let nodes: Vec<Written> = match value {
+            NodeList::Line(nodes) => nodes.iter().map(|node| written(node, At::One(node.at))).collect(),
+            NodeList::Grid(rows) => {
+                let at = |row: &Row| if let RowAt::Number(y) = row.at { y } else { 0.0 };
+                let grid = rows.iter().flat_map(|row| row.nodes.iter().map(move |node| (node, [node.at, at(row)])));
+                grid.map(|(node, at)| written(node, At::Two(at))).collect()
+            }
+        };
+        NODES.write(&nodes)
+    }
+}
+
+/// Where the node that an item writes stands, if it says so.
+fn at_of(node: &Item) -> Option<At> {
+    let Value::Table(entries) = &node.value else { return None };
+    let at = &entries.get("at")?.item;
+    at.number().map(At::One).or_else(|| PAIR.of(at).map(At::Two))
+}
+
+fn one(at: Option<At>) -> bool {
+    matches!(at, Some(At::One(_)))
+}
+
+/// The first node whose `at` is of another kind than the first one's.
+fn mixed(at: &[Option<At>]) -> Option<usize> {
+    let kind = |at: &At| matches!(at, At::One(_));
+    let first = kind(at.iter().flatten().next()?);
+    at.iter().position(|at| at.as_ref().is_some_and(|at| kind(at) != first))
+}
+
+/// The later of two neighbours that stand in the wrong order, and what is wrong.
+fn disordered((i, pair): (usize, &[Option<At>])) -> Option<(usize, String)> {
+    match *pair {
+        [Some(At::One(before)), Some(At::One(after))] if after < before => {
+            Some((i + 1, format!("node {} at {after} stands after node {i} at {before}", i + 1)))
+        }
+        [Some(At::Two(before)), Some(At::Two(after))] if after[1] < before[1] => {
+            let [[a, b], [c, d]] = [after, before];
+            Some((i + 1, format!("node {} at [{a}, {b}] stands after node {i} at [{c}, {d}]", i + 1)))
+        }
+        _ => None,
+    }
+}
+
+/// Cuts a grid of nodes into its rows: a new one begins where y rises or x falls. Rows must have the same x.
+///
+/// # Errors
+/// A place that some row has and another has not.
+fn rows(nodes: &[Written]) -> Result<Vec<Row>, [f64; 2]> {
+    let mut rows: Vec<(f64, Vec<Node>)> = Vec::new();
+    for node in nodes {
+        let (At::One(y) | At::Two([_, y])) = node.at;
+        let node = node.node();
+        match rows.last_mut() {
+            Some((at, row)) if *at == y && row.last().is_some_and(|last| last.at <= node.at) => row.push(node),
+            _ => rows.push((y, vec![node])),
+        }
+    }
+    // The longest row has the most places; what it has and another has not is missing there, and the other way round.
+    let count = |row: &[Node], x: f64| row.iter().filter(|node| node.at == x).count();
+    for (_, full) in &rows {
+        for (y, row) in &rows {
+            if let Some(node) = full.iter().find(|node| count(row, node.at) < count(full, node.at)) {
+                return Err([node.at, *y]);
+            }
+        }
+    }
+    Ok(rows.into_iter().map(|(y, nodes)| Row { at: RowAt::Number(y), nodes }).collect())
+}
+
+/// The description of a row.
+static ROW: Table<Row> = Table::new(
+    "a row",
+    "One row of nodes of a function over two quantities.",
+    || Row { at: RowAt::Number(0.0), nodes: Vec::new() },
+    &[
+        Key::new(
+            "at",
+            "STF-4",
+            "Where the row stands: a number of the second quantity; for labels an id, or a name of `volume.label_names`.",
+            &Slot { kind: RowAtKind, get: |r: &Row| Some(r.at.clone()), set: |r, v| r.at = v },
+        )
+        .required(),
+        Key::new(
+            "nodes",
+            "STF-4",
+            "Nodes over the first quantity, in non-decreasing order of `at`.",
+            &Slot { kind: LineOfNodes, get: |r: &Row| Some(r.nodes.clone()), set: |r, v| r.nodes = v },
+        )
+        .required(),
+    ],
+);
+
+/// Where a row stands: a number, or a name.
+struct RowAtKind;
+
+const ROW_NAME: Text = Text { what: "the name of a label" };
+
+impl Shape for RowAtKind {
+    fn expected(&self) -> String {
+        format!("{}, or {}", ONE.expected(), ROW_NAME.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [ONE.schema(), ROW_NAME.schema()] })
+    }
+}
+
+impl Kind for RowAtKind {
+    type Of = RowAt;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<RowAt> {
+        match (item.number(), item.text()) {
+            (Some(at), _) => Some(RowAt::Number(at)),
+            (None, Some(name)) if !name.is_empty() => Some(RowAt::Name(name.to_owned())),
+            _ => check.wrong(item, self.expected()),
+        }
+    }
+
+    fn write(&self, value: &RowAt) -> Out {
+        match value {
+            RowAt::Number(at) => Out::Number(*at),
+            RowAt::Name(name) => Out::Text(name.clone()),
+        }
+    }
+}
+
+/// Nodes of one row, each with a number. Their table is described with `nodes`.
+struct LineOfNodes;
+
+impl Shape for LineOfNodes {
+    fn expected(&self) -> String {
+        NODES.expected()
+    }
+
+    fn schema(&self) -> Json {
+        NODES.schema()
+    }
+}
+
+impl Kind for LineOfNodes {
+    type Of = Vec<Node>;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Vec<Node>> {
+        match Nodes.read(item, check)? {
+            NodeList::Line(nodes) => Some(nodes),
+            NodeList::Grid(_) => {
+                let what = "a node of a row has at = [x, y]".into();
+                let remedy = "give it the first quantity alone; the row's own `at` is the second".into();
+                check.fault_in_list("[0].at", Problem::Contradiction { what, remedy });
+                None
+            }
+        }
+    }
+
+    fn write(&self, value: &Vec<Node>) -> Out {
+        Nodes.write(&NodeList::Line(value.clone()))
+    }
+}
+
+/// The rows of a function over two quantities.
+pub(super) const ROWS: ListOf<TableOf<Row>> = ListOf { what: "a list of rows", each: TableOf(&ROW) };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(at: &[[f64; 2]]) -> Result<Vec<(RowAt, Vec<f64>)>, [f64; 2]> {
+        let style = NodeColor::Style("wax".into());
+        let nodes: Vec<Written> =
+            at.iter().map(|&at| Written { at: At::Two(at), color: style.clone(), opacity: 1.0 }).collect();
+        Ok(rows(&nodes)?.into_iter().map(|row| (row.at, row.nodes.iter().map(|n| n.at).collect())).collect())
+    }
+
+    #[test]
+    fn a_grid_is_cut_into_rows() {
+        let at = |y, x: &[f64]| (RowAt::Number(y), x.to_vec());
+        let two = grid(&[[0.0, 1.0], [9.0, 1.0], [0.0, 2.0], [9.0, 2.0]]).unwrap();
+        assert_eq!(two, [at(1.0, &[0.0, 9.0]), at(2.0, &[0.0, 9.0])]);
+        // Steps: of x in every row, of y where x begins anew.
+        let steps = grid(&[[0.0, 1.0], [5.0, 1.0], [5.0, 1.0], [0.0, 1.0], [5.0, 1.0], [5.0, 1.0]]).unwrap();
+        assert_eq!(steps, [at(1.0, &[0.0, 5.0, 5.0]), at(1.0, &[0.0, 5.0, 5.0])]);
+    }
+
+    #[test]
+    fn what_a_grid_lacks_is_named() {
+        assert_eq!(grid(&[[0.0, 1.0], [9.0, 1.0], [0.0, 2.0]]), Err([9.0, 2.0]));
+        assert_eq!(grid(&[[0.0, 1.0], [0.0, 2.0], [9.0, 2.0]]), Err([9.0, 1.0]));
+        assert_eq!(grid(&[[0.0, 1.0], [4.0, 2.0]]), Err([0.0, 2.0]));
+        // A step in one row alone.
+        assert_eq!(grid(&[[0.0, 1.0], [0.0, 1.0], [0.0, 2.0]]), Err([0.0, 2.0]));
+    }
+}

@@ -1,0 +1,162 @@
+//! What only the keys of `[transfer]` together can tell.
+
+use super::nodes::{Row, RowAt};
+use super::over::{Axis, Over};
+use super::transfer::{Transfer, TransferKind, Unit};
+use crate::file::Problem;
+use crate::file::check::Check;
+
+/// The keys of every node that the document has, such as `nodes[2]` or `rows[0].nodes[1]`.
+fn keys_of_nodes(check: &Check) -> Vec<String> {
+    let items = |list: &str, check: &Check| -> Vec<String> {
+        (0..).map(|i| format!("{list}[{i}]")).take_while(|key| check.has(key)).collect()
+    };
+    let rows = items("rows", check);
+    let in_rows = rows.iter().flat_map(|row| items(&format!("{row}.nodes"), check));
+    items("nodes", check).into_iter().chain(in_rows).collect()
+}
+
+/// Nodes carry what the kind of function has.
+pub(super) fn kind(kind: TransferKind, check: &mut Check) {
+    let (wrong, right, kind) = match kind {
+        TransferKind::Style => ("color", "style", "style"),
+        TransferKind::Regular => ("style", "color", "regular"),
+    };
+    for node in keys_of_nodes(check) {
+        let key = format!("{node}.{wrong}");
+        if check.has(&key) && !check.has(&format!("{node}.{right}")) {
+            let what = format!("a node of a {kind} function has a {wrong}");
+            let other = if wrong == "color" { "regular" } else { "style" };
+            let remedy = format!("give it a {right}, or write kind = {other:?}");
+            check.fault_in(&key, Problem::Contradiction { what, remedy });
+        }
+    }
+}
+
+/// Where the document says the `at` of rows and of nodes, in rows or on a grid.
+struct Places {
+    in_rows: bool,
+}
+
+impl Places {
+    fn row(&self, rows: &[Row], i: usize) -> String {
+        if self.in_rows { format!("rows[{i}].at") } else { self.node(rows, i, 0) }
+    }
+
+    fn node(&self, rows: &[Row], i: usize, j: usize) -> String {
+        if self.in_rows {
+            format!("rows[{i}].nodes[{j}].at")
+        } else {
+            let before: usize = rows[..i].iter().map(|row| row.nodes.len()).sum();
+            format!("nodes[{}].at", before + j)
+        }
+    }
+}
+
+fn contradiction(check: &mut Check, key: &str, what: String, remedy: &str) {
+    check.fault_in(key, Problem::Contradiction { what, remedy: remedy.into() });
+}
+
+/// The nodes are over as many quantities as the function.
+pub(super) fn over(transfer: &Transfer, check: &mut Check) {
+    match (&transfer.over, &transfer.nodes, &transfer.rows) {
+        (Over::Value, _, None) => {}
+        (Over::Value, _, Some(_)) => {
+            let (key, what) = if check.has("rows") {
+                ("rows", "rows of a function over the value alone")
+            } else {
+                ("nodes[0].at", "a node of a function over the value alone has at = [x, y]")
+            };
+            let remedy = "name the two quantities, such as over = [\"value\", \"gradient-magnitude\"]";
+            contradiction(check, key, what.into(), remedy);
+        }
+        (Over::Two(axes), _, Some(rows)) => {
+            let places = Places { in_rows: check.has("rows") };
+            rows_stand(&axes[1], rows, &places, check);
+            if axes[0].is_id() {
+                nodes_are_ids(rows, &places, check);
+            }
+        }
+        (Over::Two(_), nodes, None) => {
+            let (key, what) = match nodes {
+                Some(_) => ("nodes[0].at", "a node of a function over two quantities has one number"),
+                None => ("over", "a function over two quantities has no nodes"),
+            };
+            let remedy = "give nodes with at = [x, y] on a full grid, or rows = [{ at = y, nodes = [{ at = x }] }]";
+            contradiction(check, key, what.into(), remedy);
+        }
+    }
+}
+
+/// Whether a number is the id of a label.
+fn is_id(at: f64) -> bool {
+    at >= 0.0 && at <= f64::from(u32::MAX) && at.fract() == 0.0
+}
+
+const IDS: &str = "an id is a whole number from 0 to 4294967295";
+
+/// Rows stand where their quantity can be: labels once each, numbers in order.
+fn rows_stand(second: &Axis, rows: &[Row], places: &Places, check: &mut Check) {
+    for (i, row) in rows.iter().enumerate() {
+        let key = places.row(rows, i);
+        let before = i.checked_sub(1).map(|i| &rows[i].at);
+        match (&row.at, before) {
+            (RowAt::Name(name), _) if !second.is_id() => {
+                let what = format!("a row at {name:?}, and the second quantity is {:?}", second.name());
+                contradiction(check, &key, what, "give it a number; names are those of labels");
+            }
+            (RowAt::Number(at), _) if second.is_id() && !is_id(*at) => {
+                contradiction(check, &key, format!("{at} is no label"), IDS);
+            }
+            (at, _) if second.is_id() && rows[..i].iter().any(|other| other.at == *at) => {
+                contradiction(check, &key, "a second row for one label".into(), "keep one row for each label");
+            }
+            (RowAt::Number(after), Some(RowAt::Number(before))) if !second.is_id() && after < before => {
+                let what = format!("row {i} at {after} stands after row {} at {before}", i - 1);
+                contradiction(check, &key, what, "put the rows in non-decreasing order of `at`");
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Nodes over labels stand at ids, at each once.
+fn nodes_are_ids(rows: &[Row], places: &Places, check: &mut Check) {
+    for (i, row) in rows.iter().enumerate() {
+        for (j, node) in row.nodes.iter().enumerate() {
+            let key = places.node(rows, i, j);
+            if !is_id(node.at) {
+                contradiction(check, &key, format!("{} is no label", node.at), IDS);
+            } else if j > 0 && row.nodes[j - 1].at == node.at {
+                let what = "a second node for one label".into();
+                contradiction(check, &key, what, "keep one node for each label in a row");
+            }
+        }
+    }
+}
+
+/// Percentiles of values are from 0 to 100.
+pub(super) fn percentiles(transfer: &Transfer, check: &mut Check) {
+    if transfer.unit != Unit::Percentile {
+        return;
+    }
+    let mut numbers: Vec<(String, f64)> = Vec::new();
+    for (i, node) in transfer.nodes.iter().flatten().enumerate() {
+        numbers.push((format!("nodes[{i}].at"), node.at));
+    }
+    if let (Over::Two([first, second]), Some(rows)) = (&transfer.over, &transfer.rows) {
+        let places = Places { in_rows: check.has("rows") };
+        for (i, row) in rows.iter().enumerate() {
+            if *first == Axis::Value {
+                numbers.extend(row.nodes.iter().enumerate().map(|(j, node)| (places.node(rows, i, j), node.at)));
+            }
+            if let (Axis::Value, RowAt::Number(at)) = (second, &row.at) {
+                numbers.push((places.row(rows, i), *at));
+            }
+        }
+    }
+    for (key, at) in numbers.into_iter().filter(|(_, at)| !(0.0..=100.0).contains(at)) {
+        let remedy = "write a number from 0 to 100, or another transfer.unit";
+        contradiction(check, &key, format!("{at} is no percentile"), remedy);
+    }
+}

@@ -1,0 +1,144 @@
+//! Functions over two quantities ([STF-4]) at random, and what holds for all of them.
+
+use super::generator::{at, dims, grid, opacity, scene, volume};
+use crate::common::Shot;
+use crate::common::random::Random;
+use drypoint::scene::glam::DVec3;
+use drypoint::scene::tables::{Axis, Node, NodeColor, Over, Row, RowAt, Transfer, Unit};
+
+/// A quantity other than the value, and numbers that it has or nearly has.
+fn quantity(r: &mut Random, shot: &mut Shot, which: usize) -> (Axis, [f64; 2]) {
+    let own = shot.volume.grid().clone();
+    let [lo, hi] = shot.volume.range();
+    match r.below(9) {
+        0 | 1 => (Axis::GradientMagnitude, [0.0, 0.7 * (hi - lo) / own.voxel()]),
+        2 => (Axis::K1, [-1.0, 2.0]),
+        3 => (Axis::K2, [-2.0, 1.0]),
+        4 => (Axis::Mean, [-1.0, 1.0]),
+        5 => (Axis::Gaussian, [-1.0, 1.0]),
+        6 => (Axis::AlongView, [-0.5, 2.0]),
+        7 => {
+            let point = own.centre() + DVec3::from_array(r.direction()) * own.radius() * r.between(0.0, 2.0);
+            (Axis::Distance(point), [0.0, own.radius() * 2.0])
+        }
+        _ => {
+            let (dims, own_grid) = (dims(r), r.once_in(2));
+            let other = if own_grid { own } else { grid(r, dims) };
+            let further = volume(r, other);
+            let range = further.range();
+            shot.further[which] = Some(further);
+            (Axis::Volume("further.nrrd".into()), range)
+        }
+    }
+}
+
+/// Gives the function of a scene two quantities: rows of its own nodes' looks.
+pub(crate) fn over_two(r: &mut Random, shot: &mut Shot) {
+    let looks: Vec<NodeColor> =
+        shot.scene.transfer.as_ref().unwrap().nodes.iter().flatten().map(|node| node.color.clone()).collect();
+    let values = |r: &mut Random, shot: &Shot, n: usize| match shot.scene.transfer.as_ref().unwrap().unit {
+        Unit::Percentile => (0..n).map(|i| 100.0 * i as f64 / n.max(2) as f64).collect(),
+        _ => at(r, &shot.volume, n),
+    };
+    let numbers = |r: &mut Random, [lo, hi]: [f64; 2], n: usize| {
+        let mut at: Vec<f64> = (0..n).map(|_| r.between(lo, hi)).collect();
+        at.sort_by(f64::total_cmp);
+        if n > 1 && r.once_in(2) {
+            at[n - 1] = at[n - 2];
+        }
+        at
+    };
+    // The value along a row, from row to row, or not at all.
+    let value = r.pick(&[Some(0), Some(0), Some(0), Some(1), None]);
+    let mut ranges = [[0.0; 2]; 2];
+    let axes = [0, 1].map(|i| {
+        if value == Some(i) {
+            return Axis::Value;
+        }
+        let (axis, range) = quantity(r, shot, i);
+        ranges[i] = range;
+        axis
+    });
+    if axes[0] == axes[1] {
+        return;
+    }
+    let places = |r: &mut Random, shot: &Shot, i: usize, n| match value {
+        Some(v) if v == i => values(r, shot, n),
+        _ => numbers(r, ranges[i], n),
+    };
+    let count = 1 + r.below(4);
+    let down = places(r, shot, 1, count);
+    let rows = down.into_iter().map(|y| {
+        let n = 1 + r.below(4);
+        let nodes = places(r, shot, 0, n).into_iter();
+        let nodes = nodes.map(|at| Node { at, color: r.pick(&looks), opacity: opacity(r) }).collect();
+        Row { at: RowAt::Number(y), nodes }
+    });
+    let rows = rows.collect();
+    let t = shot.scene.transfer.as_mut().unwrap();
+    *t = Transfer { over: Over::Two(axes), nodes: None, rows: Some(rows), ..t.clone() };
+}
+
+/// A function whose rows are all its nodes is the function of its nodes, bit for bit, whatever the second quantity.
+#[test]
+fn rows_that_are_alike_are_one() {
+    let (mut covered, mut two) = (0, 0);
+    for seed in 5000..5200 {
+        let mut shot = scene(seed);
+        let t = shot.scene.transfer.clone().unwrap();
+        let Some(nodes) = t.nodes.clone() else { continue };
+        let one = shot.render();
+        let r = &mut Random(seed ^ 0x2d);
+        let (axis, [lo, hi]) = quantity(r, &mut shot, 1);
+        let row = |y| Row { at: RowAt::Number(y), nodes: nodes.clone() };
+        let rows = vec![row(lo), row(lo + 0.4 * (hi - lo)), row(hi)];
+        shot.scene.transfer =
+            Some(Transfer { over: Over::Two([Axis::Value, axis]), nodes: None, rows: Some(rows), ..t });
+        let both = shot.render();
+        assert_eq!(one.bits(), both.bits(), "seed {seed}: {:?}", shot.scene);
+        assert_eq!(one.counts.style_lookups, both.counts.style_lookups, "seed {seed}");
+        covered += both.covered();
+        two += 1;
+    }
+    assert!(covered > 1000 && two > 80, "{covered} {two}");
+}
+
+/// A function between whose nodes more are put, on the lines that they span, is the same one.
+#[test]
+fn nodes_on_the_way_change_nothing() {
+    for seed in 5300..5400 {
+        let r = &mut Random(seed);
+        let mut shot = scene(seed).with(|s| s.sampling.number = drypoint::scene::tables::Number::F64);
+        let t = shot.scene.transfer.clone().unwrap();
+        if t.nodes.is_none() {
+            continue;
+        }
+        let (axis, [lo, hi]) = quantity(r, &mut shot, 1);
+        let [a, b] = shot.volume.range();
+        let style = t.nodes.as_ref().unwrap()[0].color.clone();
+        let o: [f64; 4] = [0; 4].map(|_| r.unit());
+        let node = |at, opacity| Node { at, color: style.clone(), opacity };
+        let row = |y, nodes| Row { at: RowAt::Number(y), nodes };
+        let mut with = |rows| {
+            let unit = Unit::Value;
+            let over = Over::Two([Axis::Value, axis.clone()]);
+            shot.scene.transfer = Some(Transfer { over, unit, nodes: None, rows: Some(rows), ..t.clone() });
+            shot.render()
+        };
+        let plain =
+            with(vec![row(lo, vec![node(a, o[0]), node(b, o[1])]), row(hi, vec![node(a, o[2]), node(b, o[3])])]);
+        let (x, y) = (0.5 * (a + b), 0.5 * (lo + hi));
+        let mean = |p: f64, q: f64| 0.5 * (p + q);
+        let more = with(vec![
+            row(lo, vec![node(a, o[0]), node(x, mean(o[0], o[1])), node(b, o[1])]),
+            row(y, vec![node(a, mean(o[0], o[2])), node(b, mean(o[1], o[3]))]),
+            row(hi, vec![node(a, o[2]), node(x, mean(o[2], o[3])), node(b, o[3])]),
+        ]);
+        // A sample's α_u differs by a few ε; eq. 2's and the correction's powers multiply that by up to 1/α and Δ/Δ₀, and
+        // pixels sum some hundred samples. Termination and half-way depths may move by one sample.
+        if shot.scene.sampling.stop_below == 0.0 {
+            let d = crate::common::largest_difference(&plain, &more);
+            assert!(d < 1e-10, "seed {seed}: {d} {:?}", shot.scene);
+        }
+    }
+}
