@@ -138,7 +138,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.learn(k, at, prepared.calls, &mut facts, counts);
         counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
         let (rgb, alpha) = prepared.look.color(place, &facts, &self.sight, counts);
-        self.composite(k, at, s, rgb, alpha, facts, counts);
+        self.composite(k, at, s, (rgb, alpha), &mut facts, counts);
     }
 
     /// The same where the function is over two quantities: what they need is asked first, and the rest only where α_u > 0.
@@ -160,20 +160,18 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.learn(k, at, over_two.rest, &mut facts, counts);
         counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
         let (rgb, alpha) = prepared.look.color(&patch, &facts, &self.sight, counts);
-        self.composite(k, at, s, rgb, alpha, facts, counts);
+        self.composite(k, at, s, (rgb, alpha), &mut facts, counts);
     }
 
     /// Composites a sample: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "a sample and what is known of it")]
     fn composite(
         &mut self,
         k: i64,
         at: Place<R>,
         s: R,
-        rgb: [R; 3],
-        alpha: R,
-        mut facts: Facts<R>,
+        (rgb, alpha): ([R; 3], R),
+        facts: &mut Facts<R>,
         counts: &mut Counts,
     ) {
         let prepared = self.prepared;
@@ -186,10 +184,10 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         self.opacity += w;
         if prepared.collects && alpha > R::ZERO {
             if let (Some(first), true) = (prepared.first, self.sums.is_empty()) {
-                self.learn(k, at, first, &mut facts, counts);
+                self.learn(k, at, first, facts, counts);
                 counts.without_normal += u64::from(first.gradient && facts.normal.is_none());
             }
-            self.collect(k, s, w, &facts);
+            self.collect(k, s, w, facts);
         }
     }
 
