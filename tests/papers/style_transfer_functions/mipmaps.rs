@@ -65,7 +65,7 @@ fn a_grainy_ball_is_as_quiet_as_sixteen_times_sixteen_rays_make_it() {
             }
         }
     }
-    let nearer = |way: usize| (distances[0] / distances[way] as f64).sqrt();
+    let nearer = |way: usize| (distances[0] / distances[way]).sqrt();
     assert!((3.0..5.0).contains(&nearer(1)), "unbiased: {}", nearer(1));
     assert!(nearer(2) >= 10.0, "along the ray: {}", nearer(2));
     assert!(nearer(3) >= 10.0, "exact: {}", nearer(3));
