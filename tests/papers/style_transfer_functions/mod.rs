@@ -4,6 +4,7 @@ mod curvature;
 mod lookup;
 mod rings;
 mod transparency;
+mod two_quantities;
 
 use crate::common::{Shot, orthographic};
 use drypoint::scene::tables::{Camera, GradientEstimator, HessianEstimator, Kernel, Length};
