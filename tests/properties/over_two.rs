@@ -142,3 +142,44 @@ fn nodes_on_the_way_change_nothing() {
         }
     }
 }
+
+/// A full grid with its axes exchanged is the same function.
+#[test]
+fn axes_can_be_exchanged() {
+    let mut covered = 0;
+    for seed in 5500..5600 {
+        let r = &mut Random(seed);
+        let mut shot = scene(seed).with(|s| {
+            s.sampling.number = drypoint::scene::tables::Number::F64;
+            s.sampling.stop_below = 0.0;
+        });
+        let t = shot.scene.transfer.clone().unwrap();
+        let (axis, [lo, hi]) = quantity(r, &mut shot, 1);
+        let looks: Vec<NodeColor> = t.all_nodes().map(|node| node.color.clone()).collect();
+        let xs = at(r, &shot.volume, 3);
+        let ys = [lo, lo + (hi - lo) * r.unit(), hi];
+        let grid: Vec<(NodeColor, f64)> = (0..9).map(|_| (r.pick(&looks), opacity(r))).collect();
+        let rows = |along: &[f64], down: &[f64], which: &dyn Fn(usize, usize) -> usize| -> Vec<Row> {
+            let node = |i: usize, j: usize| {
+                let (color, opacity) = grid[which(i, j)].clone();
+                Node { at: along[i], color, opacity }
+            };
+            let row = |j: usize| Row { at: RowAt::Number(down[j]), nodes: (0..3).map(|i| node(i, j)).collect() };
+            (0..3).map(row).collect()
+        };
+        let with = |shot: &Shot, axes, rows| {
+            shot.with_transfer(|t| {
+                *t = Transfer { over: Over::Two(axes), unit: Unit::Value, nodes: None, rows: Some(rows), ..t.clone() };
+            })
+        };
+        let one = with(&shot, [Axis::Value, axis.clone()], rows(&xs, &ys, &|i, j| 3 * j + i)).render();
+        let mut other = with(&shot, [axis, Axis::Value], rows(&ys, &xs, &|i, j| 3 * i + j));
+        other.further.reverse();
+        let other = other.render();
+        let d = crate::common::largest_difference(&one, &other);
+        // As above: α_u to a few ε, through powers and sums.
+        assert!(d < 1e-10, "seed {seed}: {d} {:?}", shot.scene);
+        covered += one.covered();
+    }
+    assert!(covered > 500, "{covered}");
+}

@@ -18,6 +18,7 @@ fn quantities(plan: &Plan) -> Vec<Quantity> {
 
 const REGULAR: &str = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \"red\" }]\n";
 const PLAIN: &str = "[transfer]\ntransparency = \"plain\"\nnodes = [{ at = 1, style = \"wax\" }]\n";
+const OVER: &str = "[transfer]\nkind = \"regular\"\nrows = [{ at = 1, nodes = [{ at = 1, color = \"red\" }] }]\n";
 const ILLUSTRATIVE: &str = "[transfer]\nnodes = [{ at = 1, style = \"wax\" }]\n";
 
 #[test]
@@ -54,8 +55,20 @@ fn a_scene_needs_what_its_effects_need_and_no_more() {
         ),
         (PLAIN, "[style_mipmaps]\n[contours]\nkappa = \"none\"\n", &[Value, Gradient, GradientMagnitudeRange]),
         (REGULAR, "[style_mipmaps]\n", &[Value]),
+        // A function over two quantities needs what they are made of, shaded or not.
+        ("OVER", "[\"value\", \"gradient-magnitude\"]", &[Value, Gradient]),
+        ("OVER", "[\"k1\", { distance = [0, 0, 0] }]", &[Value, Gradient, Hessian, Quantity::Distance]),
+        ("OVER", "[\"value\", \"kv\"]", &[Value, Gradient, PreviousNormal]),
+        ("OVER", "[\"value\", \"kv\"]\n[contours]\nkappa = \"exact\"", &[Value, Gradient, Hessian]),
+        ("OVER", "[\"value\", \"kv\"]\n[contours]\nkappa = \"none\"", &[Value, Gradient, PreviousNormal]),
+        ("OVER", "[\"value\", { volume = \"b.nrrd\" }]", &[Value, Quantity::FurtherVolume]),
+        ("OVER", "[\"value\", { distance = [0, 0, 0] }]", &[Value, Quantity::Distance]),
     ];
     for (transfer, rest, expected) in cases {
+        let (transfer, rest) = match *transfer {
+            "OVER" => (OVER, &format!("over = {rest}\n")),
+            transfer => (transfer, &(*rest).to_owned()),
+        };
         assert_eq!(quantities(&plan(&format!("{transfer}{rest}"))), *expected, "{transfer}{rest}");
     }
 }
@@ -99,6 +112,17 @@ fn what_a_scene_leaves_to_the_volume_is_settled_by_it() {
             assert_eq!(plan.idle_keys.iter().any(|idle| idle.key == "sampling.scale"), !smooths, "{hessian} {integer}");
         }
     }
+}
+
+#[test]
+fn gradient_magnitudes_are_measured_as_the_unit_says() {
+    let over = format!("{OVER}over = [\"value\", \"gradient-magnitude\"]\n");
+    let normalized = plan(&format!("{over}unit = \"normalized\"\n"));
+    assert!(normalized.needs(GradientMagnitudeRange) && normalized.has_pass(Pass::GradientRange));
+    assert!(!plan(&over).needs(GradientMagnitudeRange) && !plan(&over).has_pass(Pass::GradientRange));
+    let told = plan(&over).to_string();
+    assert!(told.contains("function over gradient-magnitude  gradient  one gradient a visible sample"), "{told}");
+    assert!(told.contains("transfer.over (line 7)"), "{told}");
 }
 
 #[test]

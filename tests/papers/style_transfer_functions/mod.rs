@@ -5,6 +5,7 @@ mod lookup;
 mod mipmaps;
 mod rings;
 mod transparency;
+mod two_quantities;
 
 use crate::common::{Shot, orthographic};
 use drypoint::scene::tables::{Camera, GradientEstimator, HessianEstimator, Kernel, Length};
