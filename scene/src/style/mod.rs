@@ -7,12 +7,14 @@ mod decode;
 mod error;
 mod load;
 mod rim;
+mod source;
 mod theme;
 
 pub use decode::MAX_SIDE;
 pub use error::{PictureFault, StyleError};
 pub use load::load;
 pub use rim::is_inside;
+pub use source::SourcePicture;
 pub use theme::Theme;
 
 use crate::color::{Rgba, premultiply, srgb_to_linear};
