@@ -4,6 +4,7 @@ mod accuracy;
 mod files;
 #[cfg(test)]
 mod pages;
+mod painting;
 mod reference;
 mod rings;
 mod styles;
@@ -13,11 +14,13 @@ use std::process::ExitCode;
 /// A page or a set of pictures: the word that asks for it, and what writes it.
 type Page = (&'static str, fn() -> Result<(), String>);
 
-const PAGES: [Page; 4] = [
+const PAGES: [Page; 6] = [
     ("accuracy", accuracy::write),
+    ("painting", painting::write),
     ("reference", reference::write),
     ("rings", rings::write),
     ("styles", styles::write),
+    ("figure-1", painting::figure::write),
 ];
 
 fn main() -> ExitCode {
