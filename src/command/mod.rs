@@ -59,7 +59,7 @@ enum Verb {
     Phantom(phantom::Phantom),
     /// Say what a scene calls for, and why
     Plan(plan::Plan),
-    /// List the styles of a theme, or write a preview sheet
+    /// List the styles of a theme, write a preview sheet, or make a style from a picture
     Styles(styles::Styles),
     /// Compare two pictures; exit code 1 when a bound is exceeded
     Compare(compare::Compare),

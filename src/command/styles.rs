@@ -1,8 +1,10 @@
-//! `styles`: the styles of a theme.
+//! `styles`: the styles of a theme, and new ones from pictures.
+
+mod extract;
 
 use super::report::{note, print};
 use super::{Done, Outcome, Talk, target};
-use clap::Args;
+use clap::{Args, Subcommand};
 use drypoint::output::png;
 use drypoint::reference::style_transfer_functions::gallery::preview_sheet;
 use drypoint::scene::picture::Provenance;
@@ -13,7 +15,10 @@ use std::path::PathBuf;
 
 /// List the styles of a theme; with -o, write a sheet of spheres.
 #[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true)]
 pub(super) struct Styles {
+    #[command(subcommand)]
+    what: Option<What>,
     /// An embedded theme, or a folder of pictures
     #[arg(long, value_name = "NAME|FOLDER", default_value = "textbook")]
     theme: String,
@@ -22,8 +27,17 @@ pub(super) struct Styles {
     output: Option<PathBuf>,
 }
 
+#[derive(Debug, Subcommand)]
+enum What {
+    /// Make a style from a part of a picture
+    Extract(extract::Extract),
+}
+
 impl Styles {
     pub(super) fn run(self, talk: Talk) -> Outcome {
+        if let Some(What::Extract(verb)) = self.what {
+            return verb.run(talk);
+        }
         if let Some(output) = &self.output {
             target::picture(output, &[Format::Png])?;
         }

@@ -18,6 +18,7 @@ pub(crate) fn write(name: &str, bytes: &[u8]) -> Result<(), String> {
         std::fs::create_dir_all(folder).map_err(say)?;
     }
     std::fs::write(&path, bytes).map_err(say)?;
-    println!("docs/{name} ({} kB)", bytes.len().div_ceil(1000));
+    let shown = name.strip_prefix("../").map_or_else(|| format!("docs/{name}"), Into::into);
+    println!("{shown} ({} kB)", bytes.len().div_ceil(1000));
     Ok(())
 }

@@ -5,6 +5,7 @@ mod figures;
 mod files;
 #[cfg(test)]
 mod pages;
+mod painting;
 mod reference;
 mod rings;
 mod rules;
@@ -18,7 +19,9 @@ type Page = (&'static str, fn() -> Result<(), String>);
 
 const PAGES: &[Page] = &[
     ("accuracy", accuracy::write),
+    ("figure-1", painting::figure::write),
     ("figures", figures::write),
+    ("painting", painting::write),
     ("reference", reference::write),
     ("rings", rings::write),
     ("rules", rules::write),

@@ -9,6 +9,7 @@
 
 pub mod contour;
 pub mod curvature_along_ray;
+pub mod extract;
 pub mod frame;
 pub mod gallery;
 pub mod lookup;

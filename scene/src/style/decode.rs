@@ -2,7 +2,7 @@
 
 use super::PictureFault;
 use crate::color::Rgba;
-use image::{ColorType, DynamicImage, ImageError, ImageReader};
+use image::{ColorType, ImageError, ImageReader};
 use std::io::Cursor;
 
 /// The largest side of a style's picture, in texels: 512 MiB decoded, far beyond what a lookup can tell apart.
@@ -14,38 +14,68 @@ pub const MAX_SIDE: usize = 4096;
 /// # Errors
 /// Bytes that are no PNG or JPEG, damaged ones, and sides above [`MAX_SIDE`] (seen before anything is allocated).
 pub(super) fn straight(bytes: &[u8]) -> Result<(usize, usize, Vec<Rgba>), PictureFault> {
-    let unreadable = |e: ImageError| PictureFault::Unreadable { reason: e.to_string() };
-    let reader = || ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| unreadable(e.into()));
-    let (width, height) = reader()?.into_dimensions().map_err(unreadable)?;
-    let [width, height] = [width, height].map(|n| n as usize);
-    if width > MAX_SIDE || height > MAX_SIDE {
-        return Err(PictureFault::TooLarge { width, height, limit: MAX_SIDE });
-    }
-    let picture = reader()?.decode().map_err(unreadable)?;
-    Ok((width, height, to_rgba(&picture)?))
+    let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE)?;
+    let numbers: Vec<f64> = match codes {
+        Codes::Eight(codes) => codes.iter().map(|&code| f64::from(code) / 255.0).collect(),
+        Codes::Sixteen(codes) => codes.iter().map(|&code| f64::from(code) / 65535.0).collect(),
+    };
+    Ok((width, height, numbers.chunks_exact(channels).map(rgba).collect()))
 }
 
-/// The texels of a decoded picture, without the decoder's own colour conversions.
-fn to_rgba(picture: &DynamicImage) -> Result<Vec<Rgba>, PictureFault> {
-    let bytes = picture.as_bytes();
-    let numbers: Vec<f64> = match picture.color() {
-        ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => {
-            bytes.iter().map(|&b| f64::from(b) / 255.0).collect()
+/// A decoded picture's channels as the file has them, without the decoder's own colour conversions.
+pub(super) struct Decoded {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// Channels of a pixel, from one to four.
+    pub(super) channels: usize,
+    pub(super) codes: Codes,
+}
+
+/// The channels of all pixels, row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Codes {
+    /// From 0 to 2⁸ − 1.
+    Eight(Vec<u8>),
+    /// From 0 to 2¹⁶ − 1.
+    Sixteen(Vec<u16>),
+}
+
+impl Decoded {
+    /// From a PNG or JPEG file's bytes.
+    ///
+    /// # Errors
+    /// Bytes that are no such picture, damaged ones, and sides above `limit` (seen before anything is allocated).
+    pub(super) fn new(bytes: &[u8], limit: usize) -> Result<Self, PictureFault> {
+        let unreadable = |e: ImageError| PictureFault::Unreadable { reason: e.to_string() };
+        let reader = || ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| unreadable(e.into()));
+        let (width, height) = reader()?.into_dimensions().map_err(unreadable)?;
+        let [width, height] = [width, height].map(|n| n as usize);
+        if width > limit || height > limit {
+            return Err(PictureFault::TooLarge { width, height, limit });
         }
-        ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
-            bytes.chunks_exact(2).map(|b| f64::from(u16::from_ne_bytes([b[0], b[1]])) / 65535.0).collect()
-        }
-        other => return Err(PictureFault::Unreadable { reason: format!("texels of type {other:?}") }),
-    };
-    let channels = usize::from(picture.color().channel_count());
-    let rgba = |c: &[f64]| match *c {
+        let picture = reader()?.decode().map_err(unreadable)?;
+        let color = picture.color();
+        let bytes = picture.into_bytes();
+        let codes = match color {
+            ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => Codes::Eight(bytes),
+            ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
+                Codes::Sixteen(bytes.chunks_exact(2).map(|b| u16::from_ne_bytes([b[0], b[1]])).collect())
+            }
+            other => return Err(PictureFault::Unreadable { reason: format!("texels of type {other:?}") }),
+        };
+        Ok(Self { width, height, channels: usize::from(color.channel_count()), codes })
+    }
+}
+
+/// The channels of a pixel as red, green, blue and alpha.
+pub(super) fn rgba(channels: &[f64]) -> Rgba {
+    match *channels {
         [grey] => [grey, grey, grey, 1.0],
         [grey, a] => [grey, grey, grey, a],
         [r, g, b] => [r, g, b, 1.0],
         [r, g, b, a, ..] => [r, g, b, a],
         [] => [0.0; 4],
-    };
-    Ok(numbers.chunks_exact(channels).map(rgba).collect())
+    }
 }
 
 #[cfg(test)]
@@ -53,7 +83,8 @@ mod tests {
     use super::*;
     use crate::style::Style;
     use image::{
-        GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, RgbImage, Rgba as Texel, RgbaImage,
+        DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, RgbImage, Rgba as Texel,
+        RgbaImage,
     };
     use proptest::prelude::*;
 

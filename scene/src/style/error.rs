@@ -37,6 +37,16 @@ pub enum PictureFault {
         /// How many there are.
         found: usize,
     },
+    /// The pixels given are not width × height, or there is none.
+    #[error("{found} pixels do not make a picture of {width} × {height}")]
+    Pixels {
+        /// Pixels from left to right.
+        width: usize,
+        /// Pixels from top to bottom.
+        height: usize,
+        /// How many there are.
+        found: usize,
+    },
 }
 
 /// A style or a theme that a scene names and that cannot be had.
@@ -113,13 +123,19 @@ impl StyleError {
             Self::Folder { .. } => "give a folder of pictures that may be read",
             Self::Ambiguous { .. } => "keep one of them",
             Self::File { .. } => "give a picture that may be read",
-            Self::Picture { fault, .. } => match fault {
-                PictureFault::Unreadable { .. } => "give a picture in PNG or JPEG",
-                PictureFault::NotSquare { .. } | PictureFault::Texels { .. } => {
-                    "cut the picture to the square around its sphere"
-                }
-                PictureFault::TooLarge { .. } => "scale the picture down",
-            },
+            Self::Picture { fault, .. } => fault.help(),
+        }
+    }
+}
+
+impl PictureFault {
+    /// One line that says what to do.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Unreadable { .. } => "give a picture in PNG or JPEG",
+            Self::NotSquare { .. } | Self::Texels { .. } => "cut the picture to the square around its sphere",
+            Self::TooLarge { .. } => "scale the picture down",
+            Self::Pixels { .. } => "give one for each place of a picture that has at least one",
         }
     }
 }

@@ -8,6 +8,7 @@ mod error;
 mod load;
 mod mipmaps;
 mod rim;
+mod source;
 mod theme;
 
 pub use decode::MAX_SIDE;
@@ -15,6 +16,7 @@ pub use error::{PictureFault, StyleError};
 pub use load::load;
 pub use mipmaps::MipLevel;
 pub use rim::is_inside;
+pub use source::SourcePicture;
 pub use theme::Theme;
 
 use crate::color::{Rgba, premultiply, srgb_to_linear};

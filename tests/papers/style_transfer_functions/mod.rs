@@ -1,6 +1,7 @@
 //! Bruckner and Gröller 2007.
 
 mod curvature;
+mod extraction;
 mod lookup;
 mod mipmaps;
 mod rings;

@@ -1,0 +1,79 @@
+//! What can be wrong with a region or with the style that is asked for.
+
+use super::LARGEST;
+
+/// Why no style can be extracted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ExtractError {
+    /// A side of 0, or one that no style is read with.
+    #[error("a side of {side} texels is not between 1 and {limit}")]
+    Side {
+        /// What was asked for.
+        side: usize,
+        /// The largest.
+        limit: usize,
+    },
+    /// A coordinate or a length that is no number, or lies beyond all pictures.
+    #[error("{name} is {value}: it must be a number between -{LARGEST:e} and {LARGEST:e}")]
+    Number {
+        /// Which one.
+        name: String,
+        /// What was given.
+        value: f64,
+    },
+    /// A radius or a half axis that is not positive.
+    #[error("{name} is {value}: it must be above 0")]
+    NotPositive {
+        /// Which one.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// An outline with fewer than three different points.
+    #[error("an outline of {found} different points encloses nothing")]
+    TooFewPoints {
+        /// How many different points in a row there are.
+        found: usize,
+    },
+    /// More points than any drawn outline has.
+    #[error("an outline of {found} points: at most {limit} are read")]
+    TooManyPoints {
+        /// How many there are.
+        found: usize,
+        /// The most.
+        limit: usize,
+    },
+    /// An outline that crosses or touches itself, so that it has no inside.
+    #[error("the outline crosses itself: the line from point {} meets the one from point {}", edges[0] + 1, edges[1] + 1)]
+    Crossing {
+        /// The points, counted from 0, at which the two lines begin.
+        edges: [usize; 2],
+    },
+    /// A region that has no part in the picture.
+    #[error("the region lies outside the picture of {width} × {height} pixels")]
+    Outside {
+        /// Pixels from left to right.
+        width: usize,
+        /// Pixels from top to bottom.
+        height: usize,
+    },
+    /// A region in which no pixel of the picture has its centre.
+    #[error("the region holds no pixel of the picture")]
+    Empty,
+}
+
+impl ExtractError {
+    /// One line that says what to do.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Side { .. } => "256 is enough for most pictures",
+            Self::Number { .. } => "give pixels of the picture, counted from its upper left corner",
+            Self::NotPositive { .. } => "give it in pixels of the picture",
+            Self::TooFewPoints { .. } => "give the points of the outline in their order; 30 make a smooth one",
+            Self::TooManyPoints { .. } => "leave most of them out: 100 make a smooth outline",
+            Self::Crossing { .. } => "give the points in their order round the shape",
+            Self::Outside { .. } => "x is counted from the left, y from the top, both in pixels",
+            Self::Empty => "give a larger region, or scale the picture up",
+        }
+    }
+}
