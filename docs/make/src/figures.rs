@@ -36,7 +36,8 @@ pub(crate) fn write() -> Result<(), String> {
     Ok(())
 }
 
-/// The scenes of figures, but not the twins with regular functions, which are there to be timed.
+/// The scenes of figures, but not the twins with regular functions, which are there to be timed, and those of Fig. 1,
+/// which are laid out beside the painting.
 fn scenes() -> Result<Vec<PathBuf>, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes");
     let entries = |folder: &Path| -> Result<Vec<PathBuf>, String> {
@@ -47,7 +48,9 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
     for paper in entries(&root)?.iter().filter(|path| path.is_dir()) {
         scenes.extend(entries(paper)?.into_iter().filter(|path| {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            path.extension().is_some_and(|e| e == "toml") && stem.starts_with("figure_") && !stem.ends_with("_regular")
+            path.extension().is_some_and(|e| e == "toml")
+                && stem.starts_with("figure_")
+                && !(stem.ends_with("_regular") || stem.starts_with("figure_1_"))
         }));
     }
     scenes.sort();
