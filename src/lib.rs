@@ -17,6 +17,7 @@
 pub mod failure;
 pub mod format;
 pub mod job;
+pub mod labels;
 
 pub use drypoint_output as output;
 pub use drypoint_reference as reference;

@@ -3,7 +3,9 @@
 //! This crate opens no file and knows no file format; what it reads and makes are plain types of `drypoint_scene`.
 
 pub mod field;
+pub mod labels;
 pub mod number;
+mod other_grid;
 pub mod ray;
 pub mod shading;
 pub mod style_transfer_functions;

@@ -106,6 +106,12 @@ impl Grid {
         self.inverse * (world - self.origin)
     }
 
+    /// The same grid in a world whose axes point the other way where `signs` has −1, to the last bit.
+    pub(crate) fn flipped(&self, signs: DVec3) -> Self {
+        let flip = DMat3::from_diagonal(signs);
+        Self { axes: flip * self.axes, inverse: self.inverse * flip, origin: signs * self.origin, ..self.clone() }
+    }
+
     /// Norms of the columns of D, in world units.
     pub fn spacing(&self) -> [f64; 3] {
         [self.axes.x_axis.length(), self.axes.y_axis.length(), self.axes.z_axis.length()]

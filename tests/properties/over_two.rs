@@ -62,7 +62,7 @@ pub(crate) fn over_two(r: &mut Random, shot: &mut Shot) {
     if axes[0] == axes[1] {
         return;
     }
-    let mut places = |r: &mut Random, shot: &Shot, i: usize, n| match value {
+    let places = |r: &mut Random, shot: &Shot, i: usize, n| match value {
         Some(v) if v == i => values(r, shot, n),
         _ => numbers(r, ranges[i], n),
     };

@@ -23,6 +23,7 @@ mod tests;
 
 pub use drypoint_scene::tables::{GradientEstimator, HessianEstimator, Kernel, Outside};
 pub use error::FieldError;
+pub(crate) use place::Cells;
 pub use place::Place;
 pub use sampler::{AnySampler, Sampled, Sampler};
 
@@ -33,7 +34,6 @@ use drypoint_scene::math;
 use drypoint_scene::volume::{Bricks, Volume};
 use gradient::regression::Regression;
 use kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
-use place::Cells;
 use std::collections::BTreeMap;
 use stencil::Stencils;
 

@@ -13,7 +13,7 @@ pub struct Place<R> {
 
 /// The cells of a grid.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cells<R> {
+pub(crate) struct Cells<R> {
     /// The last voxel of each axis, N − 1.
     end: [R; 3],
     /// The last cell of each axis, max(N − 2, 0).
@@ -21,7 +21,7 @@ pub(super) struct Cells<R> {
 }
 
 impl<R: Real> Cells<R> {
-    pub(super) fn new(dims: [usize; 3]) -> Self {
+    pub(crate) fn new(dims: [usize; 3]) -> Self {
         let number = |n: usize| R::from_f64(n as f64);
         Self { end: dims.map(|n| number(n - 1)), last: dims.map(|n| number(n.max(2) - 2)) }
     }
@@ -36,7 +36,7 @@ impl<R: Real> Cells<R> {
 
     /// The place of a position inside the box of [SPACE-1].
     #[inline(always)]
-    pub(super) fn locate(&self, p: Vec3<R>) -> Place<R> {
+    pub(crate) fn locate(&self, p: Vec3<R>) -> Place<R> {
         let (x, y, z) = (self.along(0, p.x), self.along(1, p.y), self.along(2, p.z));
         Place { cell: [x.0, y.0, z.0], w: [x.1, y.1, z.1] }
     }

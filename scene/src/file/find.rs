@@ -5,7 +5,7 @@ use super::fault::Problem;
 use super::names;
 use super::place::Place;
 use crate::nearest::nearest;
-use crate::tables::{Background, Scene, StyleSource, VolumeSource};
+use crate::tables::{Axis, Background, Over, Scene, StyleSource, VolumeSource};
 use std::path::{Path, PathBuf};
 
 /// The variable that lists folders of volumes.
@@ -25,20 +25,19 @@ pub fn data_folders() -> Vec<PathBuf> {
 
 /// Looks for every file and folder that the scene names, and says which are not there.
 pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
-    if let VolumeSource::File { path, .. } = &mut scene.volume.source
-        && let Some(place) = sound(check, "volume.file")
-    {
-        match find(path, check.unresolved(path, &place), folders) {
-            Some(found) => *path = found,
-            None => {
-                let listed: Vec<String> = folders.iter().map(|folder| folder.display().to_string()).collect();
-                let also = if listed.is_empty() {
-                    format!("{VARIABLE} lists no folder with it")
-                } else {
-                    format!("nor is it in {}", listed.join(" or "))
-                };
-                let problem = Problem::NoFile { path: path.clone(), remedy: format!("write another path; {also}") };
-                check.fault_of("volume.file".into(), &place, problem);
+    let volume = &mut scene.volume;
+    if let VolumeSource::File { path, .. } = &mut volume.source {
+        must_be_found(path, "volume.file", check, folders);
+    }
+    for (path, key) in [(&mut volume.labels, "volume.labels"), (&mut volume.label_names, "volume.label_names")] {
+        if let Some(path) = path {
+            must_be_found(path, key, check, folders);
+        }
+    }
+    if let Some(Over::Two(axes)) = scene.transfer.as_mut().map(|transfer| &mut transfer.over) {
+        for (i, axis) in axes.iter_mut().enumerate() {
+            if let Axis::Volume(path) = axis {
+                must_be_found(path, &format!("transfer.over[{i}].volume"), check, folders);
             }
         }
     }
@@ -64,6 +63,24 @@ pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
 /// The place of a key that the scene says and that nothing is wrong with so far.
 fn sound(check: &Check, key: &str) -> Option<Place> {
     check.place(key).filter(|_| check.sound(&[key])).cloned()
+}
+
+/// Puts the place where a file of the data was found for its path.
+fn must_be_found(path: &mut PathBuf, key: &str, check: &mut Check, folders: &[PathBuf]) {
+    let Some(place) = sound(check, key) else { return };
+    match find(path, check.unresolved(path, &place), folders) {
+        Some(found) => *path = found,
+        None => {
+            let listed: Vec<String> = folders.iter().map(|folder| folder.display().to_string()).collect();
+            let also = if listed.is_empty() {
+                format!("{VARIABLE} lists no folder with it")
+            } else {
+                format!("nor is it in {}", listed.join(" or "))
+            };
+            let problem = Problem::NoFile { path: path.clone(), remedy: format!("write another path; {also}") };
+            check.fault_of(key.into(), &place, problem);
+        }
+    }
 }
 
 fn must_exist(path: &Path, key: &str, check: &mut Check) {

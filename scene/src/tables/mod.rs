@@ -28,4 +28,4 @@ pub use scene::Scene;
 pub use shading::{LightDirection, Shading};
 pub use styles::{StyleFile, StyleSource, Styles};
 pub use transfer::{Mix, Node, NodeColor, SphereFrame, Table, Transfer, TransferKind, Transparency, Unit};
-pub use volume::{GradientRange, Ids, Outside, PhantomSource, RawLayout, VolumeSource, VolumeTable};
+pub use volume::{GradientRange, Ids, LabelLookup, Outside, PhantomSource, RawLayout, VolumeSource, VolumeTable};

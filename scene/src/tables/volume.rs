@@ -1,7 +1,7 @@
 //! `[volume]`: the data that is seen.
 
 use crate::file::check::Check;
-use crate::file::describe::{Instead, Key, Kind, Later, Names, Shape, Slot, Table};
+use crate::file::describe::{Instead, Key, Kind, Names, Shape, Slot, Table};
 use crate::file::fault::Problem;
 use crate::file::item::{Item, Value};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, PathTo, Rule, TableOf, Whole, Wholes};
@@ -21,6 +21,12 @@ pub struct VolumeTable {
     pub source: VolumeSource,
     /// What the values mean.
     pub ids: Ids,
+    /// The file of the label volume beside the data, resolved as the volume's ([STF-13]).
+    pub labels: Option<PathBuf>,
+    /// The table of its labels' names.
+    pub label_names: Option<PathBuf>,
+    /// Which label lies between voxels.
+    pub label_lookup: LabelLookup,
     /// The value range of `normalized` ([VAL-1]); none: the volume's own.
     pub range: Option<[f64; 2]>,
     /// The range of ‖g‖ that |g| maps to [0, 1] ([VAL-2]).
@@ -82,6 +88,15 @@ pub enum Ids {
     Mask,
 }
 
+/// Which label lies between voxels ([STF-13]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LabelLookup {
+    /// That of the nearest voxel.
+    Nearest,
+    /// That with the highest sum of trilinear weights among the eight voxels around.
+    Smooth,
+}
+
 /// What |g| = 1 stands for ([VAL-2]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GradientRange {
@@ -106,6 +121,9 @@ impl VolumeTable {
         Self {
             source,
             ids: Ids::Values,
+            labels: None,
+            label_names: None,
+            label_lookup: LabelLookup::Nearest,
             range: None,
             gradient_range: GradientRange::Quantile(0.999),
             outside: Outside::Low,
@@ -141,11 +159,6 @@ const SPACING: Numbers<3> = Numbers { what: "a spacing [x, y, z]", bounds: Bound
 
 /// The description of `[volume]`.
 pub(crate) static TABLE: Table<VolumeTable> = Table {
-    later: &[
-        Later { name: "labels", tag: "STF-13" },
-        Later { name: "label_names", tag: "STF-13" },
-        Later { name: "label_lookup", tag: "STF-13" },
-    ],
     instead: &[Instead { one: "phantom", others: &["file"] }],
     check: |_, check| {
         if !check.has("file") && !check.has("phantom") {
@@ -168,6 +181,16 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
         let nodes = scene.transfer.as_ref().filter(|transfer| !transfer.is_automatic());
         if nodes.is_some_and(|transfer| transfer.unit != Unit::Normalized) {
             idle.key("volume.range", "only transfer.unit = \"normalized\" is measured in it");
+        }
+        let why = match scene.volume.labels {
+            Some(_) if plan.needs(Quantity::Label) || plan.needs(Quantity::LabelDistance) => None,
+            Some(_) => Some("nothing reads a label"),
+            None => Some("volume.labels names no label volume"),
+        };
+        if let Some(why) = why {
+            for key in ["volume.labels", "volume.label_names", "volume.label_lookup"] {
+                idle.key(key, why);
+            }
         }
         if !plan.needs(Quantity::GradientMagnitudeRange) {
             idle.key("volume.gradient_range", "nothing reads |g|");
@@ -249,6 +272,51 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
                     set: |t, v| t.ids = v,
                 },
             ),
+            Key::new(
+                "labels",
+                "STF-13",
+                "A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on \
+                 another grid; outside its box the label is 0.",
+                &Slot {
+                    kind: PathTo { what: "a label volume" },
+                    get: |t: &VolumeTable| t.labels.clone(),
+                    set: |t, path| t.labels = Some(path),
+                },
+            )
+            .absent("no labels"),
+            Key::new(
+                "label_names",
+                "STF-13",
+                "The names of the labels: a CSV file with an id and a name on each line.",
+                &Slot {
+                    kind: PathTo { what: "a table of names" },
+                    get: |t: &VolumeTable| t.label_names.clone(),
+                    set: |t, path| t.label_names = Some(path),
+                },
+            )
+            .absent("labels have no names"),
+            Key::new(
+                "label_lookup",
+                "STF-13",
+                "Which label lies between voxels.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("nearest", LabelLookup::Nearest, "That of the nearest voxel."),
+                            ChoiceOption::new(
+                                "smooth",
+                                LabelLookup::Smooth,
+                                "That with the highest sum of trilinear weights among the eight voxels around: borders \
+                                 are not blocky.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |t: &VolumeTable| Some(t.label_lookup),
+                    set: |t, v| t.label_lookup = v,
+                },
+            )
+            .needs(&[Quantity::Label]),
             Key::new(
                 "range",
                 "VAL-1",

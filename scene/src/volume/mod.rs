@@ -8,6 +8,7 @@ mod bricks;
 mod bytes;
 pub mod histogram;
 pub mod info;
+pub mod labels;
 mod mask;
 pub mod read;
 pub mod write;
@@ -17,6 +18,7 @@ pub use mask::Mask;
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 
 use crate::space::Grid;
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// Anatomical directions of the world axes, as far as a file names them ([SPACE-2]).
@@ -49,6 +51,24 @@ impl Anatomy {
             Self::LeftPosteriorSuperior => "LPS",
             Self::LeftAnteriorSuperior => "LAS",
             Self::RightAnteriorSuperior => "RAS",
+        }
+    }
+
+    /// Which way x and y point, as signs; z is superior in all of them.
+    fn signs(self) -> DVec3 {
+        match self {
+            Self::LeftPosteriorSuperior => DVec3::ONE,
+            Self::LeftAnteriorSuperior => DVec3::new(1.0, -1.0, 1.0),
+            Self::RightAnteriorSuperior => DVec3::new(-1.0, -1.0, 1.0),
+        }
+    }
+
+    /// A grid of one world as it lies in another ([SPACE-2]): axes that point the other way are flipped. Where one of
+    /// the worlds has no name, the grid is taken as it is.
+    pub fn between(grid: &Grid, from: Option<Self>, to: Option<Self>) -> Grid {
+        match (from, to) {
+            (Some(from), Some(to)) => grid.flipped(from.signs() * to.signs()),
+            _ => grid.clone(),
         }
     }
 }

@@ -44,14 +44,14 @@ fn a_part_that_is_not_built_says_so() {
         assert_eq!(text.lines().count(), 3, "{text}");
     }
     let text = parse(
-        "drypoint = 1\npreset = \"stipple\"\n[volume]\nfile = \"a\"\nlabels = \"b\"\n",
+        "drypoint = 1\npreset = \"stipple\"\n[volume]\nfile = \"a\"\n[[halo]]\n",
         Path::new("s"),
         &Overrides::default(),
     )
     .unwrap_err()
     .to_string();
     assert!(text.contains("preset = \"stipple\" is not built yet ([STIP-14])\n  at s:2:10"), "{text}");
-    assert!(text.contains("volume.labels is not built yet ([STF-13])\n  at s:5:1"), "{text}");
+    assert!(text.contains("[[halo]] is not built yet ([HALO-1])\n  at s:5:3"), "{text}");
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn what_must_be_there() {
         text(""),
         "drypoint is missing\n  at s.toml:1:1, key drypoint\n  write drypoint = 1, the version of the format that this \
          program reads\nvolume is missing\n  at s.toml:1:1, key volume\n  write [volume], a table with the keys file, \
-         phantom, raw, ids, range, gradient_range, outside"
+         phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside"
     );
     assert_eq!(
         text("drypoint = 2\n[volume]\n"),
