@@ -21,7 +21,7 @@ pub mod volume;
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use length::Length;
-pub use nodes::{Row, RowAt};
+pub use nodes::{Row, RowAt, Stand};
 pub use over::{Axis, LabelKey, Over};
 pub use picture::{Background, BlendSpace, PictureSettings};
 pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Number, Sampling, StepAlong};

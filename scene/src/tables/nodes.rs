@@ -1,6 +1,7 @@
 //! Nodes of a transfer function, in a line, on a full grid, or in rows of their own ([STF-3], [STF-4]).
 
-use super::{Node, NodeColor};
+use super::over::Label;
+use super::{LabelKey, Node, NodeColor};
 use crate::file::Problem;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Section, Shape, Slot, Table};
@@ -25,6 +26,32 @@ pub enum RowAt {
     Number(f64),
     /// At the label of that name.
     Name(String),
+    /// At each of these labels, which share the row.
+    Labels(Vec<LabelKey>),
+}
+
+/// One of the places where a row stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stand<'a> {
+    /// A number, or an id.
+    Number(f64),
+    /// The name of a label.
+    Name(&'a str),
+}
+
+impl RowAt {
+    /// The places one by one.
+    pub fn each(&self) -> Vec<Stand<'_>> {
+        let one = |label| match label {
+            &LabelKey::Id(id) => Stand::Number(f64::from(id)),
+            LabelKey::Name(name) => Stand::Name(name),
+        };
+        match self {
+            Self::Number(number) => vec![Stand::Number(*number)],
+            Self::Name(name) => vec![Stand::Name(name)],
+            Self::Labels(labels) => labels.iter().map(one).collect(),
+        }
+    }
 }
 
 /// What `nodes` can be.
@@ -327,7 +354,8 @@ static ROW: Table<Row> = Table::new(
         Key::new(
             "at",
             "STF-4",
-            "Where the row stands: a number of the second quantity; for labels an id, or a name of `volume.label_names`.",
+            "Where the row stands: a number of the second quantity; for labels an id, a name of `volume.label_names`, or a \
+             list of labels that share the row.",
             &Slot { kind: RowAtKind, get: |r: &Row| Some(r.at.clone()), set: |r, v| r.at = v },
         )
         .required(),
@@ -341,18 +369,19 @@ static ROW: Table<Row> = Table::new(
     ],
 );
 
-/// Where a row stands: a number, or a name.
+/// Where a row stands: a number, a name, or several labels.
 struct RowAtKind;
 
 const ROW_NAME: Text = Text { what: "the name of a label" };
+const ROW_LABELS: ListOf<Label> = ListOf { what: "a list of labels", each: Label };
 
 impl Shape for RowAtKind {
     fn expected(&self) -> String {
-        format!("{}, or {}", ONE.expected(), ROW_NAME.expected())
+        format!("{}, {}, or a list of labels, each its id or its name", ONE.expected(), ROW_NAME.expected())
     }
 
     fn schema(&self) -> Json {
-        json!({ "anyOf": [ONE.schema(), ROW_NAME.schema()] })
+        json!({ "anyOf": [ONE.schema(), ROW_NAME.schema(), ROW_LABELS.schema()] })
     }
 }
 
@@ -363,6 +392,9 @@ impl Kind for RowAtKind {
         match (item.number(), item.text()) {
             (Some(at), _) => Some(RowAt::Number(at)),
             (None, Some(name)) if !name.is_empty() => Some(RowAt::Name(name.to_owned())),
+            _ if item.list().is_some_and(|labels| !labels.is_empty()) => {
+                ROW_LABELS.read(item, check).map(RowAt::Labels)
+            }
             _ => check.wrong(item, self.expected()),
         }
     }
@@ -371,6 +403,7 @@ impl Kind for RowAtKind {
         match value {
             RowAt::Number(at) => Out::Number(*at),
             RowAt::Name(name) => Out::Text(name.clone()),
+            RowAt::Labels(labels) => ROW_LABELS.write(labels),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! quantities of something, and a measure in the renderer.
 
 use super::contours::{Measured, measured_curvature};
-use super::{RowAt, Scene, Unit};
+use super::{Scene, Stand, Unit};
 use crate::file::Problem;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Section, Shape, Slot, Table};
@@ -280,8 +280,10 @@ pub(super) fn check_labels(scene: &Scene, check: &mut Check) {
         }
     }
     for (i, row) in transfer.rows.iter().flatten().enumerate() {
-        if let RowAt::Name(name) = &row.at {
-            lacks(&format!("transfer.rows[{i}].at"), without(name), remedy);
+        for at in row.at.each() {
+            if let Stand::Name(name) = at {
+                lacks(&format!("transfer.rows[{i}].at"), without(name), remedy);
+            }
         }
     }
 }
@@ -378,7 +380,7 @@ impl Kind for AxisKind {
 }
 
 /// A label: its id, or its name.
-struct Label;
+pub(super) struct Label;
 
 /// The name of a label.
 const LABEL_NAME: Text = Text { what: "the name of a label" };

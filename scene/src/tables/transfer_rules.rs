@@ -1,6 +1,6 @@
 //! What only the keys of `[transfer]` together can tell.
 
-use super::nodes::{Row, RowAt};
+use super::nodes::{Row, RowAt, Stand};
 use super::over::{Axis, Over};
 use super::transfer::{Transfer, TransferKind, Unit};
 use crate::file::Problem;
@@ -108,7 +108,11 @@ fn rows_stand(second: &Axis, rows: &[Row], places: &Places, check: &mut Check) {
             (RowAt::Number(at), _) if second.is_id() && !is_id(*at) => {
                 contradiction(check, &key, format!("{at} is no label"), IDS);
             }
-            (at, _) if second.is_id() && rows[..i].iter().any(|other| other.at == *at) => {
+            (RowAt::Labels(_), _) if !second.is_id() => {
+                let what = format!("a row at several labels, and the second quantity is {:?}", second.name());
+                contradiction(check, &key, what, "give it a number");
+            }
+            (at, _) if second.is_id() && stands_twice(at, &rows[..i]) => {
                 contradiction(check, &key, "a second row for one label".into(), "keep one row for each label");
             }
             (RowAt::Number(after), Some(RowAt::Number(before))) if !second.is_id() && after < before => {
@@ -118,6 +122,16 @@ fn rows_stand(second: &Axis, rows: &[Row], places: &Places, check: &mut Check) {
             _ => {}
         }
     }
+}
+
+/// Whether a row stands where it does already, or another one.
+fn stands_twice(at: &RowAt, before: &[Row]) -> bool {
+    let mut stand: Vec<Stand<'_>> = before.iter().flat_map(|row| row.at.each()).collect();
+    at.each().into_iter().any(|at| {
+        let twice = stand.contains(&at);
+        stand.push(at);
+        twice
+    })
 }
 
 /// Nodes over labels stand at ids, at each once.

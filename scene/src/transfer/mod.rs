@@ -1,7 +1,7 @@
 //! Transfer functions over data values and other quantities: piecewise-linear nodes, and what a range of values can make
 //! visible ([RAY-2]).
 
-use crate::tables::{Axis, Node, NodeColor, Over, Row, RowAt, Transfer, Unit};
+use crate::tables::{Axis, Node, NodeColor, Over, Row, Stand, Transfer, Unit};
 use crate::volume::Volume;
 use crate::volume::histogram::quantiles;
 use std::cmp::Ordering;
@@ -173,31 +173,32 @@ impl Rows {
     }
 }
 
-/// The order in which rows are kept, and where each stands then: as they are written, but labels by their ids.
+/// The order in which rows are kept, and where each stands then: as they are written, but labels by their ids. A row that
+/// several labels share is there for each of them.
 fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<usize>, Vec<f64>), Vec<FunctionError>> {
-    let (mut at, mut wrong) = (Vec::with_capacity(rows.len()), Vec::new());
+    // Where, which row, and whether it says so by a name.
+    let (mut places, mut wrong): (Vec<(f64, usize, bool)>, _) = (Vec::with_capacity(rows.len()), Vec::new());
     for (row, r) in rows.iter().enumerate() {
-        match &r.at {
-            RowAt::Number(number) => at.push(*number),
-            RowAt::Name(name) => match id_of(name) {
-                Some(id) => at.push(f64::from(id)),
-                None => wrong.push(FunctionError::UnknownLabel { name: name.clone(), row: Some(row) }),
-            },
+        for at in r.at.each() {
+            match at {
+                Stand::Name(name) => match id_of(name) {
+                    Some(id) => places.push((f64::from(id), row, true)),
+                    None => wrong.push(FunctionError::UnknownLabel { name: name.into(), row: Some(row) }),
+                },
+                Stand::Number(number) => places.push((number, row, false)),
+            }
         }
     }
     if !wrong.is_empty() {
         return Err(wrong);
     }
-    let mut order: Vec<usize> = (0..rows.len()).collect();
     // Numbers are in order already, and the sort keeps the order of equals, 0 and −0 among them.
-    order.sort_by(|&a, &b| at[a].partial_cmp(&at[b]).unwrap_or(Ordering::Equal));
-    let named = |row: usize| matches!(rows[row].at, RowAt::Name(_));
-    let twice = |pair: &&[usize]| at[pair[0]] == at[pair[1]] && (named(pair[0]) || named(pair[1]));
-    if let Some(pair) = order.windows(2).find(twice) {
-        return Err(vec![FunctionError::LabelTwice { row: pair[1], id: at[pair[1]] as u32 }]);
+    places.sort_by(|a, b| a.0.partial_cmp(&b.0).unwrap_or(Ordering::Equal));
+    let twice = |pair: &&[(f64, usize, bool)]| pair[0].0 == pair[1].0 && (pair[0].2 || pair[1].2);
+    if let Some([_, (id, row, _)]) = places.windows(2).find(twice) {
+        return Err(vec![FunctionError::LabelTwice { row: *row, id: *id as u32 }]);
     }
-    let at = order.iter().map(|&row| at[row]).collect();
-    Ok((order, at))
+    Ok(places.into_iter().map(|(at, row, _)| (row, at)).unzip())
 }
 
 /// Whether a piecewise-linear opacity is above 0 somewhere on [lo, hi].
@@ -228,7 +229,7 @@ fn values(at: Vec<f64>, unit: Unit, [lo, hi]: [f64; 2], volume: &Volume) -> Vec<
 mod tests {
     use super::*;
     use crate::space::Grid;
-    use crate::tables::{LabelKey, TransferKind};
+    use crate::tables::{LabelKey, RowAt, TransferKind};
     use crate::volume::Voxels;
 
     /// A function of colours over two quantities, of rows with nodes (at, opacity).
@@ -258,6 +259,19 @@ mod tests {
         assert_eq!((at, opacity), (&[4.0, 3.0, 1.0, 2.0][..], &[1.0, 0.25, 0.5, 0.5][..]));
         assert_eq!((&rows.at[..], &rows.first[..]), (&[1.0, 3.0, 5.0][..], &[0, 1, 2][..]));
         assert_eq!(rows.spans(4).collect::<Vec<_>>(), [0..1, 1..2, 2..4]);
+    }
+
+    #[test]
+    fn labels_share_a_row() {
+        let nodes: [&[(f64, f64)]; 2] = [&[(1.0, 0.5), (2.0, 0.5)], &[(3.0, 0.25)]];
+        let both =
+            RowAt::Labels(vec![LabelKey::Name("liver".into()), LabelKey::Id(2), LabelKey::Name("spleen".into())]);
+        let rows = [(both, nodes[0]), (RowAt::Number(3.0), nodes[1])];
+        let shared = over([Axis::Value, Axis::Label], Unit::Value, &rows).unwrap();
+        let rows = [(name("liver"), nodes[0]), (name("spleen"), nodes[0]), (RowAt::Number(2.0), nodes[0])];
+        let each = [&rows[..], &[(RowAt::Number(3.0), nodes[1])]].concat();
+        assert_eq!(shared, over([Axis::Value, Axis::Label], Unit::Value, &each).unwrap());
+        assert_eq!(shared.nodes().2.unwrap().at, [1.0, 2.0, 3.0, 5.0]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Functions over two quantities ([STF-4]): what is read, written and refused.
 
 use super::*;
-use crate::tables::{Axis, LabelKey, Over, RowAt};
+use crate::tables::{Axis, LabelKey, Over, RowAt, Stand};
 
 /// A `[transfer]` over quantities, of colours.
 fn over(quantities: &str, rest: &str) -> String {
@@ -28,6 +28,16 @@ fn every_quantity_is_read_and_written() {
     }
     let distance = scene(&over("[\"value\", { distance_to_label = \"liver\" }]", ROW)).transfer.unwrap().over;
     assert_eq!(distance, Over::Two([Axis::Value, Axis::DistanceToLabel(LabelKey::Name("liver".into()))]));
+}
+
+#[test]
+fn labels_that_share_a_row_are_read_and_written() {
+    let head = "labels = \"l.nrrd\"\nlabel_names = \"l.csv\"\n";
+    let rows = "rows = [{ at = [\"left\", 3, \"right\"], nodes = [{ at = 1, color = \"red\" }] }]";
+    let read = scene(&format!("{head}{}", over("[\"value\", \"label\"]", rows)));
+    let at = &read.transfer.as_ref().unwrap().rows.as_ref().unwrap()[0].at;
+    assert_eq!(at.each(), [Stand::Name("left"), Stand::Number(3.0), Stand::Name("right")]);
+    assert_eq!(parse(&write_full(&read), Path::new("scene.toml"), &Overrides::default()).unwrap(), read);
 }
 
 /// The page of all keys has every name of a quantity: it is written by hand there.
@@ -129,6 +139,11 @@ fn what_makes_no_function() {
             "7:11, key transfer.rows[0].at",
         ),
         (
+            over(pair, &rows(&["[1, 2]"])),
+            "a row at several labels, and the second quantity is \"k1\"",
+            "7:11, key transfer.rows[0].at",
+        ),
+        (
             over(pair, "rows = [{ at = 1, nodes = [{ at = [1, 1], color = \"red\" }] }]"),
             "a node of a row has at = [x, y]",
             "7:30, key transfer.rows[0].nodes[0].at",
@@ -186,6 +201,9 @@ fn what_labels_need() {
         (&["1.5"][..], "1.5 is no label", "8:11, key transfer.rows[0].at"),
         (&["-1"], "-1 is no label", "8:11, key transfer.rows[0].at"),
         (&["7", "3", "7"], "a second row for one label", "8:109, key transfer.rows[2].at"),
+        (&["3", "[7, 3]"], "a second row for one label", "8:60, key transfer.rows[1].at"),
+        (&["[7, 3, 7]"], "a second row for one label", "8:11, key transfer.rows[0].at"),
+        (&["[7, 2.5]"], "transfer.rows[0].at[1] cannot be 2.5", "8:20, key transfer.rows[0].at[1]"),
     ] {
         let told = first(&beside(over(label, &rows(at))));
         assert!(told.starts_with(&format!("{what}; at scene.toml:{place}; ")), "{told}");
