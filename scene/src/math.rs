@@ -38,6 +38,11 @@ pub fn pow(x: f64, y: f64) -> f64 {
     }
 }
 
+/// The cube root, of negative numbers too.
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
 /// x^n by repeated squaring, lowest bit first.
 pub fn pow_whole(x: f64, mut n: u32) -> f64 {
     let (mut result, mut square) = (1.0, x);

@@ -4,17 +4,22 @@ use super::report::{note, print};
 use super::{Done, Outcome, Talk, target};
 use clap::Args;
 use drypoint::output::png;
-use drypoint::reference::style_transfer_functions::gallery::preview_sheet;
+use drypoint::output::read::Image;
+use drypoint::output::sheet::{Layout, sheet};
+use drypoint::reference::style_transfer_functions::gallery::preview;
 use drypoint::scene::picture::Provenance;
 use drypoint::scene::style::{StyleError, Theme};
 use drypoint::scene::tables::StyleSource;
 use drypoint::{Failure, Failures, Format};
 use std::path::PathBuf;
 
-/// List the styles of a theme; with -o, write a sheet of spheres.
+/// Pixels across a sphere of the sheet.
+const CELL: usize = 176;
+
+/// List the styles of a theme; with -o, write a sheet of spheres with their names.
 #[derive(Debug, Args)]
 pub(super) struct Styles {
-    /// An embedded theme, or a folder of pictures
+    /// An embedded theme (textbook, naturalist, studio), or a folder of pictures
     #[arg(long, value_name = "NAME|FOLDER", default_value = "textbook")]
     theme: String,
     /// Write a preview sheet, as PNG
@@ -51,8 +56,11 @@ impl Styles {
             }
         }
         Failures::check(failures)?;
-        png::write_png(&preview_sheet(&styles), 8, &Provenance::default(), output)
-            .map_err(|error| Failure::picture(&error, output.display()))?;
+        let spheres: Vec<(String, Image)> =
+            styles.iter().map(|style| (style.name.clone(), Image::from(&preview(style, CELL)))).collect();
+        let failed = |error| Failure::picture(&error, output.display());
+        let picture = sheet(&spheres, Layout { columns: None, cell: CELL }).map_err(failed)?;
+        png::write_png(&picture, 8, &Provenance::default(), output).map_err(failed)?;
         note(talk, output.display());
         Ok(Done::Yes)
     }

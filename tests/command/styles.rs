@@ -27,7 +27,7 @@ fn themes_that_cannot_be_had() {
     for (line, expected) in [
         (
             "--theme textbok",
-            "error: no theme `textbok` (did you mean `textbook`?); the program has `textbook`\n  at: --theme textbok\n  try: name an embedded theme, or a folder of pictures\n",
+            "error: no theme `textbok` (did you mean `textbook`?); the program has `textbook`, `naturalist`, `studio`\n  at: --theme textbok\n  try: name an embedded theme, or a folder of pictures\n",
         ),
         (
             "--theme empty",

@@ -5,7 +5,8 @@ use crate::measure::measure;
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::plan::Quantity;
-use drypoint::scene::tables::VolumeSource;
+use drypoint::scene::style::Theme;
+use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
 use std::path::{Path, PathBuf};
 
 /// Every scene file in a folder and the folders in it.
@@ -43,6 +44,36 @@ fn every_scene_gives_a_picture() {
         seen += 1;
     }
     assert!(seen >= if here { 6 } else { 1 }, "{seen} scenes");
+}
+
+/// Exchanging the theme changes no other line ([STF-12]).
+#[test]
+fn every_theme_draws_every_scene_of_styles() {
+    let here = data().is_some();
+    for path in all() {
+        if !here && !is_of_a_phantom(&path) {
+            println!("skipped: no data for {}", path.display());
+            continue;
+        }
+        let small = [("picture.size", "[48, 48]"), ("picture.background", "none")];
+        let scene = load(&path, &small.into_iter().collect()).unwrap_or_else(|faults| panic!("{faults}"));
+        if scene.transfer.as_ref().is_none_or(|transfer| transfer.kind == TransferKind::Regular) {
+            continue;
+        }
+        let mut job = Job::load(scene.clone()).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
+        let own = job.renderer().unwrap().frame(&|_| ()).0;
+        for theme in Theme::embedded_names().filter(|name| scene.styles.theme != StyleSource::Embedded((*name).into()))
+        {
+            let mut scene = scene.clone();
+            scene.styles.theme = StyleSource::Embedded(theme.into());
+            job = Job::with_volume(scene, job.volume).unwrap_or_else(|failure| panic!("{theme}: {failure}"));
+            let other = job.renderer().unwrap().frame(&|_| ()).0;
+            let (m, n) = (measure(&own), measure(&other));
+            assert!(n.finite && own != other, "{theme}, {}", path.display());
+            // Opacities are the scene's; only α_d of what is clear differs a little from theme to theme.
+            assert!((m.covered - n.covered).abs() < 0.05, "{theme}, {}: {m:?} and {n:?}", path.display());
+        }
+    }
 }
 
 #[test]

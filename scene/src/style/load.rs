@@ -122,15 +122,18 @@ mod tests {
             text,
             format!("no style `metall` in theme {theme} (did you mean `metal`?); it has `bone`, `metal`, `wax`")
         );
-        let text = load(&Styles::default(), ["porcelain"]).unwrap_err().to_string();
-        assert!(text.starts_with("no style `porcelain` in theme `textbook`; it has `bone`, "), "{text}");
+        let text = load(&Styles::default(), ["terracotta"]).unwrap_err().to_string();
+        assert!(text.starts_with("no style `terracotta` in theme `textbook`; it has `bone`, "), "{text}");
     }
 
     #[test]
     fn an_unknown_theme_is_named_with_its_neighbour() {
         let table = Styles { theme: StyleSource::Embedded("textbok".into()), files: Vec::new() };
         let text = load(&table, ["wax"]).unwrap_err().to_string();
-        assert_eq!(text, "no theme `textbok` (did you mean `textbook`?); the program has `textbook`");
+        assert_eq!(
+            text,
+            "no theme `textbok` (did you mean `textbook`?); the program has `textbook`, `naturalist`, `studio`"
+        );
         assert_eq!(load(&table, []), Ok(Vec::new()));
     }
 

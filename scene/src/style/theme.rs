@@ -10,28 +10,22 @@ use std::path::{Path, PathBuf};
 /// Names and pictures of the styles of one embedded theme.
 type Pictures = &'static [(&'static str, &'static [u8])];
 
-/// A picture of an embedded theme by its name.
-macro_rules! picture {
-    ($theme:literal, $style:literal) => {
-        ($style, include_bytes!(concat!("../../../data/themes/", $theme, "/", $style, ".png")))
+/// An embedded theme: every theme has the same names, so that exchanging it changes no other line of a scene.
+macro_rules! theme {
+    ($theme:literal) => {
+        theme!(
+            $theme: "bone", "brain", "cartoon", "cartoon-2", "chalk", "constant", "copper", "engraving", "gall",
+            "glass", "gut", "ink", "kidney", "liver", "lung", "metal", "muscle", "nerve", "pencil", "porcelain",
+            "skin", "spleen", "tone", "vein", "vessel", "watercolour", "wax", "xray"
+        )
+    };
+    ($theme:literal: $($style:literal),+) => {
+        ($theme, &[$(($style, include_bytes!(concat!("../../../data/themes/", $theme, "/", $style, ".png")))),+])
     };
 }
 
 /// The themes that are part of the program.
-const EMBEDDED: &[(&str, Pictures)] = &[(
-    "textbook",
-    &[
-        picture!("textbook", "bone"),
-        picture!("textbook", "cartoon"),
-        picture!("textbook", "glass"),
-        picture!("textbook", "ink"),
-        picture!("textbook", "metal"),
-        picture!("textbook", "skin"),
-        picture!("textbook", "tone"),
-        picture!("textbook", "vessel"),
-        picture!("textbook", "wax"),
-    ],
-)];
+const EMBEDDED: &[(&str, Pictures)] = &[theme!("textbook"), theme!("naturalist"), theme!("studio")];
 
 /// A set of styles by name. Opening one lists it; a picture is decoded when its style is asked for.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use super::paint::Paint;
 use crate::number::Vec3;
 use drypoint_scene::math;
 
-/// Towards the key light: from the upper left and in front, as plates of medical textbooks are lit.
+/// Towards the key light: from the upper left and in front, as plates in books are lit.
 pub(super) const KEY: Vec3<f64> = Vec3 { x: -0.48, y: 0.64, z: 0.6 };
 
 /// Towards the light that comes back from the page, at the lower right and somewhat behind.
@@ -23,7 +23,15 @@ pub(super) fn highlight(n: Vec3<f64>, light: Vec3<f64>, s: f64) -> f64 {
     math::pow((n.dot(h) / h.length()).max(0.0), s)
 }
 
-/// t²(3 − 2t) of t = clamp₀₁((x − lo)/(hi − lo)).
+/// A highlight as one stroke of the brush, an ellipse bent round the middle at that radius: half its width, half its
+/// length in radians, and the share of both in which it fades.
+pub(super) fn dab(n: Vec3<f64>, at: f64, across: f64, along: f64, soft: f64) -> f64 {
+    let turn = math::atan2(n.y * KEY.x - n.x * KEY.y, n.x * KEY.x + n.y * KEY.y);
+    let (u, v) = ((radius(n) - at) / across, turn / along);
+    smoothstep(1.0 + soft, 1.0 - soft, (u * u + v * v).sqrt())
+}
+
+/// t²(3 − 2t) of t = clamp₀₁((x − lo)/(hi − lo)); from 1 to 0 where hi < lo.
 pub(super) fn smoothstep(lo: f64, hi: f64, x: f64) -> f64 {
     let t = ((x - lo) / (hi - lo)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
@@ -31,7 +39,7 @@ pub(super) fn smoothstep(lo: f64, hi: f64, x: f64) -> f64 {
 
 /// Light that comes back from the page into the shadow's edge.
 pub(super) fn reflected(n: Vec3<f64>) -> f64 {
-    smoothstep(0.25, 0.95, n.dot(BOUNCE))
+    smoothstep(0.10, 0.84, n.dot(BOUNCE))
 }
 
 /// The distance from the middle of the sphere's picture, 1 on the circumference.
@@ -39,9 +47,11 @@ pub(super) fn radius(n: Vec3<f64>) -> f64 {
     (n.x * n.x + n.y * n.y).sqrt()
 }
 
-/// How much of the contour's colour a place takes: 0 up to the radius 0.93, 1 from just inside the circumference on.
+/// How much of the contour's colour a place takes: 1 from just inside the circumference on. The line is weighted as
+/// draughtsmen weight it, heavier in the shade than in the light.
 pub(super) fn edge(n: Vec3<f64>) -> f64 {
-    smoothstep(0.93, 0.985, radius(n))
+    let shade = smoothstep(0.8, -0.6, n.dot(KEY));
+    smoothstep(0.948 - 0.030 * shade, 0.985, radius(n))
 }
 
 /// The contour's colour laid over `paint`: `dark`, and up to `lit` where the key light falls. Style contours are pushed
@@ -74,6 +84,20 @@ mod tests {
         // cos⁴ 45° = ¼.
         assert!((highlight(front, side, 4.0) - 0.25).abs() < 1e-15);
         assert_eq!([0.0, 0.5, 1.0].map(|x| smoothstep(0.0, 1.0, x)), [0.0, 0.5, 1.0]);
+        assert_eq!([0.0, 0.5, 1.0].map(|x| smoothstep(1.0, 0.0, x)), [1.0, 0.5, 0.0]);
         assert_eq!((edge(front), edge(side)), (0.0, 1.0));
+    }
+
+    #[test]
+    fn a_dab_lies_towards_the_light() {
+        // KEY's direction in the picture is (−0.6, 0.8); the dab's middle is 0.66 from the sphere's.
+        let at = |x: f64, y: f64| dab(Vec3::new(x, y, (1.0 - x * x - y * y).sqrt()), 0.66, 0.1, 0.4, 0.2);
+        assert_eq!((at(-0.396, 0.528), at(0.396, -0.528), at(0.0, 0.0)), (1.0, 0.0, 0.0));
+        // As far to one side as to the other: 0.2 radians each.
+        let beside = |turn: f64| {
+            let (s, c) = turn.sin_cos();
+            at(0.66 * (-0.6 * c - 0.8 * s), 0.66 * (0.8 * c - 0.6 * s))
+        };
+        assert!((beside(0.2) - beside(-0.2)).abs() < 1e-12 && beside(0.5) == 0.0);
     }
 }

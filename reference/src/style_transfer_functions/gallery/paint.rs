@@ -3,6 +3,18 @@
 
 use drypoint_scene::color::{linear_to_srgb, srgb_to_linear};
 use drypoint_scene::math;
+use std::sync::LazyLock;
+
+/// Linear red, green and blue.
+pub(super) type Linear = [f64; 3];
+
+/// The linear light of each 8-bit code of sRGB.
+static LIGHT: LazyLock<[f64; 256]> = LazyLock::new(|| std::array::from_fn(|code| srgb_to_linear(code as f64 / 255.0)));
+
+/// The linear light of an `#rrggbb` colour in sRGB.
+pub(super) fn linear(rgb: u32) -> Linear {
+    [rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255].map(|c| LIGHT[c as usize])
+}
 
 /// L, a, b of OKLab.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,17 +23,17 @@ pub(super) struct Paint([f64; 3]);
 impl Paint {
     /// From the 24 bits of an `#rrggbb` colour in sRGB.
     pub(super) fn hex(rgb: u32) -> Self {
-        Self::linear([rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255].map(|c| srgb_to_linear(f64::from(c) / 255.0)))
+        Self::linear(linear(rgb))
     }
 
     /// From linear sRGB.
-    pub(super) fn linear([r, g, b]: [f64; 3]) -> Self {
+    pub(super) fn linear([r, g, b]: Linear) -> Self {
         let cone = [
             0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b,
             0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b,
             0.088_302_461_9 * r + 0.281_718_837_6 * g + 0.629_978_700_5 * b,
         ];
-        let [l, m, s] = cone.map(|c| math::pow(c, 1.0 / 3.0));
+        let [l, m, s] = cone.map(|c| math::cbrt(c));
         Self([
             0.210_454_255_3 * l + 0.793_617_785_0 * m - 0.004_072_046_8 * s,
             1.977_998_495_1 * l - 2.428_592_205_0 * m + 0.450_593_709_9 * s,
@@ -44,6 +56,12 @@ impl Paint {
             -0.004_196_086_3 * l - 0.703_418_614_7 * m + 1.707_614_701_0 * s,
         ]
         .map(|c| linear_to_srgb(c.clamp(0.0, 1.0)))
+    }
+
+    /// How far two colours are apart, about 0.02 where one can just see it.
+    #[cfg(test)]
+    pub(super) fn difference(self, other: Self) -> f64 {
+        (0..3).map(|c| (self.0[c] - other.0[c]).powi(2)).sum::<f64>().sqrt()
     }
 
     /// This colour with the share `t` of another laid over it.
