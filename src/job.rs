@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use crate::labels::Named;
 use crate::{Failure, Failures, Format, memory};
 use drypoint_output::read::read_background;
 use drypoint_output::{OutputError, exr, png};
@@ -35,11 +36,12 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::file::{Given, identity};
 use drypoint_scene::phantom;
 use drypoint_scene::picture::{Picture, Provenance};
-use drypoint_scene::plan::Plan;
+use drypoint_scene::plan::{Plan, Quantity};
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
 use drypoint_scene::tables::{Axis, Background, Ids, NodeColor, Scene, StepAlong, Transfer, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::{Function, FunctionError};
 use drypoint_scene::view::{View, ViewError};
+use drypoint_scene::volume::labels::{LabelNames, LabelVolume};
 use drypoint_scene::volume::{Volume, read};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -55,6 +57,7 @@ pub struct Job {
     /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
     pub counts: Counts,
     function: Function,
+    labels: Option<LabelVolume>,
     further: [Option<Volume>; 2],
     styles: Vec<Style>,
     background: Option<Vec<Rgba>>,
@@ -71,13 +74,8 @@ impl Job {
             Ok(volume) => Self::with_volume(scene, volume),
             Err(failure) => {
                 // What else is wrong does not wait for the volume.
-                let nodes = scene.transfer.iter().flat_map(Transfer::all_nodes);
-                let named = nodes.filter_map(|node| match &node.color {
-                    NodeColor::Style(name) => Some(name.as_str()),
-                    NodeColor::Color(_) => None,
-                });
                 let mut others = Vec::new();
-                styles(&scene, named, &mut others);
+                styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
                 background(&scene, &mut others);
                 Err(Failures::new(failure, others))
             }
@@ -105,6 +103,10 @@ impl Job {
             };
             plan.warn_step(step * stretch, volume.grid().voxel());
         }
+        let mut failures = Vec::new();
+        let reads_labels = plan.needs(Quantity::Label) || plan.needs(Quantity::LabelDistance);
+        let labels = if reads_labels { Named::load(&scene.volume, &mut failures) } else { Named::default() };
+        plan.warnings.extend(labels.warning(&scene.volume, &volume));
         let Some(transfer) = scene.transfer.as_mut() else {
             let place = scene.given.position("transfer");
             return Err(Failure::new("the scene draws nothing", place, "add a [transfer] table").into());
@@ -114,24 +116,27 @@ impl Job {
             suggest::fill_function(transfer, &volume, scene.volume.outside, &mut counts);
         }
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
-        let found = Function::new(transfer, range, &volume, &|_| None);
-        let function = match found.map_err(|error| function_failure(&error, &scene.given))? {
-            Some(function) => function,
-            None => {
-                let place = scene.given.position("transfer.nodes");
-                return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
+        let found = Function::new(transfer, range, &volume, &|name| labels.names.id(name));
+        let function = found.unwrap_or_else(|errors| {
+            // Without the table every name would be unknown.
+            if failures.is_empty() {
+                failures.extend(errors.iter().map(|error| function_failure(error, &scene.given, &labels.names)));
             }
+            None
+        });
+        let styles = match &function {
+            Some(Function::Style { names, .. }) => styles(&scene, names.iter().map(String::as_str), &mut failures),
+            Some(Function::Regular(_)) => Vec::new(),
+            None => styles(&scene, scene.transfer.iter().flat_map(named), &mut failures),
         };
-        let named = match &function {
-            Function::Regular(_) => [].iter(),
-            Function::Style { names, .. } => names.iter(),
-        };
-        let mut failures = Vec::new();
-        let styles = styles(&scene, named.map(String::as_str), &mut failures);
         let background = background(&scene, &mut failures);
         let further = further(&scene, &mut failures);
         Failures::check(failures)?;
-        Ok(Self { scene, plan, volume, counts, function, further, styles, background })
+        let Some(function) = function else {
+            let place = scene.given.position("transfer.nodes");
+            return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
+        };
+        Ok(Self { scene, plan, volume, counts, function, labels: labels.volume, further, styles, background })
     }
 
     /// The scene made ready for any number of frames.
@@ -149,6 +154,7 @@ impl Job {
             plan: &self.plan,
             volume: &self.volume,
             function: &self.function,
+            labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &self.styles,
             background,
@@ -242,16 +248,29 @@ fn further(scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Volume>; 2] {
     })
 }
 
+/// The names of the styles that nodes carry.
+fn named(transfer: &Transfer) -> impl Iterator<Item = &str> {
+    transfer.all_nodes().filter_map(|node| match &node.color {
+        NodeColor::Style(name) => Some(name.as_str()),
+        NodeColor::Color(_) => None,
+    })
+}
+
 /// What makes no function, at the key that says it.
-fn function_failure(error: &FunctionError, given: &Given) -> Failure {
-    let (key, remedy) = match error {
-        FunctionError::UnknownLabel { row: Some(row), .. } => {
-            (format!("transfer.rows[{row}].at"), "write an id, or name the labels with volume.label_names")
+fn function_failure(error: &FunctionError, given: &Given, names: &LabelNames) -> Failure {
+    let key = match error {
+        FunctionError::UnknownLabel { row: Some(row), .. } | FunctionError::LabelTwice { row, .. } => {
+            format!("transfer.rows[{row}].at")
         }
-        FunctionError::UnknownLabel { row: None, .. } => {
-            ("transfer.over".into(), "write an id, or name the labels with volume.label_names")
-        }
-        FunctionError::LabelTwice { row, .. } => (format!("transfer.rows[{row}].at"), "keep one row for each label"),
+        FunctionError::UnknownLabel { row: None, .. } => "transfer.over".into(),
+    };
+    let remedy = match error {
+        FunctionError::LabelTwice { .. } => "keep one row for each label".into(),
+        FunctionError::UnknownLabel { name, .. } => match names.nearest(name) {
+            Some(nearest) => format!("write {nearest:?}"),
+            None if names.iter().next().is_none() => "write an id, or name the labels with volume.label_names".into(),
+            None => "write an id, or one of the names in volume.label_names".into(),
+        },
     };
     Failure::new(error, given.position(&key), remedy)
 }

@@ -1,16 +1,13 @@
 //! Which part a sample belongs to ([STF-13]).
 
 use crate::field::{Cells, Place};
-use crate::number::{Mat3, Real, Vec3};
+use crate::number::{Real, Vec3};
+use crate::other_grid::OtherGrid;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::LabelLookup;
 use drypoint_scene::volume::Anatomy;
 use drypoint_scene::volume::labels::LabelVolume;
-
-/// Voxels by which two grids may differ and count as one: headers keep places in single precision, and one says in a
-/// matrix what another says in a quaternion. By as much a position may lie outside the box of another grid.
-const SLACK: f64 = 1.0 / 1024.0;
 
 /// A label volume at the positions of a data volume.
 ///
@@ -20,21 +17,12 @@ pub struct Labels<'a> {
     volume: &'a LabelVolume,
     lookup: LabelLookup,
     /// None where data and labels have one grid.
-    map: Option<Map>,
+    map: Option<OtherGrid>,
     cells: Cells<f64>,
     /// Voxels of the labels along x, y, z.
     dims: [usize; 3],
     /// From a voxel to the next one in linear order; 0 on an axis of length 1.
     strides: [usize; 3],
-}
-
-/// `label index = D_l⁻¹ (D · index + origin − origin_l)` as one affine map, and the boxes of both.
-#[derive(Clone, Copy, Debug)]
-struct Map {
-    linear: Mat3<f64>,
-    offset: Vec3<f64>,
-    data_box: [DVec3; 2],
-    label_box: [DVec3; 2],
 }
 
 impl<'a> Labels<'a> {
@@ -43,12 +31,11 @@ impl<'a> Labels<'a> {
     pub fn new(volume: &'a LabelVolume, data: &Grid, world: Option<Anatomy>, lookup: LabelLookup) -> Self {
         let own = volume.grid_in(world);
         let dims = own.dims();
-        let map = Map::new(data, &own);
         let stride = [1, dims[0], dims[0] * dims[1]];
         Self {
             volume,
             lookup,
-            map: (data.dims() != dims || !map.is_identity()).then_some(map),
+            map: OtherGrid::new(data, &own),
             cells: Cells::new(dims),
             dims,
             strides: std::array::from_fn(|a| if dims[a] == 1 { 0 } else { stride[a] }),
@@ -69,10 +56,8 @@ impl<'a> Labels<'a> {
     pub fn id_at<R: Real>(&self, p: Vec3<R>) -> u32 {
         let mut p = Vec3::new(p.x.to_f64(), p.y.to_f64(), p.z.to_f64());
         if let Some(map) = &self.map {
-            p = map.apply(p);
-            if !within(map.label_box, p.to_glam()) {
-                return 0;
-            }
+            let Some(there) = map.position(p) else { return 0 };
+            p = there;
         }
         let at = self.cells.locate(p);
         match self.lookup {
@@ -86,7 +71,7 @@ impl<'a> Labels<'a> {
     pub fn ids_in(&self, first: [usize; 3], end: [usize; 3]) -> Vec<u32> {
         let Some(map) = &self.map else { return self.ids_of(first, end) };
         let [lo, hi] = map.bounds(first, end);
-        let [start, stop] = map.label_box;
+        let [start, stop] = map.own_box();
         let mut ids = if lo.cmple(stop).all() && hi.cmpge(start).all() {
             // Floors: what is clamped to the box is not negative.
             let cell = |p: DVec3| p.clamp(DVec3::ZERO, stop).to_array().map(|x| x as usize);
@@ -94,7 +79,7 @@ impl<'a> Labels<'a> {
         } else {
             Vec::new()
         };
-        if !(within(map.label_box, lo) && within(map.label_box, hi)) && ids.first() != Some(&0) {
+        if !(map.has(lo) && map.has(hi)) && ids.first() != Some(&0) {
             ids.insert(0, 0);
         }
         ids
@@ -154,52 +139,6 @@ impl<'a> Labels<'a> {
         }
         best
     }
-}
-
-impl Map {
-    fn new(data: &Grid, labels: &Grid) -> Self {
-        let inverse = labels.inverse_axes();
-        let [lo, hi] = labels.index_box();
-        Self {
-            linear: Mat3::from_glam(inverse * data.axes()),
-            offset: Vec3::from_glam(inverse * (data.origin() - labels.origin())),
-            data_box: data.index_box(),
-            label_box: [lo - SLACK, hi + SLACK],
-        }
-    }
-
-    #[inline(always)]
-    fn apply(&self, p: Vec3<f64>) -> Vec3<f64> {
-        self.linear.apply(p) + self.offset
-    }
-
-    /// Whether no corner of the data's box, and so no position in it, is moved by more than the slack.
-    fn is_identity(&self) -> bool {
-        corners(self.data_box).all(|p| (self.apply(Vec3::from_glam(p)).to_glam() - p).abs().max_element() <= SLACK)
-    }
-
-    /// Bounds of the label positions of a part of the data's cells, with a margin for rounding.
-    fn bounds(&self, first: [usize; 3], end: [usize; 3]) -> [DVec3; 2] {
-        let number = |i: [usize; 3]| DVec3::from_array(i.map(|i| i as f64));
-        // On an axis of length 1 positions are not those of its one cell.
-        let flat = (self.data_box[0]).cmplt(DVec3::ZERO);
-        let lo = DVec3::select(flat, self.data_box[0], number(first));
-        let hi = DVec3::select(flat, self.data_box[1], number(end));
-        let places = corners([lo, hi]).map(|p| self.apply(Vec3::from_glam(p)).to_glam());
-        let [lo, hi] = places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], p| [lo.min(p), hi.max(p)]);
-        [lo - SLACK, hi + SLACK]
-    }
-}
-
-/// Whether a box holds a position.
-#[inline(always)]
-fn within([lo, hi]: [DVec3; 2], p: DVec3) -> bool {
-    p.cmpge(lo).all() && p.cmple(hi).all()
-}
-
-/// The eight corners of a box.
-fn corners([lo, hi]: [DVec3; 2]) -> impl Iterator<Item = DVec3> {
-    (0..8).map(move |c| DVec3::from_array(std::array::from_fn(|a| if c >> a & 1 == 0 { lo[a] } else { hi[a] })))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 pub mod field;
 pub mod labels;
 pub mod number;
+mod other_grid;
 pub mod ray;
 pub mod shading;
 pub mod style_transfer_functions;

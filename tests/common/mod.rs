@@ -20,6 +20,7 @@ use drypoint::scene::tables::{
 };
 use drypoint::scene::transfer::Function;
 use drypoint::scene::view::View;
+use drypoint::scene::volume::labels::LabelVolume;
 use drypoint::scene::volume::{Volume, Voxels};
 
 /// A volume of f64 voxels on a cubic grid at the world's origin.
@@ -71,6 +72,8 @@ pub(crate) struct Shot {
     pub(crate) volume: Volume,
     /// Every style that a node may name.
     pub(crate) styles: Vec<Style>,
+    /// Labels beside the volume.
+    pub(crate) labels: Option<LabelVolume>,
     /// Further volumes that the function is over.
     pub(crate) further: [Option<Volume>; 2],
     /// A background picture, linear premultiplied.
@@ -98,7 +101,7 @@ impl Shot {
         scene.picture.size = [16, 16];
         scene.picture.background = Background::None;
         scene.volume.gradient_range = GradientRange::Fixed([0.0, 1.0]);
-        Self { scene, volume, styles, further: [None, None], behind: None }
+        Self { scene, volume, styles, labels: None, further: [None, None], behind: None }
     }
 
     /// The same with changes to the scene.
@@ -163,6 +166,7 @@ impl Shot {
             plan: &plan,
             volume: &self.volume,
             function: &function,
+            labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &named,
             background,

@@ -3,8 +3,9 @@
 use super::prepared::{Calls, KappaSource};
 use super::render::{Inputs, RenderError};
 use crate::field::Field;
+use crate::labels::Labels;
 use crate::number::Real;
-use crate::transfer::over::{Differential, Distance, Further, Here, Magnitude, Measure, Value};
+use crate::transfer::over::{Differential, Distance, Further, Here, Label, LabelDistance, Magnitude, Measure, Value};
 use crate::transfer::{Patch, Plane};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::math;
@@ -70,7 +71,7 @@ fn measure<'v, R: Real>(
     normalized: bool,
     inputs: &Inputs<'v>,
 ) -> Result<Box<dyn Measure<R> + 'v>, RenderError> {
-    let data = inputs.volume.grid();
+    let data = inputs.volume;
     Ok(match axis {
         Axis::Value => Box::new(Value),
         Axis::GradientMagnitude if normalized => Box::new(Magnitude::Normalized),
@@ -80,12 +81,20 @@ fn measure<'v, R: Real>(
         Axis::Mean => Box::new(Differential::Mean),
         Axis::Gaussian => Box::new(Differential::Gaussian),
         Axis::AlongView => Box::new(Differential::AlongView),
-        Axis::Distance(point) => Box::new(Distance::new(data, *point)),
+        Axis::Distance(point) => Box::new(Distance::new(data.grid(), *point)),
         Axis::Volume(_) => {
             let volume = inputs.further[which].ok_or(RenderError::NoFurtherVolume)?;
-            Box::new(Further::new(volume, volume.grid(), data)?)
+            Box::new(Further::new(volume, data)?)
         }
-        Axis::Label | Axis::DistanceToLabel(_) => return Err(RenderError::NoLabels),
+        Axis::Label => {
+            let (labels, lookup) = (inputs.labels.ok_or(RenderError::NoLabels)?, inputs.scene.volume.label_lookup);
+            Box::new(Label(Labels::new(labels, data.grid(), data.anatomy(), lookup)))
+        }
+        Axis::DistanceToLabel(id) => {
+            let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
+            let distance = LabelDistance::new(data, labels, *id);
+            Box::new(distance.ok_or(RenderError::NoSuchLabel { id: *id })?)
+        }
     })
 }
 

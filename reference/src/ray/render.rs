@@ -9,6 +9,7 @@ use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::sample::{EyeAxes, Look, Styled};
 use super::skip::{Beam, Boxes, Skip};
 use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
+use crate::labels::Labels;
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
 use crate::style_transfer_functions::curvature_along_ray::Turn;
@@ -26,7 +27,8 @@ use drypoint_scene::tables::{
 };
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
-use drypoint_scene::volume::Volume;
+use drypoint_scene::volume::labels::LabelVolume;
+use drypoint_scene::volume::{BRICK, Volume};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -47,6 +49,8 @@ pub struct Inputs<'a> {
     pub volume: &'a Volume,
     /// Its transfer function, over the volume's values.
     pub function: &'a Function,
+    /// The labels beside the volume, where the plan needs them ([STF-13]).
+    pub labels: Option<&'a LabelVolume>,
     /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
     pub further: [Option<&'a Volume>; 2],
     /// The styles that the function names, in the order of [`Function::Style::names`].
@@ -182,8 +186,21 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let skip = plan.has_pass(Pass::Bricks).then(|| {
         let bricks = field.bricks();
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
-        Skip::new(&bricks, |range| function.can_be_visible(range, |at| R::from_f64(at).to_f64()))
+        let labels = labels_of(inputs);
+        // The cells of the volume; an axis of length 1 has one.
+        let cells = volume.dims().map(|n| n.max(2) - 1);
+        let occurring = |brick: [usize; 3]| {
+            let end = std::array::from_fn(|a| ((brick[a] + 1) * BRICK).min(cells[a]));
+            labels.as_ref().map(|labels| labels.ids_in(brick.map(|i| i * BRICK), end))
+        };
+        let rounded = |at| R::from_f64(at).to_f64();
+        // What labels occur takes a look at each voxel, so it is asked last.
+        let can_be = |range, among: Option<&[u32]>| function.can_be_visible(range, among, rounded);
+        Skip::new(&bricks, |brick, range| can_be(range, None) && can_be(range, occurring(brick).as_deref()))
     });
+    if let Some(labels) = inputs.labels {
+        counts.bytes.insert("labels".into(), labels.bytes() as u64);
+    }
     if let Some(skip) = &skip {
         counts.bytes.insert("skip".into(), skip.bytes() as u64);
     }
@@ -242,6 +259,14 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         field,
         view,
     })
+}
+
+/// The labels at the data's positions, where the function over the value has a row for each.
+fn labels_of<'a>(inputs: &Inputs<'a>) -> Option<Labels<'a>> {
+    let over = &inputs.function.nodes().2?.over;
+    let data = inputs.volume;
+    let new = |labels| Labels::new(labels, data.grid(), data.anatomy(), inputs.scene.volume.label_lookup);
+    inputs.labels.filter(|_| *over == [Axis::Value, Axis::Label]).map(new)
 }
 
 /// The A at which a ray ends, so that what is left out is at most ε·c_max in linear light ([RAY-2]). What is left out of

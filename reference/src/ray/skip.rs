@@ -34,9 +34,11 @@ struct Block {
 }
 
 impl Skip {
-    /// Marks the bricks for which `can_see` holds and builds the tree over them.
-    pub fn new(bricks: &Bricks, can_see: impl Fn([f64; 2]) -> bool) -> Self {
-        let visible: Vec<bool> = bricks.ranges.iter().map(|&r| can_see(r)).collect();
+    /// Marks the bricks for which `can_see` holds, of their place and range, and builds the tree over them.
+    pub fn new(bricks: &Bricks, can_see: impl Fn([usize; 3], [f64; 2]) -> bool) -> Self {
+        let [nx, ny, _] = bricks.dims;
+        let place = |i: usize| [i % nx, i / nx % ny, i / nx / ny];
+        let visible: Vec<bool> = bricks.ranges.iter().enumerate().map(|(i, &r)| can_see(place(i), r)).collect();
         let boxes: Vec<Aabb> = blocks(&visible, bricks.dims).iter().map(|b| bounds(b, bricks.dims)).collect();
         let nodes = if boxes.is_empty() { Vec::new() } else { tree(&boxes) };
         Self { dims: bricks.dims, visible, nodes }
@@ -305,7 +307,7 @@ mod tests {
             between in prop::array::uniform2(0.0..1.0f64),
             width in prop_oneof![Just(0.0), 1e-9..1e-6f64, 0.01..1.0f64],
         ) {
-            let skip = Skip::new(&bricks([5, 4, 3], &visible), |r| r[1] > 0.5);
+            let skip = Skip::new(&bricks([5, 4, 3], &visible), |_, r| r[1] > 0.5);
             let (from, mut along) = (DVec3::from_array(from), DVec3::from_array(to) - DVec3::from_array(from));
             if axis_parallel < 3 {
                 along[axis_parallel] = 0.0;
@@ -337,7 +339,7 @@ mod tests {
 
     #[test]
     fn nothing_visible_is_no_interval() {
-        let skip = Skip::new(&bricks([1, 1, 1], &[false]), |r| r[1] > 0.5);
+        let skip = Skip::new(&bricks([1, 1, 1], &[false]), |_, r| r[1] > 0.5);
         let everything = Beam::new([[DVec3::ZERO; 2]; 4], f64::EPSILON);
         assert!(skip.boxes_in(&everything).intervals([DVec3::ZERO, DVec3::X], f64::EPSILON).is_empty());
     }

@@ -5,7 +5,7 @@ use super::fault::Problem;
 use super::names;
 use super::place::Place;
 use crate::nearest::nearest;
-use crate::tables::{Background, Scene, StyleSource, VolumeSource};
+use crate::tables::{Axis, Background, Over, Scene, StyleSource, VolumeSource};
 use std::path::{Path, PathBuf};
 
 /// The variable that lists folders of volumes.
@@ -32,6 +32,13 @@ pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
     for (path, key) in [(&mut volume.labels, "volume.labels"), (&mut volume.label_names, "volume.label_names")] {
         if let Some(path) = path {
             must_be_found(path, key, check, folders);
+        }
+    }
+    if let Some(Over::Two(axes)) = scene.transfer.as_mut().map(|transfer| &mut transfer.over) {
+        for (i, axis) in axes.iter_mut().enumerate() {
+            if let Axis::Volume(path) = axis {
+                must_be_found(path, &format!("transfer.over[{i}].volume"), check, folders);
+            }
         }
     }
     if let Background::Picture(path) = &scene.picture.background {

@@ -120,9 +120,10 @@ fn gradient_magnitudes_are_measured_as_the_unit_says() {
     let normalized = plan(&format!("{over}unit = \"normalized\"\n"));
     assert!(normalized.needs(GradientMagnitudeRange) && normalized.has_pass(Pass::GradientRange));
     assert!(!plan(&over).needs(GradientMagnitudeRange) && !plan(&over).has_pass(Pass::GradientRange));
-    let told = plan(&over).to_string();
-    assert!(told.contains("function over gradient-magnitude  gradient  one gradient a visible sample"), "{told}");
-    assert!(told.contains("transfer.over (line 7)"), "{told}");
+    let told: Vec<String> =
+        plan(&over).to_string().lines().map(|l| l.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+    let line = "function over gradient-magnitude gradient one gradient a visible sample transfer.over (line 7)";
+    assert!(told.iter().any(|l| l == line), "{told:?}");
 }
 
 #[test]

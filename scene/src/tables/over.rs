@@ -4,7 +4,7 @@
 //! quantities of something, and a measure in the renderer.
 
 use super::contours::{Measured, measured_curvature};
-use super::{Scene, Unit};
+use super::{RowAt, Scene, Unit};
 use crate::file::Problem;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Section, Shape, Slot, Table};
@@ -223,7 +223,8 @@ impl Axis {
         let effect = format!("function over {}", self.name());
         let mut need = |quantity| asks.need(quantity, &effect, key);
         match self {
-            Self::Value => need(Quantity::Value),
+            // Every transfer function needs it.
+            Self::Value => {}
             Self::GradientMagnitude if unit == Unit::Normalized => need(Quantity::GradientMagnitudeRange),
             Self::GradientMagnitude => need(Quantity::Gradient),
             Self::Label => need(Quantity::Label),
@@ -249,6 +250,39 @@ impl Axis {
             Self::DistanceToLabel(_) => "distance_to_label",
             _ => "volume",
         })
+    }
+}
+
+/// What reads labels needs a label volume, and names of labels a table of them.
+pub(super) fn check_labels(scene: &Scene, check: &mut Check) {
+    let Some(transfer) = &scene.transfer else { return };
+    if !check.sound(&["transfer.over", "volume"]) {
+        return;
+    }
+    let mut lacks = |key: &str, what: String, remedy: &str| {
+        check.fault_in(key, Problem::Contradiction { what, remedy: remedy.into() });
+    };
+    if scene.volume.labels.is_none() {
+        if let Some(axis) = transfer.over.axes().iter().find(|axis| axis.reads_labels()) {
+            let what = format!("the function is over {:?}, and the scene has no labels", axis.name());
+            lacks("transfer.over", what, "add the label volume: volume.labels = \"…\"");
+        }
+        return;
+    }
+    if scene.volume.label_names.is_some() {
+        return;
+    }
+    let remedy = "write an id, or add the table of names: volume.label_names = \"…\"";
+    let without = |name: &str| format!("{name:?} is the name of a label, and the scene has no names of them");
+    for axis in transfer.over.axes() {
+        if let Axis::DistanceToLabel(LabelKey::Name(name)) = axis {
+            lacks("transfer.over", without(name), remedy);
+        }
+    }
+    for (i, row) in transfer.rows.iter().flatten().enumerate() {
+        if let RowAt::Name(name) = &row.at {
+            lacks(&format!("transfer.rows[{i}].at"), without(name), remedy);
+        }
     }
 }
 

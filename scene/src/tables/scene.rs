@@ -5,7 +5,7 @@ use super::{
     Camera, Contours, LightDirection, PictureSettings, Sampling, Shading, StyleMipmaps, Styles, Transfer, TransferKind,
     VolumeSource, VolumeTable,
 };
-use super::{camera, contours, picture, sampling, shading, style_mipmaps, styles, transfer, volume};
+use super::{camera, contours, over, picture, sampling, shading, style_mipmaps, styles, transfer, volume};
 use crate::file::Given;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
@@ -122,7 +122,10 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("surface", "HATCH-14"),
         later("conventions", "GPU-6"),
     ],
-    check: check_styles,
+    check: |scene, check| {
+        check_styles(scene, check);
+        over::check_labels(scene, check);
+    },
     idle: |scene, _, idle| {
         if idle.says("transfer") {
             idle.key("preset", "the scene has [transfer] itself");

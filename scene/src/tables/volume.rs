@@ -183,7 +183,7 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
             idle.key("volume.range", "only transfer.unit = \"normalized\" is measured in it");
         }
         let why = match scene.volume.labels {
-            Some(_) if plan.needs(Quantity::Label) => None,
+            Some(_) if plan.needs(Quantity::Label) || plan.needs(Quantity::LabelDistance) => None,
             Some(_) => Some("nothing reads a label"),
             None => Some("volume.labels names no label volume"),
         };

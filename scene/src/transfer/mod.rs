@@ -73,13 +73,13 @@ impl Function {
     /// where the scene leaves the function to be found from the data.
     ///
     /// # Errors
-    /// A label that `id_of` does not know, or that has two rows.
+    /// Every label that `id_of` does not know, or else one that has two rows.
     pub fn new(
         transfer: &Transfer,
         range: [f64; 2],
         volume: &Volume,
         id_of: &dyn Fn(&str) -> Option<u32>,
-    ) -> Result<Option<Self>, FunctionError> {
+    ) -> Result<Option<Self>, Vec<FunctionError>> {
         if transfer.is_automatic() {
             return Ok(None);
         }
@@ -89,14 +89,19 @@ impl Function {
         };
         let (lines, rows) = match (&transfer.over, &transfer.rows) {
             (Over::Two(axes), Some(rows)) => {
-                let (order, rows_at) = standing(rows, id_of)?;
+                let unknown = |name: &str| FunctionError::UnknownLabel { name: name.into(), row: None };
+                let [x, y] = axes.each_ref().map(|axis| axis.resolved(id_of).map_err(unknown));
+                let (over, (order, rows_at)) = match (x, y, standing(rows, id_of)) {
+                    (Ok(x), Ok(y), Ok(standing)) => ([x, y], standing),
+                    (x, y, standing) => {
+                        let axes = [x, y].into_iter().filter_map(Result::err);
+                        return Err(axes.chain(standing.err().into_iter().flatten()).collect());
+                    }
+                };
                 let lines: Vec<&[Node]> = order.iter().map(|&row| rows[row].nodes.as_slice()).collect();
                 let first = lines.iter().scan(0, |next, line| Some(std::mem::replace(next, *next + line.len())));
-                let unknown = |name: &str| FunctionError::UnknownLabel { name: name.into(), row: None };
-                let [x, y] = axes;
-                let over = [x.resolved(id_of).map_err(unknown)?, y.resolved(id_of).map_err(unknown)?];
                 let normalized = transfer.unit == Unit::Normalized;
-                let at = to_values(rows_at, Some(y));
+                let at = to_values(rows_at, Some(&axes[1]));
                 let rows = Rows { over, at, first: first.collect(), normalized };
                 (lines, Some(rows))
             }
@@ -135,14 +140,20 @@ impl Function {
         }
     }
 
-    /// Whether a value in [lo, hi] can have α_u > 0, for any second quantity. `rounded` gives the value of a node as
-    /// samples are compared with it, in their number type: f32 can round a node down to a value that a brick reaches.
-    pub fn can_be_visible(&self, range: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
+    /// Whether a value in [lo, hi] can have α_u > 0, for any second quantity, of labels for those in `among`. `rounded`
+    /// gives the value of a node as samples are compared with it, in their number type: f32 can round a node down to a
+    /// value that a brick reaches.
+    pub fn can_be_visible(&self, range: [f64; 2], among: Option<&[u32]>, rounded: impl Fn(f64) -> f64) -> bool {
         let (at, opacity, rows) = self.nodes();
         let Some(rows) = rows else { return can_be_visible(at, opacity, range, rounded) };
         match &rows.over {
-            [Axis::Value, _] => {
-                rows.spans(at.len()).any(|span| can_be_visible(&at[span.clone()], &opacity[span], range, &rounded))
+            [Axis::Value, second] => {
+                let occurs = |row: usize| match among {
+                    Some(ids) if second.is_id() => ids.contains(&(rows.at[row] as u32)),
+                    _ => true,
+                };
+                let spans = rows.spans(at.len()).enumerate().filter(|(row, _)| occurs(*row));
+                spans.map(|(_, span)| span).any(|s| can_be_visible(&at[s.clone()], &opacity[s], range, &rounded))
             }
             [_, Axis::Value] => {
                 let highest = |span: Range<usize>| opacity[span].iter().copied().fold(0.0, f64::max);
@@ -162,25 +173,28 @@ impl Rows {
     }
 }
 
-/// The order in which rows are kept, and where each stands then: as they are written, where some are labels by their
-/// ids.
-fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<usize>, Vec<f64>), FunctionError> {
-    let at = |(row, r): (usize, &Row)| match &r.at {
-        RowAt::Number(at) => Ok(*at),
-        RowAt::Name(name) => {
-            let unknown = || FunctionError::UnknownLabel { name: name.clone(), row: Some(row) };
-            id_of(name).map(f64::from).ok_or_else(unknown)
+/// The order in which rows are kept, and where each stands then: as they are written, but labels by their ids.
+fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<usize>, Vec<f64>), Vec<FunctionError>> {
+    let (mut at, mut wrong) = (Vec::with_capacity(rows.len()), Vec::new());
+    for (row, r) in rows.iter().enumerate() {
+        match &r.at {
+            RowAt::Number(number) => at.push(*number),
+            RowAt::Name(name) => match id_of(name) {
+                Some(id) => at.push(f64::from(id)),
+                None => wrong.push(FunctionError::UnknownLabel { name: name.clone(), row: Some(row) }),
+            },
         }
-    };
-    let at: Vec<f64> = rows.iter().enumerate().map(at).collect::<Result<_, _>>()?;
+    }
+    if !wrong.is_empty() {
+        return Err(wrong);
+    }
     let mut order: Vec<usize> = (0..rows.len()).collect();
     // Numbers are in order already, and the sort keeps the order of equals, 0 and −0 among them.
     order.sort_by(|&a, &b| at[a].partial_cmp(&at[b]).unwrap_or(Ordering::Equal));
     let named = |row: usize| matches!(rows[row].at, RowAt::Name(_));
-    for pair in order.windows(2) {
-        if at[pair[0]] == at[pair[1]] && (named(pair[0]) || named(pair[1])) {
-            return Err(FunctionError::LabelTwice { row: pair[1], id: at[pair[1]] as u32 });
-        }
+    let twice = |pair: &&[usize]| at[pair[0]] == at[pair[1]] && (named(pair[0]) || named(pair[1]));
+    if let Some(pair) = order.windows(2).find(twice) {
+        return Err(vec![FunctionError::LabelTwice { row: pair[1], id: at[pair[1]] as u32 }]);
     }
     let at = order.iter().map(|&row| at[row]).collect();
     Ok((order, at))
@@ -212,6 +226,87 @@ fn values(at: Vec<f64>, unit: Unit, [lo, hi]: [f64; 2], volume: &Volume) -> Vec<
 
 #[cfg(test)]
 mod tests {
+    use super::*;
+    use crate::space::Grid;
+    use crate::tables::{LabelKey, TransferKind};
+    use crate::volume::Voxels;
+
+    /// A function of colours over two quantities, of rows with nodes (at, opacity).
+    fn over(axes: [Axis; 2], unit: Unit, rows: &[(RowAt, &[(f64, f64)])]) -> Result<Function, Vec<FunctionError>> {
+        let node = |&(at, opacity): &(f64, f64)| Node { at, color: NodeColor::Color([opacity; 3]), opacity };
+        let row = |(at, nodes): &(RowAt, &[_])| Row { at: at.clone(), nodes: nodes.iter().map(node).collect() };
+        let rows = Some(rows.iter().map(row).collect());
+        let transfer = Transfer { over: Over::Two(axes), unit, rows, ..Transfer::automatic(TransferKind::Regular) };
+        let grid = Grid::with_spacing([5, 1, 1], [1.0; 3]).unwrap();
+        let volume = Volume::new(grid, Voxels::U8(vec![10, 20, 30, 40, 50]), 1.0, 0.0).unwrap();
+        let names = |name: &str| [("liver", 5), ("spleen", 1)].iter().find(|n| n.0 == name).map(|n| n.1);
+        Function::new(&transfer, [10.0, 50.0], &volume, &names).map(Option::unwrap)
+    }
+
+    fn name(name: &str) -> RowAt {
+        RowAt::Name(name.into())
+    }
+
+    #[test]
+    fn labels_stand_by_their_ids() {
+        let nodes: [&[(f64, f64)]; 3] = [&[(1.0, 0.5), (2.0, 0.5)], &[(3.0, 0.25)], &[(4.0, 1.0)]];
+        let axes = [Axis::Value, Axis::Label];
+        let rows = [(name("liver"), nodes[0]), (RowAt::Number(3.0), nodes[1]), (name("spleen"), nodes[2])];
+        let function = over(axes, Unit::Value, &rows).unwrap();
+        let (at, opacity, rows) = function.nodes();
+        let rows = rows.unwrap();
+        assert_eq!((at, opacity), (&[4.0, 3.0, 1.0, 2.0][..], &[1.0, 0.25, 0.5, 0.5][..]));
+        assert_eq!((&rows.at[..], &rows.first[..]), (&[1.0, 3.0, 5.0][..], &[0, 1, 2][..]));
+        assert_eq!(rows.spans(4).collect::<Vec<_>>(), [0..1, 1..2, 2..4]);
+    }
+
+    #[test]
+    fn every_unknown_label_is_told_and_none_stands_twice() {
+        let axes = [Axis::DistanceToLabel(LabelKey::Name("heart".into())), Axis::Label];
+        let nodes: &[(f64, f64)] = &[(1.0, 1.0)];
+        let rows = [(name("liver"), nodes), (name("lver"), nodes)];
+        let unknown = |name: &str, row| FunctionError::UnknownLabel { name: name.into(), row };
+        let told = over(axes, Unit::Value, &rows).unwrap_err();
+        assert_eq!(told, [unknown("heart", None), unknown("lver", Some(1))]);
+        let twice = [(name("spleen"), nodes), (name("liver"), nodes), (RowAt::Number(5.0), nodes)];
+        let told = over([Axis::Value, Axis::Label], Unit::Value, &twice).unwrap_err();
+        assert_eq!(told, [FunctionError::LabelTwice { row: 2, id: 5 }]);
+    }
+
+    #[test]
+    fn the_unit_measures_values_on_either_axis() {
+        let nodes: &[(f64, f64)] = &[(0.0, 1.0), (1.0, 1.0)];
+        let rows = |y| [(RowAt::Number(0.5), nodes), (RowAt::Number(y), nodes)];
+        let at = |axes, unit| {
+            let function = over(axes, unit, &rows(1.0)).unwrap();
+            let (at, _, rows) = function.nodes();
+            (at[..2].to_vec(), rows.unwrap().at.clone())
+        };
+        let normalized = at([Axis::Value, Axis::GradientMagnitude], Unit::Normalized);
+        assert_eq!(normalized, (vec![10.0, 50.0], vec![0.5, 1.0]));
+        assert_eq!(at([Axis::K1, Axis::Value], Unit::Normalized), (vec![0.0, 1.0], vec![30.0, 50.0]));
+        assert_eq!(at([Axis::K1, Axis::Value], Unit::Percentile), (vec![0.0, 1.0], vec![10.0, 10.0]));
+    }
+
+    #[test]
+    fn what_rows_can_show() {
+        let (low, high): (&[(f64, f64)], &[(f64, f64)]) =
+            (&[(10.0, 0.0), (20.0, 1.0), (30.0, 0.0)], &[(40.0, 0.0), (50.0, 1.0)]);
+        let rows = [(RowAt::Number(1.0), low), (RowAt::Number(2.0), high)];
+        let labels = over([Axis::Value, Axis::Label], Unit::Value, &rows).unwrap();
+        let sees = |range, among: Option<&[u32]>| labels.can_be_visible(range, among, |at| at);
+        assert!(sees([15.0, 16.0], None) && sees([45.0, 46.0], None) && !sees([31.0, 39.0], None));
+        assert!(
+            sees([15.0, 16.0], Some(&[0, 1])) && !sees([15.0, 16.0], Some(&[0, 2])) && !sees([0.0, 99.0], Some(&[0]))
+        );
+        // From row to row: what lies between a row that shows something and one that shows nothing is seen.
+        let clear: &[(f64, f64)] = &[(1.0, 0.0)];
+        let rows = [(RowAt::Number(10.0), clear), (RowAt::Number(20.0), clear), (RowAt::Number(30.0), low)];
+        let down = over([Axis::K1, Axis::Value], Unit::Value, &rows).unwrap();
+        let sees = |range| down.can_be_visible(range, None, |at| at);
+        assert!(!sees([0.0, 19.0]) && sees([25.0, 26.0]) && sees([90.0, 99.0]));
+    }
+
     fn can_be_visible(at: &[f64], opacity: &[f64], range: [f64; 2]) -> bool {
         super::can_be_visible(at, opacity, range, |a| a)
     }

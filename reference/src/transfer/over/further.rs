@@ -2,37 +2,42 @@
 
 use super::{Here, Measure};
 use crate::field::{Field, FieldError, HessianEstimator, Reconstruction, Rung, Sampler};
-use crate::number::{Mat3, Real, Vec3};
+use crate::number::{Real, Vec3};
+use crate::other_grid::OtherGrid;
 use crate::transfer::Coordinate;
 use crate::with_sampler;
-use drypoint_scene::glam::DVec3;
-use drypoint_scene::space::Grid;
-use drypoint_scene::volume::Volume;
+use drypoint_scene::volume::{Anatomy, Volume};
 
 /// A further scalar volume, trilinear, whatever its grid. Outside its box, and in cells that touch a voxel without a value
 /// ([PREC-2]), it is the low end of its range: nothing is known there, and what nothing is known of is least.
 pub struct Further<'v, R> {
     field: Field<'v, R>,
-    map: ToIndex<R>,
+    /// None where the volume lies on the data's own grid.
+    map: Option<OtherGrid>,
     low: R,
 }
 
 impl<'v, R: Real> Further<'v, R> {
-    /// A volume whose grid lies so in the world of the data's grid.
+    /// A volume beside the data's volume, in whose world it lies ([SPACE-2]).
     ///
     /// # Errors
     /// Values that R cannot hold.
-    pub fn new(volume: &'v Volume, lies: &Grid, data: &Grid) -> Result<Self, FieldError> {
+    pub fn new(volume: &'v Volume, data: &Volume) -> Result<Self, FieldError> {
+        let lies = Anatomy::between(volume.grid(), volume.anatomy(), data.anatomy());
         // The value alone is read; the others are those that need nothing.
         let how = Reconstruction { hessian: HessianEstimator::Central, ..Reconstruction::default() };
         let field = Field::new(volume, how, Rung::Value)?;
-        Ok(Self { field, map: ToIndex::new(data, lies), low: R::from_f64(volume.range()[0]) })
+        Ok(Self { field, map: OtherGrid::new(data.grid(), &lies), low: R::from_f64(volume.range()[0]) })
     }
 }
 
 impl<R: Real> Measure<R> for Further<'_, R> {
     fn at(&self, here: &Here<R>) -> Coordinate<R> {
-        let value = self.map.position(here.position).and_then(|p| {
+        let position = match &self.map {
+            None => Some(here.position),
+            Some(map) => map.position(Vec3::from_glam(here.position.to_glam())).map(|p| Vec3::from_glam(p.to_glam())),
+        };
+        let value = position.and_then(|p| {
             with_sampler!(self.field, |s| {
                 let at = s.place(p);
                 let known = self.field.volume().mask().is_none_or(|mask| !mask.touches_cell(at.cell));
@@ -47,40 +52,17 @@ impl<R: Real> Measure<R> for Further<'_, R> {
     }
 }
 
-/// From positions in the index space of one grid to those of another in the same world.
-pub(super) struct ToIndex<R> {
-    /// None where both grids are one: the position itself, to the bit.
-    map: Option<(Mat3<R>, Vec3<R>)>,
-    ends: [Vec3<R>; 2],
-}
-
-impl<R: Real> ToIndex<R> {
-    pub(super) fn new(from: &Grid, to: &Grid) -> Self {
-        let map = (from != to).then(|| {
-            let axes = to.inverse_axes() * from.axes();
-            (Mat3::from_glam(axes), Vec3::from_glam(to.to_index(from.origin())))
-        });
-        // What the map rounds must not open the border of a grid that ends where the other does.
-        let slack = DVec3::from_array(to.dims().map(|n| 64.0 * R::EPSILON.to_f64() * n as f64));
-        let [lo, hi] = to.index_box();
-        Self { map, ends: [lo - slack, hi + slack].map(Vec3::from_glam) }
-    }
-
-    /// The position in the other grid, if it lies in its box.
-    #[inline]
-    pub(super) fn position(&self, p: Vec3<R>) -> Option<Vec3<R>> {
-        let p = self.map.as_ref().map_or(p, |(axes, origin)| axes.apply(p) + *origin);
-        let [lo, hi] = &self.ends;
-        let inside = p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
-        inside.then_some(p)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drypoint_scene::glam::DMat3;
+    use drypoint_scene::glam::{DMat3, DVec3};
+    use drypoint_scene::space::Grid;
     use drypoint_scene::volume::Voxels;
+
+    /// A volume of zeros on a grid, as the data.
+    fn data(grid: &Grid) -> Volume {
+        Volume::new(grid.clone(), Voxels::U8(vec![0; grid.len()]), 1.0, 0.0).unwrap()
+    }
 
     fn at<R: Real>(further: &Further<'_, R>, p: [f64; 3]) -> f64 {
         let Coordinate::Number(x) = further.at(&Here::at(p)) else { panic!() };
@@ -98,7 +80,7 @@ mod tests {
             .map(|i| linear(lies.to_world(DVec3::new((i % 4) as f64, (i / 4 % 3) as f64, (i / 12) as f64))))
             .collect();
         let volume = Volume::new(lies.clone(), Voxels::F64(values), 1.0, 0.0).unwrap();
-        let further = Further::<f64>::new(&volume, &lies, &data).unwrap();
+        let further = Further::<f64>::new(&volume, &self::data(&data)).unwrap();
         for p in [[5.0, 5.0, 3.0], [7.5, 6.25, 4.0], [9.0, 4.0, 2.5]] {
             // Coordinates up to 40 in a dozen operations.
             assert!((at(&further, p) - linear(data.to_world(p.into()))).abs() < 1e-13, "{p:?}");
@@ -112,18 +94,30 @@ mod tests {
     fn one_grid_is_read_at_its_own_voxels_up_to_the_border() {
         let grid = Grid::new([3, 2, 1], DMat3::from_diagonal(DVec3::new(0.1, 0.7, 0.3)), DVec3::splat(0.3)).unwrap();
         let volume = Volume::new(grid.clone(), Voxels::U8(vec![1, 2, 3, 4, 5, 9]), 1.0, 0.0).unwrap();
-        let further = Further::<f32>::new(&volume, &grid, &grid).unwrap();
+        let further = Further::<f32>::new(&volume, &data(&grid)).unwrap();
         assert_eq!(at(&further, [2.0, 1.0, 0.0]), 9.0);
         // A grid that is not the same one, and ends at the same place.
         let other = Grid::new([3, 3, 1], DMat3::from_diagonal(DVec3::new(0.1, 0.35, 0.3)), DVec3::splat(0.3)).unwrap();
-        assert!((at(&Further::<f32>::new(&volume, &grid, &other).unwrap(), [2.0, 2.0, 0.0]) - 9.0).abs() < 1e-4);
+        assert!((at(&Further::<f32>::new(&volume, &data(&other)).unwrap(), [2.0, 2.0, 0.0]) - 9.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn another_anatomy_is_flipped() {
+        // The data's x runs to the left, the further volume's to the right, from −2 to 0 of the data's.
+        let grid = Grid::with_spacing([3, 1, 1], [1.0; 3]).unwrap();
+        let left = Volume::new(grid.clone(), Voxels::U8(vec![1, 2, 4]), 1.0, 0.0).unwrap();
+        let left = left.with_anatomy(Some(Anatomy::RightAnteriorSuperior));
+        let behind = Grid::new([3, 1, 1], DMat3::IDENTITY, DVec3::new(-2.0, 0.0, 0.0)).unwrap();
+        let data = data(&behind).with_anatomy(Some(Anatomy::LeftPosteriorSuperior));
+        let further = Further::<f64>::new(&left, &data).unwrap();
+        assert_eq!([0.0, 0.5, 2.0].map(|x| at(&further, [x, 0.0, 0.0])), [4.0, 3.0, 1.0]);
     }
 
     #[test]
     fn voxels_without_a_value_count_as_the_lowest() {
         let grid = Grid::with_spacing([4, 1, 1], [1.0; 3]).unwrap();
         let volume = Volume::new(grid.clone(), Voxels::F32(vec![2.0, 5.0, f32::NAN, 7.0]), 1.0, 0.0).unwrap();
-        let further = Further::<f64>::new(&volume, &grid, &grid).unwrap();
+        let further = Further::<f64>::new(&volume, &data(&grid)).unwrap();
         assert_eq!([0.5, 1.5, 2.5].map(|x| at(&further, [x, 0.0, 0.0])), [3.5, 2.0, 2.0]);
     }
 }

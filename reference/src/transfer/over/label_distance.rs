@@ -1,12 +1,15 @@
 //! The distance to a label: Euclidean, in the world, to the nearest voxel centre that has it ([STF-4]).
 
-use super::further::ToIndex;
 use super::{Here, Measure};
 use crate::field::Place;
+use crate::labels::Labels;
 use crate::number::{Real, Vec3};
 use crate::transfer::Coordinate;
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::space::Grid;
+use drypoint_scene::tables::LabelLookup;
+use drypoint_scene::volume::Volume;
+use drypoint_scene::volume::labels::LabelVolume;
 use rayon::prelude::*;
 use rstar::RTree;
 
@@ -20,23 +23,22 @@ pub struct LabelDistance<R> {
 }
 
 impl<R: Real> LabelDistance<R> {
-    /// On the data's grid, to the voxels of another one in the same world, x fastest, for which `has` holds. None where
-    /// no voxel does.
-    pub fn new(data: &Grid, labels: &Grid, has: impl Fn(usize) -> bool + Sync) -> Option<Self> {
-        let from = data.origin() - labels.origin();
-        let centres = centres(labels, &has, data == labels && is_reduced(labels.axes()));
+    /// On the grid of a data volume, to the voxels of a label volume beside it that have an id. None where no voxel has.
+    pub fn new(data: &Volume, volume: &LabelVolume, id: u32) -> Option<Self> {
+        let (data, world) = (data.grid(), data.anatomy());
+        let labels = Labels::new(volume, data, world, LabelLookup::Nearest);
+        let lies = volume.grid_in(world);
+        let centres = centres(&lies, &|i| volume.id(i) == id, labels.on_same_grid() && is_reduced(lies.axes()));
         if centres.is_empty() {
             return None;
         }
-        let centres = RTree::bulk_load(centres);
-        let inside = Inside { map: ToIndex::new(data, labels), dims: labels.dims(), has };
-        let [nx, ny, nz] = data.dims();
+        let (centres, from) = (RTree::bulk_load(centres), data.origin() - lies.origin());
+        let [nx, ny, _] = data.dims();
         let mut distances = vec![R::ZERO; data.len()];
         distances.par_chunks_mut(nx).enumerate().for_each(|(row, distances)| {
-            debug_assert!(row < ny * nz);
             for (x, distance) in distances.iter_mut().enumerate() {
                 let index = DVec3::new(x as f64, (row % ny) as f64, (row / ny) as f64);
-                if !inside.holds(index) {
+                if labels.id_at(Vec3::<f64>::from_glam(index)) != id {
                     let p = data.axes() * index + from;
                     // There is at least one centre.
                     let nearest = centres.nearest_neighbor(p.to_array()).map_or(p, |&c| DVec3::from_array(c));
@@ -76,22 +78,6 @@ impl<R: Real> Measure<R> for LabelDistance<R> {
     }
 }
 
-/// Which positions of the data lie in a voxel with the label.
-struct Inside<F> {
-    map: ToIndex<f64>,
-    dims: [usize; 3],
-    has: F,
-}
-
-impl<F: Fn(usize) -> bool> Inside<F> {
-    fn holds(&self, index: DVec3) -> bool {
-        let Some(p) = self.map.position(Vec3::from_glam(index)) else { return false };
-        let [nx, ny, nz] = self.dims;
-        let voxel = |x: f64, n: usize| ((x + 0.5).max(0.0) as usize).min(n - 1);
-        (self.has)((voxel(p.z, nz) * ny + voxel(p.y, ny)) * nx + voxel(p.x, nx))
-    }
-}
-
 /// D·index of the voxels with the label; with `surface` only of those that have a neighbour without it, or none at all.
 fn centres(grid: &Grid, has: &(impl Fn(usize) -> bool + Sync), surface: bool) -> Vec<[f64; 3]> {
     let [nx, ny, nz] = grid.dims();
@@ -122,7 +108,15 @@ fn is_reduced(axes: DMat3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drypoint_scene::volume::Voxels;
     use proptest::prelude::*;
+
+    /// The distances of every voxel of a grid to those of another one that have the label 1.
+    fn distance(data: &Grid, labels: &Grid, has: impl Fn(usize) -> bool) -> Option<LabelDistance<f64>> {
+        let on = |grid: &Grid, voxels| Volume::new(grid.clone(), Voxels::U8(voxels), 1.0, 0.0).unwrap();
+        let ids = on(labels, (0..labels.len()).map(|i| u8::from(has(i))).collect());
+        LabelDistance::new(&on(data, vec![0; data.len()]), &LabelVolume::new(&ids).unwrap(), 1)
+    }
 
     fn index(i: usize, [nx, ny, _]: [usize; 3]) -> DVec3 {
         DVec3::new((i % nx) as f64, (i / nx % ny) as f64, (i / nx / ny) as f64)
@@ -145,7 +139,7 @@ mod tests {
             // Whole blocks of the label, for interiors, or single voxels.
             let has = |i: usize| (seed.rotate_left((i / (1 + seed as usize % 40)) as u32 * 7) >> 3) % 10 < share;
             let has = |i: usize| has(i) || i == 0;
-            let got = LabelDistance::<f64>::new(&grid, &grid, has).unwrap();
+            let got = distance(&grid, &grid, has).unwrap();
             for i in 0..grid.len() {
                 let to = |j: usize| (grid.axes() * (index(i, dims) - index(j, dims))).length();
                 let want = (0..grid.len()).filter(|&j| has(j)).map(to).fold(f64::INFINITY, f64::min);
@@ -161,16 +155,16 @@ mod tests {
         // Labels on voxels of 4 units, the data on voxels of 1; the label is the voxel at (4, 0, 0).
         let labels = Grid::with_spacing([3, 1, 1], [4.0, 1.0, 1.0]).unwrap();
         let data = Grid::new([12, 1, 1], DMat3::IDENTITY, DVec3::new(-1.0, 0.0, 0.0)).unwrap();
-        let got = LabelDistance::<f64>::new(&data, &labels, |i| i == 1).unwrap();
-        // World −1 … 10: in its voxel from 2 to 6, where 6 is rounded up to the next.
-        assert_eq!(got.distances, [5.0, 4.0, 3.0, 0.0, 0.0, 0.0, 0.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-        assert!(LabelDistance::<f64>::new(&data, &labels, |_| false).is_none());
+        let got = distance(&data, &labels, |i| i == 1).unwrap();
+        // World −1 … 10: its voxel goes from 2, which is half way and belongs to the lower one, to 6, which is its own.
+        assert_eq!(got.distances, [5.0, 4.0, 3.0, 2.0, 0.0, 0.0, 0.0, 0.0, 3.0, 4.0, 5.0, 6.0]);
+        assert!(distance(&data, &labels, |_| false).is_none());
     }
 
     #[test]
     fn trilinear_between_voxels() {
         let grid = Grid::with_spacing([3, 2, 1], [1.0, 2.0, 1.0]).unwrap();
-        let got = LabelDistance::<f64>::new(&grid, &grid, |i| i == 0).unwrap();
+        let got = distance(&grid, &grid, |i| i == 0).unwrap();
         let far = 5f64.sqrt();
         assert_eq!(got.distances, [0.0, 1.0, 2.0, 2.0, far, 8f64.sqrt()]);
         let at = |cell, w| got.value(Place { cell, w });

@@ -10,7 +10,7 @@ mod of_sample;
 mod point;
 
 pub use further::Further;
-pub use label::{IdAt, Label};
+pub use label::Label;
 pub use label_distance::LabelDistance;
 pub use of_sample::{Differential, Magnitude, Value};
 pub use point::Distance;

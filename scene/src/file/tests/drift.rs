@@ -72,7 +72,11 @@ const SAMPLES: &[Sample] = &[
     ("transfer.kind", &[], "regular"),
     ("transfer.over", &[OVER, ROWS], "[\"value\", \"k2\"]"),
     ("transfer.over[0].distance", &[("transfer.over", "[{ distance = [0, 0, 0] }, \"value\"]"), ROWS], "[1, 2, 3]"),
-    ("transfer.over[0].distance_to_label", &[("transfer.over", "[{ distance_to_label = 3 }, \"value\"]"), ROWS], "4"),
+    (
+        "transfer.over[0].distance_to_label",
+        &[("volume.labels", "l.nrrd"), ("transfer.over", "[{ distance_to_label = 3 }, \"value\"]"), ROWS],
+        "4",
+    ),
     ("transfer.over[0].volume", &[("transfer.over", "[{ volume = \"a.nrrd\" }, \"value\"]"), ROWS], "b.nrrd"),
     ("transfer.unit", &[], "percentile"),
     ("transfer.nodes", &[], "[{ at = 1, style = \"wax\" }]"),

@@ -12,7 +12,8 @@ const ROW: &str = "rows = [{ at = 1, nodes = [{ at = 1, color = \"red\" }] }]";
 
 #[test]
 fn every_quantity_is_read_and_written() {
-    let names = ["gradient-magnitude", "k1", "k2", "mean", "gaussian", "kv"];
+    let scene = |text: &str| scene(&format!("labels = \"l.nrrd\"\nlabel_names = \"l.csv\"\n{text}"));
+    let names = ["gradient-magnitude", "label", "k1", "k2", "mean", "gaussian", "kv"];
     let quoted = names.map(|name| format!("{name:?}"));
     let of = ["{ distance = [1, 2, 3] }", "{ distance_to_label = 12 }", "{ distance_to_label = \"liver\" }"];
     let all: Vec<&str> = quoted.iter().map(String::as_str).chain(of).chain(["{ volume = \"b.nrrd\" }"]).collect();
@@ -160,4 +161,42 @@ fn what_makes_no_function() {
         }
     }
     assert!(different.is_empty(), "{}", different.join("\n"));
+}
+
+#[test]
+fn what_labels_need() {
+    let label = "[\"value\", \"label\"]";
+    let rows = |at: &[&str]| {
+        let row = |at: &&str| format!("{{ at = {at}, nodes = [{{ at = 1, color = \"red\" }}] }}");
+        format!("rows = [{}]", at.iter().map(row).collect::<Vec<_>>().join(", "))
+    };
+    let first = |text: &str| faults(text).lines().take(3).map(str::trim).collect::<Vec<_>>().join("; ");
+    assert_eq!(
+        first(&over(label, ROW)),
+        "the function is over \"label\", and the scene has no labels; at scene.toml:6:1, key transfer.over; add the label \
+         volume: volume.labels = \"…\""
+    );
+    let beside = |text: String| format!("labels = \"l.nrrd\"\n{text}");
+    assert_eq!(
+        first(&beside(over(label, &rows(&["3", "\"liver\""])))),
+        "\"liver\" is the name of a label, and the scene has no names of them; at scene.toml:8:60, key \
+         transfer.rows[1].at; write an id, or add the table of names: volume.label_names = \"…\""
+    );
+    for (at, what, place) in [
+        (&["1.5"][..], "1.5 is no label", "8:11, key transfer.rows[0].at"),
+        (&["-1"], "-1 is no label", "8:11, key transfer.rows[0].at"),
+        (&["7", "3", "7"], "a second row for one label", "8:109, key transfer.rows[2].at"),
+    ] {
+        let told = first(&beside(over(label, &rows(at))));
+        assert!(told.starts_with(&format!("{what}; at scene.toml:{place}; ")), "{told}");
+    }
+    // In any order, and along rows too.
+    scene(&beside(over(label, &rows(&["7", "3"]))));
+    let along =
+        |nodes: &str| beside(over("[\"label\", \"value\"]", &format!("rows = [{{ at = 1, nodes = [{nodes}] }}]")));
+    scene(&along("{ at = 3, color = \"red\" }, { at = 7, color = \"red\" }"));
+    let twice = first(&along("{ at = 3, color = \"red\" }, { at = 3, color = \"red\" }"));
+    assert!(twice.starts_with("a second node for one label; at scene.toml:8:57, key"), "{twice}");
+    let broken = first(&along("{ at = 0.5, color = \"red\" }"));
+    assert!(broken.starts_with("0.5 is no label; at scene.toml:8:30, key transfer.rows[0].nodes[0].at"), "{broken}");
 }

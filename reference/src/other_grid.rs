@@ -1,0 +1,80 @@
+//! Positions of the data in the index space of another volume's grid, in the same world ([SPACE-2]).
+
+use crate::number::{Mat3, Vec3};
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::space::Grid;
+
+/// Voxels by which two grids may differ and count as one: headers keep places in single precision, and one says in a
+/// matrix what another says in a quaternion. By as much a position may lie outside the box of another grid.
+const SLACK: f64 = 1.0 / 1024.0;
+
+/// `other index = D_o⁻¹ (D · index + origin − origin_o)` as one affine map, and the boxes of both. In f64, so that what is
+/// found there does not depend on the number type of the samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OtherGrid {
+    linear: Mat3<f64>,
+    offset: Vec3<f64>,
+    data_box: [DVec3; 2],
+    own_box: [DVec3; 2],
+}
+
+impl OtherGrid {
+    /// From positions on one grid to those on another; none where they are one, voxel on voxel.
+    pub(crate) fn new(data: &Grid, other: &Grid) -> Option<Self> {
+        let inverse = other.inverse_axes();
+        let [lo, hi] = other.index_box();
+        let map = Self {
+            linear: Mat3::from_glam(inverse * data.axes()),
+            offset: Vec3::from_glam(inverse * (data.origin() - other.origin())),
+            data_box: data.index_box(),
+            own_box: [lo - SLACK, hi + SLACK],
+        };
+        (data.dims() != other.dims() || !map.is_identity()).then_some(map)
+    }
+
+    #[inline(always)]
+    fn apply(&self, p: Vec3<f64>) -> Vec3<f64> {
+        self.linear.apply(p) + self.offset
+    }
+
+    /// The position on the other grid, if it lies in its box.
+    #[inline(always)]
+    pub(crate) fn position(&self, p: Vec3<f64>) -> Option<Vec3<f64>> {
+        let p = self.apply(p);
+        self.has(p.to_glam()).then_some(p)
+    }
+
+    /// The other grid's box, with the slack.
+    pub(crate) fn own_box(&self) -> [DVec3; 2] {
+        self.own_box
+    }
+
+    /// Whether that box holds a position of the other grid.
+    #[inline(always)]
+    pub(crate) fn has(&self, p: DVec3) -> bool {
+        let [lo, hi] = self.own_box;
+        p.cmpge(lo).all() && p.cmple(hi).all()
+    }
+
+    /// Whether no corner of the data's box, and so no position in it, is moved by more than the slack.
+    fn is_identity(&self) -> bool {
+        corners(self.data_box).all(|p| (self.apply(Vec3::from_glam(p)).to_glam() - p).abs().max_element() <= SLACK)
+    }
+
+    /// Bounds of the other grid's positions of a part of the data's cells, with a margin for rounding.
+    pub(crate) fn bounds(&self, first: [usize; 3], end: [usize; 3]) -> [DVec3; 2] {
+        let number = |i: [usize; 3]| DVec3::from_array(i.map(|i| i as f64));
+        // On an axis of length 1 positions are not those of its one cell.
+        let flat = (self.data_box[0]).cmplt(DVec3::ZERO);
+        let lo = DVec3::select(flat, self.data_box[0], number(first));
+        let hi = DVec3::select(flat, self.data_box[1], number(end));
+        let places = corners([lo, hi]).map(|p| self.apply(Vec3::from_glam(p)).to_glam());
+        let [lo, hi] = places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], p| [lo.min(p), hi.max(p)]);
+        [lo - SLACK, hi + SLACK]
+    }
+}
+
+/// The eight corners of a box.
+fn corners([lo, hi]: [DVec3; 2]) -> impl Iterator<Item = DVec3> {
+    (0..8).map(move |c| DVec3::from_array(std::array::from_fn(|a| if c >> a & 1 == 0 { lo[a] } else { hi[a] })))
+}
