@@ -19,12 +19,17 @@ const CELL: usize = 176;
 /// List the styles of a theme; with -o, write a sheet of spheres with their names.
 #[derive(Debug, Args)]
 pub(super) struct Styles {
-    /// An embedded theme (textbook, naturalist, studio), or a folder of pictures
-    #[arg(long, value_name = "NAME|FOLDER", default_value = "textbook")]
+    #[arg(long, value_name = "NAME|FOLDER", default_value = "textbook", help = theme_help())]
     theme: String,
     /// Write a preview sheet, as PNG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+}
+
+/// What --theme takes, with the names that there are.
+fn theme_help() -> String {
+    let names: Vec<&str> = Theme::embedded_names().collect();
+    format!("An embedded theme ({}), or a folder of pictures", names.join(", "))
 }
 
 impl Styles {
