@@ -12,19 +12,22 @@ use drypoint::scene::tables::{
 use drypoint::scene::volume::labels::LabelVolume;
 use drypoint::scene::volume::{Volume, Voxels};
 
-/// Rows of styles: where each stands, and its nodes.
-fn styled<'a>(rows: &[(f64, &[(f64, &'a str, f64)])]) -> Vec<Row> {
+/// A row by hand: where it stands, and its nodes as (at, style or colour, α_u).
+type ByHand<'a, C> = (f64, &'a [(f64, C, f64)]);
+
+/// Rows of styles.
+fn styled(rows: &[ByHand<'_, &str>]) -> Vec<Row> {
     rows_of(rows, |name| NodeColor::Style((*name).into()))
 }
 
 /// Rows of colours.
-fn colored(rows: &[(f64, &[(f64, [f64; 3], f64)])]) -> Vec<Row> {
+fn colored(rows: &[ByHand<'_, [f64; 3]>]) -> Vec<Row> {
     rows_of(rows, |c| NodeColor::Color(*c))
 }
 
-fn rows_of<C>(rows: &[(f64, &[(f64, C, f64)])], color: impl Fn(&C) -> NodeColor) -> Vec<Row> {
+fn rows_of<C>(rows: &[ByHand<'_, C>], color: impl Fn(&C) -> NodeColor) -> Vec<Row> {
     let node = |(at, c, opacity): &(f64, C, f64)| Node { at: *at, color: color(c), opacity: *opacity };
-    let row = |(y, nodes): &(f64, &[_])| Row { at: RowAt::Number(*y), nodes: nodes.iter().map(node).collect() };
+    let row = |(y, nodes): &ByHand<'_, C>| Row { at: RowAt::Number(*y), nodes: nodes.iter().map(node).collect() };
     rows.iter().map(row).collect()
 }
 
