@@ -24,8 +24,7 @@ const CELL: usize = 176;
 pub(super) struct Styles {
     #[command(subcommand)]
     what: Option<What>,
-    /// An embedded theme (textbook, naturalist, studio), or a folder of pictures
-    #[arg(long, value_name = "NAME|FOLDER", default_value = "textbook")]
+    #[arg(long, value_name = "NAME|FOLDER", default_value = "textbook", help = theme_help())]
     theme: String,
     /// Write a preview sheet, as PNG
     #[arg(short, long, value_name = "FILE")]
@@ -36,6 +35,12 @@ pub(super) struct Styles {
 enum What {
     /// Make a style from a part of a picture
     Extract(extract::Extract),
+}
+
+/// What --theme takes, with the names that there are.
+fn theme_help() -> String {
+    let names: Vec<&str> = Theme::embedded_names().collect();
+    format!("An embedded theme ({}), or a folder of pictures", names.join(", "))
 }
 
 impl Styles {

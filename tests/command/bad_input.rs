@@ -136,7 +136,7 @@ error: behind.png is not there
   try: write the path of a picture that is there
 error: there is no style \"metall\"
   at: scene.toml:10:28, key transfer.nodes[0].style
-  try: write \"metal\"; there is bone, cartoon, glass, ink, metal, skin, tone, vessel, wax
+  try: write \"metal\"; there is bone, brain, cartoon, cartoon-2, chalk, constant, copper, engraving, gall, glass, gut, ink, kidney, liver, lung, metal, muscle, nerve, pencil, porcelain, skin, spleen, tone, vein, vessel, watercolour, wax, xray
 error: [[halo]] is not built yet ([HALO-1])
   at: scene.toml:11:3, key halo
   try: remove it: this version cannot draw it, and would not ignore it

@@ -4,13 +4,30 @@ use super::generator::{at, dims, grid, opacity, scene, volume};
 use crate::common::Shot;
 use crate::common::random::Random;
 use drypoint::scene::glam::DVec3;
-use drypoint::scene::tables::{Axis, Node, NodeColor, Over, Row, RowAt, Transfer, Unit};
+use drypoint::scene::space::Grid;
+use drypoint::scene::tables::{Axis, LabelKey, LabelLookup, Node, NodeColor, Over, Row, RowAt, Transfer, Unit};
+use drypoint::scene::volume::labels::LabelVolume;
+use drypoint::scene::volume::{Volume, Voxels};
+
+/// Ids 0 … 4 in blocks and single voxels, 1 among them, on the data's grid or another.
+fn labels(r: &mut Random, own: &Grid) -> LabelVolume {
+    let dims = dims(r);
+    let on = if r.once_in(2) { own.clone() } else { grid(r, dims) };
+    let block = 1 + r.below(40);
+    let mut ids: Vec<u8> = Vec::new();
+    while ids.len() < on.len() {
+        let id = r.below(5) as u8;
+        ids.extend(std::iter::repeat_n(id, block.min(on.len() - ids.len())));
+    }
+    ids[0] = 1;
+    LabelVolume::new(&Volume::new(on, Voxels::U8(ids), 1.0, 0.0).unwrap()).unwrap()
+}
 
 /// A quantity other than the value, and numbers that it has or nearly has.
 fn quantity(r: &mut Random, shot: &mut Shot, which: usize) -> (Axis, [f64; 2]) {
     let own = shot.volume.grid().clone();
     let [lo, hi] = shot.volume.range();
-    match r.below(9) {
+    match r.below(11) {
         0 | 1 => (Axis::GradientMagnitude, [0.0, 0.7 * (hi - lo) / own.voxel()]),
         2 => (Axis::K1, [-1.0, 2.0]),
         3 => (Axis::K2, [-2.0, 1.0]),
@@ -20,6 +37,16 @@ fn quantity(r: &mut Random, shot: &mut Shot, which: usize) -> (Axis, [f64; 2]) {
         7 => {
             let point = own.centre() + DVec3::from_array(r.direction()) * own.radius() * r.between(0.0, 2.0);
             (Axis::Distance(point), [0.0, own.radius() * 2.0])
+        }
+        8 => {
+            shot.labels = Some(labels(r, &own));
+            // Both axes may read labels: those that one wants are there.
+            (Axis::DistanceToLabel(LabelKey::Id(1)), [0.0, own.radius() * 2.0])
+        }
+        9 => {
+            shot.labels = Some(labels(r, &own));
+            shot.scene.volume.label_lookup = r.pick(&[LabelLookup::Nearest, LabelLookup::Smooth]);
+            (Axis::Label, [0.0, 5.0])
         }
         _ => {
             let (dims, own_grid) = (dims(r), r.once_in(2));
@@ -48,6 +75,8 @@ pub(crate) fn over_two(r: &mut Random, shot: &mut Shot) {
         }
         at
     };
+    // Labels stand once each.
+    let ids = |r: &mut Random, n: usize| -> Vec<f64> { (0..5).filter(|_| r.below(5) <= n).map(f64::from).collect() };
     // The value along a row, from row to row, or not at all.
     let value = r.pick(&[Some(0), Some(0), Some(0), Some(1), None]);
     let mut ranges = [[0.0; 2]; 2];
@@ -62,8 +91,13 @@ pub(crate) fn over_two(r: &mut Random, shot: &mut Shot) {
     if axes[0] == axes[1] {
         return;
     }
+    let is_id = axes.each_ref().map(Axis::is_id);
     let places = |r: &mut Random, shot: &Shot, i: usize, n| match value {
         Some(v) if v == i => values(r, shot, n),
+        _ if is_id[i] => match ids(r, n) {
+            none if none.is_empty() => vec![2.0],
+            some => some,
+        },
         _ => numbers(r, ranges[i], n),
     };
     let count = 1 + r.below(4);
@@ -91,7 +125,10 @@ fn rows_that_are_alike_are_one() {
         let r = &mut Random(seed ^ 0x2d);
         let (axis, [lo, hi]) = quantity(r, &mut shot, 1);
         let row = |y| Row { at: RowAt::Number(y), nodes: nodes.clone() };
-        let rows = vec![row(lo), row(lo + 0.4 * (hi - lo)), row(hi)];
+        let rows = match axis {
+            Axis::Label => (0..5).map(|id| row(f64::from(id))).collect(),
+            _ => vec![row(lo), row(lo + 0.4 * (hi - lo)), row(hi)],
+        };
         shot.scene.transfer =
             Some(Transfer { over: Over::Two([Axis::Value, axis]), nodes: None, rows: Some(rows), ..t });
         let both = shot.render();
@@ -114,6 +151,9 @@ fn nodes_on_the_way_change_nothing() {
             continue;
         }
         let (axis, [lo, hi]) = quantity(r, &mut shot, 1);
+        if axis.is_id() {
+            continue;
+        }
         let [a, b] = shot.volume.range();
         let style = t.nodes.as_ref().unwrap()[0].color.clone();
         let o: [f64; 4] = [0; 4].map(|_| r.unit());
@@ -157,7 +197,7 @@ fn axes_can_be_exchanged() {
         let (axis, [lo, hi]) = quantity(r, &mut shot, 1);
         let looks: Vec<NodeColor> = t.all_nodes().map(|node| node.color.clone()).collect();
         let xs = at(r, &shot.volume, 3);
-        let ys = [lo, lo + (hi - lo) * r.unit(), hi];
+        let ys = if axis.is_id() { [0.0, 1.0, 3.0] } else { [lo, lo + (hi - lo) * r.unit(), hi] };
         let grid: Vec<(NodeColor, f64)> = (0..9).map(|_| (r.pick(&looks), opacity(r))).collect();
         let rows = |along: &[f64], down: &[f64], which: &dyn Fn(usize, usize) -> usize| -> Vec<Row> {
             let node = |i: usize, j: usize| {

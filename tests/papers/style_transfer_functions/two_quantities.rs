@@ -1,28 +1,33 @@
 //! Functions over two quantities (4.2; [STF-4]).
 
 use super::{one_sample, planes, smooth};
-use crate::common::{Shot, Shown, on, orthographic, plain, volume};
+use crate::common::{Shot, Shown, on, orthographic, plain, positions, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Axis, Camera, GradientRange, Mix, Node, NodeColor, Number, Over, Row, RowAt, Shading, Transfer, TransferKind,
-    Transparency, Unit,
+    Axis, Camera, GradientRange, LabelKey, Mix, Node, NodeColor, Number, Over, Row, RowAt, Shading, Transfer,
+    TransferKind, Transparency, Unit,
 };
+use drypoint::scene::volume::labels::LabelVolume;
+use drypoint::scene::volume::{Volume, Voxels};
 
-/// Rows of styles: where each stands, and its nodes.
-fn styled<'a>(rows: &[(f64, &[(f64, &'a str, f64)])]) -> Vec<Row> {
+/// A row by hand: where it stands, and its nodes as (at, style or colour, α_u).
+type ByHand<'a, C> = (f64, &'a [(f64, C, f64)]);
+
+/// Rows of styles.
+fn styled(rows: &[ByHand<'_, &str>]) -> Vec<Row> {
     rows_of(rows, |name| NodeColor::Style((*name).into()))
 }
 
 /// Rows of colours.
-fn colored(rows: &[(f64, &[(f64, [f64; 3], f64)])]) -> Vec<Row> {
+fn colored(rows: &[ByHand<'_, [f64; 3]>]) -> Vec<Row> {
     rows_of(rows, |c| NodeColor::Color(*c))
 }
 
-fn rows_of<C>(rows: &[(f64, &[(f64, C, f64)])], color: impl Fn(&C) -> NodeColor) -> Vec<Row> {
+fn rows_of<C>(rows: &[ByHand<'_, C>], color: impl Fn(&C) -> NodeColor) -> Vec<Row> {
     let node = |(at, c, opacity): &(f64, C, f64)| Node { at: *at, color: color(c), opacity: *opacity };
-    let row = |(y, nodes): &(f64, &[_])| Row { at: RowAt::Number(*y), nodes: nodes.iter().map(node).collect() };
+    let row = |(y, nodes): &ByHand<'_, C>| Row { at: RowAt::Number(*y), nodes: nodes.iter().map(node).collect() };
     rows.iter().map(row).collect()
 }
 
@@ -260,4 +265,91 @@ fn a_regular_function_is_shaded() {
     assert_eq!(middle(&plain.render()), [0.0, 0.0, 1.0, 1.0]);
     // N·L is 1 in the middle: 0.3 + 0.6.
     assert!((middle(&lit)[2] - 0.9).abs() < 1e-12, "{:?}", middle(&lit));
+}
+
+/// Fig. 9 in small: each part in its own style, an id without a row nothing, and bricks of such parts left out.
+#[test]
+fn each_label_has_a_function_of_its_own() {
+    let n = 32;
+    let data = volume([n; 3], |_| 40.0);
+    let id = |x: f64| {
+        if x < 8.0 {
+            3
+        } else if x < 16.0 {
+            7
+        } else {
+            9
+        }
+    };
+    let ids = (0..n * n * n).map(|i| id((i % n) as f64)).collect();
+    let labels = Volume::new(data.grid().clone(), Voxels::U8(ids), 1.0, 0.0).unwrap();
+    // Seven begins to be seen at 50: its voxels are too low. Nine has no row.
+    let nodes: [&[(f64, &str, f64)]; 2] =
+        [&[(30.0, "red", 0.0), (35.0, "red", 1.0)], &[(50.0, "blue", 0.0), (60.0, "blue", 1.0)]];
+    let rows = |low: f64| {
+        let mut rows = styled(&[(7.0, nodes[1]), (3.0, nodes[0])]);
+        rows[0].nodes.iter_mut().for_each(|node| node.at -= low);
+        rows
+    };
+    let styles = vec![plain("red", [1.0, 0.0, 0.0, 1.0]), plain("blue", [0.0, 0.0, 1.0, 1.0])];
+    let mut shot = Shot::styled(data, styles, &[]);
+    shot.labels = Some(LabelVolume::new(&labels).unwrap());
+    let shot = planes(&shot, 0.25).with(|s| {
+        s.camera = Camera { direction: DVec3::Y, ..orthographic(Some(31.0)) };
+        s.picture.size = [62, 62];
+        s.picture.samples = 1;
+    });
+    let seen = |low: f64, color: fn(f64) -> [f64; 4]| {
+        let shown = over(&shot, [Axis::Value, Axis::Label], rows(low)).render();
+        for (i, p) in shown.pixels().iter().enumerate() {
+            let x = ((i % 62) as f64 + 0.5) * 0.5;
+            assert_eq!(*p, color(x), "{x}");
+        }
+        shown.counts
+    };
+    // Nearest: borders half way between voxels.
+    let one = seen(0.0, |x| if x < 7.5 { [1.0, 0.0, 0.0, 1.0] } else { [0.0; 4] });
+    let both = seen(20.0, |x| match x {
+        x if x < 7.5 => [1.0, 0.0, 0.0, 1.0],
+        x if x < 15.5 => [0.0, 0.0, 1.0, 1.0],
+        _ => [0.0; 4],
+    });
+    // Rays end at the first opaque sample. Bricks of four cells: those of label 3 alone, and one more at the border.
+    assert!(one.rays_skipped > 62 * 40 && both.rays_skipped > 62 * 25, "{one:?} {both:?}");
+    assert_eq!((one.gradients, one.style_lookups), (15 * 62, 15 * 62), "{one:?}");
+    assert_eq!((one.bytes["labels"], one.preprocess.len()), (32_768, 0));
+}
+
+/// Up to a distance from a part: the part and a shell about it, on a grid whose voxels are twice as high as wide.
+#[test]
+fn the_neighbourhood_of_a_label() {
+    let grid = Grid::with_spacing([33, 33, 17], [1.0, 1.0, 2.0]).unwrap();
+    let centre = DVec3::splat(16.0);
+    let ids = positions(&grid).map(|p| u8::from((p - centre).length() <= 6.0) * 4).collect();
+    let labels = Volume::new(grid.clone(), Voxels::U8(ids), 1.0, 0.0).unwrap();
+    let mut shot = Shot::regular(on(grid, |_| 1.0), &[]);
+    shot.labels = Some(LabelVolume::new(&labels).unwrap());
+    let near = 5.0;
+    let rows = colored(&[(0.0, &[(0.0, RED, 1.0)]), (near, &[(0.0, RED, 1.0)]), (near, &[(0.0, RED, 0.0)])]);
+    let shot = over(&shot, [Axis::Value, Axis::DistanceToLabel(LabelKey::Id(4))], rows).with(|s| {
+        s.camera = Camera { direction: DVec3::Y, ..orthographic(Some(32.0)) };
+        s.picture.size = [64, 64];
+    });
+    let shown = shot.render();
+    for (i, p) in shown.pixels().iter().enumerate() {
+        let [x, z] = [i % 64, i / 64].map(|k| (k as f64 + 0.5) * 0.5 - 16.0);
+        let radius = x.hypot(z);
+        // Voxel centres of the ball reach at least 6 less the half diagonal of a voxel, √1.5; trilinear distances, which
+        // are convex between voxels, are too large by less than that too.
+        if radius < 6.0 + near - 2.0 * 1.5f64.sqrt() {
+            assert!(p[3] > 0.99, "{x} {z}: {p:?}");
+        } else if radius > 6.0 + near + 1.5f64.sqrt() {
+            assert_eq!(*p, [0.0; 4], "{x} {z}");
+        }
+    }
+    let counts = shown.counts;
+    assert_eq!(
+        (counts.preprocess["label distances"], counts.bytes["label distance"]),
+        (33 * 33 * 17, 33 * 33 * 17 * 8)
+    );
 }

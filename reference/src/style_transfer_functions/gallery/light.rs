@@ -37,6 +37,24 @@ pub(super) fn smoothstep(lo: f64, hi: f64, x: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
+/// How dark a draughtsman sees a place, in [0, 1]: the shade of a cosine wrapped by w, less the share `lift` of what the
+/// page's light takes from it.
+pub(super) fn darkness(n: Vec3<f64>, w: f64, lift: f64) -> f64 {
+    ((1.0 - wrapped(n, KEY, w)) * (1.0 - lift * reflected(n))).clamp(0.0, 1.0)
+}
+
+/// The mirrored direction of the eye, R = 2N_z N − v.
+pub(super) fn mirrored(n: Vec3<f64>) -> Vec3<f64> {
+    Vec3::new(2.0 * n.z * n.x, 2.0 * n.z * n.y, 2.0 * n.z * n.z - 1.0)
+}
+
+/// How high the mirrored direction points, about [−1, 1], in a room that is tilted so that its horizon falls below the
+/// middle of the sphere and runs down to the right.
+pub(super) fn mirrored_height(n: Vec3<f64>) -> f64 {
+    let r = mirrored(n);
+    0.76 * r.y + 0.42 * r.z - 0.20 * r.x
+}
+
 /// Light that comes back from the page into the shadow's edge.
 pub(super) fn reflected(n: Vec3<f64>) -> f64 {
     smoothstep(0.10, 0.84, n.dot(BOUNCE))
@@ -86,6 +104,25 @@ mod tests {
         assert_eq!([0.0, 0.5, 1.0].map(|x| smoothstep(0.0, 1.0, x)), [0.0, 0.5, 1.0]);
         assert_eq!([0.0, 0.5, 1.0].map(|x| smoothstep(1.0, 0.0, x)), [1.0, 0.5, 0.0]);
         assert_eq!((edge(front), edge(side)), (0.0, 1.0));
+    }
+
+    #[test]
+    fn mirrors_turn_the_eyes_ray_about_the_normal() {
+        let n = Vec3::new(0.48, -0.6, 0.64);
+        let r = mirrored(n);
+        // The same angle on the other side, at length 1; the eye itself in the middle.
+        assert!((r.length() - 1.0).abs() < 1e-15 && (r.dot(n) - n.z).abs() < 1e-15);
+        assert_eq!(mirrored(Vec3::new(0.0, 0.0, 1.0)), Vec3::new(0.0, 0.0, 1.0));
+        assert!((mirrored_height(Vec3::new(0.0, 0.0, 1.0)) - 0.42).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_dark_lies_away_from_the_light() {
+        assert_eq!((darkness(KEY, 0.3, 0.4), darkness(KEY * -1.0, 0.3, 0.0)), (0.0, 1.0));
+        // Bounced light lifts it where it falls, and nowhere else.
+        let shade = Vec3::new(0.48, -0.64, 0.6);
+        assert!(darkness(shade, 0.3, 0.4) < darkness(shade, 0.3, 0.0));
+        assert_eq!(darkness(Vec3::new(0.0, 0.0, 1.0), 0.3, 0.4), darkness(Vec3::new(0.0, 0.0, 1.0), 0.3, 0.0));
     }
 
     #[test]

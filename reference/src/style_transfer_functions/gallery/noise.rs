@@ -65,6 +65,12 @@ pub(super) fn on_form(n: Vec3<f64>) -> (f64, f64) {
     (n.x / (1.0 + n.z), n.y / (1.0 + n.z))
 }
 
+/// Where a place of the form lies along and across fibres that run up to the right.
+pub(super) fn on_fibres(n: Vec3<f64>) -> (f64, f64) {
+    let (x, y) = on_form(n);
+    (0.82 * x + 0.57 * y, 0.82 * y - 0.57 * x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

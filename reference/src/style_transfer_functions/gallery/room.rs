@@ -58,11 +58,6 @@ impl Panel {
     }
 }
 
-/// The mirrored direction of the eye, R = 2N_z N − v.
-pub(super) fn mirrored(n: Vec3<f64>) -> Vec3<f64> {
-    Vec3::new(2.0 * n.z * n.x, 2.0 * n.z * n.y, 2.0 * n.z * n.z - 1.0)
-}
-
 /// The lamps' light from the direction `r`, seen through a surface that spreads it by `blur`.
 pub(super) fn lamps(r: Vec3<f64>, blur: f64) -> Linear {
     let lights = [&SOFT_BOX, &STRIP, &CARD].map(|light| (light.seen(r, blur), light.light));
@@ -106,4 +101,53 @@ pub(super) fn exposed(light: Linear) -> Paint {
 pub(super) fn flagged(paint: Paint, n: Vec3<f64>, dark: u32) -> Paint {
     let dim = 0.40 * smoothstep(0.76, 0.97, radius(n)) * smoothstep(0.9, -0.3, n.dot(KEY));
     paint.over(Paint::hex(dark), dim).over(Paint::hex(dark), edge(n))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lamps_are_seen_where_they_stand() {
+        for lamp in [SOFT_BOX, STRIP, CARD] {
+            assert!((lamp.middle.length() - 1.0).abs() < 1e-4);
+            assert_eq!(lamp.seen(lamp.middle * -1.0, 0.1), 0.0);
+            // Dimmer where it is smeared, and brightest in its middle.
+            assert!(lamp.seen(lamp.middle, 0.5) < lamp.seen(lamp.middle, 0.0));
+            let beside = lamp.middle + Vec3::new(0.1, 0.2, 0.1);
+            assert!(lamp.seen(beside * (1.0 / beside.length()), 0.1) <= lamp.seen(lamp.middle, 0.1));
+        }
+        assert_eq!(SOFT_BOX.seen(SOFT_BOX.middle, 0.0), 1.0);
+    }
+
+    #[test]
+    fn a_smeared_lamp_gives_no_more_light() {
+        // Over the tangent plane, along one axis: the integral of the profile is the lamp's width, 2·half, as long as
+        // the blur is narrower than the lamp.
+        let profile = |blur: f64| {
+            let right = Vec3::new(SOFT_BOX.middle.z, 0.0, -SOFT_BOX.middle.x);
+            let right = right * (1.0 / right.length());
+            (-2000..2000)
+                .map(|k| SOFT_BOX.seen(SOFT_BOX.middle + right * (f64::from(k) * 1e-3), blur) * 1e-3)
+                .sum::<f64>()
+        };
+        assert!((profile(0.0) - 0.8).abs() < 2e-3 && (profile(0.3) - 0.8).abs() < 2e-3);
+    }
+
+    #[test]
+    fn fresnel_and_exposure_keep_their_ends() {
+        let (front, side) = (Vec3::new(0.0, 0.0, 1.0), Vec3::new(1.0, 0.0, 0.0));
+        assert_eq!((fresnel(front, 0.04), fresnel(side, 0.04)), (0.04, 1.0));
+        assert_eq!(exposed([0.0; 3]), Paint::hex(0x000000));
+        // However bright, never past white: 1 − e^(−2.1·20) is 1 to 18 digits.
+        assert_eq!(exposed([20.0; 3]), Paint::hex(0xffffff));
+    }
+
+    #[test]
+    fn what_scatters_has_the_softer_shadow() {
+        // On the shadow line, N·L = 0, dull matter has only the room's light and wax some of the lamp's.
+        let n = Vec3::new(0.8, 0.6, 0.0);
+        let [dull, wax] = [[0.0; 3], [0.6; 3]].map(|scatter| diffuse(n, scatter)[0]);
+        assert!(wax > dull + 0.1 && diffuse(KEY, [0.0; 3])[0] > 1.0);
+    }
 }

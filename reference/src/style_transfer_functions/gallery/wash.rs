@@ -61,3 +61,33 @@ pub(super) fn paper(n: Vec3<f64>, rgb: u32) -> Linear {
 pub(super) fn as_paint(light: Linear) -> Paint {
     Paint::linear(light.map(|c| c.clamp(0.0, 1.0)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_of_pigment_multiply() {
+        let white = [1.0; 3];
+        assert_eq!(under(white, 0x2b4fa6, 0.0), white);
+        let (mass, once) = (linear(0x2b4fa6), under(white, 0x2b4fa6, 1.0));
+        let (thrice, in_turn) = (under(white, 0x2b4fa6, 3.0), under(under(once, 0x2b4fa6, 0.5), 0x2b4fa6, 1.5));
+        for c in 0..3 {
+            assert!((once[c] - mass[c]).abs() < 1e-15);
+            assert!((thrice[c] - in_turn[c]).abs() < 1e-15 && thrice[c] < once[c]);
+        }
+    }
+
+    #[test]
+    fn a_glaze_begins_at_its_border_and_is_darkest_there() {
+        let wash = Wash { glazes: [(0.2, 1.0), (-9.0, 1.0), (-9.0, 1.0)], soft: 0.02, edge: 0.5, grain: 0.0 };
+        // Along the great circle through the light towards the lower right; the border may stray by 0.11.
+        let down = Vec3::new(0.6 * 0.6, -0.8 * 0.6, 0.8);
+        let at = |turn: f64| wash.density(KEY * turn.cos() + down * turn.sin());
+        assert!((KEY.dot(down)).abs() < 1e-15);
+        assert_eq!(at(0.8), 0.0);
+        let densities: Vec<f64> = (0..100).map(|k| at(1.2 + 0.004 * f64::from(k))).collect();
+        let darkest = densities.iter().copied().fold(0.0, f64::max);
+        assert!(darkest > 1.15 * densities[99] && densities[99] > 0.5, "{darkest}, {}", densities[99]);
+    }
+}

@@ -68,7 +68,6 @@ pub(super) const WAX: Tinted = Tinted {
     bare: 0.6,
     pencil: 0.30,
     mottle: 0.05,
-    ..BASE
 };
 /// Bare paper shaded with cobalt.
 pub(super) const PORCELAIN: Tinted = Tinted {
@@ -79,5 +78,4 @@ pub(super) const PORCELAIN: Tinted = Tinted {
     bare: 1.0,
     pencil: 0.12,
     mottle: 0.0,
-    ..BASE
 };

@@ -1,6 +1,6 @@
 //! Metals as a wash drawing has them: hard borders between the lights and the dark, the highest light bare paper.
 
-use super::super::light::smoothstep;
+use super::super::light::{mirrored_height, smoothstep};
 use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::Paint;
 use super::super::stroke::Hatching;
@@ -17,10 +17,9 @@ struct Metal {
 impl Metal {
     /// The height of the mirrored ray decides: sky, a dark horizon with a hard upper border, a floor that fades.
     fn paint(&self, n: Vec3<f64>) -> Paint {
-        let (rx, ry, rz) = (2.0 * n.z * n.x, 2.0 * n.z * n.y, 2.0 * n.z * n.z - 1.0);
         let (x, y) = on_form(n);
         let hand = 0.07 * fractal(2.0 * x + 1.0, 2.0 * y, 3, Draw::Hand);
-        let height = 0.76 * ry + 0.42 * rz - 0.20 * rx + hand;
+        let height = mirrored_height(n) + hand;
         let horizon = smoothstep(-0.16, -0.24, height) * smoothstep(-0.75, -0.28, height);
         let sky = smoothstep(0.75, -0.1, height) * smoothstep(-0.26, -0.18, height);
         let floor = smoothstep(-0.20, -0.5, height);

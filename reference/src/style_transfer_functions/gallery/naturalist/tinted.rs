@@ -1,7 +1,7 @@
 //! A drawing in watercolour: pencil beneath, glazes of one pigment and of a shadow colour over it, and a line of the
 //! pen around.
 
-use super::super::light::{KEY, edge, radius, reflected, smoothstep, wrapped};
+use super::super::light::{self, KEY, dab, edge, radius, smoothstep};
 use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Linear, Paint};
 use super::super::stroke::Hatching;
@@ -14,10 +14,9 @@ pub(super) const PAPER: u32 = 0xfaf3e2;
 /// Iron-gall ink, brown with age.
 pub(super) const INK: u32 = 0x2a1a12;
 
-/// How dark a draughtsman sees a place, in [0, 1].
+/// How dark a place is drawn, in [0, 1].
 pub(super) fn darkness(n: Vec3<f64>) -> f64 {
-    let shade = 1.0 - wrapped(n, KEY, 0.28);
-    (shade * (1.0 - 0.45 * reflected(n))).clamp(0.0, 1.0)
+    light::darkness(n, 0.28, 0.45)
 }
 
 /// What one material looks like as a tinted drawing.
@@ -45,9 +44,9 @@ impl Tinted {
         let local = Wash { glazes: [(1.40, 0.26), (0.66, 0.30), (0.20, 0.40)], soft: 0.13, edge: 0.16, grain: 0.14 };
         let shade = Wash { glazes: [(0.22, 0.20), (-0.08, 0.24), (-0.36, 0.10)], soft: 0.13, edge: 0.20, grain: 0.20 };
         let mottle = 1.0 + self.mottle * fractal(6.0 * x + 9.0, 6.0 * y, 3, Draw::Mottle);
-        let light = bare(n) * self.bare;
+        let covered = 1.0 - self.bare * bare(n);
         let mut sheet: Linear = paper(n, PAPER);
-        sheet = under(sheet, self.pigment, self.load * local.density(n) * mottle * (1.0 - light));
+        sheet = under(sheet, self.pigment, self.load * local.density(n) * mottle * covered);
         let lit = n.dot(KEY);
         let touched = smoothstep(0.95, 0.45, lit)
             * smoothstep(-0.25, 0.25, lit)
@@ -66,8 +65,7 @@ impl Tinted {
 pub(super) fn bare(n: Vec3<f64>) -> f64 {
     let (x, y) = on_form(n);
     let ragged = 0.35 * fractal(5.0 * x, 5.0 * y, 2, Draw::Hand);
-    let turn = super::super::light::dab(n, 0.57, 0.095, 0.52, 0.30 + ragged.abs());
-    (turn * (1.0 + ragged)).clamp(0.0, 1.0)
+    (dab(n, 0.57, 0.095, 0.52, 0.30 + ragged.abs()) * (1.0 + ragged)).clamp(0.0, 1.0)
 }
 
 /// The pen's line around `paint`, which swells in the shade and all but lifts in the light.

@@ -1,9 +1,9 @@
 //! Ways of drawing, as a photographer has them: gels, hard light, prints and films.
 
-use super::super::light::{BOUNCE, KEY, dab, edge, outline, radius, smoothstep, wrapped};
+use super::super::light::{BOUNCE, KEY, dab, edge, mirrored, outline, radius, smoothstep, wrapped};
 use super::super::noise::{Draw, fractal};
 use super::super::paint::{Paint, Ramp, linear};
-use super::super::room::{diffuse, exposed, flagged, fresnel, lamps, mirrored, room};
+use super::super::room::{diffuse, exposed, flagged, fresnel, lamps, room};
 use crate::number::Vec3;
 use drypoint_scene::math;
 

@@ -1,8 +1,9 @@
 //! Things before the camera: a body that scatters light, and a coat that mirrors the room.
 
+use super::super::light::mirrored;
 use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Linear, Paint, linear};
-use super::super::room::{diffuse, exposed, flagged, fresnel, mirrored, room};
+use super::super::room::{diffuse, exposed, flagged, fresnel, room};
 use crate::number::Vec3;
 
 /// A dull or translucent body under a coat.

@@ -1,9 +1,9 @@
 //! Metals: all that is seen of them is the room.
 
-use super::super::light::{KEY, smoothstep};
+use super::super::light::{KEY, mirrored, smoothstep};
 use super::super::noise::{Draw, fractal};
 use super::super::paint::{Linear, Paint, linear};
-use super::super::room::{exposed, flagged, mirrored, room};
+use super::super::room::{exposed, flagged, room};
 use crate::number::Vec3;
 
 /// What chrome shows of the room beyond its lights: a bright wall above, a hard dark horizon, a floor.

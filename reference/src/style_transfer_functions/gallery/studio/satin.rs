@@ -1,14 +1,14 @@
 //! `muscle`: burgundy satin, whose threads smear the light across them.
 
-use super::super::noise::{Draw, fractal, on_form};
+use super::super::light::mirrored;
+use super::super::noise::{Draw, fractal, on_fibres};
 use super::super::paint::{Paint, linear};
-use super::super::room::{diffuse, exposed, flagged, mirrored, room};
+use super::super::room::{diffuse, exposed, flagged, room};
 use crate::number::Vec3;
 
 /// Threads run across the picture; a fold shines where the thread lies between light and eye.
 pub(super) fn muscle(n: Vec3<f64>) -> (Paint, f64) {
-    let (x, y) = on_form(n);
-    let (along, across) = (0.82 * x + 0.57 * y, 0.82 * y - 0.57 * x);
+    let (along, across) = on_fibres(n);
     let threads = 1.0 + 0.26 * fractal(1.8 * along, 17.0 * across, 2, Draw::Fibre);
     let (body, light) = (linear(0xa82a2c), diffuse(n, [0.36, 0.10, 0.08]));
     let seen = room(mirrored(n), 0.55);

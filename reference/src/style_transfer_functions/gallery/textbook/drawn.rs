@@ -1,6 +1,6 @@
 //! Ways of drawing: pen, pencil, chalk, the burin and the wash, each on white paper.
 
-use super::super::light::{KEY, edge, outline, radius, reflected, smoothstep, wrapped};
+use super::super::light::{self, KEY, dab, edge, outline, radius, reflected, smoothstep};
 use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Paint, Ramp, linear};
 use super::super::stroke::Hatching;
@@ -10,10 +10,9 @@ use crate::number::Vec3;
 /// The white of the page.
 const WHITE: u32 = 0xfefdfa;
 
-/// How dark a draughtsman sees a place, in [0, 1]: light, half-tone, core shadow, and the page's light behind it.
+/// How dark a place is drawn, in [0, 1]: light, half-tone, core shadow, and the page's light behind it.
 fn darkness(n: Vec3<f64>) -> f64 {
-    let shade = 1.0 - wrapped(n, KEY, 0.30);
-    (shade * (1.0 - 0.42 * reflected(n))).clamp(0.0, 1.0)
+    light::darkness(n, 0.30, 0.42)
 }
 
 /// Washes of Indian ink, each with a border that dries a little darker than its inside, and a firm line round it all.
@@ -92,7 +91,7 @@ pub(super) fn tone(n: Vec3<f64>) -> (Paint, f64) {
         (0.83, 0xe8c894),
         (1.0, 0xf8e3b0),
     ]);
-    let shine = super::super::light::dab(n, 0.52, 0.09, 0.34, 0.5);
+    let shine = dab(n, 0.52, 0.09, 0.34, 0.5);
     let paint = body.at(0.5 + 0.5 * n.dot(KEY)).over(Paint::hex(0xfffcf0), 0.75 * shine);
     (outline(paint, n, 0x141a33, 0x4a3c3c), 1.0)
 }
@@ -104,7 +103,7 @@ pub(super) fn cartoon(n: Vec3<f64>) -> (Paint, f64) {
     let paint = Paint::hex(0x2b5c5b)
         .over(Paint::hex(0x5a9e8b), border(0.02))
         .over(Paint::hex(0xa6d2b3), border(0.52))
-        .over(Paint::hex(0xf9fcef), super::super::light::dab(n, 0.66, 0.075, 0.46, 0.18));
+        .over(Paint::hex(0xf9fcef), dab(n, 0.66, 0.075, 0.46, 0.18));
     (outline(paint, n, 0x0f2a2b, 0x0f2a2b), 1.0)
 }
 

@@ -1,18 +1,18 @@
 //! Things that people make, or that light goes through: metals and glass.
 
-use super::super::light::{KEY, dab, edge, highlight, outline, radius, reflected, smoothstep, wrapped};
+use super::super::light::{
+    KEY, dab, edge, highlight, mirrored_height, outline, radius, reflected, smoothstep, wrapped,
+};
 use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Paint, Ramp};
 use crate::number::Vec3;
 use drypoint_scene::math;
 
-/// What a polished ball reflects, painted in bands over the height of the mirrored ray R = 2N_z N − v, which is tilted
-/// so that the horizon falls below the middle and runs down to the right.
+/// What a polished ball reflects, painted in bands over the height of the mirrored ray.
 fn bands(n: Vec3<f64>, stops: &[(f64, u32)]) -> Paint {
-    let (rx, ry, rz) = (2.0 * n.z * n.x, 2.0 * n.z * n.y, 2.0 * n.z * n.z - 1.0);
     let (x, y) = on_form(n);
     let hand = 0.014 * fractal(2.6 * x, 2.6 * y, 2, Draw::Hand);
-    Ramp::new(stops).at(0.5 + 0.5 * (0.76 * ry + 0.42 * rz - 0.20 * rx).clamp(-1.0, 1.0) + hand)
+    Ramp::new(stops).at(0.5 + 0.5 * mirrored_height(n).clamp(-1.0, 1.0) + hand)
 }
 
 /// Steel: a bright sky, a dark horizon, a warm floor. Towards the edge all of it pales, as at grazing angles.
