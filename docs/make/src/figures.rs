@@ -81,11 +81,12 @@ fn map(picture: &Picture) -> Option<Picture> {
 
 /// An opaque picture as 8 bits of sRGB without alpha, the smallest file.
 fn opaque_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
-    let channels = picture.layer(LayerKind::Beauty).map_or(&[][..], |layer| &layer.channels);
     let mut data = Vec::with_capacity(3 * picture.width * picture.height);
-    for i in 0..picture.width * picture.height {
-        let [r, g, b, _] = straight_srgb([channels[0][i], channels[1][i], channels[2][i], 1.0]);
-        data.extend([r, g, b].map(|c| quantize(c, 255) as u8));
+    if let Some([r, g, b, ..]) = picture.layer(LayerKind::Beauty).map(|layer| layer.channels.as_slice()) {
+        for ((&r, &g), &b) in r.iter().zip(g).zip(b) {
+            let [r, g, b, _] = straight_srgb([r, g, b, 1.0]);
+            data.extend([r, g, b].map(|c| quantize(c, 255) as u8));
+        }
     }
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, picture.width as u32, picture.height as u32);

@@ -304,8 +304,8 @@ mod tests {
 
     #[test]
     fn what_rows_can_show() {
-        let (low, high): (&[(f64, f64)], &[(f64, f64)]) =
-            (&[(10.0, 0.0), (20.0, 1.0), (30.0, 0.0)], &[(40.0, 0.0), (50.0, 1.0)]);
+        let low: &[(f64, f64)] = &[(10.0, 0.0), (20.0, 1.0), (30.0, 0.0)];
+        let high: &[(f64, f64)] = &[(40.0, 0.0), (50.0, 1.0)];
         let rows = [(RowAt::Number(1.0), low), (RowAt::Number(2.0), high)];
         let labels = over([Axis::Value, Axis::Label], Unit::Value, &rows).unwrap();
         let sees = |range, among: Option<&[u32]>| labels.can_be_visible(range, among, |at| at);

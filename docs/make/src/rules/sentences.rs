@@ -158,7 +158,7 @@ pub(super) const FAMILIES: [Family; 17] = [
         letters: "STIP",
         subject: "Stippling (Lu et al. 2002), not built yet",
         rules: &[
-            (1, "Gradient and smoothed value come at once from a weighted linear fit to the 3×3×3 voxels around (Neumann et al. 2000); that estimator is built."),
+            (1, "Gradient and smoothed value come at once from a weighted linear fit to the 3×3×3 voxels around (Neumann and others, 2000); that estimator is built."),
             (4, "Points start at random in the voxels whose gradient is strong; turning pictures are several frames."),
             (14, "The paper's figures are presets."),
             (16, "Lists of points and strokes are data that can be saved and drawn again."),

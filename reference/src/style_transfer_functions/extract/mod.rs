@@ -35,7 +35,7 @@ pub const LARGEST: f64 = 1e7;
 
 /// Parts of a style's side into which its texels are divided at the most, so that no region takes minutes. Regions up to
 /// half as many pixels across are averaged without gaps.
-const FINEST: usize = 8192;
+const FINEST: usize = 16384;
 
 /// A part of a picture, in pixels from its upper left corner: x to the right, y down, the pixel in column i and row j
 /// from (i, j) to (i + 1, j + 1).

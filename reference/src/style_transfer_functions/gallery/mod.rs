@@ -1,7 +1,7 @@
 //! The styles of the embedded themes, painted by formulas of light and by procedural strokes ([STF-12]).
 //!
 //! Each style is a function of the unit normal towards the eye. A theme has one for each name of [`ROLES`], in a spirit
-//! of its own: [`textbook`] in gouache, [`naturalist`] in pencil, pen and watercolour, [`studio`] before a camera. All
+//! of its own: `textbook` in gouache, `naturalist` in pencil, pen and watercolour, `studio` before a camera. All
 //! are lit from the upper left, as plates in books are, and all but `constant` end in a thin dark ring of a colour of
 //! their own, which style contours ([STF-8]) are drawn with. The files in `data/themes` are these functions on
 //! [`SIDE`]² texels, and a test holds them to it.

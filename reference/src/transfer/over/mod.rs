@@ -1,6 +1,6 @@
 //! The quantities that a transfer function can be over ([STF-4]), asked at samples.
 //!
-//! The list is open. A quantity of one's own is an [`Axis`] of the scene, which says what it needs of a sample, and a
+//! The list is open. A quantity of one's own is an [`Axis`](drypoint_scene::tables::Axis) of the scene, which says what it needs of a sample, and a
 //! [`Measure`] here. What is asked of a sample is only what its axes name.
 
 mod further;

@@ -40,6 +40,6 @@ pub(super) const PAINTERS: &[Painted] = &[
     ("vein", "anatomists' blue, wet", |n| (tissue::VEIN.paint(n), 1.0)),
     ("vessel", "arterial crimson, wet", |n| (tissue::VESSEL.paint(n), 1.0)),
     ("watercolour", "ultramarine in three glazes, exp(−KD), dark where they dried", drawn::watercolour),
-    ("wax", "N·L wrapped by 0.52: an orange shadow line, a glowing far edge", |n| (tissue::WAX.paint(n), 1.0)),
+    ("wax", "N·L wrapped by 0.36: an orange shadow line, a glowing far edge", |n| (tissue::WAX.paint(n), 1.0)),
     ("xray", "indigo; α_d rises from 0.03 in the middle to 1", drawn::xray),
 ];

@@ -150,9 +150,9 @@ pub(super) const VESSEL: Gouache = Gouache {
 /// Honey-coloured anatomical wax: light enters and comes out elsewhere, so the shadow line is soft and orange and the
 /// far edge glows.
 pub(super) const WAX: Gouache = Gouache {
-    body: [0x7a3a19, 0xac6029, 0xd99c57, 0xf0c98b, 0xf9e5bd, 0xfff4de],
-    wrap: 0.52,
-    bounce: (0xf0a25a, 0.80),
+    body: [0x54240e, 0x8a461c, 0xc88746, 0xecc083, 0xf9e5bd, 0xfff4de],
+    wrap: 0.36,
+    bounce: (0xf0a25a, 0.55),
     sheen: (0xfff6e2, 0.34, 20.0),
     wet: 0.45,
     mottle: 0.012,
