@@ -1,5 +1,5 @@
-//! The papers' figures, remade with our own scenes: every `figure_*.toml` of `data/scenes` is a picture in
-//! `docs/pictures`.
+//! The papers' figures, remade with our own scenes, and what a paper says without a figure: every `figure_*.toml` and
+//! `two_quantities_*.toml` of `data/scenes` is a picture in `docs/pictures`.
 
 use crate::files;
 use drypoint::job::Job;
@@ -49,7 +49,7 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
         scenes.extend(entries(paper)?.into_iter().filter(|path| {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             path.extension().is_some_and(|e| e == "toml")
-                && stem.starts_with("figure_")
+                && (stem.starts_with("figure_") || stem.starts_with("two_quantities_"))
                 && !(stem.ends_with("_regular") || stem.starts_with("figure_1_"))
         }));
     }
