@@ -1,0 +1,292 @@
+//! The effects, each with the counts that it alone makes. A paper adds its own lines.
+
+/// Keys of a scene and their values, as `--set` takes them; `{folder}` is where `labels.nrrd` is.
+pub(super) type Settings = &'static [(&'static str, &'static str)];
+
+/// One effect: a scene without it, the same scene with it, and what may differ in their counts.
+pub(super) struct Effect {
+    /// What a reader calls it.
+    pub(super) name: &'static str,
+    /// What in a scene asks for it.
+    pub(super) asked_by: &'static str,
+    /// The scene that both have.
+    pub(super) base: &'static str,
+    /// Settings of the scene that lacks it.
+    pub(super) without: Settings,
+    /// Settings of the scene that has it.
+    pub(super) with: Settings,
+    /// Counts that are 0 without it.
+    pub(super) only: &'static [&'static str],
+    /// Counts that grow with it.
+    pub(super) more: &'static [&'static str],
+    /// Counts that it is there to make smaller.
+    pub(super) fewer: &'static [&'static str],
+}
+
+/// A regular function, unshaded, over a phantom of bytes. Nothing is opaque, so no ray ends early, and no effect changes
+/// the number of samples by how it looks.
+const REGULAR: &str = r#"
+drypoint = 1
+[volume]
+phantom = { name = "specimen", size = 96 }
+[camera]
+direction = [0.3, 1, -0.6]
+[picture]
+size = [256, 256]
+[sampling]
+stop_below = 0
+[transfer]
+kind = "regular"
+nodes = [
+  { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
+  { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
+]
+"#;
+
+/// The same opacities with styles, plain transparency and no contours: the least that a style needs.
+const STYLE: &str = r#"
+drypoint = 1
+[volume]
+phantom = { name = "specimen", size = 96 }
+[camera]
+direction = [0.3, 1, -0.6]
+[picture]
+size = [256, 256]
+[sampling]
+stop_below = 0
+[transfer]
+transparency = "plain"
+nodes = [
+  { at = 94, style = "vessel", opacity = 0 }, { at = 110, style = "vessel", opacity = 0.1 },
+  { at = 150, style = "bone", opacity = 0 }, { at = 200, style = "bone", opacity = 0.3 },
+]
+"#;
+
+/// Rows of [`REGULAR`]'s nodes, all alike: what the second quantity measures changes the work and not the picture.
+const ROWS: &str = r#"[
+  { at = -1e9, nodes = [
+    { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
+    { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
+  ] },
+  { at = 1e9, nodes = [
+    { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
+    { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
+  ] },
+]"#;
+
+/// The same rows, for the labels 0 and 1.
+const LABEL_ROWS: &str = r#"[
+  { at = 0, nodes = [
+    { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
+    { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
+  ] },
+  { at = 1, nodes = [
+    { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
+    { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
+  ] },
+]"#;
+
+/// An effect over [`STYLE`] that adds nothing which is counted.
+const NOTHING: Effect =
+    Effect { name: "", asked_by: "", base: STYLE, without: &[], with: &[], only: &[], more: &[], fewer: &[] };
+
+/// Every effect that exists.
+pub(super) const EFFECTS: &[Effect] = &[
+    Effect {
+        name: "Blinn–Phong shading",
+        asked_by: "`[shading]`",
+        base: REGULAR,
+        with: &[("shading.model", "phong")],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "contours of a constant threshold",
+        asked_by: "`contours.kappa = \"none\"`",
+        with: &[("contours.kappa", "none")],
+        ..NOTHING
+    },
+    Effect {
+        name: "contours with κ along the ray",
+        asked_by: "`contours.kappa = \"ray\"`",
+        with: &[("contours.kappa", "ray")],
+        more: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "contours with the exact κ",
+        asked_by: "`contours.kappa = \"exact\"`",
+        with: &[("contours.kappa", "exact")],
+        only: &["hessians", "bytes.smoothed"],
+        ..NOTHING
+    },
+    Effect {
+        name: "contours that fade",
+        asked_by: "`contours.fade`",
+        without: &[("contours.kappa", "none")],
+        with: &[("contours.kappa", "none"), ("contours.fade", "[0.1, 0.2]")],
+        only: &["preprocess.gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "illustrative transparency",
+        asked_by: "`transfer.transparency = \"illustrative\"`",
+        with: &[("transfer.transparency", "illustrative")],
+        only: &["preprocess.gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "mip-maps of styles, by the gradient",
+        asked_by: "`[style_mipmaps]`",
+        with: &[("style_mipmaps.curvature_bias", "0")],
+        only: &["bytes.style_mipmaps", "preprocess.gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "mip-maps of styles, by curvature too",
+        asked_by: "`style_mipmaps.curvature_bias`",
+        without: &[("style_mipmaps.curvature_bias", "0")],
+        with: &[("style_mipmaps.curvature_bias", "1")],
+        more: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a function over the gradient's magnitude",
+        asked_by: "`transfer.over`",
+        base: REGULAR,
+        with: &[
+            ("transfer.nodes", "off"),
+            ("transfer.over", "[\"value\", \"gradient-magnitude\"]"),
+            ("transfer.rows", ROWS),
+        ],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a function over a distance",
+        asked_by: "`transfer.over`",
+        base: REGULAR,
+        with: &[
+            ("transfer.nodes", "off"),
+            ("transfer.over", "[\"value\", { distance = [48, 48, 48] }]"),
+            ("transfer.rows", ROWS),
+        ],
+        ..NOTHING
+    },
+    Effect {
+        name: "a function over a curvature",
+        asked_by: "`transfer.over`",
+        base: REGULAR,
+        with: &[("transfer.nodes", "off"), ("transfer.over", "[\"value\", \"k1\"]"), ("transfer.rows", ROWS)],
+        only: &["gradients", "hessians", "bytes.smoothed"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a function over labels",
+        asked_by: "`volume.labels`",
+        base: REGULAR,
+        with: &[
+            ("volume.labels", "{folder}/labels.nrrd"),
+            ("transfer.nodes", "off"),
+            ("transfer.over", "[\"value\", \"label\"]"),
+            ("transfer.rows", LABEL_ROWS),
+        ],
+        only: &["bytes.labels"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a function over the distance to a label",
+        asked_by: "`transfer.over`",
+        base: REGULAR,
+        with: &[
+            ("volume.labels", "{folder}/labels.nrrd"),
+            ("transfer.nodes", "off"),
+            ("transfer.over", "[\"value\", { distance_to_label = 1 }]"),
+            ("transfer.rows", ROWS),
+        ],
+        only: &["bytes.labels", "bytes.label distance", "preprocess.label distances"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a function over a further volume",
+        asked_by: "`transfer.over`",
+        base: REGULAR,
+        with: &[
+            ("transfer.nodes", "off"),
+            ("transfer.over", "[\"value\", { volume = \"{folder}/labels.nrrd\" }]"),
+            ("transfer.rows", ROWS),
+        ],
+        only: &["bytes.further volume"],
+        ..NOTHING
+    },
+    Effect {
+        name: "the layer `normal`",
+        asked_by: "`picture.layers`",
+        base: REGULAR,
+        with: &[("picture.layers", "[\"beauty\", \"normal\"]")],
+        only: &["gradients"],
+        more: &["bytes.picture"],
+        ..NOTHING
+    },
+    Effect {
+        name: "the layer `curvature`",
+        asked_by: "`picture.layers`",
+        base: REGULAR,
+        with: &[("picture.layers", "[\"beauty\", \"curvature\"]")],
+        only: &["gradients", "hessians", "bytes.smoothed"],
+        more: &["bytes.picture"],
+        ..NOTHING
+    },
+    Effect {
+        name: "the layer `first.normal`",
+        asked_by: "`picture.layers`",
+        base: REGULAR,
+        with: &[("picture.layers", "[\"beauty\", \"first.normal\"]")],
+        only: &["gradients"],
+        more: &["bytes.picture"],
+        ..NOTHING
+    },
+    Effect {
+        name: "gradients by regression",
+        asked_by: "`sampling.gradient = \"regression\"`",
+        with: &[("sampling.gradient", "regression")],
+        only: &["bytes.regression"],
+        ..NOTHING
+    },
+    Effect {
+        name: "prefiltered B-splines",
+        asked_by: "`sampling.kernel = \"bspline\"`",
+        base: REGULAR,
+        // Without bricks both kernels have the same samples.
+        without: &[("sampling.skip_empty", "false")],
+        with: &[("sampling.skip_empty", "false"), ("sampling.kernel", "bspline")],
+        only: &["bytes.coefficients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "empty space left out",
+        asked_by: "`sampling.skip_empty`, the default",
+        base: REGULAR,
+        without: &[("sampling.skip_empty", "false")],
+        only: &["bytes.bricks", "bytes.skip"],
+        more: &["rays_skipped"],
+        fewer: &["samples"],
+        ..NOTHING
+    },
+    Effect {
+        name: "rays that end where little is left to see",
+        asked_by: "`sampling.stop_below = 0.5`",
+        base: REGULAR,
+        with: &[("sampling.stop_below", "0.5")],
+        fewer: &["samples"],
+        ..NOTHING
+    },
+    Effect {
+        name: "four rays a pixel",
+        asked_by: "`picture.samples = 2`",
+        base: REGULAR,
+        with: &[("picture.samples", "2")],
+        more: &["rays", "rays_skipped", "samples"],
+        ..NOTHING
+    },
+];
