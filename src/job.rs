@@ -29,12 +29,13 @@ use crate::labels::Named;
 use crate::{Failure, Failures, Format, memory};
 use drypoint_output::read::read_background;
 use drypoint_output::{OutputError, exr, png};
+use drypoint_reference::field::FieldError;
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint_reference::suggest;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::file::{Given, identity};
-use drypoint_scene::phantom;
+use drypoint_scene::phantom::{self, PhantomError};
 use drypoint_scene::picture::{Picture, Provenance};
 use drypoint_scene::plan::{Plan, Quantity};
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
@@ -159,9 +160,14 @@ impl Job {
             styles: &self.styles,
             background,
         };
+        room_for_passes(self)?;
         let renderer = Renderer::new(inputs).map_err(|error| {
             let (key, remedy) = match &error {
-                RenderError::Field(_) => ("sampling", "choose another sampling.kernel or sampling.hessian"),
+                RenderError::Field(FieldError::NotSmooth { .. }) => {
+                    ("sampling.hessian", "choose another sampling.kernel or sampling.hessian")
+                }
+                RenderError::Field(FieldError::TooLarge { .. }) => ("sampling.number", "write \"f64\""),
+                RenderError::Field(FieldError::Scale { .. }) => ("sampling.scale", "make it smaller, or leave it out"),
                 RenderError::View(ViewError::HeightOnPage) => ("camera.height", "give it in world units or in voxels"),
                 RenderError::View(ViewError::NoDirection) => {
                     ("camera", "move camera.eye away from camera.target, or give camera.direction")
@@ -228,12 +234,35 @@ fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
     })
 }
 
+/// Whether there is memory for what is made of every voxel before the rays.
+fn room_for_passes(job: &Job) -> Result<(), Failure> {
+    let voxels = job.volume.dims().into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
+    let each = job.plan.passes.iter().map(|need| (need, voxels.saturating_mul(need.pass.bytes_a_voxel())));
+    // One after another they are kept, so together they have to fit.
+    let mut needed = 0u64;
+    for (need, bytes) in each {
+        needed = needed.saturating_add(bytes);
+        memory::room(needed).map_err(|no_room| {
+            let [nx, ny, nz] = job.volume.dims();
+            let (effect, pass) = (&need.effect, need.pass.name());
+            let what = format!("{effect}: {pass} of {nx} × {ny} × {nz} voxels need {no_room}");
+            let remedy = "leave out what asks for it (`drypoint plan` shows what does), or make the volume smaller";
+            Failure::new(what, job.scene.given.position(&need.key), remedy)
+        })?;
+    }
+    Ok(())
+}
+
 /// Reads or generates a scene's volume.
 fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
     match &table.source {
         VolumeSource::File { path, raw } => read::read(path, raw.as_ref()).map_err(Failure::from),
         VolumeSource::Phantom(source) => phantom::generate(source).map_err(|error| {
-            let remedy = "`drypoint phantom --list` lists phantoms and parameters";
+            let remedy = match &error {
+                PhantomError::Memory { .. } => "ask for fewer voxels with volume.phantom.size",
+                PhantomError::Space(_) => "give other numbers as volume.phantom.size or spacing",
+                _ => "`drypoint phantom --list` lists phantoms and parameters",
+            };
             Failure::new(error, given.position("volume.phantom"), remedy)
         }),
     }

@@ -144,6 +144,17 @@ impl Pass {
             Self::Rays => "samples² rays a pixel",
         }
     }
+
+    /// Bytes that it takes for each voxel of the volume while it runs, at the most: what may be more than there is.
+    pub fn bytes_a_voxel(self) -> u64 {
+        match self {
+            // One number of 64 bits.
+            Self::Coefficients | Self::LabelDistances => 8,
+            // A filter reads one copy and writes another; norms are gathered from the planes.
+            Self::SmoothedCoefficients | Self::GradientRange => 16,
+            Self::AutomaticTransfer | Self::Bricks | Self::StyleMipmaps | Self::Rays => 0,
+        }
+    }
 }
 
 /// A quantity that an effect needs.

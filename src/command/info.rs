@@ -1,9 +1,10 @@
 //! `info`: what a volume file holds.
 
+use super::raw::Raw;
 use super::report::{Progress, print, print_json};
 use super::{Outcome, Talk};
 use clap::Args;
-use drypoint::scene::volume::{info, read};
+use drypoint::scene::volume::info;
 use std::path::PathBuf;
 
 /// Say what a volume file holds: dims, type, spacing, range, invalid voxels, histogram.
@@ -12,6 +13,8 @@ pub(super) struct Info {
     /// A volume
     #[arg(value_name = "VOLUME")]
     volume: PathBuf,
+    #[command(flatten)]
+    raw: Raw,
     /// As JSON
     #[arg(long)]
     json: bool,
@@ -21,7 +24,7 @@ impl Info {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let info = {
             let _reading = Progress::new(talk, "reading");
-            info::Info::new(&self.volume, &read::read(&self.volume, None)?)
+            info::Info::new(&self.volume, &self.raw.read(&self.volume)?)
         };
         if self.json { print_json(serde_json::to_string_pretty(&info)) } else { print(&format!("{info}\n")) }
     }

@@ -1,12 +1,13 @@
 //! What a verb is given: a scene, a bare volume, or nothing, which is the embedded scene.
 
 use super::Talk;
+use super::raw::layout;
 use super::report::note;
 use drypoint::job::{Job, bare};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Scene, VolumeSource};
+use drypoint::scene::tables::{RawLayout, Scene, VolumeSource};
 use drypoint::scene::volume::{Volume, read};
 use drypoint::{Failure, Failures};
 use std::path::{Path, PathBuf};
@@ -51,6 +52,8 @@ pub(super) struct Over {
     overrides: Overrides,
     /// Those of `[picture]` alone.
     picture: Overrides,
+    /// Those of `volume.raw` alone.
+    raw: Overrides,
     /// Whether one changes the kind of the transfer function.
     sets_kind: bool,
     flags: Vec<Flag>,
@@ -63,25 +66,35 @@ pub(super) struct Over {
 impl Over {
     /// From a verb's `--set`s and its own flags, which go over them.
     pub(super) fn new(set: &Set, flags: Vec<Flag>) -> Result<Self, Failures> {
-        let mut over = Self { flags, ..Self::default() };
+        let mut over = Self::default();
         let mut failures = Vec::new();
         for argument in &set.set {
             over.sets_kind |= argument.trim_start().starts_with("transfer.kind");
-            if argument.trim_start().starts_with("picture.") {
+            if let Some(part) = over.part(argument.trim_start()) {
                 // A fault of it is told of the whole.
-                let _ = over.picture.push_argument(argument);
+                let _ = part.push_argument(argument);
             }
             if let Err(faults) = over.overrides.push_argument(argument) {
                 failures.extend(faults.iter().map(Failure::from));
             }
         }
-        for flag in &over.flags {
-            over.overrides.push(flag.key, flag.value.clone());
-            if flag.key.starts_with("picture.") {
-                over.picture.push(flag.key, flag.value.clone());
+        for Flag { key, value, .. } in &flags {
+            over.overrides.push(*key, value.clone());
+            if let Some(part) = over.part(key) {
+                part.push(*key, value.clone());
             }
         }
+        over.flags = flags;
         Failures::check(failures).map(|()| over)
+    }
+
+    /// Where an override is kept too, if it has to be known before there is a scene.
+    fn part(&mut self, key: &str) -> Option<&mut Overrides> {
+        match key {
+            _ if key.starts_with("picture.") => Some(&mut self.picture),
+            _ if key.starts_with("volume.raw") => Some(&mut self.raw),
+            _ => None,
+        }
     }
 
     /// The faults of a scene; what a flag said is shown as it was typed.
@@ -125,14 +138,18 @@ pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
         let scene = file::load(path, &over.overrides).map_err(|faults| over.failures(faults))?;
         return Job::load(finished(scene));
     }
-    if !read::is_volume(path) {
+    let described = file::parse(NOTHING, Path::new(""), &over.raw).map_err(|faults| over.failures(faults))?;
+    let raw = layout(&described.volume.source);
+    if raw.is_none() && !read::is_volume(path) {
         return Err(no_input(path).into());
     }
-    let volume = read::read(path, None)?;
+    let volume = read::read(path, raw)?;
     let mut counts = Counts::default();
-    let scene = finished(suggested(path, &volume, over, &mut counts)?);
+    let scene = finished(suggested(path, raw, &volume, over, &mut counts)?);
     let mut job = match &scene.volume.source {
-        VolumeSource::File { path: shown, raw: None } if shown == path => Job::with_volume(scene, volume),
+        VolumeSource::File { path: shown, raw: described } if shown == path && described.as_ref() == raw => {
+            Job::with_volume(scene, volume)
+        }
         _ => Job::load(scene),
     }?;
     job.counts.add(&counts);
@@ -162,7 +179,13 @@ pub(super) fn no_input(path: &Path) -> Failure {
 }
 
 /// The scene for a bare volume. It goes through its own text, so that overrides act on it as on any scene.
-fn suggested(path: &Path, volume: &Volume, over: &Over, counts: &mut Counts) -> Result<Scene, Failures> {
+fn suggested(
+    path: &Path,
+    raw: Option<&RawLayout>,
+    volume: &Volume,
+    over: &Over,
+    counts: &mut Counts,
+) -> Result<Scene, Failures> {
     let parse = |text: &str, name: &str, overrides: &Overrides| file::parse(text, Path::new(name), overrides);
     // The camera frames the content in a picture of one shape. A fault of that is told below.
     let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
@@ -180,7 +203,7 @@ fn suggested(path: &Path, volume: &Volume, over: &Over, counts: &mut Counts) -> 
     scene.given.keep_overrides();
     if !scene.given.contains("volume.file") && !scene.given.contains("volume.phantom") {
         // Not from the text, where a path that is no Unicode would be another one.
-        scene.volume.source = suggested.volume.source;
+        scene.volume.source = VolumeSource::File { path: path.to_path_buf(), raw: raw.cloned() };
     }
     Ok(scene)
 }

@@ -8,6 +8,7 @@ mod input;
 mod phantom;
 mod plan;
 mod probe;
+mod raw;
 mod render;
 mod report;
 mod schema;

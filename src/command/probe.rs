@@ -1,6 +1,7 @@
 //! `probe`: value, derivatives and curvature at points.
 
 use super::input::{self, Flag};
+use super::raw::Raw;
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::{Args, ValueEnum};
@@ -8,7 +9,6 @@ use drypoint::reference::field::probe::{Probe as Probed, at_index, at_world};
 use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
-use drypoint::scene::volume::read;
 use drypoint::{Failure, Failures};
 use serde_json::json;
 use std::io::BufRead;
@@ -47,6 +47,8 @@ pub(super) struct Probe {
     /// Which values lie outside: low or high
     #[arg(long, value_name = "NAME", default_value = "low")]
     outside: String,
+    #[command(flatten)]
+    raw: Raw,
 }
 
 /// The space of a point.
@@ -69,7 +71,7 @@ impl Probe {
         ])?;
         let points = if self.at.is_empty() { from_input()? } else { self.at.clone() };
         let _working = Progress::new(talk, "probing");
-        let volume = read::read(&self.volume, None)?;
+        let volume = self.raw.read(&self.volume)?;
         let refused = |fault: &dyn std::fmt::Display| {
             Failure::new(fault, self.volume.display(), "choose another --kernel, --hessian or --scale")
         };

@@ -1,6 +1,7 @@
 //! `render`: a picture.
 
 use super::input::{self, Flag, Over, Set};
+use super::raw::Raw;
 use super::report::{Progress, note, print};
 use super::stats::{self, Times, cpu_seconds};
 use super::target::Target;
@@ -36,6 +37,8 @@ pub(super) struct Render {
     /// first.normal, first.curvature, first.curvature.KV, counts. The default name then ends in .exr
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     layers: Vec<String>,
+    #[command(flatten)]
+    raw: Raw,
     #[command(flatten)]
     set: Set,
     /// Threads [default: one a processor]
@@ -97,7 +100,7 @@ impl Render {
 
     /// The flags that stand for scene keys.
     fn flags(&self) -> Result<Vec<Flag>, Failure> {
-        let mut flags = Vec::new();
+        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
         if let Some(size) = &self.size {
             let typed = format!("--size {size}");
             let [w, h] = pixels(size).ok_or_else(|| {

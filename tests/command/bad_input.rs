@@ -175,7 +175,7 @@ fn what_only_the_renderer_finds_has_its_key_too() {
     folder.scene("[contours]\nkappa = \"exact\"\n[sampling]\nhessian = \"gaussian\"\nscale = \"2000 voxels\"\n");
     assert_eq!(
         folder.refused("render scene.toml"),
-        "error: scale = 2000 world units is not between 0 and 1000, which is 1000 voxels\n  at: scene.toml:10:2, key sampling\n  try: choose another sampling.kernel or sampling.hessian\n"
+        "error: scale = 2000 world units is not between 0 and 1000, which is 1000 voxels\n  at: scene.toml:12:1, key sampling.scale\n  try: make it smaller, or leave it out\n"
     );
     folder.write("scene.toml", SCENE.replace("size = 20", "size = 1048576"));
     let said = folder.refused("render scene.toml");

@@ -37,6 +37,37 @@ fn a_sidecar_and_a_key_say_the_same() {
     assert_eq!(info["range"], serde_json::json!([0.0, 700.0]));
 }
 
+/// `--raw` is `--set volume.raw` and a sidecar, for every verb that reads one volume.
+#[test]
+fn a_flag_says_the_same_as_a_sidecar() {
+    let folder = folder();
+    let layout = LAYOUT.trim().replace('\n', ", ");
+    folder.write("b.dat", folder.read("a.raw"));
+    folder.write("a.raw.toml", LAYOUT);
+    folder.good("render a.raw --size 12x16 -o sidecar.exr --layers beauty,first");
+    let run = |words: &[&str]| {
+        let said = folder.run(words);
+        assert_eq!(said.code, Some(0), "{words:?}\n{}", said.err);
+        said.out
+    };
+    let to = |name| ["--size", "12x16", "--layers", "beauty,first", "-o", name];
+    run(&[&["render", "b.dat", "--raw", &layout], &to("flag.exr")[..]].concat());
+    run(&[&["render", "b.dat", "--set", &format!("volume.raw={{ {layout} }}")], &to("set.exr")[..]].concat());
+    for other in ["flag", "set"] {
+        let compared = folder.line(&format!("compare sidecar.exr {other}.exr --max 0"));
+        assert_eq!(compared.code, Some(0), "{}", compared.out);
+    }
+    let histogram = |text: String| serde_json::from_str::<serde_json::Value>(&text).unwrap()["histogram"].clone();
+    let sidecar = histogram(run(&["info", "a.raw", "--json"]));
+    assert!(sidecar.is_object() || sidecar.is_array());
+    assert_eq!(histogram(run(&["info", "b.dat", "--raw", &layout, "--json"])), sidecar);
+    let probed = run(&["probe", "b.dat", "--raw", &layout, "--at", "2,2,3"]);
+    assert_eq!(probed, run(&["probe", "a.raw", "--at", "2,2,3"]));
+    let said = folder.run(["info", "b.dat", "--raw", "size = [8, 6, 4], kind = 3"]);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("--raw size = [8, 6, 4], kind = 3"), "{}", said.err);
+}
+
 #[test]
 fn any_suffix_may_have_a_sidecar() {
     let folder = folder();
@@ -51,7 +82,7 @@ fn layouts_that_do_not_fit() {
     let folder = folder();
     assert_eq!(
         folder.refused("render a.raw"),
-        "error: raw voxels without a description of their layout\n  at: a.raw\n  try: open the header that belongs to it, or describe it in a.raw.toml with size, type, endian, spacing and skip\n"
+        "error: raw voxels without a description of their layout\n  at: a.raw\n  try: open the header that belongs to it, or describe it in a.raw.toml or as volume.raw: size, type, endian, spacing and skip\n"
     );
     folder.write("a.raw.toml", LAYOUT.replace("4]", "5]"));
     assert_eq!(

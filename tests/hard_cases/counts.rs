@@ -5,6 +5,7 @@ use crate::common::{LAYERS, Shot, ball, on, perspective, plain};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
+use drypoint::scene::plan::Pass;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
     Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Shading, Transparency,
@@ -227,6 +228,14 @@ fn buffers_are_those_that_are_called_for() {
     assert_eq!(names(&gaussian(&regular())), ["picture", "volume"], "no Hessian is asked for");
     let layer = gaussian(&regular()).layers(&[LayerKind::Curvature]);
     assert_eq!(names(&layer), ["picture", "smoothed", "volume"]);
+    // What is asked of the system before it is made covers it, but for the border that small volumes have.
+    let bytes = |shot: &Shot, name: &str| counts(shot).bytes[name];
+    for (pass, held) in [
+        (Pass::Coefficients, bytes(&spline, "coefficients")),
+        (Pass::SmoothedCoefficients, bytes(&gaussian(&regular()).layers(&[LayerKind::Curvature]), "smoothed")),
+    ] {
+        assert!((8000..=24 * 24 * 24).contains(&(held / 8)) && held <= pass.bytes_a_voxel() * 24 * 24 * 24, "{held}");
+    }
     // Weights of an estimator that nothing asks for are not prepared either.
     let regression = unskipped(&regular()).with(|s| s.sampling.gradient = GradientEstimator::Regression);
     assert_eq!(names(&regression), ["picture", "volume"]);

@@ -178,8 +178,7 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
         if matches!(scene.volume.source, VolumeSource::Phantom(_)) {
             idle.key("volume.raw", "a phantom has no file");
         }
-        let nodes = scene.transfer.as_ref().filter(|transfer| !transfer.is_automatic());
-        if nodes.is_some_and(|transfer| transfer.unit != Unit::Normalized) {
+        if scene.transfer.as_ref().is_some_and(|transfer| transfer.unit != Unit::Normalized) {
             idle.key("volume.range", "only transfer.unit = \"normalized\" is measured in it");
         }
         let why = match scene.volume.labels {

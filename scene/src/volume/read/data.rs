@@ -220,7 +220,10 @@ impl Payload<'_> {
             return if found > expected {
                 Err(self.misfit(part.path, Fault::Long { expected, found, at_least, unit: "bytes" }))
             } else if source.cut {
-                Err(ReadError::new(part.path, Fault::Damaged("the stream has no end".to_string())))
+                Err(ReadError::new(
+                    part.path,
+                    Fault::Damaged("the stream ends too early, or something follows it".to_string()),
+                ))
             } else {
                 Ok(())
             };

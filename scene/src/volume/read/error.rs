@@ -188,12 +188,12 @@ impl ReadError {
             Fault::Io(error) if error.kind() == io::ErrorKind::NotFound => "check the path".into(),
             Fault::Io(_) | Fault::NotAFile => "give a file that may be read".into(),
             Fault::Suffix => format!(
-                "give a file with one of the suffixes {}, or describe raw voxels in {name}.toml",
+                "give a file with one of the suffixes {}, or describe raw voxels in {name}.toml or as volume.raw",
                 super::EXTENSIONS.join(", ")
             ),
             Fault::NoLayout => format!(
-                "open the header that belongs to it, or describe it in {name}.toml with size, type, endian, spacing \
-                 and skip"
+                "open the header that belongs to it, or describe it in {name}.toml or as volume.raw: size, type, \
+                 endian, spacing and skip"
             ),
             Fault::Magic { .. } => "check that the suffix says what the file holds".into(),
             Fault::EndlessHeader { .. } | Fault::Line { .. } | Fault::Value { .. } | Fault::Sidecar(_) => {

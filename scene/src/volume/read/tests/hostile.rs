@@ -1,12 +1,21 @@
-//! Random and mutated files: an error or a volume, never a panic.
+//! Random and mutated files: an error or a volume, never a panic, and never more memory than the file justifies.
 
 use super::*;
 use crate::tables::RawLayout;
 use proptest::prelude::*;
 
-/// Checks what reading gave: an error that says what, where and what to do, in one line each, or a whole volume.
-fn sound(result: Result<Volume, ReadError>) {
-    match result {
+/// Buffers of readers and decoders, whatever the file.
+const FIXED: u64 = 1 << 20;
+
+/// Reads a file of so many bytes, with those beside it, and checks what that gives: an error that says what, where and
+/// what to do, in one line each, or a whole volume. A byte of text or a run of a compressed stream may be several numbers
+/// of eight bytes, and DEFLATE makes up to 1032 bytes of one.
+fn sound(bytes: usize, read: impl FnOnce() -> Result<Volume, ReadError>) {
+    let mut result = None;
+    let used = allocation_counter::measure(|| result = Some(read())).bytes_max;
+    let allowed = FIXED + 4 * 1032 * (bytes as u64 + 24);
+    assert!(used <= allowed, "{used} bytes asked for by a file of {bytes}");
+    match result.unwrap() {
         Ok(volume) => {
             assert_eq!(volume.voxels().len(), volume.grid().len());
             assert!(volume.range().iter().all(|v| v.is_finite()) && volume.slope().is_finite());
@@ -209,14 +218,15 @@ proptest! {
         let files = valid();
         let (name, mut bytes) = files[which.index(files.len())].clone();
         mutations.iter().for_each(|m| apply(&mut bytes, m));
-        sound(read_beside(name, &bytes));
+        sound(bytes.len(), || read_beside(name, &bytes));
     }
 
     #[test]
     fn mutated_headers_inside_gzip(mutations in prop::collection::vec(mutation(), 1..5)) {
         let mut bytes = Nifti::one(VoxelType::I16, &[2, 3, 2], false).with(&[0; 24]);
         mutations.iter().for_each(|m| apply(&mut bytes, m));
-        sound(read_beside("a.nii.gz", &gzip(&bytes)));
+        let bytes = gzip(&bytes);
+        sound(bytes.len(), || read_beside("a.nii.gz", &bytes));
     }
 }
 
@@ -229,7 +239,8 @@ proptest! {
         name in prop::sample::select(&NAMES[..]),
         start in prop::sample::select(&STARTS[..]),
     ) {
-        sound(read_beside(name, &joined(start, &bytes)));
+        let bytes = joined(start, &bytes);
+        sound(bytes.len(), || read_beside(name, &bytes));
     }
 
     #[test]
@@ -244,6 +255,7 @@ proptest! {
         let folder = Folder::new();
         let data = if name == "a.raw" { data } else { gzip(&data) };
         let layout = RawLayout { size, voxel_type, big_endian: true, spacing, skip };
-        sound(read(&folder.put(name, data), Some(&layout)));
+        let (bytes, path) = (data.len(), folder.put(name, data));
+        sound(bytes, || read(&path, Some(&layout)));
     }
 }

@@ -31,7 +31,11 @@ fn truncated() {
     let cut = gzip(&[0; 12]);
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("gzip"), &cut[..cut.len() - 1]))),
-        ["the compressed data are damaged: the stream has no end", "head.nrrd", "get the file again"]
+        [
+            "the compressed data are damaged: the stream ends too early, or something follows it",
+            "head.nrrd",
+            "get the file again"
+        ]
     );
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("ascii"), b"1 2 3 4 5 6 7 8 9 10 11   "))),
@@ -233,7 +237,7 @@ fn files_that_are_not_there_or_not_known() {
             "the suffix belongs to no volume format that is known",
             "head.jpg",
             "give a file with one of the suffixes nrrd, nhdr, nii, nii.gz, hdr, hdr.gz, img, img.gz, mhd, mha, raw, \
-             raw.gz, or describe raw voxels in head.jpg.toml"
+             raw.gz, or describe raw voxels in head.jpg.toml or as volume.raw"
         ]
     );
     assert_eq!(
@@ -241,8 +245,8 @@ fn files_that_are_not_there_or_not_known() {
         [
             "raw voxels without a description of their layout",
             "head.raw",
-            "open the header that belongs to it, or describe it in head.raw.toml with size, type, endian, spacing and \
-             skip"
+            "open the header that belongs to it, or describe it in head.raw.toml or as volume.raw: size, type, endian, \
+             spacing and skip"
         ]
     );
     std::fs::create_dir(folder.path("x.nrrd")).unwrap();
