@@ -2,7 +2,7 @@
 
 use super::cast::cast;
 use super::gradient_range::quantile_of_norms;
-use super::lattice::{IndexRay, Lattice};
+use super::lattice::{IndexRay, Lattice, MOST_PLANES};
 use super::layers::{Sums, pooled};
 use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
@@ -84,6 +84,12 @@ pub enum RenderError {
     Length {
         /// The scene key.
         key: &'static str,
+    },
+    /// Sample planes that fall together ([RAY-1]): k + ½ has no half from 2⁵² on.
+    #[error("the volume reaches {planes:.1e} steps from the eye, where sample planes are not told apart any more")]
+    TooManyPlanes {
+        /// The largest distance from the eye, in steps.
+        planes: f64,
     },
     /// The nodes make no function.
     #[error(transparent)]
@@ -183,6 +189,11 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     counts.bytes.extend(field.bytes());
     let view = View::new(&scene.camera, grid, scene.picture.size)?;
     let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
+    let lattice = Lattice { step, along: sampling.step_along, near };
+    let planes = lattice.planes(&view, grid);
+    if planes >= MOST_PLANES {
+        return Err(RenderError::TooManyPlanes { planes });
+    }
     let skip = plan.has_pass(Pass::Bricks).then(|| {
         let bricks = field.bricks();
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
@@ -236,7 +247,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let layers = if scene.picture.layers.is_empty() { vec![LayerKind::Beauty] } else { scene.picture.layers.clone() };
     Ok(Prepared {
         volume,
-        lattice: Lattice { step, along: sampling.step_along, near },
+        lattice,
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
         function: over_value,
