@@ -172,6 +172,7 @@ impl Job {
                 RenderError::View(ViewError::NoDirection) => {
                     ("camera", "move camera.eye away from camera.target, or give camera.direction")
                 }
+                RenderError::TooManyPlanes { .. } => ("sampling.step", "make it longer, or move the camera nearer"),
                 RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
                 RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
                 RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),

@@ -139,14 +139,24 @@ impl Shot {
         View::new(&self.scene.camera, self.volume.grid(), self.scene.picture.size).unwrap()
     }
 
-    /// The transfer function over the volume's values.
+    /// The transfer function over the volume's values; label n is named `part n`.
     pub(crate) fn function(&self) -> Function {
         let range = self.scene.volume.range.unwrap_or_else(|| self.volume.range());
-        Function::new(self.scene.transfer.as_ref().unwrap(), range, &self.volume, &|_| None).unwrap().unwrap()
+        let id_of = |name: &str| name.strip_prefix("part ")?.parse().ok();
+        Function::new(self.scene.transfer.as_ref().unwrap(), range, &self.volume, &id_of).unwrap().unwrap()
     }
 
     /// The picture.
     pub(crate) fn render(&self) -> Shown {
+        self.render_by(|renderer| renderer)
+    }
+
+    /// The picture, drawn in tiles of that side.
+    pub(crate) fn render_in_tiles(&self, side: usize) -> Shown {
+        self.render_by(|renderer| renderer.with_tiles(side))
+    }
+
+    fn render_by(&self, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
         let function = self.function();
         let named: Vec<Style> = match &function {
             Function::Regular(_) => Vec::new(),
@@ -171,7 +181,7 @@ impl Shot {
             styles: &named,
             background,
         };
-        let (picture, counts) = Renderer::new(inputs).unwrap().frame(&|_| {});
+        let (picture, counts) = set(Renderer::new(inputs).unwrap()).frame(&|_| {});
         Shown { picture, counts }
     }
 }

@@ -7,7 +7,7 @@ use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Camera, Length, StepAlong};
 use drypoint::scene::view::View;
 
-fn grids() -> Vec<Grid> {
+pub(crate) fn grids() -> Vec<Grid> {
     let sheared = DMat3::from_cols(DVec3::new(1.0, 0.2, 0.0), DVec3::new(-0.3, 0.9, 0.1), DVec3::new(0.2, 0.4, 2.0));
     vec![
         Grid::with_spacing([8, 8, 8], [1.0; 3]).unwrap(),
@@ -17,7 +17,12 @@ fn grids() -> Vec<Grid> {
 
 /// The world position of the first sample of each pixel: an opaque volume shows at it the value of x, y or z, which
 /// trilinear interpolation has exactly but for rounding.
-fn first_positions(grid: &Grid, camera: &Camera, size: [usize; 2], along: StepAlong) -> Vec<Option<(DVec3, f64)>> {
+pub(crate) fn first_positions(
+    grid: &Grid,
+    camera: &Camera,
+    size: [usize; 2],
+    along: StepAlong,
+) -> Vec<Option<(DVec3, f64)>> {
     let shown = [0, 1, 2].map(|axis: usize| {
         let shot = Shot::regular(on(grid.clone(), |p| p[axis]), &[(0.0, [1.0; 3], 1.0)])
             .layers(&[LayerKind::First, LayerKind::Z])

@@ -1,18 +1,31 @@
-//! Where renderers go wrong: a file a theme.
+//! Where renderers go wrong: a file a theme. What follows from the mathematics alone is a record of [`stability`].
 
 #[path = "../common/mod.rs"]
 mod common;
 
+mod anisotropy;
 mod blending;
+mod borders;
 mod camera;
 mod counts;
+mod degenerate;
+mod empty;
+mod eye;
 mod hash;
 mod layers;
 mod masks;
 mod mirror;
 mod offset;
+mod opacities;
 mod phong;
 mod probe;
+mod reconstruction;
+mod scales;
 mod slabs;
+mod small;
+mod stability;
+mod steps;
 mod styles;
+mod symmetry;
 mod termination;
+mod thresholds;

@@ -2,6 +2,7 @@
 
 use crate::common::strip::ramp;
 use crate::common::{LAYERS, Shot, on, perspective, plain, volume};
+use crate::stability::{Case, Theme, differing};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
@@ -10,6 +11,44 @@ use drypoint::scene::tables::{
 };
 use drypoint::scene::volume::{Volume, Voxels};
 
+pub(crate) static THEME: Theme = Theme::new(
+    "Data with an offset",
+    &[
+        Case {
+            name: "a constant at 1000.3, 10⁶ + 0.1, −1024.7",
+            breaks: "rounding becomes a normal: speckle in flat regions; the value moves across a step at it",
+            done: "sums of differences, a + w(b − a), and a bound below which there is no normal [PREC-3]",
+            of: "samples with a normal, and pixels of another colour; 5 kernels, 4 gradients, f64 and f32",
+            bound: 0.0,
+            why: "differences of equal numbers are 0, and 0 is below the bound",
+            measure: constants,
+        },
+        Case {
+            name: "2^k added to whole numbers, k = 10, 20, 30",
+            breaks: "Hounsfield units around 1000 lose digits in derivatives",
+            done: "numbers are read as stored, the offset never enters a difference",
+            of: "numbers with another bit in depth, normals, gradients, curvatures; 5 kernels, 4 estimators",
+            bound: 0.0,
+            why: "differences of whole numbers are exact",
+            measure: whole_numbers,
+        },
+        Case {
+            name: "values up to 10^±300",
+            breaks: "squares overflow or vanish",
+            done: "scaling by a power of two [SPACE-4]",
+            of: "numbers with another bit than at 1; shaded, with normals and curvatures",
+            bound: 0.0,
+            why: "a power of two changes no mantissa",
+            measure: ends_of_the_number_type,
+        },
+    ],
+);
+
+#[test]
+fn data_with_an_offset() {
+    THEME.hold();
+}
+
 const KERNELS: [Kernel; 5] =
     [Kernel::Trilinear, Kernel::Bspline, Kernel::BsplineSmooth, Kernel::Bspline5, Kernel::CatmullRom];
 const GRADIENTS: [GradientEstimator; 4] =
@@ -17,8 +56,8 @@ const GRADIENTS: [GradientEstimator; 4] =
 
 /// No reconstruction of a constant makes a normal or moves the value across a step at that value: the picture of a box
 /// seen along an axis is one colour, and all samples are without a normal.
-#[test]
-fn a_constant_is_constant() {
+fn constants() -> f64 {
+    let mut wrong = 0.0;
     for value in [1000.3, 1e6 + 0.1, -1024.7] {
         for (number, single) in [(Number::F64, false), (Number::F32, false), (Number::F32, true), (Number::F64, true)] {
             let stored = if single { f64::from(value as f32) } else { value };
@@ -40,15 +79,16 @@ fn a_constant_is_constant() {
                     let pixels = shown.pixels();
                     let place = format!("{value} {number:?} {kernel:?} {gradient:?}");
                     assert!(pixels[0][3] > 0.5, "{place}: {:?}", pixels[0]);
-                    assert!(pixels.iter().all(|p| *p == pixels[0]), "{place}");
-                    assert_eq!(shown.counts.without_normal, shown.counts.gradients, "{place}");
-                    assert!(shown.counts.gradients > 0 && shown.counts.hessians == 0, "{place}");
+                    assert!(shown.counts.gradients > 0, "{place}");
+                    wrong += pixels.iter().filter(|p| **p != pixels[0]).count() as f64;
+                    wrong += (shown.counts.gradients - shown.counts.without_normal + shown.counts.hessians) as f64;
                     // N = v: the middle of the style.
                     assert!((pixels[0][0] / pixels[0][3] - 0.5).abs() < 1e-6, "{place}");
                 }
             }
         }
     }
+    wrong
 }
 
 /// A thing with a constant inside at 1000.3: in the inside lit and style pictures have no normal and no speckle, on the
@@ -73,8 +113,8 @@ fn flat_insides_of_offset_data_have_no_normal() {
 
 /// f + 2^k on whole numbers: the same gradients, normals and κ, bit for bit; values within an ulp of 2^k. Opaque, so that
 /// the layers are those of one sample, seen on the same plane.
-#[test]
-fn whole_numbers_with_a_power_of_two_added() {
+fn whole_numbers() -> f64 {
+    let mut differ = 0.0;
     let grid = Grid::with_spacing([12, 10, 11], [1.0, 1.3, 0.9]).unwrap();
     let base: Vec<i64> = crate::common::positions(&grid)
         .map(|p| (100.0 + 60.0 * (0.6 * p.x).sin() + 50.0 * (0.5 * p.y).cos() + 30.0 * (0.7 * p.z).sin()) as i64)
@@ -107,7 +147,7 @@ fn whole_numbers_with_a_power_of_two_added() {
                 let moved = seen(1 << k, by_intercept);
                 let place = format!("{kernel:?} {gradient:?} {hessian:?} 2^{k}");
                 for kind in [LayerKind::Z, LayerKind::Normal, LayerKind::Gradient, LayerKind::Curvature] {
-                    assert_eq!(plain.layer_bits(kind), moved.layer_bits(kind), "{place} {kind}");
+                    differ += differing(&plain.layer_bits(kind), &moved.layer_bits(kind));
                 }
                 // The sums that make a value round to an ulp of it each, of which there are few.
                 let ulp = f64::EPSILON * f64::from(1 << k);
@@ -119,11 +159,12 @@ fn whole_numbers_with_a_power_of_two_added() {
             }
         }
     }
+    differ
 }
 
 /// The numbers of nodes reach as far as those of the data: a range of 10³⁰⁰ or 10⁻³⁰⁰ is drawn like one of 1.
-#[test]
-fn values_near_the_ends_of_the_number_type() {
+fn ends_of_the_number_type() -> f64 {
+    let mut differ = 0.0;
     let grid = Grid::with_spacing([9; 3], [1.0; 3]).unwrap();
     let shape = |p: DVec3| 3.5 - (p - DVec3::splat(4.0)).length();
     let seen = |scale: f64| {
@@ -137,7 +178,8 @@ fn values_near_the_ends_of_the_number_type() {
     for e in [-1000, -600, 600, 1000] {
         let other = seen(drypoint::scene::math::scale_by_power_of_two(1.0, e));
         for kind in [LayerKind::Beauty, LayerKind::Normal, LayerKind::Curvature] {
-            assert_eq!(one.layer_bits(kind), other.layer_bits(kind), "2^{e} {kind}");
+            differ += differing(&one.layer_bits(kind), &other.layer_bits(kind));
         }
     }
+    differ
 }

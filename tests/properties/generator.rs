@@ -3,13 +3,16 @@
 use super::over_two::over_two;
 use crate::common::random::Random;
 use crate::common::{LAYERS, Shot, perspective, plain, style};
+use drypoint::scene::color::Rgba;
 use drypoint::scene::glam::{DMat3, DVec3};
+use drypoint::scene::phantom::{self, Allowed};
+use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
-use drypoint::scene::style::Style;
+use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
-    Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel,
-    Length, LightDirection, Mix, NormalSide, Number, Outside, Projection, Shading, SignFlip, SphereFrame, StepAlong,
-    StyleMipmaps, Transparency, Unit,
+    Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Kappa, Kernel,
+    Length, LightDirection, Mix, NormalSide, Number, Outside, PhantomSource, Projection, Scene, Shading, SignFlip,
+    SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Transparency, Unit, VolumeSource,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -84,6 +87,46 @@ pub(crate) fn volume(r: &mut Random, grid: Grid) -> Volume {
     Volume::new(grid, Voxels::from_f64(&values, stored), slope, intercept).unwrap()
 }
 
+/// Every stored type.
+const TYPES: [VoxelType; 10] = [
+    VoxelType::U8,
+    VoxelType::I8,
+    VoxelType::U16,
+    VoxelType::I16,
+    VoxelType::U32,
+    VoxelType::I32,
+    VoxelType::U64,
+    VoxelType::I64,
+    VoxelType::F32,
+    VoxelType::F64,
+];
+
+/// A phantom by name, of a few voxels, now and then with a parameter of its own.
+fn phantom(r: &mut Random) -> (PhantomSource, Volume) {
+    loop {
+        let about = &phantom::describe()[r.below(phantom::describe().len())];
+        let param = &about.params[r.below(about.params.len())];
+        let value = match param.allowed {
+            Allowed::Whole(lo, hi) => r.between(lo, hi.min(lo + 6.0)).floor(),
+            Allowed::Positive => r.between(0.5, 4.0),
+            Allowed::NonNegative => r.between(0.0, 2.0),
+            Allowed::Any => r.between(20.0, 100.0),
+        };
+        let size = if r.once_in(3) { dims(r) } else { [4 + r.below(12); 3] };
+        let source = PhantomSource {
+            name: about.name.into(),
+            size,
+            spacing: if r.once_in(2) { [1.0; 3] } else { [0; 3].map(|_| r.between(0.5, 2.0)) },
+            voxel_type: r.pick(&TYPES),
+            params: if r.once_in(2) { vec![(param.name.into(), value)] } else { Vec::new() },
+        };
+        // Parameters that do not go together, and boxes too small for some, make none.
+        if let Ok(volume) = phantom::generate(&source) {
+            return (source, volume);
+        }
+    }
+}
+
 /// Values of nodes in ascending order: voxels' own, between and beyond them, some twice.
 pub(crate) fn at(r: &mut Random, volume: &Volume, n: usize) -> Vec<f64> {
     let [lo, hi] = volume.range();
@@ -119,6 +162,33 @@ fn styles() -> Vec<Style> {
     ]
 }
 
+/// Two styles of a theme of the program.
+fn themed(r: &mut Random, table: &mut Styles) -> Vec<Style> {
+    let themes: Vec<&str> = Theme::embedded_names().collect();
+    table.theme = StyleSource::Embedded(r.pick(&themes).into());
+    let names: Vec<String> = Theme::open(&table.theme).unwrap().names().map(Into::into).collect();
+    let used = [r.pick(&names), r.pick(&names)];
+    styles_of::load(table, used.iter().map(String::as_str)).unwrap()
+}
+
+/// A background of any size: a picture is stretched to its frame.
+fn behind([width, height]: [usize; 2]) -> Vec<Rgba> {
+    let share = |i: usize, n: usize| i as f64 / n as f64;
+    let pixel = |t: usize| {
+        let (x, y) = (share(t % width, width), share(t / width, height));
+        let alpha = 1.0 - x * y;
+        [0.9 * x * alpha, 0.5 * y * alpha, 0.3 * alpha, alpha]
+    };
+    (0..width * height).map(pixel).collect()
+}
+
+/// The same scene in another size.
+pub(crate) fn resized(shot: &Shot, size: [usize; 2]) -> Shot {
+    let mut other = shot.with(|s| s.picture.size = size);
+    other.behind = shot.behind.as_ref().map(|_| behind(size));
+    other
+}
+
 fn function(r: &mut Random, volume: Volume) -> Shot {
     let n = 1 + r.below(4);
     let at = at(r, &volume, n);
@@ -126,8 +196,11 @@ fn function(r: &mut Random, volume: Volume) -> Shot {
         let nodes: Vec<_> = at.iter().map(|&a| (a, [r.unit(), r.unit(), r.unit()], opacity(r))).collect();
         Shot::regular(volume, &nodes)
     } else {
-        let nodes: Vec<_> = at.iter().map(|&a| (a, r.pick(&["grey", "clear", "ramp", "tiny"]), opacity(r))).collect();
-        Shot::styled(volume, styles(), &nodes)
+        let mut table = Styles::default();
+        let styles = if r.once_in(8) { themed(r, &mut table) } else { styles() };
+        let names: Vec<&str> = styles.iter().map(|style| style.name.as_str()).collect();
+        let nodes: Vec<_> = at.iter().map(|&a| (a, r.pick(&names), opacity(r))).collect();
+        Shot::styled(volume, styles.clone(), &nodes).with(|s| s.styles = table)
     };
     let t = shot.scene.transfer.as_mut().unwrap();
     t.mix = r.pick(&[Mix::Premultiplied, Mix::Printed]);
@@ -138,6 +211,13 @@ fn function(r: &mut Random, volume: Volume) -> Shot {
         let nodes = t.nodes.as_mut().unwrap();
         let last = nodes.len().max(2) - 1;
         nodes.iter_mut().enumerate().for_each(|(i, node)| node.at = 100.0 * i as f64 / last as f64);
+    } else if r.once_in(4) {
+        t.unit = Unit::Normalized;
+        let nodes = t.nodes.as_mut().unwrap();
+        let ends = [0.0, 0.5, 1.0, r.between(-0.1, 1.1), r.between(-0.1, 1.1)];
+        let mut at: Vec<f64> = nodes.iter().map(|_| r.pick(&ends)).collect();
+        at.sort_by(f64::total_cmp);
+        nodes.iter_mut().zip(at).for_each(|(node, at)| node.at = at);
     }
     shot
 }
@@ -163,7 +243,61 @@ pub(crate) fn camera(r: &mut Random, grid: &Grid) -> Camera {
     if r.once_in(4) {
         camera.near = Some(Length::Voxels(r.between(0.1, 3.0)));
     }
+    if r.once_in(4) {
+        camera.up = DVec3::from_array(r.direction());
+    }
+    if r.once_in(4) {
+        camera.target = Some(grid.centre() + DVec3::from_array(r.direction()) * grid.radius() * r.between(0.0, 0.7));
+    }
     camera
+}
+
+/// What the picture is drawn on.
+fn picture(r: &mut Random, shot: &mut Shot) {
+    let p = &mut shot.scene.picture;
+    p.size = r.pick(&[[9, 7], [7, 9], [8, 8], [1, 1], [17, 2]]);
+    p.samples = r.pick(&[1, 1, 1, 2]);
+    p.blend_space = r.pick(&[BlendSpace::Linear, BlendSpace::Linear, BlendSpace::Srgb]);
+    p.background = r.pick(&[
+        Background::None,
+        Background::Color([1.0; 4]),
+        Background::Color([0.2, 0.5, 0.9, 0.4]),
+        Background::Picture("behind.png".into()),
+    ]);
+    shot.behind = matches!(p.background, Background::Picture(_)).then(|| behind(p.size));
+    // Of two layers that share a channel either can be in a file.
+    p.layers = [&[LayerKind::Beauty], LAYERS.as_slice()].concat();
+    if r.once_in(4) {
+        for layer in &mut p.layers {
+            match layer {
+                LayerKind::Curvature => *layer = LayerKind::CurvatureAlongView,
+                LayerKind::FirstCurvature => *layer = LayerKind::FirstCurvatureAlongView,
+                _ => {}
+            }
+        }
+    }
+    // How it is written changes nothing of it.
+    p.bits = r.pick(&[8, 16]);
+    p.dpi = r.pick(&[72.0, 300.0]);
+}
+
+/// Light on a regular function.
+fn shading(r: &mut Random, scene: &mut Scene) {
+    let directions = [
+        LightDirection::Head,
+        LightDirection::Eye(DVec3::from_array(r.direction())),
+        LightDirection::World(DVec3::from_array(r.direction())),
+    ];
+    scene.light = r.pick(&directions);
+    if r.once_in(2) {
+        scene.shading = Some(Shading {
+            ambient: r.pick(&[0.0, 0.3, 1.0]),
+            diffuse: r.pick(&[0.0, 0.6, 1.0]),
+            specular: r.pick(&[0.0, 0.3, 2.0]),
+            shininess: r.pick(&[0.0, 1.0, 17.3]),
+            light: if r.once_in(2) { None } else { Some(r.pick(&directions)) },
+        });
+    }
 }
 
 /// The scene of a seed.
@@ -171,22 +305,33 @@ pub(crate) fn scene(seed: u64) -> Shot {
     let r = &mut Random(seed);
     let dims = dims(r);
     let grid = grid(r, dims);
-    let volume = volume(r, grid.clone());
-    let mut shot = function(r, volume).layers(&LAYERS);
+    let (source, volume) = if r.once_in(4) {
+        let (source, volume) = phantom(r);
+        (VolumeSource::Phantom(source), volume)
+    } else {
+        (VolumeSource::File { path: "volume.nrrd".into(), raw: None }, volume(r, grid))
+    };
+    let ids = r.pick(&[Ids::Values, Ids::Values, Ids::Values, Ids::Values, Ids::Values, Ids::Mask]);
+    let volume = if ids == Ids::Mask { volume.present() } else { volume };
+    let grid = volume.grid().clone();
+    let mut shot = function(r, volume);
+    picture(r, &mut shot);
+    shading(r, &mut shot.scene);
     let s = &mut shot.scene;
+    (s.volume.source, s.volume.ids) = (source, ids);
     s.camera = camera(r, &grid);
+    if r.once_in(4) {
+        let [lo, hi] = shot.volume.range();
+        s.volume.range = Some([lo + r.between(-0.3, 0.4) * (hi - lo), hi + r.between(-0.4, 0.3) * (hi - lo) + 1.0]);
+    }
     s.volume.outside = r.pick(&[Outside::Low, Outside::High]);
     s.volume.gradient_range = r.pick(&[
         GradientRange::Quantile(0.999),
         GradientRange::Quantile(0.5),
+        GradientRange::Quantile(1.0),
         GradientRange::Fixed([0.0, 30.0]),
         GradientRange::Fixed([4.0, 4.0]),
     ]);
-    s.picture.size = r.pick(&[[9, 7], [7, 9], [8, 8], [1, 1], [17, 2]]);
-    s.picture.samples = r.pick(&[1, 1, 1, 2]);
-    s.picture.blend_space = r.pick(&[BlendSpace::Linear, BlendSpace::Linear, BlendSpace::Srgb]);
-    s.picture.background =
-        r.pick(&[Background::None, Background::Color([1.0; 4]), Background::Color([0.2, 0.5, 0.9, 0.4])]);
     let sampling = &mut s.sampling;
     sampling.step = Length::Voxels(r.pick(&[0.1, 0.5, 0.5, 1.0, 3.0]));
     sampling.reference_length = Length::Voxels(r.pick(&[0.2, 1.0, 1.0, 7.0]));
@@ -208,17 +353,12 @@ pub(crate) fn scene(seed: u64) -> Shot {
     sampling.normal = r.pick(&[NormalSide::Outward, NormalSide::Outward, NormalSide::Facing, NormalSide::Gradient]);
     sampling.number = r.pick(&[Number::F64, Number::F64, Number::F32]);
     sampling.stop_below = r.pick(&[0.0, 0.0, 0.01, 0.5]);
-    if r.once_in(2) {
-        s.shading = Some(Shading {
-            shininess: r.pick(&[0.0, 1.0, 17.3]),
-            light: r.pick(&[None, Some(LightDirection::World(DVec3::new(1.0, -2.0, 0.5)))]),
-            ..Shading::default()
-        });
-    }
+    sampling.skip_empty = !r.once_in(8);
+    let threshold = r.pick(&[0.0, 0.4, 1.0]);
     if r.once_in(2) {
         s.contours = Some(Contours {
             thickness: Length::Voxels(r.pick(&[0.0, 1.0, 2.0, 50.0])),
-            kappa: r.pick(&[Kappa::Ray, Kappa::Ray, Kappa::Exact, Kappa::None { threshold: 0.4 }]),
+            kappa: r.pick(&[Kappa::Ray, Kappa::Ray, Kappa::Exact, Kappa::None { threshold }]),
             sign_flip: r.pick(&[SignFlip::TwoSided, SignFlip::Literal]),
             fade: r.pick(&[None, None, Some([0.1, 0.4]), Some([0.2, 0.2])]),
         });

@@ -4,6 +4,7 @@
 mod common;
 
 mod along_ray;
+mod coverage;
 mod generator;
 mod order;
 mod over_two;

@@ -23,6 +23,30 @@ fn labels(r: &mut Random, own: &Grid) -> LabelVolume {
     LabelVolume::new(&Volume::new(on, Voxels::U8(ids), 1.0, 0.0).unwrap()).unwrap()
 }
 
+/// Gives a scene labels, now and then with names: that of label n is `part n`.
+fn give_labels(r: &mut Random, shot: &mut Shot, own: &Grid) {
+    shot.labels = Some(labels(r, own));
+    let table = &mut shot.scene.volume;
+    table.labels = Some("labels.nrrd".into());
+    table.label_names = if r.once_in(2) { Some("labels.csv".into()) } else { None };
+}
+
+/// Whether the labels of a scene have names.
+fn names(shot: &Shot) -> bool {
+    shot.scene.volume.label_names.is_some()
+}
+
+/// Where the rows for some ids stand: at ids, at names, or several at one row.
+fn rows_of_ids(r: &mut Random, ids: &[f64], named: bool) -> Vec<RowAt> {
+    let name = |id: f64| format!("part {id}");
+    if r.once_in(3) {
+        let key = |&id: &f64| if named { LabelKey::Name(name(id)) } else { LabelKey::Id(id as u32) };
+        return ids.chunks(2).map(|pair| RowAt::Labels(pair.iter().map(key).collect())).collect();
+    }
+    let by_name = named && r.once_in(2);
+    ids.iter().map(|&id| if by_name { RowAt::Name(name(id)) } else { RowAt::Number(id) }).collect()
+}
+
 /// A quantity other than the value, and numbers that it has or nearly has.
 fn quantity(r: &mut Random, shot: &mut Shot, which: usize) -> (Axis, [f64; 2]) {
     let own = shot.volume.grid().clone();
@@ -39,12 +63,13 @@ fn quantity(r: &mut Random, shot: &mut Shot, which: usize) -> (Axis, [f64; 2]) {
             (Axis::Distance(point), [0.0, own.radius() * 2.0])
         }
         8 => {
-            shot.labels = Some(labels(r, &own));
+            give_labels(r, shot, &own);
             // Both axes may read labels: those that one wants are there.
-            (Axis::DistanceToLabel(LabelKey::Id(1)), [0.0, own.radius() * 2.0])
+            let label = if names(shot) { LabelKey::Name("part 1".into()) } else { LabelKey::Id(1) };
+            (Axis::DistanceToLabel(label), [0.0, own.radius() * 2.0])
         }
         9 => {
-            shot.labels = Some(labels(r, &own));
+            give_labels(r, shot, &own);
             shot.scene.volume.label_lookup = r.pick(&[LabelLookup::Nearest, LabelLookup::Smooth]);
             (Axis::Label, [0.0, 5.0])
         }
@@ -54,7 +79,7 @@ fn quantity(r: &mut Random, shot: &mut Shot, which: usize) -> (Axis, [f64; 2]) {
             let further = volume(r, other);
             let range = further.range();
             shot.further[which] = Some(further);
-            (Axis::Volume("further.nrrd".into()), range)
+            (Axis::Volume(r.pick(&["further.nrrd", "importance.nrrd"]).into()), range)
         }
     }
 }
@@ -65,6 +90,7 @@ pub(crate) fn over_two(r: &mut Random, shot: &mut Shot) {
         shot.scene.transfer.as_ref().unwrap().nodes.iter().flatten().map(|node| node.color.clone()).collect();
     let values = |r: &mut Random, shot: &Shot, n: usize| match shot.scene.transfer.as_ref().unwrap().unit {
         Unit::Percentile => (0..n).map(|i| 100.0 * i as f64 / n.max(2) as f64).collect(),
+        Unit::Normalized => (0..n).map(|i| (i as f64 + 0.2) / n as f64).collect(),
         _ => at(r, &shot.volume, n),
     };
     let numbers = |r: &mut Random, [lo, hi]: [f64; 2], n: usize| {
@@ -102,11 +128,15 @@ pub(crate) fn over_two(r: &mut Random, shot: &mut Shot) {
     };
     let count = 1 + r.below(4);
     let down = places(r, shot, 1, count);
-    let rows = down.into_iter().map(|y| {
+    let down = match is_id[1] {
+        true => rows_of_ids(r, &down, names(shot)),
+        false => down.into_iter().map(RowAt::Number).collect(),
+    };
+    let rows = down.into_iter().map(|at| {
         let n = 1 + r.below(4);
         let nodes = places(r, shot, 0, n).into_iter();
         let nodes = nodes.map(|at| Node { at, color: r.pick(&looks), opacity: opacity(r) }).collect();
-        Row { at: RowAt::Number(y), nodes }
+        Row { at, nodes }
     });
     let rows = rows.collect();
     let t = shot.scene.transfer.as_mut().unwrap();

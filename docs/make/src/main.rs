@@ -10,6 +10,7 @@ mod painting;
 mod reference;
 mod rings;
 mod rules;
+mod stability;
 mod styles;
 mod switches;
 
@@ -27,6 +28,7 @@ const PAGES: &[Page] = &[
     ("reference", reference::write),
     ("rings", rings::write),
     ("rules", rules::write),
+    ("stability", stability::write),
     ("styles", styles::write),
     ("switches", switches::write),
 ];

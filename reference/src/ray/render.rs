@@ -2,7 +2,7 @@
 
 use super::cast::cast;
 use super::gradient_range::quantile_of_norms;
-use super::lattice::{IndexRay, Lattice};
+use super::lattice::{IndexRay, Lattice, MOST_PLANES};
 use super::layers::{Sums, pooled};
 use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
@@ -35,8 +35,8 @@ use std::time::Instant;
 /// Pixels along the side of a tile, the work of one thread at a time.
 const TILE: usize = 16;
 
-/// Tiles that are drawn before they are gathered: a million pixels, so that a huge picture is not in memory twice.
-const BATCH: usize = 4096;
+/// Pixels that are drawn before they are gathered, so that a huge picture is not in memory twice.
+const BATCH: usize = 1 << 20;
 
 /// What a picture is made of.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +85,12 @@ pub enum RenderError {
         /// The scene key.
         key: &'static str,
     },
+    /// Sample planes that fall together ([RAY-1]): k + ½ has no half from 2⁵² on.
+    #[error("the volume reaches {planes:.1e} steps from the eye, where sample planes are not told apart any more")]
+    TooManyPlanes {
+        /// The largest distance from the eye, in steps.
+        planes: f64,
+    },
     /// The nodes make no function.
     #[error(transparent)]
     Nodes(#[from] NodesError),
@@ -115,6 +121,7 @@ pub struct Renderer<'a> {
     ready: Ready<'a>,
     background: Backdrop<'a>,
     counts: Counts,
+    tile: usize,
 }
 
 enum Ready<'a> {
@@ -139,15 +146,20 @@ impl<'a> Renderer<'a> {
             counts.bytes.insert("mask".into(), mask.bytes() as u64);
         }
         counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
-        Ok(Self { ready, background: inputs.background, counts })
+        Ok(Self { ready, background: inputs.background, counts, tile: TILE })
+    }
+
+    /// The same with tiles of another side, from 1 to 1024 pixels; it shows nowhere ([RAY-3]).
+    pub fn with_tiles(self, side: usize) -> Self {
+        Self { tile: side.clamp(1, 1024), ..self }
     }
 
     /// Renders one frame. `progress` hears the share of the picture that is done, from any thread.
     pub fn frame(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let start = Instant::now();
         let (picture, mut counts) = match &self.ready {
-            Ready::F64(p) => with_sampler!(p.field, |s| draw(p, s, self.background, progress)),
-            Ready::F32(p) => with_sampler!(p.field, |s| draw(p, s, self.background, progress)),
+            Ready::F64(p) => with_sampler!(p.field, |s| draw(p, s, self.background, self.tile, progress)),
+            Ready::F32(p) => with_sampler!(p.field, |s| draw(p, s, self.background, self.tile, progress)),
         };
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
         counts.add(&self.counts);
@@ -183,6 +195,11 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     counts.bytes.extend(field.bytes());
     let view = View::new(&scene.camera, grid, scene.picture.size)?;
     let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
+    let lattice = Lattice { step, along: sampling.step_along, near };
+    let planes = lattice.planes(&view, grid);
+    if planes >= MOST_PLANES {
+        return Err(RenderError::TooManyPlanes { planes });
+    }
     let skip = plan.has_pass(Pass::Bricks).then(|| {
         let bricks = field.bricks();
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
@@ -236,7 +253,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     let layers = if scene.picture.layers.is_empty() { vec![LayerKind::Beauty] } else { scene.picture.layers.clone() };
     Ok(Prepared {
         volume,
-        lattice: Lattice { step, along: sampling.step_along, near },
+        lattice,
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
         function: over_value,
@@ -381,22 +398,25 @@ fn draw<R: Real, S: Sampler<R>>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
     background: Backdrop<'_>,
+    tile: usize,
     progress: &(dyn Fn(f64) + Sync),
 ) -> (Picture, Counts) {
     let [width, height] = prepared.view.size;
-    let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
+    let (across, down) = (width.div_ceil(tile), height.div_ceil(tile));
+    let batch = BATCH / (tile * tile);
     let done = std::sync::atomic::AtomicUsize::new(0);
     let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();
     let mut counts = Counts::default();
     let mut channels = vec![vec![0.0; width * height]; per_pixel];
-    for first in (0..across * down).step_by(BATCH) {
-        let tiles: Vec<Tile> = (first..(first + BATCH).min(across * down))
+    for first in (0..across * down).step_by(batch) {
+        let tiles: Vec<Tile> = (first..(first + batch).min(across * down))
             .into_par_iter()
             .map(|t| {
-                let tile = draw_tile(prepared, sampler, background, [t % across * TILE, t / across * TILE]);
+                let at = [t % across * tile, t / across * tile];
+                let drawn = draw_tile(prepared, sampler, background, at, tile);
                 let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                 progress(n as f64 / (across * down) as f64);
-                tile
+                drawn
             })
             .collect();
         for tile in &tiles {
@@ -424,9 +444,10 @@ fn draw_tile<R: Real, S: Sampler<R>>(
     sampler: &S,
     background: Backdrop<'_>,
     [x, y]: [usize; 2],
+    side: usize,
 ) -> Tile {
     let [width, height] = prepared.view.size;
-    let (right, bottom) = ((x + TILE).min(width), (y + TILE).min(height));
+    let (right, bottom) = ((x + side).min(width), (y + side).min(height));
     let mut tile = Tile { x, y, width: right - x, pixels: Vec::new(), counts: Counts::default() };
     let mut boxes = prepared.skip.as_ref().map(|skip| {
         let corner = |i: usize, j: usize| {

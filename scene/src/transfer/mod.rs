@@ -206,10 +206,11 @@ fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<us
 /// On a closed range it is 0 throughout exactly if both nodes of every segment that the range touches have opacity 0;
 /// a segment touched in its end alone counts, which only keeps a brick that shows nothing. Rounding keeps nodes in order.
 fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
-    let n = at.len();
+    // Without a node nothing is shown; that it is no function is said where the nodes are evaluated.
+    let Some(end) = at.len().checked_sub(1) else { return false };
     // The first node at or above lo and the last at or below hi, widened by the nodes on the other side of the ends.
     let first = at.partition_point(|&a| rounded(a) < lo).saturating_sub(1);
-    let last = at.partition_point(|&a| rounded(a) <= hi).min(n - 1);
+    let last = at.partition_point(|&a| rounded(a) <= hi).min(end);
     opacity[first..=last].iter().any(|&a| a > 0.0)
 }
 
@@ -342,6 +343,7 @@ mod tests {
         assert!(visible(0.0, 100.0));
         assert!(visible(100.0, 100.0));
         assert!(visible(300.0, 400.0), "beyond the last node the last one holds");
+        assert!(!can_be_visible(&[], &[], [0.0, 1.0]), "no node, nothing to see");
         assert!(!visible(-10.0, -5.0));
     }
 

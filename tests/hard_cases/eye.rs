@@ -1,0 +1,171 @@
+//! Where the eye stands and how wide it looks ([RAY-5], [RAY-6]).
+
+use crate::camera::{first_positions, grids};
+use crate::common::{Shot, on, orthographic, perspective};
+use crate::slabs::in_steps;
+use crate::stability::{Case, Theme, worst};
+use drypoint::scene::glam::DVec3;
+use drypoint::scene::space::Grid;
+use drypoint::scene::tables::{Camera, Length, Projection, StepAlong};
+use drypoint::scene::view::View;
+
+pub(crate) static THEME: Theme = Theme::new(
+    "The eye",
+    &[
+        Case {
+            name: "the eye in the middle, on a voxel, on a face, in a corner",
+            breaks: "rays that begin inside; division by a distance of 0",
+            done: "depths begin beyond `near`, inside is decided on positions",
+            of: "|α − closed form| of a homogeneous box in units of one step's opacity; 0.001°, 1°, 60°, 170°",
+            bound: 1.0,
+            why: "the length of the ray beyond `near`, to one step [RAY-1]",
+            measure: inside,
+        },
+        Case {
+            name: "the eye 10⁶ box sizes away",
+            breaks: "positions lose the digits that the distance takes",
+            done: "a position is formed in index space in one expression",
+            of: "|α − closed form| in units of one step's opacity; orthographic and perspective",
+            bound: 1.0,
+            why: "as above: rounding of positions moves samples by 10⁻⁹ voxels",
+            measure: far_away,
+        },
+        Case {
+            name: "the eye 10⁶ box sizes away: positions",
+            breaks: "as above",
+            done: "as above",
+            of: "distance of a first sample from its closed form, in units of 16 ε times the distance; 2 grids",
+            bound: 1.0,
+            why: "origin, direction and depth round once or twice each, D⁻¹ and D at most triple it",
+            measure: positions_far_away,
+        },
+        Case {
+            name: "fields of view of 0.001°, 1°, and 170° from inside: positions",
+            breaks: "tan and sin of nearly 0 and nearly 90°",
+            done: "the distance follows from one tangent [RAY-5]",
+            of: "distance of a first sample from its closed form, in units of 16 ε times the distance from the eye",
+            bound: 1.0,
+            why: "as above",
+            measure: positions_by_field_of_view,
+        },
+        Case {
+            name: "fields of view of 0.001°, 1°, and 170° from inside: opacity",
+            breaks: "Δ/cosφ of 16 in the corners of 170°",
+            done: "the correction is for the distance on this ray [VAL-4]",
+            of: "|α − closed form| in units of one step's opacity",
+            bound: 1.0,
+            why: "the length of the ray, to one step [RAY-1]",
+            measure: opacity_by_field_of_view,
+        },
+    ],
+);
+
+#[test]
+fn the_eye() {
+    THEME.hold();
+}
+
+const STEP: f64 = 0.37;
+const ALPHA: f64 = 0.2;
+
+/// A homogeneous box of α₀ = 0.2 a world unit.
+fn slab(camera: Camera) -> Shot {
+    Shot::regular(on(grid(), |_| 3.0), &[(0.0, [1.0; 3], ALPHA)]).with(|s| {
+        s.camera = camera;
+        s.sampling.step = Length::World(STEP);
+        s.sampling.reference_length = Length::World(1.0);
+    })
+}
+
+fn grid() -> Grid {
+    Grid::with_spacing([9, 7, 8], [1.0, 1.25, 0.8]).unwrap()
+}
+
+fn inside() -> f64 {
+    let box_of = grid();
+    let [first, last] = [box_of.world_corners()[0], box_of.world_corners()[7]];
+    let eyes = [box_of.centre(), DVec3::new(4.0, 2.5, 2.4), DVec3::new(4.3, 0.0, 2.2), first, last];
+    let directions = [DVec3::new(0.3, 0.8, -0.4), DVec3::Y, -DVec3::X, DVec3::new(-1.0, -1.0, -1.0)];
+    worst(eyes.into_iter().flat_map(|eye| {
+        directions.into_iter().flat_map(move |direction| {
+            [0.001, 1.0, 60.0, 170.0].map(|fov| {
+                let camera = Camera { eye: Some(eye), direction, direction_given: true, ..perspective(fov) };
+                in_steps(&slab(camera), STEP, ALPHA, 1.0)
+            })
+        })
+    }))
+}
+
+/// The camera at 10⁶ times the box's diagonal, and a picture that the box just fills.
+fn far(grid: &Grid, direction: DVec3, projection: &Projection) -> Camera {
+    let away = 2e6 * grid.radius();
+    let projection = match projection {
+        Projection::Perspective { .. } => Projection::Perspective { fov: 2.0 * (1.0 / 2e6f64).atan().to_degrees() },
+        Projection::Orthographic { .. } => Projection::Orthographic { height: None },
+    };
+    let eye = Some(grid.centre() - direction.normalize() * away);
+    Camera { projection, eye, direction, direction_given: true, ..Camera::default() }
+}
+
+const DIRECTIONS: [DVec3; 3] = [DVec3::new(0.3, 0.8, -0.4), DVec3::Y, DVec3::new(-0.5, 0.1, 0.7)];
+
+fn far_away() -> f64 {
+    worst(DIRECTIONS.into_iter().flat_map(|direction| {
+        [perspective(1.0), orthographic(None)].map(|camera| {
+            let shot = slab(far(&grid(), direction, &camera.projection));
+            assert!(shot.render().covered() > 30);
+            in_steps(&shot, STEP, ALPHA, 1.0)
+        })
+    }))
+}
+
+/// How far first samples lie from where the formulas say, in units of 16 ε times the distance from the eye.
+fn positions(grid: &Grid, camera: &Camera) -> f64 {
+    let size = [13, 8];
+    let view = View::new(camera, grid, size).unwrap();
+    let mut seen = 0;
+    let off = worst(first_positions(grid, camera, size, StepAlong::Plane).into_iter().enumerate().map(|(t, found)| {
+        let Some((position, depth)) = found else { return 0.0 };
+        seen += 1;
+        // The formulas of [RAY-6], about the camera's own axes.
+        let x = ((t % 13) as f64 + 0.5 - 6.5) * view.pixel;
+        let y = (4.0 - ((t / 13) as f64 + 0.5)) * view.pixel;
+        let scale = if view.perspective { depth } else { 1.0 };
+        let off = position - (view.eye + view.right * (x * scale) + view.up * (y * scale) + view.forward * depth);
+        off.length() / (16.0 * f64::EPSILON * (view.eye.length() + grid.centre().length() + grid.radius()))
+    }));
+    assert!(seen > 10, "{seen}");
+    off
+}
+
+fn positions_far_away() -> f64 {
+    worst(grids().iter().flat_map(|grid| {
+        DIRECTIONS.into_iter().flat_map(move |direction| {
+            [perspective(1.0), orthographic(None)]
+                .map(|camera| positions(grid, &far(grid, direction, &camera.projection)))
+        })
+    }))
+}
+
+/// Wide fields see a box from the default distance in hardly a pixel: at 170° the eye stands inside.
+fn fields(grid: &Grid, direction: DVec3) -> [Camera; 3] {
+    let eye = Some(grid.centre() - direction * (0.2 * grid.radius()));
+    let inside = Camera { eye, direction_given: true, ..perspective(170.0) };
+    [perspective(0.001), perspective(1.0), inside].map(|camera| Camera { direction, ..camera })
+}
+
+fn positions_by_field_of_view() -> f64 {
+    worst(grids().iter().flat_map(|grid| {
+        DIRECTIONS.into_iter().flat_map(|direction| fields(grid, direction).map(|camera| positions(grid, &camera)))
+    }))
+}
+
+fn opacity_by_field_of_view() -> f64 {
+    worst(DIRECTIONS.into_iter().flat_map(|direction| {
+        fields(&grid(), direction).map(|camera| {
+            let shot = slab(camera);
+            assert!(shot.render().covered() > 30);
+            in_steps(&shot, STEP, ALPHA, 1.0)
+        })
+    }))
+}
