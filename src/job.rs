@@ -35,7 +35,7 @@ use drypoint_reference::suggest;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::file::{Given, identity};
-use drypoint_scene::phantom::{self, PhantomError};
+use drypoint_scene::phantom::{self, Phantom, PhantomError};
 use drypoint_scene::picture::{Picture, Provenance};
 use drypoint_scene::plan::{Plan, Quantity};
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
@@ -145,14 +145,51 @@ impl Job {
     /// # Errors
     /// A reconstruction that does not exist, a camera without direction, a picture for which there is no memory.
     pub fn renderer(&self) -> Result<Renderer<'_>, Failure> {
-        let background = match (&self.background, &self.scene.picture.background) {
+        self.made_ready(&self.scene, &self.plan, Renderer::new)
+    }
+
+    /// The same with another scene over what this one has loaded: one that differs in its knobs alone ([COST-1]).
+    ///
+    /// # Errors
+    /// As [`Job::renderer`].
+    pub fn renderer_of<'a>(&'a self, scene: &'a Scene, plan: &'a Plan) -> Result<Renderer<'a>, Failure> {
+        self.made_ready(scene, plan, Renderer::new)
+    }
+
+    /// The same of a phantom's own formula in place of the voxels ([COST-2]).
+    ///
+    /// # Errors
+    /// As [`Job::renderer`].
+    pub fn exact_renderer_of<'a>(
+        &'a self,
+        scene: &'a Scene,
+        plan: &'a Plan,
+        phantom: &'a dyn Phantom,
+    ) -> Result<Renderer<'a>, Failure> {
+        self.made_ready(scene, plan, |inputs| Renderer::exact(inputs, phantom))
+    }
+
+    /// The plan of a scene over what this job has loaded.
+    pub fn plan_of(&self, scene: &Scene) -> Plan {
+        let mut plan = Plan::new(scene);
+        plan.settle(scene, is_integer(&self.volume));
+        plan
+    }
+
+    fn made_ready<'a>(
+        &'a self,
+        scene: &'a Scene,
+        plan: &'a Plan,
+        make: impl FnOnce(Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
+    ) -> Result<Renderer<'a>, Failure> {
+        let background = match (&self.background, &scene.picture.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
             (None, Background::Color(color)) => Backdrop::Color(*color),
             (None, _) => Backdrop::None,
         };
         let inputs = Inputs {
-            scene: &self.scene,
-            plan: &self.plan,
+            scene,
+            plan,
             volume: &self.volume,
             function: &self.function,
             labels: self.labels.as_ref(),
@@ -161,7 +198,7 @@ impl Job {
             background,
         };
         room_for_passes(self)?;
-        let renderer = Renderer::new(inputs).map_err(|error| {
+        let renderer = make(inputs).map_err(|error| {
             let (key, remedy) = match &error {
                 RenderError::Field(FieldError::NotSmooth { .. }) => {
                     ("sampling.hessian", "choose another sampling.kernel or sampling.hessian")
@@ -180,19 +217,18 @@ impl Job {
                 RenderError::Length { key } => (*key, "give it in world units or in voxels"),
                 RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
             };
-            Failure::new(&error, self.scene.given.position(key), remedy)
+            Failure::new(&error, scene.given.position(key), remedy)
         })?;
         // Of what is left: the picture's channels, and as much again while they are encoded.
-        let channels: usize = self.scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
-        room(&self.scene, 2 * 8 * channels)?;
+        let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
+        room(scene, 2 * 8 * channels)?;
         Ok(renderer)
     }
 
     /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
     pub fn provenance(&self) -> Provenance {
         let hash = Sha256::digest(identity(&self.scene));
-        let mut plan = Plan::new(&self.scene);
-        plan.settle(&self.scene, is_integer(&self.volume));
+        let plan = self.plan_of(&self.scene);
         Provenance {
             software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
             scene_hash: hash.iter().map(|byte| format!("{byte:02x}")).collect(),

@@ -8,6 +8,7 @@ pub mod atomic;
 pub mod color;
 pub mod counts;
 pub mod file;
+pub mod knobs;
 pub mod math;
 mod nearest;
 pub mod phantom;

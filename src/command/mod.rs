@@ -3,6 +3,7 @@
 mod arguments;
 mod compare;
 mod completions;
+mod cost;
 mod info;
 mod input;
 mod phantom;
@@ -64,6 +65,8 @@ enum Verb {
     Styles(styles::Styles),
     /// Compare two pictures; exit code 1 when a bound is exceeded
     Compare(compare::Compare),
+    /// Tell what accuracy costs: error and time of every knob of a scene
+    Cost(cost::Cost),
     /// Write a contact sheet of volumes, scenes or pictures
     Sheet(sheet::Sheet),
     /// Print the JSON Schema of scene files
@@ -138,6 +141,7 @@ impl Cli {
             Verb::Plan(verb) => verb.run(talk),
             Verb::Styles(verb) => verb.run(talk),
             Verb::Compare(verb) => verb.run(talk),
+            Verb::Cost(verb) => verb.run(talk),
             Verb::Sheet(verb) => verb.run(talk),
             Verb::Schema(verb) => verb.run(),
             Verb::Completions(verb) => verb.run(),

@@ -3,6 +3,7 @@
 mod bad_input;
 mod bare_volumes;
 mod compare;
+mod cost;
 mod extract;
 mod folder;
 mod generated;

@@ -22,7 +22,9 @@ fn help_and_version_are_no_errors() {
     }
     assert_eq!(folder.good("--version"), concat!("drypoint ", env!("CARGO_PKG_VERSION"), "\n"));
     let help = folder.good("--help");
-    for verb in ["render", "info", "probe", "phantom", "plan", "styles", "compare", "sheet", "schema", "completions"] {
+    for verb in
+        ["render", "info", "probe", "phantom", "plan", "styles", "compare", "cost", "sheet", "schema", "completions"]
+    {
         assert!(help.contains(&format!("\n  {verb} ")), "{verb}\n{help}");
     }
 }
@@ -67,10 +69,9 @@ fn wrong_use_is_told_in_three_lines() {
 #[test]
 fn what_is_not_built_yet_says_so() {
     let folder = Folder::new();
-    let verbs =
-        "the verbs of this version are render, info, probe, phantom, plan, styles, compare, sheet, schema, completions";
+    let verbs = "the verbs of this version are render, info, probe, phantom, plan, styles, compare, cost, sheet, schema, completions";
     for (line, verb, tag) in
-        [("cost scene.toml -o c.csv", "cost", "COST-1"), ("-q validate scene.toml", "validate", "GPU-1")]
+        [("pick scene.toml --pixel 1,2", "pick", "HALO-12"), ("-q validate scene.toml", "validate", "GPU-1")]
     {
         let expected = format!("error: `{verb}` is not built yet ([{tag}])\n  at: drypoint {verb}\n  try: {verbs}\n");
         assert_eq!(folder.refused(line), expected);

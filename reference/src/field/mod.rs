@@ -6,6 +6,7 @@
 mod coefficients;
 pub mod curvature;
 mod error;
+mod exact;
 mod gradient;
 mod hessian;
 pub mod kernel;
@@ -23,6 +24,7 @@ mod tests;
 
 pub use drypoint_scene::tables::{GradientEstimator, HessianEstimator, Kernel, Outside};
 pub use error::FieldError;
+pub use exact::Exact;
 pub(crate) use place::Cells;
 pub use place::Place;
 pub use sampler::{AnySampler, Sampled, Sampler};

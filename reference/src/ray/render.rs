@@ -8,7 +8,7 @@ use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::sample::{EyeAxes, Look, Styled};
 use super::skip::{Beam, Boxes, Skip};
-use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
+use crate::field::{Exact, Field, FieldError, Reconstruction, Rung, Sampler};
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
@@ -18,6 +18,7 @@ use crate::transfer::{NodesError, Piecewise, gate};
 use crate::with_sampler;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::style::Style;
@@ -127,6 +128,7 @@ pub struct Renderer<'a> {
 enum Ready<'a> {
     F64(Box<Prepared<'a, f64>>),
     F32(Box<Prepared<'a, f32>>),
+    Exact(Box<Prepared<'a, f64>>, &'a dyn Phantom),
 }
 
 impl<'a> Renderer<'a> {
@@ -141,12 +143,35 @@ impl<'a> Renderer<'a> {
             Number::F64 => Ready::F64(Box::new(prepare(&inputs, &mut counts)?)),
             Number::F32 => Ready::F32(Box::new(prepare(&inputs, &mut counts)?)),
         };
+        Ok(Self::of(ready, &inputs, counts, start))
+    }
+
+    /// Prepares the picture that reconstructions converge to: of a phantom's own formula and its derivatives in place of
+    /// the voxels, in f64, with every other key as the scene has it ([COST-2]). The volume says the grid, and is where
+    /// labels and further quantities belong.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`].
+    pub fn exact(inputs: Inputs<'a>, phantom: &'a dyn Phantom) -> Result<Self, RenderError> {
+        let start = Instant::now();
+        let mut counts = Counts::default();
+        let mut prepared: Prepared<'a, f64> = prepare(&inputs, &mut counts)?;
+        // Ranges of bricks are those of the voxels.
+        prepared.skip = None;
+        let exact = Exact::new(phantom, inputs.volume.grid(), prepared.field.scale_exponent());
+        if prepared.gradient_range.is_some() {
+            prepared.gradient_range = Some(gradient_range(&exact, &prepared.field, &inputs, &mut counts));
+        }
+        Ok(Self::of(Ready::Exact(Box::new(prepared), phantom), &inputs, counts, start))
+    }
+
+    fn of(ready: Ready<'a>, inputs: &Inputs<'a>, mut counts: Counts, start: Instant) -> Self {
         counts.bytes.insert("volume".into(), inputs.volume.voxels().bytes() as u64);
         if let Some(mask) = inputs.volume.mask() {
             counts.bytes.insert("mask".into(), mask.bytes() as u64);
         }
         counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
-        Ok(Self { ready, background: inputs.background, counts, tile: TILE })
+        Self { ready, background: inputs.background, counts, tile: TILE }
     }
 
     /// The same with tiles of another side, from 1 to 1024 pixels; it shows nowhere ([RAY-3]).
@@ -160,6 +185,10 @@ impl<'a> Renderer<'a> {
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) => with_sampler!(p.field, |s| draw(p, s, self.background, self.tile, progress)),
             Ready::F32(p) => with_sampler!(p.field, |s| draw(p, s, self.background, self.tile, progress)),
+            Ready::Exact(p, phantom) => {
+                let exact = Exact::new(*phantom, p.volume.grid(), p.field.scale_exponent());
+                draw(p, &exact, self.background, self.tile, progress)
+            }
         };
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
         counts.add(&self.counts);
@@ -221,21 +250,9 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
     if let Some(skip) = &skip {
         counts.bytes.insert("skip".into(), skip.bytes() as u64);
     }
-    let gradient_range = plan.needs(Quantity::GradientMagnitudeRange).then(|| {
-        let e = field.scale_exponent();
-        let scaled = |g: f64| drypoint_scene::math::scale_by_power_of_two(g, -e);
-        let [lo, hi] = match scene.volume.gradient_range {
-            GradientRange::Fixed(range) => range.map(scaled),
-            GradientRange::Quantile(q) => {
-                let bound = field.no_normal_below();
-                let gradient = sampling.gradient;
-                let (hi, voxels) = with_sampler!(field, |s| quantile_of_norms(s, volume, gradient, bound, q));
-                counts.preprocess.insert("gradients".into(), voxels);
-                [0.0, hi]
-            }
-        };
-        (R::from_f64(lo), R::from_f64(hi - lo))
-    });
+    let gradient_range = plan
+        .needs(Quantity::GradientMagnitudeRange)
+        .then(|| with_sampler!(field, |s| gradient_range(s, &field, inputs, counts)));
     let (at, opacity, rows) = function.nodes();
     let (over_value, over_two) = match rows {
         None => (Piecewise::new(at, opacity)?, None),
@@ -276,6 +293,26 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         field,
         view,
     })
+}
+
+/// lo and hi − lo of |g| ([VAL-2]), times the power of two of [SPACE-4].
+fn gradient_range<R: Real, S: Sampler<R>>(
+    sampler: &S,
+    field: &Field<'_, R>,
+    inputs: &Inputs<'_>,
+    counts: &mut Counts,
+) -> (R, R) {
+    let Inputs { scene, volume, .. } = *inputs;
+    let scaled = |g: f64| drypoint_scene::math::scale_by_power_of_two(g, -field.scale_exponent());
+    let [lo, hi] = match scene.volume.gradient_range {
+        GradientRange::Fixed(range) => range.map(scaled),
+        GradientRange::Quantile(q) => {
+            let (hi, voxels) = quantile_of_norms(sampler, volume, scene.sampling.gradient, field.no_normal_below(), q);
+            counts.preprocess.insert("gradients".into(), voxels);
+            [0.0, hi]
+        }
+    };
+    (R::from_f64(lo), R::from_f64(hi - lo))
 }
 
 /// The labels at the data's positions, where the function over the value has a row for each.

@@ -4,6 +4,7 @@
 use super::check::Check;
 use super::item::Item;
 use super::out::Out;
+use crate::knobs::Ladder;
 use crate::plan::{Asks, Idle, Plan, Quantity};
 use crate::tables::Scene;
 
@@ -66,6 +67,8 @@ pub(crate) struct Key<S: 'static> {
     pub(crate) required: bool,
     /// What the key can make samples or passes need ([PLAN-1]); whether it does depends on its neighbours.
     pub(crate) needs: &'static [Quantity],
+    /// Its settings from coarse to fine, if it trades accuracy for time ([COST-1]).
+    pub(crate) ladder: Option<Ladder>,
     /// How it is read and written.
     pub(crate) field: &'static dyn Field<S>,
 }
@@ -78,7 +81,7 @@ impl<S> Key<S> {
         doc: &'static str,
         field: &'static dyn Field<S>,
     ) -> Self {
-        Self { name, doc, tag, absent: "", required: false, needs: &[], field }
+        Self { name, doc, tag, absent: "", required: false, needs: &[], ladder: None, field }
     }
 
     /// The same key, with what holds where it is absent.
@@ -94,6 +97,11 @@ impl<S> Key<S> {
     /// The same key, with what it can make a plan need.
     pub(crate) const fn needs(self, needs: &'static [Quantity]) -> Self {
         Self { needs, ..self }
+    }
+
+    /// The same key, which trades accuracy for time: `cost` finds it here ([COST-1]).
+    pub(crate) const fn knob(self, ladder: Ladder) -> Self {
+        Self { ladder: Some(ladder), ..self }
     }
 }
 
@@ -242,6 +250,7 @@ pub(crate) struct SectionKey {
     pub(crate) absent: &'static str,
     pub(crate) required: bool,
     pub(crate) needs: &'static [Quantity],
+    pub(crate) ladder: Option<Ladder>,
     /// What the table has without the key.
     pub(crate) default: Option<Out>,
     pub(crate) shape: &'static dyn Shape,
@@ -258,6 +267,7 @@ impl<S> Table<S> {
             absent: key.absent,
             required: key.required,
             needs: key.needs,
+            ladder: key.ladder,
             default: if key.required { None } else { key.field.write(&empty) },
             shape: key.field.shape(),
         };

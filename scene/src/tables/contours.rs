@@ -2,6 +2,7 @@
 
 use crate::file::describe::{Key, Slot, Table};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Lengths, Number, Numbers, On, Rule};
+use crate::knobs::Ladder;
 use crate::picture::LayerKind;
 use crate::plan::Quantity;
 use crate::tables::{Length, NormalSide, Scene, TransferKind};
@@ -82,6 +83,11 @@ fn has_styles(scene: &Scene) -> bool {
     scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Style)
 }
 
+/// Whether the scene's contours measure a κ_v.
+fn has_kappa(scene: &Scene) -> bool {
+    has_styles(scene) && scene.contours.as_ref().is_some_and(|c| matches!(c.kappa, Kappa::Ray | Kappa::Exact))
+}
+
 /// The description of `[contours]`.
 pub(crate) static TABLE: Table<Contours> = Table {
     asks: |scene, asks| {
@@ -160,7 +166,8 @@ pub(crate) static TABLE: Table<Contours> = Table {
                     },
                 },
             )
-            .needs(&[Quantity::PreviousNormal, Quantity::Hessian]),
+            .needs(&[Quantity::PreviousNormal, Quantity::Hessian])
+            .knob(Ladder::to_field(|scene, _| if has_kappa(scene) { &["ray", "exact"] } else { &[] })),
             Key::new(
                 "threshold",
                 "STF-6",

@@ -8,6 +8,7 @@ use crate::file::kind::{
     Bounds, Choice, ChoiceOption, Colors, Lengths, ListOf, Number, On, Whole, Wholes, nearest_color, parse_color,
 };
 use crate::file::out::Out;
+use crate::knobs::Ladder;
 use crate::picture::LayerKind;
 use crate::plan::Quantity;
 use crate::tables::Length;
@@ -185,7 +186,8 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
                     get: |p: &PictureSettings| Some(p.samples as u64),
                     set: |p, v| p.samples = v as usize,
                 },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, _| &["1", "2", "4"])),
             Key::new(
                 "background",
                 "IO-6",

@@ -3,8 +3,9 @@
 use crate::file::describe::{Key, Slot, Table};
 use crate::file::fault::Problem;
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Flag, Number as AnyNumber, WORLD_LENGTH};
-use crate::plan::{Pass, Quantity};
-use crate::tables::{Length, Projection};
+use crate::knobs::Ladder;
+use crate::plan::{Pass, Plan, Quantity};
+use crate::tables::{Length, Projection, Scene};
 
 /// The table `[sampling]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,13 +122,53 @@ impl Default for Sampling {
     }
 }
 
+/// Settings of `step`.
+const STEPS: &[&str] =
+    &["4 voxels", "2 voxels", "1 voxel", "0.5 voxels", "0.25 voxels", "0.125 voxels", "0.0625 voxels"];
+
+/// Settings of `scale`.
+const SCALES: &[&str] = &["4 voxels", "2 voxels", "1 voxel", "0.5 voxels"];
+
+/// Whether a kernel has second derivatives.
+fn is_twice_differentiable(kernel: Kernel) -> bool {
+    matches!(kernel, Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5)
+}
+
+/// Settings of `kernel`: where the Hessian is the kernel's own, those that have one.
+fn kernels(scene: &Scene, _: &Plan) -> &'static [&'static str] {
+    match scene.sampling.hessian {
+        HessianEstimator::Analytic => &["bspline-smooth", "bspline", "bspline5"],
+        _ => &["bspline-smooth", "trilinear", "catmull-rom", "bspline", "bspline5"],
+    }
+}
+
+/// Settings of `gradient`, where there is one. The derivative of the trilinear kernel is of order one, central
+/// differences are of order two; those of the other kernels are closer than central differences.
+fn gradients(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
+    match scene.sampling.kernel {
+        _ if !plan.needs_at_first(Quantity::Gradient) => &[],
+        Kernel::Trilinear => &["sobel", "regression", "analytic", "central"],
+        _ => &["sobel", "regression", "central", "analytic"],
+    }
+}
+
+/// Settings of `hessian`, where there is one. What rounds its values to integers is best smoothed ([REC-3]).
+fn hessians(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
+    let smoothed = plan.has_pass(Pass::SmoothedCoefficients);
+    match (is_twice_differentiable(scene.sampling.kernel), smoothed) {
+        _ if !plan.needs_at_first(Quantity::Hessian) => &[],
+        (true, true) => &["central", "analytic", "gaussian"],
+        (true, false) => &["gaussian", "central", "analytic"],
+        (false, true) => &["central", "gaussian"],
+        (false, false) => &["gaussian", "central"],
+    }
+}
+
 /// The description of `[sampling]`.
 pub(crate) static TABLE: Table<Sampling> = Table {
     check: |sampling, check| {
-        let twice_differentiable =
-            matches!(sampling.kernel, Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5);
         if sampling.hessian == HessianEstimator::Analytic
-            && !twice_differentiable
+            && !is_twice_differentiable(sampling.kernel)
             && check.sound(&["kernel", "hessian"])
         {
             check.fault_in(
@@ -180,7 +221,8 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                 "RAY-1",
                 "Δ, the distance between sample planes.",
                 &Slot { kind: WORLD_LENGTH, get: |s: &Sampling| Some(s.step), set: |s, v| s.step = v },
-            ),
+            )
+            .knob(Ladder::to_field(|_, _| STEPS)),
             Key::new(
                 "step_along",
                 "RAY-1",
@@ -215,7 +257,8 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     get: |s: &Sampling| Some(s.kernel),
                     set: |s, v| s.kernel = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_field(kernels)),
             Key::new(
                 "gradient",
                 "REC-2",
@@ -241,7 +284,8 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     get: |s: &Sampling| Some(s.gradient),
                     set: |s, v| s.gradient = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_field(gradients)),
             Key::new(
                 "hessian",
                 "REC-3",
@@ -275,13 +319,15 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     get: |s: &Sampling| Some(s.hessian),
                     set: |s, v| s.hessian = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_field(hessians)),
             Key::new(
                 "scale",
                 "REC-3",
                 "σ of the Gaussian.",
                 &Slot { kind: WORLD_LENGTH, get: |s: &Sampling| Some(s.scale), set: |s, v| s.scale = v },
-            ),
+            )
+            .knob(Ladder::to_field(|_, plan| if plan.has_pass(Pass::SmoothedCoefficients) { SCALES } else { &[] })),
             Key::new(
                 "normal",
                 "NORM-1",
@@ -314,7 +360,8 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     get: |s: &Sampling| Some(s.number),
                     set: |s, v| s.number = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, _| &["f32", "f64"])),
             Key::new(
                 "skip_empty",
                 "RAY-2",
@@ -330,7 +377,8 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     get: |s: &Sampling| Some(s.stop_below),
                     set: |s, v| s.stop_below = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, _| &["0.5", "0.2", "0.1", "0.05", "0.02", "0.01", "0.001", "0"])),
             Key::new(
                 "reference_length",
                 "VAL-4",

@@ -3,7 +3,8 @@
 use super::{Kappa, Scene, TransferKind};
 use crate::file::describe::{Key, Slot, Table};
 use crate::file::kind::{Bounds, Number};
-use crate::plan::{Pass, Quantity};
+use crate::knobs::Ladder;
+use crate::plan::{Pass, Plan, Quantity};
 
 /// The table `[style_mipmaps]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +41,16 @@ fn has_styles(scene: &Scene) -> bool {
 
 /// A factor.
 const FACTOR: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
+
+/// Whether there is a κ that a bias could be of.
+fn has_kappa(scene: &Scene) -> bool {
+    scene.contours.as_ref().is_none_or(|contours| !matches!(contours.kappa, Kappa::None { .. }))
+}
+
+/// Settings of a bias, where there are mip-maps: the larger, the coarser the level.
+fn biases(_: &Scene, plan: &Plan) -> &'static [&'static str] {
+    if plan.has_pass(Pass::StyleMipmaps) { &["4", "2", "1", "0"] } else { &[] }
+}
 
 /// The description of `[style_mipmaps]`.
 pub(crate) static TABLE: Table<StyleMipmaps> = Table {
@@ -79,14 +90,16 @@ pub(crate) static TABLE: Table<StyleMipmaps> = Table {
                     set: |m, v| m.curvature_bias = v,
                 },
             )
-            .needs(&[Quantity::PreviousNormal, Quantity::Hessian]),
+            .needs(&[Quantity::PreviousNormal, Quantity::Hessian])
+            .knob(Ladder::to_finest(|scene, plan| if has_kappa(scene) { biases(scene, plan) } else { &[] })),
             Key::new(
                 "gradient_bias",
                 "STF-10",
                 "By how many levels |g| = 0 raises the level; 0: not at all.",
                 &Slot { kind: FACTOR, get: |m: &StyleMipmaps| Some(m.gradient_bias), set: |m, v| m.gradient_bias = v },
             )
-            .needs(&[Quantity::GradientMagnitudeRange]),
+            .needs(&[Quantity::GradientMagnitudeRange])
+            .knob(Ladder::to_finest(biases)),
             Key::new(
                 "turn",
                 "STF-10",

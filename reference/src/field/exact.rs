@@ -1,0 +1,89 @@
+//! The field of a phantom itself, in place of its reconstruction from voxels: what the reconstructions converge to
+//! ([COST-2]).
+
+use super::{Cells, Place, Sampler};
+use crate::number::{Sym3, Vec3};
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::math::scale_by_power_of_two;
+use drypoint_scene::phantom::Phantom;
+use drypoint_scene::space::Grid;
+
+/// A phantom's formula on the box of its grid, with its exact derivatives. Rounding to stored integers is not in it.
+#[derive(Clone, Copy)]
+pub struct Exact<'p> {
+    phantom: &'p dyn Phantom,
+    grid: &'p Grid,
+    cells: Cells<f64>,
+    /// e of [SPACE-4].
+    exponent: i32,
+}
+
+impl<'p> Exact<'p> {
+    /// A phantom on its grid; derivatives are given times 2^−`exponent`, as those of the field that it stands for.
+    pub fn new(phantom: &'p dyn Phantom, grid: &'p Grid, exponent: i32) -> Self {
+        Self { phantom, grid, cells: Cells::new(grid.dims()), exponent }
+    }
+
+    fn world(&self, at: Place<f64>) -> DVec3 {
+        self.grid.to_world(DVec3::from_array(std::array::from_fn(|a| at.cell[a] as f64 + at.w[a])))
+    }
+
+    fn scaled(&self, g: DVec3) -> Vec3<f64> {
+        Vec3::from_glam(DVec3::from_array(g.to_array().map(|x| scale_by_power_of_two(x, -self.exponent))))
+    }
+}
+
+impl Sampler<f64> for Exact<'_> {
+    fn place(&self, p: Vec3<f64>) -> Place<f64> {
+        self.cells.locate(p)
+    }
+
+    fn value_at(&self, at: Place<f64>) -> f64 {
+        self.phantom.value(self.world(at))
+    }
+
+    fn gradient_at(&self, at: Place<f64>) -> Vec3<f64> {
+        self.scaled(self.phantom.gradient(self.world(at)))
+    }
+
+    fn hessian_at(&self, at: Place<f64>) -> (Vec3<f64>, Sym3<f64>) {
+        let jet = self.phantom.jet(self.world(at));
+        let h = |row: usize, column: usize| scale_by_power_of_two(jet.hessian.col(column)[row], -self.exponent);
+        let hessian = Sym3 { xx: h(0, 0), xy: h(0, 1), xz: h(0, 2), yy: h(1, 1), yz: h(1, 2), zz: h(2, 2) };
+        (self.scaled(jet.gradient), hessian)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Field, HessianEstimator, Reconstruction, Rung};
+    use super::*;
+    use crate::with_sampler;
+    use drypoint_scene::phantom::{by_name, sample};
+    use drypoint_scene::volume::VoxelType;
+
+    /// At the voxels of a quadratic field central differences, first and second, are exact: there the formula and the
+    /// reconstruction are the same to rounding, in the same units.
+    #[test]
+    fn where_differences_are_exact_they_agree() {
+        let grid = Grid::with_spacing([24, 20, 22], [0.5, 1.0, 0.75]).unwrap();
+        let phantom = by_name("saddle", &grid, &[]).unwrap();
+        let volume = sample(phantom.as_ref(), grid, VoxelType::F64).unwrap();
+        let how = Reconstruction { hessian: HessianEstimator::Central, ..Reconstruction::default() };
+        let field = Field::<f64>::new(&volume, how, Rung::Hessian).unwrap();
+        let exact = Exact::new(phantom.as_ref(), volume.grid(), field.scale_exponent());
+        assert_ne!(field.scale_exponent(), 0, "or units would not be told apart");
+        with_sampler!(field, |sampler| {
+            for p in [[11.0, 9.0, 10.0], [4.0, 15.0, 17.0]].map(|[x, y, z]| Vec3::new(x, y, z)) {
+                let ((g, h), (g2, h2)) = (exact.hessian(p), sampler.hessian(p));
+                // Values are below 8 and e is 3; second differences divide their rounding by ¼.
+                let apart = |a: Vec3<f64>, b: Vec3<f64>| (a - b).length();
+                assert!((exact.value(p) - sampler.value(p)).abs() <= 1e-14);
+                assert!(apart(exact.gradient(p), sampler.gradient(p)) <= 1e-14 && apart(g, g2) <= 1e-14);
+                for axis in [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)] {
+                    assert!(apart(h.apply(axis), h2.apply(axis)) <= 1e-13);
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,175 @@
+//! The knobs of a scene: keys that trade accuracy for time ([COST-1]).
+//!
+//! A knob is declared in one line beside its key's description: its settings from coarse to fine, as far as the scene
+//! uses it, and what they converge to. [`knobs`] finds them all by walking the description of the tables.
+//!
+//! ```
+//! use drypoint_scene::file::{Overrides, parse};
+//! use drypoint_scene::{knobs::knobs, plan::Plan};
+//! let text = "drypoint = 1\n[volume]\nphantom = { name = \"torus\" }\n";
+//! let scene = parse(text, "torus.toml".as_ref(), &Overrides::default())?;
+//! let knobs = knobs(&scene, &Plan::new(&scene));
+//! let step = knobs.iter().find(|knob| knob.key == "sampling.step").unwrap();
+//! assert_eq!((step.of(&scene).as_deref(), step.finest()), (Some("0.5 voxels"), "0.0625 voxels"));
+//! let coarse = step.set(&scene, "2 voxels")?;
+//! assert_eq!(step.of(&coarse).as_deref(), Some("2 voxels"));
+//! # Ok::<(), drypoint_scene::file::Faults>(())
+//! ```
+
+use crate::file::out::Out;
+use crate::file::{Faults, Overrides, parse, write_full};
+use crate::plan::Plan;
+use crate::tables::Scene;
+use crate::tables::scene::ROOT;
+use std::path::Path;
+
+/// What the settings of a knob converge to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// The picture of the field itself, which is known where the field is a formula ([COST-2]).
+    Field,
+    /// The picture at the finest setting, whatever the field is.
+    Finest,
+}
+
+/// The settings of a key, as its description declares them.
+#[derive(Clone, Copy)]
+pub(crate) struct Ladder {
+    limit: Limit,
+    /// From coarse to fine; none where the scene does not use the key.
+    settings: fn(&Scene, &Plan) -> &'static [&'static str],
+}
+
+impl Ladder {
+    /// Of a key that decides how close the samples come to the field, or their sum to its integral.
+    pub(crate) const fn to_field(settings: fn(&Scene, &Plan) -> &'static [&'static str]) -> Self {
+        Self { limit: Limit::Field, settings }
+    }
+
+    /// Of a key that is no matter of the field.
+    pub(crate) const fn to_finest(settings: fn(&Scene, &Plan) -> &'static [&'static str]) -> Self {
+        Self { limit: Limit::Finest, settings }
+    }
+}
+
+/// A knob that a scene uses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Knob {
+    /// Its scene key, such as `sampling.step`.
+    pub key: String,
+    /// Its settings from coarse to fine, as `--set` takes them; at least two.
+    pub settings: &'static [&'static str],
+    /// What they converge to.
+    pub limit: Limit,
+}
+
+impl Knob {
+    /// The last setting.
+    pub fn finest(&self) -> &'static str {
+        self.settings.last().copied().unwrap_or_default()
+    }
+
+    /// What a scene has, as `--set` takes it; none where it has no such table.
+    pub fn of(&self, scene: &Scene) -> Option<String> {
+        let (table, name) = self.key.split_once('.')?;
+        let Some(Out::Table(entries)) = ROOT.keys.iter().find(|key| key.name == table)?.field.write(scene) else {
+            return None;
+        };
+        entries.into_iter().find(|(key, _)| key == name).map(|(_, value)| match value {
+            Out::Text(text) => text,
+            other => other.toml(),
+        })
+    }
+
+    /// A scene with another setting, and no other difference.
+    ///
+    /// # Errors
+    /// A setting that is none of the key's, or that does not go with the rest of the scene.
+    pub fn set(&self, scene: &Scene, setting: &str) -> Result<Scene, Faults> {
+        let over = [(&*self.key, setting)].into_iter().collect::<Overrides>();
+        let set = parse(&write_full(scene), Path::new(""), &over)?;
+        // A path that is no Unicode would not come through a text; and errors tell the places of the scene's own file.
+        Ok(Scene { volume: scene.volume.clone(), given: scene.given.clone(), ..set })
+    }
+}
+
+/// The knobs that a scene uses, in the order of the tables.
+pub fn knobs(scene: &Scene, plan: &Plan) -> Vec<Knob> {
+    let mut knobs = Vec::new();
+    for table in ROOT.section().keys {
+        for key in table.shape.section().into_iter().flat_map(|section| section.keys) {
+            let Some(ladder) = key.ladder else { continue };
+            let settings = (ladder.settings)(scene, plan);
+            if settings.len() > 1 {
+                knobs.push(Knob { key: format!("{}.{}", table.name, key.name), settings, limit: ladder.limit });
+            }
+        }
+    }
+    knobs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(more: &str) -> Scene {
+        let text = format!("drypoint = 1\n[volume]\nphantom = {{ name = \"torus\" }}\n{more}");
+        parse(&text, Path::new("scene.toml"), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"))
+    }
+
+    fn keys(scene: &Scene) -> Vec<String> {
+        knobs(scene, &Plan::new(scene)).into_iter().map(|knob| knob.key).collect()
+    }
+
+    /// What a scene uses whatever it shows.
+    const ALWAYS: [&str; 5] =
+        ["picture.samples", "sampling.step", "sampling.kernel", "sampling.number", "sampling.stop_below"];
+    const REGULAR: &str = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \"red\" }]\n";
+
+    #[test]
+    fn an_unshaded_scene_has_no_gradient_knob() {
+        assert_eq!(keys(&scene(REGULAR)), ALWAYS);
+    }
+
+    #[test]
+    fn a_knob_is_there_where_the_plan_needs_what_it_is_about() {
+        let beyond = |more: &str| {
+            let mut keys = keys(&scene(more));
+            keys.retain(|key| !ALWAYS.contains(&&**key));
+            keys.join(" ")
+        };
+        assert_eq!(beyond(&format!("{REGULAR}[shading]\n")), "sampling.gradient");
+        // Contours of a regular function do not exist.
+        assert_eq!(beyond(&format!("{REGULAR}[contours]\nkappa = \"exact\"\n")), "");
+        assert_eq!(beyond("[contours]\n"), "sampling.gradient contours.kappa");
+        assert_eq!(beyond("[contours]\nkappa = \"none\"\n"), "sampling.gradient");
+        let exact = "[contours]\nkappa = \"exact\"\n";
+        let second = "sampling.gradient sampling.hessian sampling.scale contours.kappa";
+        assert_eq!(beyond(exact), second);
+        // Only what smooths has a width.
+        let central = "[sampling]\nhessian = \"central\"\n";
+        assert_eq!(beyond(&format!("{exact}{central}")), second.replace("sampling.scale ", ""));
+        let biases = "style_mipmaps.curvature_bias style_mipmaps.gradient_bias";
+        assert_eq!(beyond("[style_mipmaps]\n"), format!("sampling.gradient {biases}"));
+        let none = "[style_mipmaps]\n[contours]\nkappa = \"none\"\n";
+        assert_eq!(beyond(none), "sampling.gradient style_mipmaps.gradient_bias");
+    }
+
+    #[test]
+    fn every_setting_can_be_set_and_is_read_back() {
+        let mut set = 0;
+        for more in ["", "kernel = \"bspline\"\n", "kernel = \"bspline5\"\nhessian = \"analytic\"\n"] {
+            let scene = scene(&format!("[contours]\nkappa = \"exact\"\n[style_mipmaps]\n[sampling]\n{more}"));
+            for knob in knobs(&scene, &Plan::new(&scene)) {
+                for setting in knob.settings {
+                    let other = knob.set(&scene, setting).unwrap_or_else(|faults| panic!("{faults}"));
+                    assert_eq!(knob.of(&other).as_deref(), Some(*setting), "{}", knob.key);
+                    let back = knob.set(&other, &knob.of(&scene).unwrap()).unwrap();
+                    assert_eq!(back, scene, "{} changes nothing else", knob.key);
+                    set += 1;
+                }
+            }
+        }
+        assert!(set > 90, "{set}");
+    }
+}

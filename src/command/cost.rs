@@ -1,0 +1,69 @@
+//! `cost`: what accuracy costs.
+
+use super::input::{self, Over, Set};
+use super::report::{Progress, note, print};
+use super::{Done, Outcome, Talk};
+use clap::Args;
+use clap::builder::RangedU64ValueParser;
+use drypoint::Failure;
+use drypoint::cost::{Form, Options, csv, sweep};
+use drypoint::output::atomic;
+use std::path::PathBuf;
+
+/// Turn every knob of a scene from coarse to fine, and tell the error and the time of each setting.
+///
+/// A knob is a key that trades accuracy for time: the step, the kernel, early termination and others, as far as the
+/// scene uses them. One is turned at a time. The error is that of the picture in linear light: against the formula of a
+/// phantom, else against the knob's finest setting.
+#[derive(Debug, Args)]
+pub(super) struct Cost {
+    /// A scene or a volume; without either, the embedded scene
+    #[arg(value_name = "SCENE|VOLUME")]
+    input: Option<PathBuf>,
+    /// Where to write, as often as wanted: .csv, .md for a Markdown table, .svg or .png for a plot of error against time
+    /// [default: CSV on standard output]
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+    /// Turn this knob alone, such as sampling.step; as often as wanted
+    #[arg(long, value_name = "KEY")]
+    knob: Vec<String>,
+    /// How often each setting is timed; what is told is the median
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = RangedU64ValueParser::<usize>::new().range(1..=1000))]
+    runs: usize,
+    #[command(flatten)]
+    set: Set,
+}
+
+impl Cost {
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        // A sweep takes its time: what is wrong with the files is told before.
+        let mut files = Vec::new();
+        for path in self.output {
+            let form = Form::of(&path)?;
+            atomic::check(&path).map_err(|error| Failure::picture(&error, path.display()))?;
+            files.push((path, form));
+        }
+        let over = Over::new(&self.set, Vec::new())?;
+        let job = {
+            let _loading = Progress::new(talk, "loading");
+            input::load(self.input.as_deref(), &over)?
+        };
+        input::tell(talk, &job);
+        let found = {
+            let progress = Progress::new(talk, "measuring");
+            sweep(&job, &Options { runs: self.runs, only: self.knob }, &|share| progress.hear(share))?
+        };
+        for (knob, setting, failure) in &found.left_out {
+            note(talk, format_args!("warning: {knob} = {setting} is left out: {}", failure.what));
+        }
+        for (path, form) in &files {
+            let name = self.input.as_deref().map_or("the embedded scene".into(), super::target::stem);
+            let bytes = form.of_sweep(&found, &name).map_err(|what| {
+                Failure::new(what, path.display(), "write a .csv, or turn a knob that changes the picture")
+            })?;
+            atomic::write(path, &bytes).map_err(|error| Failure::picture(&error, path.display()))?;
+            note(talk, path.display());
+        }
+        if files.is_empty() { print(&csv(&found)) } else { Ok(Done::Yes) }
+    }
+}

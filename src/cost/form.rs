@@ -1,0 +1,74 @@
+//! Which form of a sweep the suffix of a name asks for.
+
+use super::{Sweep, csv, markdown, plot};
+use crate::Failure;
+use std::path::Path;
+
+/// A form that a sweep is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The table of the contract.
+    Csv,
+    /// The table for people.
+    Markdown,
+    /// The plot in lines and letters; the letters' font is the viewer's.
+    Svg,
+    /// The plot in pixels, with a font of its own.
+    Png,
+}
+
+impl Form {
+    /// The form of a name, by its suffix; case does not count.
+    ///
+    /// # Errors
+    /// Any other suffix.
+    pub fn of(path: &Path) -> Result<Self, Failure> {
+        let suffix = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+        match suffix.as_str() {
+            "csv" => Ok(Self::Csv),
+            "md" => Ok(Self::Markdown),
+            "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
+            _ => {
+                let what = match suffix.as_str() {
+                    "" => "the name has no suffix, which chooses the form".into(),
+                    _ => format!(".{suffix} is the suffix of no form that costs are written in"),
+                };
+                Err(Failure::new(what, path.display(), "give a name that ends in .csv, .md, .svg or .png"))
+            }
+        }
+    }
+
+    /// The bytes of a file; `name` is the title of a plot.
+    ///
+    /// # Errors
+    /// A plot without a point: no setting has an error.
+    pub fn of_sweep(self, sweep: &Sweep, name: &str) -> Result<Vec<u8>, String> {
+        match self {
+            Self::Csv => Ok(csv(sweep).into_bytes()),
+            Self::Markdown => Ok(markdown(sweep).into_bytes()),
+            Self::Svg => plot::svg(sweep, name).map(String::into_bytes),
+            Self::Png => plot::png(sweep, name),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_suffix_chooses() {
+        let of = |name: &str| Form::of(Path::new(name));
+        assert_eq!(
+            [of("a.csv"), of("b.MD"), of("c.svg"), of("d.x.png")].map(Result::unwrap),
+            [Form::Csv, Form::Markdown, Form::Svg, Form::Png]
+        );
+        for (name, what) in [
+            ("a.pdf", ".pdf is the suffix of no form that costs are written in"),
+            ("csv", "the name has no suffix, which chooses the form"),
+        ] {
+            assert_eq!(of(name).unwrap_err().what, what, "{name}");
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! The settings that nothing beats ([COST-1]).
+
+use super::{Row, Truth};
+
+/// The rows that no other row beats, fastest first: none of the same kind of truth has at most their error in at most their
+/// time, and less of one. Against the formula all rows have one truth; against finest settings each row's error is what its own knob
+/// adds, and the front says which knob to turn first. A row without error is its own truth, and stands on none.
+pub fn front(rows: &[Row], analytic: bool) -> Vec<&Row> {
+    let mut of_kind: Vec<&Row> =
+        rows.iter().filter(|r| (r.truth == Truth::Analytic) == analytic && r.rms > 0.0).collect();
+    of_kind.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then(a.rms.total_cmp(&b.rms)));
+    let mut least = f64::INFINITY;
+    of_kind.retain(|row| {
+        let better = row.rms < least;
+        least = least.min(row.rms);
+        better
+    });
+    of_kind
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(setting: &str, seconds: f64, rms: f64, truth: Truth) -> Row {
+        Row {
+            knob: "sampling.step".into(),
+            setting: setting.into(),
+            own: false,
+            rms,
+            max: rms,
+            flip: rms,
+            seconds,
+            spread: 0.0,
+            samples: 1,
+            bytes: 1,
+            truth,
+        }
+    }
+
+    #[test]
+    fn what_is_slower_and_worse_is_not_on_it() {
+        let finest = || Truth::Finest("d".into());
+        let rows = [
+            row("a", 1.0, 0.5, finest()),
+            row("slow", 3.0, 0.5, finest()),
+            row("b", 2.0, 0.1, finest()),
+            row("equal but slower", 2.5, 0.1, finest()),
+            row("worse in the same time", 2.0, 0.2, finest()),
+            row("d", 9.0, 0.0, finest()),
+            row("of another kind", 0.1, 0.01, Truth::Analytic),
+        ];
+        let names = |analytic| front(&rows, analytic).iter().map(|row| row.setting.clone()).collect::<Vec<_>>();
+        assert_eq!(names(false), ["a", "b"]);
+        assert_eq!(names(true), ["of another kind"]);
+        assert!(front(&[], true).is_empty());
+    }
+}

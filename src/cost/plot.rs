@@ -1,0 +1,200 @@
+//! A sweep as a plot: error against time on two logarithmic axes, a colour and a mark for each knob, and the front of
+//! what nothing beats with its settings named ([COST-1]).
+
+use super::{Row, Sweep, Truth, front};
+use kuva::backend::png::PngBackend;
+use kuva::backend::svg::SvgBackend;
+use kuva::plot::LinePlot;
+use kuva::plot::legend::LegendPosition;
+use kuva::plot::scatter::{MarkerShape, ScatterPlot};
+use kuva::render::annotations::ReferenceLine;
+use kuva::render::layout::{Layout, TickFormat};
+use kuva::render::plots::Plot;
+use kuva::render::render::{Scene, render_multiple};
+use std::sync::Arc;
+
+/// Colours of knobs in their order, told apart by most colour-blind people (Okabe and Ito 2008) as far as they reach; then
+/// their darker sisters with other marks.
+const COLORS: [&str; 12] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7a4fbf", "#8c510a", "#003f63", "#7f3800",
+    "#005f45", "#7a4865",
+];
+
+const MARKS: [MarkerShape; 5] =
+    [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond, MarkerShape::TriangleDown];
+
+/// The smallest error and time that a logarithmic axis shows.
+const LEAST: f64 = 1e-9;
+
+/// Pixels of the PNG for each of the plot's units.
+const SCALE: f32 = 1.5;
+
+/// The plot as SVG; its letters are drawn in the viewer's font.
+///
+/// # Errors
+/// No setting has an error.
+pub(super) fn svg(sweep: &Sweep, name: &str) -> Result<String, String> {
+    Ok(SvgBackend::default().render_scene(&drawn(sweep, name)?))
+}
+
+/// The plot as PNG, with letters of its own.
+///
+/// # Errors
+/// No setting has an error, or what the encoder says.
+pub(super) fn png(sweep: &Sweep, name: &str) -> Result<Vec<u8>, String> {
+    PngBackend::new().with_scale(SCALE).render_scene(&drawn(sweep, name)?)
+}
+
+fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
+    let shown: Vec<&Row> = sweep.rows.iter().filter(|row| row.rms >= LEAST && row.seconds >= LEAST).collect();
+    if shown.is_empty() {
+        return Err("there is nothing to plot: no setting has an error".into());
+    }
+    let mut knobs: Vec<&str> = sweep.rows.iter().map(|row| row.knob.as_str()).collect();
+    knobs.dedup();
+    let (mut plots, names) = fronts(sweep);
+    for (i, knob) in knobs.iter().enumerate() {
+        let rows: Vec<&Row> = shown.iter().copied().filter(|row| row.knob == *knob).collect();
+        let Some(first) = rows.first() else { continue };
+        let truth = match first.truth {
+            Truth::Analytic => "",
+            Truth::Finest(_) => " *",
+        };
+        let color = COLORS[i % COLORS.len()];
+        let at: Vec<(f64, f64)> = rows.iter().map(|row| (row.seconds, row.rms)).collect();
+        plots.push(Plot::Line(LinePlot::new().with_data(at.clone()).with_color(color).with_stroke_width(1.2)));
+        let marks = ScatterPlot::new()
+            .with_data(at)
+            .with_x_err(rows.iter().map(|row| row.spread / 2.0))
+            .with_color(color)
+            .with_marker(MARKS[i % MARKS.len()])
+            .with_size(4.5)
+            .with_legend(format!("{knob}{truth}"));
+        plots.push(Plot::Scatter(marks));
+    }
+    plots.extend(names);
+    let [width, height] = sweep.size;
+    let analytic = sweep.rows.iter().any(|row| row.truth == Truth::Analytic);
+    let against =
+        if analytic { "against the formula; *: against the finest setting" } else { "*: against the finest setting" };
+    let [fast, slow] = reach(&shown, |row| row.seconds);
+    let [small, large] = reach(&shown, |row| row.rms);
+    let mut layout = Layout::auto_from_plots(&plots)
+        .with_width(1000.0)
+        .with_height(640.0)
+        .with_log_scale()
+        .with_x_axis_min(fast / 1.5)
+        .with_x_axis_max(slow * 1.5)
+        .with_y_axis_min(small / 2.0)
+        .with_y_axis_max(large * 2.0)
+        .with_x_tick_format(TickFormat::Custom(Arc::new(time)))
+        .with_title(format!("{name}: what accuracy costs"))
+        .with_x_label(format!("time of a picture of {width} × {height} pixels, median of {} runs", sweep.runs))
+        .with_y_label(format!("RMS error, {against}"))
+        .with_legend_position(LegendPosition::OutsideRightTop)
+        .with_title_size(18)
+        .with_label_size(13)
+        .with_tick_size(11);
+    if let Some(own) = sweep.rows.iter().find(|row| row.own) {
+        layout = layout.with_reference_line(
+            ReferenceLine::vertical(own.seconds).with_label("the scene as it is").with_color("#888888"),
+        );
+    }
+    Ok(render_multiple(plots, layout))
+}
+
+/// Smallest and largest of what is shown.
+fn reach(rows: &[&Row], of: fn(&Row) -> f64) -> [f64; 2] {
+    rows.iter().map(|row| of(row)).fold([f64::INFINITY, 0.0], |[lo, hi], x| [lo.min(x), hi.max(x)])
+}
+
+/// Seconds as people say them.
+fn time(seconds: f64) -> String {
+    // Marks of a logarithmic axis are 1, 2 or 5 times a power of ten, but for rounding.
+    let digits = |x: f64| format!("{}", (x * 1e6).round() / 1e6);
+    match seconds {
+        _ if seconds >= 1.0 => format!("{} s", digits(seconds)),
+        _ if seconds >= 1e-3 => format!("{} ms", digits(seconds * 1e3)),
+        _ => format!("{} µs", digits(seconds * 1e6)),
+    }
+}
+
+/// The fronts, wide and grey, which go behind all else, and the names of their settings, which go before it.
+fn fronts(sweep: &Sweep) -> (Vec<Plot>, Vec<Plot>) {
+    let (mut lines, mut names) = (Vec::new(), Vec::new());
+    for (analytic, color, legend) in [(true, "#bdbdbd", "Pareto front"), (false, "#e3e3e3", "Pareto front *")] {
+        let rows: Vec<&Row> = front(&sweep.rows, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
+        if rows.is_empty() {
+            continue;
+        }
+        let at: Vec<(f64, f64)> = rows.iter().map(|row| (row.seconds, row.rms)).collect();
+        let line = LinePlot::new().with_data(at.clone()).with_color(color).with_stroke_width(8.0).with_legend(legend);
+        let discs = ScatterPlot::new().with_data(at).with_color(color).with_size(9.0);
+        let name = |row: &&Row| format!("{} {}", row.knob.rsplit('.').next().unwrap_or_default(), row.setting);
+        let named = discs.clone().with_marker_opacity(0.0).with_labels(rows.iter().map(name)).with_repel_labels();
+        lines.extend([Plot::Line(line), Plot::Scatter(discs)]);
+        names.push(Plot::Scatter(named));
+    }
+    (lines, names)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(knob: &str, setting: &str, seconds: f64, rms: f64) -> Row {
+        let truth = Truth::Finest("f".into());
+        let (knob, setting) = (knob.into(), setting.into());
+        Row {
+            knob,
+            setting,
+            own: rms == 0.5,
+            rms,
+            max: rms,
+            flip: rms,
+            seconds,
+            spread: 0.1,
+            samples: 1,
+            bytes: 1,
+            truth,
+        }
+    }
+
+    fn sweep(rows: Vec<Row>) -> Sweep {
+        Sweep { rows, left_out: Vec::new(), runs: 1, threads: 1, size: [3, 2] }
+    }
+
+    #[test]
+    fn every_knob_has_a_place_and_the_front_has_names() {
+        let rows = vec![
+            row("sampling.step", "4 voxels", 0.01, 0.5),
+            row("sampling.step", "1 voxel", 0.1, 0.05),
+            row("sampling.kernel", "slow and bad", 0.2, 0.4),
+            row("sampling.kernel", "its own truth", 0.3, 0.0),
+        ];
+        let text = svg(&sweep(rows), "a <scene>").unwrap();
+        for part in [
+            "sampling.step *",
+            "sampling.kernel *",
+            "step 4 voxels",
+            "step 1 voxel",
+            "Pareto front *",
+            "a &lt;scene&gt;",
+        ] {
+            assert!(text.contains(part), "{part}\n{text}");
+        }
+        assert!(!text.contains("slow and bad") && !text.contains("its own truth"));
+        let bytes = png(&sweep(vec![row("sampling.step", "4 voxels", 0.01, 0.5)]), "a").unwrap();
+        assert!(bytes.starts_with(b"\x89PNG"));
+    }
+
+    #[test]
+    fn nothing_to_plot_is_an_error() {
+        assert!(svg(&sweep(vec![row("sampling.step", "fine", 0.1, 0.0)]), "a").is_err());
+    }
+
+    #[test]
+    fn times_have_their_units() {
+        assert_eq!([2.0, 0.5, 0.1 + 0.2 - 0.28, 2e-5].map(time), ["2 s", "500 ms", "20 ms", "20 µs"]);
+    }
+}

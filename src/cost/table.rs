@@ -1,0 +1,113 @@
+//! A sweep as CSV and as Markdown.
+
+use super::{Row, Sweep, front};
+
+/// The columns of the contract.
+const COLUMNS: &str = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth";
+
+/// One line a setting under a line of names. Numbers have all the digits that they need.
+pub fn csv(sweep: &Sweep) -> String {
+    let mut text = format!("{COLUMNS}\n");
+    for row in &sweep.rows {
+        let Row { rms, max, flip, seconds, spread, samples, bytes, .. } = row;
+        let [knob, setting, truth] = [&row.knob, &row.setting, &row.truth.to_string()].map(|cell| quoted(cell));
+        text += &format!("{knob},{setting},{rms:e},{max:e},{flip:e},{seconds},{spread},{samples},{bytes},{truth}\n");
+    }
+    text
+}
+
+/// A cell; in quotes where it would end before its end.
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.into() }
+}
+
+/// A table for people: what the scene itself says in bold, what nothing beats with a dot.
+pub fn markdown(sweep: &Sweep) -> String {
+    let Sweep { size: [width, height], runs, threads, .. } = sweep;
+    let mut text = format!(
+        "{width} × {height} pixels, {threads} threads, medians of {runs} runs. **Bold**: what the scene says; ●: no other \
+         setting with the same kind of truth has less error in less time.\n\n\
+         | knob | setting | RMS | max | FLIP | ms | spread | samples | MB | truth |\n\
+         |---|---|--:|--:|--:|--:|--:|--:|--:|---|\n"
+    );
+    let best = [front(&sweep.rows, true), front(&sweep.rows, false)].concat();
+    let mut last = "";
+    for row in &sweep.rows {
+        let knob = if row.knob == last { String::new() } else { format!("`{}`", row.knob) };
+        last = &row.knob;
+        let setting = if row.own { format!("**{}**", row.setting) } else { row.setting.clone() };
+        let dot = if best.iter().any(|other| std::ptr::eq(*other, row)) { " ●" } else { "" };
+        let [rms, max, flip] = [row.rms, row.max, row.flip].map(error);
+        let [ms, spread] = [row.seconds, row.spread].map(|seconds| format!("{:.1}", seconds * 1e3));
+        let (samples, megabytes) = (count(row.samples), row.bytes as f64 / 1e6);
+        let truth = row.truth.to_string();
+        text += &format!(
+            "| {knob} | {setting}{dot} | {rms} | {max} | {flip} | {ms} | {spread} | {samples} | {megabytes:.1} | {truth} |\n"
+        );
+    }
+    text
+}
+
+/// Two digits that count.
+fn error(x: f64) -> String {
+    if x == 0.0 { "0".into() } else { format!("{x:.1e}") }
+}
+
+/// In thousands or millions.
+fn count(n: u64) -> String {
+    match n {
+        0..10_000 => n.to_string(),
+        10_000..10_000_000 => format!("{:.0} k", n as f64 / 1e3),
+        _ => format!("{:.1} M", n as f64 / 1e6),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Truth;
+    use super::*;
+
+    fn sweep() -> Sweep {
+        let row = Row {
+            knob: "sampling.step".into(),
+            setting: "2 voxels".into(),
+            own: false,
+            rms: 0.0123,
+            max: 0.5,
+            flip: 0.001,
+            seconds: 0.0125,
+            spread: 0.0005,
+            samples: 123_456,
+            bytes: 2_600_000,
+            truth: Truth::Analytic,
+        };
+        let fine =
+            Row { setting: "1 voxel".into(), own: true, rms: 0.0, truth: Truth::Finest("a, b".into()), ..row.clone() };
+        Sweep { rows: vec![row, fine], left_out: Vec::new(), runs: 3, threads: 2, size: [32, 24] }
+    }
+
+    #[test]
+    fn as_csv() {
+        let expected = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth\n\
+             sampling.step,2 voxels,1.23e-2,5e-1,1e-3,0.0125,0.0005,123456,2600000,analytic\n\
+             sampling.step,1 voxel,0e0,5e-1,1e-3,0.0125,0.0005,123456,2600000,\"finest: a, b\"\n";
+        assert_eq!(csv(&sweep()), expected);
+    }
+
+    #[test]
+    fn as_markdown() {
+        let text = markdown(&sweep());
+        let lines: Vec<&str> = text.lines().skip(2).collect();
+        assert!(text.starts_with("32 × 24 pixels, 2 threads, medians of 3 runs."));
+        assert_eq!(
+            lines[2],
+            "| `sampling.step` | 2 voxels ● | 1.2e-2 | 5.0e-1 | 1.0e-3 | 12.5 | 0.5 | 123 k | 2.6 | analytic |"
+        );
+        assert_eq!(lines[3], "|  | **1 voxel** | 0 | 5.0e-1 | 1.0e-3 | 12.5 | 0.5 | 123 k | 2.6 | finest: a, b |");
+    }
+
+    #[test]
+    fn counts_are_short() {
+        assert_eq!([0, 9_999, 10_000, 12_345_678].map(count), ["0", "9999", "10 k", "12.3 M"]);
+    }
+}
