@@ -16,16 +16,26 @@ const ROUNDS: usize = 9;
 const PAPER: [(&str, [f64; 2]); 4] = [("a", [11.7, 11.9]), ("b", [10.5, 9.6]), ("c", [10.1, 8.1]), ("d", [12.5, 12.8])];
 
 fn main() -> Result<(), String> {
-    println!("| Fig. 7 | regular, ms | style, ms | style : regular | without contours | the paper's |");
-    println!("|---|--:|--:|--:|--:|--:|");
+    println!("| Fig. 7 | regular, ms | style, ms | ratio | without contours | the paper's | samples, 1000 |");
+    println!("|---|--:|--:|--:|--:|--:|--:|");
     for (name, [regular, style]) in PAPER {
         let jobs = [
             job(&format!("figure_7_{name}_regular"), &[])?,
             job(&format!("figure_7_{name}"), &[])?,
             job(&format!("figure_7_{name}"), &["contours=off"])?,
         ];
-        let [a, b, c] = in_turns(&jobs)?;
-        println!("| {name} | {:.0} | {:.0} | {:.2} | {:.2} | {:.2} |", a * 1e3, b * 1e3, b / a, c / a, regular / style);
+        let [(a, l), (b, m), (c, n)] = in_turns(&jobs)?;
+        println!(
+            "| {name} | {:.0} | {:.0} | {:.2} | {:.2} | {:.2} | {} : {} : {} |",
+            a * 1e3,
+            b * 1e3,
+            b / a,
+            c / a,
+            regular / style,
+            l / 1000,
+            m / 1000,
+            n / 1000,
+        );
     }
     Ok(())
 }
@@ -40,21 +50,25 @@ fn job(name: &str, changes: &[&str]) -> Result<Job, String> {
     Job::load(scene).map_err(|e| e.to_string())
 }
 
-/// The median seconds of a frame of each.
-fn in_turns<const N: usize>(jobs: &[Job; N]) -> Result<[f64; N], String> {
+/// The median seconds of a frame of each, and its samples: the more opaque, the earlier rays end.
+fn in_turns<const N: usize>(jobs: &[Job; N]) -> Result<[(f64, u64); N], String> {
     let mut seconds = [const { Vec::new() }; N];
+    let mut samples = [0; N];
     let renderers = jobs.iter().map(Job::renderer).collect::<Result<Vec<_>, _>>().map_err(|e| e.to_string())?;
     for round in 0..=ROUNDS {
-        for (renderer, seconds) in renderers.iter().zip(&mut seconds) {
+        for ((renderer, seconds), samples) in renderers.iter().zip(&mut seconds).zip(&mut samples) {
             let start = Instant::now();
-            std::hint::black_box(renderer.frame(&|_| ()));
+            let (picture, counts) = renderer.frame(&|_| ());
+            std::hint::black_box(picture);
+            *samples = counts.samples;
             if round > 0 {
                 seconds.push(start.elapsed().as_secs_f64());
             }
         }
     }
-    Ok(seconds.map(|mut s| {
+    let medians = seconds.map(|mut s| {
         s.sort_by(f64::total_cmp);
         s[s.len() / 2]
-    }))
+    });
+    Ok(std::array::from_fn(|i| (medians[i], samples[i])))
 }

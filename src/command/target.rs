@@ -36,7 +36,10 @@ pub(super) fn picture(path: &Path, formats: &[Format]) -> Result<Format, Failure
         // Its suffix does not matter.
         writable(path)?;
     }
-    let format = Format::of(path)?;
+    let format = Format::of(path).map_err(|failure| match formats {
+        [Format::Png] => Failure { remedy: "give a name that ends in .png".into(), ..failure },
+        _ => failure,
+    })?;
     if !formats.contains(&format) {
         return Err(Failure::new("this picture is written as PNG", path.display(), "give a name that ends in .png"));
     }

@@ -1,6 +1,9 @@
 //! What must be true of every page that people read: its scenes are scenes, and its links lead somewhere ([IO-3]).
 
 use crate::files::in_docs;
+use drypoint::job::Job;
+use drypoint::output::compare::{Options, compare};
+use drypoint::output::read::Image;
 use drypoint::scene::file::{Overrides, parse};
 use std::path::{Path, PathBuf};
 
@@ -52,6 +55,21 @@ fn scenes_on_pages_are_scenes() {
         }
     }
     assert!(read >= 6, "only {read} scenes were found");
+}
+
+/// The numbers by which errata show that the printed normal makes another picture are those of the printed recipe.
+#[test]
+fn the_recipe_of_errata_gives_its_numbers() {
+    let text = std::fs::read_to_string(in_docs("papers/errata.md")).unwrap();
+    let ball = blocks(&text, "toml").into_iter().find(|block| block.contains("\"sphere\"")).unwrap();
+    let [outward, printed] = ["outward", "gradient"].map(|side| {
+        let overrides = Overrides::from_iter([("sampling.normal", side)]);
+        let job = Job::load(parse(ball, Path::new("ball.toml"), &overrides).unwrap()).unwrap();
+        Image::from(&job.renderer().unwrap().frame(&|_| ()).0)
+    });
+    let compared = compare(&outward, &printed, &Options::default()).unwrap();
+    let said = format!("differ by up to {:.2}, and the mean FLIP is {:.2}", compared.max, compared.flip.unwrap());
+    assert!(text.contains(&said), "{said}");
 }
 
 /// The anchors of a page's headings, as GitHub makes them.

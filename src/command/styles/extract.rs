@@ -60,7 +60,9 @@ impl Extract {
             let shown = (found.shown * 100.0).floor();
             note(
                 talk,
-                format_args!("the picture shows {shown} % of this sphere; what it does not show continues that"),
+                format_args!(
+                    "the picture shows {shown} % of the directions of a sphere; the others continue what it shows"
+                ),
             );
         }
         Ok(Done::Yes)

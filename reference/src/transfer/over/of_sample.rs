@@ -56,3 +56,24 @@ impl<R: Real> Measure<R> for Differential {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A saddle by hand: κ₁ = 3, κ₂ = −1, κ_v = 2.
+    #[test]
+    fn each_curvature_is_its_own() {
+        let here = Here::<f64> { principal: [3.0, -1.0], kappa: 2.0, ..Here::at([0.0; 3]) };
+        let number = |axis: Differential| axis.at(&here);
+        for (axis, expected) in [
+            (Differential::K1, 3.0),
+            (Differential::K2, -1.0),
+            (Differential::Mean, 1.0),
+            (Differential::Gaussian, -3.0),
+            (Differential::AlongView, 2.0),
+        ] {
+            assert_eq!(number(axis), Coordinate::Number(expected));
+        }
+    }
+}
