@@ -12,7 +12,7 @@ use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
     Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Kappa, Kernel,
     Length, LightDirection, Mix, NormalSide, Number, Outside, PhantomSource, Projection, Scene, Shading, SignFlip,
-    SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Transparency, Unit, VolumeSource,
+    SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Table, Transparency, Unit, VolumeSource,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -218,6 +218,9 @@ fn function(r: &mut Random, volume: Volume) -> Shot {
         let mut at: Vec<f64> = nodes.iter().map(|_| r.pick(&ends)).collect();
         at.sort_by(f64::total_cmp);
         nodes.iter_mut().zip(at).for_each(|(node, at)| node.at = at);
+    }
+    if r.once_in(4) {
+        t.table = Table::Entries(r.pick(&[2, 3, 16, 257]));
     }
     shot
 }

@@ -137,7 +137,10 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         let mut facts = Facts::none();
         self.learn(k, at, prepared.calls, &mut facts, counts);
         counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
-        let (rgb, alpha) = prepared.look.color(place, &facts, &self.sight, counts);
+        let (rgb, alpha) = match &prepared.table {
+            None => prepared.look.color(place, &facts, &self.sight, counts),
+            Some(table) => prepared.look.color(&table.between_nodes(place), &facts, &self.sight, counts),
+        };
         self.composite(k, at, s, (rgb, alpha), &mut facts, counts);
     }
 

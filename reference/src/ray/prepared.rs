@@ -7,7 +7,7 @@ use super::skip::Skip;
 use crate::field::Field;
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray::Turn;
-use crate::transfer::Piecewise;
+use crate::transfer::{Piecewise, Table};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::tables::{NormalSide, Outside};
 use drypoint_scene::view::View;
@@ -81,6 +81,8 @@ pub(super) struct Prepared<'v, R> {
     pub(super) skip: Option<Skip>,
     /// α_u over the value; with two quantities, the values at which it can be above 0.
     pub(super) function: Piecewise<R>,
+    /// From entries to nodes, where the function is read from a table.
+    pub(super) table: Option<Table<R>>,
     /// The function itself where it is over two quantities.
     pub(super) over_two: Option<OverTwo<'v, R>>,
     pub(super) look: Look<R>,

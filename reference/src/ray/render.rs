@@ -14,7 +14,7 @@ use crate::number::{Real, Vec3};
 use crate::shading::Phong;
 use crate::style_transfer_functions::curvature_along_ray::Turn;
 use crate::style_transfer_functions::{Contour, Detail, Footprint, Spheres, StyleIndex};
-use crate::transfer::{NodesError, Piecewise, gate};
+use crate::transfer::{NodesError, Piecewise, Table, gate};
 use crate::with_sampler;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
@@ -261,6 +261,10 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
             (gate::over_value(at, opacity, rows)?, Some(over_two))
         }
     };
+    let table = function.table().map(|(index, nodes)| Table::new(index, nodes));
+    if let Some(table) = &table {
+        counts.bytes.insert("table".into(), table.bytes() as u64);
+    }
     let look = look(inputs, &view)?;
     if let Look::Style(styled) = &look
         && let Some(bytes) = styled.spheres.mipmap_bytes()
@@ -274,6 +278,7 @@ fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> Result<Prep
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
         function: over_value,
+        table,
         over_two,
         look,
         calls,

@@ -8,8 +8,9 @@ use crate::file::describe::{Instead, Key, Kind, Shape, Slot, Table as Descriptio
 use crate::file::item::Item;
 use crate::file::kind::{Choice, ChoiceOption, Whole};
 use crate::file::out::Out;
-use crate::plan::{Pass, Quantity};
-use crate::tables::Projection;
+use crate::knobs::Ladder;
+use crate::plan::{Pass, Plan, Quantity};
+use crate::tables::{Projection, Scene};
 use serde_json::{Value as Json, json};
 
 /// The table `[transfer]`.
@@ -174,6 +175,9 @@ pub(crate) static TABLE: Description<Transfer> = Description {
         } else if !transfer.over.axes().iter().any(|axis| matches!(axis, Axis::Value | Axis::GradientMagnitude)) {
             idle.key("transfer.unit", "it measures values and gradient magnitudes, and the function is over others");
         }
+        if transfer.over != Over::Value {
+            idle.key("transfer.table", "a function over two quantities is evaluated exactly");
+        }
         if transfer.kind == TransferKind::Regular {
             for key in ["transfer.transparency", "transfer.mix", "transfer.sphere_frame"] {
                 idle.key(key, "it acts on styles, and the function is regular");
@@ -318,14 +322,24 @@ pub(crate) static TABLE: Description<Transfer> = Description {
             Key::new(
                 "table",
                 "STF-3",
-                "How the function is evaluated.",
+                "How the function is evaluated: exactly, or from a table of so many entries over the range of values, as \
+                 graphics hardware does.",
                 &Slot { kind: Evaluation, get: |t: &Transfer| Some(t.table), set: |t, v| t.table = v },
-            ),
+            )
+            .knob(Ladder::to_finest(tables)),
         ],
     )
 };
 
-/// `"exact"`; a number of entries is what a GPU does, and nothing here evaluates it yet.
+/// Sizes that graphics hardware has, where the function is over one quantity.
+fn tables(scene: &Scene, _: &Plan) -> &'static [&'static str] {
+    match &scene.transfer {
+        Some(transfer) if transfer.over == Over::Value => &["64", "256", "1024", "4096", "exact"],
+        _ => &[],
+    }
+}
+
+/// `"exact"`, or a number of entries.
 struct Evaluation;
 
 impl Evaluation {
@@ -335,11 +349,11 @@ impl Evaluation {
 
 impl Shape for Evaluation {
     fn expected(&self) -> String {
-        "\"exact\"".into()
+        format!("\"exact\" or {}", Self::ENTRIES.expected())
     }
 
     fn schema(&self) -> Json {
-        json!({ "const": "exact" })
+        json!({ "anyOf": [{ "const": "exact" }, Self::ENTRIES.schema()] })
     }
 }
 
@@ -350,7 +364,7 @@ impl Kind for Evaluation {
         match item.text() {
             Some("exact") => Some(Table::Exact),
             _ => match Self::ENTRIES.of(item) {
-                Some(n) => check.not_built(&item.place, format!("a table of {n} entries"), "STF-3"),
+                Some(n) => Some(Table::Entries(n as usize)),
                 None => check.wrong(item, self.expected()),
             },
         }

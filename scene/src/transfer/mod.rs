@@ -1,7 +1,9 @@
 //! Transfer functions over data values and other quantities: piecewise-linear nodes, and what a range of values can make
 //! visible ([RAY-2]).
 
-use crate::tables::{Axis, Node, NodeColor, Over, Row, Stand, Transfer, Unit};
+mod table;
+
+use crate::tables::{Axis, Node, NodeColor, Over, Row, Stand, Table, Transfer, Unit};
 use crate::volume::Volume;
 use crate::volume::histogram::quantiles;
 use std::cmp::Ordering;
@@ -16,6 +18,8 @@ pub struct Nodes<C> {
     pub opacity: Vec<f64>,
     /// What each node shows: an index j into the distinct styles, or a linear straight colour.
     pub color: Vec<C>,
+    /// i of each of `at` and `opacity`, where those are entries of a table and not nodes; none: they are the nodes.
+    pub index: Option<Vec<f64>>,
     /// How the nodes are rows of a function over two quantities; none: they are one line over the value.
     pub rows: Option<Rows>,
 }
@@ -109,7 +113,14 @@ impl Function {
         };
         let nodes: Vec<&Node> = lines.into_iter().flatten().collect();
         let at = to_values(nodes.iter().map(|n| n.at).collect(), rows.as_ref().map(|_| &transfer.over.axes()[0]));
-        let opacity = nodes.iter().map(|n| n.opacity).collect();
+        let opacity: Vec<f64> = nodes.iter().map(|n| n.opacity).collect();
+        let (at, opacity, index) = match transfer.table {
+            Table::Entries(n) if rows.is_none() && !at.is_empty() => {
+                let table::Entries { at, opacity, index } = table::Entries::new(&at, &opacity, n, range);
+                (at, opacity, Some(index))
+            }
+            _ => (at, opacity, None),
+        };
         let mut names: Vec<String> = Vec::new();
         let mut styles = Vec::new();
         let mut colors = Vec::new();
@@ -126,13 +137,22 @@ impl Function {
             }
         }
         Ok(Some(if names.is_empty() {
-            Self::Regular(Nodes { at, opacity, color: colors, rows })
+            Self::Regular(Nodes { at, opacity, color: colors, index, rows })
         } else {
-            Self::Style { nodes: Nodes { at, opacity, color: styles, rows }, names }
+            Self::Style { nodes: Nodes { at, opacity, color: styles, index, rows }, names }
         }))
     }
 
-    /// The positions and opacities of the nodes, and their rows.
+    /// i of each entry of a table and the number N of nodes, where the function is one.
+    pub fn table(&self) -> Option<(&[f64], usize)> {
+        let (index, nodes) = match self {
+            Self::Style { nodes, .. } => (&nodes.index, nodes.color.len()),
+            Self::Regular(nodes) => (&nodes.index, nodes.color.len()),
+        };
+        index.as_deref().map(|index| (index, nodes))
+    }
+
+    /// The positions and opacities of the nodes, or of a table's entries, and their rows.
     pub fn nodes(&self) -> (&[f64], &[f64], Option<&Rows>) {
         match self {
             Self::Style { nodes: Nodes { at, opacity, rows, .. }, .. } => (at, opacity, rows.as_ref()),

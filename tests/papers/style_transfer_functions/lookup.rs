@@ -5,10 +5,15 @@ use crate::common::strip::ramp;
 use crate::common::{Shot, ball, orthographic, perspective, plain, style, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Length, Mix, NormalSide, Outside, SphereFrame, Transparency};
+use drypoint::scene::tables::{Length, Mix, NormalSide, Outside, SphereFrame, Table, Transparency};
 
 /// A pixel of a constant volume: one sample, of a flat field.
 fn pixel(value: f64, nodes: &[(f64, &str, f64)], mix: Mix) -> [f64; 4] {
+    evaluated(value, nodes, mix, Table::Exact)
+}
+
+/// The same with values from 0 to 8 and a function that is evaluated in another way.
+fn evaluated(value: f64, nodes: &[(f64, &str, f64)], mix: Mix, table: Table) -> [f64; 4] {
     let styles = vec![
         plain("red", [1.0, 0.0, 0.0, 1.0]),
         plain("half", [0.0, 1.0, 0.0, 0.5]),
@@ -18,8 +23,13 @@ fn pixel(value: f64, nodes: &[(f64, &str, f64)], mix: Mix) -> [f64; 4] {
     let shot = Shot::styled(volume([5; 3], |_| value), styles, nodes).with_transfer(|t| {
         t.mix = mix;
         t.transparency = Transparency::Plain;
+        t.table = table;
     });
-    one_sample(&shot, [0.0, 1.0, 0.0], 2.0).with(|s| s.picture.size = [1, 1]).render().pixels()[0]
+    let shot = one_sample(&shot, [0.0, 1.0, 0.0], 2.0).with(|s| {
+        s.picture.size = [1, 1];
+        s.volume.range = Some([0.0, 8.0]);
+    });
+    shot.render().pixels()[0]
 }
 
 /// The same numbers but for what α loses on its way through logarithm and exponential, which are no identity for
@@ -59,6 +69,26 @@ fn one_node_and_two_at_one_value() {
         // Only one value at all.
         is(pixel(7.0, &[(7.0, "red", 1.0), (7.0, "blue", 0.5)], mix), [0.0, 0.0, 0.5, 0.5]);
         is(pixel(6.0, &[(7.0, "red", 1.0), (7.0, "blue", 0.5)], mix), [1.0, 0.0, 0.0, 1.0]);
+    }
+}
+
+/// Four entries over the values 0 to 8 stand at 1, 3, 5, 7. From red to blue at 4, as a step, i goes from ¾ at 3 to 2¼ at
+/// 5: at 4 it is 1½, half red and half blue, and α_u is half way too.
+#[test]
+fn a_table_makes_a_ramp_of_a_step() {
+    let step = [(0.0, "red", 1.0), (4.0, "red", 1.0), (4.0, "blue", 0.5), (8.0, "blue", 0.5)];
+    for mix in [Mix::Premultiplied, Mix::Printed] {
+        let at = |value| evaluated(value, &step, mix, Table::Entries(4));
+        is(at(4.0), [0.375, 0.0, 0.375, 0.75]);
+        is(at(3.0), [1.0, 0.0, 0.0, 1.0]);
+        is(at(5.0), [0.0, 0.0, 0.5, 0.5]);
+        // Below the first centre and above the last the entry holds.
+        assert_eq!([at(0.0), at(9.0)], [at(1.0), at(7.0)]);
+        // Where nodes are entries, there is no difference.
+        let own = [(1.0, "red", 0.25), (5.0, "blue", 0.75), (7.0, "blue", 0.25)];
+        for value in [0.0, 1.0, 2.0, 3.5, 5.0, 6.0, 7.5] {
+            is(evaluated(value, &own, mix, Table::Entries(4)), pixel(value, &own, mix));
+        }
     }
 }
 

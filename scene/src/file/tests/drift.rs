@@ -92,6 +92,7 @@ const SAMPLES: &[Sample] = &[
     ("transfer.sphere_frame", &[], "view"),
     ("styles", &[], "{ mine = \"b.png\" }"),
     ("styles.theme", &[], "my/theme"),
+    ("transfer.table", &[], "256"),
     ("shading", &[], "{}"),
     ("shading.ambient", &[("shading", "{}")], "0.1"),
     ("shading.diffuse", &[("shading", "{}")], "0.1"),
@@ -111,7 +112,7 @@ const SAMPLES: &[Sample] = &[
 ];
 
 /// Keys that can have one value only, so far.
-const ONE_VALUE: [&str; 4] = ["drypoint", "preset", "transfer.table", "shading.model"];
+const ONE_VALUE: [&str; 3] = ["drypoint", "preset", "shading.model"];
 
 fn with(settings: &[(&str, &str)]) -> Result<Scene, Faults> {
     parse(HEAD, Path::new("scene.toml"), &settings.iter().copied().collect())

@@ -130,7 +130,11 @@ fn a_wrong_value_says_what_may_stand_there() {
             "write a length of at least 0: a number in world units, or such as \"2 voxels\"",
         ),
         ("[shading]\nshininess = -1\n", "shading.shininess cannot be -1", "write a number of at least 0"),
-        ("[transfer]\ntable = 1\n", "transfer.table cannot be 1", "write \"exact\""),
+        (
+            "[transfer]\ntable = 1\n",
+            "transfer.table cannot be 1",
+            "write \"exact\" or a whole number from 2 to 16777216",
+        ),
         (
             "[transfer]\nnodes = []\n",
             "transfer.nodes cannot be []",
