@@ -9,9 +9,10 @@ mod framing;
 mod labels;
 mod levels;
 mod look;
+mod reach;
 mod stance;
 
-use body::Body;
+use body::{Body, Inside};
 use boundary::Boundary;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
@@ -64,7 +65,7 @@ fn of_values(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &m
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, Outside::Low));
     }
-    frame(&mut scene, volume, boundary.outermost().value, size);
+    frame(&mut scene, volume, Inside { value: boundary.outermost().value, outside: Outside::Low }, size);
     scene
 }
 
@@ -76,15 +77,15 @@ fn of_labels(source: VolumeSource, present: &Volume, size: [usize; 2]) -> Scene 
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(look::label_nodes());
     }
-    frame(&mut scene, present, 0.5, size);
+    frame(&mut scene, present, Inside { value: 0.5, outside: Outside::Low }, size);
     scene
 }
 
-/// Camera, picture and lines for the content from a value on.
-fn frame(scene: &mut Scene, volume: &Volume, value: f64, size: [usize; 2]) {
-    let body = Body::of(volume, value);
+/// Camera, picture and lines for the content.
+fn frame(scene: &mut Scene, volume: &Volume, inside: Inside, size: [usize; 2]) {
+    let body = Body::of(volume, inside);
     let Stance { direction, up } = Stance::of(volume, &body);
-    let fit = framing::fit(volume.grid(), &body, direction, up, FOV, size);
+    let fit = framing::fit(volume, &body, direction, up, FOV, size);
     scene.picture.size = size;
     scene.camera = Camera {
         projection: Projection::Perspective { fov: FOV },
