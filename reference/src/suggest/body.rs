@@ -18,12 +18,10 @@ pub(super) struct Inside {
 }
 
 impl Inside {
-    /// How far inside a value lies; below 0, how far outside.
+    /// How far inside a value lies, below 0 how far outside: half of it, since the whole can be beyond all numbers.
     pub(super) fn depth(self, value: f64) -> f64 {
-        match self.outside {
-            Outside::Low => value - self.value,
-            Outside::High => self.value - value,
-        }
+        let above = 0.5 * value - 0.5 * self.value;
+        if self.outside == Outside::Low { above } else { -above }
     }
 }
 
@@ -42,7 +40,6 @@ pub(super) struct Run {
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     dims: [usize; 3],
-    inside: Inside,
     runs: Vec<Run>,
 }
 
@@ -55,14 +52,9 @@ impl Body {
         if runs.is_empty() {
             let [nx, ny, nz] = dims;
             let row = |i: usize| Run { first: 0, last: nx - 1, y: i % ny, z: i / ny, solid: 0.0 };
-            return Self { dims, inside, runs: (0..ny * nz).map(row).collect() };
+            return Self { dims, runs: (0..ny * nz).map(row).collect() };
         }
-        Self { dims, inside, runs }
-    }
-
-    /// Which values belong to it.
-    pub(super) fn inside(&self) -> Inside {
-        self.inside
+        Self { dims, runs }
     }
 
     /// Its voxels.

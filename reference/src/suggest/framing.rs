@@ -1,6 +1,6 @@
 //! A camera that frames the content of a volume.
 
-use super::body::Body;
+use super::body::{Body, Inside};
 use super::reach::reach;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
@@ -16,14 +16,24 @@ pub(super) struct Fit {
     pub target: DVec3,
     /// World units from top to bottom of the picture, at the target.
     pub height: f64,
+    /// World units that the content takes across the picture.
+    pub extent: f64,
 }
 
-/// The nearest perspective camera in a direction from which all content projects into the frame's middle, as [`FILL`]
-/// says, and is centred there.
+/// The nearest perspective camera in a direction from which all content, with what is `seen` around it, projects into the
+/// frame's middle, as [`FILL`] says, and is centred there.
 ///
 /// With the content's points at (x, y) across and z along the view, |x − a| ≤ t(d + z) for the half width t of the frame
 /// at depth 1 asks for d ≥ (x − a)/t − z and d ≥ (a − x)/t − z: the best a balances the two maxima.
-pub(super) fn fit(volume: &Volume, body: &Body, direction: DVec3, up: DVec3, fov: f64, size: [usize; 2]) -> Fit {
+pub(super) fn fit(
+    volume: &Volume,
+    body: &Body,
+    seen: Inside,
+    direction: DVec3,
+    up: DVec3,
+    fov: f64,
+    size: [usize; 2],
+) -> Fit {
     let grid = volume.grid();
     let forward = direction.normalize();
     let right = forward.cross(up).normalize();
@@ -33,20 +43,21 @@ pub(super) fn fit(volume: &Volume, body: &Body, direction: DVec3, up: DVec3, fov
     // Both directions to the same share of the shorter side.
     let t = FILL * tan * (width / height).min(1.0);
     let across = [right / t, -right / t, up / t, -up / t].map(|sideways| sideways - forward);
-    let most = reach(volume, body, across);
-    let [towards] = reach(volume, body, [-forward]);
+    let most = reach(volume, body, seen, across);
+    let [towards, away] = reach(volume, body, seen, [-forward, forward]);
     let distance = ((most[0] + most[1]) / 2.0).max((most[2] + most[3]) / 2.0);
     let (a, b) = (t * (most[0] - most[1]) / 2.0, t * (most[2] - most[3]) / 2.0);
-    // The eye lies at depth −distance; never inside the content.
-    let depth = (-distance).min(-towards - grid.voxel());
+    // The eye lies at depth −distance; never inside the content, nor as near as what is seen is thin.
+    let margin = (towards + away).clamp(0.05 * grid.voxel(), grid.voxel());
+    let depth = (-distance).min(-towards - margin);
     let eye = right * a + up * b + forward * depth;
-    let away = (grid.centre() - eye).dot(forward).max(grid.voxel());
-    Fit { eye, target: eye + forward * away, height: 2.0 * tan * away }
+    let ahead = (grid.centre() - eye).dot(forward).max(grid.voxel());
+    let extent = 2.0 * t * ((away - towards) / 2.0 - depth);
+    Fit { eye, target: eye + forward * ahead, height: 2.0 * tan * ahead, extent }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::body::Inside;
     use super::*;
     use drypoint_scene::space::Grid;
     use drypoint_scene::tables::{Camera, Outside, Projection};
@@ -64,9 +75,10 @@ mod tests {
         let volume = Volume::new(grid, Voxels::U8(voxels), 1.0, 0.0).unwrap();
         let direction = DVec3::new(-0.6, 1.0, -0.45);
         // The surface at the content's own value passes through its outermost voxels.
-        let body = Body::of(&volume, Inside { value: 200.0, outside: Outside::Low });
+        let inside = Inside { value: 200.0, outside: Outside::Low };
+        let body = Body::of(&volume, inside);
         for size in [[400, 400], [600, 400], [300, 500]] {
-            let fit = fit(&volume, &body, direction, DVec3::Z, 30.0, size);
+            let fit = fit(&volume, &body, inside, direction, DVec3::Z, 30.0, size);
             let camera = Camera {
                 projection: Projection::Perspective { fov: 30.0 },
                 eye: Some(fit.eye),
@@ -88,6 +100,8 @@ mod tests {
             let short = size[0].min(size[1]) as f64;
             let share = ((hi[0] - lo[0]) / short).max((hi[1] - lo[1]) / short);
             assert!((share - FILL).abs() < 0.01, "{size:?}: {share}");
+            // The content is 5 by 14 by 7.5 units, 16.6 across its corners, and is seen over one.
+            assert!((7.5..16.6).contains(&fit.extent), "{}", fit.extent);
             // The wider of the two directions is centred exactly; the other by its own balance.
             let off = |axis: usize| ((lo[axis] + hi[axis]) / 2.0).abs() / short;
             assert!(off(0) < 0.03 && off(1) < 0.03, "{size:?}: {lo:?} {hi:?}");
@@ -98,8 +112,9 @@ mod tests {
     fn an_empty_volume_is_framed_whole() {
         let volume =
             Volume::new(Grid::with_spacing([4; 3], [1.0; 3]).unwrap(), Voxels::U8(vec![0; 64]), 1.0, 0.0).unwrap();
-        let body = Body::of(&volume, Inside { value: 10.0, outside: Outside::Low });
-        let fit = fit(&volume, &body, DVec3::Y, DVec3::Z, 30.0, [100, 100]);
+        let inside = Inside { value: 10.0, outside: Outside::Low };
+        let body = Body::of(&volume, inside);
+        let fit = fit(&volume, &body, inside, DVec3::Y, DVec3::Z, 30.0, [100, 100]);
         assert!(fit.eye.is_finite() && fit.eye.y < 0.0);
     }
 }

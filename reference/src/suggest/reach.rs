@@ -1,6 +1,6 @@
 //! How far content reaches: its surface lies up to a voxel beyond its outermost voxels.
 
-use super::body::Body;
+use super::body::{Body, Inside};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::Volume;
 
@@ -8,12 +8,13 @@ use drypoint_scene::volume::Volume;
 const PARTS: usize = 4;
 
 /// The greatest values of linear functions of the position in world space, each given as its gradient, over the
-/// trilinear surface of a volume's content, on the closed box of the field.
-pub(super) fn reach<const N: usize>(volume: &Volume, body: &Body, gradients: [DVec3; N]) -> [f64; N] {
+/// trilinear surface of a volume's content, on the closed box of the field. The surface is that of the values that are
+/// `seen`, where it lies less than a voxel beyond the content.
+pub(super) fn reach<const N: usize>(volume: &Volume, body: &Body, seen: Inside, gradients: [DVec3; N]) -> [f64; N] {
     let grid = volume.grid();
     // In index space, where a function is its value at the origin and its steps along the axes.
     let steps = gradients.map(|g| grid.axes().transpose() * g);
-    // The surface lies less than a voxel from the content's voxels, along every axis.
+    // At most a voxel from the content's voxels, along every axis.
     let margin = steps.map(|step| step.abs().element_sum());
     let at = |x: usize, y: usize, z: usize| DVec3::new(x as f64, y as f64, z as f64);
     let mut most = [f64::NEG_INFINITY; N];
@@ -31,7 +32,7 @@ pub(super) fn reach<const N: usize>(volume: &Volume, body: &Body, gradients: [DV
             for x in run.first..=run.last {
                 let p = at(x, run.y, run.z);
                 if adds(&most, p) {
-                    let near = Neighbourhood::of(volume, body, [x, run.y, run.z]);
+                    let near = Neighbourhood::of(volume, seen, [x, run.y, run.z]);
                     near.ends(&mut |offset| raise(&mut most, p + offset));
                 }
             }
@@ -49,13 +50,13 @@ struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    fn of(volume: &Volume, body: &Body, voxel: [usize; 3]) -> Self {
+    fn of(volume: &Volume, seen: Inside, voxel: [usize; 3]) -> Self {
         let dims = volume.dims();
         let [lo, hi] = volume.grid().index_box().map(|corner| corner.to_array());
         let depth = std::array::from_fn(|i| {
             let offset = [i % 3, i / 3 % 3, i / 9];
             let p = [0, 1, 2].map(|a| (voxel[a] + offset[a]).saturating_sub(1).min(dims[a] - 1));
-            body.inside().depth(volume.value(p))
+            seen.depth(volume.value(p))
         });
         let room = [0, 1, 2].map(|a| [(voxel[a] as f64 - lo[a]).min(1.0), (hi[a] - voxel[a] as f64).min(1.0)]);
         Self { depth, room }
@@ -63,11 +64,6 @@ impl Neighbourhood {
 
     /// The ends of what lies inside on lines through the cells along each axis, as offsets from the voxel.
     fn ends(&self, end: &mut impl FnMut(DVec3)) {
-        // Neighbours that are content reach as far by themselves; only along an axis of one voxel is there none.
-        let neighbours = self.room.iter().flatten().all(|&room| room != 0.5);
-        if neighbours && self.depth.iter().all(|&depth| depth >= 0.0) {
-            return;
-        }
         let parts = PARTS as i32;
         let part = |i: i32| f64::from(i) / f64::from(PARTS as i32);
         for along in 0..3 {
@@ -111,7 +107,6 @@ impl Neighbourhood {
 
 #[cfg(test)]
 mod tests {
-    use super::super::body::Inside;
     use super::super::tests::{radius, volume};
     use super::*;
     use drypoint_scene::space::Grid;
@@ -119,7 +114,8 @@ mod tests {
     use drypoint_scene::volume::Voxels;
 
     fn reached<const N: usize>(volume: &Volume, value: f64, gradients: [DVec3; N]) -> [f64; N] {
-        reach(volume, &Body::of(volume, Inside { value, outside: Outside::Low }), gradients)
+        let inside = Inside { value, outside: Outside::Low };
+        reach(volume, &Body::of(volume, inside), inside, gradients)
     }
 
     #[test]
