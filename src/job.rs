@@ -32,11 +32,11 @@ use drypoint_output::{OutputError, exr, png};
 use drypoint_reference::field::FieldError;
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint_reference::suggest;
-use drypoint_scene::color::Rgba;
+use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::file::{Given, identity};
 use drypoint_scene::phantom::{self, Phantom, PhantomError};
-use drypoint_scene::picture::{Picture, Provenance};
+use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::plan::{Plan, Quantity};
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
 use drypoint_scene::tables::{Axis, Background, Ids, NodeColor, Scene, StepAlong, Transfer, VolumeSource, VolumeTable};
@@ -223,6 +223,21 @@ impl Job {
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
         room(scene, 2 * 8 * channels)?;
         Ok(renderer)
+    }
+
+    /// Whether a picture of this job shows what lies behind the volume and nothing else.
+    pub fn shows_nothing(&self, picture: &Picture) -> bool {
+        /// What a mean of equal colours, encoded and decoded, can be off by.
+        const ROUNDING: f64 = 1e-9;
+        let Some(layer) = picture.layer(LayerKind::Beauty) else { return false };
+        (0..picture.width * picture.height).all(|i| {
+            let behind = match (&self.background, &self.scene.picture.background) {
+                (Some(pixels), _) => pixels[i],
+                (None, Background::Color(color)) => premultiply(*color),
+                (None, _) => [0.0; 4],
+            };
+            layer.channels.iter().zip(behind).all(|(channel, behind)| (channel[i] - behind).abs() <= ROUNDING)
+        })
     }
 
     /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.

@@ -320,7 +320,8 @@ impl Asks<'_> {
     fn place(&self, key: &str) -> Option<Place> {
         let outer = key.rsplit_once(['.', '[']).map(|(outer, _)| outer);
         let given = &self.scene.given;
-        given.place(key).or_else(|| outer.and_then(|outer| given.place(outer))).cloned()
+        let said = given.place(key).or_else(|| outer.and_then(|outer| given.place(outer)));
+        said.cloned().or_else(|| given.is_chosen(key).then_some(Place::Chosen))
     }
 
     /// The first that needed a quantity, if anyone does.
@@ -376,6 +377,7 @@ impl fmt::Display for Plan {
         let because = |key: &str, place: &Option<Place>| match place {
             Some(Place::File { line, .. }) => format!("{key} (line {line})"),
             Some(Place::Set(_)) => format!("{key} (--set)"),
+            Some(Place::Chosen) => format!("{key} (chosen for this volume)"),
             None => format!("{key} (default)"),
         };
         let head = ["effect", "needs", "adds", "because of"].map(String::from);

@@ -102,7 +102,7 @@ impl Over {
         let failure = |fault: &Fault| {
             let flag = match &fault.place {
                 Place::Set(text) => self.flags.iter().find(|flag| *text == format!("{}={}", flag.key, flag.value)),
-                Place::File { .. } => None,
+                Place::File { .. } | Place::Chosen => None,
             };
             match flag {
                 Some(flag) => Failure::new(fault.what(), &flag.typed, fault.remedy()),
@@ -200,7 +200,8 @@ fn suggested(
     let name = format!("the scene for {}", path.file_name().unwrap_or_default().to_string_lossy());
     let mut scene = parse(&text, &name, &over.overrides).map_err(|faults| over.failures(faults))?;
     // Nobody wrote its lines.
-    scene.given.keep_overrides();
+    let default = Scene::for_volume(suggested.volume.source.clone());
+    scene.given.keep_overrides(file::differences(&suggested, &default));
     if !scene.given.contains("volume.file") && !scene.given.contains("volume.phantom") {
         // Not from the text, where a path that is no Unicode would be another one.
         scene.volume.source = VolumeSource::File { path: path.to_path_buf(), raw: raw.cloned() };

@@ -82,6 +82,11 @@ impl Render {
         let loaded = start.elapsed().as_secs_f64();
         input::tell(talk, &job);
         let (picture, mut counts, times) = self.frames(&job, talk)?;
+        if job.shows_nothing(&picture) {
+            let seen =
+                "nothing is seen: no ray meets a value that transfer.nodes show; `drypoint info` tells the range";
+            note(talk, format_args!("warning: {seen} of a volume, `drypoint plan --full` the nodes and the camera"));
+        }
         counts.add(&job.counts);
         counts.seconds.insert("load".into(), loaded);
         let start = Instant::now();

@@ -99,3 +99,52 @@ fn invalid_voxels_are_a_warning_and_a_picture() {
     assert!(folder.good("info ball.raw").contains("invalid    3 (NaN or infinite)"));
     assert_eq!(folder.line("-q render ball.raw --size 8x8").err, "", "-q says nothing but errors");
 }
+
+#[test]
+fn the_plan_tells_what_was_chosen_from_defaults() {
+    let folder = Folder::new();
+    folder.torus();
+    let plan = folder.good("plan torus.nrrd --set contours.fade=off");
+    for reason in [
+        "transfer (chosen for this volume)",
+        "contours.kappa (chosen for this volume)",
+        "sampling.hessian (chosen for this volume)",
+        "transfer.transparency (default)",
+        "picture.samples (default)",
+    ] {
+        assert!(plan.contains(reason), "{reason}: {plan}");
+    }
+    assert!(!plan.contains("without effect"), "{plan}");
+}
+
+#[test]
+fn values_up_to_the_largest_number_give_a_picture() {
+    let folder = Folder::new();
+    let header = "NRRD0004\ntype: double\ndimension: 3\nsizes: 8 8 8\nendian: little\nencoding: raw\n\n";
+    let is_inside = |i: usize| [i % 8, i / 8 % 8, i / 64].iter().all(|x| (2..6).contains(x));
+    let values = (0..512).map(|i| if is_inside(i) { 1.7e308f64 } else { -1.7e308 });
+    let data: Vec<u8> = header.bytes().chain(values.flat_map(f64::to_le_bytes)).collect();
+    std::fs::write(folder.path("huge.nrrd"), data).unwrap();
+    let said = folder.line("render huge.nrrd --size 40x40 --set picture.background=none -o huge.png");
+    assert_eq!((said.code, said.err.as_str()), (Some(0), "huge.png\n"));
+    let (n, _) = covered(&folder, "huge.png");
+    assert!(n > 40 * 40 / 20, "{n} pixels");
+}
+
+#[test]
+fn a_picture_of_nothing_is_told() {
+    let folder = Folder::new();
+    folder.torus();
+    let nothing = |more: &str| folder.line(&format!("render torus.nrrd --size 8x8 {more} -o a.png")).err;
+    for background in ["none", "white", "#8040c080"] {
+        for space in ["linear", "srgb"] {
+            let how = format!("--set picture.background={background:?} --set picture.blend_space={space}");
+            let err = nothing(&format!("{how} --set camera.target=[1e6,0,0]"));
+            assert!(
+                err.starts_with("warning: nothing is seen: no ray meets a value that transfer.nodes show; "),
+                "{err}"
+            );
+            assert_eq!(nothing(&how), "a.png\n");
+        }
+    }
+}

@@ -16,7 +16,8 @@ fn the_default_name_is_the_input_s_in_the_working_directory() {
         ("render sub/head.v2.nrrd --size 8x8", "head.v2.png"),
         ("scene.toml --layers Z,normal", "scene.exr"),
     ] {
-        assert_eq!(folder.line(line).err, format!("{name}\n"));
+        // What is smaller than the embedded phantom lies beside its camera's view, and that is told first.
+        assert_eq!(folder.line(line).err.lines().last(), Some(name));
         assert!(folder.path(name).is_file());
     }
 }

@@ -5,9 +5,10 @@ use crate::measure::{Measures, measure};
 use drypoint::job::{Job, bare};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse, write_full};
-use drypoint::scene::tables::{Background, Ids, PhantomSource};
+use drypoint::scene::space::Grid;
+use drypoint::scene::tables::{Background, Ids, Outside, PhantomSource};
 use drypoint::scene::volume::write::write_nrrd;
-use drypoint::scene::volume::{Volume, VoxelType, read};
+use drypoint::scene::volume::{Volume, VoxelType, Voxels, read};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -120,5 +121,76 @@ fn the_camera_frames_what_is_shown_in_pictures_of_any_shape() {
         let job = Job::with_volume(scene, volume).unwrap();
         let filled = measure(&job.renderer().unwrap().frame(&|_| ()).0).filled;
         assert!((0.75..=0.95).contains(&filled), "{size:?}: {filled}");
+    }
+}
+
+/// A volume of a function of the voxel and of its distance from the middle, in voxels of the first axis.
+fn field(dims: [usize; 3], spacing: [f64; 3], voxel_type: VoxelType, value: impl Fn(f64) -> f64) -> Volume {
+    let grid = Grid::with_spacing(dims, spacing).unwrap();
+    let square = |i: usize, a: usize| ((i as f64 - (dims[a] - 1) as f64 / 2.0) * spacing[a] / spacing[0]).powi(2);
+    let radius = |i: usize| {
+        let [nx, ny, _] = dims;
+        (square(i % nx, 0) + square(i / nx % ny, 1) + square(i / (nx * ny), 2)).sqrt()
+    };
+    let values: Vec<f64> = (0..grid.len()).map(|i| value(radius(i))).collect();
+    Volume::new(grid, Voxels::from_f64(&values, voxel_type), 1.0, 0.0).unwrap()
+}
+
+fn edge(d: f64) -> f64 {
+    1.0 / (1.0 + (-d).exp())
+}
+
+#[test]
+fn small_and_steep_content_is_framed_with_what_lies_between_voxels() {
+    let cube = [40; 3];
+    let mut volumes: Vec<(String, Volume)> = Vec::new();
+    for r in [1.5, 2.0, 2.5, 3.0, 3.5, 4.0] {
+        let ball = field(cube, [1.0; 3], VoxelType::U8, |d| 250.0 * edge((r - d) / 0.5));
+        volumes.push((format!("ball of radius {r}"), ball));
+        let thick = field([40, 40, 15], [1.0, 1.0, 4.0], VoxelType::U8, |d| 250.0 * edge((2.0 * r - d) / 0.7));
+        volumes.push((format!("ball of radius {r} in slices"), thick));
+    }
+    let steep = field(cube, [1.0; 3], VoxelType::F32, |d| 1.0 / (0.5 + d * d));
+    volumes.push(("1/(½ + r²)".into(), steep));
+    let steeper = field(cube, [1.0; 3], VoxelType::F32, |d| 1e6 * (20.0 - 1.2 * d).exp());
+    volumes.push(("10⁶ exp(20 − 1.2 r)".into(), steeper));
+    let one = field([41; 3], [1.0; 3], VoxelType::U8, |d| if d < 0.9 { 200.0 } else { 0.0 });
+    assert_eq!(one.range(), [0.0, 200.0]);
+    volumes.push(("one voxel".into(), one));
+    let grid = Grid::with_spacing([2; 3], [1.0; 3]).unwrap();
+    let corner = (0..8).map(|i| 100 * (i % 2 + i / 2 % 2 + i / 4)).collect();
+    volumes.push(("a corner".into(), Volume::new(grid, Voxels::I16(corner), 1.0, 0.0).unwrap()));
+    let mut wrong = Vec::new();
+    for (name, volume) in volumes {
+        let (m, _) = picture_of(Path::new("small.nrrd"), volume);
+        println!("{name}: {m:?}");
+        // The plane that cuts off a corner has one tone.
+        let flat = |fault: &String| name == "a corner" && fault.starts_with("L*");
+        wrong.extend(faults(&m).into_iter().filter(|f| !flat(f)).map(|fault| format!("{name}: {fault}")));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn dark_content_is_drawn_as_its_mirror_image() {
+    let noise = |d: f64| ((d * 1e6) as i64 % 7 - 3) as f64;
+    let fields: [(&str, VoxelType, &dyn Fn(f64) -> f64); 4] = [
+        ("ball", VoxelType::I16, &|d| 100.0 * edge((13.0 - d) / 0.8)),
+        ("hole", VoxelType::U8, &|d| 200.0 * edge((13.0 - d) / 0.8)),
+        ("distances", VoxelType::F64, &|d| 13.0 - d),
+        ("noisy ball", VoxelType::U8, &|d| 30.0 + 150.0 * edge((13.0 - d) / 0.7) + noise(d)),
+    ];
+    for (name, voxel_type, value) in fields {
+        let mirror = if voxel_type == VoxelType::U8 { 250.0 } else { 0.0 };
+        let [bright, dark] = [false, true].map(|dark| {
+            let volume = field([40; 3], [1.0; 3], voxel_type, |d| if dark { mirror - value(d) } else { value(d) });
+            let outside = bare("a.nrrd".into(), &volume, [8; 2], &mut Counts::default()).volume.outside;
+            assert_eq!(outside, if dark { Outside::High } else { Outside::Low }, "{name}");
+            picture_of(Path::new("ball.nrrd"), volume).0
+        });
+        println!("{name}: {bright:?} {dark:?}");
+        assert!(faults(&dark).is_empty(), "{name}: {:?}", faults(&dark));
+        // A level where a value lies on the border of two bins.
+        assert!((bright.covered - dark.covered).abs() < 0.02, "{name}: {bright:?} {dark:?}");
     }
 }

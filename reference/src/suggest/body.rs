@@ -1,6 +1,6 @@
 //! The content of a volume as runs of voxels: what a camera frames and on what a thing stands.
 
-use drypoint_scene::glam::DVec3;
+use drypoint_scene::tables::Outside;
 use drypoint_scene::volume::{Access, Volume, Voxel};
 use drypoint_scene::with_access;
 use rayon::prelude::*;
@@ -8,18 +8,35 @@ use rayon::prelude::*;
 /// Connected parts with less than this share of the largest part's solid voxels are not framed: specks, head rests.
 const PART: f64 = 0.01;
 
+/// Which values are the content's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Inside {
+    /// The last value that is, on the way outwards.
+    pub value: f64,
+    /// Which values lie outside.
+    pub outside: Outside,
+}
+
+impl Inside {
+    /// How far inside a value lies, below 0 how far outside: half of it, since the whole can be beyond all numbers.
+    pub(super) fn depth(self, value: f64) -> f64 {
+        let above = 0.5 * value - 0.5 * self.value;
+        if self.outside == Outside::Low { above } else { -above }
+    }
+}
+
 /// Voxels from `first` to `last` along x.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Run {
-    first: usize,
-    last: usize,
-    y: usize,
-    z: usize,
+pub(super) struct Run {
+    pub first: usize,
+    pub last: usize,
+    pub y: usize,
+    pub z: usize,
     /// Voxels all of whose six neighbours belong to the content, and a little for the others.
     solid: f64,
 }
 
-/// The voxels at or above a value, without small parts.
+/// The voxels that lie inside, without small parts.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     dims: [usize; 3],
@@ -27,10 +44,10 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// The content of a volume. Everything, where nothing reaches the value.
-    pub(super) fn of(volume: &Volume, value: f64) -> Self {
+    /// The content of a volume. Everything, where nothing lies inside.
+    pub(super) fn of(volume: &Volume, inside: Inside) -> Self {
         let dims = volume.dims();
-        let rows = with_access!(volume, |a| runs(volume, a, value));
+        let rows = with_access!(volume, |a| runs(volume, a, inside));
         let runs = large_parts(&rows, dims);
         if runs.is_empty() {
             let [nx, ny, nz] = dims;
@@ -40,9 +57,9 @@ impl Body {
         Self { dims, runs }
     }
 
-    /// The ends of all runs in index space: their projections have the same outline as those of all voxels.
-    pub(super) fn ends(&self) -> impl Iterator<Item = DVec3> {
-        self.runs.iter().flat_map(|run| [run.first, run.last].map(|x| DVec3::new(x as f64, run.y as f64, run.z as f64)))
+    /// Its voxels.
+    pub(super) fn runs(&self) -> &[Run] {
+        &self.runs
     }
 
     /// Voxels of the content in each slice across an axis.
@@ -60,10 +77,10 @@ impl Body {
 }
 
 /// The runs of every row, row after row.
-fn runs<A: Access>(volume: &Volume, a: A, value: f64) -> Vec<Vec<Run>> {
+fn runs<A: Access>(volume: &Volume, a: A, inside: Inside) -> Vec<Vec<Run>> {
     let [nx, ny, nz] = a.dims();
     let (slope, intercept) = (volume.slope(), volume.intercept());
-    let shown = |x: usize, y: usize, z: usize| slope * a.at(x, y, z).to_f64() + intercept >= value;
+    let shown = |x: usize, y: usize, z: usize| inside.depth(slope * a.at(x, y, z).to_f64() + intercept) >= 0.0;
     // What lies beyond the box counts as content: a cut is no surface.
     let solid = |x: usize, y: usize, z: usize| {
         (y == 0 || shown(x, y - 1, z))
@@ -143,9 +160,17 @@ mod tests {
     use super::super::tests::volume;
     use super::*;
 
-    fn ends(body: &Body) -> [DVec3; 2] {
-        let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        body.ends().for_each(|p| (lo, hi) = (lo.min(p), hi.max(p)));
+    fn from(value: f64) -> Inside {
+        Inside { value, outside: Outside::Low }
+    }
+
+    fn ends(body: &Body) -> [[usize; 3]; 2] {
+        let (mut lo, mut hi) = ([usize::MAX; 3], [0; 3]);
+        for run in body.runs() {
+            for (a, [first, last]) in [[run.first, run.last], [run.y; 2], [run.z; 2]].into_iter().enumerate() {
+                (lo[a], hi[a]) = (lo[a].min(first), hi[a].max(last));
+            }
+        }
         [lo, hi]
     }
 
@@ -156,8 +181,8 @@ mod tests {
         let speck = |p: [usize; 3]| p == [2, 2, 2] || p == [2, 2, 3];
         let sheet = |[x, y, _]: [usize; 3]| y == 29 && x > 3;
         let v = volume(|p| if block(p) || branch(p) || speck(p) || sheet(p) { 9.0 } else { 0.0 });
-        let body = Body::of(&v, 5.0);
-        assert_eq!(ends(&body), [DVec3::splat(8.0), DVec3::new(29.0, 19.0, 19.0)]);
+        let body = Body::of(&v, from(5.0));
+        assert_eq!(ends(&body), [[8; 3], [29, 19, 19]]);
         let slices = body.slices(0);
         assert_eq!((slices[7], slices[8], slices[19], slices[29], slices[30]), (0.0, 144.0, 144.0, 1.0, 0.0));
         assert_eq!((body.slices(1)[19], body.slices(2)[12]), (145.0, 154.0));
@@ -165,13 +190,21 @@ mod tests {
 
     #[test]
     fn lines_alone_are_content() {
-        let body = Body::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), 0.5);
-        assert_eq!(ends(&body), [DVec3::new(7.0, 4.0, 5.0), DVec3::new(31.0, 4.0, 5.0)]);
+        let body = Body::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), from(0.5));
+        assert_eq!(ends(&body), [[7, 4, 5], [31, 4, 5]]);
+    }
+
+    #[test]
+    fn what_is_dark_can_be_content() {
+        let block = |p: [usize; 3]| p.iter().all(|i| (8..20).contains(i));
+        let body =
+            Body::of(&volume(|p| if block(p) { -4.0 } else { 9.0 }), Inside { value: 5.0, outside: Outside::High });
+        assert_eq!(ends(&body), [[8; 3], [19; 3]]);
     }
 
     #[test]
     fn nothing_is_everything() {
-        let body = Body::of(&volume(|_| 0.0), 1.0);
-        assert_eq!(ends(&body), [DVec3::ZERO, DVec3::splat(31.0)]);
+        let body = Body::of(&volume(|_| 0.0), from(1.0));
+        assert_eq!(ends(&body), [[0; 3], [31; 3]]);
     }
 }

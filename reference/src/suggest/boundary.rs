@@ -41,6 +41,10 @@ const SIGNIFICANT: [f64; 2] = [0.15, 0.1];
 const SOMETHING: f64 = 1e-3;
 /// A surface that the box cuts off over more than this share of its faces is a view of the box.
 const BOXED: f64 = 0.5;
+/// A surface is free of the box that cuts it off over less than this share of its faces.
+const FREE: f64 = 0.1;
+/// Dark content is taken for content if its surface has this many times the score of any bright one.
+const BETTER: f64 = 2.0;
 /// Two surfaces around volumes in at least this ratio are of one body.
 const SAME_BODY: f64 = 0.6;
 /// A kernel's share of its hull's volume.
@@ -58,12 +62,25 @@ const HULL: f64 = 2.2;
 const ROOM: f64 = 0.3;
 /// A step of fewer levels is taken for this many: a ramp across one or two values of an integer shows the rounding.
 const LEAST_STEP: f64 = 0.03;
-/// A surface lies at least this share of its step above what is outside.
+/// A surface lies at least this share of its step above what is outside, and below what is innermost.
 const EDGE: f64 = 0.5;
 /// Skin against air, and bone, in Hounsfield units.
 const SKIN_AND_BONE: [f64; 2] = [-350.0, 190.0];
 
 impl Boundary {
+    /// The surfaces of a volume of which it is not known which values lie outside: low ones, unless high ones surround
+    /// a better surface of low ones.
+    pub(super) fn judge(levels: Option<&Levels>, volume: &Volume) -> (Self, Outside) {
+        let dark = levels.map(Levels::mirrored).filter(|mirrored| {
+            let known = levels.is_some_and(|levels| skin_and_bone(volume, Outside::Low, levels).is_some());
+            !known && is_surrounded(&peaks(mirrored), levels.map(peaks).as_deref().unwrap_or_default())
+        });
+        match dark {
+            Some(mirrored) => (Self::find(Some(&mirrored), volume, Outside::High), Outside::High),
+            None => (Self::find(levels, volume, Outside::Low), Outside::Low),
+        }
+    }
+
     /// The surfaces with the greatest product of area, squared sharpness and simplicity: sharp against noise, simple
     /// against clutter, and little cut by the box. Of several the outermost is the content's, and one inside it with a
     /// part of its volume is the kernel that is shown through it.
@@ -71,7 +88,9 @@ impl Boundary {
         let Some(levels) = levels else {
             // A constant volume: everything is content.
             let [value, _] = volume.range();
-            let main = Surface { value, step: value.abs().max(1.0) };
+            // Its nodes are numbers too.
+            let step = value.abs().max(1.0).min(2.0 * (f64::MAX - value.abs()));
+            let main = Surface { value, step };
             return Self { main, hull: None, thin: false };
         };
         if let Some(known) = skin_and_bone(volume, outside, levels) {
@@ -97,10 +116,16 @@ impl Boundary {
 fn surface(levels: &Levels, share: f64) -> Surface {
     let step = levels.at(share).step.max(LEAST_STEP);
     // Where content is cut out of nothing, its edge rises in one voxel and every value of it is an edge: one well above
-    // the bottom is the smoothest.
-    let share = share.max(EDGE * step);
-    let step = step.min(share / EDGE);
-    Surface { value: levels.value(share), step: (levels.value(1.0) - levels.value(0.0)).abs() * step }
+    // the bottom is the smoothest. And there is something inside it to see only below the top.
+    let share = share.max(EDGE * step).min(1.0 - EDGE * step);
+    let step = step.min(share.min(1.0 - share) / EDGE);
+    Surface { value: levels.value(share), step: levels.difference(step) }
+}
+
+/// Whether the best surface that the box hardly cuts is better than the best from the other side.
+fn is_surrounded(dark: &[Peak], bright: &[Peak]) -> bool {
+    let best = |peaks: &[Peak]| peaks.iter().map(|peak| peak.score).fold(0.0, f64::max);
+    body(dark).is_some_and(|body| body.level.cut < FREE) && best(dark) > BETTER * best(bright)
 }
 
 /// A patient's CT is recognized by its scale, on which skin and bone are known.
@@ -215,6 +240,46 @@ mod tests {
         // The same in mirrored values.
         let mirrored = find(&volume(|p| -nested(p)), Outside::High);
         assert!((mirrored.main.value + b.main.value).abs() < 1.0 && mirrored.hull.is_some(), "{mirrored:?}");
+    }
+
+    fn judge(volume: &Volume) -> (Boundary, Outside) {
+        Boundary::judge(Levels::of(volume, Outside::Low).as_ref(), volume)
+    }
+
+    #[test]
+    fn dark_content_in_bright_surroundings_is_content() {
+        let ripple = |p: [usize; 3]| ((p[0] * 7 + p[1] * 13 + p[2] * 29) % 11) as f64 - 5.0;
+        let fields: [&dyn Fn([usize; 3]) -> f64; 4] = [
+            &|p| 90.0 * edge(10.0 - radius(p)),
+            &|p| 150.0 * edge(10.0 - radius(p)) + ripple(p),
+            &|p| 10.0 - radius(p),
+            &|p| 100.0 * edge(12.0 - radius(p)) + 100.0 * edge(6.0 - radius(p)),
+        ];
+        for (i, field) in fields.into_iter().enumerate() {
+            let (bright, outside) = judge(&volume(field));
+            let (dark, mirrored) = judge(&volume(|p| 200.0 - field(p)));
+            assert_eq!((outside, mirrored), (Outside::Low, Outside::High), "{i}");
+            // A level of 256 where a value lies on the border of two.
+            let near =
+                |a: Surface, b: Surface| (a.value + b.value - 200.0).abs() < 1.0 && (a.step - b.step).abs() < 1.0;
+            assert!(near(bright.main, dark.main), "{i}: {bright:?} {dark:?}");
+            assert_eq!((bright.hull.is_some(), bright.thin), (dark.hull.is_some(), dark.thin), "{i}");
+        }
+    }
+
+    #[test]
+    fn surfaces_lie_between_the_values() {
+        let grid = drypoint_scene::space::Grid::with_spacing([2; 3], [1.0; 3]).unwrap();
+        let sums = (0..8).map(|i| 100 * (i % 2 + i / 2 % 2 + i / 4)).collect();
+        let corner = Volume::new(grid, drypoint_scene::volume::Voxels::I16(sums), 1.0, 0.0).unwrap();
+        // One neighbour differs from the next by 100: half of that below 300.
+        let (b, _) = judge(&corner);
+        assert!(b.main.value + 0.5 * b.main.step <= 300.0 + 1e-9, "{b:?}");
+        // Nodes are numbers, though a difference of the values is none.
+        for huge in [volume(|p| if radius(p) < 9.0 { 1.7e308 } else { -1.7e308 }), volume(|_| f64::MAX)] {
+            let main = judge(&huge).0.main;
+            assert!([-0.1, 0.25].iter().all(|steps| (main.value + steps * main.step).is_finite()), "{main:?}");
+        }
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! A camera that frames the content of a volume.
 
-use super::body::Body;
+use super::body::{Body, Inside};
+use super::reach::reach;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
-use drypoint_scene::space::Grid;
+use drypoint_scene::volume::Volume;
 
 /// Share of the shorter side of the picture that the content takes.
 const FILL: f64 = 0.86;
@@ -15,14 +16,25 @@ pub(super) struct Fit {
     pub target: DVec3,
     /// World units from top to bottom of the picture, at the target.
     pub height: f64,
+    /// World units that the content takes across the picture.
+    pub extent: f64,
 }
 
-/// The nearest perspective camera in a direction from which all content projects into the frame's middle, as [`FILL`]
-/// says, and is centred there.
+/// The nearest perspective camera in a direction from which all content, with what is `seen` around it, projects into the
+/// frame's middle, as [`FILL`] says, and is centred there.
 ///
 /// With the content's points at (x, y) across and z along the view, |x − a| ≤ t(d + z) for the half width t of the frame
 /// at depth 1 asks for d ≥ (x − a)/t − z and d ≥ (a − x)/t − z: the best a balances the two maxima.
-pub(super) fn fit(grid: &Grid, body: &Body, direction: DVec3, up: DVec3, fov: f64, size: [usize; 2]) -> Fit {
+pub(super) fn fit(
+    volume: &Volume,
+    body: &Body,
+    seen: Inside,
+    direction: DVec3,
+    up: DVec3,
+    fov: f64,
+    size: [usize; 2],
+) -> Fit {
+    let grid = volume.grid();
     let forward = direction.normalize();
     let right = forward.cross(up).normalize();
     let up = right.cross(forward);
@@ -30,29 +42,25 @@ pub(super) fn fit(grid: &Grid, body: &Body, direction: DVec3, up: DVec3, fov: f6
     let tan = math::tan(fov.to_radians() / 2.0);
     // Both directions to the same share of the shorter side.
     let t = FILL * tan * (width / height).min(1.0);
-    let mut most = [f64::NEG_INFINITY; 4];
-    let mut nearest = f64::INFINITY;
-    for p in body.ends() {
-        let p = grid.to_world(p);
-        let (x, y, z) = (p.dot(right), p.dot(up), p.dot(forward));
-        for (m, v) in most.iter_mut().zip([x / t - z, -x / t - z, y / t - z, -y / t - z]) {
-            *m = m.max(v);
-        }
-        nearest = nearest.min(z);
-    }
+    let across = [right / t, -right / t, up / t, -up / t].map(|sideways| sideways - forward);
+    let most = reach(volume, body, seen, across);
+    let [towards, away] = reach(volume, body, seen, [-forward, forward]);
     let distance = ((most[0] + most[1]) / 2.0).max((most[2] + most[3]) / 2.0);
     let (a, b) = (t * (most[0] - most[1]) / 2.0, t * (most[2] - most[3]) / 2.0);
-    // The eye lies at depth −distance; never inside the content.
-    let depth = (-distance).min(nearest - grid.voxel());
+    // The eye lies at depth −distance; never inside the content, nor as near as what is seen is thin.
+    let margin = (towards + away).clamp(0.05 * grid.voxel(), grid.voxel());
+    let depth = (-distance).min(-towards - margin);
     let eye = right * a + up * b + forward * depth;
-    let away = (grid.centre() - eye).dot(forward).max(grid.voxel());
-    Fit { eye, target: eye + forward * away, height: 2.0 * tan * away }
+    let ahead = (grid.centre() - eye).dot(forward).max(grid.voxel());
+    let extent = 2.0 * t * ((away - towards) / 2.0 - depth);
+    Fit { eye, target: eye + forward * ahead, height: 2.0 * tan * ahead, extent }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drypoint_scene::tables::{Camera, Projection};
+    use drypoint_scene::space::Grid;
+    use drypoint_scene::tables::{Camera, Outside, Projection};
     use drypoint_scene::view::View;
     use drypoint_scene::volume::{Volume, Voxels};
 
@@ -66,9 +74,11 @@ mod tests {
         let grid = Grid::with_spacing([n; 3], [1.0, 1.0, 2.5]).unwrap();
         let volume = Volume::new(grid, Voxels::U8(voxels), 1.0, 0.0).unwrap();
         let direction = DVec3::new(-0.6, 1.0, -0.45);
-        let body = Body::of(&volume, 100.0);
+        // The surface at the content's own value passes through its outermost voxels.
+        let inside = Inside { value: 200.0, outside: Outside::Low };
+        let body = Body::of(&volume, inside);
         for size in [[400, 400], [600, 400], [300, 500]] {
-            let fit = fit(volume.grid(), &body, direction, DVec3::Z, 30.0, size);
+            let fit = fit(&volume, &body, inside, direction, DVec3::Z, 30.0, size);
             let camera = Camera {
                 projection: Projection::Perspective { fov: 30.0 },
                 eye: Some(fit.eye),
@@ -77,8 +87,9 @@ mod tests {
             };
             let view = View::new(&camera, volume.grid(), size).unwrap();
             let (mut lo, mut hi) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-            for p in body.ends() {
+            for i in (0..n * n * n).filter(|&i| inside(i)) {
                 // From the middle of the picture, in pixels.
+                let p = DVec3::new((i % n) as f64, (i / n % n) as f64, (i / (n * n)) as f64);
                 let e = view.to_eye(volume.grid().to_world(p));
                 for (axis, across) in [e.x, e.y].into_iter().enumerate() {
                     let at = across / (view.pixel * -e.z);
@@ -89,6 +100,8 @@ mod tests {
             let short = size[0].min(size[1]) as f64;
             let share = ((hi[0] - lo[0]) / short).max((hi[1] - lo[1]) / short);
             assert!((share - FILL).abs() < 0.01, "{size:?}: {share}");
+            // The content is 5 by 14 by 7.5 units, 16.6 across its corners, and is seen over one.
+            assert!((7.5..16.6).contains(&fit.extent), "{}", fit.extent);
             // The wider of the two directions is centred exactly; the other by its own balance.
             let off = |axis: usize| ((lo[axis] + hi[axis]) / 2.0).abs() / short;
             assert!(off(0) < 0.03 && off(1) < 0.03, "{size:?}: {lo:?} {hi:?}");
@@ -99,7 +112,9 @@ mod tests {
     fn an_empty_volume_is_framed_whole() {
         let volume =
             Volume::new(Grid::with_spacing([4; 3], [1.0; 3]).unwrap(), Voxels::U8(vec![0; 64]), 1.0, 0.0).unwrap();
-        let fit = fit(volume.grid(), &Body::of(&volume, 10.0), DVec3::Y, DVec3::Z, 30.0, [100, 100]);
+        let inside = Inside { value: 10.0, outside: Outside::Low };
+        let body = Body::of(&volume, inside);
+        let fit = fit(&volume, &body, inside, DVec3::Y, DVec3::Z, 30.0, [100, 100]);
         assert!(fit.eye.is_finite() && fit.eye.y < 0.0);
     }
 }

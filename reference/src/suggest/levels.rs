@@ -30,6 +30,7 @@ pub(super) struct Levels {
     lo: f64,
     hi: f64,
     outside: Outside,
+    voxels: f64,
     levels: Vec<Level>,
 }
 
@@ -50,15 +51,15 @@ impl Levels {
     /// None where all voxels have one value.
     pub(super) fn of(volume: &Volume, outside: Outside) -> Option<Self> {
         let [lo, hi] = robust_range(volume);
-        let per_value = 1.0 / (hi - lo);
-        if !(hi > lo && per_value.is_finite() && per_value > 0.0) {
+        let per_half = 1.0 / half(lo, hi);
+        if !(hi > lo && per_half.is_finite() && per_half > 0.0) {
             return None;
         }
         let (slope, intercept) = (volume.slope(), volume.intercept());
         let [nx, ny, nz] = volume.dims();
         let slices: Vec<Sums> = with_access!(volume, |a| {
             let share = |x: usize, y: usize, z: usize| {
-                let u = ((slope * a.at(x, y, z).to_f64() + intercept - lo) * per_value).clamp(0.0, 1.0);
+                let u = (half(lo, slope * a.at(x, y, z).to_f64() + intercept) * per_half).clamp(0.0, 1.0);
                 if outside == Outside::Low { u } else { 1.0 - u }
             };
             // Four voxels in a row along an axis, the outer two repeated at the borders.
@@ -85,7 +86,7 @@ impl Levels {
                 })
                 .collect()
         });
-        Some(Self { lo, hi, outside, levels: levels(&slices) })
+        Some(Self { lo, hi, outside, voxels: volume.grid().len() as f64, levels: levels(&slices) })
     }
 
     /// Level by level, from the outside inwards.
@@ -96,19 +97,52 @@ impl Levels {
     /// The data value in the middle of a level, or at a share of the range from the outside.
     pub(super) fn value(&self, share: f64) -> f64 {
         let u = if self.outside == Outside::Low { share } else { 1.0 - share };
-        self.lo + u * (self.hi - self.lo)
+        2.0 * (0.5 * self.lo + u * half(self.lo, self.hi))
     }
 
     /// The share of the range at which a value lies, from the outside.
     pub(super) fn share(&self, value: f64) -> f64 {
-        let u = ((value - self.lo) / (self.hi - self.lo)).clamp(0.0, 1.0);
+        let u = (half(self.lo, value) / half(self.lo, self.hi)).clamp(0.0, 1.0);
         if self.outside == Outside::Low { u } else { 1.0 - u }
+    }
+
+    /// A share of the range in data values; the largest number, where the range is beyond all numbers.
+    pub(super) fn difference(&self, share: f64) -> f64 {
+        (2.0 * (share * half(self.lo, self.hi))).min(f64::MAX)
+    }
+
+    /// The same surfaces seen from the other side: what was outside is inside.
+    pub(super) fn mirrored(&self) -> Self {
+        let outside = match self.outside {
+            Outside::Low => Outside::High,
+            Outside::High => Outside::Low,
+        };
+        // Level b is the surface at the upper end of its bin; the last has nothing beyond it.
+        let other_side = |level: &Level| {
+            let inside = 1.0 - level.inside;
+            if level.area < 0.5 {
+                return Level { inside, ..Level::default() };
+            }
+            Level { inside, cut: 1.0 - level.cut, simplicity: simplicity(inside * self.voxels, level.area), ..*level }
+        };
+        let levels = self.levels[..LEVELS - 1].iter().rev().map(other_side).chain([Level::default()]).collect();
+        Self { outside, levels, ..*self }
     }
 
     /// The level at a share of the range.
     pub(super) fn at(&self, share: f64) -> &Level {
         &self.levels[bin(share)]
     }
+}
+
+/// Half of what lies between two values: the whole can be beyond all numbers.
+fn half(from: f64, to: f64) -> f64 {
+    0.5 * to - 0.5 * from
+}
+
+/// Area of a surface that could hold so many voxels, over another.
+fn simplicity(inside: f64, area: f64) -> f64 {
+    (math::pow(inside, 2.0 / 3.0) / area).min(1.0 / 6.0)
 }
 
 fn bin(share: f64) -> usize {
@@ -170,7 +204,7 @@ fn levels(slices: &[Sums]) -> Vec<Level> {
                 agreement: (confirmed / steps).clamp(0.0, 1.0),
                 inside: inside / all,
                 cut: if all_on_faces > 0.0 { on_faces / all_on_faces } else { 0.0 },
-                simplicity: (math::pow(inside, 2.0 / 3.0) / area).min(1.0 / 6.0),
+                simplicity: simplicity(inside, area),
             }
         })
         .collect()
@@ -196,8 +230,27 @@ fn robust_range(volume: &Volume) -> [f64; 2] {
             break;
         }
     }
+    // Content of a few voxels in nothing is no outlier: what is left would be one value.
+    if first == last && one_value(volume, histogram.edges(first)) {
+        return [lo, hi];
+    }
     let [most_lo, most_hi] = [histogram.edges(first)[0], histogram.edges(last)[1]];
-    if most_hi - most_lo < (hi - lo) / 16.0 { [most_lo, most_hi] } else { [lo, hi] }
+    if half(most_lo, most_hi) < half(lo, hi) / 16.0 { [most_lo, most_hi] } else { [lo, hi] }
+}
+
+/// Whether all voxels between two values have the same.
+fn one_value(volume: &Volume, [lo, hi]: [f64; 2]) -> bool {
+    let (slope, intercept) = (volume.slope(), volume.intercept());
+    let [nx, ny, nz] = volume.dims();
+    let [least, most] = with_access!(volume, |a| (0..nz)
+        .into_par_iter()
+        .map(|z| {
+            let values = (0..nx * ny).map(|i| slope * a.at(i % nx, i / nx, z).to_f64() + intercept);
+            let between = values.filter(|value| (lo..=hi).contains(value));
+            between.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, m], value| [l.min(value), m.max(value)])
+        })
+        .reduce(|| [f64::INFINITY, f64::NEG_INFINITY], |[l, m], [v, w]| [l.min(v), m.max(w)]));
+    least >= most
 }
 
 #[cfg(test)]
@@ -225,6 +278,13 @@ mod tests {
         let low = Levels::of(&volume(ball), Outside::Low).unwrap();
         let high = Levels::of(&volume(|p| -ball(p)), Outside::High).unwrap();
         assert_eq!(low.all(), high.all());
+        // From the other side of the same numbers, but for the rounding of shares and of powers.
+        for (a, b) in low.mirrored().all().iter().zip(Levels::of(&volume(ball), Outside::High).unwrap().all()) {
+            for (a, b) in [(a.area, b.area), (a.step, b.step), (a.inside, b.inside), (a.cut, b.cut)] {
+                assert!((a - b).abs() < 1e-12, "{a} {b}");
+            }
+            assert!((a.simplicity - b.simplicity).abs() < 1e-12 && a.agreement == b.agreement);
+        }
         // Three roundings of numbers up to 200.
         assert!((low.value(0.3) + high.value(0.3)).abs() < 4.0 * 200.0 * f64::EPSILON);
     }
@@ -245,5 +305,17 @@ mod tests {
         let levels = Levels::of(&hot, Outside::Low).unwrap();
         assert!(levels.value(1.0) < 1e6, "{}", levels.value(1.0));
         assert!(Levels::of(&volume(|_| 7.0), Outside::Low).is_none());
+        // In nothing, it is what there is to see.
+        let alone = volume(|p| if p == [3, 3, 3] { 200.0 } else { 0.0 });
+        assert_eq!(Levels::of(&alone, Outside::Low).unwrap().value(1.0), 200.0);
+    }
+
+    #[test]
+    fn a_range_beyond_all_numbers_has_levels() {
+        let ball = |p| if radius(p) < 10.0 { 1.0 } else { -1.0 };
+        let huge = Levels::of(&volume(|p| 1.7e308 * ball(p)), Outside::Low).unwrap();
+        assert_eq!(huge.all(), Levels::of(&volume(ball), Outside::Low).unwrap().all());
+        assert_eq!([0.0, 0.5, 1.0].map(|share| huge.value(share)), [-1.7e308, 0.0, 1.7e308]);
+        assert_eq!((huge.share(0.0), huge.difference(0.25), huge.difference(1.0)), (0.5, 0.85e308, f64::MAX));
     }
 }

@@ -74,6 +74,16 @@ pub(super) fn nodes(boundary: &Boundary, palette: Palette, kind: TransferKind, o
     nodes
 }
 
+/// The value from which on a surface is seen: where an opaque one begins, and halfway into a hull's layer.
+pub(super) fn first_seen(boundary: &Boundary, outside: Outside) -> f64 {
+    let (surface, steps) = match &boundary.hull {
+        Some(hull) => (hull, 0.5 * LAYER),
+        None => (&boundary.main, RAMP[0]),
+    };
+    let outwards = if outside == Outside::Low { -1.0 } else { 1.0 };
+    surface.value + outwards * steps * surface.step
+}
+
 /// A value that a person would write: to about a hundredth of a step, by a power of ten.
 fn short(value: f64, step: f64) -> f64 {
     let digits = (2.0 - math::log2(step) / math::log2(10.0)).ceil();

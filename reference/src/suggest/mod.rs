@@ -9,9 +9,10 @@ mod framing;
 mod labels;
 mod levels;
 mod look;
+mod reach;
 mod stance;
 
-use body::Body;
+use body::{Body, Inside};
 use boundary::Boundary;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
@@ -29,6 +30,9 @@ const FOV: f64 = 30.0;
 /// Thickness of contours as a share of the picture's height: 2½ of 512 pixels.
 const LINE: f64 = 0.005;
 
+/// Content of fewer voxels across is sampled as finely, and as opaque, as if it had this many.
+const FINE: f64 = 8.0;
+
 /// Voxels of which a smoothed copy in f64 is worth its memory: a quarter of a GiB.
 const SMOOTHED: usize = 1 << 25;
 
@@ -45,26 +49,29 @@ pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &m
 /// Gives a transfer function without nodes those of the volume's strongest boundaries. Voxels that were looked at go to
 /// `counts`.
 pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside, counts: &mut Counts) {
-    let boundary = boundary(volume, outside, counts);
+    let levels = levels(volume, outside, counts);
+    let boundary = Boundary::find(levels.as_ref(), volume, outside);
     transfer.unit = Unit::Value;
     transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
 }
 
-/// The strongest boundaries, by the differences of each voxel to its neighbours; a constant volume has none to look at.
-fn boundary(volume: &Volume, outside: Outside, counts: &mut Counts) -> Boundary {
+/// Levels by the differences of each voxel to its neighbours; a constant volume has none to look at.
+fn levels(volume: &Volume, outside: Outside, counts: &mut Counts) -> Option<Levels> {
     let levels = Levels::of(volume, outside);
     let voxels = levels.as_ref().map_or(0, |_| volume.grid().len() as u64);
     *counts.preprocess.entry("differences".into()).or_default() += voxels;
-    Boundary::find(levels.as_ref(), volume, outside)
+    levels
 }
 
 fn of_values(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     let mut scene = Scene::for_volume(source);
-    let boundary = boundary(volume, Outside::Low, counts);
+    let (boundary, outside) = Boundary::judge(levels(volume, Outside::Low, counts).as_ref(), volume);
+    scene.volume.outside = outside;
     if let Some(transfer) = &mut scene.transfer {
-        transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, Outside::Low));
+        transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
     }
-    frame(&mut scene, volume, boundary.outermost().value, size);
+    let [inside, seen] = [boundary.outermost().value, look::first_seen(&boundary, outside)];
+    frame(&mut scene, volume, [inside, seen].map(|value| Inside { value, outside }), size);
     scene
 }
 
@@ -76,16 +83,22 @@ fn of_labels(source: VolumeSource, present: &Volume, size: [usize; 2]) -> Scene 
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(look::label_nodes());
     }
-    frame(&mut scene, present, 0.5, size);
+    frame(&mut scene, present, [Inside { value: 0.5, outside: Outside::Low }; 2], size);
     scene
 }
 
-/// Camera, picture and lines for the content from a value on.
-fn frame(scene: &mut Scene, volume: &Volume, value: f64, size: [usize; 2]) {
-    let body = Body::of(volume, value);
+/// Camera, picture and lines for the content, and for what is seen around it.
+fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: [usize; 2]) {
+    let body = Body::of(volume, inside);
     let Stance { direction, up } = Stance::of(volume, &body);
-    let fit = framing::fit(volume.grid(), &body, direction, up, FOV, size);
+    let fit = framing::fit(volume, &body, seen, direction, up, FOV, size);
     scene.picture.size = size;
+    let finer = fit.extent / (FINE * volume.grid().voxel());
+    if finer < 1.0 {
+        // Or else so little matter would stay translucent.
+        scene.sampling.step = Length::Voxels(three_digits(0.5 * finer));
+        scene.sampling.reference_length = Length::Voxels(three_digits(finer));
+    }
     scene.camera = Camera {
         projection: Projection::Perspective { fov: FOV },
         eye: Some(fit.eye),

@@ -117,13 +117,17 @@ fn extent(volume: &Volume, body: &Body) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
+    use super::super::body::Inside;
     use super::super::tests::volume;
     use super::*;
+    use drypoint_scene::tables::Outside;
+
+    const INSIDE: Inside = Inside { value: 0.5, outside: Outside::Low };
 
     /// A thing in 32³ voxels.
     fn stance(inside: impl Fn([f64; 3]) -> bool) -> Stance {
         let v = volume(|p| if inside(p.map(|i| i as f64)) { 1.0 } else { 0.0 });
-        Stance::of(&v, &Body::of(&v, 0.5))
+        Stance::of(&v, &Body::of(&v, INSIDE))
     }
 
     fn ball([x, y, z]: [f64; 3], centre: [f64; 3], r: f64) -> bool {
@@ -175,7 +179,7 @@ mod tests {
             (Anatomy::LeftAnteriorSuperior, -DVec3::Y),
         ] {
             let v = volume(|_| 1.0).with_anatomy(Some(anatomy));
-            let s = Stance::of(&v, &Body::of(&v, 0.5));
+            let s = Stance::of(&v, &Body::of(&v, INSIDE));
             assert!(s.up == DVec3::Z && s.direction.normalize().dot(front) > 0.7, "{anatomy:?}");
         }
     }

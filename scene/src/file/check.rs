@@ -149,7 +149,7 @@ impl Check {
     pub(crate) fn resolve(&self, path: &str, place: &Place) -> PathBuf {
         match place {
             Place::File { .. } => self.folder.join(path),
-            Place::Set(_) => PathBuf::from(path),
+            Place::Set(_) | Place::Chosen => PathBuf::from(path),
         }
     }
 
@@ -157,7 +157,7 @@ impl Check {
     pub(super) fn unresolved<'a>(&self, path: &'a Path, place: &Place) -> &'a Path {
         match place {
             Place::File { .. } => path.strip_prefix(&self.folder).unwrap_or(path),
-            Place::Set(_) => path,
+            Place::Set(_) | Place::Chosen => path,
         }
     }
 

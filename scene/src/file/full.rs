@@ -18,6 +18,29 @@ pub fn identity(scene: &Scene) -> String {
     write(scene, without_folders)
 }
 
+/// The keys, such as `contours.kappa`, whose values are not those of another scene, and the tables that have them.
+pub fn differences(scene: &Scene, other: &Scene) -> Vec<String> {
+    let mut keys = Vec::new();
+    for key in ROOT.keys {
+        let field: &dyn Field<Scene> = key.field;
+        let (Some(value), others) = (field.write(scene), field.write(other)) else { continue };
+        match (&value, &others) {
+            (_, Some(same)) if value == *same => continue,
+            (Out::Table(entries), others) => {
+                let known = match others {
+                    Some(Out::Table(known)) => known.as_slice(),
+                    _ => &[],
+                };
+                let new = entries.iter().filter(|entry| !known.contains(entry));
+                keys.extend(new.map(|(name, _)| format!("{}.{name}", key.name)));
+            }
+            _ => {}
+        }
+        keys.push(key.name.into());
+    }
+    keys
+}
+
 fn write(scene: &Scene, change: fn(Out) -> Out) -> String {
     let mut top = String::new();
     let mut tables = String::new();

@@ -36,7 +36,7 @@ mod tests;
 pub use embedded::DEFAULT_SCENE;
 pub use fault::{Fault, Faults, Problem};
 pub use find::data_folders;
-pub use full::{identity, write_full};
+pub use full::{differences, identity, write_full};
 pub use place::{Given, Place};
 pub use reference::reference_markdown;
 pub use schema::schema;

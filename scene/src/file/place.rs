@@ -1,6 +1,6 @@
 //! Where in a scene a thing was said.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -16,6 +16,8 @@ pub enum Place {
     },
     /// On the command line: what follows `--set`.
     Set(String),
+    /// Nowhere: it was found in the volume that the scene is for.
+    Chosen,
 }
 
 impl Place {
@@ -23,7 +25,7 @@ impl Place {
     pub fn line(&self) -> Option<usize> {
         match self {
             Self::File { line, .. } => Some(*line),
-            Self::Set(_) => None,
+            Self::Set(_) | Self::Chosen => None,
         }
     }
 }
@@ -33,6 +35,7 @@ impl fmt::Display for Place {
         match self {
             Self::File { line, column } => write!(f, "line {line}, column {column}"),
             Self::Set(text) => write!(f, "--set {text}"),
+            Self::Chosen => f.write_str("chosen for this volume"),
         }
     }
 }
@@ -66,6 +69,7 @@ impl<'a> Lines<'a> {
 pub struct Given {
     file: PathBuf,
     keys: BTreeMap<String, Place>,
+    chosen: BTreeSet<String>,
 }
 
 impl PartialEq for Given {
@@ -76,7 +80,7 @@ impl PartialEq for Given {
 
 impl Given {
     pub(super) fn new(file: &Path) -> Self {
-        Self { file: file.to_owned(), keys: BTreeMap::new() }
+        Self { file: file.to_owned(), keys: BTreeMap::new(), chosen: BTreeSet::new() }
     }
 
     /// Whether the scene said a key, such as `camera.fov` or `transfer.nodes[2].style`, or has a table, such as
@@ -105,9 +109,16 @@ impl Given {
         position(&self.file, self.place(key), key)
     }
 
-    /// Forgets what the file said, for a scene that nobody wrote. What the command line said stays.
-    pub fn keep_overrides(&mut self) {
+    /// Forgets what the file said, for a scene that nobody wrote. What the command line said stays. Of `chosen`, keys
+    /// and tables that are not as by default, [`Given::is_chosen`] knows.
+    pub fn keep_overrides(&mut self, chosen: impl IntoIterator<Item = String>) {
         self.keys.retain(|_, place| matches!(place, Place::Set(_)));
+        self.chosen.extend(chosen);
+    }
+
+    /// Whether a key or table of a scene that nobody wrote was chosen for its volume.
+    pub fn is_chosen(&self, key: &str) -> bool {
+        self.chosen.contains(key)
     }
 
     pub(super) fn insert(&mut self, key: String, place: Place) {
@@ -120,7 +131,7 @@ pub(super) fn position(file: &Path, place: Option<&Place>, key: &str) -> String 
     let place = match place {
         Some(Place::File { line, column }) => format!("{}:{line}:{column}", file.display()),
         Some(Place::Set(text)) => format!("--set {text}"),
-        None => file.display().to_string(),
+        Some(Place::Chosen) | None => file.display().to_string(),
     };
     match (place.as_str(), key) {
         (_, "") => place,
@@ -138,7 +149,7 @@ mod tests {
         let lines = Lines::new("a = 1\nµ = \"é\" x\n");
         let at = |byte| match lines.place(byte) {
             Place::File { line, column } => (line, column),
-            Place::Set(_) => unreachable!(),
+            Place::Set(_) | Place::Chosen => unreachable!(),
         };
         assert_eq!(at(0), (1, 1));
         assert_eq!(at(5), (1, 6), "the end of a line belongs to it");
@@ -161,7 +172,8 @@ mod tests {
         assert_eq!(given.position("picture.bits"), "--set picture.bits=16, key picture.bits");
         assert_eq!(given.position("camera.up"), "a/scene.toml, key camera.up");
         assert_eq!(Given::default().position("camera.up"), "key camera.up");
-        given.keep_overrides();
+        given.keep_overrides(["camera.fov".into()]);
         assert!(!given.contains("camera.fov") && given.contains("picture.bits"));
+        assert!(given.is_chosen("camera.fov") && !given.is_chosen("picture.bits"));
     }
 }

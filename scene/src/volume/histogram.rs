@@ -27,7 +27,8 @@ impl Histogram {
     /// Lower and upper end of a bin.
     pub fn edges(&self, bin: usize) -> [f64; 2] {
         let n = self.bins.len() as f64;
-        [bin, bin + 1].map(|i| self.lo + (self.hi - self.lo) * (i as f64 / n))
+        // Halved, as in `bin`.
+        [bin, bin + 1].map(|i| 2.0 * (0.5 * self.lo + (0.5 * self.hi - 0.5 * self.lo) * (i as f64 / n)))
     }
 
     /// Values in all bins.
@@ -162,7 +163,9 @@ mod tests {
     #[test]
     fn ranges_that_overflow_when_subtracted() {
         let wide = volume(Voxels::F64(vec![-f64::MAX, 0.0, f64::MAX]), 1.0, 0.0);
-        assert_eq!(Histogram::new(&wide, 2).bins, [1, 2]);
+        let halves = Histogram::new(&wide, 2);
+        assert_eq!(halves.bins, [1, 2]);
+        assert_eq!([halves.edges(0), halves.edges(1)], [[-f64::MAX, 0.0], [0.0, f64::MAX]]);
     }
 
     proptest! {
