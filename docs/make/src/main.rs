@@ -1,6 +1,7 @@
 //! Writes the generated pages and pictures of the repository.
 
 mod accuracy;
+mod cost;
 mod figures;
 mod files;
 #[cfg(test)]
@@ -19,6 +20,7 @@ type Page = (&'static str, fn() -> Result<(), String>);
 
 const PAGES: &[Page] = &[
     ("accuracy", accuracy::write),
+    ("cost", cost::write),
     ("figure-1", painting::figure::write),
     ("figures", figures::write),
     ("painting", painting::write),
