@@ -2,9 +2,10 @@
 
 use super::{Row, Truth};
 
-/// The rows that no other row beats, fastest first: none of the same kind of truth has at most their error in at most their
-/// time, and less of one. Against the formula all rows have one truth; against finest settings each row's error is what its own knob
-/// adds, and the front says which knob to turn first. A row without error is its own truth, and stands on none.
+/// The rows that no other row beats, fastest first: none of the same kind of truth has at most their error in at most
+/// their time, and less of one. Against the formula all rows have one truth; against finest settings each row's error is
+/// what its own knob adds, and the front says which knob to turn first. A row without error is its own truth, and stands
+/// on none.
 pub fn front(rows: &[Row], analytic: bool) -> Vec<&Row> {
     let mut of_kind: Vec<&Row> =
         rows.iter().filter(|r| (r.truth == Truth::Analytic) == analytic && r.rms > 0.0).collect();

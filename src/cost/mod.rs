@@ -3,18 +3,20 @@
 //! One knob is turned at a time; all other keys stay as the scene has them. A row is a setting: how far its picture is
 //! from the truth, how long it takes, what it evaluates and keeps.
 //!
-//! **Truth** ([COST-2]). For a phantom the field itself is known: the knobs that decide how close the samples come to it
-//! (step, kernel, gradient, Hessian, κ) are compared with one picture of the phantom's formula and its exact derivatives,
-//! at their finest settings, without early termination. Where the error stops to fall with finer steps, the voxels are what is
-//! left of it. The knobs that are no matter of the field (rays a pixel, number type, early termination, biases of
-//! mip-maps) are compared with the same scene at the finest setting, and so is every knob where the field is not known.
+//! **Truth** ([COST-2]). For a phantom the field itself is known: the knobs that decide how close the samples come to
+//! it (step, kernel, gradient, Hessian, κ) are compared with one picture of the phantom's formula and its exact
+//! derivatives, at their finest settings, without early termination. Where the error no longer falls with finer steps,
+//! what is left of it is the voxels'. The knobs that are no matter of the field (rays a pixel, number type, early
+//! termination, biases of mip-maps) are compared with the same scene at the finest setting, and so is every knob where
+//! the field is not known.
 //!
-//! **Error**: of the picture as it is written, with its background, in linear premultiplied light: the RMS and the largest
-//! difference over R, G, B and A, and the mean of FLIP.
+//! **Error**: of the picture as it is written, with its background, in linear premultiplied light: the RMS and the
+//! largest difference over R, G, B and A, and the mean of FLIP.
 //!
-//! **Time** ([COST-3]): of one picture from the loaded volume, what is prepared for it included. After a warm-up all settings take
-//! turns, forwards and backwards, so that whatever else the machine does falls on each of them; what is told is the
-//! median, with the distance between the quartiles as its spread.
+//! **Time** ([COST-3]): of one frame of a prepared scene, as `render --repeat` has it; what is prepared once (coefficients
+//! of a spline, the range of |g|) is not in it, and is seen in the bytes. After a warm-up all settings take turns,
+//! forwards and backwards, so that whatever else the machine does falls on each of them; what is told is the median, with
+//! the distance between the quartiles as its spread.
 
 mod form;
 mod front;
@@ -30,6 +32,7 @@ use crate::job::Job;
 use crate::{Failure, Failures};
 use drypoint_output::compare::{Options as How, compare};
 use drypoint_output::read::Image;
+use drypoint_reference::ray::Renderer;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::knobs::{Knob, Limit, knobs};
 use drypoint_scene::phantom::{self, Phantom};
@@ -88,7 +91,7 @@ pub struct Row {
     pub max: f64,
     /// Mean of FLIP.
     pub flip: f64,
-    /// Median seconds of a picture.
+    /// Median seconds of a frame.
     pub seconds: f64,
     /// Seconds between the quartiles.
     pub spread: f64,
@@ -103,8 +106,8 @@ pub struct Row {
 /// What a sweep found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// The knobs in the order of the scene's tables, each from coarse to fine; a setting of the scene's own that is none of
-    /// the knob's comes first.
+    /// The knobs in the order of the scene's tables, each from coarse to fine; a setting of the scene's own that is none
+    /// of the knob's comes first.
     pub rows: Vec<Row>,
     /// Settings that cannot be rendered, and why.
     pub left_out: Vec<(String, String, Failure)>,
@@ -116,13 +119,53 @@ pub struct Sweep {
     pub size: [usize; 2],
 }
 
+/// Bytes that are kept prepared from turn to turn; what is more is prepared anew each time.
+const KEPT: u64 = 1 << 30;
+
 /// A scene that is rendered, whatever knobs lead to it.
-struct Variant {
-    scene: Scene,
-    plan: Plan,
+struct Variant<'a> {
+    job: &'a Job,
+    scene: &'a Scene,
+    plan: &'a Plan,
+    /// Ready for the next turn, where it may be kept.
+    renderer: Option<Renderer<'a>>,
     /// Its picture and its counts, or why there is none.
     made: Result<(Image, Counts), Failure>,
     seconds: Vec<f64>,
+}
+
+impl<'a> Variant<'a> {
+    /// Prepares and warms up; `kept` counts what the variants keep.
+    fn new(job: &'a Job, (scene, plan): &'a (Scene, Plan), kept: &mut u64) -> Self {
+        let mut renderer = None;
+        let made = job.renderer_of(scene, plan).map(|ready| {
+            let (picture, counts) = ready.frame(&|_| ());
+            let shared = |name: &str| ["volume", "mask", "labels", "picture"].contains(&name);
+            let own: u64 = counts.bytes.iter().filter(|(name, _)| !shared(name)).map(|(_, bytes)| bytes).sum();
+            if *kept + own <= KEPT {
+                *kept += own;
+                renderer = Some(ready);
+            }
+            (Image::from(&picture), counts)
+        });
+        Self { job, scene, plan, renderer, made, seconds: Vec::new() }
+    }
+
+    /// Times one frame.
+    fn take_turn(&mut self) -> Result<(), Failure> {
+        let anew;
+        let renderer = match &self.renderer {
+            Some(renderer) => renderer,
+            None => {
+                anew = self.job.renderer_of(self.scene, self.plan)?;
+                &anew
+            }
+        };
+        let start = Instant::now();
+        renderer.frame(&|_| ());
+        self.seconds.push(start.elapsed().as_secs_f64());
+        Ok(())
+    }
 }
 
 /// Turns every knob of a job's scene. `progress` hears the share that is done.
@@ -143,7 +186,7 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
         VolumeSource::Phantom(source) => phantom::of_source(source).ok().map(|(phantom, _)| phantom),
         VolumeSource::File { .. } => None,
     };
-    let mut variants: Vec<Variant> = Vec::new();
+    let mut different: Vec<(Scene, Plan)> = Vec::new();
     let mut settings: Vec<(&Knob, String, usize)> = Vec::new();
     for knob in &turned {
         let mut scenes = Vec::new();
@@ -156,19 +199,20 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
             scenes.insert(0, (own, base.clone()));
         }
         for (setting, scene) in scenes {
-            let known = variants.iter().position(|variant| variant.scene == scene);
-            let at = known.unwrap_or(variants.len());
+            let known = different.iter().position(|(other, _)| *other == scene);
+            let at = known.unwrap_or(different.len());
             if known.is_none() {
                 let plan = job.plan_of(&scene);
-                let (made, _) = render(job, &scene, &plan);
-                variants.push(Variant { scene, plan, made, seconds: Vec::new() });
+                different.push((scene, plan));
             }
             settings.push((knob, setting, at));
         }
     }
     let of_field = turned.iter().any(|knob| knob.limit == Limit::Field);
     let analytic = phantom.filter(|_| of_field).map(|phantom| exact(job, &base, &all, &*phantom)).transpose()?;
-    time(job, &mut variants, options.runs.max(1), progress);
+    let mut kept = 0;
+    let mut variants: Vec<Variant> = different.iter().map(|scene| Variant::new(job, scene, &mut kept)).collect();
+    time(&mut variants, options.runs.max(1), progress)?;
 
     let mut found = Sweep {
         rows: Vec::new(),
@@ -195,7 +239,7 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
                 found.rows.push(Row {
                     knob: knob.key.clone(),
                     setting: setting.clone(),
-                    own: variant.scene == base,
+                    own: *variant.scene == base,
                     rms: error.rms,
                     max: error.max,
                     // Both pictures have colours.
@@ -236,16 +280,8 @@ fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result
     Ok(Image::from(&picture))
 }
 
-/// One picture from the loaded volume, and the seconds that it took.
-fn render(job: &Job, scene: &Scene, plan: &Plan) -> (Result<(Image, Counts), Failure>, f64) {
-    let start = Instant::now();
-    let made = job.renderer_of(scene, plan).map(|renderer| renderer.frame(&|_| ()));
-    let seconds = start.elapsed().as_secs_f64();
-    (made.map(|(picture, counts)| (Image::from(&picture), counts)), seconds)
-}
-
 /// Times every picture that there is, in turns.
-fn time(job: &Job, variants: &mut [Variant], runs: usize, progress: &dyn Fn(f64)) {
+fn time(variants: &mut [Variant], runs: usize, progress: &dyn Fn(f64)) -> Result<(), Failure> {
     let total = runs * variants.len();
     let mut done = 0;
     for run in 0..runs {
@@ -254,11 +290,11 @@ fn time(job: &Job, variants: &mut [Variant], runs: usize, progress: &dyn Fn(f64)
         for at in turns {
             let variant = &mut variants[at];
             if variant.made.is_ok() {
-                let (_, seconds) = render(job, &variant.scene, &variant.plan);
-                variant.seconds.push(seconds);
+                variant.take_turn()?;
             }
             done += 1;
             progress(done as f64 / total as f64);
         }
     }
+    Ok(())
 }

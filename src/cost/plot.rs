@@ -13,8 +13,8 @@ use kuva::render::plots::Plot;
 use kuva::render::render::{Scene, render_multiple};
 use std::sync::Arc;
 
-/// Colours of knobs in their order, told apart by most colour-blind people (Okabe and Ito 2008) as far as they reach; then
-/// their darker sisters with other marks.
+/// Colours of knobs in their order, told apart by most colour-blind people (Okabe and Ito 2008) as far as they reach;
+/// then their darker sisters with other marks.
 const COLORS: [&str; 12] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7a4fbf", "#8c510a", "#003f63", "#7f3800",
     "#005f45", "#7a4865",
@@ -72,7 +72,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
             .with_legend(format!("{knob}{truth}"));
         plots.push(Plot::Scatter(marks));
     }
-    plots.extend(names);
+    plots.push(names);
     let [width, height] = sweep.size;
     let analytic = sweep.rows.iter().any(|row| row.truth == Truth::Analytic);
     let against =
@@ -89,7 +89,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
         .with_y_axis_max(large * 2.0)
         .with_x_tick_format(TickFormat::Custom(Arc::new(time)))
         .with_title(format!("{name}: what accuracy costs"))
-        .with_x_label(format!("time of a picture of {width} × {height} pixels, median of {} runs", sweep.runs))
+        .with_x_label(format!("time of a frame of {width} × {height} pixels, median of {} runs", sweep.runs))
         .with_y_label(format!("RMS error, {against}"))
         .with_legend_position(LegendPosition::OutsideRightTop)
         .with_title_size(18)
@@ -120,22 +120,26 @@ fn time(seconds: f64) -> String {
 }
 
 /// The fronts, wide and grey, which go behind all else, and the names of their settings, which go before it.
-fn fronts(sweep: &Sweep) -> (Vec<Plot>, Vec<Plot>) {
-    let (mut lines, mut names) = (Vec::new(), Vec::new());
+fn fronts(sweep: &Sweep) -> (Vec<Plot>, Plot) {
+    let (mut lines, mut places, mut names) = (Vec::new(), Vec::new(), Vec::new());
     for (analytic, color, legend) in [(true, "#bdbdbd", "Pareto front"), (false, "#e3e3e3", "Pareto front *")] {
         let rows: Vec<&Row> = front(&sweep.rows, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
         if rows.is_empty() {
             continue;
         }
         let at: Vec<(f64, f64)> = rows.iter().map(|row| (row.seconds, row.rms)).collect();
+        places.extend_from_slice(&at);
+        names.extend(rows.iter().map(|row| {
+            let key = row.knob.rsplit('.').next().unwrap_or_default();
+            format!("{key} {}", row.setting.replace(" voxels", "").replace(" voxel", ""))
+        }));
         let line = LinePlot::new().with_data(at.clone()).with_color(color).with_stroke_width(8.0).with_legend(legend);
         let discs = ScatterPlot::new().with_data(at).with_color(color).with_size(9.0);
-        let name = |row: &&Row| format!("{} {}", row.knob.rsplit('.').next().unwrap_or_default(), row.setting);
-        let named = discs.clone().with_marker_opacity(0.0).with_labels(rows.iter().map(name)).with_repel_labels();
         lines.extend([Plot::Line(line), Plot::Scatter(discs)]);
-        names.push(Plot::Scatter(named));
     }
-    (lines, names)
+    // In one plot, so that no name is put over another.
+    let named = ScatterPlot::new().with_data(places).with_size(9.0).with_marker_opacity(0.0);
+    (lines, Plot::Scatter(named.with_labels(names).with_repel_labels()))
 }
 
 #[cfg(test)]
@@ -173,14 +177,9 @@ mod tests {
             row("sampling.kernel", "its own truth", 0.3, 0.0),
         ];
         let text = svg(&sweep(rows), "a <scene>").unwrap();
-        for part in [
-            "sampling.step *",
-            "sampling.kernel *",
-            "step 4 voxels",
-            "step 1 voxel",
-            "Pareto front *",
-            "a &lt;scene&gt;",
-        ] {
+        for part in
+            ["sampling.step *", "sampling.kernel *", ">step 4<", ">step 1<", "Pareto front *", "a &lt;scene&gt;"]
+        {
             assert!(text.contains(part), "{part}\n{text}");
         }
         assert!(!text.contains("slow and bad") && !text.contains("its own truth"));

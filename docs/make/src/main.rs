@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod called_for;
+mod cost;
 mod figures;
 mod files;
 #[cfg(test)]
@@ -22,6 +23,7 @@ type Page = (&'static str, fn() -> Result<(), String>);
 const PAGES: &[Page] = &[
     ("accuracy", accuracy::write),
     ("called-for", called_for::write),
+    ("cost", cost::write),
     ("figure-1", painting::figure::write),
     ("figures", figures::write),
     ("painting", painting::write),

@@ -191,7 +191,7 @@ pub(super) const FAMILIES: [Family; 17] = [
     },
     Family {
         letters: "COST",
-        subject: "What accuracy costs, not built yet",
+        subject: "What accuracy costs",
         rules: &[
             (1, "Every knob of a scene can be swept, error against time."),
             (2, "The error is against the truth where that is known, else against the finest setting."),
