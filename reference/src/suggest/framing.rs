@@ -75,10 +75,10 @@ mod tests {
         let volume = Volume::new(grid, Voxels::U8(voxels), 1.0, 0.0).unwrap();
         let direction = DVec3::new(-0.6, 1.0, -0.45);
         // The surface at the content's own value passes through its outermost voxels.
-        let inside = Inside { value: 200.0, outside: Outside::Low };
-        let body = Body::of(&volume, inside);
+        let seen = Inside { value: 200.0, outside: Outside::Low };
+        let body = Body::of(&volume, seen);
         for size in [[400, 400], [600, 400], [300, 500]] {
-            let fit = fit(&volume, &body, inside, direction, DVec3::Z, 30.0, size);
+            let fit = fit(&volume, &body, seen, direction, DVec3::Z, 30.0, size);
             let camera = Camera {
                 projection: Projection::Perspective { fov: 30.0 },
                 eye: Some(fit.eye),
