@@ -174,7 +174,8 @@ fn small_and_steep_content_is_framed_with_what_lies_between_voxels() {
 #[test]
 fn dark_content_is_drawn_as_its_mirror_image() {
     let noise = |d: f64| ((d * 1e6) as i64 % 7 - 3) as f64;
-    let fields: [(&str, VoxelType, &dyn Fn(f64) -> f64); 4] = [
+    type OfRadius<'a> = &'a dyn Fn(f64) -> f64;
+    let fields: [(&str, VoxelType, OfRadius); 4] = [
         ("ball", VoxelType::I16, &|d| 100.0 * edge((13.0 - d) / 0.8)),
         ("hole", VoxelType::U8, &|d| 200.0 * edge((13.0 - d) / 0.8)),
         ("distances", VoxelType::F64, &|d| 13.0 - d),
