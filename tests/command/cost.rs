@@ -74,6 +74,7 @@ fn every_setting_of_every_knob_has_a_row() {
         ("sampling.stop_below", 8),
         ("style_mipmaps.curvature_bias", 4),
         ("style_mipmaps.gradient_bias", 4),
+        ("transfer.table", 5),
     ];
     assert_eq!(counts, expected);
     for (knob, rows) in &rows {
@@ -102,7 +103,14 @@ fn an_unshaded_scene_has_no_gradient_knob() {
     let folder = Folder::new();
     folder.write("scene.toml", REGULAR);
     let unshaded: Vec<String> = rows(&folder, "cost scene.toml --runs 1").into_keys().collect();
-    let expected = ["picture.samples", "sampling.kernel", "sampling.number", "sampling.step", "sampling.stop_below"];
+    let expected = [
+        "picture.samples",
+        "sampling.kernel",
+        "sampling.number",
+        "sampling.step",
+        "sampling.stop_below",
+        "transfer.table",
+    ];
     assert_eq!(unshaded, expected);
     folder.write("scene.toml", format!("{REGULAR}[shading]\n"));
     let shaded = rows(&folder, "cost scene.toml --runs 1 --knob sampling.gradient");
@@ -233,7 +241,7 @@ fn what_cannot_be_done_is_told_before_work() {
         ),
         (
             "cost scene.toml --knob sampling.gradient",
-            "error: \"sampling.gradient\" is no knob that the scene uses\n  at: scene.toml\n  try: the knobs of this scene are picture.samples, sampling.step, sampling.kernel, sampling.number, sampling.stop_below\n",
+            "error: \"sampling.gradient\" is no knob that the scene uses\n  at: scene.toml\n  try: the knobs of this scene are picture.samples, sampling.step, sampling.kernel, sampling.number, sampling.stop_below, transfer.table\n",
         ),
         (
             "cost scene.toml --runs 0",
