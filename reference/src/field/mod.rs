@@ -199,16 +199,20 @@ impl<'v, R: Real> Field<'v, R> {
 
     /// For each brick of cells a range of values that no sample in it leaves ([RAY-2]).
     pub fn bricks(&self) -> Bricks {
-        Bricks::new(self.volume.dims(), |first, end| {
+        Bricks::new(self.volume.dims(), |row| {
             let read = match &self.kernel {
-                KernelData::Trilinear => ranges::corners(&self.stencils, first, end),
-                KernelData::BsplineSmooth => ranges::supports::<R>(&self.stencils, first, end),
-                KernelData::CatmullRom => ranges::overshot(ranges::supports::<R>(&self.stencils, first, end)),
-                KernelData::Bspline(c) | KernelData::Bspline5(c) => c.range(first, end),
+                KernelData::Trilinear => ranges::corners(&self.stencils, row),
+                KernelData::BsplineSmooth => ranges::supports::<R>(&self.stencils, row),
+                KernelData::CatmullRom => {
+                    ranges::supports::<R>(&self.stencils, row).into_iter().map(ranges::overshot).collect()
+                }
+                KernelData::Bspline(c) | KernelData::Bspline5(c) => {
+                    row.cells().map(|[first, end]| c.range(first, end)).collect()
+                }
             };
             // Values are rounded as those of the samples are, which keeps the order.
-            let [a, b] = ranges::widened::<R>(read).map(|v| self.to_value(R::from_f64(v)).to_f64());
-            [a.min(b), a.max(b)]
+            let rounded = |range| ranges::widened::<R>(range).map(|v| self.to_value(R::from_f64(v)).to_f64());
+            read.into_iter().map(rounded).map(|[a, b]| [a.min(b), a.max(b)]).collect()
         })
     }
 

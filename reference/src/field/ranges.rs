@@ -2,36 +2,37 @@
 
 use super::stencil::Stencils;
 use crate::number::Real;
-use drypoint_scene::volume::{Access, Voxel};
+use drypoint_scene::volume::{Access, BrickRow, Voxel};
 use drypoint_scene::with_access;
+use std::ops::Range;
 
 /// The largest of Σ|w| over a cell of Catmull–Rom, (5/4)³ = 1.953125, rounded up.
 const OVERSHOOT: f64 = 1.954;
 
-/// Lowest and highest voxel of the cells from `first` up to, not including, `end`.
-pub(super) fn corners(stencils: &Stencils<'_>, first: [usize; 3], end: [usize; 3]) -> [f64; 2] {
+/// Lowest and highest voxel of the cells of each brick.
+pub(super) fn corners(stencils: &Stencils<'_>, row: &BrickRow) -> Vec<[f64; 2]> {
     // A cell ends at the voxel after its first one, where there is one.
-    voxels(stencils, first, std::array::from_fn(|a| (end[a] + 1).min(stencils.dims()[a])))
+    voxels(stencils, row, 0, 1)
 }
 
-/// Lowest and highest number that the 4³ voxels around the cells from `first` up to, not including, `end` have, those
-/// beyond the border continued.
-pub(super) fn supports<R: Real>(stencils: &Stencils<'_>, first: [usize; 3], end: [usize; 3]) -> [f64; 2] {
+/// Lowest and highest number that the 4³ voxels around the cells of each brick have, those beyond the border continued.
+pub(super) fn supports<R: Real>(stencils: &Stencils<'_>, row: &BrickRow) -> Vec<[f64; 2]> {
     let dims = stencils.dims();
-    let from = first.map(|i| i.saturating_sub(1));
-    let [mut lo, mut hi] = voxels(stencils, from, std::array::from_fn(|a| (end[a] + 2).min(dims[a])));
     let at_border = |a: usize, i: usize| i == 0 || i + 2 >= dims[a];
-    for z in first[2]..end[2] {
-        for y in first[1]..end[1] {
-            let row_at_border = at_border(1, y) || at_border(2, z);
-            for x in (first[0]..end[0]).filter(|&x| row_at_border || at_border(0, x)) {
-                for c in stencils.block::<R>([x, y, z]).into_iter().flatten().flatten() {
-                    (lo, hi) = (lo.min(c.to_f64()), hi.max(c.to_f64()));
+    let mut ranges = voxels(stencils, row, 1, 2);
+    for ([lo, hi], [first, end]) in ranges.iter_mut().zip(row.cells()) {
+        for z in first[2]..end[2] {
+            for y in first[1]..end[1] {
+                let row_at_border = at_border(1, y) || at_border(2, z);
+                for x in (first[0]..end[0]).filter(|&x| row_at_border || at_border(0, x)) {
+                    for c in stencils.block::<R>([x, y, z]).into_iter().flatten().flatten() {
+                        (*lo, *hi) = (lo.min(c.to_f64()), hi.max(c.to_f64()));
+                    }
                 }
             }
         }
     }
-    [lo, hi]
+    ranges
 }
 
 /// What Catmull–Rom can make of samples in a range: their middle ± [`OVERSHOOT`] half-ranges.
@@ -48,21 +49,74 @@ pub(super) fn widened<R: Real>([lo, hi]: [f64; 2]) -> [f64; 2] {
     [lo - rounding, hi + rounding]
 }
 
-/// Lowest and highest voxel from `first` up to, not including, `end`, as stencils read them.
-fn voxels(stencils: &Stencils<'_>, first: [usize; 3], end: [usize; 3]) -> [f64; 2] {
-    let [lo, hi] = with_access!(stencils.volume(), |a| {
-        let start = a.at(first[0], first[1], first[2]);
-        let (mut lo, mut hi) = (start, start);
-        for z in first[2]..end[2] {
-            for y in first[1]..end[1] {
-                for x in first[0]..end[0] {
-                    let v = a.at(x, y, z);
-                    lo = if v < lo { v } else { lo };
-                    hi = if v > hi { v } else { hi };
+/// Lowest and highest voxel, as stencils read them, of each brick's cells, from `before` voxels before a cell to `after`
+/// voxels after it.
+fn voxels(stencils: &Stencils<'_>, row: &BrickRow, before: usize, after: usize) -> Vec<[f64; 2]> {
+    let dims = stencils.dims();
+    let reached =
+        |[first, end]: [[usize; 3]; 2], a: usize| first[a].saturating_sub(before)..(end[a] + after).min(dims[a]);
+    with_access!(stencils.volume(), |voxels| {
+        let mut columns = Columns::new(dims[0]);
+        if let Some(brick) = row.cells().next() {
+            for z in reached(brick, 2) {
+                for y in reached(brick, 1) {
+                    columns.add(voxels, y, z);
                 }
             }
         }
-        [lo, hi].map(Voxel::to_f64)
-    });
-    [lo * stencils.scale(), hi * stencils.scale()]
+        let range = |brick| columns.range(reached(brick, 0)).map(|v| Voxel::to_f64(v) * stencils.scale());
+        row.cells().map(range).collect()
+    })
+}
+
+/// Voxels that are compared at a time: so many that the compiler keeps the loop, and takes as many in a step as fit.
+const LANES: usize = 64;
+
+/// Lowest and highest voxel of several rows, for each x.
+struct Columns<V> {
+    lo: Vec<V>,
+    hi: Vec<V>,
+    width: usize,
+}
+
+impl<V: Voxel> Columns<V> {
+    fn new(width: usize) -> Self {
+        Self { lo: Vec::new(), hi: Vec::new(), width }
+    }
+
+    fn add(&mut self, voxels: impl Access<Voxel = V>, y: usize, z: usize) {
+        if self.lo.is_empty() {
+            self.lo = (0..self.width).map(|x| voxels.at(x, y, z)).collect();
+            self.hi = self.lo.clone();
+            return;
+        }
+        let (lo, lo_rest) = self.lo.as_chunks_mut::<LANES>();
+        let (hi, hi_rest) = self.hi.as_chunks_mut::<LANES>();
+        for (i, (lo, hi)) in lo.iter_mut().zip(&mut *hi).enumerate() {
+            let row = voxels.row::<LANES>(i * LANES, y, z);
+            for x in 0..LANES {
+                compare(row[x], &mut lo[x], &mut hi[x]);
+            }
+        }
+        let start = lo.len() * LANES;
+        for (i, (lo, hi)) in lo_rest.iter_mut().zip(hi_rest).enumerate() {
+            compare(voxels.at(start + i, y, z), lo, hi);
+        }
+    }
+
+    /// Lowest and highest voxel of some columns, of which there is at least one.
+    fn range(&self, columns: Range<usize>) -> [V; 2] {
+        let [mut lo, mut hi] = [self.lo[columns.start], self.hi[columns.start]];
+        for x in columns {
+            compare(self.lo[x], &mut lo, &mut hi);
+            compare(self.hi[x], &mut lo, &mut hi);
+        }
+        [lo, hi]
+    }
+}
+
+#[inline(always)]
+fn compare<V: Voxel>(v: V, lo: &mut V, hi: &mut V) {
+    *lo = if v < *lo { v } else { *lo };
+    *hi = if v > *hi { v } else { *hi };
 }

@@ -4,6 +4,7 @@ use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use super::place::Place;
 use super::{Field, GradientEstimator, Second, gradient, hessian};
 use crate::number::{Real, Sym3, Vec3};
+use drypoint_scene::glam::DVec3;
 
 /// A field at positions in index space, inside the box of [SPACE-1]. Derivatives are those of the world times 2^−e,
 /// e = [`Field::scale_exponent`] ([SPACE-4]).
@@ -14,11 +15,33 @@ pub trait Sampler<R: Real>: Sync {
     /// The value at a place, after slope and intercept.
     fn value_at(&self, at: Place<R>) -> R;
 
+    /// [`value`](Self::value) at several positions, which may be computed in any order and side by side.
+    #[inline(always)]
+    fn values(&self, position: impl Fn(usize) -> Vec3<R>, values: &mut [R]) {
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = self.value(position(i));
+        }
+    }
+
+    /// How many values are worth computing at once: as many wait for nothing, and some are computed in vain where only the
+    /// first are wanted.
+    const AT_ONCE: usize = 1;
+
     /// The gradient at a place by the field's estimator, in world space, times 2^−e.
     ///
     /// # Panics
     /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
     fn gradient_at(&self, at: Place<R>) -> Vec3<R>;
+
+    /// The gradient at a voxel: the bits of [`gradient_at`](Self::gradient_at) its place but for the signs of zeros, sooner
+    /// for estimators that are defined on voxels.
+    ///
+    /// # Panics
+    /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
+    #[inline]
+    fn voxel_gradient(&self, voxel: [usize; 3]) -> Vec3<R> {
+        self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64))))
+    }
 
     /// The Hessian at a place by the field's estimator, and the gradient of the field that it belongs to ([CUR-1]), in
     /// world space, times 2^−e.
@@ -60,6 +83,17 @@ pub(super) trait Interpolant<R: Real>: Sync {
     /// The value.
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R;
 
+    /// [`Sampler::AT_ONCE`].
+    const AT_ONCE: usize = 1;
+
+    /// The values at several places.
+    #[inline(always)]
+    fn values(&self, field: &Field<'_, R>, place: impl Fn(usize) -> Place<R>, values: &mut [R]) {
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = self.value(field, place(i));
+        }
+    }
+
     /// The derivative of the kernel: `analytic`.
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R>;
 
@@ -93,6 +127,16 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
         self.field.to_value(self.kernel.value(self.field, at))
     }
 
+    const AT_ONCE: usize = K::AT_ONCE;
+
+    #[inline(always)]
+    fn values(&self, position: impl Fn(usize) -> Vec3<R>, values: &mut [R]) {
+        self.kernel.values(self.field, |i| self.field.cells.locate(position(i)), values);
+        for value in values {
+            *value = self.field.to_value(*value);
+        }
+    }
+
     #[inline(always)]
     fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
         let field = self.field;
@@ -106,6 +150,15 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
             }
         };
         field.to_world.apply(index)
+    }
+
+    #[inline]
+    fn voxel_gradient(&self, voxel: [usize; 3]) -> Vec3<R> {
+        let [x, y, z] = voxel;
+        match gradient::at_voxel(self.field, x, y, z) {
+            Some(index) => self.field.to_world.apply(index),
+            None => self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
+        }
     }
 
     #[inline]

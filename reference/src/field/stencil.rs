@@ -124,6 +124,19 @@ impl<'v> Stencils<'v> {
         inside(0) && inside(1) && inside(2)
     }
 
+    /// Whether a voxel's 26 neighbours are in the grid and can simply be read.
+    #[inline(always)]
+    pub(super) fn surrounds(&self, voxel: [usize; 3]) -> bool {
+        let dims = self.dims();
+        !self.careful && (0..3).all(|a| voxel[a].wrapping_sub(1) < dims[a].saturating_sub(2))
+    }
+
+    /// Whether no stencil can simply be read: on axes of length 1 and where numbers are scaled.
+    #[inline(always)]
+    pub(super) fn careful(&self) -> bool {
+        self.careful
+    }
+
     /// The corners of a cell where they cannot simply be read: on axes of length 1 and where numbers are scaled.
     #[inline(always)]
     pub(super) fn careful_corners<R: Real>(&self, cell: [usize; 3]) -> Option<Corners<R>> {

@@ -1,7 +1,7 @@
 //! What |g| = 1 stands for ([VAL-2]).
 
 use crate::field::{GradientEstimator, Sampler};
-use crate::number::{Real, Vec3};
+use crate::number::Real;
 use drypoint_scene::volume::histogram::quantile;
 use drypoint_scene::volume::{Mask, Volume};
 use rayon::prelude::*;
@@ -18,7 +18,6 @@ pub(super) fn quantile_of_norms<R: Real, S: Sampler<R>>(
     q: f64,
 ) -> (f64, u64) {
     let [nx, ny, nz] = volume.dims();
-    let at = |i: usize| R::from_f64(i as f64);
     let norms: Vec<(Vec<f64>, u64)> = (0..nz)
         .into_par_iter()
         .map(|z| {
@@ -29,7 +28,7 @@ pub(super) fn quantile_of_norms<R: Real, S: Sampler<R>>(
                         continue;
                     }
                     evaluated += 1;
-                    let norm = sampler.gradient(Vec3::new(at(x), at(y), at(z))).length();
+                    let norm = sampler.voxel_gradient([x, y, z]).length();
                     if norm > no_normal_below {
                         plane.push(norm.to_f64());
                     }
@@ -73,6 +72,7 @@ fn touches(mask: &Mask, dims: [usize; 3], voxel: [usize; 3], estimator: Gradient
 mod tests {
     use super::*;
     use crate::field::{Field, HessianEstimator, Kernel, Outside, Reconstruction, Rung};
+    use crate::number::Vec3;
     use crate::with_sampler;
     use drypoint_scene::space::Grid;
     use drypoint_scene::volume::Voxels;

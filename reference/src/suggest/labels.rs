@@ -56,23 +56,25 @@ impl Rows {
 fn count<A: Access>(volume: &Volume, a: A) -> Rows {
     let [nx, ny, nz] = volume.dims();
     let (slope, intercept) = (volume.slope(), volume.intercept());
-    let value = |x, y, z| slope * a.at(x, y, z).to_f64() + intercept;
+    let row = |y: usize, z: usize, out: &mut Vec<f64>| {
+        out.clear();
+        out.extend((0..nx).map(|x| slope * a.at(x, y, z).to_f64() + intercept));
+    };
     // Sums of whole numbers: the order of the parts does not show.
     (0..nz)
         .into_par_iter()
         .map(|z| {
             let mut rows = Rows::default();
+            let [mut here, mut next, mut last] = [const { Vec::new() }; 3];
             for y in 0..ny {
-                for x in 0..nx {
-                    let here = value(x, y, z);
-                    if x + 2 < nx {
-                        rows.add([here, value(x + 1, y, z), value(x + 2, y, z)]);
-                    }
-                    if y + 2 < ny {
-                        rows.add([here, value(x, y + 1, z), value(x, y + 2, z)]);
-                    }
-                    if z + 2 < nz {
-                        rows.add([here, value(x, y, z + 1), value(x, y, z + 2)]);
+                row(y, z, &mut here);
+                here.windows(3).for_each(|v| rows.add([v[0], v[1], v[2]]));
+                for (along_y, inside) in [(true, y + 2 < ny), (false, z + 2 < nz)] {
+                    if inside {
+                        let beyond = |i: usize| if along_y { (y + i, z) } else { (y, z + i) };
+                        row(beyond(1).0, beyond(1).1, &mut next);
+                        row(beyond(2).0, beyond(2).1, &mut last);
+                        (0..nx).for_each(|x| rows.add([here[x], next[x], last[x]]));
                     }
                 }
             }

@@ -56,36 +56,12 @@ impl Levels {
             return None;
         }
         let (slope, intercept) = (volume.slope(), volume.intercept());
-        let [nx, ny, nz] = volume.dims();
-        let slices: Vec<Sums> = with_access!(volume, |a| {
-            let share = |x: usize, y: usize, z: usize| {
-                let u = (half(lo, slope * a.at(x, y, z).to_f64() + intercept) * per_half).clamp(0.0, 1.0);
-                if outside == Outside::Low { u } else { 1.0 - u }
-            };
-            // Four voxels in a row along an axis, the outer two repeated at the borders.
-            let around = |i: usize, n: usize| [i.saturating_sub(1), i, i + 1, (i + 2).min(n - 1)];
-            (0..nz)
-                .into_par_iter()
-                .map(|z| {
-                    let mut sums = Sums::default();
-                    for y in 0..ny {
-                        for x in 0..nx {
-                            sums.voxel(share(x, y, z), [(x, nx), (y, ny), (z, nz)]);
-                            if x + 1 < nx {
-                                sums.pair(around(x, nx).map(|x| share(x, y, z)));
-                            }
-                            if y + 1 < ny {
-                                sums.pair(around(y, ny).map(|y| share(x, y, z)));
-                            }
-                            if z + 1 < nz {
-                                sums.pair(around(z, nz).map(|z| share(x, y, z)));
-                            }
-                        }
-                    }
-                    sums
-                })
-                .collect()
-        });
+        let share = |value: f64| {
+            let u = (half(lo, slope * value + intercept) * per_half).clamp(0.0, 1.0);
+            if outside == Outside::Low { u } else { 1.0 - u }
+        };
+        let dims = volume.dims();
+        let slices = with_access!(volume, |a| sums(dims, |z| Slice::new(a, z, share)));
         Some(Self { lo, hi, outside, voxels: volume.grid().len() as f64, levels: levels(&slices) })
     }
 
@@ -149,6 +125,67 @@ fn bin(share: f64) -> usize {
     ((share * LEVELS as f64) as usize).min(LEVELS - 1)
 }
 
+/// The voxels of a slice across z: from the outside as shares of the range, and their bins.
+struct Slice {
+    shares: Vec<f64>,
+    bins: Vec<u16>,
+}
+
+impl Slice {
+    fn new<A: Access>(voxels: A, z: usize, share: impl Fn(f64) -> f64) -> Self {
+        let [nx, ny, _] = voxels.dims();
+        let mut shares = Vec::with_capacity(nx * ny);
+        for y in 0..ny {
+            shares.extend((0..nx).map(|x| share(voxels.at(x, y, z).to_f64())));
+        }
+        let bins = shares.iter().map(|&u| bin(u) as u16).collect();
+        Self { shares, bins }
+    }
+}
+
+/// Slices that one thread takes in a row: each is read once for them, and three more.
+const THICKNESS: usize = 8;
+
+/// The sums of each slice.
+fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> Slice + Sync) -> Vec<Sums> {
+    // Four voxels in a row along an axis, the outer two repeated at the borders.
+    let around = |i: usize, n: usize| [i.saturating_sub(1), i, i + 1, i + 2].map(|i| i.min(n - 1));
+    let slice = &slice;
+    let part = |part: usize| {
+        let first = part * THICKNESS;
+        let mut slices = around(first, nz).map(slice);
+        (first..nz.min(first + THICKNESS)).map(move |z| {
+            if z > first {
+                slices.rotate_left(1);
+                slices[3] = slice((z + 2).min(nz - 1));
+            }
+            let mut sums = Sums::default();
+            let here = &slices[1];
+            for y in 0..ny {
+                let rows = around(y, ny).map(|y| y * nx);
+                for x in 0..nx {
+                    let i = rows[1] + x;
+                    sums.voxel(here.bins[i], [(x, nx), (y, ny), (z, nz)]);
+                    if x + 1 < nx {
+                        let row = around(x, nx).map(|x| rows[1] + x);
+                        sums.pair([here.bins[i], here.bins[i + 1]], || row.map(|i| here.shares[i]));
+                    }
+                    if y + 1 < ny {
+                        let row = rows.map(|row| row + x);
+                        sums.pair([here.bins[i], here.bins[row[2]]], || row.map(|i| here.shares[i]));
+                    }
+                    if z + 1 < nz {
+                        let row = [0, 1, 2, 3];
+                        sums.pair([here.bins[i], slices[2].bins[i]], || row.map(|s| slices[s].shares[i]));
+                    }
+                }
+            }
+            sums
+        })
+    };
+    (0..nz.div_ceil(THICKNESS)).into_par_iter().flat_map_iter(part).collect()
+}
+
 impl Default for Sums {
     fn default() -> Self {
         Self { pairs: vec![[0.0; 3]; LEVELS], voxels: vec![0.0; LEVELS], on_faces: vec![0.0; LEVELS] }
@@ -156,20 +193,26 @@ impl Default for Sums {
 }
 
 impl Sums {
-    fn voxel(&mut self, u: f64, place: [(usize, usize); 3]) {
-        let b = bin(u);
-        self.voxels[b] += 1.0;
+    #[inline(always)]
+    fn voxel(&mut self, bin: u16, place: [(usize, usize); 3]) {
+        self.voxels[usize::from(bin)] += 1.0;
         // A corner lies on three faces. An axis of one voxel has no faces to cut.
-        let faces = place.iter().filter(|(_, n)| *n > 1).filter(|(i, n)| *i == 0 || *i + 1 == *n).count();
-        self.on_faces[b] += faces as f64;
+        let on_face = |(i, n): (usize, usize)| n > 1 && (i == 0 || i + 1 == n);
+        let faces = place.into_iter().filter(|&p| on_face(p)).count();
+        if faces > 0 {
+            self.on_faces[usize::from(bin)] += faces as f64;
+        }
     }
 
-    /// The pair in the middle of four voxels in a row.
-    fn pair(&mut self, [before, p, q, after]: [f64; 4]) {
-        let (from, to) = (bin(p.min(q)), bin(p.max(q)));
-        if from == to {
-            return;
+    /// The pair in the middle of four voxels in a row, of which two are in these bins.
+    #[inline(always)]
+    fn pair(&mut self, [p, q]: [u16; 2], shares: impl FnOnce() -> [f64; 4]) {
+        if p != q {
+            self.step(usize::from(p.min(q)), usize::from(p.max(q)), shares());
         }
+    }
+
+    fn step(&mut self, from: usize, to: usize, [before, p, q, after]: [f64; 4]) {
         let (step, wide) = (q - p, after - before);
         let confirmed = step.abs().min(wide.abs()) * if step * wide > 0.0 { 1.0 } else { -1.0 };
         for (c, amount) in [1.0, step.abs(), confirmed].into_iter().enumerate() {

@@ -13,18 +13,18 @@ pub struct Bricks {
 }
 
 impl Bricks {
-    /// Bricks over the cells of a grid, each with the range that `range` gives for the cells from its first argument
-    /// up to, not including, its second.
-    pub fn new(grid_dims: [usize; 3], range: impl Fn([usize; 3], [usize; 3]) -> [f64; 2] + Sync) -> Self {
+    /// Bricks over the cells of a grid, with the ranges that `ranges` gives for each row of them along x.
+    pub fn new(grid_dims: [usize; 3], ranges: impl Fn(&BrickRow) -> Vec<[f64; 2]> + Sync) -> Self {
         use rayon::prelude::*;
         let cells = grid_dims.map(|n| n.max(2) - 1);
         let dims = cells.map(|n| n.div_ceil(BRICK));
-        let ranges = (0..dims.iter().product::<usize>())
+        let ranges = (0..dims[1] * dims[2])
             .into_par_iter()
-            .map(|b| {
-                let brick = [b % dims[0], b / dims[0] % dims[1], b / (dims[0] * dims[1])];
-                let first = brick.map(|i| i * BRICK);
-                range(first, std::array::from_fn(|a| (first[a] + BRICK).min(cells[a])))
+            .flat_map_iter(|row| {
+                let brick = [row % dims[1], row / dims[1]];
+                let ranges = ranges(&BrickRow { cells, brick });
+                debug_assert_eq!(ranges.len(), dims[0]);
+                ranges
             })
             .collect();
         Self { dims, ranges }
@@ -39,5 +39,25 @@ impl Bricks {
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
         self.ranges.len() * size_of::<[f64; 2]>()
+    }
+}
+
+/// The bricks of one row along x.
+#[derive(Clone, Copy, Debug)]
+pub struct BrickRow {
+    /// Cells of the grid.
+    cells: [usize; 3],
+    /// The row's place among the bricks, along y and z.
+    brick: [usize; 2],
+}
+
+impl BrickRow {
+    /// For each brick its first cell and the one after its last, along x, y, z.
+    pub fn cells(&self) -> impl Iterator<Item = [[usize; 3]; 2]> + use<> {
+        let Self { cells, brick: [y, z] } = *self;
+        (0..cells[0].div_ceil(BRICK)).map(move |x| {
+            let first = [x, y, z].map(|i| i * BRICK);
+            [first, std::array::from_fn(|a| (first[a] + BRICK).min(cells[a]))]
+        })
     }
 }

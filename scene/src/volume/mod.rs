@@ -13,7 +13,7 @@ mod mask;
 pub mod read;
 pub mod write;
 
-pub use bricks::{BRICK, Bricks};
+pub use bricks::{BRICK, BrickRow, Bricks};
 pub use mask::Mask;
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 

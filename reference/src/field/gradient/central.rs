@@ -9,6 +9,7 @@ use crate::field::kernel::trilinear::bilinear;
 use crate::field::place::Place;
 use crate::field::stencil::{self, Cross};
 use crate::number::{Real, Vec3};
+use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
 
 /// The interpolated central differences at a place.
@@ -27,6 +28,15 @@ fn in_registers<R: Real>(field: &Field<'_, R>, x: usize, y: usize, z: usize, wx:
         // Compiled for each stored type, which spares the 32 numbers a way through memory.
         None => with_access!(field.volume, |a| interpolated(stencil::cross(a, at.cell), at.w)),
     }
+}
+
+/// The differences at a voxel that has neighbours on all sides.
+#[inline(always)]
+pub(super) fn at_voxel<R: Real>(voxels: impl Access, [x, y, z]: [usize; 3]) -> Vec3<R> {
+    let a = voxels.window::<3>(x - 1, y - 1, z - 1);
+    let read = |x, y, z| R::from_voxel(a.at(x, y, z));
+    let d = |down: [usize; 3], up: [usize; 3]| read(up[0], up[1], up[2]) - read(down[0], down[1], down[2]);
+    Vec3::new(d([0, 1, 1], [2, 1, 1]), d([1, 0, 1], [1, 2, 1]), d([1, 1, 0], [1, 1, 2])) * R::HALF
 }
 
 /// Twice the differences, interpolated, and halved. Written out: through closures over arrays it takes twice as long.

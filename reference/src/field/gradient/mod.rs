@@ -5,3 +5,22 @@
 pub(super) mod central;
 pub(super) mod regression;
 pub(super) mod sobel;
+
+use super::{Field, GradientEstimator};
+use crate::number::{Real, Vec3};
+use drypoint_scene::with_access;
+
+/// The estimate at a voxel that has neighbours on all sides, which is what interpolation gives there: the other corners
+/// have weight 0. None at the border, for numbers that are scaled as they are read, and for `analytic`.
+#[inline(never)]
+pub(super) fn at_voxel<R: Real>(field: &Field<'_, R>, x: usize, y: usize, z: usize) -> Option<Vec3<R>> {
+    if !field.stencils.surrounds([x, y, z]) {
+        return None;
+    }
+    with_access!(field.volume, |a| match (field.how.gradient, &field.regression) {
+        (GradientEstimator::Central, _) => Some(central::at_voxel(a, [x, y, z])),
+        (GradientEstimator::Sobel, _) => Some(sobel::at_voxel(a, [x, y, z])),
+        (GradientEstimator::Regression, Some(regression)) => Some(regression.at_voxel(a, [x, y, z])),
+        _ => None,
+    })
+}

@@ -14,6 +14,7 @@ use crate::field::stencil::Block;
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
+use drypoint_scene::volume::Access;
 
 /// Weights of the 3³ voxels around one, x fastest, for the derivative along each index axis.
 type Weights<R> = [[R; 27]; 3];
@@ -78,6 +79,18 @@ impl<R: Real> Regression<R> {
         let row = |j, k| mix(corner(0, j, k), corner(1, j, k), wx);
         let plane = |k| mix(row(0, k), row(1, k), wy);
         mix(plane(0), plane(1), wz)
+    }
+
+    /// The gradient at a voxel that has neighbours on all sides.
+    pub(super) fn at_voxel(&self, voxels: impl Access, [x, y, z]: [usize; 3]) -> Vec3<R> {
+        let a = voxels.window::<3>(x - 1, y - 1, z - 1);
+        let number = |t: usize| R::from_voxel(a.at(t % 3, t / 3 % 3, t / 9));
+        let first = number(13);
+        let mut around = [R::ZERO; 27];
+        for (t, c) in around.iter_mut().enumerate() {
+            *c = number(t) - first;
+        }
+        self.fitted([3; 3], &around)
     }
 
     /// The fitted gradient of a voxel from its neighbourhood, x fastest.

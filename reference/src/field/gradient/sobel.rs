@@ -8,6 +8,7 @@ use crate::field::Field;
 use crate::field::place::Place;
 use crate::field::tensor::{self, Taps};
 use crate::number::{Real, Vec3};
+use drypoint_scene::volume::Access;
 
 /// The interpolated gradient at a place, along the index axes.
 pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
@@ -15,6 +16,35 @@ pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: Place<R>) ->
     let block = field.stencils.block::<R>(at.cell);
     let taps: [Taps<R, 4>; 3] = std::array::from_fn(|axis| taps(at.cell[axis], at.w[axis], dims[axis]));
     tensor::gradient(|j, k| block[k][j], &taps)
+}
+
+/// The operator at a voxel that has neighbours on all sides: the sums of the interpolation, in their order.
+#[inline(always)]
+pub(super) fn at_voxel<R: Real>(voxels: impl Access, [x, y, z]: [usize; 3]) -> Vec3<R> {
+    let (half, quarter) = (R::HALF, R::HALF * R::HALF);
+    let (value, slope) = ([quarter, half, quarter], [-half, R::ZERO, half]);
+    let a = voxels.window::<3>(x - 1, y - 1, z - 1);
+    let first = R::from_voxel(a.at(1, 1, 1));
+    // Sums over z and y, named by the derivatives in (y, z).
+    let [mut s00, mut s10, mut s01] = [[R::ZERO; 3]; 3];
+    for k in 0..3 {
+        let [mut p0, mut p1] = [[R::ZERO; 3]; 2];
+        for j in 0..3 {
+            let row = a.row::<3>(0, j, k);
+            for i in 0..3 {
+                let c = R::from_voxel(row[i]) - first;
+                p0[i] += c * value[j];
+                p1[i] += c * slope[j];
+            }
+        }
+        for i in 0..3 {
+            s00[i] += p0[i] * value[k];
+            s10[i] += p1[i] * value[k];
+            s01[i] += p0[i] * slope[k];
+        }
+    }
+    let smooth = |s: [R; 3]| (s[0] * quarter + s[2] * quarter) + s[1] * half;
+    Vec3::new(s00[2] * half - s00[0] * half, smooth(s10), smooth(s01))
 }
 
 /// Weights of samples cell − 1 … cell + 2, those beyond the border continued.

@@ -44,6 +44,20 @@ impl<R: Real> Interpolant<R> for Trilinear {
         }
     }
 
+    const AT_ONCE: usize = 8;
+
+    /// Eight voxels are read so soon that to decide the stored type for each value, and to wait for one before the next,
+    /// would be most of the time.
+    #[inline(always)]
+    fn values(&self, field: &Field<'_, R>, place: impl Fn(usize) -> Place<R>, values: &mut [R]) {
+        let places = values.iter_mut().enumerate().map(|(i, value)| (place(i), value));
+        if field.stencils.careful() {
+            places.for_each(|(at, v)| *v = self.value(field, at));
+        } else {
+            with_access!(field.volume, |a| places.for_each(|(at, v)| *v = value(stencil::corners(a, at.cell), at.w)));
+        }
+    }
+
     #[inline]
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
         match field.stencils.careful_corners(at.cell) {

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::field::{curvature, normal};
+use drypoint_scene::volume::VoxelType;
 use proptest::prelude::*;
 
 /// A scatter of whole numbers that f64 and f32 hold exactly.
@@ -183,6 +184,60 @@ proptest! {
             prop_assert!((ga.to_glam() - gb.to_glam()).length() <= c * 4.0, "{how:?}: {ga:?} {gb:?}");
             for (a, b) in entries(ha).into_iter().zip(entries(hb)) {
                 prop_assert!((a - f64::from(b)).abs() <= c * 4.0, "{how:?}: {ha:?} {hb:?}");
+            }
+        }
+    }
+}
+
+/// Values that are computed at once are those that are computed alone, for every stored type, kernel and number of them, up
+/// to the border and on axes of length 1.
+#[test]
+fn values_at_once_are_the_values_alone() {
+    fn check<R: Real>(volume: &Volume, how: Reconstruction) {
+        let field = Field::<R>::new(volume, how, Rung::Value).unwrap();
+        let [nx, ny, nz] = volume.dims().map(|n| (n - 1) as f64);
+        let at = |i: usize| {
+            let t = i as f64 / 9.0;
+            Vec3::from_glam(DVec3::new(nx * t, ny * (1.0 - t), nz * (0.3 + 0.7 * t)))
+        };
+        with_sampler!(field, |s| for n in 0..=10 {
+            let mut values = vec![R::ZERO; n];
+            s.values(at, &mut values);
+            let alone: Vec<R> = (0..n).map(|i| s.value(at(i))).collect();
+            let bits = |values: Vec<R>| values.into_iter().map(|v| v.to_f64().to_bits()).collect::<Vec<u64>>();
+            assert_eq!(bits(values), bits(alone), "{how:?} {n}");
+        });
+    }
+    for dims in [[5, 4, 6], [3, 5, 1], [2, 3, 4]] {
+        let values: Vec<f64> = scatter(dims.iter().product()).into_iter().map(|v| (v / 3.0).abs()).collect();
+        for &to in VoxelType::ALL {
+            let grid = Grid::with_spacing(dims, [1.0; 3]).unwrap();
+            let volume = Volume::new(grid, Voxels::from_f64(&values, to), 0.7, 0.1).unwrap();
+            for how in all().filter(|how| how.gradient == GradientEstimator::Central) {
+                check::<f64>(&volume, how);
+                check::<f32>(&volume, how);
+            }
+        }
+    }
+}
+
+/// At voxels all corners but one have weight 0: their gradient alone is the interpolated one, for numbers of which sums are
+/// rounded too, at the border and on an axis of length 1.
+#[test]
+fn gradients_at_voxels_are_the_interpolated_ones() {
+    for dims in [[5, 4, 6], [3, 5, 1], [2, 3, 4]] {
+        let values: Vec<f64> = scatter(dims.iter().product()).into_iter().map(|v| v / 3.0 - 17.7).collect();
+        let grid = Grid::new(dims, frames()[2], DVec3::ZERO).unwrap();
+        for to in [VoxelType::F64, VoxelType::U8] {
+            let v = Volume::new(grid.clone(), Voxels::from_f64(&values, to), 0.7, 0.1).unwrap();
+            for how in all().filter(|how| how.hessian == HessianEstimator::Central) {
+                let field = Field::<f64>::new(&v, how, Rung::Gradient).unwrap();
+                for i in indices(dims) {
+                    let voxel = i.to_array().map(|i| i as usize);
+                    let (got, want) =
+                        with_sampler!(field, |s| (s.voxel_gradient(voxel), s.gradient(Vec3::from_glam(i))));
+                    assert_eq!(bits(got), bits(want), "{how:?} {to:?} at {i}");
+                }
             }
         }
     }

@@ -94,3 +94,29 @@ fn ranges_are_tight() {
     assert!(close(catmull_rom.ranges[0], [4.0, 4.0]));
     assert!(close(catmull_rom.ranges[11 / BRICK], [6.0 - 2.0 * 1.954, 6.0 + 2.0 * 1.954]));
 }
+
+/// a + 1·(b − a) is not b where b − a is rounded: at the last voxel, whose cell is the one before, samples leave the range
+/// of the voxels on either side, and not that of the brick.
+#[test]
+fn what_rounding_adds_is_in_the_range() {
+    fn beyond<R: Real>() -> [usize; 2] {
+        let mut beyond = [0; 2];
+        for i in 1..400 {
+            let (a, b) = (R::from_f64(-0.37 * f64::from(i)).to_f64(), R::from_f64(1.0 / f64::from(i)).to_f64());
+            for (a, b) in [(a, b), (-a, -b)] {
+                let voxels = Voxels::F64([[a, b]; 4].concat());
+                let volume = Volume::new(Grid::with_spacing([2; 3], [1.0; 3]).unwrap(), voxels, 1.0, 0.0).unwrap();
+                let field = Field::<R>::new(&volume, Reconstruction::default(), Rung::Value).unwrap();
+                let [lo, hi] = field.bricks().ranges[0];
+                let value = with_sampler!(field, |s| s.value(Vec3::new(R::ONE, R::ZERO, R::ZERO)).to_f64());
+                assert!(lo <= value && value <= hi, "{a} {b}: {value} outside [{lo}, {hi}]");
+                beyond[0] += usize::from(value < a.min(b));
+                beyond[1] += usize::from(value > a.max(b));
+            }
+        }
+        beyond
+    }
+    for [below, above] in [beyond::<f64>(), beyond::<f32>()] {
+        assert!(below > 20 && above > 20, "{below} {above}");
+    }
+}
