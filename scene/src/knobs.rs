@@ -122,8 +122,14 @@ mod tests {
     }
 
     /// What a scene uses whatever it shows.
-    const ALWAYS: [&str; 5] =
-        ["picture.samples", "sampling.step", "sampling.kernel", "sampling.number", "sampling.stop_below"];
+    const ALWAYS: [&str; 6] = [
+        "picture.samples",
+        "sampling.step",
+        "sampling.kernel",
+        "sampling.number",
+        "sampling.stop_below",
+        "transfer.table",
+    ];
     const REGULAR: &str = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \"red\" }]\n";
 
     #[test]

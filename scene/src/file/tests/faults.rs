@@ -36,7 +36,6 @@ fn a_part_that_is_not_built_says_so() {
         ("[shading]\nmodel = \"lighting-function\"\n", "shading.model = \"lighting-function\""),
         ("[shading.toon]\noffset = 0\n", "shading.toon"),
         ("[shading]\nview_opacity = 0.0\n", "shading.view_opacity"),
-        ("[transfer]\ntable = 1024\n", "a table of 1024 entries"),
         ("[picture]\nlayers = [\"halo0\"]\n", "picture.layers[0] = \"halo0\""),
     ] {
         let text = faults(rest);
