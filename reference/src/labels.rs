@@ -71,7 +71,7 @@ impl<'a> Labels<'a> {
     pub fn ids_in(&self, first: [usize; 3], end: [usize; 3]) -> Vec<u32> {
         let Some(map) = &self.map else { return self.ids_of(first, end) };
         let [lo, hi] = map.bounds(first, end);
-        let [start, stop] = map.own_box();
+        let [start, stop] = map.reach();
         let mut ids = if lo.cmple(stop).all() && hi.cmpge(start).all() {
             // Floors: what is clamped to the box is not negative.
             let cell = |p: DVec3| p.clamp(DVec3::ZERO, stop).to_array().map(|x| x as usize);

@@ -16,18 +16,21 @@ pub(crate) struct OtherGrid {
     offset: Vec3<f64>,
     data_box: [DVec3; 2],
     own_box: [DVec3; 2],
+    /// The last one, with the slack.
+    reach: [DVec3; 2],
 }
 
 impl OtherGrid {
     /// From positions on one grid to those on another; none where they are one, voxel on voxel.
     pub(crate) fn new(data: &Grid, other: &Grid) -> Option<Self> {
         let inverse = other.inverse_axes();
-        let [lo, hi] = other.index_box();
+        let own_box = other.index_box();
         let map = Self {
             linear: Mat3::from_glam(inverse * data.axes()),
             offset: Vec3::from_glam(inverse * (data.origin() - other.origin())),
             data_box: data.index_box(),
-            own_box: [lo - SLACK, hi + SLACK],
+            own_box,
+            reach: [own_box[0] - SLACK, own_box[1] + SLACK],
         };
         (data.dims() != other.dims() || !map.is_identity()).then_some(map)
     }
@@ -37,22 +40,24 @@ impl OtherGrid {
         self.linear.apply(p) + self.offset
     }
 
-    /// The position on the other grid, if it lies in its box.
+    /// The position on the other grid, if it lies in its box; what lies beside it by no more than the slack is moved to
+    /// the border.
     #[inline(always)]
     pub(crate) fn position(&self, p: Vec3<f64>) -> Option<Vec3<f64>> {
-        let p = self.apply(p);
-        self.has(p.to_glam()).then_some(p)
+        let p = self.apply(p).to_glam();
+        let [lo, hi] = self.own_box;
+        self.has(p).then(|| Vec3::from_glam(p.clamp(lo, hi)))
     }
 
     /// The other grid's box, with the slack.
-    pub(crate) fn own_box(&self) -> [DVec3; 2] {
-        self.own_box
+    pub(crate) fn reach(&self) -> [DVec3; 2] {
+        self.reach
     }
 
     /// Whether that box holds a position of the other grid.
     #[inline(always)]
     pub(crate) fn has(&self, p: DVec3) -> bool {
-        let [lo, hi] = self.own_box;
+        let [lo, hi] = self.reach;
         p.cmpge(lo).all() && p.cmple(hi).all()
     }
 

@@ -1,7 +1,12 @@
 //! The one place that transcendental functions come from ([PREC-4]).
 //!
-//! All are those of the pure-Rust `libm`, so that the same scene gives the same bits on every IEEE 754 machine.
-//! `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
+//! All are those of the pure-Rust `libm` or our own over `+ − × ÷`, so that the same scene gives the same bits on every
+//! IEEE 754 machine. `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
+
+mod double;
+mod transmittance;
+
+pub use transmittance::{ln_one_minus, one_minus_exp};
 
 /// e^x.
 pub fn exp(x: f64) -> f64 {
@@ -94,16 +99,6 @@ pub fn scale_by_power_of_two(x: f64, n: i32) -> f64 {
 /// The exponent e for which |x| · 2^−e lies in [½, 1); 0 for x = 0 and for what is not finite.
 pub fn exponent(x: f64) -> i32 {
     if x == 0.0 || !x.is_finite() { 0 } else { libm::frexp(x).1 }
-}
-
-/// e^x − 1 in f32.
-pub fn exp_m1_f32(x: f32) -> f32 {
-    libm::expm1f(x)
-}
-
-/// ln(1 + x) in f32.
-pub fn ln_1p_f32(x: f32) -> f32 {
-    libm::log1pf(x)
 }
 
 /// x^y in f32; whole exponents as [`pow`].

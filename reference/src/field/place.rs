@@ -14,22 +14,20 @@ pub struct Place<R> {
 /// The cells of a grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cells<R> {
-    /// The last voxel of each axis, N − 1.
-    end: [R; 3],
     /// The last cell of each axis, max(N − 2, 0).
     last: [R; 3],
+    /// Whether an axis has length 1: its coordinate is ignored.
+    flat: Option<[bool; 3]>,
 }
 
 impl<R: Real> Cells<R> {
     pub(crate) fn new(dims: [usize; 3]) -> Self {
-        let number = |n: usize| R::from_f64(n as f64);
-        Self { end: dims.map(|n| number(n - 1)), last: dims.map(|n| number(n.max(2) - 2)) }
+        let flat = dims.map(|n| n == 1);
+        Self { last: dims.map(|n| R::from_f64((n.max(2) - 2) as f64)), flat: flat.contains(&true).then_some(flat) }
     }
 
-    /// Inside the box of [SPACE-1] the bounds touch nothing but the ignored coordinate of an axis of length 1.
     #[inline(always)]
     fn along(&self, axis: usize, x: R) -> (usize, R) {
-        let x = x.min(self.end[axis]).max(R::ZERO);
         let cell = x.min(self.last[axis]).to_index();
         (cell, x - R::from_index(cell))
     }
@@ -38,7 +36,12 @@ impl<R: Real> Cells<R> {
     #[inline(always)]
     pub(crate) fn locate(&self, p: Vec3<R>) -> Place<R> {
         let (x, y, z) = (self.along(0, p.x), self.along(1, p.y), self.along(2, p.z));
-        Place { cell: [x.0, y.0, z.0], w: [x.1, y.1, z.1] }
+        let w = [x.1, y.1, z.1];
+        let w = match self.flat {
+            None => w,
+            Some(flat) => [0, 1, 2].map(|a| if flat[a] { R::ZERO } else { w[a] }),
+        };
+        Place { cell: [x.0, y.0, z.0], w }
     }
 }
 

@@ -5,7 +5,7 @@ use drypoint_scene::volume::Voxel;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `libm` alone ([PREC-4]).
+/// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `drypoint_scene::math` alone ([PREC-4]).
 pub trait Real:
     Copy
     + Debug
@@ -56,10 +56,6 @@ pub trait Real:
     fn abs(self) -> Self;
     /// √x.
     fn sqrt(self) -> Self;
-    /// e^x − 1.
-    fn exp_m1(self) -> Self;
-    /// ln(1 + x).
-    fn ln_1p(self) -> Self;
     /// x^y; whole y up to 64 by repeated squaring.
     fn pow(self, y: Self) -> Self;
     /// x^n by repeated squaring, lowest bit first.
@@ -190,16 +186,6 @@ impl Real for f64 {
     }
 
     #[inline]
-    fn exp_m1(self) -> Self {
-        math::exp_m1(self)
-    }
-
-    #[inline]
-    fn ln_1p(self) -> Self {
-        math::ln_1p(self)
-    }
-
-    #[inline]
     fn pow(self, y: Self) -> Self {
         math::pow(self, y)
     }
@@ -259,16 +245,6 @@ impl Real for f32 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
-    }
-
-    #[inline]
-    fn exp_m1(self) -> Self {
-        math::exp_m1_f32(self)
-    }
-
-    #[inline]
-    fn ln_1p(self) -> Self {
-        math::ln_1p_f32(self)
     }
 
     #[inline]

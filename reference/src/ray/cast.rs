@@ -2,11 +2,12 @@
 
 use super::lattice::IndexRay;
 use super::layers::{Seen, Sums};
+use super::need::{self, Need, Needs};
 use super::opacity::Correction;
 use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::{Facts, Sight};
-use super::skip::{Boxes, Skip};
+use super::skip::Boxes;
 use crate::field::{Place, Sampler, curvature};
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray;
@@ -25,6 +26,28 @@ pub(super) struct Cast {
     pub(super) samples: u64,
 }
 
+/// The most values that are computed at once.
+const MOST_AT_ONCE: usize = 8;
+
+/// A sample: its number on the ray, its place, its value.
+#[derive(Clone, Copy)]
+struct Sample<R> {
+    k: i64,
+    at: Place<R>,
+    s: R,
+}
+
+/// The last sample on a ray that was asked for a normal.
+#[derive(Clone, Copy)]
+enum Previous<R> {
+    /// There was none.
+    None,
+    /// The sample has no normal ([PREC-3]).
+    WithoutNormal(i64),
+    /// The sample and its normal.
+    Normal(i64, Vec3<R>),
+}
+
 /// The state of a ray on its way.
 struct Walk<'p, 'v, R: Real, S> {
     prepared: &'p Prepared<'v, R>,
@@ -32,14 +55,20 @@ struct Walk<'p, 'v, R: Real, S> {
     ray: IndexRay<R>,
     sight: Sight<R>,
     /// To the opacity of one step on this ray.
-    correction: Correction<R>,
-    /// The last sample whose normal is known, and that normal.
-    previous: Option<(i64, Option<Vec3<R>>)>,
+    correction: Correction,
+    previous: Previous<R>,
+    light: Light<R>,
+    sums: Sums,
+}
+
+/// What has come together on a ray. The loop over samples holds it in registers.
+#[derive(Clone, Copy)]
+struct Light<R> {
+    rgb: [R; 3],
+    /// A.
+    opacity: R,
     /// The last opacity that was corrected, and what it became: levels of a function repeat along a ray.
     corrected: [R; 2],
-    rgb: [R; 3],
-    opacity: R,
-    sums: Sums,
 }
 
 /// Casts the ray through a point of the picture, in pixels from the top left corner.
@@ -59,36 +88,39 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
         sight: prepared.look.sight(Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v)),
         correction: Correction::new(ray.step / prepared.reference_length),
         ray,
-        previous: None,
-        corrected: [R::ZERO; 2],
-        rgb: [R::ZERO; 3],
-        opacity: R::ZERO,
+        previous: Previous::None,
+        light: Light { rgb: [R::ZERO; 3], opacity: R::ZERO, corrected: [R::ZERO; 2] },
         sums: Sums::new(),
     };
-    let inside = ray.inside(prepared.ends);
-    let mut samples = 0;
-    if inside[0] <= inside[1] {
-        samples = match (&prepared.skip, boxes) {
-            (Some(skip), Some(boxes)) => walk.run_in(inside, skip, boxes, counts),
-            _ => walk.run(inside, |_| true, counts).0,
-        };
-    }
+    let samples = match prepared.needs {
+        Needs::Value => walk.run_in::<need::Value>(boxes, counts),
+        Needs::Normal => walk.run_in::<need::Normal>(boxes, counts),
+        Needs::Anything => walk.run_in::<need::Anything>(boxes, counts),
+    };
     counts.rays += 1;
     counts.rays_skipped += u64::from(samples == 0);
     counts.samples += samples;
-    let [r, g, b] = walk.rgb.map(Real::to_f64);
-    Cast { rgba: [r, g, b, walk.opacity.to_f64()], sums: walk.sums, samples }
+    let [r, g, b] = walk.light.rgb.map(Real::to_f64);
+    Cast { rgba: [r, g, b, walk.light.opacity.to_f64()], sums: walk.sums, samples }
 }
 
 impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
-    /// Visits the samples of a range that lie in visible bricks. Returns how many were evaluated.
-    #[inline]
-    fn run_in(&mut self, inside: [i64; 2], skip: &Skip, boxes: &mut Boxes, counts: &mut Counts) -> u64 {
-        let (mut samples, mut next) = (0, inside[0]);
-        for &[near, far] in boxes.intervals(self.ray.line(), R::EPSILON.to_f64()) {
-            let first = self.ray.first_at_or_after(near).max(next);
-            let last = self.ray.last_at_or_before(far).min(inside[1]);
-            let (n, open) = self.run([first, last], |cell| skip.sees(cell), counts);
+    /// Visits the samples that can lie in visible bricks, without boxes of them all samples. Returns how many were evaluated.
+    ///
+    /// Bounds of neighbouring intervals are rounded outwards to samples and can overlap: no sample is visited twice, and
+    /// none outside the volume.
+    fn run_in<N: Need>(&mut self, boxes: Option<&mut Boxes>, counts: &mut Counts) -> u64 {
+        let Some(boxes) = boxes else { return self.run::<N>(self.ray.inside(self.prepared.ends), counts).0 };
+        let intervals = boxes.intervals(self.ray.line(), R::EPSILON.to_f64());
+        if intervals.is_empty() {
+            return 0;
+        }
+        let [mut next, end] = self.ray.inside(self.prepared.ends);
+        let mut samples = 0;
+        for &depths in intervals {
+            let [first, last] = self.ray.within(depths);
+            let last = last.min(end);
+            let (n, open) = self.run::<N>([first.max(next), last], counts);
             samples += n;
             next = next.max(last + 1);
             if !open {
@@ -98,106 +130,126 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         samples
     }
 
-    /// Visits the samples first..=last whose cell passes the test. Returns how many were evaluated and whether the ray
-    /// is still open.
-    #[inline]
-    fn run(&mut self, [first, last]: [i64; 2], sees: impl Fn([usize; 3]) -> bool, counts: &mut Counts) -> (u64, bool) {
+    /// Visits the samples first..=last. Returns how many were evaluated and whether the ray is still open.
+    ///
+    /// Values are computed a few samples ahead. Where a ray ends early those left over count for nothing.
+    #[inline(never)]
+    fn run<N: Need>(&mut self, [first, last]: [i64; 2], counts: &mut Counts) -> (u64, bool) {
         let prepared = self.prepared;
         let mask = prepared.volume.mask();
         let mut samples = 0;
-        for k in first..=last {
-            let at = self.sampler.place(self.ray.position(k));
-            if !sees(at.cell) {
-                continue;
-            }
-            if let Some(mask) = mask
-                && mask.touches_cell(at.cell)
-            {
-                counts.masked += 1;
-                continue;
-            }
-            samples += 1;
-            let s = self.sampler.value_at(at);
-            if let Some(place) = prepared.function.locate(s) {
-                self.show(k, at, s, &place, counts);
-                if self.opacity >= prepared.stop_at {
-                    return (samples, false);
+        let mut light = self.light;
+        let mut values = [R::ZERO; MOST_AT_ONCE];
+        let mut k = first;
+        while k <= last {
+            let n = (last - k + 1).min(S::AT_ONCE as i64) as usize;
+            let values = &mut values[..n.min(MOST_AT_ONCE)];
+            self.sampler.values(|i| self.ray.position(k + i as i64), values);
+            for (k, &s) in (k..).zip(&*values) {
+                let at = || self.sampler.place(self.ray.position(k));
+                if let Some(mask) = mask
+                    && mask.touches_cell(at().cell)
+                {
+                    counts.masked += 1;
+                    continue;
+                }
+                samples += 1;
+                if let Some(place) = prepared.function.locate(s) {
+                    self.show::<N>(Sample { k, at: at(), s }, &place, &mut light, counts);
+                    if light.opacity >= prepared.stop_at {
+                        self.light = light;
+                        return (samples, false);
+                    }
                 }
             }
+            k += values.len() as i64;
         }
+        self.light = light;
         (samples, true)
     }
 
     /// Shows a sample whose value can be seen.
-    fn show(&mut self, k: i64, at: Place<R>, s: R, place: &transfer::Place<R>, counts: &mut Counts) {
+    #[inline(always)]
+    fn show<N: Need>(
+        &mut self,
+        sample: Sample<R>,
+        place: &transfer::Place<R>,
+        light: &mut Light<R>,
+        counts: &mut Counts,
+    ) {
         let prepared = self.prepared;
-        if let Some(over_two) = &prepared.over_two {
-            return self.show_over_two(over_two, k, at, s, counts);
+        if let (true, Some(over_two)) = (N::MORE, &prepared.over_two) {
+            return self.show_over_two(over_two, sample, light, counts);
         }
-        let mut facts = Facts::none();
-        self.learn(k, at, prepared.calls, &mut facts, counts);
-        counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
-        let (rgb, alpha) = match &prepared.table {
-            None => prepared.look.color(place, &facts, &self.sight, counts),
-            Some(table) => prepared.look.color(&table.between_nodes(place), &facts, &self.sight, counts),
+        let calls = N::calls(prepared);
+        let facts = self.learn(sample, calls, Facts::none(), counts);
+        counts.without_normal += u64::from(calls.gradient && facts.normal.is_none());
+        let color = match &prepared.table {
+            Some(table) if N::MORE => prepared.look.color(table.between_nodes(place), facts, &self.sight, counts),
+            _ => prepared.look.color(*place, facts, &self.sight, counts),
         };
-        self.composite(k, at, s, (rgb, alpha), &mut facts, counts);
+        self.composite::<N>(sample, color, facts, light, counts);
     }
 
     /// The same where the function is over two quantities: what they need is asked first, and the rest only where α_u > 0.
-    fn show_over_two(&mut self, over_two: &OverTwo<'_, R>, k: i64, at: Place<R>, s: R, counts: &mut Counts) {
+    #[inline(never)]
+    fn show_over_two(
+        &mut self,
+        over_two: &OverTwo<'_, R>,
+        sample: Sample<R>,
+        light: &mut Light<R>,
+        counts: &mut Counts,
+    ) {
         let prepared = self.prepared;
-        let mut facts = Facts::none();
-        self.learn(k, at, over_two.first, &mut facts, counts);
+        let facts = self.learn(sample, over_two.first, Facts::none(), counts);
         let of_normal = |x: R| if facts.normal.is_some() { x } else { R::ZERO };
         let here = Here {
-            position: self.ray.position(k),
-            place: at,
-            value: s,
+            position: self.ray.position(sample.k),
+            place: sample.at,
+            value: sample.s,
             gradient: of_normal(facts.gradient.length()),
             magnitude: of_normal(facts.magnitude),
             principal: facts.principal,
             kappa: facts.kappa,
         };
         let Some(patch) = over_two.locate(&here) else { return };
-        self.learn(k, at, over_two.rest, &mut facts, counts);
+        let facts = self.learn(sample, over_two.rest, facts, counts);
         counts.without_normal += u64::from(prepared.calls.gradient && facts.normal.is_none());
-        let (rgb, alpha) = prepared.look.color(&patch, &facts, &self.sight, counts);
-        self.composite(k, at, s, (rgb, alpha), &mut facts, counts);
+        let color = prepared.look.color(patch, facts, &self.sight, counts);
+        self.composite::<need::Anything>(sample, color, facts, light, counts);
     }
 
     /// Composites a sample: C ← C + (1 − A)·c·α(Δ), A ← A + (1 − A)·α(Δ).
     #[inline(always)]
-    fn composite(
+    fn composite<N: Need>(
         &mut self,
-        k: i64,
-        at: Place<R>,
-        s: R,
+        sample: Sample<R>,
         (rgb, alpha): ([R; 3], R),
-        facts: &mut Facts<R>,
+        facts: Facts<R>,
+        light: &mut Light<R>,
         counts: &mut Counts,
     ) {
         let prepared = self.prepared;
-        if alpha != self.corrected[0] {
-            self.corrected = [alpha, self.correction.apply(alpha)];
+        if alpha != light.corrected[0] {
+            light.corrected = [alpha, self.correction.apply(alpha)];
         }
-        let w = (R::ONE - self.opacity) * self.corrected[1];
-        let rgb = if prepared.encode { rgb.map(encoded) } else { rgb };
-        self.rgb = [self.rgb[0] + w * rgb[0], self.rgb[1] + w * rgb[1], self.rgb[2] + w * rgb[2]];
-        self.opacity += w;
-        if prepared.collects && alpha > R::ZERO {
-            if let (Some(first), true) = (prepared.first, self.sums.is_empty()) {
-                self.learn(k, at, first, facts, counts);
-                counts.without_normal += u64::from(first.gradient && facts.normal.is_none());
-            }
-            self.collect(k, s, w, facts);
+        let w = (R::ONE - light.opacity) * light.corrected[1];
+        let rgb = if N::MORE && prepared.encode { rgb.map(encoded) } else { rgb };
+        light.rgb = [light.rgb[0] + w * rgb[0], light.rgb[1] + w * rgb[1], light.rgb[2] + w * rgb[2]];
+        light.opacity += w;
+        if N::MORE && prepared.collects && alpha > R::ZERO {
+            self.collect(sample, [w, light.opacity], facts, counts);
         }
     }
 
     /// Adds what is called for to what is known of a sample beyond its value.
+    ///
+    /// Facts go in and out as values, so that those of a scene that needs few of them stay in registers.
     #[inline(always)]
-    fn learn(&mut self, k: i64, at: Place<R>, calls: Calls, facts: &mut Facts<R>, counts: &mut Counts) {
+    fn learn(&mut self, sample: Sample<R>, calls: Calls, facts: Facts<R>, counts: &mut Counts) -> Facts<R> {
+        let Sample { k, at, .. } = sample;
         let prepared = self.prepared;
+        let mut facts = facts;
         if calls.gradient {
             let g = self.sampler.gradient_at(at);
             counts.gradients += 1;
@@ -210,15 +262,16 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         }
         if let Some(n) = facts.normal {
             if calls.hessian {
-                self.curvatures(at, calls, facts, counts);
+                (facts.kappa, facts.principal) = self.curvatures(at, calls, (facts.kappa, facts.principal), counts);
             }
             if calls.kappa == KappaSource::AlongRay {
                 facts.kappa = self.kappa_along_ray(k, n, counts);
             }
         }
         if calls.kappa == KappaSource::AlongRay {
-            self.previous = Some((k, facts.normal));
+            self.previous = facts.normal.map_or(Previous::WithoutNormal(k), |n| Previous::Normal(k, n));
         }
+        facts
     }
 
     /// The normal that shades ([NORM-1]): the outward one, or as the scene turns it.
@@ -231,7 +284,8 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     fn kappa_along_ray(&mut self, k: i64, n: Vec3<R>, counts: &mut Counts) -> R {
         let prepared = self.prepared;
         let before = match self.previous {
-            Some((at, normal)) if at == k - 1 => normal,
+            Previous::Normal(at, normal) if at == k - 1 => Some(normal),
+            Previous::WithoutNormal(at) if at == k - 1 => None,
             _ if self.ray.has(k - 1, prepared.ends) => {
                 let g = self.sampler.gradient(self.ray.position(k - 1));
                 counts.gradients += 1;
@@ -242,35 +296,43 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         curvature_along_ray::kappa(prepared.turn, n, before, R::from_f64(self.ray.step))
     }
 
-    /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); 0 where H's own field has no normal.
-    fn curvatures(&self, at: Place<R>, calls: Calls, facts: &mut Facts<R>, counts: &mut Counts) {
+    /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); `known`, as it is, where H's own field has no normal.
+    #[inline(always)]
+    fn curvatures(&self, at: Place<R>, calls: Calls, known: (R, [R; 2]), counts: &mut Counts) -> (R, [R; 2]) {
         let prepared = self.prepared;
         counts.hessians += 1;
         let (g, h) = self.sampler.hessian_at(at);
-        if g.length() <= prepared.no_normal_below {
-            return;
+        let (mut kappa, mut principal) = known;
+        if g.length() > prepared.no_normal_below {
+            if calls.kappa == KappaSource::Exact {
+                kappa = curvature::along_view(g, h, self.sight.v, prepared.outside);
+            }
+            if calls.principal {
+                let c = curvature::principal(g, h, prepared.outside);
+                principal = [c.k1, c.k2];
+            }
         }
-        if calls.kappa == KappaSource::Exact {
-            facts.kappa = curvature::along_view(g, h, self.sight.v, prepared.outside);
-        }
-        if calls.principal {
-            let c = curvature::principal(g, h, prepared.outside);
-            facts.principal = [c.k1, c.k2];
-        }
+        (kappa, principal)
     }
 
-    /// Adds a sample with α > 0 to the layers.
-    fn collect(&mut self, k: i64, s: R, w: R, facts: &Facts<R>) {
+    /// Adds a sample with α > 0 to the layers, by its w and the A after it.
+    #[inline(never)]
+    fn collect(&mut self, sample: Sample<R>, [w, opacity]: [R; 2], facts: Facts<R>, counts: &mut Counts) {
         let prepared = self.prepared;
+        let mut facts = facts;
+        if let (Some(first), true) = (prepared.first, self.sums.is_empty()) {
+            facts = self.learn(sample, first, facts, counts);
+            counts.without_normal += u64::from(first.gradient && facts.normal.is_none());
+        }
         let seen = Seen {
             weight: w.to_f64(),
-            depth: self.ray.depth(k).to_f64(),
-            value: s.to_f64(),
-            normal: prepared.eye_axes.normal(facts, &self.sight).to_glam().to_array(),
+            depth: self.ray.depth(sample.k).to_f64(),
+            value: sample.s.to_f64(),
+            normal: prepared.eye_axes.normal(&facts, &self.sight).to_glam().to_array(),
             gradient: facts.gradient.to_glam().to_array(),
             curvature: [facts.principal[0], facts.principal[1], facts.kappa].map(Real::to_f64),
         };
-        self.sums.add(&seen, self.opacity.to_f64());
+        self.sums.add(&seen, opacity.to_f64());
     }
 }
 

@@ -79,8 +79,9 @@ impl<R: Real> IndexRay<R> {
     /// Inside is decided on the position itself. Rounding is monotonic, so each coordinate is a monotonic function of
     /// k, and the samples inside are a contiguous run whose ends are found by asking.
     pub fn inside(&self, [lo, hi]: [Vec3<R>; 2]) -> [i64; 2] {
-        let Some([near, far]) = self.depths(lo, hi) else { return [1, 0] };
-        let (mut first, mut last) = (self.first_at_or_after(near).max(self.first), self.last_at_or_before(far));
+        let Some(depths) = self.depths(lo, hi) else { return [1, 0] };
+        let [mut first, mut last] = self.within(depths);
+        first = first.max(self.first);
         let within = |k: i64| contains(lo, hi, self.position(k));
         while first <= last && !within(first) {
             first += 1;
@@ -97,14 +98,13 @@ impl<R: Real> IndexRay<R> {
         k >= self.first && contains(lo, hi, self.position(k))
     }
 
-    /// A k at or before the first sample with at least that eye depth, close to it.
-    pub fn first_at_or_after(&self, depth: f64) -> i64 {
-        ((depth / self.depth_step.to_f64() - 0.5).floor() as i64).saturating_sub(1)
-    }
-
-    /// A k at or after the last sample with at most that eye depth, close to it.
-    pub fn last_at_or_before(&self, depth: f64) -> i64 {
-        ((depth / self.depth_step.to_f64() - 0.5).ceil() as i64).saturating_add(1)
+    /// The samples whose eye depth lies in a closed range, as the closed range first..=last; within rounding of its ends
+    /// perhaps one more.
+    pub fn within(&self, depths: [f64; 2]) -> [i64; 2] {
+        let [near, far] = depths.map(|depth| depth / self.depth_step.to_f64() - 0.5);
+        // The quotient and the difference are rounded.
+        let slack = |k: f64| 2.0 * f64::EPSILON * (k.abs() + 1.0);
+        [ceil(near - slack(near)), -ceil(-far - slack(far))]
     }
 
     /// Origin and displacement for one unit of depth, in index space.
@@ -133,6 +133,13 @@ impl<R: Real> IndexRay<R> {
         }
         (range[0] <= range[1] && range[0].is_finite() && range[1].is_finite()).then_some(range)
     }
+}
+
+/// ⌈x⌉, saturating. Without a call into a library, which `f64::ceil` is where the processor has no instruction for it.
+#[inline(always)]
+fn ceil(x: f64) -> i64 {
+    let i = x as i64;
+    i.saturating_add(i64::from((i as f64) < x))
 }
 
 /// Whether a position lies in a closed box.

@@ -1,11 +1,14 @@
 //! Casting rays through the field.
 
 mod cast;
+mod draw;
 mod gradient_range;
 pub mod lattice;
 mod layers;
+mod need;
 pub mod opacity;
 mod over_two;
+mod prepare;
 mod prepared;
 mod render;
 mod sample;

@@ -126,7 +126,7 @@ impl Calls {
 mod tests {
     use super::*;
 
-    const NONE: Calls = Calls { gradient: false, hessian: false, principal: false, kappa: KappaSource::None };
+    const NONE: Calls = Calls::NONE;
 
     #[test]
     fn quantities_ask_first_for_what_they_need() {

@@ -1,6 +1,7 @@
 //! A scene prepared for casting: everything that is decided once a picture, not at samples.
 
 use super::lattice::Lattice;
+use super::need::Needs;
 use super::over_two::OverTwo;
 use super::sample::{EyeAxes, Look};
 use super::skip::Skip;
@@ -37,6 +38,13 @@ pub(super) struct Calls {
     pub(super) kappa: KappaSource,
 }
 
+impl Calls {
+    /// The value is enough.
+    pub(super) const NONE: Self = Self { gradient: false, hessian: false, principal: false, kappa: KappaSource::None };
+    /// The normal, which comes with the gradient.
+    pub(super) const NORMAL: Self = Self { gradient: true, ..Self::NONE };
+}
+
 /// Which way the shading normal points ([NORM-1]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
@@ -66,7 +74,8 @@ impl Side {
             Self::Facing => outward.dot(v) < R::ZERO,
             Self::Inward => true,
         };
-        if flip { -outward } else { outward }
+        // A product and no branch: along a ray the side is anyone's guess.
+        outward * if flip { -R::ONE } else { R::ONE }
     }
 }
 
@@ -87,6 +96,7 @@ pub(super) struct Prepared<'v, R> {
     pub(super) over_two: Option<OverTwo<'v, R>>,
     pub(super) look: Look<R>,
     pub(super) calls: Calls,
+    pub(super) needs: Needs,
     /// What the first visible sample of a ray has to know beyond that, for the layers `first.*`; none if nothing.
     pub(super) first: Option<Calls>,
     /// lo and hi − lo of [VAL-2], times the power of two of [SPACE-4]; none where nothing reads |g|.

@@ -96,12 +96,13 @@ impl<R: Real> Look<R> {
         Sight { v, v_eye, half }
     }
 
-    /// Straight colour and opacity per reference length.
+    /// Straight colour and opacity per reference length. Place and facts come as values: only the arm of styles then needs
+    /// them in memory.
     #[inline(always)]
     pub(super) fn color(
         &self,
-        place: &impl Between<R>,
-        facts: &Facts<R>,
+        place: impl Between<R>,
+        facts: Facts<R>,
         sight: &Sight<R>,
         counts: &mut Counts,
     ) -> ([R; 3], R) {
@@ -120,8 +121,9 @@ impl<R: Real> Look<R> {
 }
 
 impl<R: Real> Styled<R> {
-    fn color(&self, place: &impl Between<R>, facts: &Facts<R>, sight: &Sight<R>, counts: &mut Counts) -> ([R; 3], R) {
-        let n = frame::on_sphere(self.frame, self.eye_axes.normal(facts, sight), sight.v_eye);
+    #[inline(never)]
+    fn color(&self, place: impl Between<R>, facts: Facts<R>, sight: &Sight<R>, counts: &mut Counts) -> ([R; 3], R) {
+        let n = frame::on_sphere(self.frame, self.eye_axes.normal(&facts, sight), sight.v_eye);
         // |N·v| counts as 1 where there is no normal ([PREC-3]).
         let n_dot_v = facts.normal.map_or(R::ONE, |n| n.dot(sight.v).abs());
         // Without contours T = 0, so τ = 0 ([STF-9]).

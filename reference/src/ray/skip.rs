@@ -6,14 +6,14 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
-/// The visible bricks of a volume, and a BVH over boxes of them.
+/// A BVH over boxes of the visible bricks of a volume.
 ///
-/// The BVH only proposes intervals of a ray. Whether a sample is left out is decided by the brick of its cell, on the
-/// position itself.
+/// No position in a visible brick is outside the intervals of its ray that the BVH gives. A position in an invisible
+/// one may be inside them: its sample is evaluated, shows nothing, and changes no bit.
 pub struct Skip {
-    dims: [usize; 3],
-    visible: Vec<bool>,
     nodes: Vec<Node>,
+    /// A bound on the coordinates inside the volume, for the rounding of positions.
+    reach: f64,
 }
 
 /// A node of the tree, in f64: the boxes have whole and half numbers for ends, so f32 builds them exactly up to 2²³, and
@@ -41,23 +41,18 @@ impl Skip {
         let visible: Vec<bool> = bricks.ranges.iter().enumerate().map(|(i, &r)| can_see(place(i), r)).collect();
         let boxes: Vec<Aabb> = blocks(&visible, bricks.dims).iter().map(|b| bounds(b, bricks.dims)).collect();
         let nodes = if boxes.is_empty() { Vec::new() } else { tree(&boxes) };
-        Self { dims: bricks.dims, visible, nodes }
-    }
-
-    /// Whether the brick of a cell can show something.
-    #[inline(always)]
-    pub fn sees(&self, [x, y, z]: [usize; 3]) -> bool {
-        self.visible[((z / BRICK) * self.dims[1] + y / BRICK) * self.dims[0] + x / BRICK]
+        let longest = bricks.dims.into_iter().max().unwrap_or(0);
+        Self { nodes, reach: (longest * BRICK) as f64 }
     }
 
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
-        self.visible.len() + size_of_val(self.nodes.as_slice())
+        size_of_val(self.nodes.as_slice())
     }
 
     /// The boxes of visible bricks that a beam of rays can meet: one walk through the tree serves all of them.
     pub fn boxes_in(&self, beam: &Beam) -> Boxes {
-        let mut boxes = Boxes::default();
+        let mut boxes = Boxes { reach: self.reach, ..Boxes::default() };
         let mut open = Vec::new();
         let mut visit = |node: &Node, open: &mut Vec<u32>| {
             if beam.can_meet(&node.ends) {
@@ -85,15 +80,20 @@ impl Skip {
 pub struct Boxes {
     ends: Vec<[[f64; 2]; 3]>,
     intervals: Vec<[f64; 2]>,
+    reach: f64,
 }
 
 impl Boxes {
     /// The depths at which the line `origin + along · s` can be in one of the boxes, in order and without overlap, each
     /// widened so that no position rounded by `rounding` (relative) is missed.
     pub fn intervals(&mut self, [origin, along]: [DVec3; 2], rounding: f64) -> &[[f64; 2]] {
-        let line = Line::new(origin, along, rounding);
+        let line = Line::new(origin, along, self.reach, rounding);
         self.intervals.clear();
-        self.intervals.extend(self.ends.iter().filter_map(|ends| line.meets(ends)));
+        for ends in &self.ends {
+            if let Some(range) = line.meets(ends) {
+                self.intervals.push(range);
+            }
+        }
         merge(&mut self.intervals);
         &self.intervals
     }
@@ -112,6 +112,8 @@ pub struct Beam {
 #[derive(Clone, Copy, Debug)]
 struct Plane {
     normal: DVec3,
+    /// Which end of a box on each axis its farthest corner along the normal has.
+    farthest: [usize; 3],
     least: f64,
 }
 
@@ -126,11 +128,15 @@ impl Beam {
             let normal = (at_depth_1[(i + 1) % 4] - p).cross(along);
             let side = normal.dot(centre - p);
             if side == 0.0 || !side.is_finite() {
-                return Plane { normal: DVec3::ZERO, least: 0.0 };
+                return Plane { normal: DVec3::ZERO, farthest: [0; 3], least: 0.0 };
             }
             let normal = normal * side.signum();
             let size = normal.abs().dot(origin.abs() + DVec3::splat(INDEX_SCALE));
-            Plane { normal, least: normal.dot(origin) - 16.0 * rounding * size }
+            // Off are the corner rays and the ray between them, each by the half ε of its direction over at most
+            // |origin| + |position|, twice the size; the position by three more halves of that; and the products here by
+            // five times the size: ten in all.
+            let farthest = normal.to_array().map(|n| usize::from(n > 0.0));
+            Plane { normal, farthest, least: normal.dot(origin) - 16.0 * rounding * size }
         });
         Self { planes }
     }
@@ -139,8 +145,8 @@ impl Beam {
     #[inline]
     fn can_meet(&self, ends: &[[f64; 2]; 3]) -> bool {
         self.planes.iter().all(|plane| {
-            let farthest = [0, 1, 2].map(|a| ends[a][usize::from(plane.normal[a] > 0.0)]);
-            plane.normal.dot(DVec3::from_array(farthest)) >= plane.least
+            let [x, y, z] = plane.farthest;
+            plane.normal.dot(DVec3::new(ends[0][x], ends[1][y], ends[2][z])) >= plane.least
         })
     }
 }
@@ -165,17 +171,18 @@ struct Line {
     inverse: [f64; 3],
     /// Which end of a box the line meets first.
     first: [usize; 3],
-    /// Depth at the origin of an axis, later and earlier by the margin.
+    /// What is taken from an end of a box times `inverse` to give the depth there, (end − origin)/along: too much by the
+    /// margin where the line enters, so that it does so earlier, too little where it leaves.
     enter: [f64; 3],
     leave: [f64; 3],
 }
 
 impl Line {
-    fn new(origin: DVec3, along: DVec3, rounding: f64) -> Self {
+    fn new(origin: DVec3, along: DVec3, reach: f64, rounding: f64) -> Self {
         // A line along the other axes meets the ends of this one very far away, or not at all.
         let inverse = along.to_array().map(|d| if d.abs() < 1e-290 { 1e290 } else { 1.0 / d });
         // Positions inside the volume are sums of numbers up to |origin| and the volume's own coordinates.
-        let margin = |axis: usize| (origin[axis].abs() + INDEX_SCALE) * 8.0 * rounding * inverse[axis].abs();
+        let margin = |axis: usize| (origin[axis].abs() + reach) * 8.0 * rounding * inverse[axis].abs();
         let at = |axis: usize| origin[axis] * inverse[axis];
         Self {
             inverse,
@@ -330,11 +337,42 @@ mod tests {
                 let p = origin + along * s;
                 let end = DVec3::new(5.0, 4.0, 3.0) * BRICK as f64 - 1.0;
                 let inside = p.cmpge(DVec3::ZERO).all() && p.cmple(end).all();
-                if inside && skip.sees([p.x as usize, p.y as usize, p.z as usize]) {
+                let brick = [p.x, p.y, p.z].map(|x| x as usize / BRICK);
+                if inside && visible[(brick[2] * 4 + brick[1]) * 5 + brick[0]] {
                     prop_assert!(got.iter().any(|r| r[0] <= s && s <= r[1]), "{s} {p} {got:?}");
                 }
             }
         }
+    }
+
+    /// From so far away that f32 rounds positions to 2⁻⁷: the rounded position decides, wherever the line itself runs.
+    #[test]
+    fn positions_that_are_rounded_into_a_box_are_in_its_interval() {
+        let visible: Vec<bool> = (0..60).map(|i| i == 27).collect();
+        let [lo, hi] = [DVec3::new(8.0, 4.0, 4.0), DVec3::new(12.0, 8.0, 8.0)];
+        let within = |p: DVec3| p.cmpge(lo).all() && p.cmplt(hi).all();
+        let skip = Skip::new(&bricks([5, 4, 3], &visible), |_, r| r[1] > 0.5);
+        let everything = Beam::new([[DVec3::ZERO; 2]; 4], f64::from(f32::EPSILON));
+        let mut boxes = skip.boxes_in(&everything);
+        let f32s = |v: DVec3| v.to_array().map(|x| x as f32);
+        let mut moved = 0;
+        for i in 0..400 {
+            let aside = f64::from(i) * 0.01;
+            let eye = f32s(DVec3::new(-1e5 - aside, 4e4 + 3.0 * aside, 1e3 - aside));
+            let along = f32s((DVec3::new(10.0, 6.0 + 0.3 * aside, 5.0) - DVec3::from_array(eye.map(f64::from))) / 1e5);
+            let exactly = [eye, along].map(|v| DVec3::from_array(v.map(f64::from)));
+            let intervals = boxes.intervals(exactly, f64::from(f32::EPSILON)).to_vec();
+            for k in 0..4000 {
+                let s = 99_990.0 + k as f32 / 128.0;
+                let p = DVec3::from_array([0, 1, 2].map(|a| f64::from(eye[a] + along[a] * s)));
+                if within(p) {
+                    let s = f64::from(s);
+                    moved += u32::from(!within(exactly[0] + exactly[1] * s));
+                    assert!(intervals.iter().any(|r| r[0] <= s && s <= r[1]), "{i} {s} {p} {intervals:?}");
+                }
+            }
+        }
+        assert!(moved > 100, "{moved}");
     }
 
     #[test]

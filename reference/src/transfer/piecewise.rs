@@ -6,24 +6,35 @@ use crate::number::Real;
 /// the result is exact.
 #[derive(Clone, Debug)]
 pub struct Piecewise<R> {
-    at: Vec<R>,
-    opacity: Vec<R>,
+    segments: Vec<Segment<R>>,
     /// The last of the nodes at the first node's value.
     at_first: usize,
-    /// What is known beforehand of each of equal parts of the range of nodes.
-    parts: Vec<Part>,
+    /// What is known beforehand of each part of the line of values.
+    parts: Box<[Part; PARTS + 2]>,
+    first: R,
     parts_per_unit: R,
 }
 
-/// One part of the range, with its neighbours, so that no rounding of a value's part matters.
+/// From a node to the next one. The last node's has width 0.
+#[derive(Clone, Copy, Debug)]
+struct Segment<R> {
+    at: R,
+    width: R,
+    opacity: R,
+    next_opacity: R,
+}
+
+/// One part of the line of values, with its neighbours, so that no rounding of a value's part matters. The range of nodes is
+/// cut into [`PARTS`]; one more part lies before and one after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Part {
     /// Every value in it has α_u = 0.
     Invisible,
-    /// Every value in it lies in the segment that begins at this node.
+    /// Every value in it lies in the segment that begins at this node, which is not the last.
     Segment(u32),
-    /// A node lies in it: the segment is this one or a later one.
-    From(u32),
+    /// A node or an end of the range lies in it; where values lie between nodes, this one or a later one is the one
+    /// before them.
+    Search(u32),
 }
 
 /// Where a value falls between the nodes: i(s) = node + w. The fraction is not added to the node, which would cost it
@@ -93,29 +104,41 @@ impl<R: Real> Piecewise<R> {
         check::<R>(at, opacity)?;
         let at: Vec<R> = at.iter().map(|&a| R::from_f64(a)).collect();
         let opacity: Vec<R> = opacity.iter().map(|&a| R::from_f64(a)).collect();
-        let (first, last) = (at[0].to_f64(), at[at.len() - 1].to_f64());
-        let width = (at[at.len() - 1] - at[0]).to_f64();
+        let end = at.len() - 1;
+        let (first, last) = (at[0].to_f64(), at[end].to_f64());
+        let width = (at[end] - at[0]).to_f64();
         let segment = |v: f64| at.iter().rposition(|a| a.to_f64() <= v).unwrap_or(0);
-        let parts = (0..=PARTS)
-            .map(|part| {
-                let edge = |n: f64| first + width * ((part as f64 + n) / PARTS as f64);
-                let (from, to) = (segment(edge(-1.0)), segment(edge(2.0).min(last)));
-                let reached = &opacity[from..=(to + 1).min(at.len() - 1)];
-                if reached.iter().all(|&a| a == R::ZERO) {
-                    Part::Invisible
-                } else if from == to && edge(-1.0) >= first && to + 1 < at.len() {
-                    Part::Segment(from as u32)
-                } else {
-                    Part::From(from as u32)
-                }
-            })
-            .collect();
-        // A range of 0, or so small that this overflows, has one part, in which every node is searched.
+        let part = |part: usize| {
+            // Part 1 begins at the first node.
+            let edge = |n: f64| first + width * ((part as f64 - 1.0 + n) / PARTS as f64);
+            let (from, to) = (segment(edge(-1.0)), segment(edge(2.0).min(last)));
+            let reached = &opacity[from..=(to + 1).min(end)];
+            if reached.iter().all(|&a| a == R::ZERO) {
+                Part::Invisible
+            } else if from == to && edge(-1.0) >= first && to < end {
+                Part::Segment(from as u32)
+            } else {
+                Part::Search(from as u32)
+            }
+        };
+        // A range of 0, or so small that this overflows, is searched for every value.
         let per_unit = R::from_f64(PARTS as f64 / width);
-        let (parts, parts_per_unit) =
-            if per_unit.to_f64().is_finite() { (parts, per_unit) } else { (vec![Part::From(0); PARTS + 1], R::ZERO) };
-        let at_first = at.partition_point(|&a| a <= at[0]) - 1;
-        Ok(Self { at, opacity, at_first, parts, parts_per_unit })
+        let (parts, parts_per_unit) = if per_unit.to_f64().is_finite() {
+            (Box::new(std::array::from_fn(part)), per_unit)
+        } else {
+            (Box::new([Part::Search(0); PARTS + 2]), R::ZERO)
+        };
+        let segments = (0..=end).map(|k| {
+            let next = (k + 1).min(end);
+            Segment { at: at[k], width: at[next] - at[k], opacity: opacity[k], next_opacity: opacity[next] }
+        });
+        Ok(Self {
+            segments: segments.collect(),
+            at_first: at.partition_point(|&a| a <= at[0]) - 1,
+            parts,
+            first: at[0],
+            parts_per_unit,
+        })
     }
 
     /// Where a value falls, or nothing where its α_u is 0.
@@ -124,31 +147,42 @@ impl<R: Real> Piecewise<R> {
     /// is not a number counts as before the first node.
     #[inline(always)]
     pub fn locate(&self, s: R) -> Option<Place<R>> {
-        let last = self.at.len() - 1;
-        let (node, w) = if s >= self.at[last] {
-            (last, R::ZERO)
-        } else if s > self.at[0] {
-            let part = ((s - self.at[0]) * self.parts_per_unit).split().0.min(PARTS);
-            let k = match self.parts[part] {
-                Part::Invisible => return None,
-                Part::Segment(k) => k as usize,
-                Part::From(k) => self.search(s, k as usize),
-            };
-            (k, (s - self.at[k]) / (self.at[k + 1] - self.at[k]))
-        } else {
-            (if s == self.at[0] { self.at_first } else { 0 }, R::ZERO)
-        };
-        let o = self.opacity[node];
-        let alpha_u = if w == R::ZERO { o } else { R::lerp(o, self.opacity[node + 1], w) };
+        // What is before the first node, or not a number, becomes 0.
+        let part = ((s - self.first) * self.parts_per_unit + R::ONE).to_index();
+        match self.parts[part.min(PARTS + 1)] {
+            Part::Invisible => None,
+            Part::Segment(k) => self.between(s, k as usize),
+            Part::Search(k) => self.search(s, k as usize),
+        }
+    }
+
+    /// The place of a value from a node on and before the next one.
+    #[inline(always)]
+    fn between(&self, s: R, node: usize) -> Option<Place<R>> {
+        let segment = &self.segments[node];
+        let w = (s - segment.at) / segment.width;
+        let alpha_u = R::lerp(segment.opacity, segment.next_opacity, w);
         (alpha_u > R::ZERO).then_some(Place { node, w, alpha_u })
     }
 
-    /// The last node at or below a value that is less than the last node's, beginning at one of its predecessors.
-    fn search(&self, s: R, mut k: usize) -> usize {
-        while s >= self.at[k + 1] {
-            k += 1;
-        }
-        k
+    /// The place of any value; one between the nodes is not before this one.
+    #[inline(never)]
+    fn search(&self, s: R, mut k: usize) -> Option<Place<R>> {
+        let last = self.segments.len() - 1;
+        let node = if s >= self.segments[last].at {
+            last
+        } else if s > self.first {
+            while s >= self.segments[k + 1].at {
+                k += 1;
+            }
+            return self.between(s, k);
+        } else if s == self.first {
+            self.at_first
+        } else {
+            0
+        };
+        let alpha_u = self.segments[node].opacity;
+        (alpha_u > R::ZERO).then_some(Place { node, w: R::ZERO, alpha_u })
     }
 }
 
@@ -235,6 +269,26 @@ mod tests {
         assert_eq!(with(&[0.5]), Err(NodesError::Lengths { at: 2, opacity: 1 }));
         assert_eq!(with(&[0.5, 1.5]), Err(NodesError::Opacity { node: 1, opacity: 1.5 }));
         assert!(with(&[f64::NAN, 0.0]).is_err());
+    }
+
+    /// Nodes on the edges of parts and values beside them, whose part comes out as the neighbour.
+    #[test]
+    fn the_part_next_to_a_value_s_own_will_do() {
+        let mut mistaken = 0;
+        for (first, width) in [(0.0, 0.1), (-1.0 / 3.0, 2.7), (1e6, 1.0 / 7.0), (0.1, 1e-3)] {
+            let at: Vec<f64> = (0..=PARTS / 4).map(|n| first + width * (4.0 * n as f64 / PARTS as f64)).collect();
+            // Visible every fifth node, so that parts of all kinds meet.
+            let opacity: Vec<f64> = (0..at.len()).map(|n| f64::from(u8::from(n % 5 == 2)) * 0.3).collect();
+            let (all, some) = (opaque(&at), Piecewise::new(&at, &opacity).unwrap());
+            for (n, s) in at.iter().enumerate().flat_map(|(n, s)| [s.next_down(), *s, s.next_up()].map(|s| (n, s))) {
+                let k = at.iter().rposition(|&a| a <= s).unwrap_or(0);
+                assert_eq!(all.locate(s).unwrap().node, k, "{s}");
+                assert_eq!(some.locate(s).map_or(0.0, |place| place.alpha_u), opacity_of(&at, &opacity, s), "{s}");
+                let part = ((s - all.first) * all.parts_per_unit + 1.0) as usize;
+                mistaken += usize::from((s < at[n]) != (part < 4 * n + 1));
+            }
+        }
+        assert!(mistaken > 100, "{mistaken}");
     }
 
     /// α_u by its definition.

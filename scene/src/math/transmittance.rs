@@ -1,0 +1,184 @@
+//! The logarithm of a transmittance and the way back, for opacity correction ([VAL-4]).
+//!
+//! Written for the arguments that it has, 0 ≤ α < 1 and y ≤ 0, from + − × alone and without a branch, so that lanes can
+//! take the same steps to the same bits ([PREC-4]). What counts is how soon the result is there, since compositing waits
+//! for it: table steps of 2⁻⁷ leave polynomials so short that both together take half as long as `libm`'s `log1p` and
+//! `expm1`.
+
+use super::double::Double;
+
+/// Steps of an octave in the tables.
+const STEPS: usize = 128;
+const STEPS_BITS: u32 = STEPS.trailing_zeros();
+const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+
+/// ln 2 = [`LN_2_HI`] + [`LN_2_LO`]; the first has 40 bits, so that its product with a whole number below 2¹³ is exact.
+const LN_2_HI: f64 = 0.693_147_180_559_208_2;
+const LN_2_LO: f64 = 7.371_002_565_167_799e-13;
+
+/// 1.5 · 2⁵²: a small number that is added leaves its nearest whole number in the low bits of the sum.
+const TO_WHOLE: f64 = (3u64 << 51) as f64;
+
+/// For c = 1 + i/128: 1/c and ln c in two parts, the first a multiple of 2⁻⁴⁴, so that adding multiples of ln 2's first
+/// part to it is exact.
+static LOGARITHMS: [[f64; 3]; STEPS] = {
+    let mut table = [[0.0; 3]; STEPS];
+    let mut i = 0;
+    while i < STEPS {
+        let c = (STEPS + i) as f64 / STEPS as f64;
+        let ln = Double::ln_ratio(c, 1.0);
+        /// Adding it rounds to multiples of 2⁻⁴⁴.
+        const COARSE: f64 = (3 << 7) as f64;
+        let hi = (ln.hi + COARSE) - COARSE;
+        table[i] = [1.0 / c, hi, (ln.hi - hi) + ln.lo];
+        i += 1;
+    }
+    table
+};
+
+/// 2^(i/128) in two parts.
+static POWERS: [[f64; 2]; STEPS] = {
+    let factor = Double::ln_ratio(2.0, 1.0).over(STEPS as f64).exp_m1().plus(Double::new(1.0));
+    let mut table = [[0.0; 2]; STEPS];
+    let mut power = Double::new(1.0);
+    let mut i = 0;
+    while i < STEPS {
+        table[i] = [power.hi, power.lo];
+        power = power.times(factor);
+        i += 1;
+    }
+    table
+};
+
+/// ln(1 − α) for 0 ≤ α < 1, to less than an ulp; −α where α is tiny.
+#[inline]
+pub fn ln_one_minus(alpha: f64) -> f64 {
+    // 1 − α = 2ⁿ(c + d), c the nearest step, read off 1 − α rounded. 2⁻ⁿ − c has few bits and d is at most 2⁻⁸, so that
+    // 2⁻ⁿ − c − 2⁻ⁿα, computed from left to right, is d exactly.
+    let nearest = (1.0 - alpha).to_bits() + (1 << (MANTISSA_BITS - STEPS_BITS - 1));
+    let step = (nearest >> (MANTISSA_BITS - STEPS_BITS)) as usize % STEPS;
+    let n = (nearest >> MANTISSA_BITS) as i64 - 1023;
+    let scale = f64::from_bits(((1023 - n) as u64) << MANTISSA_BITS);
+    let c = f64::from_bits(1f64.to_bits() | (step as u64) << (MANTISSA_BITS - STEPS_BITS));
+    let d = (scale - c) - scale * alpha;
+    // n ln 2 + ln c + ln(1 + r), r = d/c. Up to α = 2⁻⁹ the first two are 0 and r = −α.
+    let [inverse, ln_hi, ln_lo] = LOGARITHMS[step];
+    let n = n as f64;
+    let r = d * inverse;
+    let r2 = r * r;
+    let series = (-0.5 + r * (1.0 / 3.0)) + r2 * ((-0.25 + r * 0.2) + r2 * (-1.0 / 6.0 + r * (1.0 / 7.0)));
+    (n * LN_2_HI + ln_hi) + (r + ((n * LN_2_LO + ln_lo) + r2 * series))
+}
+
+/// 1 − e^y for y ≤ 0, to less than two ulp; −y where y is tiny.
+#[inline]
+pub fn one_minus_exp(y: f64) -> f64 {
+    // Beyond this the result is 1.
+    let y = if y > -64.0 { y } else { -64.0 };
+    // e^y = 2^(k/128) e^r, |r| ≤ ln 2/256.
+    let whole = y * (STEPS as f64 * std::f64::consts::LOG2_E) + TO_WHOLE;
+    let k = whole - TO_WHOLE;
+    let r = (y - k * (LN_2_HI / STEPS as f64)) - k * (LN_2_LO / STEPS as f64);
+    let r2 = r * r;
+    let grown = r + r2 * ((0.5 + r * (1.0 / 6.0)) + r2 * ((1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0)));
+    // k in the low bits of the sum: the table's step, and above it what goes to the exponent.
+    let k = whole.to_bits();
+    let exponent = (k >> STEPS_BITS) << MANTISSA_BITS;
+    let [hi, lo] = POWERS[k as usize % STEPS];
+    let hi = f64::from_bits(hi.to_bits().wrapping_add(exponent));
+    let scale = f64::from_bits(1f64.to_bits().wrapping_add(exponent));
+    (1.0 - hi) - (hi * grown + scale * lo)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// N numbers in (0, 1) in ascending order: even steps through the bit patterns, which are steps of the logarithm
+    /// down to the smallest number, even steps of the number itself, and of the logarithm of what is left to 1.
+    fn opacities(n: u64) -> Vec<f64> {
+        let one = 1f64.to_bits();
+        let third = n / 3;
+        let mut all: Vec<f64> = (0..third)
+            .flat_map(|i| {
+                let by_exponent = f64::from_bits(1 + (one - 2) / third * i);
+                let even = (i as f64 + 0.5) / third as f64;
+                let left = f64::from_bits(one - (54 << 52) * i / third - 1);
+                [by_exponent, even, 1.0 - left]
+            })
+            .filter(|&a| 0.0 < a && a < 1.0)
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all
+    }
+
+    /// The distance of two numbers of one sign in units of the last place.
+    fn apart(a: f64, b: f64) -> u64 {
+        a.abs().to_bits().abs_diff(b.abs().to_bits())
+    }
+
+    /// How far a number is from the truth, in its own units of the last place.
+    fn ulps(got: f64, truth: Double) -> f64 {
+        let ulp = got.abs().next_up() - got.abs();
+        (((got - truth.hi) - truth.lo) / ulp).abs()
+    }
+
+    #[test]
+    fn a_million_arguments_against_libm() {
+        // Its own two are within an ulp.
+        for alpha in opacities(1_000_000) {
+            let y = ln_one_minus(alpha);
+            assert!(apart(y, libm::log1p(-alpha)) <= 1, "{alpha:e}");
+            let y = 0.53 * y;
+            assert!(apart(one_minus_exp(y), -libm::expm1(y)) <= 2, "{y:e}");
+        }
+    }
+
+    #[test]
+    fn errors_against_twice_the_digits() {
+        // Below the half ulp of the last rounding: r, then 2⁻⁹ of it squared, and the sum before the last; for the power
+        // also the last place of the product, which near 1 is that of the difference.
+        let mut worst = [0.0f64; 2];
+        // Where products of halves of the digits do not underflow.
+        for alpha in opacities(60_000).into_iter().filter(|&a| a > 1e-200) {
+            let ln = ln_one_minus(alpha);
+            // Newton's step from there: ln + (1 − α)e^−ln − 1.
+            let e = Double::new(-ln).exp_m1();
+            let rest = e.plus(Double::new(-alpha)).plus(e.times(Double::new(-alpha)));
+            worst[0] = worst[0].max(ulps(ln, Double::new(ln).plus(rest)));
+            for y in [ln, 0.5 * ln, 0.61 * ln] {
+                let e = Double::new(y).exp_m1();
+                worst[1] = worst[1].max(ulps(one_minus_exp(y), Double { hi: -e.hi, lo: -e.lo }));
+            }
+        }
+        assert!(worst[0] < 1.0 && worst[1] < 2.0, "{worst:?}");
+        // That many are not all right by chance.
+        assert!(worst[0] > 0.5 && worst[1] > 0.5, "{worst:?}");
+    }
+
+    #[test]
+    fn ends() {
+        assert_eq!(ln_one_minus(0.0), 0.0);
+        assert_eq!(one_minus_exp(0.0), 0.0);
+        assert_eq!(one_minus_exp(-0.0), 0.0);
+        for y in [-38.0, -63.9, -64.0, -1e9, f64::NEG_INFINITY] {
+            assert_eq!(one_minus_exp(y), 1.0, "{y}");
+        }
+        for tiny in [f64::from_bits(1), f64::MIN_POSITIVE, 1e-300, 1e-17] {
+            assert_eq!((ln_one_minus(tiny), one_minus_exp(-tiny)), (-tiny, tiny));
+        }
+        assert!((ln_one_minus(1f64.next_down()) - (0.5 * f64::EPSILON).ln()).abs() < 1e-14);
+    }
+
+    /// Up to the last place, as far as a function within an ulp can be.
+    #[test]
+    fn more_opacity_is_less_light() {
+        let opacities = opacities(300_000);
+        let lns: Vec<f64> = opacities.iter().map(|&a| ln_one_minus(a)).collect();
+        let back: Vec<f64> = lns.iter().map(|&y| one_minus_exp(0.53 * y)).collect();
+        for i in 1..opacities.len() {
+            assert!(lns[i] <= lns[i - 1] || apart(lns[i], lns[i - 1]) <= 1);
+            assert!(back[i] >= back[i - 1] || apart(back[i], back[i - 1]) <= 2);
+        }
+    }
+}
