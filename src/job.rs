@@ -64,6 +64,15 @@ pub struct Job {
     background: Option<Vec<Rgba>>,
 }
 
+/// A scene with other knobs, and what follows from them.
+pub struct Turned {
+    /// The scene.
+    pub scene: Scene,
+    /// What it calls for.
+    pub plan: Plan,
+    function: Function,
+}
+
 impl Job {
     /// Loads the volume, the styles and the background of a scene. A transfer function without nodes is found from the
     /// data.
@@ -145,15 +154,25 @@ impl Job {
     /// # Errors
     /// A reconstruction that does not exist, a camera without direction, a picture for which there is no memory.
     pub fn renderer(&self) -> Result<Renderer<'_>, Failure> {
-        self.made_ready(&self.scene, &self.plan, Renderer::new)
+        self.made_ready(&self.scene, &self.plan, &self.function, Renderer::new)
     }
 
-    /// The same with another scene over what this one has loaded: one that differs in its knobs alone ([COST-1]).
+    /// Another scene over what this one has loaded: one that differs in its knobs alone ([COST-1]).
+    pub fn turned(&self, scene: Scene) -> Turned {
+        let plan = self.plan_of(&scene);
+        let range = scene.volume.range.unwrap_or_else(|| self.volume.range());
+        // Over two quantities, labels among them, no knob changes the function.
+        let over_value = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none());
+        let function = over_value.and_then(|t| Function::new(t, range, &self.volume, &|_| None).ok().flatten());
+        Turned { function: function.unwrap_or_else(|| self.function.clone()), scene, plan }
+    }
+
+    /// The same with other knobs.
     ///
     /// # Errors
     /// As [`Job::renderer`].
-    pub fn renderer_of<'a>(&'a self, scene: &'a Scene, plan: &'a Plan) -> Result<Renderer<'a>, Failure> {
-        self.made_ready(scene, plan, Renderer::new)
+    pub fn renderer_of<'a>(&'a self, turned: &'a Turned) -> Result<Renderer<'a>, Failure> {
+        self.made_ready(&turned.scene, &turned.plan, &turned.function, Renderer::new)
     }
 
     /// The same of a phantom's own formula in place of the voxels ([COST-2]).
@@ -162,15 +181,15 @@ impl Job {
     /// As [`Job::renderer`].
     pub fn exact_renderer_of<'a>(
         &'a self,
-        scene: &'a Scene,
-        plan: &'a Plan,
+        turned: &'a Turned,
         phantom: &'a dyn Phantom,
     ) -> Result<Renderer<'a>, Failure> {
-        self.made_ready(scene, plan, |inputs| Renderer::exact(inputs, phantom))
+        let make = |inputs| Renderer::exact(inputs, phantom);
+        self.made_ready(&turned.scene, &turned.plan, &turned.function, make)
     }
 
     /// The plan of a scene over what this job has loaded.
-    pub fn plan_of(&self, scene: &Scene) -> Plan {
+    fn plan_of(&self, scene: &Scene) -> Plan {
         let mut plan = Plan::new(scene);
         plan.settle(scene, is_integer(&self.volume));
         plan
@@ -180,6 +199,7 @@ impl Job {
         &'a self,
         scene: &'a Scene,
         plan: &'a Plan,
+        function: &'a Function,
         make: impl FnOnce(Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
     ) -> Result<Renderer<'a>, Failure> {
         let background = match (&self.background, &scene.picture.background) {
@@ -191,13 +211,13 @@ impl Job {
             scene,
             plan,
             volume: &self.volume,
-            function: &self.function,
+            function,
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &self.styles,
             background,
         };
-        room_for_passes(self)?;
+        room_for_passes(self, plan)?;
         let renderer = make(inputs).map_err(|error| {
             let (key, remedy) = match &error {
                 RenderError::Field(FieldError::NotSmooth { .. }) => {
@@ -287,9 +307,9 @@ fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
 }
 
 /// Whether there is memory for what is made of every voxel before the rays.
-fn room_for_passes(job: &Job) -> Result<(), Failure> {
+fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
     let voxels = job.volume.dims().into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
-    let each = job.plan.passes.iter().map(|need| (need, voxels.saturating_mul(need.pass.bytes_a_voxel())));
+    let each = plan.passes.iter().map(|need| (need, voxels.saturating_mul(need.pass.bytes_a_voxel())));
     // One after another they are kept, so together they have to fit.
     let mut needed = 0u64;
     for (need, bytes) in each {

@@ -28,7 +28,7 @@ pub use form::Form;
 pub use front::front;
 pub use table::{csv, markdown};
 
-use crate::job::Job;
+use crate::job::{Job, Turned};
 use crate::{Failure, Failures};
 use drypoint_output::compare::{Options as How, compare};
 use drypoint_output::read::Image;
@@ -37,7 +37,6 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::knobs::{Knob, Limit, knobs};
 use drypoint_scene::phantom::{self, Phantom};
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::plan::Plan;
 use drypoint_scene::tables::{Scene, VolumeSource};
 use statistics::{median, quartiles};
 use std::fmt;
@@ -125,8 +124,7 @@ const KEPT: u64 = 1 << 30;
 /// A scene that is rendered, whatever knobs lead to it.
 struct Variant<'a> {
     job: &'a Job,
-    scene: &'a Scene,
-    plan: &'a Plan,
+    turned: &'a Turned,
     /// Ready for the next turn, where it may be kept.
     renderer: Option<Renderer<'a>>,
     /// Its picture and its counts, or why there is none.
@@ -136,9 +134,9 @@ struct Variant<'a> {
 
 impl<'a> Variant<'a> {
     /// Prepares and warms up; `kept` counts what the variants keep.
-    fn new(job: &'a Job, (scene, plan): &'a (Scene, Plan), kept: &mut u64) -> Self {
+    fn new(job: &'a Job, turned: &'a Turned, kept: &mut u64) -> Self {
         let mut renderer = None;
-        let made = job.renderer_of(scene, plan).map(|ready| {
+        let made = job.renderer_of(turned).map(|ready| {
             let (picture, counts) = ready.frame(&|_| ());
             let shared = |name: &str| ["volume", "mask", "labels", "picture"].contains(&name);
             let own: u64 = counts.bytes.iter().filter(|(name, _)| !shared(name)).map(|(_, bytes)| bytes).sum();
@@ -148,7 +146,7 @@ impl<'a> Variant<'a> {
             }
             (Image::from(&picture), counts)
         });
-        Self { job, scene, plan, renderer, made, seconds: Vec::new() }
+        Self { job, turned, renderer, made, seconds: Vec::new() }
     }
 
     /// Times one frame.
@@ -157,7 +155,7 @@ impl<'a> Variant<'a> {
         let renderer = match &self.renderer {
             Some(renderer) => renderer,
             None => {
-                anew = self.job.renderer_of(self.scene, self.plan)?;
+                anew = self.job.renderer_of(self.turned)?;
                 &anew
             }
         };
@@ -176,7 +174,7 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
     // Other layers are no part of the error, and would be part of the time.
     let mut base = job.scene.clone();
     base.picture.layers = vec![LayerKind::Beauty];
-    let all = knobs(&base, &job.plan_of(&base));
+    let all = knobs(&base, &job.turned(base.clone()).plan);
     let turned = chosen(&all, &options.only, job)?;
     if let Some((knob, own)) = all.iter().find_map(|knob| Some((knob, knob.of(&base)?))) {
         // Through the text that all settings go through, so that equal scenes are equal.
@@ -186,7 +184,7 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
         VolumeSource::Phantom(source) => phantom::of_source(source).ok().map(|(phantom, _)| phantom),
         VolumeSource::File { .. } => None,
     };
-    let mut different: Vec<(Scene, Plan)> = Vec::new();
+    let mut different: Vec<Turned> = Vec::new();
     let mut settings: Vec<(&Knob, String, usize)> = Vec::new();
     for knob in &turned {
         let mut scenes = Vec::new();
@@ -199,11 +197,10 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
             scenes.insert(0, (own, base.clone()));
         }
         for (setting, scene) in scenes {
-            let known = different.iter().position(|(other, _)| *other == scene);
+            let known = different.iter().position(|other| other.scene == scene);
             let at = known.unwrap_or(different.len());
             if known.is_none() {
-                let plan = job.plan_of(&scene);
-                different.push((scene, plan));
+                different.push(job.turned(scene));
             }
             settings.push((knob, setting, at));
         }
@@ -239,7 +236,7 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
                 found.rows.push(Row {
                     knob: knob.key.clone(),
                     setting: setting.clone(),
-                    own: *variant.scene == base,
+                    own: variant.turned.scene == base,
                     rms: error.rms,
                     max: error.max,
                     // Both pictures have colours.
@@ -275,8 +272,8 @@ fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result
         scene = knob.set(&scene, knob.finest())?;
     }
     scene.sampling.stop_below = 0.0;
-    let plan = job.plan_of(&scene);
-    let (picture, _) = job.exact_renderer_of(&scene, &plan, phantom)?.frame(&|_| ());
+    let turned = job.turned(scene);
+    let (picture, _) = job.exact_renderer_of(&turned, phantom)?.frame(&|_| ());
     Ok(Image::from(&picture))
 }
 

@@ -93,6 +93,9 @@ fn every_setting_of_every_knob_has_a_row() {
     // Prefiltering keeps one f64 a voxel.
     let kept = of("sampling.kernel", "bspline").bytes as i64 - of("sampling.kernel", "trilinear").bytes as i64;
     assert!(kept >= 8 * 20 * 20 * 20, "{kept}");
+    // Every setting is rendered: no two of the function's tables are alike, and larger ones are nearer.
+    let tables = ["64", "256", "1024", "4096"].map(|entries| of("transfer.table", entries).rms);
+    assert!(tables.windows(2).all(|pair| pair[1] < 0.7 * pair[0]) && tables[3] > 0.0, "{tables:?}");
     // Four times as many rays.
     let (one, four) = (of("picture.samples", "1").samples as f64, of("picture.samples", "2").samples as f64);
     assert!((four / one - 4.0).abs() < 0.5, "{one} {four}");
