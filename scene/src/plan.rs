@@ -277,9 +277,13 @@ impl Plan {
     /// Warns where the longest distance between samples along a ray exceeds a voxel ([RAY-1]), both in world units.
     pub fn warn_step(&mut self, longest_step: f64, voxel: f64) {
         if longest_step > voxel {
+            // Digits of a length that nobody means are no help.
+            let length = |x: f64| if x < 1e6 { format!("{x:.4}") } else { format!("{x:.4e}") };
             self.warnings.push(format!(
-                "samples are up to {longest_step:.4} apart along a ray, further than a voxel ({voxel:.4}): structures \
-                 between them are missed; make sampling.step smaller"
+                "samples are up to {} apart along a ray, further than a voxel ({}): structures between them are missed; \
+                 make sampling.step smaller",
+                length(longest_step),
+                length(voxel)
             ));
         }
     }
