@@ -127,6 +127,21 @@ mod tests {
         Sym3 { xx, xy, xz, yy, yz, zz }
     }
 
+    /// The apex of a paraboloid and a plane: no direction is principal there, and some frame is given, not a quotient of 0.
+    #[test]
+    fn an_exact_umbilic_has_some_frame() {
+        for curved in [0.0, -2.0, 0.5] {
+            let c = principal(vector([0.0, 0.0, -4.0]), sym([curved, 0.0, 0.0, curved, 0.0, 1.0]), Outside::Low);
+            assert_eq!(c.k1, c.k2);
+            for (e, other) in [(c.e1, c.e2), (c.e2, c.e1)] {
+                assert!(
+                    (e.length() - 1.0).abs() < 1e-15 && e.z == 0.0 && e.dot(other).abs() < 1e-15,
+                    "{e:?} {other:?}"
+                );
+            }
+        }
+    }
+
     /// G = −PHP/‖g‖ as it is written, and n.
     fn shape_operator(g: Vec3<f64>, h: Sym3<f64>) -> (Matrix3<f64>, Vector3<f64>) {
         let g = Vector3::new(g.x, g.y, g.z);
