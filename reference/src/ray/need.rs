@@ -30,8 +30,8 @@ impl Needs {
 
 /// One of [`Needs`], as a type.
 pub(super) trait Need {
-    /// Whether there can be more than a colour for each value: a function over two quantities or from a table, |g|, styles, layers, and
-    /// compositing of encoded colours.
+    /// Whether there can be more than a colour for each value: a function over two quantities or from a table, |g|,
+    /// styles, layers, and compositing of encoded colours.
     const MORE: bool;
 
     /// What visible samples have to know.
