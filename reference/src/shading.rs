@@ -8,17 +8,17 @@ use drypoint_scene::view::View;
 /// Material and light; the vectors are in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Phong<R> {
-    ambient: R,
-    diffuse: R,
-    specular: R,
-    shininess: Exponent<R>,
+    pub(crate) ambient: R,
+    pub(crate) diffuse: R,
+    pub(crate) specular: R,
+    pub(crate) shininess: Exponent<R>,
     /// L: the unit vector towards the light.
-    light: Vec3<R>,
+    pub(crate) light: Vec3<R>,
 }
 
 /// s, with whole numbers up to 64 told apart once and not at every sample ([PREC-4]).
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Exponent<R> {
+pub(crate) enum Exponent<R> {
     Whole(u32),
     Other(R),
 }

@@ -4,7 +4,7 @@
 //! IEEE 754 machine. `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
 
 mod double;
-mod transmittance;
+pub mod transmittance;
 
 pub use transmittance::{ln_one_minus, one_minus_exp};
 

@@ -156,6 +156,16 @@ impl Shot {
         self.render_by(|renderer| renderer.with_tiles(side))
     }
 
+    /// The picture with each ray cast alone, and whether rays would have been cast in lanes.
+    pub(crate) fn render_ray_by_ray(&self) -> (Shown, bool) {
+        let mut in_lanes = false;
+        let shown = self.render_by(|renderer| {
+            in_lanes = renderer.in_lanes();
+            renderer.ray_by_ray()
+        });
+        (shown, in_lanes)
+    }
+
     fn render_by(&self, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
         let function = self.function();
         let named: Vec<Style> = match &function {

@@ -6,6 +6,7 @@ mod common;
 mod along_ray;
 mod coverage;
 mod generator;
+mod lanes;
 mod order;
 mod over_two;
 mod scenes;

@@ -10,6 +10,7 @@ mod exact;
 mod gradient;
 mod hessian;
 pub mod kernel;
+pub(crate) mod lanes;
 pub mod normal;
 mod place;
 mod prefilter;

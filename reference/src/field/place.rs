@@ -26,6 +26,12 @@ impl<R: Real> Cells<R> {
         Self { last: dims.map(|n| R::from_f64((n.max(2) - 2) as f64)), flat: flat.contains(&true).then_some(flat) }
     }
 
+    /// max(N − 2, 0) on each axis.
+    #[inline(always)]
+    pub(crate) fn last(&self) -> [R; 3] {
+        self.last
+    }
+
     #[inline(always)]
     fn along(&self, axis: usize, x: R) -> (usize, R) {
         let cell = x.min(self.last[axis]).to_index();

@@ -117,6 +117,11 @@ impl<'v> Stencils<'v> {
         });
     }
 
+    /// The last cell on each axis around which four voxels are in the grid; the first is 1.
+    pub(super) fn inner(&self) -> [usize; 3] {
+        self.inner
+    }
+
     /// Whether the four voxels on each axis around a cell are in the grid.
     #[inline(always)]
     fn inside(&self, cell: [usize; 3]) -> bool {
@@ -316,6 +321,16 @@ mod tests {
     }
 
     #[test]
+    fn voxels_with_all_their_neighbours() {
+        let v = volume([4, 3, 5], |_| 0);
+        let s = Stencils::new::<f64>(&v);
+        let all: Vec<[usize; 3]> =
+            (0..60).map(|i| [i % 4, i / 4 % 3, i / 12]).filter(|&voxel| s.surrounds(voxel)).collect();
+        assert_eq!(all, [[1, 1, 1], [2, 1, 1], [1, 1, 2], [2, 1, 2], [1, 1, 3], [2, 1, 3]]);
+        assert!(!Stencils::new::<f64>(&volume([4, 1, 5], |_| 0)).surrounds([1, 0, 1]));
+    }
+
+    #[test]
     fn two_samples_continue_as_a_line_and_one_as_a_constant() {
         let v = volume([2, 1, 4], |[x, _, z]| 10 * x + z * z);
         let s = Stencils::new::<f64>(&v);
@@ -335,6 +350,9 @@ mod tests {
             (Stencils::new::<f64>(&v).scale(), Stencils::new::<f32>(&v).scale())
         };
         assert_eq!(of(1e9), (1.0, 1.0));
+        // The last power of two that f64 leaves alone, and the next.
+        assert_eq!(of(2f64.powi(500)).0, 1.0);
+        assert_eq!(of(2f64.powi(501)).0, 2f64.powi(-501));
         assert_eq!(of(3.0 * 2f64.powi(100)), (1.0, 2f64.powi(-101)));
         assert_eq!(of(-1.5 * 2f64.powi(600)), (2f64.powi(-600), 2f64.powi(-600)));
         assert_eq!(of(f64::from_bits(1)), (2f64.powi(1022), 2f64.powi(1022)));

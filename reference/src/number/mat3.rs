@@ -1,6 +1,6 @@
 //! 3×3 matrices of the sample loop: the maps of derivatives from index to world space.
 
-use super::{Real, Sym3, Vec3};
+use super::{Arithmetic, Real, Sym3, Vec3};
 use drypoint_scene::glam::DMat3;
 
 /// A matrix by its rows.
@@ -10,16 +10,18 @@ pub struct Mat3<R> {
     pub rows: [Vec3<R>; 3],
 }
 
-impl<R: Real> Mat3<R> {
-    /// Rounded from glam's.
-    pub fn from_glam(m: DMat3) -> Self {
-        Self { rows: [0, 1, 2].map(|i| Vec3::from_glam(m.row(i))) }
-    }
-
+impl<R: Arithmetic> Mat3<R> {
     /// M v.
     #[inline(always)]
     pub fn apply(&self, v: Vec3<R>) -> Vec3<R> {
         Vec3::new(self.rows[0].dot(v), self.rows[1].dot(v), self.rows[2].dot(v))
+    }
+}
+
+impl<R: Real> Mat3<R> {
+    /// Rounded from glam's.
+    pub fn from_glam(m: DMat3) -> Self {
+        Self { rows: [0, 1, 2].map(|i| Vec3::from_glam(m.row(i))) }
     }
 
     /// M S Mᵀ for a symmetric S.

@@ -1,10 +1,12 @@
 //! Numbers that the sample code is generic over: f64, the truth, and f32, for the price list ([PREC-1]).
 
+mod arithmetic;
 mod mat3;
 mod real;
 mod sym3;
 mod vec3;
 
+pub use arithmetic::Arithmetic;
 pub use mat3::Mat3;
 pub use real::Real;
 pub use sym3::Sym3;

@@ -1,22 +1,20 @@
 //! The operations that the sample code asks of a number, and nothing more.
 
+use super::Arithmetic;
 use drypoint_scene::math;
 use drypoint_scene::volume::Voxel;
 use std::fmt::Debug;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::ops::{AddAssign, Div, MulAssign, Neg, SubAssign};
 
 /// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `drypoint_scene::math` alone ([PREC-4]).
 pub trait Real:
-    Copy
+    Arithmetic
     + Debug
     + Default
     + PartialOrd
     + Send
     + Sync
     + 'static
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
     + AddAssign
@@ -103,12 +101,6 @@ pub trait Real:
         }
         let ratio = small / large;
         large * (Self::ONE + ratio * ratio).sqrt()
-    }
-
-    /// a + w(b − a), which returns a constant exactly ([REC-1]).
-    #[inline(always)]
-    fn lerp(a: Self, b: Self, w: Self) -> Self {
-        a + w * (b - a)
     }
 }
 

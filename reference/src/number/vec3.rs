@@ -1,6 +1,6 @@
 //! Three numbers of the sample loop. glam's vectors are not generic over the number.
 
-use super::Real;
+use super::{Arithmetic, Real};
 use drypoint_scene::glam::DVec3;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -15,13 +15,21 @@ pub struct Vec3<R> {
     pub z: R,
 }
 
-impl<R: Real> Vec3<R> {
+impl<R: Arithmetic> Vec3<R> {
     /// From its components.
     #[inline(always)]
     pub fn new(x: R, y: R, z: R) -> Self {
         Self { x, y, z }
     }
 
+    /// a·b, summed x, y, z.
+    #[inline(always)]
+    pub fn dot(self, b: Self) -> R {
+        self.x * b.x + self.y * b.y + self.z * b.z
+    }
+}
+
+impl<R: Real> Vec3<R> {
     /// The zero vector.
     #[inline(always)]
     pub fn zero() -> Self {
@@ -36,12 +44,6 @@ impl<R: Real> Vec3<R> {
     /// To glam's.
     pub fn to_glam(self) -> DVec3 {
         DVec3::new(self.x.to_f64(), self.y.to_f64(), self.z.to_f64())
-    }
-
-    /// a·b, summed x, y, z.
-    #[inline(always)]
-    pub fn dot(self, b: Self) -> R {
-        self.x * b.x + self.y * b.y + self.z * b.z
     }
 
     /// a × b.
@@ -63,7 +65,7 @@ impl<R: Real> Vec3<R> {
     }
 }
 
-impl<R: Real> Add for Vec3<R> {
+impl<R: Arithmetic> Add for Vec3<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, b: Self) -> Self {
@@ -71,7 +73,7 @@ impl<R: Real> Add for Vec3<R> {
     }
 }
 
-impl<R: Real> Sub for Vec3<R> {
+impl<R: Arithmetic> Sub for Vec3<R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, b: Self) -> Self {
@@ -87,7 +89,7 @@ impl<R: Real> Neg for Vec3<R> {
     }
 }
 
-impl<R: Real> Mul<R> for Vec3<R> {
+impl<R: Arithmetic> Mul<R> for Vec3<R> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, s: R) -> Self {

@@ -71,8 +71,20 @@ struct Light<R> {
     corrected: [R; 2],
 }
 
+/// Casts the rays through points of the picture one by one, and appends what comes out of each.
+pub(super) fn cast_all<R: Real, S: Sampler<R>>(
+    prepared: &Prepared<'_, R>,
+    sampler: &S,
+    points: &[[f64; 2]],
+    mut boxes: Option<&mut Boxes>,
+    counts: &mut Counts,
+    casts: &mut Vec<Cast>,
+) {
+    casts.extend(points.iter().map(|&point| cast(prepared, sampler, point, boxes.as_deref_mut(), counts)));
+}
+
 /// Casts the ray through a point of the picture, in pixels from the top left corner.
-pub(super) fn cast<R: Real, S: Sampler<R>>(
+fn cast<R: Real, S: Sampler<R>>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
     [i, j]: [f64; 2],
@@ -105,24 +117,12 @@ pub(super) fn cast<R: Real, S: Sampler<R>>(
 }
 
 impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
-    /// Visits the samples that can lie in visible bricks, without boxes of them all samples. Returns how many were evaluated.
-    ///
-    /// Bounds of neighbouring intervals are rounded outwards to samples and can overlap: no sample is visited twice, and
-    /// none outside the volume.
+    /// Visits the samples of a ray. Returns how many were evaluated.
     fn run_in<N: Need>(&mut self, boxes: Option<&mut Boxes>, counts: &mut Counts) -> u64 {
-        let Some(boxes) = boxes else { return self.run::<N>(self.ray.inside(self.prepared.ends), counts).0 };
-        let intervals = boxes.intervals(self.ray.line(), R::EPSILON.to_f64());
-        if intervals.is_empty() {
-            return 0;
-        }
-        let [mut next, end] = self.ray.inside(self.prepared.ends);
         let mut samples = 0;
-        for &depths in intervals {
-            let [first, last] = self.ray.within(depths);
-            let last = last.min(end);
-            let (n, open) = self.run::<N>([first.max(next), last], counts);
+        for visit in self.ray.visits(self.prepared.ends, boxes) {
+            let (n, open) = self.run::<N>(visit, counts);
             samples += n;
-            next = next.max(last + 1);
             if !open {
                 break;
             }

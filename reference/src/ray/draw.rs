@@ -1,12 +1,11 @@
 //! The rays of a picture, tile by tile.
 
-use super::cast::cast;
+use super::cast::Cast;
 use super::lattice::IndexRay;
 use super::layers::{Sums, pooled};
 use super::prepared::Prepared;
 use super::render::Backdrop;
 use super::skip::{Beam, Boxes};
-use crate::field::Sampler;
 use crate::number::Real;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
@@ -16,20 +15,25 @@ use rayon::prelude::*;
 /// Pixels that are drawn before they are gathered, so that a huge picture is not in memory twice.
 const BATCH: usize = 1 << 20;
 
-/// The channels of a tile, pixel by pixel.
+/// The channels of a tile, pixel by pixel as [`in_blocks`] orders them.
 struct Tile {
     x: usize,
     y: usize,
-    width: usize,
+    size: [usize; 2],
     pixels: Vec<f64>,
     counts: Counts,
 }
 
+/// Casts the rays through points of the picture, in pixels from the top left corner, and appends what comes out of each.
+pub(super) trait CastAll: Fn(&[[f64; 2]], Option<&mut Boxes>, &mut Counts, &mut Vec<Cast>) + Sync {}
+
+impl<F: Fn(&[[f64; 2]], Option<&mut Boxes>, &mut Counts, &mut Vec<Cast>) + Sync> CastAll for F {}
+
 /// Casts all rays of a picture. Each pixel is a function of its place alone, so neither threads nor the order of tiles
 /// show ([RAY-3]).
-pub(super) fn draw<R: Real, S: Sampler<R>>(
+pub(super) fn draw<R: Real>(
     prepared: &Prepared<'_, R>,
-    sampler: &S,
+    cast_all: impl CastAll,
     background: Backdrop<'_>,
     tile: usize,
     progress: &(dyn Fn(f64) + Sync),
@@ -46,7 +50,7 @@ pub(super) fn draw<R: Real, S: Sampler<R>>(
             .into_par_iter()
             .map(|t| {
                 let at = [t % across * tile, t / across * tile];
-                let drawn = draw_tile(prepared, sampler, background, at, tile);
+                let drawn = draw_tile(prepared, &cast_all, background, at, tile);
                 let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                 progress(n as f64 / (across * down) as f64);
                 drawn
@@ -54,8 +58,8 @@ pub(super) fn draw<R: Real, S: Sampler<R>>(
             .collect();
         for tile in &tiles {
             counts.add(&tile.counts);
-            for (i, pixel) in tile.pixels.chunks_exact(per_pixel).enumerate() {
-                let at = (tile.y + i / tile.width) * width + tile.x + i % tile.width;
+            for ([i, j], pixel) in in_blocks(tile.size).zip(tile.pixels.chunks_exact(per_pixel)) {
+                let at = (tile.y + j) * width + tile.x + i;
                 for (channel, value) in channels.iter_mut().zip(pixel) {
                     channel[at] = *value;
                 }
@@ -72,16 +76,17 @@ pub(super) fn draw<R: Real, S: Sampler<R>>(
 }
 
 /// Casts the rays of one tile.
-fn draw_tile<R: Real, S: Sampler<R>>(
+fn draw_tile<R: Real>(
     prepared: &Prepared<'_, R>,
-    sampler: &S,
+    cast_all: &impl CastAll,
     background: Backdrop<'_>,
     [x, y]: [usize; 2],
     side: usize,
 ) -> Tile {
     let [width, height] = prepared.view.size;
     let (right, bottom) = ((x + side).min(width), (y + side).min(height));
-    let mut tile = Tile { x, y, width: right - x, pixels: Vec::new(), counts: Counts::default() };
+    let size = [right - x, bottom - y];
+    let mut tile = Tile { x, y, size, pixels: Vec::new(), counts: Counts::default() };
     let mut boxes = prepared.skip.as_ref().map(|skip| {
         let corner = |i: usize, j: usize| {
             let ray = prepared.view.ray(i as f64, j as f64);
@@ -90,51 +95,73 @@ fn draw_tile<R: Real, S: Sampler<R>>(
         let corners = [corner(x, y), corner(right, y), corner(right, bottom), corner(x, bottom)];
         skip.boxes_in(&Beam::new(corners, R::EPSILON.to_f64()))
     });
-    for j in y..bottom {
-        for i in x..right {
-            let behind = match background {
-                Backdrop::None => [0.0; 4],
-                Backdrop::Color(c) => color::premultiply(c),
-                Backdrop::Pixels(pixels) => pixels[j * width + i],
-            };
-            draw_pixel(prepared, sampler, [i, j], behind, &mut boxes, &mut tile);
-        }
+    let casts = cast_parts(prepared, cast_all, [x, y], size, boxes.as_mut(), &mut tile.counts);
+    for (n, [i, j]) in in_blocks(size).enumerate() {
+        let behind = match background {
+            Backdrop::None => [0.0; 4],
+            Backdrop::Color(c) => color::premultiply(c),
+            Backdrop::Pixels(pixels) => pixels[(y + j) * width + x + i],
+        };
+        append_pixel(prepared, casts.iter().skip(n).step_by(size[0] * size[1]), behind, &mut tile.pixels);
     }
     tile
 }
 
-/// Casts the n×n rays of one pixel through the centres of its parts and appends its channels ([RAY-6]): of the beauty the
-/// mean; of the layers that are means themselves the mean over all samples of the pixel; of the others the first ray's.
-fn draw_pixel<R: Real, S: Sampler<R>>(
+/// The pixels of a tile, in blocks of 4 by 2: rays that are cast side by side are close together.
+fn in_blocks([width, height]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
+    let corners = (0..height).step_by(2).flat_map(move |y| (0..width).step_by(4).map(move |x| [x, y]));
+    corners.flat_map(move |[x, y]| (y..height.min(y + 2)).flat_map(move |j| (x..width.min(x + 4)).map(move |i| [i, j])))
+}
+
+/// Casts the n×n rays of each pixel of a tile through the centres of its parts ([RAY-6]): the first parts of all pixels, then
+/// the second ones, and so on.
+fn cast_parts<R: Real>(
     prepared: &Prepared<'_, R>,
-    sampler: &S,
-    [i, j]: [usize; 2],
-    behind: Rgba,
-    boxes: &mut Option<Boxes>,
-    tile: &mut Tile,
-) {
+    cast_all: &impl CastAll,
+    [x, y]: [usize; 2],
+    size: [usize; 2],
+    mut boxes: Option<&mut Boxes>,
+    counts: &mut Counts,
+) -> Vec<Cast> {
     let n = prepared.samples;
-    let share = 1.0 / (n * n) as f64;
-    let mut beauty = [0.0; 4];
-    let (mut first, mut all) = (None, Sums::new());
+    let mut casts = Vec::with_capacity(n * n * size[0] * size[1]);
+    let mut points = Vec::with_capacity(size[0] * size[1]);
     for part in 0..n * n {
         let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
-        let at = [centre(i, part % n), centre(j, part / n)];
-        let cast = cast(prepared, sampler, at, boxes.as_mut(), &mut tile.counts);
+        points.clear();
+        points.extend(in_blocks(size).map(|[i, j]| [centre(x + i, part % n), centre(y + j, part / n)]));
+        cast_all(&points, boxes.as_deref_mut(), counts, &mut casts);
+    }
+    casts
+}
+
+/// Appends the channels of a pixel, whose rays these are ([RAY-6]): of the beauty the mean; of the layers that are means
+/// themselves the mean over all samples of the pixel; of the others the first ray's.
+fn append_pixel<'c, R: Real>(
+    prepared: &Prepared<'_, R>,
+    casts: impl Iterator<Item = &'c Cast>,
+    behind: Rgba,
+    pixels: &mut Vec<f64>,
+) {
+    let share = 1.0 / (prepared.samples * prepared.samples) as f64;
+    let mut beauty = [0.0; 4];
+    let (mut first, mut all) = (None, Sums::new());
+    for cast in casts {
         for (mean, c) in beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
             *mean += c * share;
         }
         all.pool(&cast.sums);
-        first.get_or_insert((cast.sums, cast.samples));
+        first.get_or_insert((&cast.sums, cast.samples));
     }
-    // A pixel has at least one part.
-    let (first, samples) = first.unwrap_or((Sums::new(), 0));
+    let none = Sums::new();
+    // A pixel has at least one ray.
+    let (first, samples) = first.unwrap_or((&none, 0));
     for &kind in &prepared.layers {
         if kind == LayerKind::Beauty {
-            tile.pixels.extend(beauty);
+            pixels.extend(beauty);
         } else {
-            let sums = if pooled(kind) { &all } else { &first };
-            sums.channels(kind, samples, prepared.field.scale_exponent(), &mut tile.pixels);
+            let sums = if pooled(kind) { &all } else { first };
+            sums.channels(kind, samples, prepared.field.scale_exponent(), pixels);
         }
     }
 }

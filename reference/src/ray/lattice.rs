@@ -1,5 +1,6 @@
 //! Where a ray's samples lie ([RAY-1]).
 
+use super::skip::Boxes;
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
@@ -36,10 +37,10 @@ impl Lattice {
 /// The position of sample k is `origin + along · ((k + ½)·Δ)`: a function of the pixel and k, never accumulated.
 #[derive(Clone, Copy, Debug)]
 pub struct IndexRay<R> {
-    origin: Vec3<R>,
-    along: Vec3<R>,
+    pub(super) origin: Vec3<R>,
+    pub(super) along: Vec3<R>,
     /// Eye depth between samples.
-    depth_step: R,
+    pub(super) depth_step: R,
     /// Smallest k beyond `near`.
     first: i64,
     /// Δ_ray: world distance between samples on this ray ([VAL-4]).
@@ -90,6 +91,31 @@ impl<R: Real> IndexRay<R> {
             last -= 1;
         }
         [first, last]
+    }
+
+    /// The samples that can lie in visible bricks, without boxes of them all samples, as closed ranges first..=last in order.
+    ///
+    /// Bounds of neighbouring intervals are rounded outwards to samples and can overlap: no sample is in two ranges, and
+    /// none outside the volume.
+    #[inline(always)]
+    pub(super) fn visits<'b>(
+        &self,
+        ends: [Vec3<R>; 2],
+        boxes: Option<&'b mut Boxes>,
+    ) -> impl Iterator<Item = [i64; 2]> + use<'b, R> {
+        let ray = *self;
+        let (whole, intervals) = match boxes {
+            None => (true, &[][..]),
+            Some(boxes) => (false, boxes.intervals(ray.line(), R::EPSILON.to_f64())),
+        };
+        let [mut next, end] = if whole || !intervals.is_empty() { ray.inside(ends) } else { [1, 0] };
+        let parts = intervals.iter().map(move |&depths| {
+            let [first, last] = ray.within(depths);
+            let part = [first.max(next), last.min(end)];
+            next = next.max(part[1] + 1);
+            part
+        });
+        whole.then_some([next, end]).into_iter().chain(parts).filter(|[first, last]| first <= last)
     }
 
     /// Whether sample k may be asked for: beyond `near` and inside the box.
@@ -186,6 +212,65 @@ mod tests {
         let planes = |along| Lattice { step: 0.5, along, near: 0.5 }.planes(&view, &grid);
         assert_eq!(planes(StepAlong::Plane), 20.0);
         assert_eq!(planes(StepAlong::Ray), 2.0 * (100.0f64 + 9.0 + 4.0).sqrt());
+    }
+
+    /// A ray by its numbers.
+    fn ray<R: Real>(origin: [f64; 3], along: [f64; 3], depth_step: f64) -> IndexRay<R> {
+        let vector = |v| Vec3::from_glam(DVec3::from_array(v));
+        let depth_step = R::from_f64(depth_step);
+        IndexRay { origin: vector(origin), along: vector(along), depth_step, first: i64::MIN, step: 1.0 }
+    }
+
+    #[test]
+    fn the_samples_within_depths_by_hand() {
+        let ray = ray::<f64>([0.0; 3], [0.0, 0.0, 1.0], 1.0);
+        assert_eq!(ray.within([10.25, 20.25]), [10, 19]);
+        // Depths of samples themselves belong to the range, however the quotient rounds.
+        assert_eq!(ray.within([10.5, 20.5]), [10, 20]);
+        assert_eq!(ray.within([-3.5, -0.25]), [-4, -1]);
+    }
+
+    #[test]
+    fn a_ray_beside_the_box_meets_it_nowhere() {
+        let box_of_8 = [DVec3::ZERO, DVec3::splat(8.0)].map(Vec3::<f64>::from_glam);
+        let depths = |y: f64| ray::<f64>([-4.0, y, 4.0], [1.0, 0.0, 0.0], 1.0).depths(box_of_8[0], box_of_8[1]);
+        assert_eq!([depths(-1.0), depths(9.0)], [None, None]);
+        // On its faces and inside, from 4 to 12.
+        for y in [0.0, 4.0, 8.0] {
+            let [near, far] = depths(y).unwrap();
+            assert!((near - 4.0).abs() < 1e-13 && (far - 12.0).abs() < 1e-13, "{y}: {near} {far}");
+        }
+    }
+
+    #[test]
+    fn a_sample_is_there_beyond_near_and_inside() {
+        let ends = [DVec3::ZERO, DVec3::splat(8.0)].map(Vec3::<f64>::from_glam);
+        let ray = IndexRay { first: 6, ..ray::<f64>([-4.0, 4.0, 4.0], [1.0, 0.0, 0.0], 1.0) };
+        let all: Vec<i64> = (-20..40).filter(|&k| ray.has(k, ends)).collect();
+        // Depths 6½ to 11½; without `first` they begin at 4½.
+        assert_eq!(all, (6..=11).collect::<Vec<_>>());
+    }
+
+    /// In f32, from so far away that positions are rounded to a hundredth of a voxel, and from inside: the rounded position
+    /// decides.
+    #[test]
+    fn rounded_positions_are_inside_as_they_come() {
+        let mut drawn = 0;
+        let mut unit = || {
+            drawn += 1;
+            drypoint_scene::philox::uniform(7, [0; 3], drawn)
+        };
+        let ends = [DVec3::ZERO, DVec3::new(8.0, 6.0, 4.0)].map(Vec3::<f32>::from_glam);
+        for i in 0..3000 {
+            let away = [0.0, 100.0, 1e5][i % 3];
+            let along = DVec3::new(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalize();
+            let target = DVec3::new(8.0 * unit(), 6.0 * unit(), 4.0 * unit());
+            let ray = ray::<f32>((target - along * away).to_array(), along.to_array(), 0.0625);
+            let [first, last] = ray.inside(ends);
+            let middle = (away / 0.0625) as i64;
+            let all: Vec<i64> = (middle - 400..middle + 400).filter(|&k| ray.has(k, ends)).collect();
+            assert_eq!((all.first(), all.last()), (Some(&first), Some(&last)), "{i}");
+        }
     }
 
     proptest! {

@@ -3,6 +3,7 @@
 mod cast;
 mod draw;
 mod gradient_range;
+mod lanes;
 pub mod lattice;
 mod layers;
 mod need;

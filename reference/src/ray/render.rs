@@ -1,9 +1,13 @@
 //! A picture of a scene: what it is made of, and what can be wrong with that.
 
-use super::draw::draw;
+use super::cast::{self, Cast};
+use super::draw::{CastAll, draw};
+use super::lanes;
 use super::prepare::{gradient_range, prepare};
 use super::prepared::Prepared;
-use crate::field::{Exact, FieldError};
+use super::skip::Boxes;
+use crate::field::{Exact, FieldError, Sampler};
+use crate::number::Real;
 use crate::transfer::NodesError;
 use crate::with_sampler;
 use drypoint_scene::color::Rgba;
@@ -106,6 +110,8 @@ pub struct Renderer<'a> {
     background: Backdrop<'a>,
     counts: Counts,
     tile: usize,
+    /// Whether rays are cast side by side.
+    lanes: bool,
 }
 
 enum Ready<'a> {
@@ -154,7 +160,8 @@ impl<'a> Renderer<'a> {
             counts.bytes.insert("mask".into(), mask.bytes() as u64);
         }
         counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
-        Self { ready, background: inputs.background, counts, tile: TILE }
+        let lanes = matches!(&ready, Ready::F64(p) if lanes::serve(p));
+        Self { ready, background: inputs.background, counts, tile: TILE, lanes }
     }
 
     /// The same with tiles of another side, from 1 to 1024 pixels; it shows nowhere ([RAY-3]).
@@ -162,15 +169,36 @@ impl<'a> Renderer<'a> {
         Self { tile: side.clamp(1, 1024), ..self }
     }
 
+    /// The same with each ray cast alone, as where the processor has no wide registers; it shows nowhere, neither in the
+    /// picture nor in the counts.
+    pub fn ray_by_ray(self) -> Self {
+        Self { lanes: false, ..self }
+    }
+
+    /// Whether rays are cast in lanes, eight at a time.
+    pub fn in_lanes(&self) -> bool {
+        self.lanes
+    }
+
     /// Renders one frame. `progress` hears the share of the picture that is done, from any thread.
     pub fn frame(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let start = Instant::now();
         let (picture, mut counts) = match &self.ready {
-            Ready::F64(p) => with_sampler!(p.field, |s| draw(p, s, self.background, self.tile, progress)),
-            Ready::F32(p) => with_sampler!(p.field, |s| draw(p, s, self.background, self.tile, progress)),
+            Ready::F64(p) if self.lanes => {
+                let cast = |points: &[_], boxes: Option<&mut Boxes>, counts: &mut Counts, casts: &mut Vec<Cast>| {
+                    lanes::cast_all(p, points, boxes, counts, casts);
+                };
+                draw(p, cast, self.background, self.tile, progress)
+            }
+            Ready::F64(p) => {
+                with_sampler!(p.field, |s| draw(p, one_by_one(p, s), self.background, self.tile, progress))
+            }
+            Ready::F32(p) => {
+                with_sampler!(p.field, |s| draw(p, one_by_one(p, s), self.background, self.tile, progress))
+            }
             Ready::Exact(p, phantom) => {
                 let exact = Exact::new(*phantom, p.volume.grid(), p.field.scale_exponent());
-                draw(p, &exact, self.background, self.tile, progress)
+                draw(p, one_by_one(p, &exact), self.background, self.tile, progress)
             }
         };
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
@@ -178,5 +206,12 @@ impl<'a> Renderer<'a> {
         let channels: usize = picture.layers.iter().map(|l| l.channels.len()).sum();
         counts.bytes.insert("picture".into(), (channels * picture.width * picture.height * 8) as u64);
         (picture, counts)
+    }
+}
+
+/// Casts rays alone, each for itself.
+fn one_by_one<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S) -> impl CastAll {
+    move |points: &[[f64; 2]], boxes: Option<&mut Boxes>, counts: &mut Counts, casts: &mut Vec<Cast>| {
+        cast::cast_all(prepared, sampler, points, boxes, counts, casts);
     }
 }

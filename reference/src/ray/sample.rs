@@ -169,11 +169,7 @@ impl<R: Real> Between<R> for Place<R> {
 
     #[inline(always)]
     fn color(&self, colors: &[[R; 3]]) -> [R; 3] {
-        let a = colors[self.node];
-        if self.w == R::ZERO {
-            return a;
-        }
-        mixed(a, colors[self.node + 1], self.w)
+        self.color(colors)
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! Transfer functions between their nodes.
 
 pub mod gate;
+pub(crate) mod lanes;
 pub mod over;
 mod piecewise;
 mod plane;

@@ -6,28 +6,28 @@ use crate::number::Real;
 /// the result is exact.
 #[derive(Clone, Debug)]
 pub struct Piecewise<R> {
-    segments: Vec<Segment<R>>,
+    pub(super) segments: Vec<Segment<R>>,
     /// The last of the nodes at the first node's value.
     at_first: usize,
     /// What is known beforehand of each part of the line of values.
-    parts: Box<[Part; PARTS + 2]>,
-    first: R,
-    parts_per_unit: R,
+    pub(super) parts: Box<[Part; PARTS + 2]>,
+    pub(super) first: R,
+    pub(super) parts_per_unit: R,
 }
 
 /// From a node to the next one. The last node's has width 0.
 #[derive(Clone, Copy, Debug)]
-struct Segment<R> {
-    at: R,
-    width: R,
-    opacity: R,
-    next_opacity: R,
+pub(super) struct Segment<R> {
+    pub(super) at: R,
+    pub(super) width: R,
+    pub(super) opacity: R,
+    pub(super) next_opacity: R,
 }
 
 /// One part of the line of values, with its neighbours, so that no rounding of a value's part matters. The range of nodes is
 /// cut into [`PARTS`]; one more part lies before and one after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Part {
+pub(super) enum Part {
     /// Every value in it has α_u = 0.
     Invisible,
     /// Every value in it lies in the segment that begins at this node, which is not the last.
@@ -92,7 +92,20 @@ pub enum NodesError {
 }
 
 /// Enough that parts with a node in them are rare; 8 KiB.
-const PARTS: usize = 1024;
+pub(super) const PARTS: usize = 1024;
+
+impl<R: Real> Place<R> {
+    /// Between the colours of nodes, channel by channel: a + w(b − a).
+    #[inline(always)]
+    pub(crate) fn color(&self, colors: &[[R; 3]]) -> [R; 3] {
+        let a = colors[self.node];
+        if self.w == R::ZERO {
+            return a;
+        }
+        let b = colors[self.node + 1];
+        [R::lerp(a[0], b[0], self.w), R::lerp(a[1], b[1], self.w), R::lerp(a[2], b[2], self.w)]
+    }
+}
 
 impl<R: Real> Piecewise<R> {
     /// From nodes in non-decreasing order of `at`, with opacities in [0, 1].

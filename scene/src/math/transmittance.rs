@@ -8,20 +8,22 @@
 use super::double::Double;
 
 /// Steps of an octave in the tables.
-const STEPS: usize = 128;
-const STEPS_BITS: u32 = STEPS.trailing_zeros();
+pub const STEPS: usize = 128;
+/// Bits that count them.
+pub const STEPS_BITS: u32 = STEPS.trailing_zeros();
 const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 
 /// ln 2 = [`LN_2_HI`] + [`LN_2_LO`]; the first has 40 bits, so that its product with a whole number below 2¹³ is exact.
-const LN_2_HI: f64 = 0.693_147_180_559_208_2;
-const LN_2_LO: f64 = 7.371_002_565_167_799e-13;
+pub const LN_2_HI: f64 = 0.693_147_180_559_208_2;
+/// What is left.
+pub const LN_2_LO: f64 = 7.371_002_565_167_799e-13;
 
 /// 1.5 · 2⁵²: a small number that is added leaves its nearest whole number in the low bits of the sum.
-const TO_WHOLE: f64 = (3u64 << 51) as f64;
+pub const TO_WHOLE: f64 = (3u64 << 51) as f64;
 
 /// For c = 1 + i/128: 1/c and ln c in two parts, the first a multiple of 2⁻⁴⁴, so that adding multiples of ln 2's first
 /// part to it is exact.
-static LOGARITHMS: [[f64; 3]; STEPS] = {
+pub static LOGARITHMS: [[f64; 3]; STEPS] = {
     let mut table = [[0.0; 3]; STEPS];
     let mut i = 0;
     while i < STEPS {
@@ -37,7 +39,7 @@ static LOGARITHMS: [[f64; 3]; STEPS] = {
 };
 
 /// 2^(i/128) in two parts.
-static POWERS: [[f64; 2]; STEPS] = {
+pub static POWERS: [[f64; 2]; STEPS] = {
     let factor = Double::ln_ratio(2.0, 1.0).over(STEPS as f64).exp_m1().plus(Double::new(1.0));
     let mut table = [[0.0; 2]; STEPS];
     let mut power = Double::new(1.0);

@@ -272,6 +272,18 @@ impl<'a, V: Voxel> Linear<'a, V> {
     fn offset(&self, x: usize, y: usize, z: usize) -> usize {
         z * self.strides[1] + y * self.strides[0] + x
     }
+
+    /// [`window`](Access::window) from the voxel on that stands at `start` in the order of voxels.
+    ///
+    /// # Panics
+    /// If the window reaches beyond the last voxel. One that reaches beyond the end of a row reads the next row.
+    #[inline(always)]
+    pub fn window_at<const S: usize>(&self, start: usize) -> Self {
+        // Checked in `new`; said again for the compiler, which does not look that far.
+        assert!(self.strides[0] | self.strides[1] <= LONGEST_STRIDE);
+        let data = &self.data[start..][..self.offset(S - 1, S - 1, S - 1) + 1];
+        Self { data, dims: [S; 3], strides: self.strides }
+    }
 }
 
 impl<V: Voxel> Access for Linear<'_, V> {
@@ -286,11 +298,7 @@ impl<V: Voxel> Access for Linear<'_, V> {
     #[inline(always)]
     fn window<const S: usize>(&self, x: usize, y: usize, z: usize) -> Self {
         // Not `offset`: of two independent products the compiler makes a slow vector.
-        let start = (z * self.dims[1] + y) * self.dims[0] + x;
-        // Checked in `new`; said again for the compiler, which does not look that far.
-        assert!(self.strides[0] | self.strides[1] <= LONGEST_STRIDE);
-        let data = &self.data[start..][..self.offset(S - 1, S - 1, S - 1) + 1];
-        Self { data, dims: [S; 3], strides: self.strides }
+        self.window_at::<S>((z * self.dims[1] + y) * self.dims[0] + x)
     }
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use crate::field::Field;
 use crate::field::kernel::trilinear::bilinear;
 use crate::field::place::Place;
 use crate::field::stencil::{self, Cross};
-use crate::number::{Real, Vec3};
+use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
 
@@ -41,18 +41,27 @@ pub(super) fn at_voxel<R: Real>(voxels: impl Access, [x, y, z]: [usize; 3]) -> V
 
 /// Twice the differences, interpolated, and halved. Written out: through closures over arrays it takes twice as long.
 #[inline(always)]
-fn interpolated<R: Real>(c: Cross<R>, [wx, wy, wz]: [R; 3]) -> Vec3<R> {
-    // The difference of two rows at the two corners, interpolated along x.
-    let d = |down: [R; 2], up: [R; 2]| R::lerp(up[0] - down[0], up[1] - down[1], wx);
-    let along_x = |r: [R; 4]| d([r[0], r[1]], [r[2], r[3]]);
+pub(in crate::field) fn interpolated<R: Arithmetic>(c: Cross<R>, [wx, wy, wz]: [R; 3]) -> Vec3<R> {
     let [a, b, e, f] = [middle(c.x[0]), middle(c.x[1]), middle(c.x[2]), middle(c.x[3])];
-    let x = [along_x(c.x[0]), along_x(c.x[1]), along_x(c.x[2]), along_x(c.x[3])];
-    let y = [d(c.y[0], b), d(a, c.y[1]), d(c.y[2], f), d(e, c.y[3])];
-    let z = [d(c.z[0], e), d(c.z[1], f), d(a, c.z[2]), d(b, c.z[3])];
-    Vec3::new(bilinear(x, wy, wz), bilinear(y, wy, wz), bilinear(z, wy, wz)) * R::HALF
+    let x = [along_x(c.x[0], wx), along_x(c.x[1], wx), along_x(c.x[2], wx), along_x(c.x[3], wx)];
+    let y = [d(c.y[0], b, wx), d(a, c.y[1], wx), d(c.y[2], f, wx), d(e, c.y[3], wx)];
+    let z = [d(c.z[0], e, wx), d(c.z[1], f, wx), d(a, c.z[2], wx), d(b, c.z[3], wx)];
+    Vec3::new(bilinear(x, wy, wz).half(), bilinear(y, wy, wz).half(), bilinear(z, wy, wz).half())
+}
+
+/// The difference of two rows at the two corners, interpolated along x.
+#[inline(always)]
+fn d<R: Arithmetic>(down: [R; 2], up: [R; 2], wx: R) -> R {
+    R::lerp(up[0] - down[0], up[1] - down[1], wx)
+}
+
+/// The same of one row, along itself.
+#[inline(always)]
+fn along_x<R: Arithmetic>(r: [R; 4], wx: R) -> R {
+    d([r[0], r[1]], [r[2], r[3]], wx)
 }
 
 #[inline(always)]
-fn middle<R: Real>(r: [R; 4]) -> [R; 2] {
+fn middle<R: Copy>(r: [R; 4]) -> [R; 2] {
     [r[1], r[2]]
 }

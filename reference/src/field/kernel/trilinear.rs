@@ -4,7 +4,7 @@ use crate::field::Field;
 use crate::field::place::Place;
 use crate::field::sampler::Interpolant;
 use crate::field::stencil::{self, Corners};
-use crate::number::{Real, Vec3};
+use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::with_access;
 
 /// Three nested interpolations, x then y then z: continuous, interpolates the voxels, exact for f = xyz.
@@ -13,14 +13,19 @@ pub struct Trilinear;
 
 /// Numbers at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) interpolated along y, then z.
 #[inline(always)]
-pub(in crate::field) fn bilinear<R: Real>(c: [R; 4], wy: R, wz: R) -> R {
+pub(in crate::field) fn bilinear<R: Arithmetic>(c: [R; 4], wy: R, wz: R) -> R {
     R::lerp(R::lerp(c[0], c[1], wy), R::lerp(c[2], c[3], wy), wz)
 }
 
+/// The interpolation itself, along x first.
 #[inline(always)]
-fn value<R: Real>(rows: Corners<R>, [wx, wy, wz]: [R; 3]) -> R {
-    let x = |r: [R; 2]| R::lerp(r[0], r[1], wx);
-    bilinear([x(rows[0]), x(rows[1]), x(rows[2]), x(rows[3])], wy, wz)
+pub(in crate::field) fn value<R: Arithmetic>(rows: Corners<R>, [wx, wy, wz]: [R; 3]) -> R {
+    bilinear([along(rows[0], wx), along(rows[1], wx), along(rows[2], wx), along(rows[3], wx)], wy, wz)
+}
+
+#[inline(always)]
+fn along<R: Arithmetic>(r: [R; 2], wx: R) -> R {
+    R::lerp(r[0], r[1], wx)
 }
 
 /// Constant along each axis inside a cell, with jumps between cells.

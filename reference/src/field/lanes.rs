@@ -1,0 +1,222 @@
+//! A field at eight positions side by side, for rays that are cast in lanes.
+//!
+//! Trilinear values and central differences of small whole numbers, which is what scanners store: the formulas are those of
+//! one position, over lanes, so that the bits are the same. Voxels are fetched one lane after the other, whole rows at a
+//! time, and taken apart in lanes.
+
+use super::gradient::central;
+use super::kernel::trilinear;
+use super::place::Place;
+use super::stencil::Cross;
+use super::{Field, GradientEstimator, KernelData};
+use crate::number::{Mat3, Vec3};
+use drypoint_scene::volume::{Access, Linear, Voxel};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, mask64x8, u64x8};
+
+/// Positions side by side.
+pub(crate) const LANES: usize = 8;
+
+/// 2⁵²: the bits of a whole number below it are the low bits of the sum.
+const TO_BITS: f64 = (1u64 << 52) as f64;
+const MANTISSA: u64 = (1 << 52) - 1;
+
+/// Stored numbers of which four fit into one word.
+pub(crate) trait Packed: Voxel {
+    /// Bits of one.
+    const BITS: u32;
+    /// The sign bit; 0 for types without one. Flipped, it leaves the number plus the bit's own worth, without a sign.
+    const SIGN: u64;
+
+    /// The bits.
+    fn bits(self) -> u64;
+}
+
+macro_rules! packed {
+    ($($voxel:ty as $unsigned:ty, $sign:expr;)*) => {
+        $(impl Packed for $voxel {
+            const BITS: u32 = <$voxel>::BITS;
+            const SIGN: u64 = $sign;
+
+            #[inline(always)]
+            fn bits(self) -> u64 {
+                u64::from(self as $unsigned)
+            }
+        })*
+    };
+}
+
+packed! {
+    u8 as u8, 0;
+    i8 as u8, 1 << 7;
+    u16 as u16, 0;
+    i16 as u16, 1 << 15;
+}
+
+/// Neighbours along x, the first in the lowest bits.
+#[inline(always)]
+fn word<V: Packed, const N: usize>(row: [V; N]) -> u64 {
+    let mut word = 0;
+    for (i, voxel) in row.into_iter().enumerate() {
+        word |= voxel.bits() << (V::BITS * i as u32);
+    }
+    word
+}
+
+/// Cells and the ways into them, as [`Place`].
+#[derive(Clone, Copy)]
+pub(crate) struct Places<S: Simd> {
+    cell: Vec3<f64x8<S>>,
+    w: [f64x8<S>; 3],
+}
+
+/// Whole numbers in [0, 2⁵²) as indices.
+#[inline(always)]
+pub(crate) fn whole<S: Simd>(x: f64x8<S>) -> [usize; LANES] {
+    let bits: [u64; LANES] = ((x + TO_BITS).to_bits() & MANTISSA).into();
+    let mut whole = [0; LANES];
+    for lane in 0..LANES {
+        whole[lane] = bits[lane] as usize;
+    }
+    whole
+}
+
+/// Reads a field in lanes.
+pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
+    simd: S,
+    field: &'f Field<'v, f64>,
+    voxels: Linear<'f, V>,
+    to_world: Mat3<f64x8<S>>,
+}
+
+impl Field<'_, f64> {
+    /// Whether [`LaneReader`] reads this field, its gradients too if they are asked for: the trilinear kernel, central
+    /// differences, at least four voxels on each axis, numbers read as they are stored. The type is the caller's to match.
+    pub(crate) fn fits_lanes(&self, gradient: bool) -> bool {
+        let central = self.how.gradient == GradientEstimator::Central;
+        matches!(self.kernel, KernelData::Trilinear)
+            && (central || !gradient)
+            && !self.stencils.careful()
+            && self.stencils.dims().iter().all(|&n| n >= 4)
+    }
+}
+
+impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
+    /// For a field that [`fits_lanes`](Field::fits_lanes) and its voxels.
+    #[inline(always)]
+    pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, voxels: &'f [V]) -> Self {
+        let splat = |x| f64x8::splat(simd, x);
+        let row = |r: Vec3<f64>| Vec3::new(splat(r.x), splat(r.y), splat(r.z));
+        let to_world = Mat3 { rows: field.to_world.rows.map(row) };
+        Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), to_world }
+    }
+
+    /// The places of positions inside the box; the first cell in lanes that are not asked for.
+    #[inline(always)]
+    pub(crate) fn places(&self, p: Vec3<f64x8<S>>, asked: mask64x8<S>) -> Places<S> {
+        let [x, y, z] = self.field.cells.last();
+        let (x, y, z) = (self.along(p.x, x, asked), self.along(p.y, y, asked), self.along(p.z, z, asked));
+        Places { cell: Vec3::new(x.0, y.0, z.0), w: [x.1, y.1, z.1] }
+    }
+
+    /// The cell of a coordinate and the way into it.
+    #[inline(always)]
+    fn along(&self, x: f64x8<S>, last: f64, asked: mask64x8<S>) -> (f64x8<S>, f64x8<S>) {
+        let x = asked.select(x, f64x8::splat(self.simd, 0.0));
+        let cell = x.simd_lt(last).select(x, f64x8::splat(self.simd, last)).floor();
+        (cell, x - cell)
+    }
+
+    /// The values at places.
+    #[inline(always)]
+    pub(crate) fn values(&self, at: &Places<S>) -> f64x8<S> {
+        let start = self.offsets(at.cell);
+        let mut words = [[0; LANES]; 4];
+        for lane in 0..LANES {
+            let a = self.voxels.window_at::<2>(start[lane]);
+            for (row, (y, z)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
+                words[row][lane] = word(a.row::<2>(0, y, z));
+            }
+        }
+        let [a, b, c, d] = words;
+        let read = trilinear::value([self.numbers(a), self.numbers(b), self.numbers(c), self.numbers(d)], at.w);
+        read * self.field.slope + self.field.intercept
+    }
+
+    /// World gradients, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    #[inline(always)]
+    pub(crate) fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>> {
+        let inner = self.field.stencils.inner().map(|n| n as f64);
+        let cell = at.cell;
+        let inside = cell.x.simd_ge(1.0)
+            & cell.x.simd_le(inner[0])
+            & cell.y.simd_ge(1.0)
+            & cell.y.simd_le(inner[1])
+            & cell.z.simd_ge(1.0)
+            & cell.z.simd_le(inner[2]);
+        let simple = asked & inside;
+        let zero = f64x8::splat(self.simd, 0.0);
+        let start = self.offsets(Vec3::new(
+            simple.select(cell.x - 1.0, zero),
+            simple.select(cell.y - 1.0, zero),
+            simple.select(cell.z - 1.0, zero),
+        ));
+        let (mut x, mut y, mut z) = ([[0; LANES]; 4], [[0; LANES]; 4], [[0; LANES]; 4]);
+        for lane in 0..LANES {
+            let a = self.voxels.window_at::<4>(start[lane]);
+            for (row, (j, k)) in [(1, 1), (2, 1), (1, 2), (2, 2)].into_iter().enumerate() {
+                x[row][lane] = word(a.row::<4>(0, j, k));
+            }
+            for (row, (j, k)) in [(0, 1), (3, 1), (0, 2), (3, 2)].into_iter().enumerate() {
+                y[row][lane] = word(a.row::<2>(1, j, k));
+            }
+            for (row, (j, k)) in [(1, 0), (2, 0), (1, 3), (2, 3)].into_iter().enumerate() {
+                z[row][lane] = word(a.row::<2>(1, j, k));
+            }
+        }
+        let cross = Cross {
+            x: [self.numbers(x[0]), self.numbers(x[1]), self.numbers(x[2]), self.numbers(x[3])],
+            y: [self.numbers(y[0]), self.numbers(y[1]), self.numbers(y[2]), self.numbers(y[3])],
+            z: [self.numbers(z[0]), self.numbers(z[1]), self.numbers(z[2]), self.numbers(z[3])],
+        };
+        let mut index = central::interpolated(cross, at.w);
+        let mut careful = (asked & !inside).to_bitmask();
+        while careful != 0 {
+            let lane = careful.trailing_zeros() as usize;
+            careful &= careful - 1;
+            let place = Place {
+                cell: [cell.x[lane] as usize, cell.y[lane] as usize, cell.z[lane] as usize],
+                w: at.w.map(|w| w[lane]),
+            };
+            let g = central::gradient(self.field, place);
+            (index.x[lane], index.y[lane], index.z[lane]) = (g.x, g.y, g.z);
+        }
+        self.to_world.apply(index)
+    }
+
+    /// Where voxels stand in the order of voxels.
+    #[inline(always)]
+    fn offsets(&self, voxel: Vec3<f64x8<S>>) -> [usize; LANES] {
+        let [nx, ny, _] = self.voxels.dims();
+        // Whole numbers below 2⁵², so that products and sums are exact.
+        let offset = voxel.z * (nx * ny) as f64 + voxel.y * nx as f64 + voxel.x;
+        whole(offset)
+    }
+
+    /// The first `N` numbers in each word.
+    ///
+    /// No closure here or anywhere in lanes: what is not inlined at once is compiled for the least processor, and each
+    /// vector operation in it stays a call.
+    #[inline(always)]
+    fn numbers<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
+        let words: u64x8<S> = words.simd_into(self.simd);
+        let zero = f64x8::splat(self.simd, 0.0);
+        let mut numbers = [zero; N];
+        for (i, number) in numbers.iter_mut().enumerate() {
+            let bits = (words >> (V::BITS * i as u32)) & ((1u64 << V::BITS) - 1);
+            let bits = (bits ^ V::SIGN) | TO_BITS.to_bits();
+            *number = f64x8::from_bits(bits) - (TO_BITS + V::SIGN as f64);
+        }
+        numbers
+    }
+}
