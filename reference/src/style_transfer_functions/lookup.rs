@@ -245,6 +245,16 @@ mod tests {
     }
 
     #[test]
+    fn mip_chains_are_counted_where_there_are_some() {
+        let styles = [style(2, |_, _| [1.0; 4]), style(4, |_, _| [1.0; 4])];
+        let spheres = Spheres::<f64>::new(&styles, Mix::Premultiplied);
+        assert_eq!(spheres.mipmap_bytes(), None);
+        let bytes: usize = styles.iter().map(|s| MipMap::<f64>::new(s).bytes()).sum();
+        assert_eq!(spheres.with_mipmaps(&styles).mipmap_bytes(), Some(bytes));
+        assert!(bytes > 0);
+    }
+
+    #[test]
     fn a_step_shows_the_later_node_at_its_value() {
         let at = |s| blend_at(&[0.0, 10.0, 10.0, 20.0], &[0.2, 0.4, 0.6, 0.8], &[0, 1, 2, 3], s).unwrap();
         assert_eq!(at(10.0), Blend { j0: 2, j1: 2, w: 0.0, alpha_u: 0.6 });
