@@ -16,5 +16,6 @@ pub mod raster;
 pub mod read;
 pub mod sheet;
 pub mod text;
+pub mod vector;
 
 pub use error::OutputError;
