@@ -1,7 +1,8 @@
-//! Files of pictures: PNG, EXR, reading them back, comparing them, laying them out on a sheet.
+//! Files of pictures: PNG, EXR, reading them back, comparing them, laying them out on a sheet; and marks on a page as
+//! PNG, SVG, PDF and lists, and in the order in which a plotter draws them.
 //!
-//! This crate knows no volume: what it writes is a [`drypoint_scene::picture::Picture`], what it reads is an
-//! [`read::Image`]. Rules of the specification are cited by their tags, such as [VAL-3].
+//! This crate knows no volume: what it writes is a [`drypoint_scene::picture::Picture`] or
+//! [`drypoint_scene::marks::Marks`], what it reads is an [`read::Image`] or a list. Rules of the specification are cited by their tags, such as [VAL-3].
 
 pub mod atomic;
 pub mod compare;
@@ -10,6 +11,7 @@ pub mod encode;
 pub mod error;
 pub mod exr;
 mod layers;
+pub mod list;
 pub mod paint;
 pub mod png;
 pub mod raster;
