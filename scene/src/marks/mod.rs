@@ -22,6 +22,7 @@ pub use dot::Dot;
 pub use page::{INCH, Page, PageUnit};
 pub use pen::Pen;
 pub use polyline::{Piece, Polyline, Vertex};
+pub use round::on_step;
 
 /// All that is drawn on a page.
 #[derive(Clone, Debug, PartialEq)]

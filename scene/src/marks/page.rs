@@ -1,6 +1,6 @@
 //! The page.
 
-use crate::tables::Length;
+use crate::tables::{Length, Scene};
 use glam::DVec2;
 
 /// Millimetres of an inch.
@@ -40,6 +40,23 @@ impl Page {
         Self { unit: PageUnit::Pixels, ..Self::in_millimetres(size, margin, dpi) }
     }
 
+    /// The page of a scene: in mm where `picture.width` or `picture.height` is, with the margin of `[page]`.
+    pub fn of(scene: &Scene) -> Self {
+        let picture = &scene.picture;
+        let mut page = Self::in_pixels(picture.size, 0.0, picture.dpi);
+        if let Some(extent) = picture.extent()
+            && extent.iter().any(|length| matches!(length, Length::Millimetres(_)))
+        {
+            let [width, height] = extent.map(|length| page.length(length).unwrap_or_default());
+            page = Self::in_millimetres(DVec2::new(width, height), 0.0, picture.dpi);
+        }
+        if let Some(settings) = &scene.page {
+            page.margin = page.length(settings.margin).unwrap_or_default();
+            page.size += 2.0 * page.margin;
+        }
+        page
+    }
+
     /// Pixels of one millimetre.
     pub fn pixels_per_mm(&self) -> f64 {
         self.dpi / INCH
@@ -76,6 +93,7 @@ impl Page {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::file::{Overrides, parse};
 
     #[test]
     fn an_inch_is_so_many_pixels() {
@@ -87,6 +105,28 @@ mod tests {
         let page = Page::in_pixels([508, 254], 0.0, 127.0);
         assert_eq!((page.size, page.pixels_per_mm()), (DVec2::new(101.6, 50.8), 5.0));
         assert_eq!((page.pixels(), page.unit), ([508, 254], PageUnit::Pixels));
+    }
+
+    #[test]
+    fn a_page_as_a_scene_says() {
+        let scene = |text: &str| {
+            let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{text}");
+            parse(&text, std::path::Path::new("scene.toml"), &Overrides::default()).unwrap()
+        };
+        assert_eq!(Page::of(&scene("")), Page::in_pixels([512, 512], 0.0, 300.0));
+        let mm = "[picture]\nwidth = \"180 mm\"\nheight = \"120 mm\"\ndpi = 254\n";
+        assert_eq!(Page::of(&scene(mm)), Page::in_millimetres(DVec2::new(180.0, 120.0), 0.0, 254.0));
+        let margin = format!("{mm}[page]\nmargin = \"50 px\"\n");
+        assert_eq!(Page::of(&scene(&margin)), Page::in_millimetres(DVec2::new(180.0, 120.0), 5.0, 254.0));
+        let pixels = "[page]\n[picture]\nwidth = \"254 px\"\nheight = \"127 px\"\ndpi = 254\n";
+        assert_eq!(Page::of(&scene(pixels)), Page::in_pixels([254, 127], 10.0, 254.0));
+        // One side in mm: 127 px are 12.7 mm.
+        let mixed = "[picture]\nwidth = \"30 mm\"\nheight = \"127 px\"\ndpi = 254\n";
+        assert_eq!(Page::of(&scene(mixed)), Page::in_millimetres(DVec2::new(30.0, 12.7), 0.0, 254.0));
+        // A size that was changed since is what counts.
+        let mut other = scene(mm);
+        other.picture.size = [254, 254];
+        assert_eq!(Page::of(&other), Page::in_pixels([254, 254], 0.0, 254.0));
     }
 
     #[test]

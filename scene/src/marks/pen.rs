@@ -1,5 +1,8 @@
 //! Pens.
 
+use super::Page;
+use crate::tables::PenSettings;
+
 /// What draws a layer: a pen of `[[pen]]`, or the colour that an effect has in place of one ([IO-7]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pen {
@@ -14,6 +17,17 @@ pub struct Pen {
 }
 
 impl Pen {
+    /// The scene's pens on its page, numbered in their order.
+    pub fn of(pens: &[PenSettings], page: &Page) -> Vec<Self> {
+        let pen = |(i, pen): (usize, &PenSettings)| Self {
+            number: i + 1,
+            name: pen.name.clone(),
+            width: page.length(pen.width).unwrap_or_default(),
+            color: pen.color,
+        };
+        pens.iter().enumerate().map(pen).collect()
+    }
+
     /// The layer's name for plotters: number, name and width, such as `1-black 0.3`; the first digits are the number.
     pub fn label(&self) -> String {
         format!("{}-{} {}", self.number, self.name, self.width)

@@ -4,7 +4,7 @@ use super::{Marks, PageUnit};
 use glam::DVec2;
 
 /// Steps of a millimetre for places: 0.001 mm.
-pub(super) const PLACE: f64 = 1000.0;
+const PLACE: f64 = 1000.0;
 
 /// Steps of 1 for opacities: sixteenths.
 pub(super) const OPACITY: f64 = 16.0;
@@ -13,6 +13,11 @@ pub(super) const OPACITY: f64 = 16.0;
 /// that its decimals are read as.
 pub(super) fn nearest(x: f64, steps: f64) -> f64 {
     (x * steps).round_ties_even() / steps
+}
+
+/// A place on the page on its step of 0.001 mm.
+pub fn on_step(at: DVec2) -> DVec2 {
+    DVec2::new(nearest(at.x, PLACE), nearest(at.y, PLACE))
 }
 
 impl Marks {
@@ -26,17 +31,16 @@ impl Marks {
             PageUnit::Millimetres => 200.0,
             PageUnit::Pixels => PLACE,
         };
-        let place = |at: &mut DVec2| *at = DVec2::new(nearest(at.x, PLACE), nearest(at.y, PLACE));
         for layer in &mut self.layers {
             layer.dots.retain_mut(|dot| {
-                place(&mut dot.at);
+                dot.at = on_step(dot.at);
                 dot.radius = nearest(dot.radius, radius_steps);
                 dot.opacity = nearest(dot.opacity.min(1.0), OPACITY);
                 dot.at.is_finite() && dot.radius > 0.0 && dot.radius.is_finite() && dot.opacity > 0.0
             });
             layer.lines.retain_mut(|line| {
                 line.vertices.retain_mut(|vertex| {
-                    place(&mut vertex.at);
+                    vertex.at = on_step(vertex.at);
                     vertex.radius = nearest(vertex.radius, radius_steps);
                     vertex.opacity = nearest(vertex.opacity.clamp(0.0, 1.0), OPACITY);
                     vertex.at.is_finite() && vertex.radius.is_finite()
