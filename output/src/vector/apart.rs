@@ -3,6 +3,7 @@
 //! What one path strokes, it inks once; two dots that overlap must add. So dots that touch go into different paths.
 
 use super::groups::Place;
+use crate::grid::{Grid, NONE};
 
 /// A path that holds the dots of one set is one element; more sets than this become elements of one dot each, so that a
 /// heap of dots in one place costs no more than its size.
@@ -11,7 +12,7 @@ const SETS: usize = 64;
 /// Parts dots of one diameter into sets without overlap, keeping their order in each.
 pub(super) fn apart(dots: &[Place], diameter: i64) -> Vec<Vec<Place>> {
     let Some(grid) = Grid::new(dots, diameter) else { return Vec::new() };
-    let mut heads = vec![NONE; grid.columns * grid.rows];
+    let mut heads = vec![NONE; grid.cells()];
     let mut nexts = vec![NONE; dots.len()];
     let mut set_of = vec![0; dots.len()];
     let mut sets: Vec<Vec<Place>> = Vec::new();
@@ -39,55 +40,11 @@ pub(super) fn apart(dots: &[Place], diameter: i64) -> Vec<Vec<Place>> {
         }
         sets[set].push(*dot);
         set_of[i] = set;
-        let cell = grid.cell(dot);
+        let cell = grid.index(grid.cell_of(dot));
         nexts[i] = std::mem::replace(&mut heads[cell], i);
     }
     sets.append(&mut single);
     sets
-}
-
-/// The end of a list.
-const NONE: usize = usize::MAX;
-
-/// Cells at least a diameter wide, about as many as there are dots.
-struct Grid {
-    corner: Place,
-    side: i64,
-    columns: usize,
-    rows: usize,
-}
-
-impl Grid {
-    /// None without a dot.
-    fn new(dots: &[Place], diameter: i64) -> Option<Self> {
-        let first = *dots.first()?;
-        let corner = dots.iter().fold(first, |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
-        let far = dots.iter().fold(first, |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
-        let [width, height] = [0, 1].map(|k| (far[k] - corner[k]) as f64);
-        let n = dots.len() as f64;
-        let side = (width * height / n).sqrt().max(width / n).max(height / n).max(diameter as f64).ceil() as i64;
-        let [columns, rows] = [0, 1].map(|k| ((far[k] - corner[k]) / side.max(1)) as usize + 1);
-        Some(Self { corner, side: side.max(1), columns, rows })
-    }
-
-    fn place(&self, dot: &Place) -> [usize; 2] {
-        [0, 1].map(|k| ((dot[k] - self.corner[k]) / self.side) as usize)
-    }
-
-    fn cell(&self, dot: &Place) -> usize {
-        let [i, j] = self.place(dot);
-        j * self.columns + i
-    }
-
-    /// The dot's cell and its neighbours.
-    fn around(&self, dot: &Place, mut each: impl FnMut(usize)) {
-        let [i, j] = self.place(dot);
-        for row in j.saturating_sub(1)..=(j + 1).min(self.rows - 1) {
-            for column in i.saturating_sub(1)..=(i + 1).min(self.columns - 1) {
-                each(row * self.columns + column);
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,10 +1,5 @@
 //! Numbers as text: whole micrometres as the shortest decimal of millimetres, so that nothing is rounded on the way.
 
-/// A length on the page as the number of its steps of 0.001 mm.
-pub(super) fn micrometres(mm: f64) -> i64 {
-    (mm * 1000.0).round_ties_even() as i64
-}
-
 /// Adds `n` thousandths: without a zero before the point or at the end.
 pub(super) fn push(out: &mut Vec<u8>, n: i64) {
     if n < 0 {
@@ -50,6 +45,7 @@ pub(super) fn number(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::micrometres;
 
     fn text(n: i64) -> String {
         let mut out = Vec::new();

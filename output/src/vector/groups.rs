@@ -1,7 +1,7 @@
 //! A layer's marks as few paths: what has the same width and opacity stands together.
 
 use super::apart::apart;
-use super::decimals::micrometres;
+use crate::grid::micrometres;
 use drypoint_scene::marks::{Layer, Polyline};
 use std::collections::BTreeMap;
 

@@ -4,6 +4,7 @@
 use super::decimals::{number, push_pair};
 use super::groups::{Group, Line, groups};
 use super::{Sheet, base64, bytes, decimals};
+use crate::grid::micrometres;
 use crate::png::{KEYWORDS, encode_png};
 use crate::{OutputError, atomic};
 use drypoint_scene::marks::Layer;
@@ -92,7 +93,7 @@ fn draw(layer: &Layer, index: usize, plotter: bool, out: &mut Vec<u8>) {
             index + 1
         ),
     );
-    let pen = decimals::micrometres(layer.pen.width);
+    let pen = micrometres(layer.pen.width);
     for group in groups(layer, plotter) {
         // What the pen draws as it is needs no group.
         let plain = group.width == pen && group.opacity == 1.0;
