@@ -1,6 +1,6 @@
 //! Programs of others: run where they are, skipped where they are not, but on the machine that tests every change.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// Runs a program; none, with a line that says so, where it is not installed.
@@ -29,7 +29,7 @@ pub(crate) struct Codes {
 
 impl Codes {
     /// From an opaque PNG.
-    pub(crate) fn of_png(path: &PathBuf) -> Self {
+    pub(crate) fn of_png(path: &Path) -> Self {
         use drypoint::output::encode::quantize;
         use drypoint::scene::color::linear_to_srgb;
         let image = drypoint::output::read::read_image(path).unwrap();
@@ -40,7 +40,7 @@ impl Codes {
     }
 
     /// From a binary PPM.
-    pub(crate) fn of_ppm(path: &PathBuf) -> Self {
+    pub(crate) fn of_ppm(path: &Path) -> Self {
         let bytes = std::fs::read(path).unwrap();
         // P6, width, height and 255, each ended by one white space.
         let mut words = bytes.splitn(5, |byte| byte.is_ascii_whitespace());

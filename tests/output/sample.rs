@@ -38,8 +38,7 @@ pub(crate) fn marks(opaque: bool) -> Marks {
         layer
     });
     let mut marks = Marks { page, layers: layers.collect() };
-    marks.keep_inside();
-    marks.round();
+    marks.settle();
     marks
 }
 

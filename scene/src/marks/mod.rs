@@ -5,7 +5,7 @@
 //! millimetres, also where a scene counts in pixels: `picture.dpi` turns one into the other, and [`Page::unit`] only says
 //! in which of the two a list is written.
 //!
-//! **Steps.** [`Marks::round`] puts a list onto steps: places 0.001 mm, radii 0.005 mm (0.001 mm where the scene counts
+//! **Steps.** [`Marks::settle`] puts a list onto steps and into the frame: places 0.001 mm, radii 0.005 mm (0.001 mm where the scene counts
 //! in pixels), opacities 1/16. No writer rounds any further.
 //!
 //! **Order.** A layer has one pen, hence one colour, so that the order of what is drawn in it cannot be seen; layers are

@@ -17,12 +17,12 @@ pub struct Pen {
 }
 
 impl Pen {
-    /// The scene's pens on its page, numbered in their order.
+    /// The scene's pens on its page, numbered in their order; widths on steps of 0.001 mm, at least one.
     pub fn of(pens: &[PenSettings], page: &Page) -> Vec<Self> {
         let pen = |(i, pen): (usize, &PenSettings)| Self {
             number: i + 1,
             name: pen.name.clone(),
-            width: page.length(pen.width).unwrap_or_default(),
+            width: ((page.length(pen.width).unwrap_or_default() * 1000.0).round_ties_even().max(1.0)) / 1000.0,
             color: pen.color,
         };
         pens.iter().enumerate().map(pen).collect()
@@ -37,6 +37,17 @@ impl Pen {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tables::Length;
+
+    #[test]
+    fn widths_are_on_steps() {
+        // 2 px at 300 dpi are 0.16933 mm.
+        let page = Page::in_pixels([100, 100], 0.0, 300.0);
+        let pen = |width| PenSettings { name: "p".into(), width, color: [0.0; 4] };
+        let pens = [Length::Pixels(2.0), Length::Millimetres(0.35), Length::Pixels(1e-6)].map(pen);
+        let found: Vec<(usize, f64)> = Pen::of(&pens, &page).iter().map(|pen| (pen.number, pen.width)).collect();
+        assert_eq!(found, [(1, 0.169), (2, 0.35), (3, 0.001)]);
+    }
 
     #[test]
     fn the_label_begins_with_the_number() {

@@ -21,6 +21,14 @@ pub fn on_step(at: DVec2) -> DVec2 {
 }
 
 impl Marks {
+    /// Makes a list ready for every writer: on its steps, and what the frame holds of it.
+    pub fn settle(&mut self) {
+        // First the steps: a radius that grows must not reach over the edge. Then again for the ends of lines that are cut.
+        self.round();
+        self.keep_inside();
+        self.round();
+    }
+
     /// Puts every mark onto its step: places 0.001 mm, radii 0.005 mm, opacities 1/16. Where the scene counts in pixels,
     /// radii have 0.001 mm too: a dot there may be a few hundredths of a millimetre.
     ///
@@ -97,6 +105,17 @@ mod tests {
         let mut twice = once.clone();
         twice.round();
         assert_eq!(once, twice);
+    }
+
+    #[test]
+    fn a_dot_that_rounding_pushes_over_the_edge_is_left_out() {
+        // Radius 0.1026 becomes 0.105; the centre is 0.103 from the edge, and 0.105 for the one that stays.
+        let mut list = marks(
+            Page::in_millimetres(DVec2::splat(90.0), 5.0, 300.0),
+            vec![dot(5.103, 50.0, 0.1026, 1.0), dot(5.1049, 50.0, 0.1026, 1.0)],
+        );
+        list.settle();
+        assert_eq!(list.layers[0].dots, [dot(5.105, 50.0, 0.105, 1.0)]);
     }
 
     #[test]
