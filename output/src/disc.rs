@@ -30,19 +30,31 @@ pub(crate) fn cover(
     // What lies left of each column's edge and above the row's upper edge; the next row's takes its place.
     last.clear();
     last.extend(xs.iter().map(|a| corner(a, &ys[0], radius)));
-    for (row, b) in rows.zip(&ys[1..]) {
-        let mut left = [last[0], corner(&xs[0], b, radius)];
+    for (row, edges) in rows.zip(ys.windows(2)) {
+        let mut left = [last[0], corner(&xs[0], &edges[1], radius)];
         last[0] = left[1];
+        let [near_y, far_y] = distances(edges);
         for (i, column) in columns.clone().enumerate() {
-            let right = [last[i + 1], corner(&xs[i + 1], b, radius)];
+            let right = [last[i + 1], corner(&xs[i + 1], &edges[1], radius)];
             let share = (right[1] - right[0]) - (left[1] - left[0]);
             last[i + 1] = right[1];
             left = right;
-            if share > 0.0 {
+            // Beyond the rim and well inside it the difference of areas would leave its rounding error.
+            let [near_x, far_x] = distances(&xs[i..i + 2]);
+            if far_x * far_x + far_y * far_y <= radius * radius {
+                each(column, row, 1.0);
+            } else if near_x * near_x + near_y * near_y < radius * radius && share > 0.0 {
                 each(column, row, share.min(1.0));
             }
         }
     }
+}
+
+/// The least and the largest distance from the centre of what lies between two edges.
+fn distances(edges: &[Edge]) -> [f64; 2] {
+    let [a, b] = [edges[0].a, edges[1].a];
+    let near = if a < 0.0 && b > 0.0 { 0.0 } else { a.abs().min(b.abs()) };
+    [near, a.abs().max(b.abs())]
 }
 
 /// Room for the edges of one disc.
@@ -164,6 +176,29 @@ mod tests {
             assert!((shares[j * SIDE + 4] - 0.75).abs() < 2e-3, "{}", shares[j * SIDE + 4]);
             assert!((shares[j * SIDE + 9] - 1.0).abs() < 2e-3);
             assert_eq!(shares[j * SIDE + 3], 0.0);
+        }
+    }
+
+    #[test]
+    fn whole_pixels_are_whole_and_others_untouched() {
+        // Of a disc of radius 3 about (8.2, 7.9), by the corners of each pixel.
+        let (x, y, r) = (8.2, 7.9, 3.0);
+        let found = shares(x, y, r);
+        for (j, i) in (0..SIDE * SIDE).map(|n| (n / SIDE, n % SIDE)) {
+            let square = |dx: f64, dy: f64| dx * dx + dy * dy;
+            let [near, far] = [f64::min, f64::max].map(|pick| {
+                let of = |c: f64, k: usize| {
+                    let (lo, hi) = (k as f64 - c, k as f64 + 1.0 - c);
+                    pick(lo.abs(), hi.abs())
+                };
+                square(of(x, i), of(y, j))
+            });
+            let share = found[j * SIDE + i];
+            assert_eq!(share == 1.0, far <= r * r, "{i}, {j}: {share}");
+            // A pixel that the centre's row or column crosses can be touched between its corners.
+            if near > r * r && i != 8 && j != 7 {
+                assert_eq!(share, 0.0, "{i}, {j}");
+            }
         }
     }
 
