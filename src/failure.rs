@@ -32,6 +32,9 @@ impl Failure {
             | OutputError::UnknownFormat { path, .. }
             | OutputError::Malformed { path, .. }
             | OutputError::TooLarge { path, .. } => path.display().to_string(),
+            OutputError::List { path, line, column, fault } => {
+                return Self::new(fault, format!("{}, line {line}, column {column}", path.display()), error.help());
+            }
             _ => return Self::new(text, place, error.help()),
         };
         let fault = text.strip_prefix(&format!("{file}: ")).unwrap_or(&text);

@@ -88,6 +88,18 @@ pub enum OutputError {
         /// Channels of the second.
         b: Vec<String>,
     },
+    /// A list of marks that says something else than a mark.
+    #[error("{}: line {line}, column {column}: {fault}", path.display())]
+    List {
+        /// The file.
+        path: PathBuf,
+        /// From 1, which is the header.
+        line: u64,
+        /// Name of the column.
+        column: String,
+        /// What was found there, and what was expected.
+        fault: String,
+    },
     /// A contact sheet that cannot be laid out.
     #[error("sheet: {fault}")]
     Sheet {
@@ -111,6 +123,7 @@ impl OutputError {
             Self::Sizes { .. } => "render both with the same --size",
             Self::Viewing { .. } => "use 1 to 1000 pixels per degree; a desk screen has about 67",
             Self::NothingInCommon { .. } => "write both pictures with the same --layers",
+            Self::List { .. } => "correct the row, or write the list again",
             Self::Sheet { .. } => "give at least one picture, and a cell from 16 to 4096 pixels",
         }
     }

@@ -18,7 +18,7 @@ const NOT_DRAWN: [(&str, &str); 7] = [
 ];
 
 /// The names of colours, each of which stands for numbers, which are drawn and written.
-const COLORS: &str = "nodes[].color = ";
+const COLORS: &str = ".color = ";
 
 /// What there is to draw: keys such as `camera.fov`, `transfer.nodes[].at` and `styles.*`, and for keys that are one of
 /// some names `sampling.kernel = bspline`.

@@ -11,8 +11,9 @@ use drypoint::scene::space::Grid;
 use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
     Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Kappa, Kernel,
-    Length, LightDirection, Mix, NormalSide, Number, Outside, PhantomSource, Projection, Scene, Shading, SignFlip,
-    SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Table, Transparency, Unit, VolumeSource,
+    Length, LightDirection, Mix, NormalSide, Number, Outside, PageSettings, PenSettings, PhantomSource, Projection,
+    Scene, Shading, SignFlip, SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Table, Transparency, Unit,
+    VolumeSource,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -255,6 +256,19 @@ pub(crate) fn camera(r: &mut Random, grid: &Grid) -> Camera {
     camera
 }
 
+/// The paper and the pens of points and lines.
+fn paper(r: &mut Random, scene: &mut Scene) {
+    let margin = r.pick(&[Length::Millimetres(0.0), Length::Millimetres(12.5), Length::Pixels(3.0)]);
+    scene.page =
+        r.pick(&[None, Some(PageSettings { margin, plotter: false }), Some(PageSettings { margin, plotter: true })]);
+    let pen = |name: &str, r: &mut Random| PenSettings {
+        name: name.into(),
+        width: r.pick(&[Length::Millimetres(0.3), Length::Pixels(2.0)]),
+        color: r.pick(&[[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.2]]),
+    };
+    scene.pens = ["fine", "broad"].into_iter().take(r.below(3)).map(|name| pen(name, r)).collect();
+}
+
 /// What the picture is drawn on.
 fn picture(r: &mut Random, shot: &mut Shot) {
     let p = &mut shot.scene.picture;
@@ -282,6 +296,7 @@ fn picture(r: &mut Random, shot: &mut Shot) {
     // How it is written changes nothing of it.
     p.bits = r.pick(&[8, 16]);
     p.dpi = r.pick(&[72.0, 300.0]);
+    paper(r, &mut shot.scene);
 }
 
 /// Light on a regular function.

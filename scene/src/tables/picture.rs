@@ -21,6 +21,9 @@ use std::path::PathBuf;
 pub struct PictureSettings {
     /// Width and height in pixels.
     pub size: [usize; 2],
+    /// Width and height as lengths on the page, where the scene gives them so; [`Self::extent`] says whether they still
+    /// hold.
+    pub lengths: [Option<Length>; 2],
     /// Pixels per inch, which turns mm into px.
     pub dpi: f64,
     /// n of the n×n rays a pixel ([RAY-6]).
@@ -59,6 +62,7 @@ impl Default for PictureSettings {
     fn default() -> Self {
         Self {
             size: [512, 512],
+            lengths: [None; 2],
             dpi: 300.0,
             samples: 1,
             background: Background::Color([1.0; 4]),
@@ -66,6 +70,15 @@ impl Default for PictureSettings {
             bits: 8,
             layers: vec![LayerKind::Beauty],
         }
+    }
+}
+
+impl PictureSettings {
+    /// Width and height as the scene gives them on the page; none where it counts in pixels, or where `size` has been
+    /// changed since.
+    pub fn extent(&self) -> Option<[Length; 2]> {
+        let [Some(width), Some(height)] = self.lengths else { return None };
+        ([width, height].map(|length| pixels(length, self.dpi)) == self.size).then_some([width, height])
     }
 }
 
@@ -161,20 +174,32 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
                 "size",
                 "RAY-6",
                 "Width and height in pixels.",
-                &Slot { kind: SIZE, get: |p: &PictureSettings| Some(p.size), set: |p, v| p.size = v },
+                &Slot {
+                    kind: SIZE,
+                    get: |p: &PictureSettings| p.extent().is_none().then_some(p.size),
+                    set: |p, v| p.size = v,
+                },
             ),
             Key::new(
                 "width",
                 "IO-7",
                 "Width on the page, with `height` in place of `size`.",
-                &Slot { kind: EXTENT, get: |_| None, set: |p: &mut PictureSettings, v| p.size[0] = pixels(v, p.dpi) },
+                &Slot {
+                    kind: EXTENT,
+                    get: |p: &PictureSettings| p.extent().map(|[length, _]| length),
+                    set: |p, v| (p.lengths[0], p.size[0]) = (Some(v), pixels(v, p.dpi)),
+                },
             )
             .absent("`size`"),
             Key::new(
                 "height",
                 "IO-7",
                 "Height on the page, with `width` in place of `size`.",
-                &Slot { kind: EXTENT, get: |_| None, set: |p: &mut PictureSettings, v| p.size[1] = pixels(v, p.dpi) },
+                &Slot {
+                    kind: EXTENT,
+                    get: |p: &PictureSettings| p.extent().map(|[_, length]| length),
+                    set: |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi)),
+                },
             )
             .absent("`size`"),
             Key::new(

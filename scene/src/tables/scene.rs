@@ -2,15 +2,15 @@
 
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, LightDirection, PictureSettings, Sampling, Shading, StyleMipmaps, Styles, Transfer, TransferKind,
-    VolumeSource, VolumeTable,
+    Camera, Contours, LightDirection, PageSettings, PenSettings, PictureSettings, Sampling, Shading, StyleMipmaps,
+    Styles, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
-use super::{camera, contours, over, picture, sampling, shading, style_mipmaps, styles, transfer, volume};
+use super::{camera, contours, over, page, pen, picture, sampling, shading, style_mipmaps, styles, transfer, volume};
 use crate::file::Given;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
 use crate::file::item::{Item, Value};
-use crate::file::kind::{Choice, ChoiceOption, TableOf};
+use crate::file::kind::{Choice, ChoiceOption, ListOf, TableOf};
 use crate::file::out::Out;
 use crate::plan::Quantity;
 use serde_json::{Value as Json, json};
@@ -28,6 +28,10 @@ pub struct Scene {
     pub camera: Camera,
     /// On what.
     pub picture: PictureSettings,
+    /// The paper of points and lines; none: without a margin, and not for a plotter.
+    pub page: Option<PageSettings>,
+    /// What draws them, in the order of their layers' numbers.
+    pub pens: Vec<PenSettings>,
     /// How the field is sampled.
     pub sampling: Sampling,
     /// Colours or styles and opacities over the values; none: the volume itself is not drawn.
@@ -57,6 +61,8 @@ impl Scene {
             volume: VolumeTable::new(source),
             camera: Camera::default(),
             picture: PictureSettings::default(),
+            page: None,
+            pens: Vec::new(),
             sampling: Sampling::default(),
             transfer: None,
             styles: Styles::default(),
@@ -105,8 +111,6 @@ const fn later(name: &'static str, tag: &'static str) -> Later {
 pub(crate) static ROOT: Table<Scene> = Table {
     later: &[
         later("orbit", "STIP-4"),
-        later("page", "IO-7"),
-        later("pen", "IO-7"),
         later("halo", "HALO-1"),
         later("combine", "VS-3"),
         later("object", "VS-2"),
@@ -124,6 +128,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
     ],
     check: |scene, check| {
         check_styles(scene, check);
+        pen::check_names(&scene.pens, check);
         over::check_labels(scene, check);
     },
     idle: |scene, _, idle| {
@@ -212,6 +217,24 @@ pub(crate) static ROOT: Table<Scene> = Table {
                     set: |s, v| s.picture = v,
                 },
             ),
+            Key::new(
+                "page",
+                "IO-7",
+                "The paper that points and lines are drawn on.",
+                &Slot { kind: TableOf(&page::TABLE), get: |s: &Scene| s.page.clone(), set: |s, v| s.page = Some(v) },
+            )
+            .absent("no margin, no plotter"),
+            Key::new(
+                "pen",
+                "IO-7",
+                "The pens that points and lines are drawn with; layers are numbered in their order.",
+                &Slot {
+                    kind: ListOf { what: "a list of pens", each: TableOf(&pen::TABLE) },
+                    get: |s: &Scene| (!s.pens.is_empty()).then(|| s.pens.clone()),
+                    set: |s, v| s.pens = v,
+                },
+            )
+            .absent("none"),
             Key::new(
                 "sampling",
                 "RAY-1",

@@ -12,6 +12,7 @@ const ROWS: (&str, &str) = ("transfer.rows", "[{ at = 1, nodes = [{ at = 1, styl
 const REGULAR: (&str, &str) = ("transfer.kind", "regular");
 const PHANTOM: (&str, &str) = ("volume.phantom.name", "torus");
 const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.type", "u16")];
+const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
 
 const SAMPLES: &[Sample] = &[
@@ -56,6 +57,13 @@ const SAMPLES: &[Sample] = &[
     ("picture.blend_space", &[], "srgb"),
     ("picture.bits", &[], "16"),
     ("picture.layers", &[], "[\"beauty\", \"Z\"]"),
+    ("page", &[], "{}"),
+    ("page.margin", &[], "5 px"),
+    ("page.plotter", &[], "true"),
+    ("pen", &[], "[{ name = \"red\" }]"),
+    ("pen[0].name", &[PEN], "green"),
+    ("pen[0].width", &[PEN], "0.7 mm"),
+    ("pen[0].color", &[PEN], "red"),
     ("sampling", &[], "{ step = 1 }"),
     ("sampling.step", &[], "0.25 voxels"),
     ("sampling.step_along", &[], "ray"),

@@ -1,0 +1,151 @@
+//! What a pen plotter draws ([IO-7], [STIP-16]): dots of the nib's size, larger ones filled by the nib, none too close to
+//! another, all in an order with little way between.
+
+mod fill;
+mod order;
+mod thin;
+mod travel;
+
+use drypoint_scene::marks::{Layer, Marks, Polyline};
+
+pub use travel::{Speed, Travel};
+
+/// Marks that a plotter draws as they stand, and what that takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Every stroke has its nib's width and is opaque; dots and lines stand in the order in which they are drawn: a
+    /// layer's dots, then its lines, each from its first vertex to its last.
+    pub marks: Marks,
+    /// For each layer, in their order.
+    pub travel: Vec<Travel>,
+    /// Dots that were left out for being closer than 0.7 nib to one that is drawn.
+    pub dropped: usize,
+}
+
+/// How close dots of one pen may be, in nibs.
+const CLOSEST: f64 = 0.7;
+
+/// Turns marks into what their pens can draw.
+///
+/// A dot up to the nib's size becomes one touch of the nib, a larger one a circle or a spiral out to its rim. Pens know no
+/// opacity and no other width: a translucent dot is drawn whole, a line once along its middle. Of two dots closer than
+/// 0.7 nib the first in the list stays. The order is never longer than the list's own; the pen starts at the page's upper
+/// left corner for each layer.
+pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
+    let (mut layers, mut travel, mut dropped) = (Vec::new(), Vec::new(), 0);
+    for layer in &marks.layers {
+        let nib = layer.pen.width;
+        let kept = thin::apart(&layer.dots, CLOSEST * nib);
+        dropped += layer.dots.len() - kept.len();
+        let mut drawn = Layer::new(layer.pen.clone());
+        for mut dot in kept {
+            match fill::stroke(&dot, nib) {
+                Some(line) => drawn.lines.push(line),
+                None => {
+                    (dot.radius, dot.opacity) = (nib / 2.0, 1.0);
+                    drawn.dots.push(dot);
+                }
+            }
+        }
+        drawn.lines.extend(layer.lines.iter().filter(|line| line.vertices.len() > 1).map(|line| thin_line(line, nib)));
+        order::dots(&mut drawn.dots);
+        let from = drawn.dots.last().map(|dot| dot.at).unwrap_or_default();
+        order::lines(&mut drawn.lines, from);
+        travel.push(Travel::of(&drawn, speed));
+        layers.push(drawn);
+    }
+    Plan { marks: Marks { page: marks.page, layers }, travel, dropped }
+}
+
+/// The line as the nib draws it.
+fn thin_line(line: &Polyline, nib: f64) -> Polyline {
+    let mut line = line.clone();
+    for vertex in &mut line.vertices {
+        (vertex.radius, vertex.opacity) = (nib / 2.0, 1.0);
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::glam::{DVec2, DVec3};
+    use drypoint_scene::marks::{Dot, Page, Pen, Vertex};
+
+    fn dot(x: f64, y: f64, radius: f64) -> Dot {
+        Dot { at: DVec2::new(x, y), world: DVec3::ZERO, radius, opacity: 0.5 }
+    }
+
+    fn line(places: &[(f64, f64)]) -> Polyline {
+        let vertex = |&(x, y): &(f64, f64)| Vertex {
+            at: DVec2::new(x, y),
+            world: DVec3::ZERO,
+            radius: 0.4,
+            opacity: 0.25,
+            t: 0.0,
+        };
+        Polyline { vertices: places.iter().map(vertex).collect(), closed: false }
+    }
+
+    fn planned(dots: Vec<Dot>, lines: Vec<Polyline>) -> Plan {
+        let pen = Pen { number: 1, name: "black".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] };
+        let page = Page::in_millimetres(DVec2::splat(100.0), 0.0, 300.0);
+        plan(&Marks { page, layers: vec![Layer { dots, lines, ..Layer::new(pen) }] }, &Speed::default())
+    }
+
+    #[test]
+    fn a_dot_is_a_touch_and_a_large_one_a_stroke() {
+        let plan = planned(vec![dot(10.0, 10.0, 0.1), dot(20.0, 10.0, 0.15), dot(30.0, 10.0, 0.5)], vec![]);
+        let layer = &plan.marks.layers[0];
+        assert_eq!(
+            layer.dots.iter().map(|d| (d.at.x, d.radius, d.opacity)).collect::<Vec<_>>(),
+            [(10.0, 0.15, 1.0), (20.0, 0.15, 1.0)]
+        );
+        assert_eq!((layer.lines.len(), plan.dropped), (1, 0));
+        // The stroke's rim is the dot's: its middle line ends at 0.5 − 0.15 from the centre, on steps of 0.001 mm.
+        let far = layer.lines[0].vertices.iter().map(|v| v.at.distance(DVec2::new(30.0, 10.0))).fold(0.0, f64::max);
+        assert!((far - 0.35).abs() < 1e-3, "{far}");
+    }
+
+    #[test]
+    fn no_two_dots_closer_than_the_nib_allows() {
+        // 0.7 nib are 0.21 mm: the second is 0.2 from the first, the third 0.21 from it.
+        let plan = planned(vec![dot(10.0, 10.0, 0.1), dot(10.2, 10.0, 0.1), dot(10.21, 10.0, 0.1)], vec![]);
+        assert_eq!((plan.marks.layers[0].dots.len(), plan.dropped), (2, 1));
+        // White noise on 20 × 20 mm, more than fit.
+        let mut state = 7_u64;
+        let mut draw = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) % 20_000) as f64 / 1000.0
+        };
+        let plan = planned((0..20_000).map(|_| dot(draw(), draw(), 0.1)).collect(), vec![]);
+        let dots = &plan.marks.layers[0].dots;
+        assert_eq!(dots.len() + plan.dropped, 20_000);
+        assert!(dots.len() > 4000, "{}", dots.len());
+        for (i, a) in dots.iter().enumerate() {
+            assert!(dots[..i].iter().all(|b| a.at.distance(b.at) > 0.21 - 1e-9));
+        }
+    }
+
+    #[test]
+    fn strokes_have_the_nib_and_a_short_way_between() {
+        let lines = vec![
+            line(&[(50.0, 50.0), (60.0, 50.0)]),
+            line(&[(1.0, 1.0), (2.0, 1.0)]),
+            line(&[(49.0, 50.0), (3.0, 1.0)]),
+        ];
+        let plan = planned(vec![], lines);
+        let layer = &plan.marks.layers[0];
+        assert!(layer.lines.iter().flat_map(|l| &l.vertices).all(|v| (v.radius, v.opacity) == (0.15, 1.0)));
+        // From the corner: the second, the third backwards, the first. Ways: √2, 1, 1.
+        let starts: Vec<f64> = layer.lines.iter().map(|l| l.vertices[0].at.x).collect();
+        assert_eq!(starts, [1.0, 3.0, 50.0]);
+        assert!((plan.travel[0].pen_up - (2f64.sqrt() + 2.0)).abs() < 1e-12, "{:?}", plan.travel);
+    }
+
+    #[test]
+    fn nothing_to_draw() {
+        let plan = planned(vec![], vec![line(&[(1.0, 1.0)])]);
+        assert_eq!((plan.marks.layers[0].lines.len(), plan.travel[0].pen_up, plan.travel[0].seconds), (0, 0.0, 0.0));
+    }
+}

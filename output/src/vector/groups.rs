@@ -1,0 +1,128 @@
+//! A layer's marks as few paths: what has the same width and opacity stands together.
+
+use super::apart::apart;
+use crate::grid::micrometres;
+use drypoint_scene::marks::{Layer, Polyline};
+use std::collections::BTreeMap;
+
+/// A place on the page.
+pub(super) type Place = [i64; 2];
+
+/// What is stroked with one width and one opacity, in whole micrometres.
+pub(super) struct Group {
+    /// Across the stroke.
+    pub(super) width: i64,
+    /// In (0, 1], the pen's colour's included.
+    pub(super) opacity: f64,
+    /// Dots, each inner list for one path.
+    pub(super) dots: Vec<Vec<Place>>,
+    /// Lines, each for a path of its own.
+    pub(super) lines: Vec<Line>,
+}
+
+/// A line of at least two points.
+pub(super) struct Line {
+    pub(super) points: Vec<Place>,
+    pub(super) closed: bool,
+}
+
+/// Dots of one path: few enough that a reader which adds relative moves in single precision stays within 0.001 mm, and
+/// that an editor stays quick.
+const CHUNK: usize = 256;
+
+/// The groups of a layer, by width, then by opacity.
+///
+/// A path inks once what it strokes, so that dots of one path must not overlap unless they are opaque. Dots are put into
+/// rows, to and fro, so that the moves between them are short; `keep` keeps the order that they have.
+pub(super) fn groups(layer: &Layer, keep: bool) -> Vec<Group> {
+    // The bits of a number above 0 order as the number does.
+    let mut found: BTreeMap<(i64, u64), (Vec<Place>, Vec<Line>)> = BTreeMap::new();
+    let key = |radius: f64, opacity: f64| (micrometres(2.0 * radius), (opacity * layer.pen.color[3]).to_bits());
+    for dot in &layer.dots {
+        let at = dot.at.to_array().map(micrometres);
+        found.entry(key(dot.radius, dot.opacity)).or_default().0.push(at);
+    }
+    for piece in layer.lines.iter().flat_map(Polyline::pieces) {
+        let points = piece.points.iter().map(|p| p.to_array().map(micrometres)).collect();
+        found.entry(key(piece.radius, piece.opacity)).or_default().1.push(Line { points, closed: piece.closed });
+    }
+    found
+        .into_iter()
+        .map(|((width, bits), (mut dots, lines))| {
+            let opacity = f64::from_bits(bits);
+            if !keep {
+                rows(&mut dots);
+            }
+            let sets = if opacity < 1.0 { apart(&dots, width) } else { vec![dots] };
+            let dots = sets.iter().flat_map(|set| set.chunks(CHUNK)).map(<[_]>::to_vec).collect();
+            Group { width, opacity, dots, lines }
+        })
+        .collect()
+}
+
+/// Orders dots by rows of such a height that the way from dot to dot is short, every other row backwards.
+fn rows(dots: &mut [Place]) {
+    let Some(&first) = dots.first() else { return };
+    let low = dots.iter().fold(first, |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
+    let high = dots.iter().fold(first, |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+    let area = (high[0] - low[0]) as f64 * (high[1] - low[1]) as f64;
+    // In a row of height h of a plane with n dots a unit the next dot is 1/(hn) to the side and h/3 up or down.
+    let height = ((3.0 * area / dots.len() as f64).sqrt() as i64).max(1);
+    dots.sort_unstable_by_key(|&[x, y]| {
+        let row = (y - low[1]) / height;
+        (row, if row % 2 == 0 { x } else { -x }, y)
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::glam::{DVec2, DVec3};
+    use drypoint_scene::marks::{Dot, Pen};
+
+    fn layer(dots: &[(f64, f64, f64, f64)]) -> Layer {
+        let pen = Pen { number: 1, name: "black".into(), width: 0.3, color: [0.0, 0.0, 0.0, 0.5] };
+        let dot = |&(x, y, radius, opacity): &(f64, f64, f64, f64)| Dot {
+            at: DVec2::new(x, y),
+            world: DVec3::ZERO,
+            radius,
+            opacity,
+        };
+        Layer { dots: dots.iter().map(dot).collect(), ..Layer::new(pen) }
+    }
+
+    #[test]
+    fn one_group_a_width_and_opacity() {
+        let found = groups(
+            &layer(&[(1.0, 1.0, 0.2, 1.0), (2.0, 1.0, 0.1, 1.0), (3.0, 1.0, 0.2, 0.5), (4.0, 1.0, 0.2, 1.0)]),
+            false,
+        );
+        let shape: Vec<_> = found.iter().map(|g| (g.width, g.opacity, g.dots.clone())).collect();
+        assert_eq!(
+            shape,
+            [
+                (200, 0.5, vec![vec![[2000, 1000]]]),
+                (400, 0.25, vec![vec![[3000, 1000]]]),
+                (400, 0.5, vec![vec![[1000, 1000], [4000, 1000]]]),
+            ]
+        );
+    }
+
+    #[test]
+    fn rows_to_and_fro() {
+        // A grid of 4 × 4: rows of √(3·9/16) = 1.3 steps hold one or two lines of it.
+        let mut dots: Vec<Place> = (0..16).map(|i| [i * 7 % 4 * 1000, i * 5 % 16 / 4 * 1000]).collect();
+        rows(&mut dots);
+        let way: i64 = dots.windows(2).map(|w| (w[1][0] - w[0][0]).abs() + (w[1][1] - w[0][1]).abs()).sum();
+        // The shortest way is 15 steps; a row of two lines costs at most one more a dot.
+        assert!(way <= 31_000, "{way}");
+    }
+
+    #[test]
+    fn dots_keep_their_order_where_it_is_a_plan() {
+        let plan = [(9.0, 1.0, 0.2, 1.0), (1.0, 5.0, 0.2, 1.0), (5.0, 1.0, 0.2, 1.0)];
+        let mut opaque = layer(&plan);
+        opaque.pen.color[3] = 1.0;
+        assert_eq!(groups(&opaque, true)[0].dots, [[[9000, 1000], [1000, 5000], [5000, 1000]]]);
+    }
+}

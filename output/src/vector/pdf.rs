@@ -1,0 +1,311 @@
+//! Writing PDF ([IO-2], [IO-7]): the groups of the SVG with the same numbers, each layer an optional-content group.
+
+use super::decimals::{number, push, push_pair};
+use super::groups::{Group, groups};
+use super::{Sheet, bytes};
+use crate::encode::{quantize, straight_srgb};
+use crate::layers::{fitting, side};
+use crate::{OutputError, atomic};
+use drypoint_scene::color::Rgba;
+use drypoint_scene::marks::{INCH, Layer};
+use drypoint_scene::picture::{LayerKind, Picture};
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
+use std::path::Path;
+
+/// Keys of the document's information: the scene's hash and the plan; the program is its `Producer`.
+pub const KEYS: [&str; 2] = ["DrypointScene", "DrypointPlan"];
+
+/// Points of a millimetre.
+const POINTS: f64 = 72.0 / INCH;
+
+/// How hard the streams are packed, of 10.
+const LEVEL: u8 = 6;
+
+const CATALOG: Ref = Ref::new(1);
+const PAGES: Ref = Ref::new(2);
+const PAGE: Ref = Ref::new(3);
+const CONTENT: Ref = Ref::new(4);
+const INFO: Ref = Ref::new(5);
+const IMAGE: Ref = Ref::new(6);
+const MASK: Ref = Ref::new(7);
+/// Where the layers begin.
+const FIRST: i32 = 8;
+
+/// Writes a sheet as PDF; the file appears whole or not at all.
+///
+/// The one page has the sheet's size. Dots are strokes of length zero with round ends, as PDF defines them. There is no
+/// date and no random number, so the same sheet gives the same bytes.
+///
+/// # Errors
+/// [`OutputError::Layer`] when the picture has no beauty that fits, [`OutputError::Io`].
+pub fn write_pdf(sheet: &Sheet, path: &Path) -> Result<(), OutputError> {
+    atomic::write(path, &encode_pdf(sheet)?)
+}
+
+/// The bytes of [`write_pdf`].
+///
+/// # Errors
+/// As [`write_pdf`], but for the file's.
+pub fn encode_pdf(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
+    let mut content = Content::new(sheet);
+    if let Some(color) = sheet.background {
+        content.background(sheet, color);
+    }
+    if sheet.picture.is_some() {
+        content.picture(sheet);
+    }
+    for layer in &sheet.marks.layers {
+        content.layer(layer, sheet.plotter);
+    }
+
+    let mut pdf = Pdf::new();
+    if let Some(picture) = sheet.picture {
+        image(&mut pdf, picture)?;
+    }
+    let layers: Vec<Ref> = (FIRST..).map(Ref::new).take(content.labels.len()).collect();
+    for (&layer, label) in layers.iter().zip(&content.labels) {
+        pdf.indirect(layer).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(label));
+    }
+    let mut catalog = pdf.catalog(CATALOG);
+    catalog.pages(PAGES);
+    let mut properties = catalog.insert(Name(b"OCProperties")).dict();
+    properties.insert(Name(b"OCGs")).array().items(layers.iter().copied());
+    let mut shown = properties.insert(Name(b"D")).dict();
+    shown.insert(Name(b"Order")).array().items(layers.iter().copied());
+    shown.finish();
+    properties.finish();
+    catalog.finish();
+    pdf.pages(PAGES).kids([PAGE]).count(1);
+    let size = sheet.marks.page.size * POINTS;
+    let mut page = pdf.page(PAGE);
+    page.media_box(Rect::new(0.0, 0.0, size.x as f32, size.y as f32)).parent(PAGES).contents(CONTENT);
+    let mut resources = page.resources();
+    if sheet.picture.is_some() {
+        resources.x_objects().pair(Name(b"P"), IMAGE);
+    }
+    let mut states = resources.ext_g_states();
+    for (i, &opacity) in content.opacities.iter().enumerate() {
+        let mut state = states.insert(Name(format!("G{i}").as_bytes())).dict();
+        state.pair(Name(b"CA"), opacity as f32).pair(Name(b"ca"), opacity as f32);
+    }
+    states.finish();
+    let mut names = resources.insert(Name(b"Properties")).dict();
+    for (i, &layer) in layers.iter().enumerate() {
+        names.pair(Name(format!("L{i}").as_bytes()), layer);
+    }
+    names.finish();
+    resources.finish();
+    page.finish();
+    let said = sheet.provenance;
+    let mut info = pdf.document_info(INFO);
+    info.producer(TextStr(&said.software));
+    for (key, said) in KEYS.iter().zip([&said.scene_hash, &said.plan]) {
+        info.pair(Name(key.as_bytes()), TextStr(said));
+    }
+    info.finish();
+    pdf.stream(CONTENT, &compress_to_vec_zlib(&content.bytes, LEVEL)).filter(Filter::FlateDecode);
+    Ok(pdf.finish())
+}
+
+/// What is drawn, and what it refers to by number.
+struct Content {
+    bytes: Vec<u8>,
+    /// Of the layers, `L0` and on.
+    labels: Vec<String>,
+    /// Of the states, `G0` and on.
+    opacities: Vec<f64>,
+}
+
+impl Content {
+    /// A page in millimetres, y down, round ends and joins.
+    fn new(sheet: &Sheet) -> Self {
+        let height = number(sheet.marks.page.size.y * POINTS);
+        let bytes = format!("{POINTS:.9} 0 0 -{POINTS:.9} 0 {height} cm 1 J 1 j\n");
+        Self { bytes: bytes.into_bytes(), labels: Vec::new(), opacities: Vec::new() }
+    }
+
+    /// A layer of that label around what is drawn.
+    fn within(&mut self, label: String, draw: impl FnOnce(&mut Self)) {
+        self.add(&format!("/OC /L{} BDC q\n", self.labels.len()));
+        self.labels.push(label);
+        draw(self);
+        self.add("Q EMC\n");
+    }
+
+    fn background(&mut self, sheet: &Sheet, color: Rgba) {
+        let [width, height] = sheet.marks.page.size.to_array().map(number);
+        self.within("%background".into(), |content| {
+            content.state(color[3]);
+            content.color(color, "rg");
+            content.add(&format!("0 0 {width} {height} re f\n"));
+        });
+    }
+
+    fn picture(&mut self, sheet: &Sheet) {
+        let page = &sheet.marks.page;
+        let [width, height] = page.picture().to_array().map(number);
+        let (left, bottom) = (number(page.margin), number(page.size.y - page.margin));
+        // A picture fills the unit square, upright.
+        self.within("%picture".into(), |content| {
+            content.add(&format!("{width} 0 0 -{height} {left} {bottom} cm /P Do\n"));
+        });
+    }
+
+    fn layer(&mut self, layer: &Layer, plotter: bool) {
+        self.within(layer.pen.label(), |content| {
+            content.color(layer.pen.color, "RG");
+            for group in groups(layer, plotter) {
+                content.group(&group);
+            }
+        });
+    }
+
+    fn group(&mut self, group: &Group) {
+        self.add("q ");
+        self.state(group.opacity);
+        push(&mut self.bytes, group.width);
+        self.add(" w\n");
+        for chunk in group.dots.iter().filter(|chunk| !chunk.is_empty()) {
+            for &at in chunk {
+                self.step(at, b" m ");
+                self.step(at, b" l\n");
+            }
+            self.add("S\n");
+        }
+        for line in &group.lines {
+            for (i, &at) in line.points.iter().enumerate() {
+                self.step(at, if i == 0 { b" m\n" } else { b" l\n" });
+            }
+            self.add(if line.closed { "s\n" } else { "S\n" });
+        }
+        self.add("Q\n");
+    }
+
+    fn step(&mut self, at: [i64; 2], operator: &[u8]) {
+        push_pair(&mut self.bytes, at);
+        self.bytes.extend_from_slice(operator);
+    }
+
+    fn color(&mut self, color: Rgba, operator: &str) {
+        let [r, g, b] = bytes(color).map(|byte| number(f64::from(byte) / 255.0));
+        self.add(&format!("{r} {g} {b} {operator}\n"));
+    }
+
+    /// Everything after it has that opacity.
+    fn state(&mut self, opacity: f64) {
+        if opacity != 1.0 {
+            let known = self.opacities.iter().position(|&o| o == opacity);
+            let state = known.unwrap_or(self.opacities.len());
+            if known.is_none() {
+                self.opacities.push(opacity);
+            }
+            self.add(&format!("/G{state} gs "));
+        }
+    }
+
+    fn add(&mut self, text: &str) {
+        self.bytes.extend_from_slice(text.as_bytes());
+    }
+}
+
+/// The picture as 8-bit sRGB, with its opacity beside it.
+fn image(pdf: &mut Pdf, picture: &Picture) -> Result<(), OutputError> {
+    let channels = &fitting(picture, LayerKind::Beauty)?.channels;
+    let (mut color, mut mask) = (Vec::new(), Vec::new());
+    let pixels = picture.width * picture.height;
+    for pixel in (0..pixels).map(|i| [0, 1, 2, 3].map(|c| channels[c][i])) {
+        let [r, g, b, a] = straight_srgb(pixel).map(|c| quantize(c, 255) as u8);
+        color.extend([r, g, b]);
+        mask.push(a);
+    }
+    // Below 2³¹, as `side` says.
+    let [width, height] =
+        [side(picture.width, LayerKind::Beauty)? as i32, side(picture.height, LayerKind::Beauty)? as i32];
+    let translucent = mask.iter().any(|&a| a < 255);
+    for (id, samples, space) in [(IMAGE, color, &b"DeviceRGB"[..]), (MASK, mask, b"DeviceGray")] {
+        if id == MASK && !translucent {
+            break;
+        }
+        let packed = compress_to_vec_zlib(&samples, LEVEL);
+        let mut image = pdf.image_xobject(id, &packed);
+        image.filter(Filter::FlateDecode);
+        image.width(width).height(height).bits_per_component(8).color_space_name(Name(space));
+        if id == IMAGE && translucent {
+            image.s_mask(MASK);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::glam::{DVec2, DVec3};
+    use drypoint_scene::marks::{Dot, Marks, Page, Pen, Polyline, Vertex};
+    use drypoint_scene::picture::Provenance;
+
+    fn marks() -> Marks {
+        let vertex =
+            |x: f64, y: f64| Vertex { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.15, opacity: 1.0, t: 0.0 };
+        let dot = |x: f64, opacity: f64| Dot { at: DVec2::new(x, 2.0), world: DVec3::ZERO, radius: 0.15, opacity };
+        let black = Layer {
+            pen: Pen { number: 1, name: "schwarz ß".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] },
+            dots: vec![dot(1.0, 1.0), dot(2.5, 1.0), dot(3.0, 0.5)],
+            lines: vec![Polyline {
+                vertices: vec![vertex(4.0, 4.0), vertex(5.0, 3.0), vertex(6.5, 4.0)],
+                closed: true,
+            }],
+        };
+        Marks { page: Page::in_millimetres(DVec2::new(20.0, 10.0), 2.0, 300.0), layers: vec![black] }
+    }
+
+    fn encoded(background: Option<Rgba>, picture: Option<&Picture>) -> Vec<u8> {
+        let provenance = Provenance { software: "Drypoint 0.1.0".into(), scene_hash: "00ff".into(), plan: "κ".into() };
+        let marks = marks();
+        encode_pdf(&Sheet { marks: &marks, background, picture, plotter: false, provenance: &provenance }).unwrap()
+    }
+
+    fn holds(bytes: &[u8], text: &str) -> bool {
+        bytes.windows(text.len()).any(|window| window == text.as_bytes())
+    }
+
+    #[test]
+    fn what_is_drawn() {
+        let provenance = Provenance::default();
+        let marks = marks();
+        let sheet = Sheet { marks: &marks, background: None, picture: None, plotter: false, provenance: &provenance };
+        let mut content = Content::new(&sheet);
+        content.layer(&marks.layers[0], false);
+        // 72/25.4 = 2.834645669 points a millimetre; 14 mm are 39.685039 points.
+        assert_eq!(
+            String::from_utf8(content.bytes).unwrap(),
+            "2.834645669 0 0 -2.834645669 0 39.685039 cm 1 J 1 j\n\
+             /OC /L0 BDC q\n0 0 0 RG\n\
+             q /G0 gs .3 w\n3 2 m 3 2 l\nS\nQ\n\
+             q .3 w\n1 2 m 1 2 l\n2.5 2 m 2.5 2 l\nS\n4 4 m\n5 3 l\n6.5 4 l\ns\nQ\n\
+             Q EMC\n"
+        );
+        assert_eq!((content.labels, content.opacities), (vec!["1-schwarz ß 0.3".to_owned()], vec![0.5]));
+    }
+
+    #[test]
+    fn layers_and_provenance_but_no_date() {
+        let bytes = encoded(Some([1.0; 4]), None);
+        for text in
+            ["%PDF-1.7", "/OCProperties", "/Type /OCG", "(%background)", "(Drypoint 0.1.0)", "(00ff)", "/CA 0.5"]
+        {
+            assert!(holds(&bytes, text), "{text}");
+        }
+        assert!(!holds(&bytes, "Date") && !holds(&bytes, "/ID"));
+        assert_eq!(encoded(Some([1.0; 4]), None), bytes);
+    }
+
+    #[test]
+    fn a_picture_has_a_mask_where_it_is_translucent() {
+        let picture = |color| crate::paint::blank(&Page::in_pixels([2, 1], 0.0, 300.0), Some(color)).unwrap();
+        let opaque = encoded(None, Some(&picture([1.0; 4])));
+        assert!(holds(&opaque, "/Subtype /Image") && !holds(&opaque, "/SMask"));
+        assert!(holds(&encoded(None, Some(&picture([1.0, 1.0, 1.0, 0.5]))), "/SMask"));
+    }
+}

@@ -1,0 +1,277 @@
+//! Writing SVG ([IO-2], [IO-7]): one user unit is a millimetre, a layer is a group at the top that Inkscape and plotters
+//! know by its label, and nothing has a transform.
+
+use super::decimals::{number, push_pair};
+use super::groups::{Group, Line, groups};
+use super::{Sheet, base64, bytes, decimals};
+use crate::grid::micrometres;
+use crate::png::{KEYWORDS, encode_png};
+use crate::{OutputError, atomic};
+use drypoint_scene::marks::Layer;
+use std::io::Write;
+use std::path::Path;
+
+/// Writes a sheet as SVG; the file appears whole or not at all.
+///
+/// Dots are strokes of length zero with round ends, many to a path, so that half a million fill a few megabytes; on a
+/// plotter's sheet each is an element of its own, in the order of the plan, which pen plotters' programs read where they
+/// pass over an empty stroke inside a path. Places have 0.001 mm, as the marks do; there is no date, so the same sheet
+/// gives the same bytes.
+///
+/// # Errors
+/// [`OutputError::Layer`] when the picture has no beauty that fits, [`OutputError::Io`].
+pub fn write_svg(sheet: &Sheet, path: &Path) -> Result<(), OutputError> {
+    atomic::write(path, &encode_svg(sheet)?)
+}
+
+/// The bytes of [`write_svg`].
+///
+/// # Errors
+/// As [`write_svg`], but for the file's.
+pub fn encode_svg(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
+    let page = &sheet.marks.page;
+    let mut out = Vec::new();
+    let [width, height] = page.size.to_array().map(number);
+    text(
+        &mut out,
+        format_args!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" \
+         xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
+         xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" version=\"1.1\" \
+         width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {width} {height}\">\n"
+        ),
+    );
+    metadata(sheet, &mut out);
+    if let Some(color) = sheet.background {
+        let (color, opacity) = (hex(color), opacity("fill-opacity", color[3]));
+        text(
+            &mut out,
+            format_args!(
+                "<g inkscape:groupmode=\"layer\" inkscape:label=\"%background\" id=\"background\">\n\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"{color}\"{opacity}/>\n</g>\n"
+            ),
+        );
+    }
+    if let Some(picture) = sheet.picture {
+        let [width, height] = page.picture().to_array().map(number);
+        let margin = number(page.margin);
+        text(
+            &mut out,
+            format_args!(
+                "<g inkscape:groupmode=\"layer\" inkscape:label=\"%picture\" id=\"picture\">\n\
+             <image x=\"{margin}\" y=\"{margin}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+             xlink:href=\"data:image/png;base64,"
+            ),
+        );
+        base64::encode(&encode_png(picture, 8, sheet.provenance)?, &mut out);
+        out.extend_from_slice(b"\"/>\n</g>\n");
+    }
+    for (i, layer) in sheet.marks.layers.iter().enumerate() {
+        draw(layer, i, sheet.plotter, &mut out);
+    }
+    out.extend_from_slice(b"</svg>\n");
+    Ok(out)
+}
+
+/// Where the program, the scene and the plan stand.
+fn metadata(sheet: &Sheet, out: &mut Vec<u8>) {
+    let said = sheet.provenance;
+    out.extend_from_slice(b"<metadata>\n");
+    for (keyword, said) in KEYWORDS.into_iter().zip([&said.software, &said.scene_hash, &said.plan]) {
+        text(out, format_args!("{}: {}\n", escaped(keyword), escaped(said)));
+    }
+    out.extend_from_slice(b"</metadata>\n");
+}
+
+fn draw(layer: &Layer, index: usize, plotter: bool, out: &mut Vec<u8>) {
+    let (label, color, width) = (escaped(&layer.pen.label()), hex(layer.pen.color), number(layer.pen.width));
+    text(
+        out,
+        format_args!(
+            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{label}\" id=\"layer{}\" fill=\"none\" stroke=\"{color}\" \
+         stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
+            index + 1
+        ),
+    );
+    let pen = micrometres(layer.pen.width);
+    for group in groups(layer, plotter) {
+        // What the pen draws as it is needs no group.
+        let plain = group.width == pen && group.opacity == 1.0;
+        if !plain {
+            out.extend_from_slice(b"<g stroke-width=\"");
+            decimals::push(out, group.width);
+            text(out, format_args!("\"{}>\n", opacity("stroke-opacity", group.opacity)));
+        }
+        dots(&group, plotter, out);
+        group.lines.iter().for_each(|line| path(line, out));
+        if !plain {
+            out.extend_from_slice(b"</g>\n");
+        }
+    }
+    out.extend_from_slice(b"</g>\n");
+}
+
+fn dots(group: &Group, plotter: bool, out: &mut Vec<u8>) {
+    for chunk in group.dots.iter().filter(|chunk| !chunk.is_empty()) {
+        if plotter {
+            for &at in chunk {
+                out.extend_from_slice(b"<polyline points=\"");
+                push_pair_apart(out, at);
+                out.push(b' ');
+                push_pair_apart(out, at);
+                out.extend_from_slice(b"\"/>\n");
+            }
+            continue;
+        }
+        out.extend_from_slice(b"<path d=\"M");
+        let mut last = chunk[0];
+        push_pair(out, last);
+        out.extend_from_slice(b"h0");
+        for &at in &chunk[1..] {
+            out.push(b'm');
+            push_pair(out, [at[0] - last[0], at[1] - last[1]]);
+            out.extend_from_slice(b"h0");
+            last = at;
+        }
+        out.extend_from_slice(b"\"/>\n");
+    }
+}
+
+/// Two numbers with a comma, as lists of points are mostly written.
+fn push_pair_apart(out: &mut Vec<u8>, [x, y]: [i64; 2]) {
+    decimals::push(out, x);
+    out.push(b',');
+    decimals::push(out, y);
+}
+
+fn path(line: &Line, out: &mut Vec<u8>) {
+    let [first, rest @ ..] = line.points.as_slice() else { return };
+    out.extend_from_slice(b"<path d=\"M");
+    push_pair(out, *first);
+    out.push(b'l');
+    let mut last = *first;
+    for (i, &at) in rest.iter().enumerate() {
+        let [dx, dy] = [at[0] - last[0], at[1] - last[1]];
+        if i > 0 && dx >= 0 {
+            out.push(b' ');
+        }
+        push_pair(out, [dx, dy]);
+        last = at;
+    }
+    out.extend_from_slice(if line.closed { b"z\"/>\n" } else { b"\"/>\n" });
+}
+
+fn hex(color: [f64; 4]) -> String {
+    let [r, g, b] = bytes(color);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// The attribute, where it says anything.
+fn opacity(name: &str, value: f64) -> String {
+    if value == 1.0 { String::new() } else { format!(" {name}=\"{}\"", number(value)) }
+}
+
+fn text(out: &mut Vec<u8>, said: std::fmt::Arguments) {
+    // A Vec takes whatever is written to it.
+    let _ = out.write_fmt(said);
+}
+
+/// Text as XML has it, in an attribute or between tags; what XML 1.0 has no place for becomes U+FFFD.
+fn escaped(said: &str) -> String {
+    let mut out = String::with_capacity(said.len());
+    for c in said.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\t' | '\n' => out.push(c),
+            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            c if c.is_control() => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::glam::{DVec2, DVec3};
+    use drypoint_scene::marks::{Dot, Marks, Page, Pen, Polyline, Vertex};
+    use drypoint_scene::picture::{Picture, Provenance};
+
+    fn dot(x: f64, y: f64, radius: f64, opacity: f64) -> Dot {
+        Dot { at: DVec2::new(x, y), world: DVec3::ZERO, radius, opacity }
+    }
+
+    fn marks() -> Marks {
+        let vertex =
+            |x: f64, y: f64| Vertex { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.15, opacity: 1.0, t: 0.0 };
+        let pen = |number, name: &str, width, color| Pen { number, name: name.into(), width, color };
+        let black = Layer {
+            pen: pen(1, "black", 0.3, [0.0, 0.0, 0.0, 1.0]),
+            dots: vec![dot(1.0, 2.0, 0.15, 1.0), dot(2.5, 1.999, 0.15, 1.0), dot(3.0, 3.0, 0.1, 0.5)],
+            lines: vec![
+                Polyline { vertices: vec![vertex(4.0, 4.0), vertex(5.0, 3.0), vertex(6.5, 4.0)], closed: false },
+                Polyline { vertices: vec![vertex(1.0, 8.0), vertex(2.0, 8.0), vertex(2.0, 9.0)], closed: true },
+            ],
+        };
+        let red = Layer::new(pen(2, "<red> & \"co\"", 0.5, [1.0, 0.0, 0.0, 0.5]));
+        Marks { page: Page::in_millimetres(DVec2::new(20.0, 10.0), 2.0, 300.0), layers: vec![black, red] }
+    }
+
+    fn encoded(background: Option<[f64; 4]>, picture: Option<&Picture>, plotter: bool) -> String {
+        let provenance =
+            Provenance { software: "Drypoint 0.1.0".into(), scene_hash: "00ff".into(), plan: "κ < 1\n\u{1}".into() };
+        let marks = marks();
+        let sheet = Sheet { marks: &marks, background, picture, plotter, provenance: &provenance };
+        String::from_utf8(encode_svg(&sheet).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn the_whole_file() {
+        assert_eq!(
+            encoded(None, None, false),
+            r##"<?xml version="1.0" encoding="UTF-8"?>
+<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" version="1.1" width="24mm" height="14mm" viewBox="0 0 24 14">
+<metadata>
+Software: Drypoint 0.1.0
+Drypoint scene: 00ff
+Drypoint plan: κ &lt; 1
+�
+</metadata>
+<g inkscape:groupmode="layer" inkscape:label="1-black 0.3" id="layer1" fill="none" stroke="#000000" stroke-width="0.3" stroke-linecap="round" stroke-linejoin="round">
+<g stroke-width=".2" stroke-opacity="0.5">
+<path d="M3 3h0"/>
+</g>
+<path d="M1 2h0m1.5-.001h0"/>
+<path d="M4 4l1-1 1.5 1"/>
+<path d="M1 8l1 0 0 1z"/>
+</g>
+<g inkscape:groupmode="layer" inkscape:label="2-&lt;red&gt; &amp; &quot;co&quot; 0.5" id="layer2" fill="none" stroke="#ff0000" stroke-width="0.5" stroke-linecap="round" stroke-linejoin="round">
+</g>
+</svg>
+"##
+        );
+    }
+
+    #[test]
+    fn a_plotter_gets_each_dot_by_itself() {
+        let text = encoded(None, None, true);
+        assert!(text.contains("<polyline points=\"1,2 1,2\"/>\n<polyline points=\"2.5,1.999 2.5,1.999\"/>"), "{text}");
+        assert!(!text.contains("h0"));
+    }
+
+    #[test]
+    fn what_lies_behind_is_not_plotted() {
+        let picture = crate::paint::blank(&Page::in_pixels([2, 1], 0.0, 300.0), Some([1.0; 4])).unwrap();
+        let text = encoded(Some([0.0, 0.0, 1.0, 0.25]), Some(&picture), false);
+        let background = "inkscape:label=\"%background\" id=\"background\">\n\
+                          <rect width=\"24\" height=\"14\" fill=\"#0000ff\" fill-opacity=\"0.25\"/>";
+        assert!(text.contains(background), "{text}");
+        let image = "inkscape:label=\"%picture\" id=\"picture\">\n<image x=\"2\" y=\"2\" width=\"20\" height=\"10\"";
+        assert!(text.contains(image) && text.contains("base64,iVBORw0KGgo"), "{text}");
+        assert!(text.find("%background") < text.find("%picture") && text.find("%picture") < text.find("1-black"));
+    }
+}

@@ -1,0 +1,58 @@
+//! Pens.
+
+use super::Page;
+use crate::tables::PenSettings;
+
+/// What draws a layer: a pen of `[[pen]]`, or the colour that an effect has in place of one ([IO-7]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pen {
+    /// Number of the layer, from 1, in the order of `[[pen]]`.
+    pub number: usize,
+    /// What the layer is called.
+    pub name: String,
+    /// Across the nib, in mm.
+    pub width: f64,
+    /// Linear, straight.
+    pub color: [f64; 4],
+}
+
+impl Pen {
+    /// The scene's pens on its page, numbered in their order; widths on steps of 0.001 mm, at least one.
+    pub fn of(pens: &[PenSettings], page: &Page) -> Vec<Self> {
+        let pen = |(i, pen): (usize, &PenSettings)| Self {
+            number: i + 1,
+            name: pen.name.clone(),
+            width: ((page.length(pen.width).unwrap_or_default() * 1000.0).round_ties_even().max(1.0)) / 1000.0,
+            color: pen.color,
+        };
+        pens.iter().enumerate().map(pen).collect()
+    }
+
+    /// The layer's name for plotters: number, name and width, such as `1-black 0.3`; the first digits are the number.
+    pub fn label(&self) -> String {
+        format!("{}-{} {}", self.number, self.name, self.width)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tables::Length;
+
+    #[test]
+    fn widths_are_on_steps() {
+        // 2 px at 300 dpi are 0.16933 mm.
+        let page = Page::in_pixels([100, 100], 0.0, 300.0);
+        let pen = |width| PenSettings { name: "p".into(), width, color: [0.0; 4] };
+        let pens = [Length::Pixels(2.0), Length::Millimetres(0.35), Length::Pixels(1e-6)].map(pen);
+        let found: Vec<(usize, f64)> = Pen::of(&pens, &page).iter().map(|pen| (pen.number, pen.width)).collect();
+        assert_eq!(found, [(1, 0.169), (2, 0.35), (3, 0.001)]);
+    }
+
+    #[test]
+    fn the_label_begins_with_the_number() {
+        let pen = |number, name: &str, width| Pen { number, name: name.into(), width, color: [0.0, 0.0, 0.0, 1.0] };
+        assert_eq!(pen(1, "black", 0.3).label(), "1-black 0.3");
+        assert_eq!(pen(12, "2nd red", 1.0).label(), "12-2nd red 1");
+    }
+}

@@ -1,0 +1,57 @@
+//! A sheet with everything that a page can have.
+
+use crate::outside::Codes;
+use crate::random::Random;
+use drypoint::output::paint::{Window, blank, paint};
+use drypoint::output::png::write_png;
+use drypoint::output::vector::Sheet;
+use drypoint::scene::glam::{DVec2, DVec3};
+use drypoint::scene::marks::{Dot, Layer, Marks, Page, Pen, Polyline, Vertex};
+use drypoint::scene::picture::Provenance;
+use drypoint::scene::tables::BlendSpace;
+use std::path::Path;
+
+/// Two pens' dots and lines of many widths, opaque or not, some on each other, on 4 × 3 inches at 300 dpi: whole pixels.
+pub(crate) fn marks(opaque: bool) -> Marks {
+    let r = &mut Random(7);
+    let page = Page::in_millimetres(DVec2::new(101.6, 76.2), 0.0, 300.0);
+    let layers = [("black", 0.3, [0.0, 0.0, 0.0, 1.0]), ("red", 0.5, [0.6, 0.02, 0.05, 1.0])];
+    let layers = layers.iter().enumerate().map(|(i, &(name, width, color))| {
+        let mut layer = Layer::new(Pen { number: i + 1, name: name.into(), width, color });
+        let place = |r: &mut Random| DVec2::new(r.between(-1.0, page.size.x + 1.0), r.between(-1.0, page.size.y + 1.0));
+        let opacity = |r: &mut Random| if opaque || r.once_in(2) { 1.0 } else { r.unit() };
+        for _ in 0..1500 {
+            let (at, radius, opacity) = (place(r), r.between(0.05, 0.4), opacity(r));
+            layer.dots.push(Dot { at, world: DVec3::new(r.unit(), 1.0, 2.0), radius, opacity });
+        }
+        for closed in [false, true].repeat(30) {
+            let (at, radius, opacity) = (place(r), r.between(0.05, 0.25), opacity(r));
+            let vertex = |k: usize| Vertex {
+                at: at + DVec2::new(2.0 * k as f64, r.between(0.0, 3.0)),
+                world: DVec3::ZERO,
+                radius,
+                opacity,
+                t: k as f64 / 5.0,
+            };
+            layer.lines.push(Polyline { vertices: (0..6).map(vertex).collect(), closed });
+        }
+        layer
+    });
+    let mut marks = Marks { page, layers: layers.collect() };
+    marks.settle();
+    marks
+}
+
+/// The sheet of marks on white paper.
+pub(crate) fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> Sheet<'a> {
+    Sheet { marks, background: None, picture: None, plotter: false, provenance }
+}
+
+/// Our own picture of it, as it is in a PNG whose encoded values are blended.
+pub(crate) fn picture(marks: &Marks, folder: &Path) -> Codes {
+    let mut picture = blank(&marks.page, Some([1.0; 4])).unwrap();
+    paint(marks, &Window::page(&marks.page), BlendSpace::Srgb, &mut picture).unwrap();
+    let path = folder.join("ours.png");
+    write_png(&picture, 8, &Provenance::default(), &path).unwrap();
+    Codes::of_png(&path)
+}
