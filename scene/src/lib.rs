@@ -15,6 +15,7 @@ pub mod phantom;
 pub mod philox;
 pub mod picture;
 pub mod plan;
+pub mod points;
 pub mod space;
 pub mod style;
 pub mod tables;
