@@ -47,14 +47,13 @@ pub(super) struct Sites<'a> {
 fn sweeps(rank: usize) -> usize {
     match rank {
         0..4 => 3,
-        4..8 => 2,
         _ => 1,
     }
 }
 
 /// Points in the pool of a voxel that draws `each`.
 fn pool_size(each: usize) -> usize {
-    (each + (3 * each).min(each.max(96))).next_multiple_of(LANES)
+    (each + (5 * each).min(each.max(400))).next_multiple_of(LANES)
 }
 
 /// Bytes a voxel of what is allocated to order the points, beside the points.
@@ -79,6 +78,8 @@ struct Site {
 
 /// The voxels of a class, with their pools.
 struct Class {
+    /// The parities of x, y and z, x lowest.
+    number: usize,
     /// Of the first in the order of all.
     start: usize,
     sites: Vec<Site>,
@@ -108,7 +109,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
             for (place, &class) in order.iter().enumerate() {
                 let earlier = if sweep == 0 { &order[..place] } else { &order[..] };
                 let earlier = earlier.iter().fold(0u8, |set, &c| set | 1 << c);
-                let step = Step { rank, sweep, links: &links, around: &around, starts: &starts, earlier };
+                let step = Step { rank, sweep, links: &links, around: &around, earlier };
                 let class = &mut classes[class];
                 let (start, end) = (class.start, class.start + class.sites.len());
                 let (left, rest) = now.split_at_mut(start);
@@ -138,7 +139,6 @@ struct Step<'a> {
     links: &'a Links,
     /// The offset of each neighbour, scaled.
     around: &'a [[f32; 3]],
-    starts: &'a [usize; 9],
     /// The classes, as bits, whose points of this rank are there to be seen.
     earlier: u8,
 }
@@ -164,7 +164,7 @@ fn take(
     step: &Step<'_>,
 ) {
     let size = pool_size(each);
-    let start = class.start;
+    let (start, number) = (class.start, class.number);
     let (pools, draws) = (class.pools.par_chunks_mut(size / LANES), class.draws.par_chunks_mut(size));
     let voxels = class.sites.par_iter_mut().zip(pools).zip(draws).zip(own).zip(chosen.par_chunks_mut(each));
     voxels.enumerate().with_min_len(256).for_each(|(i, ((((site, pool), draws), own), chosen))| {
@@ -183,8 +183,7 @@ fn take(
         }
         for &link in neighbours {
             let id = id_of(link);
-            let class = step.starts[1..8].iter().filter(|&&start| start <= id).count();
-            if step.earlier >> class & 1 == 1 {
+            if step.earlier >> (number ^ parities(offset_of(link))) & 1 == 1 {
                 let point = if id < seen.start { seen.left[id] } else { seen.right[id - seen.end] };
                 near.add(site, point, step.around[offset_of(link)]);
             }
@@ -292,7 +291,7 @@ impl Class {
             Site::new(sites, i, links.range(id), links, pool, draws)
         };
         let sites = members.par_iter().zip(parts).map(site).collect();
-        Self { start, sites, pools, draws }
+        Self { number: class, start, sites, pools, draws }
     }
 }
 
@@ -350,6 +349,11 @@ fn flattened(f: [f32; 3], p: [f32; 3]) -> [f32; 3] {
 /// The step from a voxel to its neighbour of number k, x fastest.
 fn delta(k: usize) -> [f32; 3] {
     [k % 3, k / 3 % 3, k / 9].map(|i| i as f32 - 1.0)
+}
+
+/// The axes on which that neighbour's parity is the other, x lowest.
+fn parities(k: usize) -> usize {
+    usize::from(k % 3 != 1) | usize::from(k / 3 % 3 != 1) << 1 | usize::from(k / 9 != 1) << 2
 }
 
 /// The number of the neighbour that lies in a direction: one voxel away, rounded.
