@@ -5,10 +5,12 @@
 
 pub mod atomic;
 pub mod compare;
+mod disc;
 pub mod encode;
 pub mod error;
 pub mod exr;
 mod layers;
+pub mod paint;
 pub mod png;
 pub mod raster;
 pub mod read;

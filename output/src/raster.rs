@@ -8,29 +8,54 @@ use tiny_skia::{FillRule, LineCap, LineJoin, Mask, PathBuilder, PathStroker, Str
 /// Overlapping strokes cover once. Steps are 1/255. The caller sees to it that the pixels fit into memory; more than
 /// 2³² of them on a side stay blank.
 pub fn coverage(width: usize, height: usize, polylines: &[Vec<[f64; 2]>], pen: f64) -> Vec<f64> {
-    let blank = || vec![0.0; width * height];
-    let sides = u32::try_from(width).ok().zip(u32::try_from(height).ok());
-    let Some(mut mask) = sides.and_then(|(w, h)| Mask::new(w, h)) else {
-        return blank();
+    let Some(mut cover) = Cover::new(width, height) else {
+        return vec![0.0; width * height];
     };
-    let mut path = PathBuilder::new();
-    for line in polylines {
-        if let [first, rest @ ..] = line.as_slice() {
-            path.move_to(first[0] as f32, first[1] as f32);
-            for [x, y] in rest {
-                path.line_to(*x as f32, *y as f32);
+    cover.draw(polylines.iter().map(|line| (line.iter().copied(), false)), pen);
+    cover.bytes().iter().map(|&covered| f64::from(covered) / 255.0).collect()
+}
+
+/// A picture of coverage that is drawn on, in steps of 1/255.
+pub(crate) struct Cover {
+    mask: Mask,
+}
+
+impl Cover {
+    /// Nothing covered; none if there is no pixel, or more than 2³² on a side.
+    pub(crate) fn new(width: usize, height: usize) -> Option<Self> {
+        let mask = Mask::new(u32::try_from(width).ok()?, u32::try_from(height).ok()?)?;
+        Some(Self { mask })
+    }
+
+    /// Draws lines, each with whether it is closed, with a round pen. Lines of one call cover once where they cross; on
+    /// what was there before they add as c + d − cd.
+    pub(crate) fn draw<L: Iterator<Item = [f64; 2]>>(&mut self, lines: impl Iterator<Item = (L, bool)>, pen: f64) {
+        let mut path = PathBuilder::new();
+        for (mut points, closed) in lines {
+            let Some([x, y]) = points.next() else { continue };
+            path.move_to(x as f32, y as f32);
+            let mut rest = false;
+            for [x, y] in points {
+                path.line_to(x as f32, y as f32);
+                rest = true;
+            }
+            if closed && rest {
+                path.close();
             }
         }
+        let stroke =
+            Stroke { width: pen as f32, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+        // All strokes become one outline, filled by the nonzero rule, so that crossings do not darken.
+        let outline = path.finish().and_then(|path| PathStroker::new().stroke(&path, &stroke, 1.0));
+        if let Some(outline) = outline {
+            self.mask.fill_path(&outline, FillRule::Winding, true, Transform::identity());
+        }
     }
-    let stroke =
-        Stroke { width: pen as f32, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
-    // All strokes become one outline, filled by the nonzero rule, so that crossings do not darken.
-    let outline = path.finish().and_then(|path| PathStroker::new().stroke(&path, &stroke, 1.0));
-    let Some(outline) = outline else {
-        return blank();
-    };
-    mask.fill_path(&outline, FillRule::Winding, true, Transform::identity());
-    mask.data().iter().map(|&covered| f64::from(covered) / 255.0).collect()
+
+    /// Row by row from the top; 255 is all of a pixel.
+    pub(crate) fn bytes(&self) -> &[u8] {
+        self.mask.data()
+    }
 }
 
 #[cfg(test)]

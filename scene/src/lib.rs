@@ -9,6 +9,7 @@ pub mod color;
 pub mod counts;
 pub mod file;
 pub mod knobs;
+pub mod marks;
 pub mod math;
 mod nearest;
 pub mod phantom;

@@ -1,0 +1,222 @@
+//! Marks over a picture ([STIP-16], [VAL-3]): dots by the exact area that they cover of each pixel, lines by the coverage
+//! of [`raster`](crate::raster), in steps of 1/255.
+
+mod canvas;
+mod lines;
+
+use crate::OutputError;
+use crate::disc::{Scratch, cover};
+use crate::layers::{check, fault};
+use canvas::Canvas;
+use drypoint_scene::color::{Rgba, premultiply};
+use drypoint_scene::glam::DVec2;
+use drypoint_scene::marks::{Marks, Page};
+use drypoint_scene::picture::{Layer, LayerKind, Picture};
+use drypoint_scene::tables::BlendSpace;
+
+/// Which part of a page a picture shows, and how large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Of the picture's upper left corner on the page, in mm.
+    pub corner: DVec2,
+    /// Pixels of a millimetre, across and down.
+    pub scale: DVec2,
+}
+
+impl Window {
+    /// The whole page, as [`blank`] makes it.
+    pub fn page(page: &Page) -> Self {
+        Self { corner: DVec2::ZERO, scale: DVec2::splat(page.pixels_per_mm()) }
+    }
+
+    /// The frame alone, which a rendered picture of `size` pixels fills.
+    pub fn frame(page: &Page, size: [usize; 2]) -> Self {
+        Self { corner: DVec2::splat(page.margin), scale: DVec2::from(size.map(|n| n as f64)) / page.picture() }
+    }
+
+    /// A place on the page in pixels of the picture.
+    fn place(&self, at: DVec2) -> [f64; 2] {
+        ((at - self.corner) * self.scale).to_array()
+    }
+
+    /// A length in pixels that keeps areas: across and down the scales differ by what a size in mm was rounded by.
+    fn length(&self, mm: f64) -> f64 {
+        mm * (self.scale.x * self.scale.y).sqrt()
+    }
+}
+
+/// The most pixels of a page: those of the largest picture.
+const LARGEST: usize = 1 << 30;
+
+/// A page without marks: `background` is linear, straight; none: transparent.
+///
+/// # Errors
+/// [`OutputError::Layer`] for a page without a pixel, or of more than 2³⁰.
+pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputError> {
+    let [width, height] = page.pixels();
+    let Some(pixels) = width.checked_mul(height).filter(|n| (1..=LARGEST).contains(n)) else {
+        return Err(fault(LayerKind::Beauty, format!("a page of {width}x{height} pixels")));
+    };
+    let channels = premultiply(background.unwrap_or_default()).map(|c| vec![c; pixels]).into();
+    Ok(Picture { width, height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] })
+}
+
+/// Draws marks over the layer `beauty`, layer by layer: first a layer's lines, then its dots.
+///
+/// A dot covers the exact share of a pixel; two dots that share a pixel add as c + d − cd, as if independent. What has
+/// the whole opacity of lines is drawn as one outline of each width; a translucent line is composited by itself. In
+/// `srgb` the encoded colours are composited, as viewers of SVG and PDF do.
+///
+/// # Errors
+/// [`OutputError::Layer`] when there is no beauty or it does not fit the picture's size.
+pub fn paint(marks: &Marks, window: &Window, blend: BlendSpace, picture: &mut Picture) -> Result<(), OutputError> {
+    let size = [picture.width, picture.height];
+    let at = picture.layers.iter().position(|layer| layer.kind == LayerKind::Beauty);
+    let at = at.ok_or_else(|| fault(LayerKind::Beauty, "the picture does not have it".into()))?;
+    check(picture, &picture.layers[at])?;
+    let mut canvas = Canvas::new(&mut picture.layers[at].channels, blend);
+    let mut scratch = Scratch::default();
+    for layer in &marks.layers {
+        let ink = canvas.ink(layer.pen.color);
+        lines::paint(&layer.lines, window, size, &ink, &mut canvas);
+        for dot in &layer.dots {
+            let [x, y] = window.place(dot.at);
+            cover([x, y, window.length(dot.radius)], size, &mut scratch, |i, j, share| {
+                canvas.put(j * size[0] + i, &ink, share * dot.opacity);
+            });
+        }
+    }
+    canvas.finish();
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::encode::{quantize, straight_srgb};
+    use drypoint_scene::color::{linear_to_srgb, srgb_to_linear};
+    use drypoint_scene::glam::DVec3;
+    use drypoint_scene::marks::{Dot, Layer as Drawn, Pen, Polyline, Vertex};
+    use std::f64::consts::PI;
+
+    const BLACK: Rgba = [0.0, 0.0, 0.0, 1.0];
+    const WHITE: Rgba = [1.0; 4];
+
+    /// 20 × 10 px, 5 px a millimetre.
+    fn page() -> Page {
+        Page::in_pixels([20, 10], 0.0, 127.0)
+    }
+
+    fn marks(color: Rgba, dots: Vec<Dot>, lines: Vec<Polyline>) -> Marks {
+        let pen = Pen { number: 1, name: "pen".into(), width: 0.3, color };
+        Marks { page: page(), layers: vec![Drawn { dots, lines, ..Drawn::new(pen) }] }
+    }
+
+    fn dot(x: f64, y: f64, radius: f64, opacity: f64) -> Dot {
+        Dot { at: DVec2::new(x, y), world: DVec3::ZERO, radius, opacity }
+    }
+
+    fn line(opacity: f64, y: f64) -> Polyline {
+        let vertex = |x: f64| Vertex { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.2, opacity, t: 0.0 };
+        Polyline { vertices: vec![vertex(0.8), vertex(3.2)], closed: false }
+    }
+
+    fn painted(marks: &Marks, background: Option<Rgba>, blend: BlendSpace) -> Picture {
+        let mut picture = blank(&marks.page, background).unwrap();
+        paint(marks, &Window::page(&marks.page), blend, &mut picture).unwrap();
+        picture
+    }
+
+    fn pixel(picture: &Picture, i: usize, j: usize) -> Rgba {
+        let channels = &picture.layers[0].channels;
+        [0, 1, 2, 3].map(|c| channels[c][j * picture.width + i])
+    }
+
+    #[test]
+    fn coverage_is_linear_light() {
+        // A dot of 0.1 mm is 0.5 px: π/4 of the pixel about (10.5, 5.5), which is at (2.1, 1.1) mm.
+        let black = marks(BLACK, vec![dot(2.1, 1.1, 0.1, 1.0)], vec![]);
+        let over_white = painted(&black, Some(WHITE), BlendSpace::Linear);
+        let (found, share) = (pixel(&over_white, 10, 5), PI / 4.0);
+        assert!((found[0] - (1.0 - share)).abs() < 1e-14 && (found[3] - 1.0).abs() < 1e-15, "{found:?}");
+        assert_eq!(pixel(&over_white, 9, 5), WHITE);
+        let alone = pixel(&painted(&black, None, BlendSpace::Linear), 10, 5);
+        assert!(alone[0] == 0.0 && (alone[3] - share).abs() < 1e-14, "{alone:?}");
+        // Mean coverage of the page: πr² of 200 pixels.
+        let ink: f64 = over_white.layers[0].channels[1].iter().map(|c| 1.0 - c).sum();
+        assert!((ink - share).abs() < 1e-12);
+    }
+
+    #[test]
+    fn encoded_values_are_blended_where_the_scene_says_so() {
+        // 0.4 of a pixel in black over white: code 0.6, which is 0.3185 in linear light, not 0.6.
+        let part = marks(BLACK, vec![dot(2.1, 1.1, 0.1, 0.4 / (PI / 4.0))], vec![]);
+        let found = pixel(&painted(&part, Some(WHITE), BlendSpace::Srgb), 10, 5);
+        assert!((found[0] - srgb_to_linear(0.6)).abs() < 1e-12, "{found:?}");
+        assert_eq!(straight_srgb(found).map(|c| quantize(c, 255)), [153, 153, 153, 255]);
+        // Over nothing the colour is the pen's, whatever is blended.
+        let [r, g] = [0.6, 0.1].map(linear_to_srgb);
+        let red = marks([0.6, 0.1, 0.1, 1.0], vec![dot(2.1, 1.1, 0.1, 1.0)], vec![]);
+        let found = straight_srgb(pixel(&painted(&red, None, BlendSpace::Srgb), 10, 5));
+        assert!((found[0] - r).abs() < 1e-9 && (found[1] - g).abs() < 1e-9, "{found:?}");
+    }
+
+    #[test]
+    fn what_is_not_covered_keeps_its_bits() {
+        let odd = [0.123_456_789, 0.2, 0.3, 0.9];
+        for blend in [BlendSpace::Linear, BlendSpace::Srgb] {
+            let found = painted(&marks(BLACK, vec![dot(2.1, 1.1, 0.1, 1.0)], vec![line(1.0, 0.3)]), Some(odd), blend);
+            assert_eq!(pixel(&found, 0, 9), premultiply(odd));
+        }
+    }
+
+    #[test]
+    fn dots_add_as_if_independent() {
+        let pair = marks(BLACK, vec![dot(2.1, 1.1, 0.1, 0.5), dot(2.1, 1.1, 0.1, 1.0)], vec![]);
+        let found = pixel(&painted(&pair, None, BlendSpace::Linear), 10, 5)[3];
+        let (a, b) = (PI / 8.0, PI / 4.0);
+        assert!((found - (a + b - a * b)).abs() < 1e-14);
+        // Halves of the pen's opacity multiply the dot's.
+        let faint = marks([0.0, 0.0, 0.0, 0.5], vec![dot(2.1, 1.1, 0.1, 1.0)], vec![]);
+        assert!((pixel(&painted(&faint, None, BlendSpace::Linear), 10, 5)[3] - a).abs() < 1e-14);
+    }
+
+    #[test]
+    fn lines_cover_their_pixels() {
+        // From (4, 5.5) to (16, 5.5) px, 2 px wide: the rows 5 whole, 4 and 6 half.
+        for (opacity, expected) in [(1.0, [0.5, 1.0, 0.5]), (0.5, [0.25, 0.5, 0.25])] {
+            let found = painted(&marks(BLACK, vec![], vec![line(opacity, 1.1)]), None, BlendSpace::Linear);
+            for (j, share) in [4, 5, 6].into_iter().zip(expected) {
+                // Coverage has steps of 1/255.
+                assert!((pixel(&found, 10, j)[3] - share).abs() <= 1.0 / 255.0, "{j}: {:?}", pixel(&found, 10, j));
+            }
+            assert_eq!(pixel(&found, 18, 5), [0.0; 4]);
+        }
+        // A translucent line that the picture's edge cuts, and one beyond it.
+        let found = painted(&marks(BLACK, vec![], vec![line(0.5, 0.0), line(0.5, 9.0)]), None, BlendSpace::Linear);
+        assert!((pixel(&found, 10, 0)[3] - 0.5).abs() <= 1.0 / 255.0);
+    }
+
+    #[test]
+    fn the_frame_is_the_picture() {
+        // With a margin of 2 mm the frame's corner is (2, 2) mm; a picture of 8 × 4 px over 4 × 2 mm has 2 px a mm.
+        let page = Page::in_millimetres(DVec2::new(4.0, 2.0), 2.0, 127.0);
+        let window = Window::frame(&page, [8, 4]);
+        assert_eq!(window.place(DVec2::new(3.0, 2.5)), [2.0, 1.0]);
+        assert_eq!(window.length(0.25), 0.5);
+        let mut picture = Picture { width: 8, height: 4, ..blank(&Page::in_pixels([8, 4], 0.0, 1.0), None).unwrap() };
+        let list = Marks { page, ..marks(BLACK, vec![dot(3.25, 2.25, 0.25, 1.0)], vec![]) };
+        paint(&list, &window, BlendSpace::Linear, &mut picture).unwrap();
+        assert!((pixel(&picture, 2, 0)[3] - PI / 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn no_page_too_large_and_no_picture_without_beauty() {
+        assert!(blank(&Page::in_pixels([1 << 15, (1 << 15) + 1], 0.0, 300.0), None).is_err());
+        assert!(blank(&Page::in_millimetres(DVec2::splat(1e300), 0.0, 300.0), None).is_err());
+        assert!(blank(&Page::in_millimetres(DVec2::splat(0.01), 0.0, 1.0), None).is_err());
+        let mut none = Picture { width: 2, height: 2, layers: vec![] };
+        let list = marks(BLACK, vec![], vec![]);
+        assert!(paint(&list, &Window::page(&list.page), BlendSpace::Linear, &mut none).is_err());
+    }
+}

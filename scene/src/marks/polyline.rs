@@ -1,0 +1,137 @@
+//! Lines.
+
+use super::round::{OPACITY, nearest};
+use glam::{DVec2, DVec3};
+
+/// A line drawn with a round pen through its vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polyline {
+    /// In order, at least two; of one, nothing is drawn.
+    pub vertices: Vec<Vertex>,
+    /// Whether it goes on from the last to the first.
+    pub closed: bool,
+}
+
+/// A vertex of a line: a dot's numbers, and how far along it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// On the page, in mm, y down.
+    pub at: DVec2,
+    /// The point in the world that it stands for.
+    pub world: DVec3,
+    /// Half the line's width there, in mm on the page.
+    pub radius: f64,
+    /// In (0, 1]; it multiplies that of the pen's colour.
+    pub opacity: f64,
+    /// Along the whole line from 0 to 1; a part that was cut out keeps its numbers.
+    pub t: f64,
+}
+
+/// A part of a line with one width and one opacity: what every writer draws, with round ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// In order, at least two, in mm on the page.
+    pub points: Vec<DVec2>,
+    /// Half the width, in mm.
+    pub radius: f64,
+    /// In (0, 1].
+    pub opacity: f64,
+    /// Whether it goes on from the last point to the first.
+    pub closed: bool,
+}
+
+impl Polyline {
+    /// The line cut where its width or its opacity changes: a segment has the mean of its ends', on the steps of
+    /// [`Marks::round`](super::Marks::round), where a radius may lie halfway between two; equal neighbours join. A
+    /// segment without opacity or width is left out.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let n = self.vertices.len();
+        let segments = match n {
+            0 | 1 => 0,
+            2 => 1,
+            _ if self.closed => n,
+            _ => n - 1,
+        };
+        let mut pieces: Vec<Piece> = Vec::new();
+        // Whether the last piece ends where the next segment begins.
+        let mut joins = false;
+        for i in 0..segments {
+            let (a, b) = (&self.vertices[i], &self.vertices[(i + 1) % n]);
+            let (radius, opacity) = ((a.radius + b.radius) / 2.0, nearest((a.opacity + b.opacity) / 2.0, OPACITY));
+            let drawn = radius > 0.0 && opacity > 0.0;
+            match pieces.last_mut() {
+                Some(last) if drawn && joins && (last.radius, last.opacity) == (radius, opacity) => {
+                    last.points.push(b.at)
+                }
+                _ if drawn => pieces.push(Piece { points: vec![a.at, b.at], radius, opacity, closed: false }),
+                _ => {}
+            }
+            joins = drawn;
+        }
+        if let [only] = pieces.as_mut_slice()
+            && segments == n
+            && only.points.len() == n + 1
+        {
+            // The first point came again at the end.
+            only.points.pop();
+            only.closed = true;
+        }
+        pieces
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(closed: bool, vertices: &[(f64, f64, f64, f64)]) -> Polyline {
+        let vertex = |&(x, y, radius, opacity): &(f64, f64, f64, f64)| Vertex {
+            at: DVec2::new(x, y),
+            world: DVec3::ZERO,
+            radius,
+            opacity,
+            t: 0.0,
+        };
+        Polyline { vertices: vertices.iter().map(vertex).collect(), closed }
+    }
+
+    fn xs(piece: &Piece) -> Vec<f64> {
+        piece.points.iter().map(|p| p.x).collect()
+    }
+
+    #[test]
+    fn equal_neighbours_are_one_piece() {
+        let open = line(false, &[(0.0, 0.0, 0.1, 1.0), (1.0, 0.0, 0.1, 1.0), (2.0, 0.0, 0.1, 1.0)]).pieces();
+        assert_eq!((open.len(), xs(&open[0]), open[0].closed), (1, vec![0.0, 1.0, 2.0], false));
+        let ring = line(true, &[(0.0, 0.0, 0.1, 1.0), (1.0, 0.0, 0.1, 1.0), (2.0, 2.0, 0.1, 1.0)]).pieces();
+        assert_eq!((ring.len(), xs(&ring[0]), ring[0].closed), (1, vec![0.0, 1.0, 2.0], true));
+    }
+
+    #[test]
+    fn a_change_of_width_or_opacity_cuts() {
+        // Means: radius 0.1, 0.15, 0.2; the fourth segment has no opacity, the fifth stands apart from the third.
+        let line = line(
+            false,
+            &[
+                (0.0, 0.0, 0.1, 1.0),
+                (1.0, 0.0, 0.1, 1.0),
+                (2.0, 0.0, 0.2, 1.0),
+                (3.0, 0.0, 0.2, 0.0),
+                (4.0, 0.0, 0.2, 0.0),
+                (5.0, 0.0, 0.2, 1.0),
+            ],
+        );
+        let pieces = line.pieces();
+        assert_eq!(pieces.iter().map(xs).collect::<Vec<_>>(), [[0.0, 1.0], [1.0, 2.0], [2.0, 3.0], [4.0, 5.0]]);
+        assert!((pieces[1].radius - 0.15).abs() < 1e-15);
+        assert_eq!(pieces.iter().map(|p| p.opacity).collect::<Vec<_>>(), [1.0, 1.0, 0.5, 0.5]);
+    }
+
+    #[test]
+    fn too_few_vertices_draw_nothing() {
+        assert!(line(true, &[]).pieces().is_empty());
+        assert!(line(true, &[(0.0, 0.0, 1.0, 1.0)]).pieces().is_empty());
+        // There and back is the same line.
+        assert_eq!(line(true, &[(0.0, 0.0, 1.0, 1.0), (1.0, 0.0, 1.0, 1.0)]).pieces().len(), 1);
+    }
+}

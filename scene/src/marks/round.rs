@@ -1,0 +1,112 @@
+//! Marks on steps ([STIP-16]), so that every file has the same geometry.
+
+use super::{Marks, PageUnit};
+use glam::DVec2;
+
+/// Steps of a millimetre for places: 0.001 mm.
+pub(super) const PLACE: f64 = 1000.0;
+
+/// Steps of 1 for opacities: sixteenths.
+pub(super) const OPACITY: f64 = 16.0;
+
+/// The multiple of 1/`steps` nearest to `x`; a tie goes to the even one. Division by a whole number makes it the number
+/// that its decimals are read as.
+pub(super) fn nearest(x: f64, steps: f64) -> f64 {
+    (x * steps).round_ties_even() / steps
+}
+
+impl Marks {
+    /// Puts every mark onto its step: places 0.001 mm, radii 0.005 mm, opacities 1/16. Where the scene counts in pixels,
+    /// radii have 0.001 mm too: a dot there may be a few hundredths of a millimetre.
+    ///
+    /// A dot that is left without radius or opacity, or whose place is not a number, is no dot any more; a vertex whose
+    /// place is not a number is left out, and so is a line of fewer than two. Rounding twice changes nothing.
+    pub fn round(&mut self) {
+        let radius_steps = match self.page.unit {
+            PageUnit::Millimetres => 200.0,
+            PageUnit::Pixels => PLACE,
+        };
+        let place = |at: &mut DVec2| *at = DVec2::new(nearest(at.x, PLACE), nearest(at.y, PLACE));
+        for layer in &mut self.layers {
+            layer.dots.retain_mut(|dot| {
+                place(&mut dot.at);
+                dot.radius = nearest(dot.radius, radius_steps);
+                dot.opacity = nearest(dot.opacity.min(1.0), OPACITY);
+                dot.at.is_finite() && dot.radius > 0.0 && dot.radius.is_finite() && dot.opacity > 0.0
+            });
+            layer.lines.retain_mut(|line| {
+                line.vertices.retain_mut(|vertex| {
+                    place(&mut vertex.at);
+                    vertex.radius = nearest(vertex.radius, radius_steps);
+                    vertex.opacity = nearest(vertex.opacity.clamp(0.0, 1.0), OPACITY);
+                    vertex.at.is_finite() && vertex.radius.is_finite()
+                });
+                line.vertices.len() > 1
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Dot, Layer, Page, Pen, Polyline, Vertex};
+    use super::*;
+    use glam::DVec3;
+
+    fn dot(x: f64, y: f64, radius: f64, opacity: f64) -> Dot {
+        Dot { at: DVec2::new(x, y), world: DVec3::new(0.1234567, 0.0, 0.0), radius, opacity }
+    }
+
+    fn marks(page: Page, dots: Vec<Dot>) -> Marks {
+        let pen = Pen { number: 1, name: "black".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] };
+        Marks { page, layers: vec![Layer { dots, ..Layer::new(pen) }] }
+    }
+
+    #[test]
+    fn hand_worked_steps() {
+        let list = vec![dot(12.34567, 0.00049, 0.1234, 0.52), dot(1.0, 2.0, 0.0024, 1.0), dot(1.0, 2.0, 1.0, 0.03)];
+        let mut paper = marks(Page::in_millimetres(DVec2::splat(100.0), 0.0, 300.0), list.clone());
+        paper.round();
+        // 0.1234 lies between 0.120 and 0.125; 0.52 between 8/16 and 9/16; 0.0024 is below half a step, 0.03 below 1/32.
+        assert_eq!(paper.layers[0].dots, [dot(12.346, 0.0, 0.125, 0.5)]);
+        let mut screen = marks(Page::in_pixels([100, 100], 0.0, 300.0), list);
+        screen.round();
+        assert_eq!(screen.layers[0].dots, [dot(12.346, 0.0, 0.123, 0.5), dot(1.0, 2.0, 0.002, 1.0)]);
+    }
+
+    #[test]
+    fn a_step_is_the_number_that_its_decimals_say() {
+        // Otherwise a list that is written in decimals would come back with other bits.
+        for n in 0..20_000u32 {
+            let text = format!("{}.{:03}", n / 1000, n % 1000);
+            let said: f64 = text.parse().unwrap();
+            assert_eq!(nearest(said + 2e-4, PLACE).to_bits(), said.to_bits(), "{text}");
+            assert_eq!(nearest(said, PLACE).to_bits(), said.to_bits(), "{text}");
+        }
+    }
+
+    #[test]
+    fn rounding_twice_changes_nothing() {
+        let dots = (1..2000).map(|i| f64::from(i) * 0.0777).map(|x| dot(x, 1.0 / x, x / 90.0, x / 160.0)).collect();
+        let mut once = marks(Page::in_millimetres(DVec2::splat(100.0), 0.0, 300.0), dots);
+        once.round();
+        let mut twice = once.clone();
+        twice.round();
+        assert_eq!(once, twice);
+    }
+
+    #[test]
+    fn what_is_no_number_is_left_out() {
+        let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+        let mut dots: Vec<Dot> = bad.iter().map(|&x| dot(x, 1.0, 1.0, 1.0)).collect();
+        dots.extend([dot(1.0, 1.0, f64::NAN, 1.0), dot(1.0, 1.0, f64::INFINITY, 1.0), dot(1.0, 1.0, -1.0, 1.0)]);
+        let mut list = marks(Page::in_millimetres(DVec2::splat(100.0), 0.0, 300.0), dots);
+        let vertex = |x| Vertex { at: DVec2::new(x, 0.0), world: DVec3::ZERO, radius: 0.1, opacity: 2.0, t: 0.0 };
+        let line = |xs: [f64; 3]| Polyline { vertices: xs.map(vertex).to_vec(), closed: false };
+        list.layers[0].lines = vec![line([0.0, f64::NAN, 1.0]), line([0.0, f64::NAN, f64::INFINITY])];
+        list.round();
+        assert_eq!((list.layers[0].dots.len(), list.layers[0].lines.len()), (0, 1));
+        let vertices = &list.layers[0].lines[0].vertices;
+        assert_eq!((vertices.len(), vertices[0].opacity), (2, 1.0));
+    }
+}
