@@ -2,10 +2,10 @@
 
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, LightDirection, PictureSettings, Sampling, Shading, StyleMipmaps, Styles, Transfer, TransferKind,
+    Camera, Contours, LightDirection, PictureSettings, Sampling, Shading, Stipples, StyleMipmaps, Styles, Transfer, TransferKind,
     VolumeSource, VolumeTable,
 };
-use super::{camera, contours, over, picture, sampling, shading, style_mipmaps, styles, transfer, volume};
+use super::{camera, contours, over, picture, sampling, shading, stipples, style_mipmaps, styles, transfer, volume};
 use crate::file::Given;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
@@ -40,6 +40,8 @@ pub struct Scene {
     pub contours: Option<Contours>,
     /// Mip-maps of the styles; none: each lookup reads the style itself.
     pub style_mipmaps: Option<StyleMipmaps>,
+    /// Volume stippling; none: no dots.
+    pub stipples: Option<Stipples>,
     /// Which keys the scene said itself, and where. It takes no part in comparisons.
     pub given: Given,
 }
@@ -63,6 +65,7 @@ impl Scene {
             shading: None,
             contours: None,
             style_mipmaps: None,
+            stipples: None,
             given: Given::default(),
         }
     }
@@ -116,7 +119,6 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("arrow", "VS-8"),
         later("fan", "VS-10"),
         later("label", "VS-10"),
-        later("stipples", "STIP-1"),
         later("hatching", "HATCH-1"),
         later("outlines", "HATCH-18"),
         later("surface", "HATCH-14"),
@@ -278,6 +280,17 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 },
             )
             .absent("no mip-maps"),
+            Key::new(
+                "stipples",
+                "STIP-1",
+                "Stippling: dots on the volume's boundaries.",
+                &Slot {
+                    kind: TableOf(&stipples::TABLE),
+                    get: |s: &Scene| s.stipples.clone(),
+                    set: |s, v| s.stipples = Some(v),
+                },
+            )
+            .absent("no stipples"),
         ],
     )
 };
