@@ -1,10 +1,17 @@
 //! Volume stippling (Lu, Morris, Ebert, Rheingans, Hansen 2002).
+//!
+//! [`Preprocess`] finds the voxels that get points and makes them, once, from the reference camera; a frame then draws of
+//! each voxel's list as many as the factors say.
 
+mod area;
+mod error;
+mod norms;
 mod order;
+mod preprocess;
+mod resolution;
 mod slab;
+mod snap;
+mod thin;
 
-/// Prototype entry.
-pub fn try_points(cells: &[[u32; 3]], normals: &[drypoint_scene::glam::DVec3], slab: f64, each: usize, neighbours: bool) -> Vec<[f32; 3]> {
-    let sites = order::Sites { cells, normals, axes: drypoint_scene::glam::DMat3::IDENTITY, voxel: 1.0, slab, seed: 1, neighbours };
-    order::points(&sites, each, &|_| {})
-}
+pub use error::StippleError;
+pub use preprocess::{Inputs, Preprocess};
