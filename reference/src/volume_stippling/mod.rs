@@ -4,7 +4,11 @@
 //! each voxel's list as many as the factors say.
 
 mod area;
+mod blue_noise;
+mod count;
 mod error;
+mod factors;
+mod frame;
 mod norms;
 mod order;
 mod preprocess;
@@ -14,4 +18,5 @@ mod snap;
 mod thin;
 
 pub use error::StippleError;
+pub use frame::{Drawn, FrameInputs, Frames, viewing_distance};
 pub use preprocess::{Inputs, Preprocess};
