@@ -5,6 +5,7 @@
 //! Rules of the specification are cited by their tags, such as [SPACE-4].
 
 pub mod atomic;
+pub mod blue_noise;
 pub mod color;
 pub mod counts;
 pub mod file;

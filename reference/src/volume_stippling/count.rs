@@ -1,6 +1,6 @@
 //! From a voxel's share to its dots: eqs. 2 and 4 ([STIP-5], [STIP-6]).
 
-use super::blue_noise;
+use drypoint_scene::blue_noise;
 use drypoint_scene::tables::Ink;
 
 /// The dots of a voxel: the first of its list.
@@ -58,7 +58,9 @@ mod tests {
                     let Dots { whole, fading, .. } = dots(each, share, 1.0, Ink::Fade, CELL);
                     // In units of dots: the product is off by an ulp of it, of which each is half a unit roundoff of k.
                     assert!((whole as f64 + fading - k as f64).abs() <= 4.0 * f64::EPSILON * k as f64, "{each} {k}");
-                    assert!(fading <= 4.0 * f64::EPSILON * each as f64 || fading >= 1.0 - 4.0 * f64::EPSILON * each as f64);
+                    assert!(
+                        fading <= 4.0 * f64::EPSILON * each as f64 || fading >= 1.0 - 4.0 * f64::EPSILON * each as f64
+                    );
                 }
             }
         }

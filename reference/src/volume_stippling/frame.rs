@@ -164,7 +164,7 @@ impl<'a> Frames<'a> {
 }
 
 /// From index space to the page.
-struct Place {
+pub(super) struct Place {
     /// From index to eye space: directions, and the place of index 0.
     to_eye: DMat3,
     origin: DVec3,
@@ -179,7 +179,7 @@ struct Place {
 }
 
 impl Place {
-    fn new(view: &View, page: &Page, grid: &Grid) -> Self {
+    pub(super) fn new(view: &View, page: &Page, grid: &Grid) -> Self {
         let rotation = DMat3::from_cols(view.right, view.up, -view.forward).transpose();
         let half = page.picture() / 2.0;
         let mm = page.picture() / DVec2::from(view.size.map(|n| n as f64));
@@ -204,7 +204,7 @@ impl Place {
         self.to_world * index + self.world_origin
     }
 
-    fn on_page(&self, at: DVec3, near: f64) -> Option<DVec2> {
+    pub(super) fn on_page(&self, at: DVec3, near: f64) -> Option<DVec2> {
         let flat = DVec2::new(at.x, at.y) * self.scale;
         let off = if self.perspective {
             if -at.z < near {

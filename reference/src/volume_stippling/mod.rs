@@ -4,11 +4,12 @@
 //! each voxel's list as many as the factors say.
 
 mod area;
-mod blue_noise;
 mod count;
+mod curves;
 mod error;
 mod factors;
 mod frame;
+mod joined;
 mod norms;
 mod order;
 mod preprocess;
@@ -17,6 +18,8 @@ mod slab;
 mod snap;
 mod thin;
 
+pub use curves::{Edges, Segment, exhaustive};
 pub use error::StippleError;
 pub use frame::{Drawn, FrameInputs, Frames, viewing_distance};
+pub use joined::joined;
 pub use preprocess::{Inputs, Preprocess};

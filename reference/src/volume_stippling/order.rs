@@ -363,7 +363,13 @@ fn towards(sites: &Sites<'_>, n: DVec3) -> usize {
     if to == [0.0; 3] {
         // A diagonal of a voxel much longer than wide: the axis that comes nearest.
         let a = step.abs();
-        let axis = if a.x >= a.y && a.x >= a.z { 0 } else if a.y >= a.z { 1 } else { 2 };
+        let axis = if a.x >= a.y && a.x >= a.z {
+            0
+        } else if a.y >= a.z {
+            1
+        } else {
+            2
+        };
         to[axis] = step[axis].signum();
     }
     to.iter().rev().fold(0, |k, &x| 3 * k + (x + 1.0) as usize)

@@ -1,6 +1,7 @@
 //! The preprocess of section 4: from a volume to the voxels that get points, and their points ([STIP-1] … [STIP-4]).
 
 use super::area::{box_side, points_each, projected_area};
+use super::curves::Edges;
 use super::error::StippleError;
 use super::norms::{norms, quantile_above};
 use super::order::{self, Sites};
@@ -78,6 +79,31 @@ impl<'a> Preprocess<'a> {
         }
         let gradients = volume.grid().len() as u64;
         Ok(Self { inputs, volume, voxels, slab, area, box_side: m, each, gradients })
+    }
+
+    /// The voxels above a ‖∇V‖, whatever the threshold of points, at the adjusted resolution: those that curves are made of
+    /// ([STIP-13]).
+    ///
+    /// # Errors
+    /// None that [`new`](Self::new) has not found.
+    pub fn voxels_above(&self, magnitude: f64) -> Result<Vec<PointVoxel>, StippleError> {
+        let threshold = Threshold::Magnitude(magnitude);
+        let stipples = Stipples { threshold, thin: false, ..self.inputs.stipples.clone() };
+        let inputs = Inputs { stipples: &stipples, ..self.inputs };
+        let table = self.inputs.table;
+        let field = field_of(&self.volume, stipples.gradient, table.outside)?;
+        let range = table.range.unwrap_or(self.inputs.volume.range());
+        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, range)))
+    }
+
+    /// What curves are found in, whatever the camera; none where the scene has none.
+    ///
+    /// # Errors
+    /// None that [`new`](Self::new) has not found.
+    pub fn edges(&self) -> Result<Option<Edges>, StippleError> {
+        let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
+        let voxels = self.voxels_above(curves.grad)?;
+        Edges::new(&self.volume, &voxels, curves, self.inputs.table.outside).map(Some)
     }
 
     /// Number of points.
@@ -169,7 +195,8 @@ fn above<S: Sampler<f64>>(
         }
     };
     let grid = volume.grid();
-    let (to_step, outward) = (grid.inverse_axes() * grid.voxel(), if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 });
+    let (to_step, outward) =
+        (grid.inverse_axes() * grid.voxel(), if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 });
     let thin = Norms { dims, all: &norms };
     let voxel = |x: usize, y: usize, z: usize, norm: f64| {
         let cell = [x, y, z];

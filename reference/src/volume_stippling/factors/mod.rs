@@ -96,8 +96,7 @@ impl<'a> Moving<'a> {
     pub(super) fn of(&self, still: &Still, voxel: &PointVoxel, at: DVec3) -> Factors {
         let s = self.stipples;
         let facing = if self.facing { self.facing(voxel, at) } else { 1.0 };
-        let silhouette =
-            |t| silhouette::silhouette(&t, s.factors, voxel.value, voxel.magnitude, facing);
+        let silhouette = |t| silhouette::silhouette(&t, s.factors, voxel.value, voxel.magnitude, facing);
         let silhouette = s.silhouette.map_or(1.0, silhouette);
         let distance = s.distance.map_or(1.0, |t| distance::distance(&t, (self.depth + at.z) / self.radius));
         let lighting = s.lighting.map_or(1.0, |t| lighting::lighting(&t, self.light.dot(voxel.normal), facing));

@@ -3,10 +3,12 @@
 mod curves;
 mod factors;
 mod kinds;
+mod presets;
 mod table;
 
 pub use curves::{Curves, CurvesTest};
 pub use factors::{Boundary, Distance, Interior, Lighting, Resolution, Silhouette};
+pub(crate) use presets::StipplePreset;
 pub(crate) use table::TABLE;
 
 use crate::color::Rgba;
