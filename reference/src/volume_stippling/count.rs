@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn next_to_an_integer_nothing_jumps() {
         for each in [1usize, 7, 10_000] {
-            for k in [1, each / 2, each - 1, each] {
+            for k in [1, each.div_ceil(2), each] {
                 let share = k as f64 / each as f64;
                 for share in [share.next_down(), share, share.next_up()] {
                     let Dots { whole, fading, .. } = dots(each, share, 1.0, Ink::Fade, CELL);

@@ -121,7 +121,8 @@ impl<'a> Frames<'a> {
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, Part::default);
         drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
-            (part.larger, _) = (0, part.dots.clear());
+            part.larger = 0;
+            part.dots.clear();
             let range = p * PART..((p + 1) * PART).min(self.points.voxels.len());
             for i in range {
                 self.voxel(i, &moving, &place, part);
