@@ -14,9 +14,8 @@ mod norms;
 mod order;
 mod preprocess;
 mod resolution;
+mod ridge;
 mod slab;
-mod snap;
-mod thin;
 
 pub use curves::{Edges, Segment, exhaustive};
 pub use error::StippleError;

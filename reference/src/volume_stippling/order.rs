@@ -58,7 +58,9 @@ fn pool_size(each: usize) -> usize {
 
 /// Bytes a voxel of what is allocated to order the points, beside the points.
 pub(super) fn bytes_a_voxel(each: usize) -> u64 {
-    (pool_size(each) * (4 * size_of::<f32>() + size_of::<u32>()) + 26 * size_of::<u32>() + size_of::<Site>()) as u64
+    (pool_size(each) * (4 * size_of::<f32>() + size_of::<u32>() + 6 * size_of::<f32>() / LANES)
+        + 26 * size_of::<u32>()
+        + size_of::<Site>()) as u64
 }
 
 /// A voxel at work.
@@ -71,6 +73,8 @@ struct Site {
     reach: f32,
     /// The largest distance squared that a point of the pool can have to those taken.
     farthest: f32,
+    /// Of the point that it took last, in its pool.
+    slot: usize,
     /// Where its neighbours stand in the list of all.
     first: u32,
     end: u32,
@@ -83,12 +87,20 @@ struct Class {
     /// Of the first in the order of all.
     start: usize,
     sites: Vec<Site>,
-    /// For each site x, y, z and the squared distance to what is taken, of every point of its pool. What is not or no
-    /// longer in the pool has a distance below 0.
+    /// For each site x, y, z and the squared distance to what is taken, of every point of its pool. What is no longer in
+    /// the pool has a distance below 0.
     pools: Vec<[Lane; 4]>,
+    /// For each eight points of a pool, which lie together, what tells from afar whether they matter.
+    groups: Vec<[Lane; 6]>,
     /// The draw that made each point of a pool.
     draws: Vec<u32>,
 }
+
+/// Rows of a group's numbers: the middle, no point is farther from it, the largest distance squared to what is taken, and
+/// the distance squared up to which a point can lower one.
+const FAR: usize = 4;
+const REACH: usize = 3;
+const LIMIT: usize = 5;
 
 /// Takes `each` points for every voxel, in the order in which they are drawn, voxel after voxel. `done` hears how many of
 /// the ranks are done.
@@ -165,20 +177,21 @@ fn take(
 ) {
     let size = pool_size(each);
     let (start, number) = (class.start, class.number);
-    let (pools, draws) = (class.pools.par_chunks_mut(size / LANES), class.draws.par_chunks_mut(size));
-    let voxels = class.sites.par_iter_mut().zip(pools).zip(draws).zip(own).zip(chosen.par_chunks_mut(each));
-    voxels.enumerate().with_min_len(256).for_each(|(i, ((((site, pool), draws), own), chosen))| {
-        let live = size - step.rank;
-        let lanes = live.div_ceil(LANES);
+    let (pools, draws) = (class.pools.par_chunks_mut(size / LANES), class.draws.par_chunks(size));
+    let groups = class.groups.par_chunks_mut(rows_of_groups(size));
+    let voxels = class.sites.par_iter_mut().zip(pools).zip(groups).zip(draws).zip(own).zip(chosen.par_chunks_mut(each));
+    voxels.enumerate().with_min_len(256).for_each(|(i, (((((site, pool), groups), draws), own), chosen))| {
         let neighbours = &step.links.all[site.first as usize..site.end as usize];
         let mut near = Near::new();
         if step.sweep == 0 && step.rank > 0 {
-            remove(pool, draws, chosen[step.rank - 1], live);
+            let group = site.slot / LANES;
+            pool[group][3][site.slot % LANES] = -1.0;
+            settle(&pool[group], groups, group);
             near.add(site, seen.before[start + i], [0.0; 3]);
             for &link in neighbours {
                 near.add(site, seen.before[id_of(link)], step.around[offset_of(link)]);
             }
-            site.farthest = lower(&mut pool[..lanes], near.points());
+            site.farthest = lower(pool, groups, near.points());
             near = Near::new();
         }
         for &link in neighbours {
@@ -188,9 +201,9 @@ fn take(
                 near.add(site, point, step.around[offset_of(link)]);
             }
         }
-        let slot = farthest(&pool[..lanes], near.points());
-        chosen[step.rank] = draws[slot];
-        *own = scaled(sites, point_of(&site.slab, sites.seed, site.cell, draws[slot]));
+        site.slot = farthest(pool, groups, near.points());
+        chosen[step.rank] = draws[site.slot];
+        *own = scaled(sites, point_of(&site.slab, sites.seed, site.cell, draws[site.slot]));
     });
 }
 
@@ -222,37 +235,72 @@ impl Near {
 }
 
 /// Lowers the distances of a pool to those to some points, and gives the largest.
-#[inline]
-fn lower(pool: &mut [[Lane; 4]], points: &[[f32; 3]]) -> f32 {
-    let mut largest = [-1f32; LANES];
-    for [x, y, z, d] in pool {
-        for p in points {
-            nearer(x, y, z, d, p);
-        }
-        for (largest, d) in largest.iter_mut().zip(d) {
-            *largest = if *d > *largest { *d } else { *largest };
+fn lower(pool: &mut [[Lane; 4]], groups: &mut [[Lane; 6]], points: &[[f32; 3]]) -> f32 {
+    for p in points {
+        for row in 0..groups.len() {
+            let to = squared_distances(&groups[row], p);
+            for l in 0..LANES {
+                if to[l] < groups[row][LIMIT][l] {
+                    let group = row * LANES + l;
+                    let [x, y, z, d] = &mut pool[group];
+                    nearer(x, y, z, d, p);
+                    settle(&pool[group], groups, group);
+                }
+            }
         }
     }
-    largest.into_iter().fold(-1.0, f32::max)
+    groups.iter().flat_map(|row| row[FAR]).fold(-1.0, f32::max)
 }
 
-/// The place in a pool of the point farthest from what is taken and from some further points: the first of equals.
+/// What a group's numbers are after its distances have changed.
 #[inline]
-fn farthest(pool: &[[Lane; 4]], points: &[[f32; 3]]) -> usize {
-    let (mut best, mut at) = ([-1f32; LANES], [0u32; LANES]);
-    for (i, [x, y, z, d]) in pool.iter().enumerate() {
-        let mut d = *d;
-        for p in points {
-            nearer(x, y, z, &mut d, p);
-        }
-        for l in 0..LANES {
-            at[l] = if d[l] > best[l] { i as u32 } else { at[l] };
-            best[l] = if d[l] > best[l] { d[l] } else { best[l] };
+fn settle(points: &[Lane; 4], groups: &mut [[Lane; 6]], group: usize) {
+    let far = points[3].into_iter().fold(-1.0, f32::max);
+    let (row, l) = (&mut groups[group / LANES], group % LANES);
+    row[FAR][l] = far;
+    row[LIMIT][l] = if far < 0.0 { -1.0 } else { (far.sqrt() + row[REACH][l]) * (far.sqrt() + row[REACH][l]) };
+}
+
+/// The place in a pool of the point farthest from what is taken and from some further points. A group is looked into only
+/// if its farthest could be it, that of the largest distance first.
+fn farthest(pool: &[[Lane; 4]], groups: &[[Lane; 6]], points: &[[f32; 3]]) -> usize {
+    let far = |group: usize| groups[group / LANES][FAR][group % LANES];
+    let mut first = 0;
+    for group in 1..pool.len() {
+        if far(group) > far(first) {
+            first = group;
         }
     }
-    let first = |&a: &usize, &b: &usize| best[a].total_cmp(&best[b]).then((at[b], b).cmp(&(at[a], a)));
-    let lane = (0..LANES).max_by(first).unwrap_or(0);
-    at[lane] as usize * LANES + lane
+    let (mut best, mut at) = (-1f32, first * LANES);
+    for group in std::iter::once(first).chain(0..pool.len()) {
+        if far(group) <= best {
+            continue;
+        }
+        let ([x, y, z, d], row, l) = (&pool[group], &groups[group / LANES], group % LANES);
+        let mut d = *d;
+        for p in points {
+            let (dx, dy, dz) = (row[0][l] - p[0], row[1][l] - p[1], row[2][l] - p[2]);
+            if dx * dx + dy * dy + dz * dz < row[LIMIT][l] {
+                nearer(x, y, z, &mut d, p);
+            }
+        }
+        for (l, &d) in d.iter().enumerate() {
+            if d > best {
+                (best, at) = (d, group * LANES + l);
+            }
+        }
+    }
+    at
+}
+
+#[inline(always)]
+fn squared_distances(row: &[Lane; 6], p: &[f32; 3]) -> Lane {
+    let mut to = [0.0; LANES];
+    for l in 0..LANES {
+        let (dx, dy, dz) = (row[0][l] - p[0], row[1][l] - p[1], row[2][l] - p[2]);
+        to[l] = dx * dx + dy * dy + dz * dz;
+    }
+    to
 }
 
 #[inline(always)]
@@ -262,16 +310,6 @@ fn nearer(x: &Lane, y: &Lane, z: &Lane, d: &mut Lane, p: &[f32; 3]) {
         let to = dx * dx + dy * dy + dz * dz;
         d[l] = if to < d[l] { to } else { d[l] };
     }
-}
-
-/// Takes the point of a draw out of a pool; `live` points are left, in front.
-fn remove(pool: &mut [[Lane; 4]], draws: &mut [u32], draw: u32, live: usize) {
-    let slot = draws[..=live].iter().position(|&d| d == draw).unwrap_or(live);
-    draws[slot] = draws[live];
-    for c in 0..4 {
-        pool[slot / LANES][c][slot % LANES] = pool[live / LANES][c][live % LANES];
-    }
-    pool[live / LANES][3][live % LANES] = -1.0;
 }
 
 impl Class {
@@ -284,26 +322,32 @@ impl Class {
             }
         }
         let mut pools = vec![[[0.0; LANES]; 4]; members.len() * size / LANES];
+        let mut groups = vec![[[-1.0; LANES]; 6]; members.len() * rows_of_groups(size)];
         let mut draws = vec![0; members.len() * size];
-        let parts = pools.par_chunks_mut(size / LANES).zip(draws.par_chunks_mut(size));
-        let site = |(&i, (pool, draws)): (&usize, (&mut [[Lane; 4]], &mut [u32]))| {
-            let id = ids[i] as usize;
-            Site::new(sites, i, links.range(id), links, pool, draws)
-        };
-        let sites = members.par_iter().zip(parts).map(site).collect();
-        Self { number: class, start, sites, pools, draws }
+        let parts = pools.par_chunks_mut(size / LANES).zip(groups.par_chunks_mut(rows_of_groups(size)));
+        let parts = parts.zip(draws.par_chunks_mut(size));
+        let sites = members
+            .par_iter()
+            .zip(parts)
+            .map_init(Vec::new, |scratch, (&i, ((pool, groups), draws))| {
+                let site = Site::new(sites, i, links.range(ids[i] as usize), links, draws, scratch);
+                site.fill(pool, groups, scratch);
+                site
+            })
+            .collect();
+        Self { number: class, start, sites, pools, groups, draws }
     }
 }
 
 impl Site {
-    /// The voxel with its pool filled.
+    /// The voxel with the draws of its pool, and in `scratch` where they lie, in the same order.
     fn new(
         sites: &Sites<'_>,
         i: usize,
         [first, end]: [u32; 2],
         links: &Links,
-        pool: &mut [[Lane; 4]],
         draws: &mut [u32],
+        scratch: &mut Vec<Drawn>,
     ) -> Self {
         let (cell, n) = (sites.cells[i], sites.normals[i]);
         let slab = Slab::new(sites.axes, n, sites.slab);
@@ -314,18 +358,69 @@ impl Site {
         let flat = if has(1.0) && has(-1.0) { DVec3::ZERO } else { n };
         let flat = flat.to_array().map(|x| x as f32);
         let mut reach = 0f32;
-        for (slot, draw) in draws.iter_mut().enumerate() {
-            let tries = slot as u32 * TRIES..(slot as u32 + 1) * TRIES;
-            *draw = tries.into_iter().find(|&d| slab.point(sites.seed, cell, d).is_some()).unwrap_or(CENTRE);
-            let p = flattened(flat, scaled(sites, point_of(&slab, sites.seed, cell, *draw)));
-            reach = reach.max(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-            for c in 0..3 {
-                pool[slot / LANES][c][slot % LANES] = p[c];
-            }
-            pool[slot / LANES][3][slot % LANES] = f32::MAX;
+        scratch.clear();
+        for slot in 0..draws.len() as u32 {
+            let mut tries = slot * TRIES..(slot + 1) * TRIES;
+            let found = tries.find_map(|draw| slab.point(sites.seed, cell, draw).map(|o| (draw, o)));
+            let (draw, o) = found.unwrap_or((CENTRE, [0.0; 3]));
+            let at = flattened(flat, scaled(sites, o));
+            reach = reach.max(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+            scratch.push(Drawn { key: 0, draw, at });
         }
-        Self { cell, slab, flat, reach: reach.sqrt(), farthest: f32::MAX, first, end }
+        let reach = reach.sqrt();
+        // Points that lie together stand together.
+        for drawn in scratch.iter_mut() {
+            drawn.key = morton(drawn.at.map(|x| 0.5 + 0.5 * x / reach.max(f32::MIN_POSITIVE)));
+        }
+        scratch.sort_unstable_by_key(|drawn| (drawn.key, drawn.draw));
+        draws.iter_mut().zip(scratch.iter()).for_each(|(draw, drawn)| *draw = drawn.draw);
+        Self { cell, slab, flat, reach, farthest: f32::MAX, slot: 0, first, end }
     }
+
+    /// Puts the points into the pool, and what is known of its groups.
+    fn fill(&self, pool: &mut [[Lane; 4]], groups: &mut [[Lane; 6]], points: &[Drawn]) {
+        for (group, (lanes, points)) in pool.iter_mut().zip(points.chunks_exact(LANES)).enumerate() {
+            let row = &mut groups[group / LANES];
+            let mut reach = 0f32;
+            for c in 0..3 {
+                for (l, point) in points.iter().enumerate() {
+                    lanes[c][l] = point.at[c];
+                }
+                row[c][group % LANES] = lanes[c].iter().sum::<f32>() / LANES as f32;
+            }
+            lanes[3] = [f32::MAX; LANES];
+            for point in points {
+                let off: f32 = (0..3).map(|c| point.at[c] - row[c][group % LANES]).map(|x| x * x).sum();
+                reach = reach.max(off);
+            }
+            // Rounding of the middle and of distances must not hide a point: a thousandth is far more than both.
+            row[REACH][group % LANES] = reach.sqrt() * 1.001 + f32::MIN_POSITIVE;
+            settle(lanes, groups, group);
+        }
+    }
+}
+
+/// A random point of a pool.
+struct Drawn {
+    /// Its place along a curve that keeps together what lies together.
+    key: u32,
+    draw: u32,
+    at: [f32; 3],
+}
+
+/// Bits of three numbers from 0 to 1, ten of each, in turn: Morton's order.
+fn morton(at: [f32; 3]) -> u32 {
+    let spread = |x: f32| {
+        // `as` clamps at 0.
+        let x = ((x * 1024.0) as u32).min(1023);
+        (0..10).fold(0, |bits, i| bits | (x >> i & 1) << (3 * i))
+    };
+    spread(at[0]) | spread(at[1]) << 1 | spread(at[2]) << 2
+}
+
+/// Rows of eight groups of eight points.
+fn rows_of_groups(size: usize) -> usize {
+    size.div_ceil(LANES * LANES)
 }
 
 /// In place of a draw: the centre of the voxel.
@@ -493,6 +588,94 @@ impl Rows {
                     }
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sites<'a>(cells: &'a [[u32; 3]], normals: &'a [DVec3], neighbours: bool) -> Sites<'a> {
+        Sites { cells, normals, axes: DMat3::IDENTITY, voxel: 1.0, slab: 0.5, seed: 1, neighbours }
+    }
+
+    /// What is pruned is what does not matter: distances and the farthest point are those of looking at every pair.
+    #[test]
+    fn groups_hide_no_point() {
+        let (cells, normals) = ([[3, 4, 5]], [DVec3::new(1.0, 2.0, 3.0).normalize()]);
+        let sites = sites(&cells, &normals, true);
+        let (ids, starts) = by_class(&cells);
+        let links = Links::new(&sites, &ids);
+        let size = pool_size(25);
+        let mut class = Class::new(&sites, &links, &ids, &starts, 1 + 4, size);
+        let all: Vec<[f32; 3]> =
+            class.pools.iter().flat_map(|[x, y, z, _]| (0..LANES).map(|l| [x[l], y[l], z[l]])).collect();
+        let squared = |a: [f32; 3], b: [f32; 3]| (0..3).map(|c| a[c] - b[c]).map(|x| x * x).sum::<f32>();
+        let mut wanted = vec![f32::MAX; all.len()];
+        for i in 0..60 {
+            let p = philox::uniforms(2, [i, 0, 0], 0);
+            let p = [0, 1, 2].map(|c| (1.5 * p[c] - 0.75) as f32);
+            let q = [p[1], p[2], -p[0]];
+            let nearest: Vec<f32> =
+                wanted.iter().zip(&all).map(|(d, a)| d.min(squared(*a, p)).min(squared(*a, q))).collect();
+            let slot = farthest(&class.pools, &class.groups, &[p, q]);
+            assert_eq!(nearest[slot], nearest.iter().copied().fold(-1.0, f32::max));
+            let largest = lower(&mut class.pools, &mut class.groups, &[p]);
+            wanted.iter_mut().zip(&all).for_each(|(d, a)| *d = d.min(squared(*a, p)));
+            let kept: Vec<f32> = class.pools.iter().flat_map(|lanes| lanes[3]).collect();
+            assert_eq!(kept, wanted);
+            assert_eq!(largest, wanted.iter().copied().fold(-1.0, f32::max));
+        }
+    }
+
+    #[test]
+    fn neighbours_are_found_with_their_offsets() {
+        let cells: Vec<[u32; 3]> =
+            [[0, 0, 0], [1, 0, 0], [3, 0, 0], [0, 1, 0], [2, 1, 0], [1, 1, 1], [1, 2, 2], [1, 1, 3]].into();
+        let rows = Rows::new(&cells);
+        for (i, &cell) in cells.iter().enumerate() {
+            let mut found = Vec::new();
+            rows.around(&cells, cell, |j, k| found.push((j, k)));
+            let wanted = cells.iter().enumerate().filter(|&(j, _)| j != i).filter_map(|(j, other)| {
+                let step: Vec<i64> = (0..3).map(|a| i64::from(other[a]) - i64::from(cell[a])).collect();
+                let near = step.iter().all(|s| s.abs() <= 1);
+                near.then(|| (j, (step[0] + 1 + 3 * (step[1] + 1) + 9 * (step[2] + 1)) as usize))
+            });
+            found.sort_unstable();
+            assert_eq!(found, wanted.collect::<Vec<_>>(), "{cell:?}");
+        }
+    }
+
+    #[test]
+    fn equal_parities_stand_together_and_a_step_changes_those_of_its_axes() {
+        let cells: Vec<[u32; 3]> = (0..60).map(|i| [i % 5, i / 5 % 4, i / 20]).collect();
+        let (ids, starts) = by_class(&cells);
+        let class = |i: usize| starts[1..8].iter().filter(|&&start| start <= ids[i] as usize).count();
+        for (i, cell) in cells.iter().enumerate() {
+            assert_eq!(class(i), (cell[0] % 2 + 2 * (cell[1] % 2) + 4 * (cell[2] % 2)) as usize);
+        }
+        assert_eq!([SELF, 14, 16, 22, 0].map(parities), [0, 1, 2, 4, 7]);
+        let orders: Vec<[usize; 8]> = (0..40).map(|rank| class_order(1, rank)).collect();
+        assert!(orders.iter().any(|order| order[0] != orders[0][0]));
+        for mut order in orders {
+            order.sort_unstable();
+            assert_eq!(order, [0, 1, 2, 3, 4, 5, 6, 7]);
+        }
+    }
+
+    #[test]
+    fn a_normal_leads_to_the_voxel_in_its_direction() {
+        let sheared = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::new(0.0, 0.0, 4.0));
+        for (axes, n, k) in [
+            (DMat3::IDENTITY, DVec3::X, 14),
+            (DMat3::IDENTITY, DVec3::new(1.0, 2.0, 3.0).normalize(), 13 + 3 + 9),
+            (DMat3::IDENTITY, DVec3::NEG_ONE.normalize(), 0),
+            // A voxel along z is four long: one voxel's way along n does not leave it, but it has no other neighbour there.
+            (sheared, DVec3::Z, 22),
+        ] {
+            let sites = Sites { axes, ..sites(&[], &[], true) };
+            assert_eq!(towards(&sites, n), k, "{n}");
         }
     }
 }

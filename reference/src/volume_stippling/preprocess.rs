@@ -6,8 +6,7 @@ use super::error::StippleError;
 use super::norms::{norms, quantile_above};
 use super::order::{self, Sites};
 use super::resolution::boxes;
-use super::snap;
-use super::thin::Norms;
+use super::ridge::Norms;
 use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
@@ -46,6 +45,8 @@ pub struct Preprocess<'a> {
     /// At the adjusted resolution ([STIP-2]).
     volume: Cow<'a, Volume>,
     voxels: Vec<PointVoxel>,
+    /// Of each where the edge is, along n from its centre in voxels; empty where points stay.
+    tops: Vec<f64>,
     slab: f64,
     /// A_vol ([STIP-3]).
     pub area: f64,
@@ -73,12 +74,12 @@ impl<'a> Preprocess<'a> {
         let field = field_of(&volume, stipples.gradient, table.outside)?;
         let each = points_each(stipples.k_max, area, volume.dims());
         let range = table.range.unwrap_or(fine);
-        let voxels = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
+        let (voxels, tops) = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
         if voxels.len() > order::MOST_VOXELS {
             return Err(StippleError::TooMany { voxels: voxels.len(), most: order::MOST_VOXELS });
         }
         let gradients = volume.grid().len() as u64;
-        Ok(Self { inputs, volume, voxels, slab, area, box_side: m, each, gradients })
+        Ok(Self { inputs, volume, voxels, tops, slab, area, box_side: m, each, gradients })
     }
 
     /// The voxels above a ‖∇V‖, whatever the threshold of points, at the adjusted resolution: those that curves are made of
@@ -88,12 +89,12 @@ impl<'a> Preprocess<'a> {
     /// None that [`new`](Self::new) has not found.
     pub fn voxels_above(&self, magnitude: f64) -> Result<Vec<PointVoxel>, StippleError> {
         let threshold = Threshold::Magnitude(magnitude);
-        let stipples = Stipples { threshold, thin: false, ..self.inputs.stipples.clone() };
+        let stipples = Stipples { threshold, thin: false, snap: Snap::None, ..self.inputs.stipples.clone() };
         let inputs = Inputs { stipples: &stipples, ..self.inputs };
         let table = self.inputs.table;
         let field = field_of(&self.volume, stipples.gradient, table.outside)?;
         let range = table.range.unwrap_or(self.inputs.volume.range());
-        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, range)))
+        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, range)).0)
     }
 
     /// What curves are found in, whatever the camera; none where the scene has none.
@@ -145,10 +146,7 @@ impl<'a> Preprocess<'a> {
         };
         let offsets = order::points(&sites, self.each, done);
         let mut points = Points { grid: grid.clone(), each: self.each, voxels: self.voxels.clone(), offsets };
-        if stipples.snap == Snap::Edge {
-            let field = field_of(&self.volume, stipples.gradient, self.inputs.table.outside)?;
-            with_sampler!(field, |sampler| snap::onto_edges(sampler, &mut points));
-        }
+        onto_edges(&mut points, &self.tops);
         counts.preprocess.insert("stipple gradients".into(), self.gradients);
         counts.preprocess.insert("stipple points".into(), points.len() as u64);
         counts.bytes.insert("points".into(), points.bytes());
@@ -169,13 +167,14 @@ fn estimator(gradient: StippleGradient) -> GradientEstimator {
     }
 }
 
-/// The voxels above the threshold, in linear order ([STIP-4]); `range` is what V = 0 and 1 stand for.
+/// The voxels above the threshold, in linear order, and with `snap` where the edge is ([STIP-4]); `range` is what V = 0 and 1
+/// stand for.
 fn above<S: Sampler<f64>>(
     sampler: &S,
     field: &Field<'_, f64>,
     inputs: &Inputs<'_>,
     range: [f64; 2],
-) -> Vec<PointVoxel> {
+) -> (Vec<PointVoxel>, Vec<f64>) {
     let volume = field.volume();
     let (stipples, dims) = (inputs.stipples, volume.dims());
     let norms = norms(sampler, volume, estimator(stipples.gradient));
@@ -197,11 +196,11 @@ fn above<S: Sampler<f64>>(
     let grid = volume.grid();
     let (to_step, outward) =
         (grid.inverse_axes() * grid.voxel(), if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 });
-    let thin = Norms { dims, all: &norms };
+    let ridge = Norms { dims, all: &norms };
     let voxel = |x: usize, y: usize, z: usize, norm: f64| {
         let cell = [x, y, z];
         let normal = (sampler.voxel_gradient(cell).to_glam() * (outward / norm)).normalize();
-        let keeps = !stipples.thin || thin.is_largest(cell, to_step * normal);
+        let keeps = !stipples.thin || ridge.is_largest(cell, to_step * normal);
         keeps.then(|| PointVoxel {
             cell: cell.map(|i| i as u32),
             value: normalized(field.smoothed_value(cell), range),
@@ -209,12 +208,30 @@ fn above<S: Sampler<f64>>(
             normal,
         })
     };
+    let top = |v: &PointVoxel| ridge.top(v.cell.map(|i| i as usize), to_step * v.normal);
     let rows = norms.par_chunks(dims[0]).enumerate().map(|(row, norms)| {
         let (y, z) = (row % dims[1], row / dims[1]);
         let candidates = norms.iter().enumerate().filter(|&(_, &norm)| norm > bound && is_above(norm));
         candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)).collect::<Vec<_>>()
     });
-    rows.collect::<Vec<_>>().concat()
+    let voxels = rows.collect::<Vec<_>>().concat();
+    let tops = if stipples.snap == Snap::Edge { voxels.par_iter().map(top).collect() } else { Vec::new() };
+    (voxels, tops)
+}
+
+/// Moves each point along n onto the plane on which ‖∇V‖ is largest: within a voxel an edge is flat but for a share of its
+/// curvature.
+fn onto_edges(points: &mut Points, tops: &[f64]) {
+    let grid = &points.grid;
+    let (axes, voxel, to_index) = (grid.axes(), grid.voxel(), grid.inverse_axes());
+    let each = points.offsets.par_chunks_mut(points.each).zip(&points.voxels).zip(tops);
+    each.for_each(|((offsets, v), top)| {
+        for offset in offsets {
+            let o = DVec3::from_array(offset.map(f64::from));
+            let along = top * voxel - v.normal.dot(axes * o);
+            *offset = (o + to_index * v.normal * along).to_array().map(|x| x as f32);
+        }
+    });
 }
 
 /// V in [0, 1] ([VAL-1]); at a border the fit can leave the range of the values. In a range without length V is 1 above it.

@@ -138,7 +138,7 @@ fn resolution_keeps_the_density_on_the_page() {
 #[test]
 fn dots_lie_where_the_camera_sees_their_points() {
     let shown = Shown::new();
-    for view in [shown.reference.clone(), orthographic(&shown.volume, 4.0)] {
+    for view in [shown.reference.clone(), orthographic(&shown.volume, 2.0)] {
         let dots = shown.draw(&Stipples::default(), &view, None);
         assert_eq!(dots.len(), shown.points.len());
         for dot in dots {
