@@ -388,7 +388,10 @@ impl Site {
                 }
                 row[c][group % LANES] = lanes[c].iter().sum::<f32>() / LANES as f32;
             }
-            lanes[3] = [f32::MAX; LANES];
+            // Before anything is taken the first draw counts as the farthest: a random one, wherever it stands here.
+            for (d, point) in lanes[3].iter_mut().zip(points) {
+                *d = f32::MAX / (1.0 + point.draw as f32);
+            }
             for point in points {
                 let off: f32 = (0..3).map(|c| point.at[c] - row[c][group % LANES]).map(|x| x * x).sum();
                 reach = reach.max(off);
@@ -612,7 +615,7 @@ mod tests {
         let all: Vec<[f32; 3]> =
             class.pools.iter().flat_map(|[x, y, z, _]| (0..LANES).map(|l| [x[l], y[l], z[l]])).collect();
         let squared = |a: [f32; 3], b: [f32; 3]| (0..3).map(|c| a[c] - b[c]).map(|x| x * x).sum::<f32>();
-        let mut wanted = vec![f32::MAX; all.len()];
+        let mut wanted: Vec<f32> = class.pools.iter().flat_map(|lanes| lanes[3]).collect();
         for i in 0..60 {
             let p = philox::uniforms(2, [i, 0, 0], 0);
             let p = [0, 1, 2].map(|c| (1.5 * p[c] - 0.75) as f32);
