@@ -113,6 +113,10 @@ impl Job {
             };
             plan.warn_step(step * stretch, volume.grid().voxel());
         }
+        if scene.stipples.is_some() {
+            let what = "stipples are not drawn into a rendered picture yet ([STIP-16])";
+            return Err(Failure::new(what, scene.given.position("stipples"), "remove the table [stipples]").into());
+        }
         let mut failures = Vec::new();
         let reads_labels = plan.needs(Quantity::Label) || plan.needs(Quantity::LabelDistance);
         let labels = if reads_labels { Named::load(&scene.volume, &mut failures) } else { Named::default() };

@@ -11,3 +11,4 @@ pub mod shading;
 pub mod style_transfer_functions;
 pub mod suggest;
 pub mod transfer;
+pub mod volume_stippling;

@@ -5,6 +5,7 @@
 //! Rules of the specification are cited by their tags, such as [SPACE-4].
 
 pub mod atomic;
+pub mod blue_noise;
 pub mod color;
 pub mod counts;
 pub mod file;
@@ -16,6 +17,7 @@ pub mod phantom;
 pub mod philox;
 pub mod picture;
 pub mod plan;
+pub mod points;
 pub mod space;
 pub mod style;
 pub mod tables;

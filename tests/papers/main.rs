@@ -4,3 +4,4 @@
 mod common;
 
 mod style_transfer_functions;
+mod volume_stippling;

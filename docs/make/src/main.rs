@@ -1,6 +1,7 @@
 //! Writes the generated pages and pictures of the repository.
 
 mod accuracy;
+mod blue_noise;
 mod called_for;
 mod cost;
 mod figures;
@@ -22,6 +23,7 @@ type Page = (&'static str, fn() -> Result<(), String>);
 
 const PAGES: &[Page] = &[
     ("accuracy", accuracy::write),
+    ("blue-noise", blue_noise::write),
     ("called-for", called_for::write),
     ("cost", cost::write),
     ("figure-1", painting::figure::write),

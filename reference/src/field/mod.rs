@@ -242,6 +242,15 @@ impl<'v, R: Real> Field<'v, R> {
         self.no_normal_below
     }
 
+    /// The value at a voxel: d of the fit where the gradient is `regression`'s and prepared for ([STIP-1]), else the
+    /// voxel's own.
+    pub fn smoothed_value(&self, voxel: [usize; 3]) -> R {
+        match &self.regression {
+            Some(regression) => self.to_value(regression.value_at_voxel(self, voxel)),
+            None => R::from_f64(self.volume.value(voxel)),
+        }
+    }
+
     /// The sampler of the field's kernel.
     pub fn sampler(&self) -> AnySampler<'_, 'v, R> {
         match &self.kernel {

@@ -48,7 +48,7 @@ pub(super) fn quantile_of_norms<R: Real, S: Sampler<R>>(
 /// inwards from a border where differences are one-sided. Across, central differences read nothing more, Sobel's operator
 /// the neighbours where it has both, and the others all that there are; for the kernels' own derivatives these are the
 /// corners of the eight cells about the voxel.
-fn touches(mask: &Mask, dims: [usize; 3], voxel: [usize; 3], estimator: GradientEstimator) -> bool {
+pub(crate) fn touches(mask: &Mask, dims: [usize; 3], voxel: [usize; 3], estimator: GradientEstimator) -> bool {
     use GradientEstimator::{Analytic, Central, Regression, Sobel};
     let neighbours = |a: usize| voxel[a].saturating_sub(1)..=(voxel[a] + 1).min(dims[a] - 1);
     let at_border = |a: usize| voxel[a] == 0 || voxel[a] + 1 == dims[a];

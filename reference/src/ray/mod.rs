@@ -15,4 +15,5 @@ mod render;
 mod sample;
 pub mod skip;
 
+pub(crate) use gradient_range::touches as touches_mask;
 pub use render::{Backdrop, Inputs, RenderError, Renderer};

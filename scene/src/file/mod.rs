@@ -96,8 +96,8 @@ fn read(text: &str, overrides: &Overrides, check: &mut Check) -> Option<Scene> {
     };
     overrides.apply(&mut document, check);
     let mut scene = check.table(&ROOT, &document)?;
-    if scene.transfer.is_none() {
-        // The preset `style` ([SCN-3]); no other is built.
+    if scene.transfer.is_none() && scene.stipples.is_none() {
+        // The preset `style`, for a scene that would draw nothing ([SCN-3]).
         scene.transfer = Some(Transfer::automatic(TransferKind::Style));
     }
     Some(scene)

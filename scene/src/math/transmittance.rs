@@ -105,7 +105,7 @@ mod tests {
             .flat_map(|i| {
                 let by_exponent = f64::from_bits(1 + (one - 2) / third * i);
                 let even = (i as f64 + 0.5) / third as f64;
-                let left = f64::from_bits(one - (54 << 52) * i / third - 1);
+                let left = f64::from_bits(one - (54 << 52) / third * i - 1);
                 [by_exponent, even, 1.0 - left]
             })
             .filter(|&a| 0.0 < a && a < 1.0)

@@ -14,6 +14,7 @@ pub mod picture;
 pub mod sampling;
 pub mod scene;
 pub mod shading;
+pub mod stipples;
 pub mod style_mipmaps;
 pub mod styles;
 pub mod transfer;
@@ -31,6 +32,10 @@ pub use picture::{Background, BlendSpace, PictureSettings};
 pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Number, Sampling, StepAlong};
 pub use scene::Scene;
 pub use shading::{LightDirection, Shading};
+pub use stipples::{
+    Boundary, Curves, CurvesTest, Distance, FactorRange, Ink, Interior, Lighting, Resolution, Silhouette, Snap,
+    StippleGradient, StippleOrder, Stipples, Threshold,
+};
 pub use style_mipmaps::StyleMipmaps;
 pub use styles::{StyleFile, StyleSource, Styles};
 pub use transfer::{Mix, Node, NodeColor, SphereFrame, Table, Transfer, TransferKind, Transparency, Unit};

@@ -1,11 +1,14 @@
 //! The scene: the top of a scene file ([SCN-1], [SCN-3]).
 
+use super::stipples::StipplePreset;
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, LightDirection, PageSettings, PenSettings, PictureSettings, Sampling, Shading, StyleMipmaps,
-    Styles, Transfer, TransferKind, VolumeSource, VolumeTable,
+    Camera, Contours, LightDirection, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
+    StyleMipmaps, Styles, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
-use super::{camera, contours, over, page, pen, picture, sampling, shading, style_mipmaps, styles, transfer, volume};
+use super::{
+    camera, contours, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, transfer, volume,
+};
 use crate::file::Given;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
@@ -44,6 +47,8 @@ pub struct Scene {
     pub contours: Option<Contours>,
     /// Mip-maps of the styles; none: each lookup reads the style itself.
     pub style_mipmaps: Option<StyleMipmaps>,
+    /// Volume stippling; none: no dots.
+    pub stipples: Option<Stipples>,
     /// Which keys the scene said itself, and where. It takes no part in comparisons.
     pub given: Given,
 }
@@ -69,9 +74,19 @@ impl Scene {
             shading: None,
             contours: None,
             style_mipmaps: None,
+            stipples: None,
             given: Given::default(),
         }
     }
+}
+
+/// What `preset` names.
+#[derive(Clone, Copy, PartialEq)]
+enum Preset {
+    /// An automatic style transfer function.
+    Style,
+    /// A table `[stipples]`.
+    Stipples(StipplePreset),
 }
 
 /// The version of the format.
@@ -120,7 +135,6 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("arrow", "VS-8"),
         later("fan", "VS-10"),
         later("label", "VS-10"),
-        later("stipples", "STIP-1"),
         later("hatching", "HATCH-1"),
         later("outlines", "HATCH-18"),
         later("surface", "HATCH-14"),
@@ -165,18 +179,62 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 "Whole tables for a scene that lacks them.",
                 &Slot {
                     kind: Choice {
-                        options: &[ChoiceOption::new("style", (), "An automatic style transfer function.")],
+                        options: &[
+                            ChoiceOption::new("style", Preset::Style, "An automatic style transfer function."),
+                            ChoiceOption::new(
+                                "stipple",
+                                Preset::Stipples(StipplePreset::Plain),
+                                "Stipples on boundaries and silhouettes, one layer a face, and silhouette curves.",
+                            ),
+                            ChoiceOption::new(
+                                "stipple-fig1",
+                                Preset::Stipples(StipplePreset::Fig1),
+                                "Boundary, silhouette and curves of Lu et al., Fig. 1: the engine.",
+                            ),
+                            ChoiceOption::new(
+                                "stipple-fig4",
+                                Preset::Stipples(StipplePreset::Fig4),
+                                "Resolution, Fig. 4: the leg.",
+                            ),
+                            ChoiceOption::new(
+                                "stipple-fig5",
+                                Preset::Stipples(StipplePreset::Fig5),
+                                "Distance, Fig. 5: the engine.",
+                            ),
+                            ChoiceOption::new(
+                                "stipple-fig6",
+                                Preset::Stipples(StipplePreset::Fig6),
+                                "Interior, Fig. 6: the bonsai.",
+                            ),
+                            ChoiceOption::new(
+                                "stipple-fig7",
+                                Preset::Stipples(StipplePreset::Fig7),
+                                "Lighting, Fig. 7: the aneurysm.",
+                            ),
+                            ChoiceOption::new(
+                                "stipple-fig8",
+                                Preset::Stipples(StipplePreset::Fig8),
+                                "Curves, Fig. 8: the foot.",
+                            ),
+                            ChoiceOption::new(
+                                "stipple-fig9",
+                                Preset::Stipples(StipplePreset::Fig9),
+                                "Silhouette, boundary, distance and curves, Fig. 9: the head.",
+                            ),
+                        ],
                         later: &[
                             ("toon", "HATCH-15"),
                             ("halo", "HALO-1"),
-                            ("stipple", "STIP-14"),
-                            ("stipple-fig1", "STIP-14"),
                             ("hatch", "HATCH-17"),
                             ("hatch-fig4", "HATCH-17"),
                         ],
                     },
                     get: |_| None,
-                    set: |_, ()| {},
+                    // It is read before the tables, of which each that the file has takes the place of the preset's.
+                    set: |scene: &mut Scene, preset| match preset {
+                        Preset::Style => scene.transfer = Some(Transfer::automatic(TransferKind::Style)),
+                        Preset::Stipples(preset) => scene.stipples = Some(preset.table()),
+                    },
                 },
             )
             .absent("\"style\" where the scene draws nothing else"),
@@ -301,6 +359,17 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 },
             )
             .absent("no mip-maps"),
+            Key::new(
+                "stipples",
+                "STIP-1",
+                "Stippling: dots on the volume's boundaries.",
+                &Slot {
+                    kind: TableOf(&stipples::TABLE),
+                    get: |s: &Scene| s.stipples.clone(),
+                    set: |s, v| s.stipples = Some(v),
+                },
+            )
+            .absent("no stipples"),
         ],
     )
 };

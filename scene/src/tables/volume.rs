@@ -622,7 +622,7 @@ impl Kind for Quantile {
 }
 
 /// The number of `"q0.999"`: digits and a point only, at most 1.
-fn quantile(text: &str) -> Option<f64> {
+pub(crate) fn quantile(text: &str) -> Option<f64> {
     let digits = text.strip_prefix('q')?;
     let plain = digits.bytes().all(|b| b.is_ascii_digit() || b == b'.');
     digits.parse().ok().filter(|q| plain && Bounds::UNIT.contain(*q))

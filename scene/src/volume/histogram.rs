@@ -73,7 +73,7 @@ fn count<A: Access>(volume: &Volume, access: A, bins: usize, bin: impl Fn(f64) -
 
 /// The place, from 0, of the quantile q of n > 0 numbers in ascending order: the ⌈qn⌉-th, the first for q = 0
 /// ([VAL-2]). A product within rounding of a whole number is that number, so that q = 0.07 of 100 is the seventh.
-fn rank(q: f64, n: usize) -> usize {
+pub fn rank(q: f64, n: usize) -> usize {
     let product = q * n as f64;
     let whole = product.round();
     // q and the product are each rounded once, by up to half an ε.

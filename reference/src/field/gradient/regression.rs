@@ -2,7 +2,8 @@
 //!
 //! L. Neumann, B. Csébfalvi, A. König, E. Gröller, *Gradient Estimation in Volume Data using 4D Linear Regression*,
 //! Computer Graphics Forum 19(3), 2000: a·x + b·y + c·z + d is fitted to the 3×3×3 voxels around one, each weighted
-//! with 1/distance in world units, the middle one with 2/(smallest spacing); (a, b, c) is the gradient.
+//! with 1/distance in world units, the middle one with 2/(smallest spacing); (a, b, c) is the gradient, d the smoothed
+//! value in the middle.
 //!
 //! The fit is the same in any linear coordinates, so it is made in index space, where an axis of length 1 can be left
 //! out: h, the gradient along the index axes, is one linear combination of the voxels for each set of voxels that exist:
@@ -16,8 +17,8 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Access;
 
-/// Weights of the 3³ voxels around one, x fastest, for the derivative along each index axis.
-type Weights<R> = [[R; 27]; 3];
+/// Weights of the 3³ voxels around one, x fastest: for the derivative along each index axis, and for d.
+type Weights<R> = [[R; 27]; 4];
 
 /// The fit for each of the cases that a grid has.
 #[derive(Clone, Debug)]
@@ -93,10 +94,26 @@ impl<R: Real> Regression<R> {
         self.fitted([3; 3], &around)
     }
 
+    /// d at a voxel, as stencils read it.
+    pub(in crate::field) fn value_at_voxel(&self, field: &Field<'_, R>, voxel: [usize; 3]) -> R {
+        let dims = field.stencils.dims();
+        let cell: [usize; 3] = std::array::from_fn(|a| voxel[a].min(dims[a].max(2) - 2));
+        let [i, j, k]: [usize; 3] = std::array::from_fn(|a| voxel[a] - cell[a]);
+        let block = field.stencils.block::<R>(cell);
+        let first = block[k + 1][j + 1][i + 1];
+        let Some([.., d]) = self.case(std::array::from_fn(|a| sides(voxel[a], dims[a]))) else { return first };
+        // The weights' sum is 1, and a constant is given back exactly.
+        let mut sum = R::ZERO;
+        for (t, &weight) in d.iter().enumerate() {
+            sum += (block[k + t / 9][j + t / 3 % 3][i + t % 3] - first) * weight;
+        }
+        first + sum
+    }
+
     /// The fitted gradient of a voxel from its neighbourhood, x fastest.
     fn fitted(&self, s: [usize; 3], around: &[R; 27]) -> Vec3<R> {
         // The second corner of the one cell of an axis of length 1 lies outside and has no weight.
-        let Some([x, y, z]) = self.case(s) else { return Vec3::zero() };
+        let Some([x, y, z, _]) = self.case(s) else { return Vec3::zero() };
         let mut sum = Vec3::zero();
         for (t, &c) in around.iter().enumerate() {
             sum = sum + Vec3::new(c * x[t], c * y[t], c * z[t]);
@@ -158,7 +175,7 @@ fn fit(grid: &Grid, sides: [usize; 3]) -> Weights<f64> {
         normal[axis][axis] = 1.0;
     }
     let inverse = inverted(normal);
-    let mut weights = [[0.0; 27]; 3];
+    let mut weights = [[0.0; 27]; 4];
     for (t, phi, weight) in neighbours {
         for (axis, row) in weights.iter_mut().enumerate() {
             row[t] = weight * (0..4).map(|j| inverse[axis][j] * phi[j]).sum::<f64>();
@@ -209,7 +226,7 @@ mod tests {
     #[test]
     fn at_a_border_the_voxels_that_exist() {
         let grid = Grid::with_spacing([3, 3, 1], [1.0; 3]).unwrap();
-        let [x, y, z] = fit(&grid, [2, 3, 0]);
+        let [x, y, z, _] = fit(&grid, [2, 3, 0]);
         let diagonal = 1.0 / 2f64.sqrt();
         let total = 1.0 + 2.0 * diagonal;
         let want =
@@ -222,10 +239,29 @@ mod tests {
         assert!((y[16] - 1.0 / (2.0 + 2.0 * diagonal)).abs() < 1e-15 && z == [0.0; 27]);
     }
 
+    /// Around a voxel inside, d is the weighted mean: 2 in the middle, 1, 1/√2 and 1/√3 for 6, 12 and 8 neighbours.
+    #[test]
+    fn inside_a_cubic_grid_d_is_the_weighted_mean() {
+        let grid = Grid::with_spacing([5; 3], [1.0; 3]).unwrap();
+        let [.., d] = fit(&grid, [3; 3]);
+        let total = 2.0 + 6.0 + 12.0 / 2f64.sqrt() + 8.0 / 3f64.sqrt();
+        let around = [(13, 2.0), (14, 1.0), (17, 1.0 / 2f64.sqrt()), (26, 1.0 / 3f64.sqrt())];
+        for (t, w) in around {
+            assert!((d[t] - w / total).abs() < 1e-16, "{t}: {}", d[t]);
+        }
+        // At a corner the fit of a linear field passes through the corner, so the weights' first moments are 0.
+        let [.., d] = fit(&grid, [2; 3]);
+        for axis in [1, 3, 9] {
+            let moment: f64 = (0..27).map(|t| d[t] * (t as f64 / axis as f64 % 3.0).floor()).sum::<f64>();
+            assert!((moment - 1.0).abs() < 1e-14, "{axis}: {moment}");
+        }
+        assert!((d.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+    }
+
     #[test]
     fn a_line_of_voxels_is_fitted_along_itself_alone() {
         let grid = Grid::with_spacing([3, 1, 1], [2.0, 1.0, 1.0]).unwrap();
-        let [x, y, z] = fit(&grid, [3, 0, 0]);
+        let [x, y, z, _] = fit(&grid, [3, 0, 0]);
         assert_eq!([x[12], x[14]], [-0.5, 0.5]);
         assert!(y.iter().chain(&z).all(|&w| w == 0.0));
         let [x, ..] = fit(&grid, [2, 0, 0]);

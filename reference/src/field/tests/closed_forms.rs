@@ -319,5 +319,5 @@ fn only_what_is_asked_for_is_allocated() {
     assert_eq!(bytes(Kernel::Bspline, central, Rung::Value)["coefficients"], 8 * 8 * 8 * 8);
     assert_eq!(bytes(Kernel::Bspline5, central, Rung::Value)["coefficients"], 10 * 10 * 10 * 8);
     // 27 cases of 27 weights for three derivatives.
-    assert_eq!(bytes(trilinear, GradientEstimator::Regression, Rung::Gradient)["regression"], 27 * 27 * 3 * 8);
+    assert_eq!(bytes(trilinear, GradientEstimator::Regression, Rung::Gradient)["regression"], 27 * 27 * 4 * 8);
 }

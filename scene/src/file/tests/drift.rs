@@ -13,6 +13,7 @@ const REGULAR: (&str, &str) = ("transfer.kind", "regular");
 const PHANTOM: (&str, &str) = ("volume.phantom.name", "torus");
 const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.type", "u16")];
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
+const STIPPLES: (&str, &str) = ("stipples", "{}");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
 
 const SAMPLES: &[Sample] = &[
@@ -117,6 +118,44 @@ const SAMPLES: &[Sample] = &[
     ("style_mipmaps.curvature_bias", &[("style_mipmaps", "{}")], "0"),
     ("style_mipmaps.gradient_bias", &[("style_mipmaps", "{}")], "2.5"),
     ("style_mipmaps.turn", &[("style_mipmaps", "{}")], "0.02"),
+    ("stipples", &[], "{}"),
+    ("stipples.threshold", &[STIPPLES], "q0.9"),
+    ("stipples.k_max", &[STIPPLES], "2.5"),
+    ("stipples.size", &[STIPPLES], "3 px"),
+    ("stipples.seed", &[STIPPLES], "7"),
+    ("stipples.color", &[STIPPLES], "#00f"),
+    ("stipples.gradient", &[STIPPLES], "central"),
+    ("stipples.slab", &[STIPPLES], "0"),
+    ("stipples.order", &[STIPPLES], "voxel"),
+    ("stipples.snap", &[STIPPLES], "edge"),
+    ("stipples.thin", &[STIPPLES], "true"),
+    ("stipples.factors", &[STIPPLES], "normalize"),
+    ("stipples.ink", &[STIPPLES], "opaque"),
+    ("stipples.boundary", &[STIPPLES], "{}"),
+    ("stipples.boundary.gc", &[("stipples.boundary", "{}")], "0.1"),
+    ("stipples.boundary.gs", &[("stipples.boundary", "{}")], "0.1"),
+    ("stipples.boundary.ge", &[("stipples.boundary", "{}")], "2"),
+    ("stipples.silhouette", &[STIPPLES], "{}"),
+    ("stipples.silhouette.sc", &[("stipples.silhouette", "{}")], "0.1"),
+    ("stipples.silhouette.ss", &[("stipples.silhouette", "{}")], "0.1"),
+    ("stipples.silhouette.se", &[("stipples.silhouette", "{}")], "2"),
+    ("stipples.silhouette.literal", &[("stipples.silhouette", "{}")], "true"),
+    ("stipples.resolution", &[STIPPLES], "{}"),
+    ("stipples.resolution.re", &[("stipples.resolution", "{}")], "2"),
+    ("stipples.resolution.reference", &[("stipples.resolution", "{}")], "600"),
+    ("stipples.distance", &[STIPPLES], "{}"),
+    ("stipples.distance.de", &[("stipples.distance", "{}")], "-1"),
+    ("stipples.interior", &[STIPPLES], "{}"),
+    ("stipples.interior.te", &[("stipples.interior", "{}")], "1"),
+    ("stipples.lighting", &[STIPPLES], "{}"),
+    ("stipples.lighting.le", &[("stipples.lighting", "{}")], "1"),
+    ("stipples.lighting.light", &[("stipples.lighting", "{}")], "{ world = [1, 0, 0] }"),
+    ("stipples.curves", &[STIPPLES], "{}"),
+    ("stipples.curves.test", &[("stipples.curves", "{}")], "literal"),
+    ("stipples.curves.c", &[("stipples.curves", "{}")], "1"),
+    ("stipples.curves.eye", &[("stipples.curves", "{}")], "0.9"),
+    ("stipples.curves.grad", &[("stipples.curves", "{}")], "0.3"),
+    ("stipples.curves.log", &[("stipples.curves", "{}")], "0.22"),
 ];
 
 /// Keys that can have one value only, so far.

@@ -27,8 +27,7 @@ fn a_part_that_is_not_built_says_so() {
     );
     for (rest, what) in [
         ("[orbit]\nframes = 36\n", "[orbit]"),
-        ("[stipples]\n", "[stipples]"),
-        ("[stipples.boundary]\n", "[stipples]"),
+        ("[stipples]\nhide_behind = 120\n", "stipples.hide_behind"),
         ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
         ("[[box]]\n", "[[box]]"),
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),
@@ -43,13 +42,13 @@ fn a_part_that_is_not_built_says_so() {
         assert_eq!(text.lines().count(), 3, "{text}");
     }
     let text = parse(
-        "drypoint = 1\npreset = \"stipple\"\n[volume]\nfile = \"a\"\n[[halo]]\n",
+        "drypoint = 1\npreset = \"hatch\"\n[volume]\nfile = \"a\"\n[[halo]]\n",
         Path::new("s"),
         &Overrides::default(),
     )
     .unwrap_err()
     .to_string();
-    assert!(text.contains("preset = \"stipple\" is not built yet ([STIP-14])\n  at s:2:10"), "{text}");
+    assert!(text.contains("preset = \"hatch\" is not built yet ([HATCH-17])\n  at s:2:10"), "{text}");
     assert!(text.contains("[[halo]] is not built yet ([HALO-1])\n  at s:5:3"), "{text}");
 }
 

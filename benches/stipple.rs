@@ -1,0 +1,86 @@
+//! Stippling: the preprocess of a 256³ volume and the points of its faces, and a frame of them.
+
+use divan::{Bencher, black_box};
+use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, Preprocess};
+use drypoint::scene::counts::Counts;
+use drypoint::scene::glam::DVec3;
+use drypoint::scene::marks::Page;
+use drypoint::scene::points::Points;
+use drypoint::scene::space::Grid;
+use drypoint::scene::tables::{
+    Boundary, Camera, LightDirection, Silhouette, Stipples, Threshold, VolumeSource, VolumeTable,
+};
+use drypoint::scene::view::View;
+use drypoint::scene::volume::{Volume, Voxels};
+
+fn main() {
+    divan::main();
+}
+
+/// A ball whose face is so large that, 25 points a voxel, it has about this many.
+fn ball(points: f64) -> Volume {
+    const SIDE: usize = 256;
+    let radius = (points / 25.0 / (4.0 * std::f64::consts::PI)).sqrt();
+    let value = |i: usize| {
+        let p = DVec3::new((i % SIDE) as f64, (i / SIDE % SIDE) as f64, (i / SIDE / SIDE) as f64);
+        (100.0 + 60.0 * (radius - (p - 127.5).length())).clamp(0.0, 200.0) as u8
+    };
+    let voxels = Voxels::U8((0..SIDE * SIDE * SIDE).map(value).collect());
+    Volume::new(Grid::with_spacing([SIDE; 3], [1.0; 3]).unwrap(), voxels, 1.0, 0.0).unwrap()
+}
+
+fn stipples() -> Stipples {
+    Stipples {
+        threshold: Threshold::Magnitude(0.3),
+        thin: true,
+        boundary: Some(Boundary::default()),
+        silhouette: Some(Silhouette::default()),
+        ..Stipples::default()
+    }
+}
+
+fn table() -> VolumeTable {
+    VolumeTable::new(VolumeSource::File { path: "ball.nrrd".into(), raw: None })
+}
+
+/// Calls with what makes 25 points a voxel.
+fn with_inputs<T>(volume: &Volume, f: impl FnOnce(Inputs<'_>) -> T) -> T {
+    let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
+    let (mut stipples, table) = (stipples(), table());
+    let inputs = |stipples| Inputs { stipples, table: &table, volume, view: &view, near: 0.5, square: 0.3 };
+    let area = Preprocess::new(inputs(&stipples)).unwrap().area;
+    stipples.k_max = 25.0 * 65_536.0 / area;
+    f(inputs(&stipples))
+}
+
+fn points(inputs: Inputs<'_>) -> Points {
+    Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
+}
+
+#[divan::bench(args = [500_000.0, 2_000_000.0], sample_count = 3, sample_size = 1)]
+fn preprocess_and_points(bencher: Bencher<'_, '_>, count: f64) {
+    with_inputs(&ball(count), |inputs| bencher.bench_local(|| black_box(points(inputs)).len()));
+}
+
+#[divan::bench(sample_count = 20)]
+fn frame_of_two_millions(bencher: Bencher<'_, '_>) {
+    let volume = ball(2e6);
+    with_inputs(&volume, |inputs| {
+        let points = points(inputs);
+        let frames = Frames::new(&FrameInputs {
+            stipples: inputs.stipples,
+            points: &points,
+            light: LightDirection::Head,
+            grid: volume.grid(),
+            reference: inputs.view,
+            near: inputs.near,
+            size: 0.35,
+            nib: None,
+        });
+        let (page, mut drawn) = (Page::in_pixels(inputs.view.size, 0.0, 300.0), Drawn::default());
+        bencher.bench_local(|| {
+            frames.draw(inputs.view, &page, &mut drawn);
+            drawn.len()
+        });
+    });
+}

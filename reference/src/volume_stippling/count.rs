@@ -1,0 +1,94 @@
+//! From a voxel's share to its dots: eqs. 2 and 4 ([STIP-5], [STIP-6]).
+
+use drypoint_scene::blue_noise;
+use drypoint_scene::tables::Ink;
+
+/// The dots of a voxel: the first of its list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Dots {
+    /// How many are drawn whole.
+    pub(super) whole: usize,
+    /// The opacity of the next one; 0: it is not drawn.
+    pub(super) fading: f64,
+    /// The dots' diameter over S_max, or over the nib.
+    pub(super) size: f64,
+}
+
+/// N_i = N_max·T of eq. 2 as dots of the size S_i = S_max·‖∇V_i‖·T_r·T_d·T_t, both over S_max.
+pub(super) fn dots(each: usize, share: f64, size: f64, ink: Ink, cell: [u32; 3]) -> Dots {
+    let n = (each as f64 * share).min(each as f64);
+    match ink {
+        Ink::Fade => {
+            let whole = n.floor();
+            let fading = if (whole as usize) < each { n - whole } else { 0.0 };
+            Dots { whole: whole as usize, fading, size }
+        }
+        Ink::Opaque => Dots { whole: ((n + blue_noise::at(cell)) as usize).min(each), fading: 0.0, size },
+    }
+}
+
+/// The same drawn with a pen, which has one size: as many dots more or fewer as keep the ink's area, N_i·(S_i/nib)². What
+/// the list cannot hold is made up by larger dots. `per_nib` is S_max/nib.
+pub(super) fn dots_of_nib(each: usize, share: f64, size: f64, per_nib: f64, ink: Ink, cell: [u32; 3]) -> Dots {
+    let share = share * (size * per_nib) * (size * per_nib);
+    dots(each, share.min(1.0), share.max(1.0).sqrt(), ink, cell)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CELL: [u32; 3] = [1, 2, 3];
+
+    #[test]
+    fn the_whole_part_is_drawn_and_the_next_one_fades() {
+        assert_eq!(dots(8, 0.40625, 0.5, Ink::Fade, CELL), Dots { whole: 3, fading: 0.25, size: 0.5 });
+        assert_eq!(dots(8, 1.0, 1.0, Ink::Fade, CELL), Dots { whole: 8, fading: 0.0, size: 1.0 });
+        assert_eq!(dots(8, 0.0, 1.0, Ink::Fade, CELL), Dots { whole: 0, fading: 0.0, size: 1.0 });
+        assert_eq!(dots(8, 1f64.next_up(), 1.0, Ink::Fade, CELL).whole, 8);
+    }
+
+    /// One ulp from an integer the dot is all there or not there, to rounding: no dot flickers.
+    #[test]
+    fn next_to_an_integer_nothing_jumps() {
+        for each in [1usize, 7, 10_000] {
+            for k in [1, each.div_ceil(2), each] {
+                let share = k as f64 / each as f64;
+                for share in [share.next_down(), share, share.next_up()] {
+                    let Dots { whole, fading, .. } = dots(each, share, 1.0, Ink::Fade, CELL);
+                    // In units of dots: the product is off by an ulp of it, of which each is half a unit roundoff of k.
+                    assert!((whole as f64 + fading - k as f64).abs() <= 4.0 * f64::EPSILON * k as f64, "{each} {k}");
+                    assert!(
+                        fading <= 4.0 * f64::EPSILON * each as f64 || fading >= 1.0 - 4.0 * f64::EPSILON * each as f64
+                    );
+                }
+            }
+        }
+    }
+
+    /// Over a tile of the mask the mean count is N_i.
+    #[test]
+    fn opaque_counts_have_the_right_mean() {
+        for share in [0.0, 0.125, 0.3125, 0.5, 1.0] {
+            let mut sum = 0;
+            for i in 0..32u32.pow(3) {
+                sum += dots(4, share, 1.0, Ink::Opaque, [i % 32, i / 32 % 32, i / 1024]).whole;
+            }
+            assert_eq!(sum as f64 / 32f64.powi(3), 4.0 * share);
+        }
+    }
+
+    #[test]
+    fn a_pen_keeps_the_area_of_ink() {
+        // Half of 100 dots at half the size, S_max twice the nib: as many dots of the nib.
+        assert_eq!(dots_of_nib(100, 0.5, 0.5, 2.0, Ink::Fade, CELL), Dots { whole: 50, fading: 0.0, size: 1.0 });
+        // At full size four times the area: 200 nibs, of which the list has 100: each has twice the area.
+        let Dots { whole, size, .. } = dots_of_nib(100, 0.5, 1.0, 2.0, Ink::Fade, CELL);
+        assert_eq!((whole, size), (100, 2f64.sqrt()));
+        for (share, size, per_nib) in [(0.3, 0.7, 1.3), (0.9, 0.9, 3.0), (0.1, 0.2, 0.5)] {
+            let d = dots_of_nib(100, share, size, per_nib, Ink::Fade, CELL);
+            let ink = (d.whole as f64 + d.fading) * d.size * d.size;
+            assert!((ink - 100.0 * share * (size * per_nib).powi(2)).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Silhouette curves: voxels of boundaries that turn away from the eye (5.6, [STIP-13]).
+
+use super::StippleError;
+use crate::field::{Field, HessianEstimator, Reconstruction, Rung, Sampler};
+use crate::number::Vec3;
+use crate::with_sampler;
+use drypoint_scene::glam::{DMat3, DVec3};
+use drypoint_scene::points::PointVoxel;
+use drypoint_scene::space::Grid;
+use drypoint_scene::tables::{Curves, CurvesTest, Outside};
+use drypoint_scene::view::View;
+use drypoint_scene::volume::Volume;
+use rayon::prelude::*;
+
+/// ‖n × E‖ below which a segment has no direction.
+const NO_DIRECTION: f64 = 1.0 / (1 << 20) as f64;
+
+/// The voxels that can lie on a curve, whatever the camera: V·LoG(V) < Th_LOG and ‖∇V‖ > Th_grad.
+#[derive(Clone, Debug)]
+pub struct Edges {
+    grid: Grid,
+    voxels: Vec<Edge>,
+}
+
+/// One of them.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    cell: [u32; 3],
+    /// n, outward, in the world.
+    normal: DVec3,
+    /// ∂n/∂x in the world: how the normal turns from place to place.
+    turning: DMat3,
+}
+
+/// A piece of a curve, one voxel long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Its voxel.
+    pub cell: [u32; 3],
+    /// Its ends in the world.
+    pub ends: [DVec3; 2],
+}
+
+impl Edges {
+    /// Measures the voxels of a volume, of which `voxels` are those with ‖∇V‖ above 0.
+    ///
+    /// LoG is the trace of the Hessian of the grid smoothed by a Gaussian of σ = 1 voxel, over its largest magnitude in the
+    /// volume; the turning of the normal is that of the same field.
+    ///
+    /// # Errors
+    /// No field of that volume.
+    pub fn new(
+        volume: &Volume,
+        voxels: &[PointVoxel],
+        curves: &Curves,
+        outside: Outside,
+    ) -> Result<Self, StippleError> {
+        let grid = volume.grid();
+        let how = Reconstruction {
+            hessian: HessianEstimator::Gaussian,
+            scale: grid.voxel(),
+            outside,
+            ..Reconstruction::default()
+        };
+        let field = Field::<f64>::new(volume, how, Rung::Hessian)?;
+        let [nx, ny, _] = volume.dims();
+        let voxels = with_sampler!(field, |sampler| {
+            let at = |cell: [u32; 3]| {
+                let p = DVec3::from_array(cell.map(f64::from));
+                let (g, h) = sampler.hessian(Vec3::from_glam(p));
+                let rows = [[h.xx, h.xy, h.xz], [h.xy, h.yy, h.yz], [h.xz, h.yz, h.zz]];
+                (g.to_glam(), DMat3::from_cols_array_2d(&rows))
+            };
+            let laplacian = |h: DMat3| h.x_axis.x + h.y_axis.y + h.z_axis.z;
+            let cell = |i: usize| [i % nx, i / nx % ny, i / (nx * ny)].map(|i| i as u32);
+            let largest = (0..grid.len()).into_par_iter().map(|i| laplacian(at(cell(i)).1).abs());
+            let largest = largest.reduce(|| 0.0, f64::max);
+            let edge = |voxel: &PointVoxel| {
+                if voxel.magnitude <= curves.grad {
+                    return None;
+                }
+                let (g, h) = at(voxel.cell);
+                // A field without second derivatives has no LoG.
+                let log = if largest > 0.0 { laplacian(h) / largest } else { 0.0 };
+                let length = g.length();
+                (voxel.value * log < curves.log && length > 0.0).then(|| {
+                    let n = g / length;
+                    let project = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+                    let sign = if outside == Outside::Low { -1.0 } else { 1.0 };
+                    Edge { cell: voxel.cell, normal: voxel.normal, turning: project * h * (sign / length) }
+                })
+            };
+            voxels.par_iter().filter_map(edge).collect()
+        });
+        Ok(Self { grid: grid.clone(), voxels })
+    }
+
+    /// The segments that a camera sees, in the order of the voxels.
+    pub fn segments(&self, curves: &Curves, view: &View) -> Vec<Segment> {
+        let voxel = self.grid.voxel();
+        let segment = |edge: &Edge| {
+            let centre = self.grid.to_world(DVec3::from_array(edge.cell.map(f64::from)));
+            let (e, distance) = towards_eye(view, centre);
+            let facing = edge.normal.dot(e);
+            let passes = match curves.test {
+                CurvesTest::Literal => facing < curves.eye,
+                CurvesTest::TwoSided => {
+                    // E turns too as the eye is near: ∂E/∂x = −(I − EEᵀ)/distance.
+                    let turning = edge.turning.transpose() * e - (edge.normal - e * facing) / distance;
+                    facing.abs() < curves.c * turning.length() * voxel
+                }
+            };
+            let along = edge.normal.cross(e);
+            let length = along.length();
+            (passes && length >= NO_DIRECTION).then(|| {
+                let half = along * (0.5 * voxel / length);
+                Segment { cell: edge.cell, ends: [centre - half, centre + half] }
+            })
+        };
+        self.voxels.par_iter().filter_map(segment).collect()
+    }
+}
+
+/// E, the unit vector towards the eye, and how far it is; without end in an orthographic view.
+fn towards_eye(view: &View, at: DVec3) -> (DVec3, f64) {
+    if !view.perspective {
+        return (-view.forward, f64::INFINITY);
+    }
+    let to = view.eye - at;
+    let distance = to.length();
+    if distance > 0.0 { (to / distance, distance) } else { (-view.forward, f64::INFINITY) }
+}
+
+/// The exhaustive search that the test stands for: voxels with ‖∇V‖ > Th_grad whose n·E has the other sign than at one of
+/// the 26 neighbours that pass too, and whose |n·E| is the smaller of the two. `voxels` in linear order; the cells are
+/// given in it.
+pub fn exhaustive(grid: &Grid, voxels: &[PointVoxel], curves: &Curves, view: &View) -> Vec<[u32; 3]> {
+    let key = |cell: [u32; 3]| (cell[2], cell[1], cell[0]);
+    let passing: Vec<(PointVoxel, f64)> = voxels
+        .iter()
+        .filter(|voxel| voxel.magnitude > curves.grad)
+        .map(|voxel| (*voxel, voxel.normal.dot(towards_eye(view, grid.to_world(voxel.centre())).0)))
+        .collect();
+    let facing = |cell: [u32; 3]| {
+        let found = passing.binary_search_by(|(voxel, _)| key(voxel.cell).cmp(&key(cell)));
+        found.ok().map(|i| passing[i].1)
+    };
+    let is_on_curve = |(voxel, own): &&(PointVoxel, f64)| {
+        (0..27u32).filter(|&k| k != 13).any(|k| {
+            let step = [k % 3, k / 3 % 3, k / 9];
+            let mut cell = [0; 3];
+            for a in 0..3 {
+                let Some(to) = (voxel.cell[a] + step[a]).checked_sub(1) else { return false };
+                cell[a] = to;
+            }
+            facing(cell).is_some_and(|other| (*own < 0.0) != (other < 0.0) && own.abs() <= other.abs())
+        })
+    };
+    passing.par_iter().filter(is_on_curve).map(|(voxel, _)| voxel.cell).collect()
+}

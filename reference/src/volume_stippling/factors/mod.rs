@@ -1,0 +1,112 @@
+//! The factors of eq. 3 ([STIP-5] … [STIP-12]), one file each. One that the scene has no table for is 1, and nothing of it
+//! is computed.
+
+mod boundary;
+mod distance;
+mod interior;
+mod lighting;
+mod resolution;
+mod silhouette;
+
+pub use resolution::viewing_distance;
+
+use crate::shading::towards;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::points::PointVoxel;
+use drypoint_scene::tables::{FactorRange, LightDirection, Stipples};
+use drypoint_scene::view::View;
+
+/// A factor in [0, 1] ([STIP-5]): clamped, or divided by its largest value, which is `sum` for V = 1, if that is above 1.
+fn unit(range: FactorRange, sum: f64, factor: f64) -> f64 {
+    match range {
+        FactorRange::Normalize if sum > 1.0 => factor / sum,
+        FactorRange::Clamp | FactorRange::Normalize => factor.min(1.0),
+    }
+}
+
+/// What of a voxel's factors no camera changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Still {
+    /// T_b.
+    boundary: f64,
+    /// T_t.
+    interior: f64,
+}
+
+impl Still {
+    pub(super) fn new(stipples: &Stipples, voxel: &PointVoxel) -> Self {
+        let PointVoxel { value, magnitude, .. } = *voxel;
+        Self {
+            boundary: stipples.boundary.map_or(1.0, |t| boundary::boundary(&t, stipples.factors, value, magnitude)),
+            interior: stipples.interior.map_or(1.0, |t| interior::interior(&t, magnitude)),
+        }
+    }
+}
+
+/// What a camera makes of the factors.
+pub(super) struct Moving<'a> {
+    stipples: &'a Stipples,
+    view: &'a View,
+    /// L, in the world.
+    light: DVec3,
+    /// T_r.
+    resolution: f64,
+    /// The eye depth of the volume's centre.
+    depth: f64,
+    /// a.
+    radius: f64,
+    /// Whether a factor reads n·E.
+    facing: bool,
+}
+
+/// What a frame knows of the volume.
+pub(super) struct Whole {
+    pub(super) centre: DVec3,
+    pub(super) radius: f64,
+    /// D₀ of the reference camera.
+    pub(super) reference: f64,
+    pub(super) near: f64,
+}
+
+/// T of eq. 3 and the part of it that eq. 4 has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Factors {
+    /// T: the share of the points.
+    pub(super) count: f64,
+    /// T_r·T_d·T_t: the share of the size that is not ‖∇V‖'s.
+    pub(super) size: f64,
+}
+
+impl<'a> Moving<'a> {
+    pub(super) fn new(stipples: &'a Stipples, light: LightDirection, view: &'a View, whole: &Whole) -> Self {
+        let lighting = stipples.lighting.filter(|t| t.le != 0.0);
+        let distance = || viewing_distance(view, whole.centre, whole.near);
+        Self {
+            stipples,
+            view,
+            light: lighting.map_or(DVec3::ZERO, |t| towards(t.light.unwrap_or(light), view)),
+            resolution: stipples.resolution.map_or(1.0, |t| resolution::resolution(&t, whole.reference, distance())),
+            depth: -view.to_eye(whole.centre).z,
+            radius: whole.radius,
+            facing: lighting.is_some() || stipples.silhouette.is_some(),
+        }
+    }
+
+    /// The factors of a voxel at eye-space position `at`.
+    pub(super) fn of(&self, still: &Still, voxel: &PointVoxel, at: DVec3) -> Factors {
+        let s = self.stipples;
+        let facing = if self.facing { self.facing(voxel, at) } else { 1.0 };
+        let silhouette = |t| silhouette::silhouette(&t, s.factors, voxel.value, voxel.magnitude, facing);
+        let silhouette = s.silhouette.map_or(1.0, silhouette);
+        let distance = s.distance.map_or(1.0, |t| distance::distance(&t, (self.depth + at.z) / self.radius));
+        let lighting = s.lighting.map_or(1.0, |t| lighting::lighting(&t, self.light.dot(voxel.normal), facing));
+        let size = self.resolution * distance * still.interior;
+        Factors { count: still.boundary * silhouette * size * lighting, size }
+    }
+
+    /// n·E, E the unit vector from the voxel to the eye.
+    fn facing(&self, voxel: &PointVoxel, at: DVec3) -> f64 {
+        let n = self.view.direction_to_eye(voxel.normal);
+        if self.view.perspective { n.dot(-at) / at.length().max(f64::MIN_POSITIVE) } else { n.z }
+    }
+}

@@ -1,0 +1,221 @@
+//! A frame: of each voxel's list as many points as the factors say, on the page (section 5, [STIP-5], [STIP-6]).
+
+use super::count::{dots, dots_of_nib};
+use super::factors::{Moving, Still, Whole};
+use drypoint_scene::glam::{DMat3, DVec2, DVec3};
+use drypoint_scene::marks::{Dot, Page};
+use drypoint_scene::points::Points;
+use drypoint_scene::space::Grid;
+use drypoint_scene::tables::{LightDirection, Stipples};
+use drypoint_scene::view::View;
+use rayon::prelude::*;
+
+pub use super::factors::viewing_distance;
+
+/// Voxels that are drawn in one go.
+const PART: usize = 2048;
+
+/// What frames have in common.
+#[derive(Clone, Debug)]
+pub struct Frames<'a> {
+    stipples: &'a Stipples,
+    points: &'a Points,
+    /// For each voxel what no camera changes.
+    still: Vec<Still>,
+    light: LightDirection,
+    centre: DVec3,
+    radius: f64,
+    reference: f64,
+    near: f64,
+    size: f64,
+    nib: Option<f64>,
+}
+
+/// What frames are made of.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameInputs<'a> {
+    /// `[stipples]`.
+    pub stipples: &'a Stipples,
+    /// The points, made once.
+    pub points: &'a Points,
+    /// The scene's light.
+    pub light: LightDirection,
+    /// The volume's own grid, whose centre and radius eqs. 7 and 8 have.
+    pub grid: &'a Grid,
+    /// The reference camera, the scene's first ([STIP-3]).
+    pub reference: &'a View,
+    /// `near` of a perspective camera, in world units.
+    pub near: f64,
+    /// S_max in mm.
+    pub size: f64,
+    /// The width of the pen's nib in mm, where a pen draws, which has one size ([STIP-6]).
+    pub nib: Option<f64>,
+}
+
+/// The dots of a frame, in the order of the voxels, in parts that keep their memory from frame to frame.
+#[derive(Clone, Debug, Default)]
+pub struct Drawn {
+    parts: Vec<Part>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Part {
+    dots: Vec<Dot>,
+    larger: u64,
+}
+
+impl Drawn {
+    /// The dots.
+    pub fn dots(&self) -> impl Iterator<Item = &Dot> {
+        self.parts.iter().flat_map(|part| &part.dots)
+    }
+
+    /// Number of dots.
+    pub fn len(&self) -> usize {
+        self.parts.iter().map(|part| part.dots.len()).sum()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Dots that are larger than the nib, since their voxel's list has no more ([STIP-6]).
+    pub fn larger_than_nib(&self) -> u64 {
+        self.parts.iter().map(|part| part.larger).sum()
+    }
+
+    /// All in one list.
+    pub fn to_vec(&self) -> Vec<Dot> {
+        let mut all = Vec::with_capacity(self.len());
+        self.parts.iter().for_each(|part| all.extend_from_slice(&part.dots));
+        all
+    }
+}
+
+impl<'a> Frames<'a> {
+    /// Computes what no camera changes.
+    pub fn new(inputs: &FrameInputs<'a>) -> Self {
+        let FrameInputs { stipples, points, light, grid, reference, near, size, nib } = *inputs;
+        let centre = grid.centre();
+        Self {
+            stipples,
+            points,
+            still: points.voxels.par_iter().map(|voxel| Still::new(stipples, voxel)).collect(),
+            light,
+            centre,
+            radius: grid.radius(),
+            reference: viewing_distance(reference, centre, near),
+            near,
+            size,
+            nib,
+        }
+    }
+
+    /// The dots that a camera sees, on a page; dots whose centre the picture does not hold are left out, and in perspective
+    /// those nearer than `near`.
+    pub fn draw(&self, view: &View, page: &Page, drawn: &mut Drawn) {
+        let whole = Whole { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
+        let moving = Moving::new(self.stipples, self.light, view, &whole);
+        let place = Place::new(view, page, &self.points.grid);
+        let parts = self.points.voxels.len().div_ceil(PART);
+        drawn.parts.resize_with(parts, Part::default);
+        drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
+            part.larger = 0;
+            part.dots.clear();
+            let range = p * PART..((p + 1) * PART).min(self.points.voxels.len());
+            for i in range {
+                self.voxel(i, &moving, &place, part);
+            }
+        });
+    }
+
+    fn voxel(&self, i: usize, moving: &Moving<'_>, place: &Place, part: &mut Part) {
+        let (voxel, each) = (&self.points.voxels[i], self.points.each);
+        let centre = voxel.centre();
+        let at = place.eye(centre);
+        let factors = moving.of(&self.still[i], voxel, at);
+        if factors.count == 0.0 {
+            return;
+        }
+        // Eq. 4, over S_max.
+        let size = voxel.magnitude * factors.size;
+        let (ink, cell) = (self.stipples.ink, voxel.cell);
+        let (drawn, unit) = match self.nib {
+            None => (dots(each, factors.count, size, ink, cell), self.size),
+            Some(nib) => (dots_of_nib(each, factors.count, size, self.size / nib, ink, cell), nib),
+        };
+        let radius = 0.5 * unit * drawn.size;
+        if radius <= 0.0 {
+            return;
+        }
+        let list = &self.points.of(i)[..drawn.whole + usize::from(drawn.fading > 0.0)];
+        let before = part.dots.len();
+        for (k, offset) in list.iter().enumerate() {
+            let o = DVec3::from_array(offset.map(f64::from));
+            if let Some(on_page) = place.on_page(at + place.to_eye * o, self.near) {
+                let opacity = if k < drawn.whole { 1.0 } else { drawn.fading };
+                part.dots.push(Dot { at: on_page, world: place.world(centre + o), radius, opacity });
+            }
+        }
+        if self.nib.is_some() && drawn.size > 1.0 {
+            part.larger += (part.dots.len() - before) as u64;
+        }
+    }
+}
+
+/// From index space to the page.
+pub(super) struct Place {
+    /// From index to eye space: directions, and the place of index 0.
+    to_eye: DMat3,
+    origin: DVec3,
+    to_world: DMat3,
+    world_origin: DVec3,
+    perspective: bool,
+    /// mm of one unit of eye space, at depth 1 in perspective.
+    scale: DVec2,
+    /// The picture's middle and half its size, in mm.
+    middle: DVec2,
+    half: DVec2,
+}
+
+impl Place {
+    pub(super) fn new(view: &View, page: &Page, grid: &Grid) -> Self {
+        let rotation = DMat3::from_cols(view.right, view.up, -view.forward).transpose();
+        let half = page.picture() / 2.0;
+        let mm = page.picture() / DVec2::from(view.size.map(|n| n as f64));
+        Self {
+            to_eye: rotation * grid.axes(),
+            origin: view.to_eye(grid.origin()),
+            to_world: grid.axes(),
+            world_origin: grid.origin(),
+            perspective: view.perspective,
+            // y is down on the page.
+            scale: DVec2::new(mm.x, -mm.y) / view.pixel,
+            middle: DVec2::splat(page.margin) + half,
+            half,
+        }
+    }
+
+    fn eye(&self, index: DVec3) -> DVec3 {
+        self.to_eye * index + self.origin
+    }
+
+    fn world(&self, index: DVec3) -> DVec3 {
+        self.to_world * index + self.world_origin
+    }
+
+    pub(super) fn on_page(&self, at: DVec3, near: f64) -> Option<DVec2> {
+        let flat = DVec2::new(at.x, at.y) * self.scale;
+        let off = if self.perspective {
+            if -at.z < near {
+                return None;
+            }
+            flat / -at.z
+        } else {
+            flat
+        };
+        let inside = off.x.abs() <= self.half.x && off.y.abs() <= self.half.y;
+        inside.then_some(self.middle + off)
+    }
+}

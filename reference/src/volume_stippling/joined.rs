@@ -1,0 +1,173 @@
+//! Segments of curves joined to lines, for pens and vector files ([STIP-13]).
+
+use super::curves::Segment;
+use super::frame::Place;
+use drypoint_scene::glam::{DVec2, DVec3};
+use drypoint_scene::marks::{Page, Polyline, Vertex};
+use drypoint_scene::space::Grid;
+use drypoint_scene::view::View;
+use std::collections::BTreeMap;
+
+/// cos 30°, up to which directions at a joint may differ.
+const STRAIGHT: f64 = 0.866_025_403_784_438_6;
+
+/// A segment on the page: of each end the place, the point in the world, and how long half a voxel is there.
+#[derive(Clone, Copy)]
+struct End {
+    at: DVec2,
+    world: DVec3,
+    reach: f64,
+}
+
+/// Lines of width 2·`radius`, in mm, through segments: two ends closer than half a voxel on the page become one vertex
+/// between them if the line goes straight on, within 30°; each end once, nearest first. Segments of which an end is nearer
+/// than `near` in perspective, or outside the picture, are left out.
+pub fn joined(segments: &[Segment], grid: &Grid, view: &View, page: &Page, near: f64, radius: f64) -> Vec<Polyline> {
+    let place = Place::new(view, page, grid);
+    let half = 0.5 * grid.voxel() / view.pixel * page.picture().x / view.size[0] as f64;
+    let end = |world: DVec3| {
+        let eye = view.to_eye(world);
+        let reach = if view.perspective { half / -eye.z } else { half };
+        place.on_page(eye, near).map(|at| End { at, world, reach })
+    };
+    let ends: Vec<End> =
+        segments.iter().filter_map(|segment| Some([end(segment.ends[0])?, end(segment.ends[1])?])).flatten().collect();
+    let partner = partners(&ends);
+    lines(&ends, &partner, radius)
+}
+
+/// Which end each is joined to. Ends 2i and 2i + 1 are those of a segment.
+fn partners(ends: &[End]) -> Vec<Option<usize>> {
+    let largest = ends.iter().fold(0.0f64, |reach, end| reach.max(end.reach));
+    let cell = |p: DVec2| [(p.x / largest).floor() as i64, (p.y / largest).floor() as i64];
+    let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    for (i, end) in ends.iter().enumerate() {
+        cells.entry(cell(end.at)).or_default().push(i);
+    }
+    // Out of the segment, through the end.
+    let out = |i: usize| (ends[i].at - ends[i ^ 1].at).normalize_or_zero();
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (i, end) in ends.iter().enumerate() {
+        let [x, y] = cell(end.at);
+        let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [x + dx, y + dy]));
+        for &j in around.filter_map(|key| cells.get(&key)).flatten().filter(|&&j| j > i && j != i ^ 1) {
+            let apart = end.at.distance(ends[j].at);
+            if apart < end.reach.min(ends[j].reach) && -out(i).dot(out(j)) >= STRAIGHT {
+                pairs.push((apart, i, j));
+            }
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let mut partner = vec![None; ends.len()];
+    for (_, i, j) in pairs {
+        if partner[i].is_none() && partner[j].is_none() {
+            (partner[i], partner[j]) = (Some(j), Some(i));
+        }
+    }
+    partner
+}
+
+/// Follows the joints: first the lines that have an end, then the rings.
+fn lines(ends: &[End], partner: &[Option<usize>], radius: f64) -> Vec<Polyline> {
+    let mut is_used = vec![false; ends.len() / 2];
+    let mut lines = Vec::new();
+    let free = (0..ends.len()).filter(|&i| partner[i].is_none());
+    for start in free.chain(0..ends.len()) {
+        if is_used[start / 2] {
+            continue;
+        }
+        let closed = partner[start].is_some();
+        let mut vertices: Vec<(DVec2, DVec3)> = Vec::new();
+        let middle = |i: usize| {
+            let (a, b) = (ends[i], partner[i].map_or(ends[i], |j| ends[j]));
+            ((a.at + b.at) / 2.0, (a.world + b.world) / 2.0)
+        };
+        vertices.push(middle(start));
+        let mut at = start;
+        loop {
+            is_used[at / 2] = true;
+            vertices.push(middle(at ^ 1));
+            match partner[at ^ 1] {
+                Some(next) if !is_used[next / 2] => at = next,
+                _ => break,
+            }
+        }
+        if closed {
+            // The joint of the last with the first came twice.
+            vertices.pop();
+        }
+        lines.push(line(&vertices, closed, radius));
+    }
+    lines
+}
+
+fn line(vertices: &[(DVec2, DVec3)], closed: bool, radius: f64) -> Polyline {
+    let mut along = vec![0.0];
+    for pair in vertices.windows(2) {
+        along.push(along[along.len() - 1] + pair[0].0.distance(pair[1].0));
+    }
+    let back = if closed { vertices[vertices.len() - 1].0.distance(vertices[0].0) } else { 0.0 };
+    let whole = along[along.len() - 1] + back;
+    let vertex = |(&(at, world), t): (&(DVec2, DVec3), f64)| Vertex {
+        at,
+        world,
+        radius,
+        opacity: 1.0,
+        t: if whole > 0.0 { t / whole } else { 0.0 },
+    };
+    Polyline { vertices: vertices.iter().zip(along).map(vertex).collect(), closed }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ends(segments: &[[(f64, f64); 2]]) -> Vec<End> {
+        let end = |&(x, y): &(f64, f64)| End { at: DVec2::new(x, y), world: DVec3::new(x, y, 0.0), reach: 0.5 };
+        segments.iter().flatten().map(end).collect()
+    }
+
+    fn xs(line: &Polyline) -> Vec<f64> {
+        line.vertices.iter().map(|v| v.at.x).collect()
+    }
+
+    #[test]
+    fn segments_in_a_row_are_one_line() {
+        // The second is given the other way round.
+        let ends = ends(&[[(0.0, 0.0), (1.0, 0.0)], [(2.2, 0.0), (1.2, 0.0)], [(2.4, 0.0), (3.4, 0.0)]]);
+        let lines = lines(&ends, &partners(&ends), 0.1);
+        assert_eq!(lines.len(), 1);
+        let want = [0.0, 1.1, 2.3, 3.4];
+        assert!(xs(&lines[0]).iter().zip(want).all(|(x, want)| (x - want).abs() < 1e-12), "{:?}", xs(&lines[0]));
+        assert!((lines[0].vertices[1].t - 1.1 / 3.4).abs() < 1e-12 && !lines[0].closed);
+    }
+
+    #[test]
+    fn neither_far_ends_nor_sharp_turns_are_joined() {
+        for other in [[(1.6, 0.0), (2.6, 0.0)], [(1.1, 0.0), (1.1, 1.0)], [(1.1, 0.0), (0.1, 0.1)]] {
+            let ends = ends(&[[(0.0, 0.0), (1.0, 0.0)], other]);
+            assert_eq!(lines(&ends, &partners(&ends), 0.1).len(), 2, "{other:?}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_two_are_joined() {
+        let ends = ends(&[[(0.0, 0.0), (1.0, 0.0)], [(1.4, 0.0), (2.4, 0.0)], [(1.1, 0.1), (2.1, 0.1)]]);
+        let lines = lines(&ends, &partners(&ends), 0.1);
+        assert_eq!(lines.iter().map(|l| l.vertices.len()).collect::<Vec<_>>(), [3, 2]);
+        assert!((lines[0].vertices[2].at - DVec2::new(2.1, 0.1)).length() < 1e-12);
+    }
+
+    #[test]
+    fn a_ring_closes() {
+        let corner = |i: i32| {
+            let t = f64::from(i) * std::f64::consts::TAU / 24.0;
+            (4.0 * t.cos(), 4.0 * t.sin())
+        };
+        let ring: Vec<[(f64, f64); 2]> = (0..24).map(|i| [corner(i), corner(i + 1)]).collect();
+        let ends = ends(&ring);
+        let lines = lines(&ends, &partners(&ends), 0.1);
+        assert_eq!((lines.len(), lines[0].vertices.len(), lines[0].closed), (1, 24, true));
+        assert!((lines[0].vertices[23].t - 23.0 / 24.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,24 @@
+//! Volume stippling (Lu, Morris, Ebert, Rheingans, Hansen 2002).
+//!
+//! [`Preprocess`] finds the voxels that get points and makes them, once, from the reference camera; a frame then draws of
+//! each voxel's list as many as the factors say.
+
+mod area;
+mod count;
+mod curves;
+mod error;
+mod factors;
+mod frame;
+mod joined;
+mod norms;
+mod order;
+mod preprocess;
+mod resolution;
+mod ridge;
+mod slab;
+
+pub use curves::{Edges, Segment, exhaustive};
+pub use error::StippleError;
+pub use frame::{Drawn, FrameInputs, Frames, viewing_distance};
+pub use joined::joined;
+pub use preprocess::{Inputs, Preprocess};

@@ -1,0 +1,242 @@
+//! The preprocess of section 4: from a volume to the voxels that get points, and their points ([STIP-1] … [STIP-4]).
+
+use super::area::{box_side, points_each, projected_area};
+use super::curves::Edges;
+use super::error::StippleError;
+use super::norms::{norms, quantile_above};
+use super::order::{self, Sites};
+use super::resolution::boxes;
+use super::ridge::Norms;
+use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
+use crate::with_sampler;
+use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::math;
+use drypoint_scene::points::{PointVoxel, Points};
+use drypoint_scene::tables::{
+    GradientRange, Outside, Snap, StippleGradient, StippleOrder, Stipples, Threshold, VolumeTable,
+};
+use drypoint_scene::view::View;
+use drypoint_scene::volume::Volume;
+use rayon::prelude::*;
+use std::borrow::Cow;
+
+/// What points are made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs<'a> {
+    /// `[stipples]`.
+    pub stipples: &'a Stipples,
+    /// `[volume]`: ranges, and which side is outside.
+    pub table: &'a VolumeTable,
+    /// The data.
+    pub volume: &'a Volume,
+    /// The reference camera, the scene's first ([STIP-3]).
+    pub view: &'a View,
+    /// `near` of a perspective camera, in world units.
+    pub near: f64,
+    /// What A_vol is measured in, in pixels: the side of a square, 1 or S_max ([STIP-3]).
+    pub square: f64,
+}
+
+/// The voxels of a volume that get points, and how many.
+#[derive(Clone, Debug)]
+pub struct Preprocess<'a> {
+    inputs: Inputs<'a>,
+    /// At the adjusted resolution ([STIP-2]).
+    volume: Cow<'a, Volume>,
+    voxels: Vec<PointVoxel>,
+    /// Of each where the edge is, along n from its centre in voxels; empty where points stay.
+    tops: Vec<f64>,
+    slab: f64,
+    /// A_vol ([STIP-3]).
+    pub area: f64,
+    /// m ([STIP-2]).
+    pub box_side: usize,
+    /// N_max ([STIP-3]).
+    pub each: usize,
+    /// Voxels whose gradient was measured.
+    pub gradients: u64,
+}
+
+impl<'a> Preprocess<'a> {
+    /// Finds the voxels above the threshold. A constant volume has none.
+    ///
+    /// # Errors
+    /// No such field, a length of the wrong space, or too many voxels.
+    pub fn new(inputs: Inputs<'a>) -> Result<Self, StippleError> {
+        let Inputs { stipples, table, volume, view, near, square } = inputs;
+        let area = projected_area(volume.grid(), view, near) / (square * square);
+        let m = box_side(area, volume.dims());
+        let fine = volume.range();
+        let volume = boxes(volume, m).map_or(Cow::Borrowed(volume), Cow::Owned);
+        // In the voxels that points are made in.
+        let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Length { key: "stipples.slab" })?;
+        let field = field_of(&volume, stipples.gradient, table.outside)?;
+        let each = points_each(stipples.k_max, area, volume.dims());
+        let range = table.range.unwrap_or(fine);
+        let (voxels, tops) = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
+        if voxels.len() > order::MOST_VOXELS {
+            return Err(StippleError::TooMany { voxels: voxels.len(), most: order::MOST_VOXELS });
+        }
+        let gradients = volume.grid().len() as u64;
+        Ok(Self { inputs, volume, voxels, tops, slab, area, box_side: m, each, gradients })
+    }
+
+    /// The voxels above a ‖∇V‖, whatever the threshold of points, at the adjusted resolution: those that curves are made of
+    /// ([STIP-13]).
+    ///
+    /// # Errors
+    /// None that [`new`](Self::new) has not found.
+    pub fn voxels_above(&self, magnitude: f64) -> Result<Vec<PointVoxel>, StippleError> {
+        let threshold = Threshold::Magnitude(magnitude);
+        let stipples = Stipples { threshold, thin: false, snap: Snap::None, ..self.inputs.stipples.clone() };
+        let inputs = Inputs { stipples: &stipples, ..self.inputs };
+        let table = self.inputs.table;
+        let field = field_of(&self.volume, stipples.gradient, table.outside)?;
+        let range = table.range.unwrap_or(self.inputs.volume.range());
+        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, range)).0)
+    }
+
+    /// What curves are found in, whatever the camera; none where the scene has none.
+    ///
+    /// # Errors
+    /// None that [`new`](Self::new) has not found.
+    pub fn edges(&self) -> Result<Option<Edges>, StippleError> {
+        let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
+        let voxels = self.voxels_above(curves.grad)?;
+        Edges::new(&self.volume, &voxels, curves, self.inputs.table.outside).map(Some)
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> u64 {
+        (self.voxels.len() as u64).saturating_mul(self.each as u64)
+    }
+
+    /// Whether there will be no point.
+    pub fn is_empty(&self) -> bool {
+        self.voxels.is_empty()
+    }
+
+    /// Bytes that [`points`](Self::points) allocates: those that stay and those of the order ([PLAN-2]).
+    pub fn bytes(&self) -> u64 {
+        let each = self.each as u64;
+        // A point, the draw that made it, and what its voxel knows.
+        let kept = each.saturating_mul(12 + 4).saturating_add(size_of::<PointVoxel>() as u64);
+        let each = kept.saturating_add(order::bytes_a_voxel(self.each));
+        (self.voxels.len() as u64).saturating_mul(each)
+    }
+
+    /// Makes the points. `done` hears how many of the N_max ranks are done.
+    ///
+    /// # Errors
+    /// None that [`new`](Self::new) has not found.
+    pub fn points(&self, counts: &mut Counts, done: &(dyn Fn(usize) + Sync)) -> Result<Points, StippleError> {
+        let stipples = self.inputs.stipples;
+        let grid = self.volume.grid();
+        let cells: Vec<[u32; 3]> = self.voxels.iter().map(|voxel| voxel.cell).collect();
+        let normals: Vec<DVec3> = self.voxels.iter().map(|voxel| voxel.normal).collect();
+        let sites = Sites {
+            cells: &cells,
+            normals: &normals,
+            axes: grid.axes(),
+            voxel: grid.voxel(),
+            slab: self.slab,
+            seed: stipples.seed,
+            neighbours: stipples.order == StippleOrder::Neighbours,
+        };
+        let offsets = order::points(&sites, self.each, done);
+        let mut points = Points { grid: grid.clone(), each: self.each, voxels: self.voxels.clone(), offsets };
+        onto_edges(&mut points, &self.tops);
+        counts.preprocess.insert("stipple gradients".into(), self.gradients);
+        counts.preprocess.insert("stipple points".into(), points.len() as u64);
+        counts.bytes.insert("points".into(), points.bytes());
+        Ok(points)
+    }
+}
+
+/// The field with the estimator of [STIP-1], prepared for gradients.
+fn field_of(volume: &Volume, gradient: StippleGradient, outside: Outside) -> Result<Field<'_, f64>, StippleError> {
+    let how = Reconstruction { gradient: estimator(gradient), outside, ..Reconstruction::default() };
+    Ok(Field::new(volume, how, Rung::Gradient)?)
+}
+
+fn estimator(gradient: StippleGradient) -> GradientEstimator {
+    match gradient {
+        StippleGradient::Regression => GradientEstimator::Regression,
+        StippleGradient::Central => GradientEstimator::Central,
+    }
+}
+
+/// The voxels above the threshold, in linear order, and with `snap` where the edge is ([STIP-4]); `range` is what V = 0 and 1
+/// stand for.
+fn above<S: Sampler<f64>>(
+    sampler: &S,
+    field: &Field<'_, f64>,
+    inputs: &Inputs<'_>,
+    range: [f64; 2],
+) -> (Vec<PointVoxel>, Vec<f64>) {
+    let volume = field.volume();
+    let (stipples, dims) = (inputs.stipples, volume.dims());
+    let norms = norms(sampler, volume, estimator(stipples.gradient));
+    let bound = field.no_normal_below();
+    let quantile = |q| quantile_above(&norms, bound, q).unwrap_or(0.0);
+    let scaled = |norm: f64| math::scale_by_power_of_two(norm, -field.scale_exponent());
+    let [lo, hi] = match inputs.table.gradient_range {
+        GradientRange::Fixed(range) => range.map(scaled),
+        GradientRange::Quantile(q) => [0.0, quantile(q)],
+    };
+    let magnitude = |norm: f64| if hi > lo { ((norm - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
+    let is_above: Box<dyn Fn(f64) -> bool + Sync> = match stipples.threshold {
+        Threshold::Magnitude(t) => Box::new(move |norm| magnitude(norm) > t),
+        Threshold::Quantile(q) => {
+            let t = quantile(q);
+            Box::new(move |norm| norm > t)
+        }
+    };
+    let grid = volume.grid();
+    let (to_step, outward) =
+        (grid.inverse_axes() * grid.voxel(), if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 });
+    let ridge = Norms { dims, all: &norms };
+    let voxel = |x: usize, y: usize, z: usize, norm: f64| {
+        let cell = [x, y, z];
+        let normal = (sampler.voxel_gradient(cell).to_glam() * (outward / norm)).normalize();
+        let keeps = !stipples.thin || ridge.is_largest(cell, to_step * normal);
+        keeps.then(|| PointVoxel {
+            cell: cell.map(|i| i as u32),
+            value: normalized(field.smoothed_value(cell), range),
+            magnitude: magnitude(norm),
+            normal,
+        })
+    };
+    let top = |v: &PointVoxel| ridge.top(v.cell.map(|i| i as usize), to_step * v.normal);
+    let rows = norms.par_chunks(dims[0]).enumerate().map(|(row, norms)| {
+        let (y, z) = (row % dims[1], row / dims[1]);
+        let candidates = norms.iter().enumerate().filter(|&(_, &norm)| norm > bound && is_above(norm));
+        candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)).collect::<Vec<_>>()
+    });
+    let voxels = rows.collect::<Vec<_>>().concat();
+    let tops = if stipples.snap == Snap::Edge { voxels.par_iter().map(top).collect() } else { Vec::new() };
+    (voxels, tops)
+}
+
+/// Moves each point along n onto the plane on which ‖∇V‖ is largest: within a voxel an edge is flat but for a share of its
+/// curvature.
+fn onto_edges(points: &mut Points, tops: &[f64]) {
+    let grid = &points.grid;
+    let (axes, voxel, to_index) = (grid.axes(), grid.voxel(), grid.inverse_axes());
+    let each = points.offsets.par_chunks_mut(points.each).zip(&points.voxels).zip(tops);
+    each.for_each(|((offsets, v), top)| {
+        for offset in offsets {
+            let o = DVec3::from_array(offset.map(f64::from));
+            let along = top * voxel - v.normal.dot(axes * o);
+            *offset = (o + to_index * v.normal * along).to_array().map(|x| x as f32);
+        }
+    });
+}
+
+/// V in [0, 1] ([VAL-1]); at a border the fit can leave the range of the values. In a range without length V is 1 above it.
+fn normalized(value: f64, [lo, hi]: [f64; 2]) -> f64 {
+    // Halved, so that the difference of two finite numbers cannot overflow.
+    let t = (value * 0.5 - lo * 0.5) / (hi * 0.5 - lo * 0.5);
+    if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) }
+}

@@ -1,0 +1,61 @@
+//! Stipple points as they are made once, before the first frame ([STIP-4]).
+
+use crate::space::Grid;
+use glam::DVec3;
+
+/// The points of a volume: the same number for each voxel that has any, in the order in which they are drawn.
+///
+/// The k-th voxel's points are `offsets[k·each .. (k + 1)·each]`, 12 bytes each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Points {
+    /// Where the voxels lie: the volume's grid, or that of its boxes ([STIP-2]).
+    pub grid: Grid,
+    /// N_max: points of each voxel ([STIP-3]).
+    pub each: usize,
+    /// The voxels that have points, in ascending linear order.
+    pub voxels: Vec<PointVoxel>,
+    /// From the voxel's centre to the point, in index space.
+    pub offsets: Vec<[f32; 3]>,
+}
+
+/// A voxel that has points, with what the factors of a frame read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointVoxel {
+    /// Its place in the grid.
+    pub cell: [u32; 3],
+    /// V_i in [0, 1]: the smoothed value, normalized by the volume's range ([STIP-1]).
+    pub value: f64,
+    /// ‖∇V_i‖ in [0, 1] ([VAL-2]).
+    pub magnitude: f64,
+    /// n, outward, of length 1, in the world ([NORM-1]).
+    pub normal: DVec3,
+}
+
+impl PointVoxel {
+    /// The centre in index space.
+    pub fn centre(&self) -> DVec3 {
+        DVec3::from_array(self.cell.map(f64::from))
+    }
+}
+
+impl Points {
+    /// The points of a voxel, first those that are drawn first.
+    pub fn of(&self, voxel: usize) -> &[[f32; 3]] {
+        &self.offsets[voxel * self.each..][..self.each]
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.offsets.len()
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.offsets.is_empty()
+    }
+
+    /// Bytes in memory.
+    pub fn bytes(&self) -> u64 {
+        (self.offsets.len() * size_of::<[f32; 3]>() + self.voxels.len() * size_of::<PointVoxel>()) as u64
+    }
+}

@@ -1,0 +1,50 @@
+//! The types of value that `[stipples]` alone has.
+
+use super::Threshold;
+use crate::file::check::Check;
+use crate::file::describe::{Kind, Shape};
+use crate::file::item::{Item, Value};
+use crate::file::kind::{Bounds, Number};
+use crate::file::out::Out;
+use crate::tables::volume::quantile;
+use serde_json::{Value as Json, json};
+
+/// A share that a factor has, k_gc and the like.
+pub(super) const SHARE: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
+/// An exponent that may not be negative.
+pub(super) const EXPONENT: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
+/// A number of either sign.
+pub(super) const SIGNED: Number = Number { bounds: Bounds::ANY, unit: "" };
+
+/// A ‖∇V‖, or a quantile such as `"q0.9"`.
+pub(super) struct ThresholdKind;
+
+impl Shape for ThresholdKind {
+    fn expected(&self) -> String {
+        "a number from 0 to 1, or a quantile such as \"q0.9\"".into()
+    }
+
+    fn schema(&self) -> Json {
+        let quantile = json!({ "type": "string", "pattern": r"^q(0(\.[0-9]*)?|1(\.0*)?|\.[0-9]+)$" });
+        json!({ "anyOf": [Bounds::UNIT.schema(), quantile] })
+    }
+}
+
+impl Kind for ThresholdKind {
+    type Of = Threshold;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Threshold> {
+        let read = match &item.value {
+            Value::Text(text) => quantile(text).map(Threshold::Quantile),
+            _ => item.number().filter(|x| Bounds::UNIT.contain(*x)).map(Threshold::Magnitude),
+        };
+        read.or_else(|| check.wrong(item, self.expected()))
+    }
+
+    fn write(&self, value: &Threshold) -> Out {
+        match value {
+            Threshold::Magnitude(x) => Out::Number(*x),
+            Threshold::Quantile(q) => Out::Text(format!("q{q}")),
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! `[stipples]`: volume stippling ([STIP-1] … [STIP-19]). Each factor is a table of its own; one that is absent is 1.
+
+mod curves;
+mod factors;
+mod kinds;
+mod presets;
+mod table;
+
+pub use curves::{Curves, CurvesTest};
+pub use factors::{Boundary, Distance, Interior, Lighting, Resolution, Silhouette};
+pub(crate) use presets::StipplePreset;
+pub(crate) use table::TABLE;
+
+use crate::color::Rgba;
+use crate::tables::Length;
+
+/// The table `[stipples]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stipples {
+    /// ‖∇V‖ above which voxels get points ([STIP-4]).
+    pub threshold: Threshold,
+    /// k_max of eq. 1 ([STIP-3]).
+    pub k_max: f64,
+    /// S_max of eq. 4, the largest dot's diameter: a length on the page ([STIP-6]).
+    pub size: Length,
+    /// Key of the random numbers ([RAY-4]).
+    pub seed: u64,
+    /// What the dots are drawn in: linear, straight.
+    pub color: Rgba,
+    /// Estimator of V and ∇V ([STIP-1]).
+    pub gradient: StippleGradient,
+    /// Half the distance of the two planes ([STIP-4]).
+    pub slab: Length,
+    /// Which points a voxel's order sees ([STIP-4]).
+    pub order: StippleOrder,
+    /// Whether points move onto the edge ([STIP-4]).
+    pub snap: Snap,
+    /// Whether a face has one layer of voxels with points ([STIP-4]).
+    pub thin: bool,
+    /// How factors come into [0, 1] ([STIP-5]).
+    pub factors: FactorRange,
+    /// What becomes of a fraction of a point ([STIP-5]).
+    pub ink: Ink,
+    /// T_b; none: 1.
+    pub boundary: Option<Boundary>,
+    /// T_s; none: 1.
+    pub silhouette: Option<Silhouette>,
+    /// T_r; none: 1.
+    pub resolution: Option<Resolution>,
+    /// T_d; none: 1.
+    pub distance: Option<Distance>,
+    /// T_t; none: 1.
+    pub interior: Option<Interior>,
+    /// T_l; none: 1.
+    pub lighting: Option<Lighting>,
+    /// Silhouette curves; none: none.
+    pub curves: Option<Curves>,
+}
+
+/// `threshold` ([STIP-4]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Threshold {
+    /// A ‖∇V‖ of [VAL-2].
+    Magnitude(f64),
+    /// The quantile of ‖g‖ over the voxels with a normal.
+    Quantile(f64),
+}
+
+/// `gradient` ([STIP-1]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StippleGradient {
+    /// A linear fit to 3×3×3 voxels, which smooths the value too.
+    Regression,
+    /// Central differences, and the voxel's own value.
+    Central,
+}
+
+/// `order` ([STIP-4]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StippleOrder {
+    /// A voxel's order sees the 26 neighbours.
+    Neighbours,
+    /// It sees the voxel alone: the paper's.
+    Voxel,
+}
+
+/// `snap` ([STIP-4]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Snap {
+    /// Points stay about their voxel's centre: the paper's.
+    None,
+    /// Points move along the normal to the largest ‖∇V‖ within one voxel.
+    Edge,
+}
+
+/// `factors` ([STIP-5]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FactorRange {
+    /// What leaves [0, 1] is clamped.
+    Clamp,
+    /// T_b and T_s are divided by the largest that their constants allow, where that is above 1.
+    Normalize,
+}
+
+/// `ink` ([STIP-5]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ink {
+    /// The next point is drawn with the fraction as its opacity.
+    Fade,
+    /// Whole points alone: a fraction is one of many voxels' points.
+    Opaque,
+}
+
+impl Default for Stipples {
+    fn default() -> Self {
+        Self {
+            threshold: Threshold::Magnitude(0.1),
+            k_max: 1.0,
+            size: Length::Millimetres(0.35),
+            seed: 1,
+            color: [0.0, 0.0, 0.0, 1.0],
+            gradient: StippleGradient::Regression,
+            slab: Length::Voxels(0.5),
+            order: StippleOrder::Neighbours,
+            snap: Snap::None,
+            thin: false,
+            factors: FactorRange::Clamp,
+            ink: Ink::Fade,
+            boundary: None,
+            silhouette: None,
+            resolution: None,
+            distance: None,
+            interior: None,
+            lighting: None,
+            curves: None,
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! What a frame draws of the points ([STIP-5] … [STIP-12], hard cases).
+
+use super::{orthographic, table};
+use crate::common;
+use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, Preprocess, viewing_distance};
+use drypoint::scene::counts::Counts;
+use drypoint::scene::glam::{DVec2, DVec3};
+use drypoint::scene::marks::{Dot, Page};
+use drypoint::scene::points::{PointVoxel, Points};
+use drypoint::scene::tables::{
+    Boundary, Camera, Distance, Ink, Interior, LightDirection, Lighting, Resolution, Silhouette, Stipples,
+};
+use drypoint::scene::view::View;
+use drypoint::scene::volume::Volume;
+use std::collections::BTreeSet;
+
+const SIZE: f64 = 0.5;
+
+/// A ball, its points, and what frames are drawn of.
+struct Shown {
+    volume: Volume,
+    points: Points,
+    reference: View,
+}
+
+impl Shown {
+    fn new() -> Self {
+        let volume = common::ball(21, 7.0);
+        let camera = Camera { direction: DVec3::new(0.2, 1.0, -0.3), ..Camera::default() };
+        let reference = View::new(&camera, volume.grid(), [200, 200]).unwrap();
+        let (stipples, table) = (Stipples::default(), table());
+        let inputs =
+            Inputs { stipples: &stipples, table: &table, volume: &volume, view: &reference, near: 0.5, square: 1.0 };
+        let points = Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap();
+        Self { volume, points, reference }
+    }
+
+    fn draw(&self, stipples: &Stipples, view: &View, nib: Option<f64>) -> Vec<Dot> {
+        let frames = Frames::new(&FrameInputs {
+            stipples,
+            points: &self.points,
+            light: LightDirection::Head,
+            grid: self.volume.grid(),
+            reference: &self.reference,
+            near: 0.5,
+            size: SIZE,
+            nib,
+        });
+        let mut drawn = Drawn::default();
+        frames.draw(view, &page(view), &mut drawn);
+        drawn.to_vec()
+    }
+
+    /// E at a voxel's centre.
+    fn eye(&self, view: &View, voxel: &PointVoxel) -> DVec3 {
+        (view.eye - self.points.grid.to_world(voxel.centre())).normalize()
+    }
+
+    /// Compares the ink of a frame, voxel by voxel, with N_max·T and S_max·‖∇V‖·(the factors that sizes have).
+    fn check(&self, stipples: &Stipples, view: &View, wanted: impl Fn(&PointVoxel) -> [f64; 2]) {
+        let dots = self.draw(stipples, view, None);
+        let mut rest = &dots[..];
+        for voxel in &self.points.voxels {
+            let [t, size] = wanted(voxel);
+            let n = self.points.each as f64 * t;
+            let here;
+            (here, rest) = rest.split_at(n.ceil() as usize);
+            let ink: f64 = here.iter().map(|dot| dot.opacity).sum();
+            assert!((ink - n).abs() < 1e-9, "{voxel:?}: {ink}, not {n}");
+            let diameter = SIZE * voxel.magnitude * size;
+            assert!(here.iter().all(|dot| (2.0 * dot.radius - diameter).abs() < 1e-12), "{voxel:?}");
+        }
+        assert!(rest.is_empty());
+    }
+}
+
+fn page(view: &View) -> Page {
+    Page::in_pixels(view.size, 3.0, 254.0)
+}
+
+fn from_afar(shown: &Shown, times: f64) -> View {
+    let centre = shown.volume.grid().centre();
+    let reference = &shown.reference;
+    View { eye: centre + (reference.eye - centre) * times, ..reference.clone() }
+}
+
+#[test]
+fn without_factors_every_point_is_drawn() {
+    let shown = Shown::new();
+    shown.check(&Stipples::default(), &shown.reference, |_| [1.0, 1.0]);
+}
+
+#[test]
+fn each_factor_alone() {
+    let shown = Shown::new();
+    let view = &shown.reference;
+    let none = Stipples::default;
+    let b = Boundary { gc: 0.2, gs: 0.5, ge: 1.5 };
+    shown.check(&Stipples { boundary: Some(b), ..none() }, view, |v| {
+        [v.value * (0.2 + 0.5 * v.magnitude.powf(1.5)), 1.0]
+    });
+    let s = Silhouette { sc: 0.1, ss: 0.8, se: 1.11, literal: false };
+    shown.check(&Stipples { silhouette: Some(s), ..none() }, view, |v| {
+        let facing = v.normal.dot(shown.eye(view, v)).abs();
+        [v.value * (0.1 + 0.8 * (1.0 - facing).max(0.0).powf(1.11)), 1.0]
+    });
+    let d = Distance { de: 1.5 };
+    let centre = shown.volume.grid().centre();
+    shown.check(&Stipples { distance: Some(d), ..none() }, view, |v| {
+        let z = -view.forward.dot(shown.points.grid.to_world(v.centre()) - centre) / shown.volume.grid().radius();
+        let t = 0.5 * (1.0 + z.signum() * z.abs().powf(1.5));
+        [t, t]
+    });
+    let i = Interior { te: 0.5 };
+    shown.check(&Stipples { interior: Some(i), ..none() }, view, |v| [v.magnitude.sqrt(), v.magnitude.sqrt()]);
+    let l = Lighting { le: 2.7, light: Some(LightDirection::World(DVec3::new(0.0, 0.0, 3.0))) };
+    shown.check(&Stipples { lighting: Some(l), ..none() }, view, |v| {
+        let faces = v.normal.dot(shown.eye(view, v)) >= 0.0;
+        [if faces { 1.0 - v.normal.z.max(0.0).powf(2.7) } else { 0.0 }, 1.0]
+    });
+    let r = Resolution { re: 1.1, reference: None };
+    let twice = from_afar(&shown, 2.0);
+    shown.check(&Stipples { resolution: Some(r), ..none() }, &twice, |_| [0.5f64.powf(1.1), 0.5f64.powf(1.1)]);
+}
+
+/// With k_re = 2 dots per screen area stay equal as the volume goes away, and ink goes with their size.
+#[test]
+fn resolution_keeps_the_density_on_the_page() {
+    let shown = Shown::new();
+    let stipples = Stipples { resolution: Some(Resolution { re: 2.0, reference: None }), ..Stipples::default() };
+    let count = |times| shown.draw(&stipples, &from_afar(&shown, times), None).iter().map(|d| d.opacity).sum::<f64>();
+    let distance = |times| viewing_distance(&from_afar(&shown, times), shown.volume.grid().centre(), 0.5);
+    let ratio = (distance(1.0) / distance(3.0)).powi(2);
+    assert!((count(3.0) / count(1.0) - ratio).abs() < 1e-9);
+    assert_eq!(count(0.9), count(1.0));
+}
+
+#[test]
+fn dots_lie_where_the_camera_sees_their_points() {
+    let shown = Shown::new();
+    for view in [shown.reference.clone(), orthographic(&shown.volume, 2.0)] {
+        let dots = shown.draw(&Stipples::default(), &view, None);
+        assert_eq!(dots.len(), shown.points.len());
+        for dot in dots {
+            let eye = view.to_eye(dot.world);
+            let depth = if view.perspective { -eye.z } else { 1.0 };
+            let size = DVec2::from(view.size.map(|n| n as f64));
+            let pixel = size / 2.0 + DVec2::new(eye.x, -eye.y) / (depth * view.pixel);
+            assert!((dot.at - page(&view).place(pixel, view.size)).length() < 1e-9);
+        }
+    }
+}
+
+/// From frame to frame the drawn set of a voxel is a prefix of its list: the symmetric difference of two frames has
+/// Σ|⌊N_i + u⌋ − ⌊N′_i + u⌋| points, and no point moves.
+#[test]
+fn turning_the_camera_adds_and_takes_points_and_moves_none() {
+    let shown = Shown::new();
+    let stipples = Stipples {
+        ink: Ink::Opaque,
+        silhouette: Some(Silhouette { sc: 0.1, ss: 0.9, se: 1.0, literal: false }),
+        ..Stipples::default()
+    };
+    let turned = Camera { direction: DVec3::new(0.3, 1.0, -0.3), ..Camera::default() };
+    let turned = View::new(&turned, shown.volume.grid(), [200, 200]).unwrap();
+    let bits = |p: DVec3| p.to_array().map(f64::to_bits);
+    let sets: Vec<BTreeSet<[u64; 3]>> = [&shown.reference, &turned]
+        .map(|view| shown.draw(&stipples, view, None).iter().map(|dot| bits(dot.world)).collect())
+        .into();
+    let mut expected = 0;
+    for i in 0..shown.points.voxels.len() {
+        let centre = shown.points.voxels[i].centre();
+        let world = |o: &[f32; 3]| shown.points.grid.to_world(centre + super::wide(*o));
+        let drawn = |set: &BTreeSet<[u64; 3]>| {
+            let is: Vec<bool> = shown.points.of(i).iter().map(|o| set.contains(&bits(world(o)))).collect();
+            let count = is.iter().filter(|&&drawn| drawn).count();
+            assert!(is[..count].iter().all(|&drawn| drawn), "not a prefix: {is:?}");
+            count
+        };
+        expected += drawn(&sets[0]).abs_diff(drawn(&sets[1]));
+    }
+    assert!(expected > 0);
+    assert_eq!(sets[0].symmetric_difference(&sets[1]).count(), expected);
+}
+
+/// A pen has one size; the ink stays.
+#[test]
+fn a_nib_keeps_the_ink() {
+    let shown = Shown::new();
+    let stipples = Stipples { boundary: Some(Boundary { gc: 0.1, gs: 0.2, ge: 1.0 }), ..Stipples::default() };
+    let ink = |dots: &[Dot]| dots.iter().map(|d| d.opacity * d.radius * d.radius).sum::<f64>();
+    let free = shown.draw(&stipples, &shown.reference, None);
+    for nib in [0.6, 0.3, 0.1] {
+        let drawn = shown.draw(&stipples, &shown.reference, Some(nib));
+        assert!((ink(&drawn) / ink(&free) - 1.0).abs() < 1e-9, "{nib}");
+        assert!(drawn.iter().all(|d| d.radius >= 0.5 * nib - 1e-12));
+    }
+}
+
+#[test]
+fn an_eye_in_the_volume_sees_what_lies_before_it() {
+    let shown = Shown::new();
+    let eye = shown.volume.grid().centre() + DVec3::new(6.0, 0.0, 0.0);
+    let camera = Camera { eye: Some(eye), direction: DVec3::NEG_X, direction_given: true, ..Camera::default() };
+    let view = View::new(&camera, shown.volume.grid(), [200, 100]).unwrap();
+    let stipples = Stipples {
+        boundary: Some(Boundary::default()),
+        silhouette: Some(Silhouette::default()),
+        resolution: Some(Resolution::default()),
+        distance: Some(Distance { de: -1.0 }),
+        interior: Some(Interior { te: 0.0 }),
+        lighting: Some(Lighting { le: 1.0, light: None }),
+        ..Stipples::default()
+    };
+    let dots = shown.draw(&stipples, &view, None);
+    assert!(!dots.is_empty());
+    for dot in dots {
+        assert!(dot.at.is_finite() && dot.radius > 0.0 && dot.opacity > 0.0 && dot.opacity <= 1.0);
+        assert!(-view.to_eye(dot.world).z >= 0.5);
+    }
+}

@@ -1,0 +1,68 @@
+//! Volume stippling: what the paper and the specification say of the points and of what a frame draws.
+
+mod curves;
+mod frames;
+mod preprocess;
+mod quality;
+
+use crate::common;
+use drypoint::reference::volume_stippling::{Inputs, Preprocess};
+use drypoint::scene::counts::Counts;
+use drypoint::scene::glam::DVec3;
+use drypoint::scene::points::Points;
+use drypoint::scene::tables::{Camera, GradientRange, Length, Projection, Stipples, VolumeSource, VolumeTable};
+use drypoint::scene::view::View;
+use drypoint::scene::volume::Volume;
+
+/// The points of a volume, in unit voxels.
+struct Preprocessed {
+    points: Points,
+}
+
+impl Preprocessed {
+    /// The first `k` points of every voxel, in index space.
+    fn prefix(&self, k: usize) -> impl Iterator<Item = DVec3> {
+        let points = &self.points;
+        let of = move |i: usize| points.of(i)[..k].iter().map(move |o| points.voxels[i].centre() + wide(*o));
+        (0..points.voxels.len()).flat_map(of)
+    }
+
+    fn centres(&self) -> impl Iterator<Item = DVec3> {
+        self.points.voxels.iter().map(|voxel| voxel.centre())
+    }
+
+    fn offsets_of(&self, voxel: usize) -> impl Iterator<Item = DVec3> {
+        self.points.of(voxel).iter().map(|o| wide(*o))
+    }
+}
+
+fn wide(o: [f32; 3]) -> DVec3 {
+    DVec3::from_array(o.map(f64::from))
+}
+
+/// A `[volume]` whose |g| is ‖g‖ over the largest.
+fn table() -> VolumeTable {
+    let source = VolumeSource::File { path: "test.nrrd".into(), raw: None };
+    VolumeTable { gradient_range: GradientRange::Quantile(1.0), ..VolumeTable::new(source) }
+}
+
+/// An orthographic view along y in which a unit is so many pixels.
+fn orthographic(volume: &Volume, pixels_a_unit: f64) -> View {
+    let projection = Projection::Orthographic { height: Some(Length::World(100.0 / pixels_a_unit)) };
+    let camera = Camera { projection, direction: DVec3::new(0.3, 1.0, -0.4), ..Camera::default() };
+    View::new(&camera, volume.grid(), [100, 100]).unwrap()
+}
+
+/// Points of a function of the index, `each` for a voxel.
+fn points_of(dims: [usize; 3], value: impl Fn(DVec3) -> f64, stipples: &Stipples, each: usize) -> Preprocessed {
+    let volume = common::volume(dims, value);
+    let (view, table) = (orthographic(&volume, 8.0), table());
+    let inputs = |stipples| Inputs { stipples, table: &table, volume: &volume, view: &view, near: 0.5, square: 1.0 };
+    // Eq. 1 is linear in k_max.
+    let once = Preprocess::new(inputs(stipples)).unwrap();
+    let face = (dims.iter().product::<usize>() as f64).cbrt().powi(2);
+    let stipples = Stipples { k_max: each as f64 * face / once.area, ..stipples.clone() };
+    let preprocess = Preprocess::new(inputs(&stipples)).unwrap();
+    assert_eq!((preprocess.each, preprocess.box_side), (each, 1));
+    Preprocessed { points: preprocess.points(&mut Counts::default(), &|_| {}).unwrap() }
+}

@@ -1,0 +1,181 @@
+//! How even points are ([STIP-18]), measured on a flat patch. The same measures stand beside white noise and one repeated
+//! tile, which they have to tell from it.
+
+use super::{Preprocessed, points_of};
+use drypoint::scene::glam::{DVec2, DVec3};
+use drypoint::scene::math::{cos, ln, sin};
+use drypoint::scene::philox;
+use drypoint::scene::tables::{StippleOrder, Stipples, Threshold};
+use std::f64::consts::TAU;
+
+/// What is measured of points in a square.
+#[derive(Clone, Copy, Debug)]
+struct Quality {
+    /// Mean distance to the nearest other point, times √density: 0.5 of white noise, at most 1.07.
+    nearest: f64,
+    /// Mean power over 0 < |f| ≤ ½√(2ρ/√3), in dB of white noise's.
+    low: f64,
+    /// The highest power of a single frequency up to twice that or to two cycles a voxel, in dB.
+    peak: f64,
+}
+
+impl Quality {
+    /// The measures for points of the square [−half, half]²; others tell how far the nearest is.
+    fn new(points: &[DVec2], half: f64) -> Self {
+        let inside: Vec<DVec2> = points.iter().copied().filter(|p| p.abs().max_element() <= half).collect();
+        let density = inside.len() as f64 / (4.0 * half * half);
+        let mean = inside.iter().map(|p| nearest(points, *p)).sum::<f64>() / inside.len() as f64;
+        let (low, peak) = power(&inside, half, density);
+        Self { nearest: mean * density.sqrt(), low, peak }
+    }
+
+    fn is_even(&self, k: usize) -> bool {
+        self.nearest >= 0.75 && self.low <= -8.0 && (k < 2 || self.peak <= 20.0)
+    }
+}
+
+/// The distance to the nearest other point; `points` ascend in x.
+fn nearest(points: &[DVec2], p: DVec2) -> f64 {
+    let at = points.partition_point(|q| q.x < p.x);
+    let mut best = f64::INFINITY;
+    let mut look = |q: &DVec2| {
+        let near = (q.x - p.x).abs() < best;
+        if near && *q != p {
+            best = best.min(q.distance(p));
+        }
+        near
+    };
+    points[at..].iter().all(&mut look);
+    points[..at].iter().rev().all(&mut look);
+    best
+}
+
+/// Mean of the low and highest of all frequencies' power: whole waves in the square, so that its outline adds none.
+fn power(points: &[DVec2], half: f64, density: f64) -> (f64, f64) {
+    let (side, n) = (2.0 * half, points.len() as f64);
+    let cut = 0.5 * (2.0 * density / 3f64.sqrt()).sqrt();
+    let top = (2.0 * cut).max(2.0);
+    let most = (top * side) as i32;
+    let phase = |t: f64| [cos(TAU * t), sin(TAU * t)];
+    let turn = |a: [f64; 2], b: [f64; 2]| [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
+    let steps: Vec<[f64; 2]> = points.iter().map(|p| phase(p.x / side)).collect();
+    let (mut sum, mut count, mut peak) = (0.0, 0.0, 0.0f64);
+    for j in 0..=most {
+        let start = |p: &DVec2| phase((f64::from(j) * p.y - f64::from(most) * p.x) / side);
+        let mut waves: Vec<[f64; 2]> = points.iter().map(start).collect();
+        for i in -most..=most {
+            let mut total = [0.0; 2];
+            for (wave, &step) in waves.iter_mut().zip(&steps) {
+                total = [total[0] + wave[0], total[1] + wave[1]];
+                *wave = turn(*wave, step);
+            }
+            let f = f64::from(i * i + j * j).sqrt() / side;
+            if f > top || (j == 0 && i <= 0) {
+                continue;
+            }
+            let power = (total[0] * total[0] + total[1] * total[1]) / n;
+            peak = peak.max(power);
+            if f <= cut {
+                (sum, count) = (sum + power, count + 1.0);
+            }
+        }
+    }
+    let decibels = |x: f64| 10.0 * ln(x) / ln(10.0);
+    (decibels(sum / count), decibels(peak))
+}
+
+/// Points in the coordinates of a plane through `centre`, ascending in x.
+fn on_plane(points: impl Iterator<Item = DVec3>, centre: DVec3, n: DVec3) -> Vec<DVec2> {
+    let u = n.any_orthonormal_vector();
+    let v = n.cross(u);
+    let mut flat: Vec<DVec2> = points.map(|p| p - centre).map(|p| DVec2::new(p.dot(u), p.dot(v))).collect();
+    flat.sort_by(|a, b| a.x.total_cmp(&b.x));
+    flat
+}
+
+/// Half the side of a square that holds about 3000 points of `density`, or the largest.
+fn half_side(density: f64, largest: f64) -> f64 {
+    (0.5 * (3000.0 / density).sqrt()).min(largest)
+}
+
+/// A flat face of one layer of voxels: an edge of the error function's shape, five voxels wide, thinned.
+fn patch(n: DVec3, order: StippleOrder) -> (Preprocessed, DVec3, f64) {
+    let dims = if n == DVec3::Z { [52, 52, 11] } else { [52, 52, 52] };
+    let centre = DVec3::from_array(dims.map(|n| (n - 1) as f64 / 2.0));
+    // A cubic step is as good: its slope is largest in the middle.
+    let value = move |p: DVec3| {
+        let t = ((p - centre).dot(n) / 4.0).clamp(-1.0, 1.0);
+        t * (3.0 - t * t)
+    };
+    let stipples = Stipples { thin: true, threshold: Threshold::Magnitude(0.5), order, ..Stipples::default() };
+    let largest = if n == DVec3::Z { 24.0 } else { 17.0 };
+    (points_of(dims, value, &stipples, 25), centre, largest)
+}
+
+const OBLIQUE: DVec3 = DVec3::new(0.267_261_241_912_424_4, 0.534_522_483_824_848_8, 0.801_783_725_737_273_2);
+
+#[test]
+fn prefixes_of_a_flat_patch_are_even() {
+    for n in [DVec3::Z, OBLIQUE] {
+        let (made, centre, largest) = patch(n, StippleOrder::Neighbours);
+        for k in [1, 2, 4, 8, 16] {
+            let flat = on_plane(made.prefix(k), centre, n);
+            let quality = Quality::new(&flat, half_side(k as f64, largest));
+            println!("{n} k = {k}: {quality:.3?}");
+            assert!(quality.is_even(k), "{n} k = {k}: {quality:?}");
+        }
+    }
+}
+
+/// The test would find points that are not even: white noise has a nearest-neighbour distance of ½ and no hole in its
+/// spectrum; one voxel's points in every voxel have the voxels' frequency.
+#[test]
+fn white_noise_and_a_repeated_tile_are_not() {
+    let (made, centre, largest) = patch(DVec3::Z, StippleOrder::Neighbours);
+    for k in [1, 2, 4, 8, 16] {
+        let half = half_side(k as f64, largest);
+        let count = (48 * 48 * k) as u32;
+        let white = |i| philox::uniforms(9, [i, 0, 0], 0);
+        let white = (0..count).map(white).map(|[x, y, ..]| centre + 48.0 * DVec3::new(x - 0.5, y - 0.5, 0.0));
+        let quality = Quality::new(&on_plane(white, centre, DVec3::Z), half);
+        assert!((quality.nearest - 0.5).abs() < 0.02 && quality.low > -1.0, "white, k = {k}: {quality:?}");
+        assert!(!quality.is_even(k));
+        if k > 1 {
+            let tile: Vec<DVec3> = made.offsets_of(0).take(k).collect();
+            let cells = made.centres().flat_map(|c| tile.iter().map(move |o| c + *o));
+            let quality = Quality::new(&on_plane(cells, centre, DVec3::Z), half);
+            assert!(quality.peak > 20.0 && !quality.is_even(k), "a tile, k = {k}: {quality:?}");
+        }
+    }
+}
+
+/// A voxel that does not see its neighbours, the paper's, is less even across their faces.
+#[test]
+fn seeing_the_neighbours_makes_the_difference() {
+    let measured = |order| {
+        let (made, centre, largest) = patch(DVec3::Z, order);
+        Quality::new(&on_plane(made.prefix(4), centre, DVec3::Z), half_side(4.0, largest)).nearest
+    };
+    let [voxel, neighbours] = [StippleOrder::Voxel, StippleOrder::Neighbours].map(measured);
+    assert!(voxel < neighbours - 0.1, "{voxel} {neighbours}");
+}
+
+/// Inside a solid, where every voxel has points, distances are those in space: white noise has 0.554.
+#[test]
+fn points_of_a_solid_are_even_in_space() {
+    let stipples = Stipples { threshold: Threshold::Magnitude(0.5), ..Stipples::default() };
+    let made = points_of([16; 3], |p| p.dot(OBLIQUE), &stipples, 25);
+    for k in [1, 2, 4, 8, 16] {
+        let mut points: Vec<DVec3> = made.prefix(k).collect();
+        points.sort_by(|a, b| a.x.total_cmp(&b.x));
+        let inside = |p: &&DVec3| (**p - 7.5).abs().max_element() < 4.0;
+        let near = |p: &DVec3| {
+            let other = |q: &&DVec3| (q.x - p.x).abs() < 1.5 && *q != p;
+            points.iter().filter(other).map(|q| q.distance(*p)).fold(f64::INFINITY, f64::min)
+        };
+        let chosen: Vec<&DVec3> = points.iter().filter(inside).collect();
+        let mean = chosen.iter().map(|p| near(p)).sum::<f64>() / chosen.len() as f64;
+        let ratio = mean * (k as f64).cbrt();
+        assert!(ratio >= 0.75, "k = {k}: {ratio}");
+    }
+}
