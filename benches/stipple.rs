@@ -47,10 +47,10 @@ fn table() -> VolumeTable {
 fn with_inputs<T>(volume: &Volume, f: impl FnOnce(Inputs<'_>) -> T) -> T {
     let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
     let (mut stipples, table) = (stipples(), table());
-    let inputs = |stipples| Inputs { stipples, table: &table, volume, view: &view, near: 0.5, square: 0.3 };
-    let area = Preprocess::new(inputs(&stipples)).unwrap().area;
-    stipples.k_max = 25.0 * 65_536.0 / area;
-    f(inputs(&stipples))
+    let first = stipples.clone();
+    let inputs = Inputs { stipples: &first, table: &table, volume, view: &view, near: 0.5, square: 0.3 };
+    stipples.k_max = 25.0 * 65_536.0 / Preprocess::new(inputs).unwrap().area;
+    f(Inputs { stipples: &stipples, ..inputs })
 }
 
 fn points(inputs: Inputs<'_>) -> Points {

@@ -23,7 +23,9 @@ impl Format {
         match suffix.as_str() {
             "png" => Ok(Self::Png),
             "exr" => Ok(Self::Exr),
-            "svg" | "pdf" => refused(format!(".{suffix} is for points and strokes, which are not built yet ([IO-7])")),
+            "svg" | "pdf" => {
+                refused(format!(".{suffix} is for points and lines, which `drypoint points` writes ([IO-7])"))
+            }
             "" => refused("the name has no suffix, which chooses the format of the picture".into()),
             _ => refused(format!(".{suffix} is the suffix of no picture format that is written")),
         }
@@ -40,7 +42,7 @@ mod tests {
         assert_eq!(of("a/b.c.PNG"), Ok(Format::Png));
         assert_eq!(of("b.exr"), Ok(Format::Exr));
         for (name, what) in [
-            ("a.pdf", ".pdf is for points and strokes, which are not built yet ([IO-7])"),
+            ("a.pdf", ".pdf is for points and lines, which `drypoint points` writes ([IO-7])"),
             ("a.jpg", ".jpg is the suffix of no picture format that is written"),
             ("png", "the name has no suffix, which chooses the format of the picture"),
             (".png", "the name has no suffix, which chooses the format of the picture"),

@@ -115,7 +115,8 @@ impl Job {
         }
         if scene.stipples.is_some() {
             let what = "stipples are not drawn into a rendered picture yet ([STIP-16])";
-            return Err(Failure::new(what, scene.given.position("stipples"), "remove the table [stipples]").into());
+            let remedy = "draw them with `drypoint points`, or remove the table [stipples]";
+            return Err(Failure::new(what, scene.given.position("stipples"), remedy).into());
         }
         let mut failures = Vec::new();
         let reads_labels = plan.needs(Quantity::Label) || plan.needs(Quantity::LabelDistance);
@@ -266,13 +267,7 @@ impl Job {
 
     /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
     pub fn provenance(&self) -> Provenance {
-        let hash = Sha256::digest(identity(&self.scene));
-        let plan = self.plan_of(&self.scene);
-        Provenance {
-            software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
-            scene_hash: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
-            plan: plan.summary(),
-        }
+        provenance(&self.scene, &self.plan_of(&self.scene))
     }
 
     /// Writes a picture of this job, as PNG or EXR by the suffix. The file appears whole or not at all.
@@ -286,6 +281,15 @@ impl Job {
             Format::Exr => exr::write_exr(picture, &provenance, path),
         };
         written.map_err(|error| Failure::picture(&error, path.display()))
+    }
+}
+
+/// What a picture of a scene says of its origin ([IO-2]).
+pub(crate) fn provenance(scene: &Scene, plan: &Plan) -> Provenance {
+    Provenance {
+        software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
+        scene_hash: Sha256::digest(identity(scene)).iter().map(|byte| format!("{byte:02x}")).collect(),
+        plan: plan.summary(),
     }
 }
 
@@ -330,7 +334,7 @@ fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
 }
 
 /// Reads or generates a scene's volume.
-fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
+pub(crate) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
     match &table.source {
         VolumeSource::File { path, raw } => read::read(path, raw.as_ref()).map_err(Failure::from),
         VolumeSource::Phantom(source) => phantom::generate(source).map_err(|error| {

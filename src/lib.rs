@@ -21,6 +21,7 @@ pub mod format;
 pub mod job;
 pub mod labels;
 mod memory;
+pub mod stippling;
 
 pub use drypoint_output as output;
 pub use drypoint_reference as reference;

@@ -13,7 +13,6 @@ const LATER: &[(&str, &str)] = &[
     ("validate", "GPU-1"),
     ("pick", "HALO-12"),
     ("paint", "VS-6"),
-    ("points", "STIP-16"),
     ("strokes", "STIP-16"),
     ("halo", "HALO-4"),
     ("wedge", "STIP-17"),

@@ -118,8 +118,29 @@ impl Over {
     }
 }
 
+/// What a verb is given, before it is made into anything.
+pub(super) struct Found {
+    /// The scene.
+    pub scene: Scene,
+    /// Its volume, where that had to be read to make the scene.
+    pub volume: Option<Volume>,
+    /// What was looked at for that.
+    pub counts: Counts,
+}
+
 /// Loads what a verb is given.
 pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
+    let Found { scene, volume, counts } = find(path, over)?;
+    let mut job = match volume {
+        Some(volume) => Job::with_volume(scene, volume),
+        None => Job::load(scene),
+    }?;
+    job.counts.add(&counts);
+    Ok(job)
+}
+
+/// The scene that a verb is given, or that of a bare volume.
+pub(super) fn find(path: Option<&Path>, over: &Over) -> Result<Found, Failures> {
     let finished = |mut scene: Scene| {
         if over.beauty_only {
             scene.picture.layers = vec![LayerKind::Beauty];
@@ -130,13 +151,14 @@ pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
         }
         scene
     };
+    let found = |scene| Found { scene: finished(scene), volume: None, counts: Counts::default() };
     let Some(path) = path else {
         let scene = file::parse(file::DEFAULT_SCENE, Path::new("the embedded scene"), &over.overrides);
-        return Job::load(finished(scene.map_err(|faults| over.failures(faults))?));
+        return Ok(found(scene.map_err(|faults| over.failures(faults))?));
     };
     if is_scene(path) {
-        let scene = file::load(path, &over.overrides).map_err(|faults| over.failures(faults))?;
-        return Job::load(finished(scene));
+        let scene = file::load(path, &over.overrides);
+        return Ok(found(scene.map_err(|faults| over.failures(faults))?));
     }
     let described = file::parse(NOTHING, Path::new(""), &over.raw).map_err(|faults| over.failures(faults))?;
     let raw = layout(&described.volume.source);
@@ -146,14 +168,17 @@ pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
     let volume = read::read(path, raw)?;
     let mut counts = Counts::default();
     let scene = finished(suggested(path, raw, &volume, over, &mut counts)?);
-    let mut job = match &scene.volume.source {
-        VolumeSource::File { path: shown, raw: described } if shown == path && described.as_ref() == raw => {
-            Job::with_volume(scene, volume)
-        }
-        _ => Job::load(scene),
-    }?;
-    job.counts.add(&counts);
-    Ok(job)
+    let same = match &scene.volume.source {
+        VolumeSource::File { path: shown, raw: described } => shown == path && described.as_ref() == raw,
+        VolumeSource::Phantom(_) => false,
+    };
+    Ok(Found { scene, volume: same.then_some(volume), counts })
+}
+
+/// What `--set` says of a page that has no scene, all else being default.
+pub(super) fn page(set: &Set) -> Result<Scene, Failures> {
+    let over = Over::new(set, Vec::new())?;
+    file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
 }
 
 /// What flags alone say, all else being default: a scene of no volume.

@@ -8,6 +8,7 @@ mod info;
 mod input;
 mod phantom;
 mod plan;
+mod points;
 mod probe;
 mod raw;
 mod render;
@@ -61,6 +62,8 @@ enum Verb {
     Phantom(phantom::Phantom),
     /// Say what a scene calls for, and why
     Plan(plan::Plan),
+    /// Stipple a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
+    Points(points::Points),
     /// List the styles of a theme, write a preview sheet, or make a style from a picture
     Styles(styles::Styles),
     /// Compare two pictures; exit code 1 when a bound is exceeded
@@ -139,6 +142,7 @@ impl Cli {
             Verb::Probe(verb) => verb.run(talk),
             Verb::Phantom(verb) => verb.run(talk),
             Verb::Plan(verb) => verb.run(talk),
+            Verb::Points(verb) => verb.run(talk),
             Verb::Styles(verb) => verb.run(talk),
             Verb::Compare(verb) => verb.run(talk),
             Verb::Cost(verb) => verb.run(talk),

@@ -13,6 +13,7 @@ mod output;
 mod overrides;
 mod phantom;
 mod plan;
+mod points;
 mod probe;
 mod raw;
 mod repeatable;

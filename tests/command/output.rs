@@ -114,8 +114,8 @@ fn suffixes_choose_the_format() {
     folder.scene("");
     let remedy = "give a name that ends in .png or .exr";
     for (name, what, remedy) in [
-        ("out.svg", ".svg is for points and strokes, which are not built yet ([IO-7])", remedy),
-        ("out.pdf", ".pdf is for points and strokes, which are not built yet ([IO-7])", remedy),
+        ("out.svg", ".svg is for points and lines, which `drypoint points` writes ([IO-7])", remedy),
+        ("out.pdf", ".pdf is for points and lines, which `drypoint points` writes ([IO-7])", remedy),
         ("out.jpg", ".jpg is the suffix of no picture format that is written", remedy),
         ("out", "the name has no suffix, which chooses the format of the picture", remedy),
         (

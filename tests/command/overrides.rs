@@ -83,7 +83,10 @@ fn what_leads_nowhere_is_refused() {
             "--preset toon",
             "error: preset = \"toon\" is not built yet ([HATCH-15])\n  at: --preset toon\n  try: remove it: this version cannot draw it, and would not ignore it\n",
         ),
-        ("--preset stlye", "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"\n"),
+        (
+            "--preset stlye",
+            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\" or \"stipple-fig9\"\n",
+        ),
     ] {
         assert_eq!(folder.refused(&format!("render scene.toml {line}")), expected, "{line}");
     }

@@ -124,6 +124,7 @@ const SAMPLES: &[Sample] = &[
     ("stipples.size", &[STIPPLES], "3 px"),
     ("stipples.seed", &[STIPPLES], "7"),
     ("stipples.color", &[STIPPLES], "#00f"),
+    ("stipples.pen", &[STIPPLES], "red"),
     ("stipples.gradient", &[STIPPLES], "central"),
     ("stipples.slab", &[STIPPLES], "0"),
     ("stipples.order", &[STIPPLES], "voxel"),

@@ -27,6 +27,8 @@ pub struct Stipples {
     pub seed: u64,
     /// What the dots are drawn in: linear, straight.
     pub color: Rgba,
+    /// The pen of `[[pen]]` that draws, in its colour and size ([STIP-6]); none: dots of `color` and any size.
+    pub pen: Option<String>,
     /// Estimator of V and ∇V ([STIP-1]).
     pub gradient: StippleGradient,
     /// Half the distance of the two planes ([STIP-4]).
@@ -119,6 +121,7 @@ impl Default for Stipples {
             size: Length::Millimetres(0.35),
             seed: 1,
             color: [0.0, 0.0, 0.0, 1.0],
+            pen: None,
             gradient: StippleGradient::Regression,
             slab: Length::Voxels(0.5),
             order: StippleOrder::Neighbours,

@@ -7,7 +7,7 @@ use super::{
     factors::{BOUNDARY, DISTANCE, INTERIOR, LIGHTING, RESOLUTION, SILHOUETTE},
 };
 use crate::file::describe::{Key, Later, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, Number, On, TableOf, Whole};
+use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, Number, On, TableOf, Text, Whole};
 
 /// The description of `[stipples]`.
 pub(crate) static TABLE: Table<Stipples> = Table {
@@ -64,6 +64,17 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                 "What the dots are drawn in.",
                 &Slot { kind: Colors, get: |s: &Stipples| Some(s.color), set: |s, v| s.color = v },
             ),
+            Key::new(
+                "pen",
+                "STIP-6",
+                "The pen of `[[pen]]` that draws: dots have its colour and its nib's size, and where they should be smaller there are fewer.",
+                &Slot {
+                    kind: Text { what: "the name of a pen" },
+                    get: |s: &Stipples| s.pen.clone(),
+                    set: |s, v| s.pen = Some(v),
+                },
+            )
+            .absent("`color`, in dots of any size"),
             Key::new(
                 "gradient",
                 "STIP-1",
