@@ -8,7 +8,7 @@ use drypoint_reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, P
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::plan::Plan;
-use drypoint_scene::tables::{Background, Ids, Length, PageSettings, Scene, Stipples};
+use drypoint_scene::tables::{Background, Ids, Ink, Length, PageSettings, Scene, Stipples};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::Volume;
 use std::path::Path;
@@ -39,7 +39,7 @@ impl Stippling {
     /// # Errors
     /// As [`Stippling::load`].
     pub fn with_volume(mut scene: Scene, volume: Volume) -> Result<Self, Failures> {
-        let Some(stipples) = scene.stipples.clone() else {
+        let Some(mut stipples) = scene.stipples.clone() else {
             let remedy = "add a table [stipples], or write preset = \"stipple\"";
             return Err(Failure::new("the scene has no stipples", scene.given.position("stipples"), remedy).into());
         };
@@ -47,7 +47,15 @@ impl Stippling {
             Ids::Values => volume,
             Ids::Mask => volume.present(),
         };
+        if let Background::Picture(_) = &scene.picture.background {
+            let (what, remedy) = ("a page has no picture behind it", "give a colour, or \"none\"");
+            return Err(Failure::new(what, scene.given.position("picture.background"), remedy).into());
+        }
         let pen = pen(&scene, &stipples)?;
+        if scene.page.as_ref().is_some_and(|page| page.plotter) {
+            // A nib has no opacity: a dot that fades would be drawn whole, and too much ink in all ([STIP-5]).
+            stipples.ink = Ink::Opaque;
+        }
         // The volume itself is not drawn, so nothing of that is called for.
         (scene.transfer, scene.shading, scene.contours, scene.style_mipmaps) = (None, None, None, None);
         Ok(Self { scene, volume, stipples, pen })
@@ -102,6 +110,7 @@ impl Stippling {
         }
         let mut marks = Marks { page, layers: vec![layer] };
         marks.settle();
+        counts.points += marks.layers.iter().map(|layer| layer.dots.len() as u64).sum::<u64>();
         counts.seconds.insert("frame".into(), start.elapsed().as_secs_f64());
         Ok(marks)
     }
@@ -170,13 +179,23 @@ impl MarksFormat {
     }
 }
 
-/// Writes marks on the page of a scene. What a plotter will do is returned, a sentence a layer.
+/// Writes marks on the page of a scene. What a plotter will do is returned, a sentence a layer. A list has the dots as they
+/// are, whatever draws them.
 ///
 /// # Errors
 /// What the operating system refuses, or a page of no or too many pixels.
 pub fn write(marks: &Marks, scene: &Scene, path: &Path) -> Result<Vec<String>, Failure> {
     let format = MarksFormat::of(path)?;
     let wrong = |error: OutputError| Failure::picture(&error, path.display());
+    if format == MarksFormat::Csv {
+        list::write_dots(marks, path).map_err(wrong)?;
+        let lines: usize = marks.layers.iter().map(|layer| layer.lines.len()).sum();
+        return Ok(if lines > 0 {
+            vec![format!("{lines} lines are left out: a list has dots alone")]
+        } else {
+            Vec::new()
+        });
+    }
     let plotter = scene.page.as_ref().is_some_and(|PageSettings { plotter, .. }| *plotter);
     let plan = plotter.then(|| plotter::plan(marks, &plotter::Speed::default()));
     let (marks, said) = match &plan {
@@ -192,8 +211,7 @@ pub fn write(marks: &Marks, scene: &Scene, path: &Path) -> Result<Vec<String>, F
     match format {
         MarksFormat::Svg => svg::write_svg(&sheet, path),
         MarksFormat::Pdf => pdf::write_pdf(&sheet, path),
-        MarksFormat::Csv => list::write_dots(marks, path),
-        MarksFormat::Png | MarksFormat::Exr => {
+        _ => {
             let mut picture = paint::blank(&marks.page, background).map_err(wrong)?;
             paint::paint(marks, &paint::Window::page(&marks.page), scene.picture.blend_space, &mut picture)
                 .map_err(wrong)?;

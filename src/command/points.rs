@@ -40,12 +40,11 @@ impl Points {
         MarksFormat::of(&self.output)?;
         atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
         let mut counts = Counts::default();
-        let (scene, marks) = if is_list(&self.input) { self.list()? } else { self.stippled(&mut counts, talk)? };
+        let (scene, marks) = if is_list(&self.input) { self.list(talk)? } else { self.stippled(&mut counts, talk)? };
         let dots: usize = marks.layers.iter().map(|layer| layer.dots.len()).sum();
         let lines: usize = marks.layers.iter().map(|layer| layer.lines.len()).sum();
         if dots + lines == 0 {
-            let what = "warning: the page is empty: no voxel's gradient is above stipples.threshold where it is seen";
-            note(talk, what);
+            note(talk, "warning: the page is empty");
         }
         let start = Instant::now();
         let said = write(&marks, &scene, &self.output)?;
@@ -61,7 +60,11 @@ impl Points {
     }
 
     /// A saved list, on the page that the overrides say.
-    fn list(&self) -> Result<(Scene, Marks), Failures> {
+    fn list(&self, talk: Talk) -> Result<(Scene, Marks), Failures> {
+        if let Some(preset) = &self.preset {
+            let place = format!("--preset {preset}");
+            return Err(Failure::new("a list of dots has no preset", place, "leave it out").into());
+        }
         let scene = input::page(&self.set)?;
         let page = Page::of(&scene);
         let mut pens = Pen::of(&scene.pens, &page);
@@ -70,8 +73,15 @@ impl Points {
         }
         let layers = list::read_list(&self.input, &page, &pens)
             .map_err(|error| Failure::picture(&error, self.input.display()))?;
+        let dots = |marks: &Marks| marks.layers.iter().map(|layer| layer.dots.len()).sum::<usize>();
         let mut marks = Marks { page, layers };
+        let read = dots(&marks);
         marks.settle();
+        if dots(&marks) < read {
+            let (lost, [width, height]) = (read - dots(&marks), page.size.to_array());
+            let says = "--set picture.width and picture.height say its size";
+            note(talk, format_args!("warning: {lost} dots are not on a page of {width:.0} × {height:.0} mm; {says}"));
+        }
         Ok((scene, marks))
     }
 
@@ -82,7 +92,8 @@ impl Points {
         } else if !input::is_scene(&self.input) {
             flags.push(Flag::name("preset", "--preset", "stipple"));
         }
-        let sizes_page = |set: &String| set.trim_start().starts_with("picture.");
+        let sizes = ["picture.size", "picture.width", "picture.height", "picture="];
+        let sizes_page = |set: &String| sizes.iter().any(|key| set.trim_start().starts_with(key));
         if !input::is_scene(&self.input) && !self.set.set.iter().any(sizes_page) {
             // A page to print on, rather than the pixels of a rendered picture.
             flags.push(Flag::name("picture.width", "picture.width", "160 mm"));

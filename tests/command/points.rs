@@ -78,6 +78,27 @@ fn what_makes_no_page_is_refused() {
 fn a_page_without_dots_says_so() {
     let folder = Folder::new();
     folder.write("flat.toml", SCENE.replace("name = \"sphere\", size = 32", "name = \"constant\", size = 8"));
+    // However many points a voxel would have.
+    assert_eq!(folder.line("points flat.toml -o flat.svg --set stipples.k_max=1e30").code, Some(0));
     let told = folder.line("points flat.toml -o flat.svg").err;
     assert!(told.contains("warning: the page is empty"), "{told}");
+}
+
+/// A plotter's page has fewer, opaque dots of the nib's size; the list of it has the same dots, however large, and says which
+/// lines it leaves out.
+#[test]
+fn a_plotter_s_page() {
+    let folder = Folder::new();
+    let pens =
+        "[page]\nmargin = \"5 mm\"\nplotter = true\n[[pen]]\nname = \"red\"\nwidth = \"0.3 mm\"\ncolor = \"red\"\n";
+    folder.write("ball.toml", format!("{SCENE}{pens}[stipples]\npen = \"red\"\n[stipples.curves]\n"));
+    let told = folder.line("points ball.toml -o ball.svg").err;
+    assert!(told.contains("1-red 0.3: ") && told.contains(" touches, "), "{told}");
+    let svg = text(&folder, "ball.svg");
+    assert!(svg.contains("inkscape:label=\"1-red 0.3\"") && !svg.contains("opacity=\"0."));
+    let told = folder.line("points ball.toml -o ball.csv").err;
+    assert!(told.contains(" lines are left out: a list has dots alone"), "{told}");
+    let csv = text(&folder, "ball.csv");
+    assert!(csv.lines().count() > 200);
+    assert!(csv.lines().skip(1).all(|line| line.split(',').nth(6) == Some("1")), "{}", &csv[..300]);
 }

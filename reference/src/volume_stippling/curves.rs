@@ -42,7 +42,7 @@ pub struct Segment {
 }
 
 impl Edges {
-    /// Measures the voxels of a volume, of which `voxels` are those with ‖∇V‖ above 0.
+    /// Measures the voxels of a volume, of which `voxels` are those with ‖∇V‖ above Th_grad.
     ///
     /// LoG is the trace of the Hessian of the grid smoothed by a Gaussian of σ = 1 voxel, over its largest magnitude in the
     /// volume; the turning of the normal is that of the same field.

@@ -23,7 +23,7 @@ const LANES: usize = 8;
 /// A coordinate or a distance of each.
 type Lane = [f32; LANES];
 
-/// Half the side of the neighbourhood's cube of offsets, and the offset's number of a voxel itself.
+/// The number of a voxel itself among the 27 of its neighbourhood.
 const SELF: usize = 13;
 
 /// The voxels and how their points lie.

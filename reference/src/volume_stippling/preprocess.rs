@@ -144,7 +144,8 @@ impl<'a> Preprocess<'a> {
             seed: stipples.seed,
             neighbours: stipples.order == StippleOrder::Neighbours,
         };
-        let offsets = order::points(&sites, self.each, done);
+        // N_max is bounded by memory, which a volume without a boundary does not take.
+        let offsets = if cells.is_empty() { Vec::new() } else { order::points(&sites, self.each, done) };
         let mut points = Points { grid: grid.clone(), each: self.each, voxels: self.voxels.clone(), offsets };
         onto_edges(&mut points, &self.tops);
         counts.preprocess.insert("stipple gradients".into(), self.gradients);

@@ -184,7 +184,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
                             ChoiceOption::new(
                                 "stipple",
                                 Preset::Stipples(StipplePreset::Plain),
-                                "Stipples on boundaries and silhouettes, one layer a face, and silhouette curves.",
+                                "Stipples on boundaries and silhouettes, one layer a face.",
                             ),
                             ChoiceOption::new(
                                 "stipple-fig1",

@@ -98,7 +98,7 @@ fn half_side(density: f64, largest: f64) -> f64 {
     (0.5 * (3000.0 / density).sqrt()).min(largest)
 }
 
-/// A flat face of one layer of voxels: an edge of the error function's shape, five voxels wide, thinned.
+/// A flat face of one layer of voxels: an edge that is a cubic step, eight voxels wide, thinned.
 fn patch(n: DVec3, order: StippleOrder) -> (Preprocessed, DVec3, f64) {
     let dims = if n == DVec3::Z { [52, 52, 11] } else { [52, 52, 52] };
     let centre = DVec3::from_array(dims.map(|n| (n - 1) as f64 / 2.0));

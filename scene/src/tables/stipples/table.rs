@@ -12,7 +12,6 @@ use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, Num
 /// The description of `[stipples]`.
 pub(crate) static TABLE: Table<Stipples> = Table {
     later: &[
-        Later { name: "pen", tag: "STIP-16" },
         Later { name: "even", tag: "STIP-19" },
         Later { name: "hide_behind", tag: "STIP-15" },
     ],
