@@ -164,7 +164,7 @@ fn what_cannot_be_is_refused() {
     assert!(crossing.err.starts_with(
         "error: the outline crosses itself: the line from point 1 meets the one from point 3\n  at: --outline 0,0 9,9 9,0 0,9 in art.png\n"
     ));
-    assert!(extract("text.png --circle 1,2,3 -o s.png").starts_with("error: not a readable PNG or JPEG: "));
+    assert!(extract("text.png --circle 1,2,3 -o s.png").starts_with("error: not a readable PNG, JPEG or OpenEXR: "));
     for words in [
         "art.png -o s.png",
         "art.png --circle 1,2,3 --ellipse 1,2,3,4,5 -o s.png",

@@ -37,6 +37,6 @@ fn themes_that_cannot_be_had() {
         assert_eq!(folder.refused(&format!("styles {line}")), expected);
     }
     let said = folder.refused("styles --theme broken -o sheet.png");
-    assert!(said.starts_with("error: style `wax`: broken/wax.png: not a readable PNG or JPEG: "), "{said}");
-    assert!(said.ends_with("\n  at: --theme broken\n  try: give a picture in PNG or JPEG\n"), "{said}");
+    assert!(said.starts_with("error: style `wax`: broken/wax.png: not a readable PNG, JPEG or OpenEXR: "), "{said}");
+    assert!(said.ends_with("\n  at: --theme broken\n  try: give a picture in PNG, JPEG or OpenEXR\n"), "{said}");
 }

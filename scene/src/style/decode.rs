@@ -1,4 +1,4 @@
-//! PNG and JPEG bytes as straight RGBA numbers ([VAL-3]).
+//! PNG, JPEG and OpenEXR bytes as straight RGBA numbers ([VAL-3]).
 
 use super::PictureFault;
 use crate::color::Rgba;
@@ -8,18 +8,30 @@ use std::io::Cursor;
 /// The largest side of a style's picture, in texels: 512 MiB decoded, far beyond what a lookup can tell apart.
 pub const MAX_SIDE: usize = 4096;
 
-/// Width, height and straight RGBA in [0, 1], row by row from the top. Each channel is divided by 2ⁿ − 1 and nothing
-/// else is done to it; grey is repeated, a missing alpha is 1.
+/// A square or other picture of straight RGBA in [0, 1], row by row from the top.
+pub(super) struct Straight {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) texels: Vec<Rgba>,
+    /// Whether its colours are linear light by the file's kind.
+    pub(super) light: bool,
+}
+
+/// A picture whose channels are each divided by 2ⁿ − 1, and nothing else is done to them; grey is repeated, a missing
+/// alpha is 1. OpenEXR has light that is multiplied by alpha: it is divided by it, and what is above 1 becomes 1.
 ///
 /// # Errors
-/// Bytes that are no PNG or JPEG, damaged ones, and sides above [`MAX_SIDE`] (seen before anything is allocated).
-pub(super) fn straight(bytes: &[u8]) -> Result<(usize, usize, Vec<Rgba>), PictureFault> {
+/// Bytes that are no PNG, JPEG or OpenEXR, damaged ones, and sides above [`MAX_SIDE`] (seen before anything is
+/// allocated).
+pub(super) fn straight(bytes: &[u8]) -> Result<Straight, PictureFault> {
     let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE)?;
-    let numbers: Vec<f64> = match codes {
-        Codes::Eight(codes) => codes.iter().map(|&code| f64::from(code) / 255.0).collect(),
-        Codes::Sixteen(codes) => codes.iter().map(|&code| f64::from(code) / 65535.0).collect(),
+    let light = matches!(codes, Codes::Light(_));
+    let texels = match codes {
+        Codes::Eight(codes) => codes.chunks_exact(channels).map(|codes| shares(codes, 255.0)).collect(),
+        Codes::Sixteen(codes) => codes.chunks_exact(channels).map(|codes| shares(codes, 65535.0)).collect(),
+        Codes::Light(light) => light.chunks_exact(channels).map(of_light).collect(),
     };
-    Ok((width, height, numbers.chunks_exact(channels).map(rgba).collect()))
+    Ok(Straight { width, height, texels, light })
 }
 
 /// A decoded picture's channels as the file has them, without the decoder's own colour conversions.
@@ -38,10 +50,12 @@ pub(super) enum Codes {
     Eight(Vec<u8>),
     /// From 0 to 2¹⁶ − 1.
     Sixteen(Vec<u16>),
+    /// Linear light, multiplied by alpha where there is one.
+    Light(Vec<f32>),
 }
 
 impl Decoded {
-    /// From a PNG or JPEG file's bytes.
+    /// From a PNG, JPEG or OpenEXR file's bytes.
     ///
     /// # Errors
     /// Bytes that are no such picture, damaged ones, and sides above `limit` (seen before anything is allocated).
@@ -61,14 +75,34 @@ impl Decoded {
             ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
                 Codes::Sixteen(bytes.chunks_exact(2).map(|b| u16::from_ne_bytes([b[0], b[1]])).collect())
             }
+            ColorType::Rgb32F | ColorType::Rgba32F => {
+                Codes::Light(bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect())
+            }
             other => return Err(PictureFault::Unreadable { reason: format!("texels of type {other:?}") }),
         };
         Ok(Self { width, height, channels: usize::from(color.channel_count()), codes })
     }
 }
 
+/// Channels as shares of the largest code.
+pub(super) fn shares<C: Copy + Into<f64>>(codes: &[C], largest: f64) -> Rgba {
+    let mut numbers = [0.0; 4];
+    for (number, &code) in numbers.iter_mut().zip(codes) {
+        *number = code.into() / largest;
+    }
+    rgba(&numbers[..codes.len()])
+}
+
+/// Light multiplied by alpha as straight RGBA in [0, 1]; what is no number is 0.
+pub(super) fn of_light(channels: &[f32]) -> Rgba {
+    let [r, g, b, a] = shares(channels, 1.0).map(|c| c.max(0.0));
+    let a = a.min(1.0);
+    let straight = |c: f64| if a > 0.0 { (c / a).min(1.0) } else { 0.0 };
+    [straight(r), straight(g), straight(b), a]
+}
+
 /// The channels of a pixel as red, green, blue and alpha.
-pub(super) fn rgba(channels: &[f64]) -> Rgba {
+fn rgba(channels: &[f64]) -> Rgba {
     match *channels {
         [grey] => [grey, grey, grey, 1.0],
         [grey, a] => [grey, grey, grey, a],
@@ -96,13 +130,35 @@ mod tests {
 
     #[test]
     fn every_channel_layout_and_depth() {
-        let first = |bytes: &[u8]| straight(bytes).unwrap().2[0];
+        let first = |bytes: &[u8]| straight(bytes).unwrap().texels[0];
         assert_eq!(first(&png(GrayImage::from_pixel(2, 2, Luma([51])))), [0.2, 0.2, 0.2, 1.0]);
         assert_eq!(first(&png(GrayAlphaImage::from_pixel(2, 2, LumaA([51, 102])))), [0.2, 0.2, 0.2, 0.4]);
         assert_eq!(first(&png(RgbImage::from_pixel(2, 2, Rgb([51, 102, 255])))), [0.2, 0.4, 1.0, 1.0]);
         assert_eq!(first(&png(RgbaImage::from_pixel(2, 2, Texel([0, 51, 102, 153])))), [0.0, 0.2, 0.4, 0.6]);
         let deep: ImageBuffer<Texel<u16>, Vec<u16>> = ImageBuffer::from_pixel(2, 2, Texel([1, 13107, 65535, 0]));
         assert_eq!(first(&png(deep)), [1.0 / 65535.0, 0.2, 1.0, 0.0]);
+    }
+
+    fn exr(picture: impl Into<DynamicImage>) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.into().write_to(&mut bytes, ImageFormat::OpenExr).unwrap();
+        bytes.into_inner()
+    }
+
+    /// OpenEXR keeps light times alpha: (¼, ⅛, 1) at alpha ½ is the straight (½, ¼, 1) after the clip, and stays so
+    /// whether or not a scene says `linear`.
+    #[test]
+    fn openexr_is_light_times_alpha() {
+        let texel = Texel([0.25_f32, 0.125, 1.0, 0.5]);
+        let bytes = exr(ImageBuffer::from_pixel(2, 2, texel));
+        for linear in [false, true] {
+            let style = Style::decode("lamp", &bytes, linear).unwrap();
+            assert_eq!(style.texel(0, 0), [0.25, 0.125, 0.5, 0.5]);
+        }
+        let bytes = exr(ImageBuffer::from_pixel(2, 2, Rgb([0.5_f32, 14.0, f32::NAN])));
+        assert_eq!(Style::decode("chrome", &bytes, false).unwrap().texel(0, 0), [0.5, 1.0, 0.0, 1.0]);
+        let clear = exr(ImageBuffer::from_pixel(2, 2, Texel([0.5_f32, 0.5, 0.5, 0.0])));
+        assert_eq!(Style::decode("clear", &clear, false).unwrap().texel(0, 0), [0.0; 4]);
     }
 
     #[test]

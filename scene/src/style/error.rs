@@ -5,8 +5,8 @@ use std::path::PathBuf;
 /// Why a picture is no style.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PictureFault {
-    /// Not a PNG or JPEG, or a damaged one.
-    #[error("not a readable PNG or JPEG: {reason}")]
+    /// Not a PNG, JPEG or OpenEXR, or a damaged one.
+    #[error("not a readable PNG, JPEG or OpenEXR: {reason}")]
     Unreadable {
         /// What the decoder says.
         reason: String,
@@ -132,7 +132,7 @@ impl PictureFault {
     /// One line that says what to do.
     pub fn help(&self) -> &'static str {
         match self {
-            Self::Unreadable { .. } => "give a picture in PNG or JPEG",
+            Self::Unreadable { .. } => "give a picture in PNG, JPEG or OpenEXR",
             Self::NotSquare { .. } | Self::Texels { .. } => "cut the picture to the square around its sphere",
             Self::TooLarge { .. } => "scale the picture down",
             Self::Pixels { .. } => "give one for each place of a picture that has at least one",

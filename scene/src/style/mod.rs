@@ -20,6 +20,7 @@ pub use source::SourcePicture;
 pub use theme::Theme;
 
 use crate::color::{Rgba, premultiply, srgb_to_linear};
+use decode::Straight;
 
 /// A lit sphere, ready for bilinear lookups.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,19 +35,20 @@ pub struct Style {
 }
 
 impl Style {
-    /// A style from a PNG or JPEG file's bytes.
+    /// A style from a PNG, JPEG or OpenEXR file's bytes.
     ///
     /// Channels are divided by 2ⁿ − 1 and, unless the picture is `linear`, decoded from sRGB; gAMA, cHRM and ICC
-    /// chunks are ignored ([VAL-3]). Without an alpha channel α_d = 1.
+    /// chunks are ignored ([VAL-3]). Without an alpha channel α_d = 1. OpenEXR is linear light, multiplied by α_d where
+    /// there is one; what is brighter than 1 becomes 1.
     ///
     /// # Errors
     /// Bytes that are no such picture, and what [`Style::from_straight`] refuses.
     pub fn decode(name: &str, bytes: &[u8], linear: bool) -> Result<Self, PictureFault> {
-        let (width, height, straight) = decode::straight(bytes)?;
+        let Straight { width, height, texels, light } = decode::straight(bytes)?;
         if width != height {
             return Err(PictureFault::NotSquare { width, height });
         }
-        Self::from_straight(name, width, &straight, linear)
+        Self::from_straight(name, width, &texels, linear || light)
     }
 
     /// A style from S × S straight RGBA texels in [0, 1], row by row from the top, encoded as sRGB unless `linear`.

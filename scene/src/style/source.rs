@@ -1,7 +1,7 @@
-//! A picture that a style is taken from: of any size, PNG or JPEG ([STF-2], [VAL-3]).
+//! A picture that a style is taken from: of any size, PNG, JPEG or OpenEXR ([STF-2], [VAL-3]).
 
 use super::PictureFault;
-use super::decode::{Codes, Decoded, rgba};
+use super::decode::{Codes, Decoded, of_light, shares};
 use crate::color::{Rgba, premultiply, srgb_to_linear};
 
 /// The largest side of such a picture, in pixels: room for large scans of works of art.
@@ -25,13 +25,14 @@ enum Pixels {
 }
 
 impl SourcePicture {
-    /// From a PNG or JPEG file's bytes. Channels are divided by 2ⁿ − 1 and, unless the picture is `linear`, decoded from
+    /// From a PNG, JPEG or OpenEXR file's bytes. Channels of the first two are divided by 2ⁿ − 1 and, unless the picture is `linear`, decoded from
     /// sRGB; gAMA, cHRM and ICC chunks are ignored ([VAL-3]). Without an alpha channel it is opaque.
     ///
     /// # Errors
     /// Bytes that are no such picture, and sides above 16384 (seen before anything is allocated).
     pub fn decode(bytes: &[u8], linear: bool) -> Result<Self, PictureFault> {
         let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE)?;
+        let linear = linear || matches!(codes, Codes::Light(_));
         Ok(Self { width, height, linear, pixels: Pixels::File(codes, channels) })
     }
 
@@ -64,22 +65,14 @@ impl SourcePicture {
         assert!(i < self.width && j < self.height, "pixel ({i}, {j}) of {} × {}", self.width, self.height);
         let at = j * self.width + i;
         let [r, g, b, a] = match &self.pixels {
-            Pixels::File(Codes::Eight(codes), n) => straight(&codes[at * n..][..*n], 255.0),
-            Pixels::File(Codes::Sixteen(codes), n) => straight(&codes[at * n..][..*n], 65535.0),
+            Pixels::File(Codes::Eight(codes), n) => shares(&codes[at * n..][..*n], 255.0),
+            Pixels::File(Codes::Sixteen(codes), n) => shares(&codes[at * n..][..*n], 65535.0),
+            Pixels::File(Codes::Light(light), n) => of_light(&light[at * n..][..*n]),
             Pixels::Straight(pixels) => pixels[at],
         };
         let light = if self.linear { [r, g, b] } else { [r, g, b].map(srgb_to_linear) };
         premultiply([light[0], light[1], light[2], a])
     }
-}
-
-/// Channels as shares of the largest code.
-fn straight<C: Copy + Into<f64>>(codes: &[C], largest: f64) -> Rgba {
-    let mut numbers = [0.0; 4];
-    for (number, &code) in numbers.iter_mut().zip(codes) {
-        *number = code.into() / largest;
-    }
-    rgba(&numbers[..codes.len()])
 }
 
 #[cfg(test)]

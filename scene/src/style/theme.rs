@@ -126,7 +126,7 @@ fn pictures_of(folder: &Path) -> Result<BTreeMap<String, Source>, StyleError> {
         else {
             continue;
         };
-        let is_picture = ["png", "jpg", "jpeg"].iter().any(|known| suffix.eq_ignore_ascii_case(known));
+        let is_picture = ["png", "jpg", "jpeg", "exr"].iter().any(|known| suffix.eq_ignore_ascii_case(known));
         if name.is_empty() || name.starts_with('.') || !is_picture {
             continue;
         }

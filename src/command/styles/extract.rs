@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("region").required(true))]
 pub(super) struct Extract {
-    /// The picture, PNG or JPEG
+    /// The picture, PNG, JPEG or OpenEXR
     picture: PathBuf,
     /// A sphere: its middle and its radius
     #[arg(long, value_name = "X,Y,R", group = "region", allow_hyphen_values = true)]
