@@ -76,6 +76,7 @@ fn frame_of_two_millions(bencher: Bencher<'_, '_>) {
             near: inputs.near,
             size: 0.35,
             nib: None,
+            surface: None,
         });
         let (page, mut drawn) = (Page::in_pixels(inputs.view.size, 0.0, 300.0), Drawn::default());
         bencher.bench_local(|| {

@@ -37,9 +37,11 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::file::{Given, identity};
 use drypoint_scene::phantom::{self, Phantom, PhantomError};
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::plan::{Plan, Quantity};
+use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::style::{Style, StyleError, load as load_styles};
-use drypoint_scene::tables::{Axis, Background, Ids, NodeColor, Scene, StepAlong, Transfer, VolumeSource, VolumeTable};
+use drypoint_scene::tables::{
+    Axis, Background, Ids, Iso, NodeColor, Scene, StepAlong, Transfer, VolumeSource, VolumeTable,
+};
 use drypoint_scene::transfer::{Function, FunctionError};
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::labels::{LabelNames, LabelVolume};
@@ -122,16 +124,23 @@ impl Job {
         let reads_labels = plan.needs(Quantity::Label) || plan.needs(Quantity::LabelDistance);
         let labels = if reads_labels { Named::load(&scene.volume, &mut failures) } else { Named::default() };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
-        let Some(transfer) = scene.transfer.as_mut() else {
+        if scene.transfer.is_none() && !plan.needs(Quantity::Surface) {
             let place = scene.given.position("transfer");
-            return Err(Failure::new("the scene draws nothing", place, "add a [transfer] table").into());
-        };
+            let remedy = "add a [transfer] table, or a [surface] with a look";
+            return Err(Failure::new("the scene draws nothing", place, remedy).into());
+        }
         let mut counts = Counts::default();
-        if transfer.is_automatic() {
+        if let Some(transfer) = scene.transfer.as_mut().filter(|transfer| transfer.is_automatic()) {
             suggest::fill_function(transfer, &volume, scene.volume.outside, &mut counts);
         }
+        if let Some(surface) = scene.surface.as_mut().filter(|_| plan.has_pass(Pass::AutomaticIso)) {
+            surface.iso = Iso::Value(suggest::iso(&volume, &scene.volume, &mut counts));
+        }
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
-        let found = Function::new(transfer, range, &volume, &|name| labels.names.id(name));
+        let found = match &scene.transfer {
+            Some(transfer) => Function::new(transfer, range, &volume, &|name| labels.names.id(name)),
+            None => Ok(Some(Function::nothing())),
+        };
         let function = found.unwrap_or_else(|errors| {
             // Without the table every name would be unknown.
             if failures.is_empty() {

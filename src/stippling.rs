@@ -4,11 +4,14 @@ use crate::job::{load_volume, provenance};
 use crate::{Failure, Failures, memory};
 use drypoint_output::vector::{Sheet, pdf, svg};
 use drypoint_output::{OutputError, exr, list, paint, plotter, png};
+use drypoint_reference::field::{Field, Reconstruction, Rung};
+use drypoint_reference::suggest;
+use drypoint_reference::surface::IsoSurface;
 use drypoint_reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, Preprocess, StippleError, joined};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::plan::Plan;
-use drypoint_scene::tables::{Background, Ids, Ink, Length, PageSettings, Scene, Stipples};
+use drypoint_scene::tables::{Background, Ids, Ink, Iso, Length, PageSettings, Scene, Stipples};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::Volume;
 use std::path::Path;
@@ -98,10 +101,21 @@ impl Stippling {
         let start = Instant::now();
         let nib = stipples.pen.as_ref().map(|_| pen.width);
         let light = scene.light;
-        let frames =
-            Frames::new(&FrameInputs { stipples, points: &points, light, grid, reference: &view, near, size, nib });
+        let field = self.hiding_field()?;
+        let iso = stipples.hide_behind.map(|iso| match iso {
+            Iso::Auto => suggest::iso(volume, &scene.volume, counts),
+            Iso::Value(value) => value,
+        });
+        let surface = field.as_ref().zip(iso).map(|(field, iso)| IsoSurface::new(field, iso));
+        let surface = surface.as_ref();
+        let inputs = FrameInputs { stipples, points: &points, light, grid, reference: &view, near, size, nib, surface };
+        let frames = Frames::new(&inputs);
         let mut drawn = Drawn::default();
         frames.draw(&view, &page, &mut drawn);
+        if let Some(surface) = surface {
+            counts.bytes.insert("surface".into(), surface.bytes() as u64);
+            counts.preprocess.insert("hidden points".into(), drawn.hidden());
+        }
         let mut layer = Layer::new(pen.clone());
         layer.dots = drawn.to_vec();
         if let (Some(curves), Some(edges)) = (&stipples.curves, preprocess.edges().map_err(wrong)?) {
@@ -113,6 +127,22 @@ impl Stippling {
         counts.points += marks.layers.iter().map(|layer| layer.dots.len() as u64).sum::<u64>();
         counts.seconds.insert("frame".into(), start.elapsed().as_secs_f64());
         Ok(marks)
+    }
+
+    /// The field of the surface that hides points, if one does: as the scene samples it.
+    fn hiding_field(&self) -> Result<Option<Field<'_, f64>>, Failure> {
+        let Self { scene, volume, stipples, .. } = self;
+        if stipples.hide_behind.is_none() {
+            return Ok(None);
+        }
+        let how = Reconstruction {
+            kernel: scene.sampling.kernel,
+            gradient: scene.sampling.gradient,
+            outside: scene.volume.outside,
+            ..Reconstruction::default()
+        };
+        let field = Field::new(volume, how, Rung::Gradient);
+        field.map(Some).map_err(|error| Failure::new(error, scene.given.position("volume"), "convert the volume"))
     }
 
     fn failure(&self, error: &StippleError) -> Failure {

@@ -10,5 +10,6 @@ pub mod ray;
 pub mod shading;
 pub mod style_transfer_functions;
 pub mod suggest;
+pub mod surface;
 pub mod transfer;
 pub mod volume_stippling;

@@ -30,11 +30,15 @@ pub enum Quantity {
     LabelDistance,
     /// The value of a further volume ([STF-4]).
     FurtherVolume,
+    /// Where a ray first meets the iso-surface ([HATCH-14]).
+    Surface,
+    /// The normal there.
+    SurfaceNormal,
 }
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Value,
         Self::Gradient,
         Self::PreviousNormal,
@@ -44,6 +48,8 @@ impl Quantity {
         Self::Distance,
         Self::LabelDistance,
         Self::FurtherVolume,
+        Self::Surface,
+        Self::SurfaceNormal,
     ];
 
     /// Its name.
@@ -58,6 +64,8 @@ impl Quantity {
             Self::Distance => "distance",
             Self::LabelDistance => "distance to a label",
             Self::FurtherVolume => "further volume",
+            Self::Surface => "first root",
+            Self::SurfaceNormal => "its normal",
         }
     }
 
@@ -72,6 +80,8 @@ impl Quantity {
             Self::Label => "one look at the labels a visible sample",
             Self::Distance => "one norm a visible sample",
             Self::LabelDistance | Self::FurtherVolume => "one trilinear reconstruction a visible sample",
+            Self::Surface => "one search a ray, through the bricks that can hold the value",
+            Self::SurfaceNormal => "one gradient a ray that meets the surface",
         }
     }
 
@@ -87,7 +97,10 @@ impl Quantity {
     /// What it is made of.
     fn prerequisite(self) -> Option<Self> {
         match self {
-            Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume => None,
+            Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume | Self::Surface => {
+                None
+            }
+            Self::SurfaceNormal => Some(Self::Surface),
             Self::Gradient => Some(Self::Value),
             // A sample without a normal has no curvature, and that is tested on `sampling.gradient` too ([PREC-3]).
             Self::PreviousNormal | Self::Hessian | Self::GradientMagnitudeRange => Some(Self::Gradient),
@@ -106,6 +119,8 @@ pub enum Pass {
     GradientRange,
     /// The automatic transfer function, from values and their differences between neighbours.
     AutomaticTransfer,
+    /// The automatic iso-value, from the same.
+    AutomaticIso,
     /// The distance of every voxel to a label ([STF-4]).
     LabelDistances,
     /// The ranges of bricks, by which empty space is skipped ([RAY-2]).
@@ -124,6 +139,7 @@ impl Pass {
             Self::SmoothedCoefficients => "smoothed coefficients",
             Self::GradientRange => "range of |g|",
             Self::AutomaticTransfer => "automatic function",
+            Self::AutomaticIso => "automatic iso-value",
             Self::LabelDistances => "distances to a label",
             Self::Bricks => "brick ranges",
             Self::StyleMipmaps => "style mip-maps",
@@ -137,7 +153,7 @@ impl Pass {
             Self::Coefficients => "one filter along each axis, one number a voxel",
             Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
             Self::GradientRange => "one gradient a voxel",
-            Self::AutomaticTransfer => "one look at each voxel and its neighbours",
+            Self::AutomaticTransfer | Self::AutomaticIso => "one look at each voxel and its neighbours",
             Self::LabelDistances => "one search a voxel of the labels, one number each",
             Self::Bricks => "one look at each voxel",
             Self::StyleMipmaps => "one look at each texel of a style, a third of it more to keep",
@@ -152,7 +168,7 @@ impl Pass {
             Self::Coefficients | Self::LabelDistances => 8,
             // A filter reads one copy and writes another; norms are gathered from the planes.
             Self::SmoothedCoefficients | Self::GradientRange => 16,
-            Self::AutomaticTransfer | Self::Bricks | Self::StyleMipmaps | Self::Rays => 0,
+            Self::AutomaticTransfer | Self::AutomaticIso | Self::Bricks | Self::StyleMipmaps | Self::Rays => 0,
         }
     }
 }
@@ -246,6 +262,11 @@ impl Plan {
     /// Whether an effect of the scene needs that quantity at the first visible sample of a ray, or at every one.
     pub fn needs_at_first(&self, quantity: Quantity) -> bool {
         self.needs.iter().any(|need| need.quantity == quantity)
+    }
+
+    /// Whether an effect of the scene reads a gradient anywhere: at samples, or on the iso-surface.
+    pub fn reads_gradients(&self) -> bool {
+        self.needs_at_first(Quantity::Gradient) || self.needs(Quantity::SurfaceNormal)
     }
 
     /// Whether an effect of the scene needs that pass.

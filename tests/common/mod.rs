@@ -143,7 +143,10 @@ impl Shot {
     pub(crate) fn function(&self) -> Function {
         let range = self.scene.volume.range.unwrap_or_else(|| self.volume.range());
         let id_of = |name: &str| name.strip_prefix("part ")?.parse().ok();
-        Function::new(self.scene.transfer.as_ref().unwrap(), range, &self.volume, &id_of).unwrap().unwrap()
+        match &self.scene.transfer {
+            Some(transfer) => Function::new(transfer, range, &self.volume, &id_of).unwrap().unwrap(),
+            None => Function::nothing(),
+        }
     }
 
     /// The picture.

@@ -26,6 +26,7 @@ mod small;
 mod stability;
 mod steps;
 mod styles;
+mod surfaces;
 mod symmetry;
 mod termination;
 mod thresholds;

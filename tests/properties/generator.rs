@@ -10,10 +10,10 @@ use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
-    Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Kappa, Kernel,
-    Length, LightDirection, Mix, NormalSide, Number, Outside, PageSettings, PenSettings, PhantomSource, Projection,
-    Scene, Shading, SignFlip, SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Table, Transparency, Unit,
-    VolumeSource,
+    Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Iso, Kappa,
+    Kernel, Length, LightDirection, Mix, NormalSide, Number, Outside, PageSettings, PenSettings, PhantomSource,
+    Projection, Scene, Shading, SignFlip, SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Surface,
+    SurfaceLook, Table, Transparency, Unit, VolumeSource,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -318,6 +318,17 @@ fn shading(r: &mut Random, scene: &mut Scene) {
     }
 }
 
+/// An opaque iso-surface at some value of the volume, or at its lowest, or at one that is found.
+fn iso_surface(r: &mut Random, shot: &mut Shot) {
+    let [lo, hi] = shot.volume.range();
+    let some = lo + r.between(0.0, 1.0) * (hi - lo);
+    shot.scene.surface = Some(Surface {
+        iso: r.pick(&[Iso::Value(some), Iso::Value(some), Iso::Value(lo), Iso::Auto]),
+        look: r.pick(&[SurfaceLook::White, SurfaceLook::Phong, SurfaceLook::Phong, SurfaceLook::None]),
+        color: r.pick(&[[1.0; 4], [0.6, 0.2, 0.1, 1.0]]),
+    });
+}
+
 /// The scene of a seed.
 pub(crate) fn scene(seed: u64) -> Shot {
     let r = &mut Random(seed);
@@ -390,6 +401,9 @@ pub(crate) fn scene(seed: u64) -> Shot {
     }
     if r.once_in(3) {
         over_two(r, &mut shot);
+    }
+    if r.once_in(4) {
+        iso_surface(r, &mut shot);
     }
     shot
 }

@@ -50,6 +50,13 @@ pub trait Sampler<R: Real>: Sync {
     /// If the field was prepared for a lower rung than `Hessian`.
     fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>);
 
+    /// The values at the corners of a cell, as pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1), where the field in
+    /// the cell is their trilinear interpolation.
+    #[inline(always)]
+    fn corners(&self, _cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
+        None
+    }
+
     /// The cell of a position.
     #[inline(always)]
     fn cell(&self, p: Vec3<R>) -> [usize; 3] {
@@ -92,6 +99,12 @@ pub(super) trait Interpolant<R: Real>: Sync {
         for (i, value) in values.iter_mut().enumerate() {
             *value = self.value(field, place(i));
         }
+    }
+
+    /// [`Sampler::corners`].
+    #[inline(always)]
+    fn corners(&self, _field: &Field<'_, R>, _cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
+        None
     }
 
     /// The derivative of the kernel: `analytic`.
@@ -150,6 +163,12 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
             }
         };
         field.to_world.apply(index)
+    }
+
+    #[inline(always)]
+    fn corners(&self, cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
+        let read = self.kernel.corners(self.field, cell)?;
+        Some(read.map(|row| row.map(|c| self.field.to_value(c))))
     }
 
     #[inline]

@@ -49,16 +49,16 @@ enum Previous<R> {
 }
 
 /// The state of a ray on its way.
-struct Walk<'p, 'v, R: Real, S> {
-    prepared: &'p Prepared<'v, R>,
-    sampler: &'p S,
-    ray: IndexRay<R>,
-    sight: Sight<R>,
+pub(super) struct Walk<'p, 'v, R: Real, S> {
+    pub(super) prepared: &'p Prepared<'v, R>,
+    pub(super) sampler: &'p S,
+    pub(super) ray: IndexRay<R>,
+    pub(super) sight: Sight<R>,
     /// To the opacity of one step on this ray.
     correction: Correction,
     previous: Previous<R>,
     light: Light<R>,
-    sums: Sums,
+    pub(super) sums: Sums,
 }
 
 /// What has come together on a ray. The loop over samples holds it in registers.
@@ -104,10 +104,11 @@ fn cast<R: Real, S: Sampler<R>>(
         light: Light { rgb: [R::ZERO; 3], opacity: R::ZERO, corrected: [R::ZERO; 2] },
         sums: Sums::new(),
     };
-    let samples = match prepared.needs {
-        Needs::Value => walk.run_in::<need::Value>(boxes, counts),
-        Needs::Normal => walk.run_in::<need::Normal>(boxes, counts),
-        Needs::Anything => walk.run_in::<need::Anything>(boxes, counts),
+    let samples = match (&prepared.surface, prepared.needs) {
+        (Some(surface), _) => walk.run_to(surface, boxes, counts),
+        (None, Needs::Value) => walk.run_in::<need::Value>(boxes, counts),
+        (None, Needs::Normal) => walk.run_in::<need::Normal>(boxes, counts),
+        (None, Needs::Anything) => walk.run_in::<need::Anything>(boxes, counts),
     };
     counts.rays += 1;
     counts.rays_skipped += u64::from(samples == 0);
@@ -130,11 +131,27 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         samples
     }
 
+    /// Takes another correction for the samples that follow.
+    pub(super) fn correct_for(&mut self, correction: Correction) {
+        self.correction = correction;
+        self.light.corrected = [R::ZERO; 2];
+    }
+
+    /// Ends the ray at something opaque of a linear colour, and returns its w = 1 − A.
+    pub(super) fn end_at(&mut self, rgb: [R; 3]) -> R {
+        let rgb = if self.prepared.encode { rgb.map(encoded) } else { rgb };
+        let Light { rgb: before, opacity, .. } = self.light;
+        let w = R::ONE - opacity;
+        self.light.rgb = [before[0] + w * rgb[0], before[1] + w * rgb[1], before[2] + w * rgb[2]];
+        self.light.opacity = R::ONE;
+        w
+    }
+
     /// Visits the samples first..=last. Returns how many were evaluated and whether the ray is still open.
     ///
     /// Values are computed a few samples ahead. Where a ray ends early those left over count for nothing.
     #[inline(never)]
-    fn run<N: Need>(&mut self, [first, last]: [i64; 2], counts: &mut Counts) -> (u64, bool) {
+    pub(super) fn run<N: Need>(&mut self, [first, last]: [i64; 2], counts: &mut Counts) -> (u64, bool) {
         let prepared = self.prepared;
         let mask = prepared.volume.mask();
         let mut samples = 0;
@@ -276,7 +293,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
 
     /// The normal that shades ([NORM-1]): the outward one, or as the scene turns it.
     #[inline]
-    fn normal(&self, g: Vec3<R>) -> Option<Vec3<R>> {
+    pub(super) fn normal(&self, g: Vec3<R>) -> Option<Vec3<R>> {
         self.prepared.outward(g).map(|n| self.prepared.side.turn(n, self.sight.v))
     }
 
@@ -298,7 +315,13 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
 
     /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); `known`, as it is, where H's own field has no normal.
     #[inline(always)]
-    fn curvatures(&self, at: Place<R>, calls: Calls, known: (R, [R; 2]), counts: &mut Counts) -> (R, [R; 2]) {
+    pub(super) fn curvatures(
+        &self,
+        at: Place<R>,
+        calls: Calls,
+        known: (R, [R; 2]),
+        counts: &mut Counts,
+    ) -> (R, [R; 2]) {
         let prepared = self.prepared;
         counts.hessians += 1;
         let (g, h) = self.sampler.hessian_at(at);

@@ -68,6 +68,19 @@ impl<R: Real> IndexRay<R> {
         (R::from_f64(k as f64) + R::HALF) * self.depth_step
     }
 
+    /// The last sample before an eye depth.
+    pub(super) fn last_before(&self, depth: f64) -> i64 {
+        let before = |k: i64| self.depth(k).to_f64() < depth;
+        let mut k = (depth / self.depth_step.to_f64() - 0.5) as i64;
+        while before(k + 1) {
+            k += 1;
+        }
+        while !before(k) {
+            k -= 1;
+        }
+        k
+    }
+
     /// The index position of sample k.
     #[inline(always)]
     pub fn position(&self, k: i64) -> Vec3<R> {

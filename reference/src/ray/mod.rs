@@ -14,6 +14,7 @@ mod prepared;
 mod render;
 mod sample;
 pub mod skip;
+mod surface;
 
 pub(crate) use gradient_range::touches as touches_mask;
 pub use render::{Backdrop, Inputs, RenderError, Renderer};

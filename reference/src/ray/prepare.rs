@@ -8,6 +8,7 @@ use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::render::{Inputs, RenderError};
 use super::sample::{EyeAxes, Look, Styled};
 use super::skip::Skip;
+use super::surface::Surface;
 use crate::field::{Field, Reconstruction, Rung, Sampler};
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
@@ -36,7 +37,7 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
     let (calls, first) = calls(scene, plan, function);
     let rung = if plan.needs_at_first(Quantity::Hessian) {
         Rung::Hessian
-    } else if plan.needs_at_first(Quantity::Gradient) {
+    } else if plan.reads_gradients() {
         Rung::Gradient
     } else {
         Rung::Value
@@ -57,9 +58,12 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
     if planes >= MOST_PLANES {
         return Err(RenderError::TooManyPlanes { planes });
     }
-    let skip = plan.has_pass(Pass::Bricks).then(|| {
-        let bricks = field.bricks();
+    let bricks = plan.has_pass(Pass::Bricks).then(|| field.bricks());
+    if let Some(bricks) = &bricks {
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
+    }
+    let surface = Surface::new(inputs, &field, bricks.as_ref(), &view, counts);
+    let skip = bricks.as_ref().map(|bricks| {
         let labels = labels_of(inputs);
         // The cells of the volume; an axis of length 1 has one.
         let cells = volume.dims().map(|n| n.max(2) - 1);
@@ -70,7 +74,7 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
         let rounded = |at| R::from_f64(at).to_f64();
         // What labels occur takes a look at each voxel, so it is asked last.
         let can_be = |range, among: Option<&[u32]>| function.can_be_visible(range, among, rounded);
-        Skip::new(&bricks, |brick, range| can_be(range, None) && can_be(range, occurring(brick).as_deref()))
+        Skip::new(bricks, |brick, range| can_be(range, None) && can_be(range, occurring(brick).as_deref()))
     });
     if let Some(labels) = inputs.labels {
         counts.bytes.insert("labels".into(), labels.bytes() as u64);
@@ -109,6 +113,7 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
         lattice,
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
+        surface,
         function: over_value,
         table,
         over_two,

@@ -5,6 +5,7 @@ use super::need::Needs;
 use super::over_two::OverTwo;
 use super::sample::{EyeAxes, Look};
 use super::skip::Skip;
+use super::surface::Surface;
 use crate::field::Field;
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray::Turn;
@@ -88,6 +89,8 @@ pub(super) struct Prepared<'v, R> {
     /// Lowest and highest index position ([SPACE-1]).
     pub(super) ends: [Vec3<R>; 2],
     pub(super) skip: Option<Skip>,
+    /// An opaque iso-surface; none: none.
+    pub(super) surface: Option<Surface<R>>,
     /// α_u over the value; with two quantities, the values at which it can be above 0.
     pub(super) function: Piecewise<R>,
     /// From entries to nodes, where the function is read from a table.

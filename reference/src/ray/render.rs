@@ -147,6 +147,9 @@ impl<'a> Renderer<'a> {
         let mut prepared: Prepared<'a, f64> = prepare(&inputs, &mut counts)?;
         // Ranges of bricks are those of the voxels.
         prepared.skip = None;
+        if let Some(surface) = &mut prepared.surface {
+            surface.look_everywhere();
+        }
         let exact = Exact::new(phantom, inputs.volume.grid(), prepared.field.scale_exponent());
         if prepared.gradient_range.is_some() {
             prepared.gradient_range = Some(gradient_range(&exact, &prepared.field, &inputs, &mut counts));

@@ -85,7 +85,7 @@ pub(super) fn first_seen(boundary: &Boundary, outside: Outside) -> f64 {
 }
 
 /// A value that a person would write: to about a hundredth of a step, by a power of ten.
-fn short(value: f64, step: f64) -> f64 {
+pub(super) fn short(value: f64, step: f64) -> f64 {
     let digits = (2.0 - math::log2(step) / math::log2(10.0)).ceil();
     // Through the decimal text, so that no digits of rounding are left. Beyond the whole numbers nothing is short.
     if !(0.0..=15.0).contains(&digits) {

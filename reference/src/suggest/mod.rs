@@ -17,7 +17,7 @@ use boundary::Boundary;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
     Camera, Contours, GradientEstimator, HessianEstimator, Ids, Kappa, Kernel, Length, Outside, Projection, Scene,
-    Transfer, Unit, VolumeSource,
+    Transfer, Unit, VolumeSource, VolumeTable,
 };
 use drypoint_scene::volume::Volume;
 use levels::Levels;
@@ -53,6 +53,17 @@ pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside,
     let boundary = Boundary::find(levels.as_ref(), volume, outside);
     transfer.unit = Unit::Value;
     transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
+}
+
+/// The value of the surface that an automatic transfer function makes opaque; that of parts shown as one lies halfway.
+/// Voxels that were looked at go to `counts`.
+pub fn iso(volume: &Volume, table: &VolumeTable, counts: &mut Counts) -> f64 {
+    if table.ids == Ids::Mask {
+        return 0.5;
+    }
+    let outside = table.outside;
+    let main = Boundary::find(levels(volume, outside, counts).as_ref(), volume, outside).main;
+    look::short(main.value, main.step)
 }
 
 /// Levels by the differences of each voxel to its neighbours; a constant volume has none to look at.
@@ -172,6 +183,22 @@ mod tests {
         assert_eq!((of_ids.volume.ids, of_ids.sampling.kernel), (Ids::Mask, Kernel::BsplineSmooth));
         let soft = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
         assert_eq!(suggested(&soft).volume.ids, Ids::Values);
+    }
+
+    #[test]
+    fn an_iso_value_lies_where_the_function_turns_opaque() {
+        let ball = volume(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()));
+        let mut counts = Counts::default();
+        let mut table = VolumeTable::new(VolumeSource::File { path: "x.nrrd".into(), raw: None });
+        let iso = iso(&ball, &table, &mut counts);
+        let mut transfer = Transfer::automatic(drypoint_scene::tables::TransferKind::Regular);
+        fill_function(&mut transfer, &ball, Outside::Low, &mut counts);
+        let nodes = transfer.nodes.unwrap();
+        let [.., before, after] = &nodes[..] else { panic!("{nodes:?}") };
+        assert!(before.at < iso && iso < after.at && (50.0..150.0).contains(&iso), "{iso}");
+        assert_eq!(counts.preprocess["differences"], 2 * 32 * 32 * 32);
+        table.ids = Ids::Mask;
+        assert_eq!(super::iso(&ball.present(), &table, &mut counts), 0.5);
     }
 
     #[test]

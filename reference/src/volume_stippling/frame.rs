@@ -2,6 +2,8 @@
 
 use super::count::{dots, dots_of_nib};
 use super::factors::{Moving, Still, Whole};
+use super::hidden::Hidden;
+use crate::surface::IsoSurface;
 use drypoint_scene::glam::{DMat3, DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Page};
 use drypoint_scene::points::Points;
@@ -29,6 +31,7 @@ pub struct Frames<'a> {
     near: f64,
     size: f64,
     nib: Option<f64>,
+    surface: Option<&'a IsoSurface<'a, 'a>>,
 }
 
 /// What frames are made of.
@@ -50,6 +53,8 @@ pub struct FrameInputs<'a> {
     pub size: f64,
     /// The width of the pen's nib in mm, where a pen draws, which has one size ([STIP-6]).
     pub nib: Option<f64>,
+    /// What hides points; none: they are transparent ([STIP-15]).
+    pub surface: Option<&'a IsoSurface<'a, 'a>>,
 }
 
 /// The dots of a frame, in the order of the voxels, in parts that keep their memory from frame to frame.
@@ -62,6 +67,7 @@ pub struct Drawn {
 struct Part {
     dots: Vec<Dot>,
     larger: u64,
+    hidden: u64,
 }
 
 impl Drawn {
@@ -85,6 +91,11 @@ impl Drawn {
         self.parts.iter().map(|part| part.larger).sum()
     }
 
+    /// Points that were looked at and are hidden ([STIP-15]).
+    pub fn hidden(&self) -> u64 {
+        self.parts.iter().map(|part| part.hidden).sum()
+    }
+
     /// All in one list.
     pub fn to_vec(&self) -> Vec<Dot> {
         let mut all = Vec::with_capacity(self.len());
@@ -96,7 +107,7 @@ impl Drawn {
 impl<'a> Frames<'a> {
     /// Computes what no camera changes.
     pub fn new(inputs: &FrameInputs<'a>) -> Self {
-        let FrameInputs { stipples, points, light, grid, reference, near, size, nib } = *inputs;
+        let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface } = *inputs;
         let centre = grid.centre();
         Self {
             stipples,
@@ -109,6 +120,7 @@ impl<'a> Frames<'a> {
             near,
             size,
             nib,
+            surface,
         }
     }
 
@@ -118,19 +130,20 @@ impl<'a> Frames<'a> {
         let whole = Whole { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
         let moving = Moving::new(self.stipples, self.light, view, &whole);
         let place = Place::new(view, page, &self.points.grid);
+        let hidden = self.surface.map(|surface| Hidden::new(surface, view, self.near));
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, Part::default);
         drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
-            part.larger = 0;
+            (part.larger, part.hidden) = (0, 0);
             part.dots.clear();
             let range = p * PART..((p + 1) * PART).min(self.points.voxels.len());
             for i in range {
-                self.voxel(i, &moving, &place, part);
+                self.voxel(i, &moving, &place, hidden.as_ref(), part);
             }
         });
     }
 
-    fn voxel(&self, i: usize, moving: &Moving<'_>, place: &Place, part: &mut Part) {
+    fn voxel(&self, i: usize, moving: &Moving<'_>, place: &Place, hidden: Option<&Hidden<'_>>, part: &mut Part) {
         let (voxel, each) = (&self.points.voxels[i], self.points.each);
         let centre = voxel.centre();
         let at = place.eye(centre);
@@ -154,8 +167,13 @@ impl<'a> Frames<'a> {
         for (k, offset) in list.iter().enumerate() {
             let o = DVec3::from_array(offset.map(f64::from));
             if let Some(on_page) = place.on_page(at + place.to_eye * o, self.near) {
+                let world = place.world(centre + o);
+                if hidden.is_some_and(|hidden| hidden.hides(world)) {
+                    part.hidden += 1;
+                    continue;
+                }
                 let opacity = if k < drawn.whole { 1.0 } else { drawn.fading };
-                part.dots.push(Dot { at: on_page, world: place.world(centre + o), radius, opacity });
+                part.dots.push(Dot { at: on_page, world, radius, opacity });
             }
         }
         if self.nib.is_some() && drawn.size > 1.0 {

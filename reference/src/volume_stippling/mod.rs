@@ -9,6 +9,7 @@ mod curves;
 mod error;
 mod factors;
 mod frame;
+mod hidden;
 mod joined;
 mod norms;
 mod order;

@@ -17,6 +17,7 @@ pub mod shading;
 pub mod stipples;
 pub mod style_mipmaps;
 pub mod styles;
+pub mod surface;
 pub mod transfer;
 mod transfer_rules;
 pub mod volume;
@@ -38,5 +39,6 @@ pub use stipples::{
 };
 pub use style_mipmaps::StyleMipmaps;
 pub use styles::{StyleFile, StyleSource, Styles};
+pub use surface::{Iso, Surface, SurfaceLook};
 pub use transfer::{Mix, Node, NodeColor, SphereFrame, Table, Transfer, TransferKind, Transparency, Unit};
 pub use volume::{GradientRange, Ids, LabelLookup, Outside, PhantomSource, RawLayout, VolumeSource, VolumeTable};

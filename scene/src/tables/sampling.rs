@@ -146,7 +146,7 @@ fn kernels(scene: &Scene, _: &Plan) -> &'static [&'static str] {
 /// differences are of order two; those of the other kernels are closer than central differences.
 fn gradients(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
     match scene.sampling.kernel {
-        _ if !plan.needs_at_first(Quantity::Gradient) => &[],
+        _ if !plan.reads_gradients() => &[],
         Kernel::Trilinear => &["sobel", "regression", "analytic", "central"],
         _ => &["sobel", "regression", "central", "analytic"],
     }
@@ -200,7 +200,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
             idle.key("sampling.step_along", "planes and shells are the same in an orthographic picture");
         }
-        if !plan.needs_at_first(Quantity::Gradient) {
+        if !plan.reads_gradients() {
             idle.key("sampling.gradient", "nothing needs a gradient");
             idle.key("sampling.normal", "nothing needs a normal");
         }

@@ -4,10 +4,11 @@ use super::stipples::StipplePreset;
 use super::styles::check_styles;
 use super::{
     Camera, Contours, LightDirection, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
-    StyleMipmaps, Styles, Transfer, TransferKind, VolumeSource, VolumeTable,
+    StyleMipmaps, Styles, Surface, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use super::{
-    camera, contours, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, transfer, volume,
+    camera, contours, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface, transfer,
+    volume,
 };
 use crate::file::Given;
 use crate::file::check::Check;
@@ -49,6 +50,8 @@ pub struct Scene {
     pub style_mipmaps: Option<StyleMipmaps>,
     /// Volume stippling; none: no dots.
     pub stipples: Option<Stipples>,
+    /// An opaque iso-surface; none: none.
+    pub surface: Option<Surface>,
     /// Which keys the scene said itself, and where. It takes no part in comparisons.
     pub given: Given,
 }
@@ -75,6 +78,7 @@ impl Scene {
             contours: None,
             style_mipmaps: None,
             stipples: None,
+            surface: None,
             given: Given::default(),
         }
     }
@@ -137,7 +141,6 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("label", "VS-10"),
         later("hatching", "HATCH-1"),
         later("outlines", "HATCH-18"),
-        later("surface", "HATCH-14"),
         later("conventions", "GPU-6"),
     ],
     check: |scene, check| {
@@ -149,13 +152,11 @@ pub(crate) static ROOT: Table<Scene> = Table {
         if idle.says("transfer") {
             idle.key("preset", "the scene has [transfer] itself");
         }
-        let lit = |transfer: &Transfer| transfer.kind == TransferKind::Regular;
+        let lit = shading::lit(scene);
         match &scene.shading {
-            Some(shading) if scene.transfer.as_ref().is_some_and(lit) => {
-                if shading.light.is_some() {
-                    idle.key("light", "shading.light wins");
-                }
-            }
+            Some(shading) if lit && shading.light.is_some() => idle.key("light", "shading.light wins"),
+            Some(_) if lit => {}
+            _ if shading::lit_surface(scene) => {}
             _ => idle.key("light", "nothing is lit: a light acts on [shading] of a regular function"),
         }
     },
@@ -328,7 +329,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
             Key::new(
                 "shading",
                 "STF-11",
-                "Light on a regular transfer function.",
+                "Light on a regular transfer function, and on a lit iso-surface.",
                 &Slot {
                     kind: TableOf(&shading::TABLE),
                     get: |s: &Scene| s.shading.clone(),
@@ -370,6 +371,14 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 },
             )
             .absent("no stipples"),
+            Key::new(
+                "surface",
+                "HATCH-14",
+                "An opaque iso-surface.",
+                &Slot { kind: TableOf(&surface::TABLE), get: |s: &Scene| s.surface, set: |s, v| s.surface = Some(v) },
+            )
+            .absent("no surface")
+            .needs(&[Quantity::Surface]),
         ],
     )
 };

@@ -6,7 +6,7 @@ use crate::file::item::{Item, Value};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, TableOf};
 use crate::file::out::Out;
 use crate::plan::Quantity;
-use crate::tables::TransferKind;
+use crate::tables::{Scene, SurfaceLook, TransferKind};
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 
@@ -42,6 +42,16 @@ impl Default for Shading {
     }
 }
 
+/// Whether the scene has an iso-surface that is lit.
+pub(super) fn lit_surface(scene: &Scene) -> bool {
+    scene.surface.is_some_and(|surface| surface.look == SurfaceLook::Phong)
+}
+
+/// Whether a scene has something that `[shading]` acts on.
+pub(super) fn lit(scene: &Scene) -> bool {
+    scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular) || lit_surface(scene)
+}
+
 /// A share of light.
 const SHARE: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
 
@@ -64,15 +74,21 @@ pub(crate) static TABLE: Table<Shading> = Table {
     },
     idle: |scene, _, idle| {
         let Some(shading) = &scene.shading else { return };
-        if scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Style) {
+        let kind = scene.transfer.as_ref().map(|transfer| transfer.kind);
+        if !lit_surface(scene) && kind == Some(TransferKind::Style) {
             idle.key("shading", "styles carry their own light: shading acts on a regular function");
+        } else if !lit(scene) && scene.surface.is_some() {
+            idle.key(
+                "shading",
+                "nothing is lit: it acts on a regular function, and on a surface with look = \"phong\"",
+            );
         } else if shading.specular == 0.0 {
             idle.key("shading.shininess", "specular is 0");
         }
     },
     ..Table::new(
         "[shading]",
-        "Light on a regular transfer function. Without the table it is unshaded.",
+        "Light on a regular transfer function, and on a lit iso-surface. Without the table the function is unshaded.",
         Shading::default,
         &[
             Key::new(

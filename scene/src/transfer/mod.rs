@@ -73,6 +73,11 @@ pub enum FunctionError {
 }
 
 impl Function {
+    /// The function that shows nothing: of a scene that does not draw the volume itself.
+    pub fn nothing() -> Self {
+        Self::Regular(Nodes { at: vec![0.0], opacity: vec![0.0], color: vec![[0.0; 3]], index: None, rows: None })
+    }
+
     /// Turns the nodes of a scene into nodes over the values of a volume. `id_of` knows the labels by their names. `None`
     /// where the scene leaves the function to be found from the data.
     ///

@@ -45,6 +45,7 @@ impl Shown {
             near: 0.5,
             size: SIZE,
             nib,
+            surface: None,
         });
         let mut drawn = Drawn::default();
         frames.draw(view, &page(view), &mut drawn);

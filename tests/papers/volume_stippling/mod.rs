@@ -2,6 +2,7 @@
 
 mod curves;
 mod frames;
+mod hidden;
 mod preprocess;
 mod quality;
 

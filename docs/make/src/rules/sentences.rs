@@ -181,9 +181,10 @@ pub(super) const FAMILIES: [Family; 17] = [
     },
     Family {
         letters: "HATCH",
-        subject: "Curvature hatching, toon shading and silhouettes (Nagy et al. 2002), not built yet",
+        subject: "Curvature hatching, toon shading, silhouettes and opaque surfaces (Nagy et al. 2002); surfaces are built",
         rules: &[
             (1, "Strokes follow the principal directions of a surface."),
+            (7, "What lies on a surface is asked for a fixed length in front of it."),
             (14, "Strokes can stand on, in or without a rendered surface."),
             (15, "Toon shading, silhouettes and view-dependent opacity."),
             (17, "The paper's figures are presets."),

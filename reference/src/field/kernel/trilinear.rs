@@ -63,6 +63,14 @@ impl<R: Real> Interpolant<R> for Trilinear {
         }
     }
 
+    #[inline(always)]
+    fn corners(&self, field: &Field<'_, R>, cell: [usize; 3]) -> Option<Corners<R>> {
+        Some(match field.stencils.careful_corners(cell) {
+            Some(corners) => corners,
+            None => with_access!(field.volume, |a| stencil::corners(a, cell)),
+        })
+    }
+
     #[inline]
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
         match field.stencils.careful_corners(at.cell) {

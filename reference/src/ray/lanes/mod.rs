@@ -48,6 +48,7 @@ pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
     wide().is_some()
         && prepared.layers == [LayerKind::Beauty]
         && prepared.volume.mask().is_none()
+        && prepared.surface.is_none()
         && prepared.field.fits_lanes(shaded)
         && matches!(prepared.volume.voxels(), Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_))
 }

@@ -14,6 +14,7 @@ const PHANTOM: (&str, &str) = ("volume.phantom.name", "torus");
 const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.type", "u16")];
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
+const SURFACE: (&str, &str) = ("surface.look", "phong");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
 
 const SAMPLES: &[Sample] = &[
@@ -157,6 +158,11 @@ const SAMPLES: &[Sample] = &[
     ("stipples.curves.eye", &[("stipples.curves", "{}")], "0.9"),
     ("stipples.curves.grad", &[("stipples.curves", "{}")], "0.3"),
     ("stipples.curves.log", &[("stipples.curves", "{}")], "0.22"),
+    ("stipples.hide_behind", &[STIPPLES], "120"),
+    ("surface", &[], "{}"),
+    ("surface.iso", &[SURFACE], "12.5"),
+    ("surface.look", &[], "phong"),
+    ("surface.color", &[SURFACE], "red"),
 ];
 
 /// Keys that can have one value only, so far.

@@ -27,7 +27,8 @@ fn a_part_that_is_not_built_says_so() {
     );
     for (rest, what) in [
         ("[orbit]\nframes = 36\n", "[orbit]"),
-        ("[stipples]\nhide_behind = 120\n", "stipples.hide_behind"),
+        ("[stipples]\neven = \"page\"\n", "stipples.even"),
+        ("[surface]\nlook = \"toon\"\n", "surface.look = \"toon\""),
         ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
         ("[[box]]\n", "[[box]]"),
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),

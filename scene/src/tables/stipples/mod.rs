@@ -12,7 +12,7 @@ pub(crate) use presets::StipplePreset;
 pub(crate) use table::TABLE;
 
 use crate::color::Rgba;
-use crate::tables::Length;
+use crate::tables::{Iso, Length};
 
 /// The table `[stipples]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +43,8 @@ pub struct Stipples {
     pub factors: FactorRange,
     /// What becomes of a fraction of a point ([STIP-5]).
     pub ink: Ink,
+    /// What hides points: an iso-surface ([STIP-15]); none: they are transparent.
+    pub hide_behind: Option<Iso>,
     /// T_b; none: 1.
     pub boundary: Option<Boundary>,
     /// T_s; none: 1.
@@ -129,6 +131,7 @@ impl Default for Stipples {
             thin: false,
             factors: FactorRange::Clamp,
             ink: Ink::Fade,
+            hide_behind: None,
             boundary: None,
             silhouette: None,
             resolution: None,

@@ -8,13 +8,18 @@ use super::{
 };
 use crate::file::describe::{Key, Later, Slot, Table};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, Number, On, TableOf, Text, Whole};
+use crate::plan::Pass;
+use crate::tables::Iso;
+use crate::tables::surface::IsoKind;
 
 /// The description of `[stipples]`.
 pub(crate) static TABLE: Table<Stipples> = Table {
-    later: &[
-        Later { name: "even", tag: "STIP-19" },
-        Later { name: "hide_behind", tag: "STIP-15" },
-    ],
+    later: &[Later { name: "even", tag: "STIP-19" }],
+    asks: |scene, asks| {
+        if scene.stipples.as_ref().is_some_and(|stipples| stipples.hide_behind == Some(Iso::Auto)) {
+            asks.pass(Pass::AutomaticIso, "hidden points", "stipples.hide_behind");
+        }
+    },
     ..Table::new(
         "[stipples]",
         "Volume stippling: points on the volume's boundaries, made once, of which each frame draws as many as the \
@@ -195,6 +200,13 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     set: |s, v| s.ink = v,
                 },
             ),
+            Key::new(
+                "hide_behind",
+                "STIP-15",
+                "An iso-value: points behind that surface are not drawn.",
+                &Slot { kind: IsoKind, get: |s: &Stipples| s.hide_behind, set: |s, v| s.hide_behind = Some(v) },
+            )
+            .absent("points are transparent"),
             Key::new(
                 "boundary",
                 "STIP-7",

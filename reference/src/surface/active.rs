@@ -1,0 +1,95 @@
+//! The blocks of cells in which a field can have a value, by the ranges of its bricks ([RAY-2]).
+
+use drypoint_scene::volume::{BRICK, Bricks};
+
+/// Bricks along the side of a block that is looked at first.
+const BRICKS: usize = 4;
+
+/// Cells along its side.
+const BLOCK: usize = BRICKS * BRICK;
+
+/// One bit a brick and one a block of bricks: whether a value lies in its closed range.
+#[derive(Clone, Debug)]
+pub(super) struct Active {
+    bricks: Bits,
+    blocks: Bits,
+}
+
+#[derive(Clone, Debug)]
+struct Bits {
+    dims: [usize; 3],
+    words: Vec<u64>,
+}
+
+impl Bits {
+    fn new(dims: [usize; 3]) -> Self {
+        Self { dims, words: vec![0; (dims[0] * dims[1] * dims[2]).div_ceil(64)] }
+    }
+
+    fn index(&self, [x, y, z]: [usize; 3]) -> usize {
+        (z * self.dims[1] + y) * self.dims[0] + x
+    }
+
+    fn set(&mut self, at: [usize; 3]) {
+        let i = self.index(at);
+        self.words[i / 64] |= 1 << (i % 64);
+    }
+
+    #[inline(always)]
+    fn get(&self, at: [usize; 3]) -> bool {
+        let i = self.index(at);
+        self.words[i / 64] >> (i % 64) & 1 == 1
+    }
+}
+
+impl Active {
+    /// The bricks in whose range a value lies.
+    pub(super) fn new(bricks: &Bricks, value: f64) -> Self {
+        let [nx, ny, _] = bricks.dims;
+        let mut active =
+            Self { bricks: Bits::new(bricks.dims), blocks: Bits::new(bricks.dims.map(|n| n.div_ceil(BRICKS))) };
+        let ranges = bricks.ranges.iter().enumerate();
+        for (i, _) in ranges.filter(|(_, [lo, hi])| *lo <= value && value <= *hi) {
+            let at = [i % nx, i / nx % ny, i / (nx * ny)];
+            active.bricks.set(at);
+            active.blocks.set(at.map(|i| i / BRICKS));
+        }
+        active
+    }
+
+    /// The side of the largest block around a cell in which the value cannot be; none where it can be in the cell's brick.
+    #[inline(always)]
+    pub(super) fn empty(&self, cell: [usize; 3]) -> Option<usize> {
+        if !self.blocks.get(cell.map(|i| i / BLOCK)) {
+            Some(BLOCK)
+        } else if !self.bricks.get(cell.map(|i| i / BRICK)) {
+            Some(BRICK)
+        } else {
+            None
+        }
+    }
+
+    /// Bytes in memory.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.bricks.words.as_slice()) + size_of_val(self.blocks.words.as_slice())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_are_as_their_bricks() {
+        // 40 × 8 × 8 cells: 10 bricks a row, 3 blocks. One brick holds the value, at the closed end of its range.
+        let mut bricks = Bricks::new([41, 9, 9], |row| row.cells().map(|_| [0.0, 1.0]).collect());
+        bricks.ranges[5] = [2.0, 3.0];
+        let active = Active::new(&bricks, 2.0);
+        assert_eq!(active.empty([20, 3, 0]), None);
+        assert_eq!(active.empty([23, 0, 3]), None);
+        assert_eq!(active.empty([24, 0, 0]), Some(BRICK), "the brick beside it, in the same block");
+        assert_eq!(active.empty([20, 4, 0]), Some(BRICK));
+        assert_eq!(active.empty([0, 0, 0]), Some(BLOCK));
+        assert_eq!(active.empty([39, 7, 7]), Some(BLOCK));
+    }
+}

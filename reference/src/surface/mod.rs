@@ -1,0 +1,101 @@
+//! Iso-surfaces where rays and lines meet them: the first root of f = iso, what it hides, and the foot of a point on it
+//! (Nagy et al. 2002, 4.3.2; [HATCH-7], [HATCH-14], [STIP-15]).
+//!
+//! Along a line the trilinear interpolation of a cell is a cubic, of which the first root is found ([`cubic`]); for other
+//! kernels values are looked at every quarter of a voxel, and a change of sign is narrowed down to neighbouring numbers: a
+//! pair of roots closer than that is missed. A root is a place where f − iso is 0 or changes its sign. So a plateau at the
+//! value begins where the line enters it, a volume that is iso everywhere is met at its face, and a field that touches the
+//! value has a root if its extremum, as computed, is at the value or beyond.
+//!
+//! Cells that touch a masked voxel hold no surface ([PREC-2]).
+
+mod active;
+mod cubic;
+mod first_root;
+mod foot;
+mod hidden;
+mod walk;
+
+pub(crate) use first_root::Roots;
+
+use crate::field::{Field, Sampler};
+use crate::with_sampler;
+use drypoint_scene::glam::DVec3;
+
+/// The surface f = iso of a field.
+///
+/// ```
+/// use drypoint_reference::field::{Field, Reconstruction, Rung};
+/// use drypoint_reference::surface::IsoSurface;
+/// use drypoint_scene::{glam::DVec3, space::Grid, volume::{Volume, Voxels}};
+///
+/// // f = x on a row of four voxels, 2 apart.
+/// let grid = Grid::with_spacing([4, 2, 2], [2.0, 1.0, 1.0]).unwrap();
+/// let values = (0..16).map(|i| f64::from(i % 4 * 2)).collect();
+/// let volume = Volume::new(grid, Voxels::F64(values), 1.0, 0.0).unwrap();
+/// let field = Field::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+/// let surface = IsoSurface::new(&field, 4.5);
+/// let (origin, direction) = (DVec3::new(10.0, 0.3, 0.7), DVec3::new(-1.0, 0.0, 0.0));
+/// assert_eq!(surface.first_root(origin, direction, [0.0, 100.0]), Some(5.5));
+/// assert_eq!(surface.first_root(origin, direction, [0.0, 5.0]), None);
+/// ```
+#[derive(Clone, Debug)]
+pub struct IsoSurface<'f, 'v> {
+    field: &'f Field<'v, f64>,
+    roots: Roots,
+}
+
+impl<'f, 'v> IsoSurface<'f, 'v> {
+    /// The surface of a field, prepared for gradients if feet are to be asked for. The ranges of the field's bricks are
+    /// looked at once, so that lines pass over those that leave the value out.
+    pub fn new(field: &'f Field<'v, f64>, iso: f64) -> Self {
+        Self { field, roots: Roots::new(field, iso, Some(&field.bricks())) }
+    }
+
+    /// The same without the ranges: every cell on a line is looked at. It shows nowhere ([RAY-2]).
+    pub fn without_skipping(field: &'f Field<'v, f64>, iso: f64) -> Self {
+        Self { field, roots: Roots::new(field, iso, None) }
+    }
+
+    /// The value.
+    pub fn iso(&self) -> f64 {
+        self.roots.iso()
+    }
+
+    /// The field.
+    pub fn field(&self) -> &'f Field<'v, f64> {
+        self.field
+    }
+
+    /// Bytes that it holds beside the field.
+    pub fn bytes(&self) -> usize {
+        self.roots.bytes()
+    }
+
+    /// The smallest t in a closed range at which origin + t·direction, in world space, is on the surface. The range may end
+    /// at ±∞.
+    pub fn first_root(&self, origin: DVec3, direction: DVec3, range: [f64; 2]) -> Option<f64> {
+        let grid = self.field.volume().grid();
+        self.first_root_in_index(grid.to_index(origin), grid.inverse_axes() * direction, range)
+    }
+
+    /// The same in index space.
+    pub fn first_root_in_index(&self, origin: DVec3, direction: DVec3, range: [f64; 2]) -> Option<f64> {
+        let mask = self.field.volume().mask();
+        with_sampler!(self.field, |sampler| self.roots.first(sampler, mask, [origin, direction], range))
+    }
+
+    /// The value at a place in index space; none outside the volume's box.
+    fn value(&self, index: DVec3) -> Option<f64> {
+        let at = crate::number::Vec3::from_glam(index);
+        self.holds(index).then(|| with_sampler!(self.field, |sampler| sampler.value(at)))
+    }
+
+    fn holds(&self, index: DVec3) -> bool {
+        let [lo, hi] = self.field.volume().grid().index_box();
+        index.cmpge(lo).all() && index.cmple(hi).all()
+    }
+}
+
+#[cfg(test)]
+mod tests;

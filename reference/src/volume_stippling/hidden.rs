@@ -1,0 +1,91 @@
+//! Points that an opaque iso-surface hides ([STIP-15]). The paper's points are transparent.
+
+use crate::surface::IsoSurface;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::view::View;
+
+/// How far from a point its foot on the surface may be, in voxels along the gradient.
+const REACH: f64 = 1.5;
+
+/// δ of [HATCH-7]: how far before the surface it is asked for, in voxels.
+const OFFSET: f64 = 0.15;
+
+/// What hides points from one camera.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hidden<'a> {
+    surface: &'a IsoSurface<'a, 'a>,
+    view: &'a View,
+    near: f64,
+    /// In world units.
+    reach: f64,
+    /// In world units, with the sign of the side that the eye is on.
+    offset: f64,
+}
+
+impl<'a> Hidden<'a> {
+    /// `near` is that of a perspective camera, in world units.
+    pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64) -> Self {
+        let voxel = surface.field().volume().grid().voxel();
+        Self { surface, view, near, reach: REACH * voxel, offset: OFFSET * voxel * surface.front(view) }
+    }
+
+    /// Whether the surface hides a point of the world. A point near the surface is taken for one that lies on it: it is asked
+    /// for at its foot, δ in front; else a point's own distance would hide it behind the surface that it stands for.
+    pub(super) fn hides(&self, point: DVec3) -> bool {
+        let grid = self.surface.field().volume().grid();
+        let foot = self.surface.foot(grid.to_index(point), self.reach);
+        let tested = foot.map_or(point, |foot| grid.to_world(self.surface.in_front(foot, self.offset)));
+        self.surface.hides(tested, self.view, self.near)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::{Field, Reconstruction, Rung};
+    use drypoint_scene::philox::uniform;
+    use drypoint_scene::space::Grid;
+    use drypoint_scene::tables::{Camera, Projection};
+    use drypoint_scene::volume::{Volume, Voxels};
+
+    /// [STIP-15]'s oracle: of points within 1.5 voxels of a sphere all with n·E > 0 are seen and none with
+    /// n·E < −√(2δ/R), E towards the eye.
+    #[test]
+    fn a_sphere_shows_its_front() {
+        let (n, radius) = (41, 14.0);
+        let centre = DVec3::splat(20.0);
+        let grid = Grid::with_spacing([n; 3], [1.0; 3]).unwrap();
+        let at = |i: usize| DVec3::new((i % n) as f64, (i / n % n) as f64, (i / n / n) as f64);
+        let values = (0..n * n * n).map(|i| radius - (at(i) - centre).length()).collect();
+        let volume = Volume::new(grid, Voxels::F64(values), 1.0, 0.0).unwrap();
+        let field = Field::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+        let surface = IsoSurface::new(&field, 0.0);
+        let direction = DVec3::new(-0.3, 0.7, 0.4);
+        let (mut front, mut back) = (0, 0);
+        for projection in [Projection::Orthographic { height: None }, Projection::Perspective { fov: 40.0 }] {
+            let camera = Camera { projection, direction, ..Camera::default() };
+            let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
+            let hidden = Hidden::new(&surface, &view, 0.5);
+            let limit = -(2.0 * OFFSET / radius).sqrt();
+            for i in 0..4000 {
+                let draw = |k| 2.0 * uniform(11, [i, k, 0], 0) - 1.0;
+                let n = DVec3::new(draw(0), draw(1), draw(2)).normalize();
+                let point = centre + n * (radius + 1.3 * draw(3));
+                let foot = centre + n * radius;
+                let towards = if view.perspective { (view.eye - foot).normalize() } else { -view.forward };
+                let hides = hidden.hides(point);
+                if n.dot(towards) > 0.0 {
+                    assert!(!hides, "{}", n.dot(towards));
+                    front += 1;
+                } else if n.dot(towards) < limit {
+                    assert!(hides, "{}", n.dot(towards));
+                    back += 1;
+                }
+            }
+            // Without a foot a point is asked for itself: inside it is hidden, before the sphere it is not.
+            assert!(hidden.hides(centre + direction) && !hidden.hides(centre - direction.normalize() * 18.0));
+            assert!(hidden.hides(centre + direction.normalize() * 18.0));
+        }
+        assert!(front > 2500 && back > 2500, "{front} {back}");
+    }
+}

@@ -1,0 +1,208 @@
+//! `[surface]`: an opaque iso-surface in the picture ([HATCH-14], [HATCH-15]).
+
+use crate::color::Rgba;
+use crate::file::check::Check;
+use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
+use crate::file::fault::Problem;
+use crate::file::item::{Item, Value};
+use crate::file::kind::{Choice, ChoiceOption, Colors};
+use crate::file::out::Out;
+use crate::plan::{Pass, Quantity};
+use serde_json::{Value as Json, json};
+
+/// The table `[surface]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Where it lies.
+    pub iso: Iso,
+    /// How it is drawn.
+    pub look: SurfaceLook,
+    /// Of a lit surface: linear, opaque.
+    pub color: Rgba,
+}
+
+/// A value of the field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Iso {
+    /// That of the surface which an automatic transfer function makes opaque.
+    Auto,
+    /// A value as the file gives it ([VAL-1]).
+    Value(f64),
+}
+
+/// How an iso-surface is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceLook {
+    /// White everywhere, under any light.
+    White,
+    /// Blinn–Phong.
+    Phong,
+    /// Not at all.
+    None,
+}
+
+impl Default for Surface {
+    fn default() -> Self {
+        Self { iso: Iso::Auto, look: SurfaceLook::White, color: [1.0; 4] }
+    }
+}
+
+/// A number, or `"auto"`.
+pub(crate) struct IsoKind;
+
+impl Shape for IsoKind {
+    fn expected(&self) -> String {
+        "a value of the volume, or \"auto\"".into()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [{ "type": "number" }, { "const": "auto" }] })
+    }
+}
+
+impl Kind for IsoKind {
+    type Of = Iso;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Iso> {
+        match &item.value {
+            Value::Text(text) if text == "auto" => Some(Iso::Auto),
+            _ => match item.number() {
+                Some(value) => Some(Iso::Value(value)),
+                None => check.wrong(item, self.expected()),
+            },
+        }
+    }
+
+    fn write(&self, value: &Iso) -> Out {
+        match value {
+            Iso::Auto => Out::Text("auto".into()),
+            Iso::Value(value) => Out::Number(*value),
+        }
+    }
+}
+
+/// The description of `[surface]`.
+pub(crate) static TABLE: Table<Surface> = Table {
+    later: &[
+        Later { name: "view_opacity", tag: "HATCH-15" },
+        Later { name: "toon", tag: "HATCH-15" },
+        Later { name: "silhouette", tag: "HATCH-15" },
+    ],
+    check: |surface, check| {
+        if surface.color[3] != 1.0 && check.sound(&["color"]) {
+            let what = "surface.color has an opacity, and the surface is opaque".into();
+            let remedy = "write it as \"#rrggbb\"; what is translucent is a matter of [transfer]".into();
+            check.fault_in("color", Problem::Contradiction { what, remedy });
+        }
+    },
+    asks: |scene, asks| {
+        let Some(surface) = scene.surface.filter(|surface| surface.look != SurfaceLook::None) else { return };
+        asks.need(Quantity::Surface, "iso-surface", "surface");
+        if surface.iso == Iso::Auto {
+            asks.pass(Pass::AutomaticIso, "iso-surface", "surface.iso");
+        }
+        if surface.look == SurfaceLook::Phong {
+            asks.need(Quantity::SurfaceNormal, "lit iso-surface", "surface.look");
+        }
+    },
+    idle: |scene, _, idle| match scene.surface.map(|surface| surface.look) {
+        Some(SurfaceLook::None) => {
+            idle.key("surface", "look = \"none\" hides strokes alone, and the scene has none");
+        }
+        Some(SurfaceLook::White) => idle.key("surface.color", "look = \"white\" is white"),
+        Some(SurfaceLook::Phong) | None => {}
+    },
+    ..Table::new(
+        "[surface]",
+        "An opaque iso-surface, where the field first has a value along each ray; what lies behind it is not seen. \
+         Without [transfer] it is drawn alone.",
+        Surface::default,
+        &[
+            Key::new(
+                "iso",
+                "HATCH-14",
+                "The value; by itself that of the surface which an automatic transfer function makes opaque.",
+                &Slot { kind: IsoKind, get: |s: &Surface| Some(s.iso), set: |s, v| s.iso = v },
+            ),
+            Key::new(
+                "look",
+                "HATCH-14",
+                "How it is drawn.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new(
+                                "white",
+                                SurfaceLook::White,
+                                "White, unlit: it hides, and lines are drawn on it.",
+                            ),
+                            ChoiceOption::new(
+                                "phong",
+                                SurfaceLook::Phong,
+                                "Lit, with the constants of [shading] or their defaults.",
+                            ),
+                            ChoiceOption::new("none", SurfaceLook::None, "Not at all: it hides strokes alone."),
+                        ],
+                        later: &[("toon", "HATCH-15")],
+                    },
+                    get: |s: &Surface| Some(s.look),
+                    set: |s, v| s.look = v,
+                },
+            ),
+            Key::new(
+                "color",
+                "HATCH-14",
+                "Of a lit surface.",
+                &Slot { kind: Colors, get: |s: &Surface| Some(s.color), set: |s, v| s.color = v },
+            ),
+        ],
+    )
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::file::{Overrides, parse};
+    use crate::plan::Plan;
+    use crate::tables::Scene;
+    use std::path::Path;
+
+    fn scene(rest: &str) -> Result<Scene, String> {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
+        parse(&text, Path::new("scene.toml"), &Overrides::default()).map_err(|faults| faults.to_string())
+    }
+
+    #[test]
+    fn a_surface_alone_draws_no_volume_and_asks_for_what_it_needs() {
+        let white = scene("[surface]\niso = 12.5\n").unwrap();
+        assert_eq!((white.transfer, white.surface.unwrap().iso), (None, Iso::Value(12.5)));
+        let needs = |rest: &str| Plan::new(&scene(rest).unwrap()).needs.iter().map(|n| n.quantity).collect::<Vec<_>>();
+        assert_eq!(needs("[surface]\n"), [Quantity::Surface]);
+        assert_eq!(needs("[surface]\nlook = \"phong\"\n"), [Quantity::Surface, Quantity::SurfaceNormal]);
+        assert_eq!(needs("[surface]\nlook = \"none\"\n"), []);
+        let automatic = |rest: &str| Plan::new(&scene(rest).unwrap()).has_pass(Pass::AutomaticIso);
+        assert_eq!((automatic("[surface]\n"), automatic("[surface]\niso = 3\n")), (true, false));
+    }
+
+    #[test]
+    fn keys_without_effect_are_told() {
+        let idle = |rest: &str| -> Vec<String> {
+            Plan::new(&scene(rest).unwrap()).idle_keys.into_iter().map(|idle| idle.key).collect()
+        };
+        assert_eq!(idle("[surface]\ncolor = \"red\"\n[shading]\n"), ["surface.color", "shading"]);
+        let lit = "light = [0, 0, 1]\n[volume.phantom]\nname = \"torus\"\n";
+        let all =
+            format!("drypoint = 1\n{lit}[surface]\nlook = \"phong\"\n[sampling]\nnormal = \"facing\"\n[shading]\n");
+        let read = parse(&all, Path::new("s"), &Overrides::default()).unwrap();
+        assert_eq!(Plan::new(&read).idle_keys, []);
+        assert_eq!(idle("[surface]\nlook = \"none\"\n"), ["surface"]);
+    }
+
+    #[test]
+    fn a_surface_is_opaque() {
+        let text = scene("[surface]\nlook = \"phong\"\ncolor = \"#ff000080\"\n").unwrap_err();
+        assert!(text.starts_with("surface.color has an opacity, and the surface is opaque\n"), "{text}");
+        let text = scene("[surface]\niso = \"high\"\n").unwrap_err();
+        assert!(text.contains("write a value of the volume, or \"auto\""), "{text}");
+    }
+}
