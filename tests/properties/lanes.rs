@@ -23,7 +23,7 @@ fn lanes_show_nowhere() {
             s.sampling.number = Number::F64;
             s.picture.layers = Vec::new();
             s.picture.blend_space = BlendSpace::Linear;
-            s.contours = None;
+            (s.contours, s.surface) = (None, None);
             if let Some(transfer) = &mut s.transfer {
                 transfer.table = Table::Exact;
             }
