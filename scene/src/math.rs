@@ -3,9 +3,13 @@
 //! All are those of the pure-Rust `libm` or our own over `+ − × ÷`, so that the same scene gives the same bits on every
 //! IEEE 754 machine. `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
 
+pub mod angle;
 mod double;
+pub mod power;
 pub mod transmittance;
 
+pub use angle::angle;
+pub use power::power;
 pub use transmittance::{ln_one_minus, one_minus_exp};
 
 /// e^x.

@@ -1,6 +1,7 @@
 //! Numbers that the sample code is generic over: f64, the truth, and f32, for the price list ([PREC-1]).
 
 mod arithmetic;
+pub(crate) mod lanes;
 mod mat3;
 mod real;
 mod sym3;

@@ -4,22 +4,11 @@ use super::Arithmetic;
 use drypoint_scene::math;
 use drypoint_scene::volume::Voxel;
 use std::fmt::Debug;
-use std::ops::{AddAssign, Div, MulAssign, Neg, SubAssign};
+use std::ops::{AddAssign, MulAssign, SubAssign};
 
 /// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `drypoint_scene::math` alone ([PREC-4]).
 pub trait Real:
-    Arithmetic
-    + Debug
-    + Default
-    + PartialOrd
-    + Send
-    + Sync
-    + 'static
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + AddAssign
-    + SubAssign
-    + MulAssign
+    Arithmetic + Debug + Default + PartialOrd + Send + Sync + 'static + AddAssign + SubAssign + MulAssign
 {
     /// 0.
     const ZERO: Self;
@@ -52,26 +41,16 @@ pub trait Real:
     fn from_index(i: usize) -> Self;
     /// |x|.
     fn abs(self) -> Self;
-    /// √x.
-    fn sqrt(self) -> Self;
     /// x^y; whole y up to 64 by repeated squaring.
     fn pow(self, y: Self) -> Self;
-    /// x^n by repeated squaring, lowest bit first.
-    #[inline]
-    fn pow_whole(self, mut n: u32) -> Self {
-        let (mut result, mut square) = (Self::ONE, self);
-        while n > 0 {
-            if n & 1 == 1 {
-                result *= square;
-            }
-            square *= square;
-            n >>= 1;
-        }
-        result
-    }
+    /// x^y of an opacity x in (0, 1], for y about 1.
+    fn power(self, y: Self) -> Self;
 
     /// The angle of (x, self) from the x axis.
     fn atan2(self, x: Self) -> Self;
+
+    /// The same for self ≥ 0.
+    fn angle(self, x: Self) -> Self;
 
     /// The smaller one; `self` where neither is.
     #[inline(always)]
@@ -172,19 +151,24 @@ impl Real for f64 {
         self.abs()
     }
 
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-
     #[inline]
     fn pow(self, y: Self) -> Self {
         math::pow(self, y)
     }
 
     #[inline]
+    fn power(self, y: Self) -> Self {
+        math::power(self, y)
+    }
+
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         math::atan2(self, x)
+    }
+
+    #[inline]
+    fn angle(self, x: Self) -> Self {
+        math::angle(self, x)
     }
 }
 
@@ -234,18 +218,23 @@ impl Real for f32 {
         self.abs()
     }
 
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-
     #[inline]
     fn pow(self, y: Self) -> Self {
         math::pow_f32(self, y)
     }
 
     #[inline]
+    fn power(self, y: Self) -> Self {
+        math::pow_f32(self, y)
+    }
+
+    #[inline]
     fn atan2(self, x: Self) -> Self {
+        math::atan2_f32(self, x)
+    }
+
+    #[inline]
+    fn angle(self, x: Self) -> Self {
         math::atan2_f32(self, x)
     }
 }

@@ -27,6 +27,18 @@ impl<R: Arithmetic> Vec3<R> {
     pub fn dot(self, b: Self) -> R {
         self.x * b.x + self.y * b.y + self.z * b.z
     }
+
+    /// a × b.
+    #[inline(always)]
+    pub fn cross(self, b: Self) -> Self {
+        Self::new(self.y * b.z - self.z * b.y, self.z * b.x - self.x * b.z, self.x * b.y - self.y * b.x)
+    }
+
+    /// ‖a‖.
+    #[inline(always)]
+    pub fn length(self) -> R {
+        self.dot(self).sqrt()
+    }
 }
 
 impl<R: Real> Vec3<R> {
@@ -44,18 +56,6 @@ impl<R: Real> Vec3<R> {
     /// To glam's.
     pub fn to_glam(self) -> DVec3 {
         DVec3::new(self.x.to_f64(), self.y.to_f64(), self.z.to_f64())
-    }
-
-    /// a × b.
-    #[inline(always)]
-    pub fn cross(self, b: Self) -> Self {
-        Self::new(self.y * b.z - self.z * b.y, self.z * b.x - self.x * b.z, self.x * b.y - self.y * b.x)
-    }
-
-    /// ‖a‖.
-    #[inline(always)]
-    pub fn length(self) -> R {
-        self.dot(self).sqrt()
     }
 
     /// The angle to another vector in radians, atan2(‖a × b‖, a·b): accurate near 0 and π, where acos is not ([CUR-3]).
@@ -81,7 +81,7 @@ impl<R: Arithmetic> Sub for Vec3<R> {
     }
 }
 
-impl<R: Real> Neg for Vec3<R> {
+impl<R: Arithmetic> Neg for Vec3<R> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {

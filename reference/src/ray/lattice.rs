@@ -42,7 +42,7 @@ pub struct IndexRay<R> {
     /// Eye depth between samples.
     pub(super) depth_step: R,
     /// Smallest k beyond `near`.
-    first: i64,
+    pub(super) first: i64,
     /// Δ_ray: world distance between samples on this ray ([VAL-4]).
     pub step: f64,
 }

@@ -6,9 +6,9 @@ use drypoint_scene::tables::Kappa;
 /// The contour threshold τ of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contour<R> {
-    thickness: R,
-    threshold: Option<R>,
-    fade: Option<[R; 2]>,
+    pub(super) thickness: R,
+    pub(super) threshold: Option<R>,
+    pub(super) fade: Option<[R; 2]>,
 }
 
 impl<R: Real> Contour<R> {

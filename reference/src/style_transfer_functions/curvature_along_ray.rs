@@ -35,7 +35,7 @@ pub fn kappa<R: Real>(turn: Turn, n: Vec3<R>, before: Option<Vec3<R>>, delta_ray
         Turn::OfNormals => cosine,
         Turn::OfLines => cosine.abs(),
     };
-    n.cross(before).length().atan2(cosine) / delta_ray
+    n.cross(before).length().angle(cosine) / delta_ray
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The frame in which a normal is looked up on the lit sphere ([STF-1]).
 
-use crate::number::{Real, Vec3};
+use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::tables::SphereFrame;
 
 /// N in the frame of the lit sphere; its x and y are the lookup.
@@ -15,11 +15,23 @@ pub fn on_sphere<R: Real>(frame: SphereFrame, n: Vec3<R>, v: Vec3<R>) -> Vec3<R>
     match frame {
         SphereFrame::Eye => n,
         SphereFrame::View => {
-            let w = Vec3::new(v.y, -v.x, R::ZERO);
-            let turned = w.cross(n);
-            n + turned + w.cross(turned) * (R::ONE / (R::ONE + v.z))
+            let (w, scale) = rotation(v);
+            turned(n, w, scale)
         }
     }
+}
+
+/// w and 1/(1 + v_z) of the rotation that `view` takes.
+#[inline(always)]
+pub(crate) fn rotation<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
+    (Vec3::new(v.y, -v.x, R::ZERO), R::ONE / (R::ONE + v.z))
+}
+
+/// The rotation itself.
+#[inline(always)]
+pub(crate) fn turned<A: Arithmetic>(n: Vec3<A>, w: Vec3<A>, scale: A) -> Vec3<A> {
+    let turned = w.cross(n);
+    n + turned + w.cross(turned) * scale
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ impl StyleIndex {
     }
 
     #[inline]
-    fn style(&self, k: usize) -> usize {
+    pub(super) fn style(&self, k: usize) -> usize {
         self.of_node.as_ref().map_or(k, |ift| ift[k] as usize)
     }
 }
@@ -108,7 +108,7 @@ pub struct Spheres<R> {
     maps: Vec<SphereMap<R>>,
     /// The chain of each style, where the scene has `[style_mipmaps]`.
     chains: Vec<MipMap<R>>,
-    mix: Mix,
+    pub(super) mix: Mix,
 }
 
 impl<R: Real> Spheres<R> {

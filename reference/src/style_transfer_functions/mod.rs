@@ -12,6 +12,7 @@ pub mod curvature_along_ray;
 pub mod extract;
 pub mod frame;
 pub mod gallery;
+pub(crate) mod lanes;
 pub mod lookup;
 pub mod mipmaps;
 pub mod sphere_map;

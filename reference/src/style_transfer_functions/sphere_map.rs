@@ -7,8 +7,8 @@ use drypoint_scene::style::Style;
 /// One style's picture, sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereMap<R> {
-    side: usize,
-    texels: Vec<[R; 4]>,
+    pub(super) side: usize,
+    pub(super) texels: Vec<[R; 4]>,
 }
 
 impl<R: Real> SphereMap<R> {

@@ -7,7 +7,7 @@
 use crate::field::Field;
 use crate::field::place::Place;
 use crate::field::tensor::{self, Taps};
-use crate::number::{Real, Vec3};
+use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::volume::Access;
 
 /// The interpolated gradient at a place, along the index axes.
@@ -49,6 +49,9 @@ pub(super) fn at_voxel<R: Real>(voxels: impl Access, [x, y, z]: [usize; 3]) -> V
 
 /// Weights of samples cell − 1 … cell + 2, those beyond the border continued.
 fn taps<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 4> {
+    if cell > 0 && cell + 2 < n {
+        return taps_inside(w, R::ONE, R::ZERO);
+    }
     let u = R::ONE - w;
     let (half, quarter) = (R::HALF, R::HALF * R::HALF);
     let mut value = [R::ZERO; 4];
@@ -60,6 +63,19 @@ fn taps<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 4> {
         value[corner + 2] += side;
     }
     Taps { value, first: [-(u * half), -(w * half), u * half, w * half], second: [R::ZERO; 4] }
+}
+
+/// The same where all four are in the grid.
+#[inline(always)]
+pub(in crate::field) fn taps_inside<A: Arithmetic>(w: A, one: A, zero: A) -> Taps<A, 4> {
+    let u = one - w;
+    let [u_half, w_half] = [u.half(), w.half()];
+    let [u_quarter, w_quarter] = [u_half.half(), w_half.half()];
+    Taps {
+        value: [u_quarter, u_half + w_quarter, u_quarter + w_half, w_quarter],
+        first: [-u_half, -w_half, u_half, w_half],
+        second: [zero; 4],
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! [`Correction`](crate::ray::opacity::Correction) in lanes.
 
-use crate::field::lanes::LANES;
+use crate::number::lanes::look_up;
 use drypoint_scene::math::transmittance::{LN_2_HI, LN_2_LO, LOGARITHMS, POWERS, STEPS, STEPS_BITS, TO_WHOLE};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
@@ -58,26 +58,10 @@ fn one_minus_exp<S: Simd>(y: f64x8<S>) -> f64x8<S> {
     (f64x8::splat(simd, 1.0) - hi) - (hi * grown + scale * lo)
 }
 
-/// The rows of a table, turned into lanes.
-#[inline(always)]
-fn look_up<S: Simd, const N: usize>(simd: S, table: &[[f64; N]; STEPS], rows: [u64; LANES]) -> [f64x8<S>; N] {
-    let mut columns = [[0.0; LANES]; N];
-    for lane in 0..LANES {
-        let row = &table[rows[lane] as usize % STEPS];
-        for i in 0..N {
-            columns[i][lane] = row[i];
-        }
-    }
-    let mut lanes = [f64x8::splat(simd, 0.0); N];
-    for i in 0..N {
-        lanes[i] = columns[i].simd_into(simd);
-    }
-    lanes
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::LANES;
     use crate::ray::opacity::Correction;
     use fearless_simd::{Level, dispatch};
 

@@ -1,4 +1,4 @@
-//! Eight rays side by side: the pictures that are asked for most, unshaded and Phong, to the same bits sooner.
+//! Eight rays side by side: the pictures that are asked for most, unshaded, Phong and styles, to the same bits sooner.
 //!
 //! What [`cast`](super::cast) does sample by sample is done here plane by plane for neighbouring rays, in vectors of the
 //! widest registers that the processor has. Each lane takes the steps of its ray alone, in their order, with +, −, ×, ÷ and √
@@ -6,25 +6,28 @@
 //! that they would visit alone, so the counts are the same too.
 
 mod correct;
+mod normal;
+mod phong;
+mod style;
+mod walk;
 
-use self::correct::correct;
+use self::phong::{Shaded, Unshaded};
+use self::style::InStyle;
+use self::walk::Walk;
 use super::cast::Cast;
 use super::lattice::IndexRay;
 use super::layers::Sums;
 use super::need::Needs;
-use super::opacity::Correction;
-use super::prepared::{Prepared, Side};
+use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::Look;
 use super::skip::Boxes;
-use crate::field::lanes::{LANES, LaneReader, Packed};
-use crate::number::{Arithmetic, Vec3};
-use crate::shading::{Exponent, Phong};
+use crate::field::lanes::{LANES, Packed};
+use crate::number::Vec3;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::tables::Outside;
 use drypoint_scene::volume::Voxels;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f64x8, mask64x8};
+use fearless_simd::{Level, Simd, f64x8};
 
 /// The registers that lanes are for; none on processors without them, which cast rays one by one.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -43,6 +46,7 @@ pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
     let shaded = match prepared.needs {
         Needs::Value => false,
         Needs::Normal => true,
+        Needs::Anything if is_in_style(prepared) => true,
         Needs::Anything => return false,
     };
     wide().is_some()
@@ -51,6 +55,18 @@ pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
         && prepared.surface.is_none()
         && prepared.field.fits_lanes(shaded)
         && matches!(prepared.volume.voxels(), Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_))
+}
+
+/// Whether a scene is one of styles over the value, without mip-maps, and with contours that no Hessian is asked for.
+fn is_in_style(prepared: &Prepared<'_, f64>) -> bool {
+    let calls = Calls { kappa: KappaSource::None, ..prepared.calls };
+    matches!(&prepared.look, Look::Style(styled) if styled.detail.is_none())
+        && calls == Calls::NORMAL
+        && prepared.calls.kappa != KappaSource::Exact
+        && prepared.first.is_none()
+        && prepared.over_two.is_none()
+        && prepared.table.is_none()
+        && !prepared.encode
 }
 
 /// Casts the rays through points of the picture, in pixels from the top left corner, and appends what comes out of each. For
@@ -91,9 +107,12 @@ struct Packet<'p, 'v> {
     origin: [Column; 3],
     along: [Column; 3],
     depth_step: Column,
-    /// Δ/Δ₀.
-    ratio: Column,
+    /// Δ_ray.
+    step: Column,
+    /// The smallest sample beyond `near`.
+    beyond: Column,
     v: [Column; 3],
+    v_eye: [Column; 3],
     half: [Column; 3],
     /// What the rays have to visit, one ray after the other: first and last sample of each interval.
     visits: Vec<[i64; 2]>,
@@ -115,8 +134,10 @@ impl<'p, 'v> Packet<'p, 'v> {
             origin: [none; 3],
             along: [none; 3],
             depth_step: none,
-            ratio: none,
+            step: none,
+            beyond: none,
             v: [none; 3],
+            v_eye: [none; 3],
             half: [none; 3],
             visits: Vec::new(),
             of_ray: [[0; 2]; LANES],
@@ -150,9 +171,11 @@ impl<'p, 'v> Packet<'p, 'v> {
             put(&mut self.origin, lane, ray.origin);
             put(&mut self.along, lane, ray.along);
             put(&mut self.v, lane, sight.v);
+            put(&mut self.v_eye, lane, sight.v_eye);
             put(&mut self.half, lane, sight.half);
             self.depth_step[lane] = ray.depth_step;
-            self.ratio[lane] = ray.step / prepared.reference_length;
+            self.step[lane] = ray.step;
+            self.beyond[lane] = ray.first as f64;
         }
         self.together.clear();
         self.together.extend_from_slice(&self.visits);
@@ -177,14 +200,13 @@ impl<'p, 'v> Packet<'p, 'v> {
 
     #[inline(always)]
     fn walk<S: Simd, V: Packed>(&mut self, simd: S, data: &[V], counts: &mut Counts) {
-        let Look::Regular { colors, phong } = &self.prepared.look else { return };
-        let walk = Walk::new(simd, self, data, colors);
-        match (self.prepared.needs, phong) {
-            (Needs::Normal, Some(phong)) => {
-                let shade = Shade::new(simd, self, phong);
-                walk.run(self, Some(&shade), counts);
+        let walk = Walk::new(simd, self, data);
+        match &self.prepared.look {
+            Look::Regular { colors, phong: Some(phong) } if self.prepared.needs == Needs::Normal => {
+                walk.run(self, &mut Shaded::new(simd, self, colors, phong), counts);
             }
-            _ => walk.run(self, None, counts),
+            Look::Regular { colors, .. } => walk.run(self, &mut Unshaded { colors }, counts),
+            Look::Style(styled) => walk.run(self, &mut InStyle::new(simd, self, styled), counts),
         }
     }
 }
@@ -213,192 +235,4 @@ fn put(columns: &mut [Column; 3], lane: usize, v: Vec3<f64>) {
 #[inline(always)]
 fn vector<S: Simd>(simd: S, [x, y, z]: [Column; 3]) -> Vec3<f64x8<S>> {
     Vec3::new(x.simd_into(simd), y.simd_into(simd), z.simd_into(simd))
-}
-
-/// Eight rays on their way.
-struct Walk<'p, 'v, S: Simd, V> {
-    simd: S,
-    prepared: &'p Prepared<'v, f64>,
-    reader: LaneReader<'p, 'v, S, V>,
-    colors: &'p [[f64; 3]],
-    origin: Vec3<f64x8<S>>,
-    along: Vec3<f64x8<S>>,
-    depth_step: f64x8<S>,
-    ratio: f64x8<S>,
-}
-
-/// What has come together on the rays.
-#[derive(Clone, Copy)]
-struct Light<S: Simd> {
-    rgb: [f64x8<S>; 3],
-    opacity: f64x8<S>,
-    /// The last opacities that were corrected, and what they became: levels of a function repeat along a ray.
-    corrected: [f64x8<S>; 2],
-}
-
-impl<S: Simd> Light<S> {
-    /// Corrects the opacities of the lanes `fresh`: together, or alone where they are few.
-    #[inline(always)]
-    fn correct(&mut self, fresh: u64, alpha: f64x8<S>, ratio: f64x8<S>) {
-        let lanes = mask64x8::from_bitmask(alpha.simd, fresh);
-        if fresh.count_ones() > 2 {
-            self.corrected[1] = lanes.select(correct(alpha, ratio), self.corrected[1]);
-        } else {
-            let mut left = fresh;
-            while left != 0 {
-                let lane = left.trailing_zeros() as usize;
-                left &= left - 1;
-                self.corrected[1][lane] = Correction::new(ratio[lane]).apply(alpha[lane]);
-            }
-        }
-        self.corrected[0] = lanes.select(alpha, self.corrected[0]);
-    }
-}
-
-impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
-    #[inline(always)]
-    fn new(simd: S, packet: &Packet<'p, 'v>, data: &'p [V], colors: &'p [[f64; 3]]) -> Self {
-        Self {
-            simd,
-            prepared: packet.prepared,
-            reader: LaneReader::new(simd, &packet.prepared.field, data),
-            colors,
-            origin: vector(simd, packet.origin),
-            along: vector(simd, packet.along),
-            depth_step: packet.depth_step.simd_into(simd),
-            ratio: packet.ratio.simd_into(simd),
-        }
-    }
-
-    /// Visits all samples, the nearest plane first.
-    #[inline(always)]
-    fn run(&self, packet: &mut Packet<'_, '_>, shade: Option<&Shade<'_, S>>, counts: &mut Counts) {
-        let zero = f64x8::splat(self.simd, 0.0);
-        let mut light = Light { rgb: [zero; 3], opacity: zero, corrected: [zero; 2] };
-        let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
-        let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
-        'rays: for &[first, last] in &packet.together {
-            for k in first..=last {
-                let k = k as f64;
-                let open = farthest.simd_ge(k);
-                if open.all_false() {
-                    break 'rays;
-                }
-                let stopped = self.visit(k, open & nearest.simd_le(k), shade, &mut light, counts);
-                farthest = stopped.select(f64x8::splat(self.simd, k), farthest);
-            }
-        }
-        packet.ends[1] = farthest.into();
-        let [r, g, b] = light.rgb;
-        packet.rgba = [r.into(), g.into(), b.into(), light.opacity.into()];
-    }
-
-    /// Visits sample k of the active lanes. Returns the lanes whose ray ends there.
-    #[inline(always)]
-    fn visit(
-        &self,
-        k: f64,
-        active: mask64x8<S>,
-        shade: Option<&Shade<'_, S>>,
-        light: &mut Light<S>,
-        counts: &mut Counts,
-    ) -> mask64x8<S> {
-        let simd = self.simd;
-        let none = mask64x8::splat(simd, false);
-        let depth = self.depth_step * (k + 0.5);
-        let at = self.reader.places(self.origin + self.along * depth, active);
-        let values = self.reader.values(&at);
-        let Some(place) = self.prepared.function.locate_lanes(values, active.to_bitmask(), self.colors) else {
-            return none;
-        };
-        let seen = mask64x8::from_bitmask(simd, place.visible);
-        let mut rgb = place.color;
-        if let Some(shade) = shade {
-            let g = self.reader.gradients(&at, seen);
-            counts.gradients += u64::from(place.visible.count_ones());
-            let (n, has) = shade.normal(g, self.prepared);
-            counts.without_normal += u64::from((place.visible & !has.to_bitmask()).count_ones());
-            rgb = shade.color(rgb, n, has);
-        }
-        let fresh = (seen & place.alpha_u.simd_ne(light.corrected[0])).to_bitmask();
-        if fresh != 0 {
-            light.correct(fresh, place.alpha_u, self.ratio);
-        }
-        let w = (f64x8::splat(simd, 1.0) - light.opacity) * light.corrected[1];
-        for (sum, c) in light.rgb.iter_mut().zip(rgb) {
-            *sum = seen.select(*sum + w * c, *sum);
-        }
-        light.opacity = seen.select(light.opacity + w, light.opacity);
-        seen & light.opacity.simd_ge(self.prepared.stop_at)
-    }
-}
-
-/// Phong in lanes.
-struct Shade<'p, S: Simd> {
-    simd: S,
-    phong: &'p Phong<f64>,
-    v: Vec3<f64x8<S>>,
-    half: Vec3<f64x8<S>>,
-    light: Vec3<f64x8<S>>,
-}
-
-impl<'p, S: Simd> Shade<'p, S> {
-    #[inline(always)]
-    fn new(simd: S, packet: &Packet<'_, '_>, phong: &'p Phong<f64>) -> Self {
-        let Vec3 { x, y, z } = phong.light;
-        let light = Vec3::new(f64x8::splat(simd, x), f64x8::splat(simd, y), f64x8::splat(simd, z));
-        Self { simd, phong, v: vector(simd, packet.v), half: vector(simd, packet.half), light }
-    }
-
-    /// [`outward`](crate::field::normal::outward) and [`Side::turn`], and the lanes that have a normal.
-    #[inline(always)]
-    fn normal(&self, g: Vec3<f64x8<S>>, prepared: &Prepared<'_, f64>) -> (Vec3<f64x8<S>>, mask64x8<S>) {
-        let one = f64x8::splat(self.simd, 1.0);
-        let length = g.dot(g).sqrt();
-        let scale = one / length;
-        let outward = g * match prepared.outside {
-            Outside::Low => -scale,
-            Outside::High => scale,
-        };
-        let turned = match prepared.side {
-            Side::Outward => outward,
-            Side::Facing => outward * outward.dot(self.v).simd_lt(0.0).select(-one, one),
-            Side::Inward => outward * -one,
-        };
-        (turned, length.simd_gt(prepared.no_normal_below))
-    }
-
-    /// [`Phong::shade`] where there is a normal.
-    #[inline(always)]
-    fn color(&self, c_u: [f64x8<S>; 3], n: Vec3<f64x8<S>>, has: mask64x8<S>) -> [f64x8<S>; 3] {
-        let phong = self.phong;
-        let n_l = n.dot(self.light);
-        let dark = n_l.simd_le(0.0);
-        let n_h = n.dot(self.half);
-        let n_h = n_h.simd_lt(0.0).select(f64x8::splat(self.simd, 0.0), n_h);
-        let power = match phong.shininess {
-            Exponent::Whole(s) => pow_whole(f64x8::splat(self.simd, 1.0), n_h, s),
-            Exponent::Other(s) => f64x8::from_fn(self.simd, |lane| crate::number::Real::pow(n_h[lane], s)),
-        };
-        let (diffuse, specular) = (n_l * phong.diffuse + phong.ambient, power * phong.specular);
-        let mut rgb = c_u;
-        for c in &mut rgb {
-            *c = has.select(dark.select(*c * phong.ambient, *c * diffuse + specular), *c);
-        }
-        rgb
-    }
-}
-
-/// [`Real::pow_whole`](crate::number::Real::pow_whole).
-#[inline(always)]
-fn pow_whole<A: Arithmetic>(one: A, x: A, mut n: u32) -> A {
-    let (mut result, mut square) = (one, x);
-    while n > 0 {
-        if n & 1 == 1 {
-            result = result * square;
-        }
-        square = square * square;
-        n >>= 1;
-    }
-    result
 }

@@ -1,21 +1,19 @@
 //! A field at eight positions side by side, for rays that are cast in lanes.
 //!
-//! Trilinear values and central differences of small whole numbers, which is what scanners store: the formulas are those of
+//! Trilinear values, central differences and Sobel's operator of small whole numbers, which is what scanners store: the formulas are those of
 //! one position, over lanes, so that the bits are the same. Voxels are fetched one lane after the other, whole rows at a
 //! time, and taken apart in lanes.
 
-use super::gradient::central;
+mod gradient;
+
 use super::kernel::trilinear;
-use super::place::Place;
-use super::stencil::Cross;
 use super::{Field, GradientEstimator, KernelData};
 use crate::number::{Mat3, Vec3};
 use drypoint_scene::volume::{Access, Linear, Voxel};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8, u64x8};
+use fearless_simd::{Simd, f64x4, f64x8, mask64x8, u64x4, u64x8};
 
-/// Positions side by side.
-pub(crate) const LANES: usize = 8;
+pub(crate) use crate::number::lanes::LANES;
 
 /// 2⁵²: the bits of a whole number below it are the low bits of the sum.
 const TO_BITS: f64 = (1u64 << 52) as f64;
@@ -91,11 +89,12 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
 
 impl Field<'_, f64> {
     /// Whether [`LaneReader`] reads this field, its gradients too if they are asked for: the trilinear kernel, central
-    /// differences, at least four voxels on each axis, numbers read as they are stored. The type is the caller's to match.
+    /// differences or Sobel's operator, at least four voxels on each axis, numbers read as they are stored. The type is the
+    /// caller's to match.
     pub(crate) fn fits_lanes(&self, gradient: bool) -> bool {
-        let central = self.how.gradient == GradientEstimator::Central;
+        let estimator = matches!(self.how.gradient, GradientEstimator::Central | GradientEstimator::Sobel);
         matches!(self.kernel, KernelData::Trilinear)
-            && (central || !gradient)
+            && (estimator || !gradient)
             && !self.stencils.careful()
             && self.stencils.dims().iter().all(|&n| n >= 4)
     }
@@ -143,57 +142,6 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         read * self.field.slope + self.field.intercept
     }
 
-    /// World gradients, times 2^−e, at the places of `asked`; whatever in the other lanes.
-    #[inline(always)]
-    pub(crate) fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>> {
-        let inner = self.field.stencils.inner().map(|n| n as f64);
-        let cell = at.cell;
-        let inside = cell.x.simd_ge(1.0)
-            & cell.x.simd_le(inner[0])
-            & cell.y.simd_ge(1.0)
-            & cell.y.simd_le(inner[1])
-            & cell.z.simd_ge(1.0)
-            & cell.z.simd_le(inner[2]);
-        let simple = asked & inside;
-        let zero = f64x8::splat(self.simd, 0.0);
-        let start = self.offsets(Vec3::new(
-            simple.select(cell.x - 1.0, zero),
-            simple.select(cell.y - 1.0, zero),
-            simple.select(cell.z - 1.0, zero),
-        ));
-        let (mut x, mut y, mut z) = ([[0; LANES]; 4], [[0; LANES]; 4], [[0; LANES]; 4]);
-        for lane in 0..LANES {
-            let a = self.voxels.window_at::<4>(start[lane]);
-            for (row, (j, k)) in [(1, 1), (2, 1), (1, 2), (2, 2)].into_iter().enumerate() {
-                x[row][lane] = word(a.row::<4>(0, j, k));
-            }
-            for (row, (j, k)) in [(0, 1), (3, 1), (0, 2), (3, 2)].into_iter().enumerate() {
-                y[row][lane] = word(a.row::<2>(1, j, k));
-            }
-            for (row, (j, k)) in [(1, 0), (2, 0), (1, 3), (2, 3)].into_iter().enumerate() {
-                z[row][lane] = word(a.row::<2>(1, j, k));
-            }
-        }
-        let cross = Cross {
-            x: [self.numbers(x[0]), self.numbers(x[1]), self.numbers(x[2]), self.numbers(x[3])],
-            y: [self.numbers(y[0]), self.numbers(y[1]), self.numbers(y[2]), self.numbers(y[3])],
-            z: [self.numbers(z[0]), self.numbers(z[1]), self.numbers(z[2]), self.numbers(z[3])],
-        };
-        let mut index = central::interpolated(cross, at.w);
-        let mut careful = (asked & !inside).to_bitmask();
-        while careful != 0 {
-            let lane = careful.trailing_zeros() as usize;
-            careful &= careful - 1;
-            let place = Place {
-                cell: [cell.x[lane] as usize, cell.y[lane] as usize, cell.z[lane] as usize],
-                w: at.w.map(|w| w[lane]),
-            };
-            let g = central::gradient(self.field, place);
-            (index.x[lane], index.y[lane], index.z[lane]) = (g.x, g.y, g.z);
-        }
-        self.to_world.apply(index)
-    }
-
     /// Where voxels stand in the order of voxels.
     #[inline(always)]
     fn offsets(&self, voxel: Vec3<f64x8<S>>) -> [usize; LANES] {
@@ -204,19 +152,42 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     }
 
     /// The first `N` numbers in each word.
+    #[inline(always)]
+    fn numbers<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
+        let mut numbers = self.raised(words);
+        for number in &mut numbers {
+            *number = *number - (TO_BITS + V::SIGN as f64);
+        }
+        numbers
+    }
+
+    /// The same, each more by one and the same whole number: of these the differences are those of the numbers.
     ///
     /// No closure here or anywhere in lanes: what is not inlined at once is compiled for the least processor, and each
     /// vector operation in it stays a call.
     #[inline(always)]
-    fn numbers<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
-        let words: u64x8<S> = words.simd_into(self.simd);
-        let zero = f64x8::splat(self.simd, 0.0);
-        let mut numbers = [zero; N];
-        for (i, number) in numbers.iter_mut().enumerate() {
-            let bits = (words >> (V::BITS * i as u32)) & ((1u64 << V::BITS) - 1);
-            let bits = (bits ^ V::SIGN) | TO_BITS.to_bits();
-            *number = f64x8::from_bits(bits) - (TO_BITS + V::SIGN as f64);
+    fn raised<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
+        let mut raised = [f64x8::splat(self.simd, 0.0); N];
+        for (i, number) in raised.iter_mut().enumerate() {
+            *number = self.raised_at(words, i);
         }
-        numbers
+        raised
+    }
+
+    /// Number i in each word, raised.
+    #[inline(always)]
+    fn raised_at(&self, words: [u64; LANES], i: usize) -> f64x8<S> {
+        let words: u64x8<S> = words.simd_into(self.simd);
+        let bits = (words >> (V::BITS * i as u32)) & ((1u64 << V::BITS) - 1);
+        f64x8::from_bits((bits ^ V::SIGN) | TO_BITS.to_bits())
+    }
+
+    /// The four numbers in one word, raised.
+    #[inline(always)]
+    fn raised_row(&self, word: u64) -> f64x4<S> {
+        let bits = u64::from(V::BITS);
+        let places: u64x4<S> = [0, bits, 2 * bits, 3 * bits].simd_into(self.simd);
+        let bits = self.simd.shrv_u64x4(u64x4::splat(self.simd, word), places) & ((1u64 << V::BITS) - 1);
+        f64x4::from_bits((bits ^ V::SIGN) | TO_BITS.to_bits())
     }
 }

@@ -1,0 +1,158 @@
+//! Gradients at eight positions side by side ([REC-2]).
+
+use super::{LANES, LaneReader, Packed, Places, word};
+use crate::field::GradientEstimator;
+use crate::field::gradient::{central, sobel};
+use crate::field::place::Place;
+use crate::field::stencil::Cross;
+use crate::field::tensor::{self, Column};
+use crate::number::Vec3;
+use crate::number::lanes::select;
+use drypoint_scene::volume::Access;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4, f64x8, mask64x8};
+
+/// Up to so many gradients are computed one by one.
+const FEW: u32 = 2;
+/// The same with Sobel's operator, which one cell's columns are vectors for.
+const FEW_SOBEL: u32 = 5;
+
+impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
+    /// World gradients, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    #[inline(always)]
+    pub(crate) fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>> {
+        let inner = self.field.stencils.inner().map(|n| n as f64);
+        let cell = at.cell;
+        let inside = cell.x.simd_ge(1.0)
+            & cell.x.simd_le(inner[0])
+            & cell.y.simd_ge(1.0)
+            & cell.y.simd_le(inner[1])
+            & cell.z.simd_ge(1.0)
+            & cell.z.simd_le(inner[2]);
+        let zero = f64x8::splat(self.simd, 0.0);
+        let zero = Vec3::new(zero, zero, zero);
+        let is_sobel = self.field.how.gradient == GradientEstimator::Sobel;
+        let start = self.offsets(select(asked & inside, Vec3::new(cell.x - 1.0, cell.y - 1.0, cell.z - 1.0), zero));
+        // Together all eight are computed, wanted or not.
+        let together = (asked & inside).to_bitmask().count_ones() > if is_sobel { FEW_SOBEL } else { FEW };
+        let mut index = zero;
+        let mut alone = asked.to_bitmask();
+        if together {
+            index = if is_sobel { self.sobel(start, at.w) } else { self.central(start, at.w) };
+            alone = (asked & !inside).to_bitmask();
+        }
+        let inside = inside.to_bitmask();
+        while alone != 0 {
+            let lane = alone.trailing_zeros() as usize;
+            alone &= alone - 1;
+            let w = [at.w[0][lane], at.w[1][lane], at.w[2][lane]];
+            let cell = [cell.x[lane] as usize, cell.y[lane] as usize, cell.z[lane] as usize];
+            let g = match (is_sobel, inside >> lane & 1 == 1) {
+                (true, true) => self.sobel_alone(start[lane], w),
+                (true, false) => sobel::gradient(self.field, Place { cell, w }),
+                (false, _) => central::gradient(self.field, Place { cell, w }),
+            };
+            (index.x[lane], index.y[lane], index.z[lane]) = (g.x, g.y, g.z);
+        }
+        self.to_world.apply(index)
+    }
+
+    /// Central differences in cells around which all voxels are in the grid, from the offsets of the first ones.
+    #[inline(always)]
+    fn central(&self, start: [usize; LANES], w: [f64x8<S>; 3]) -> Vec3<f64x8<S>> {
+        let (mut x, mut y, mut z) = ([[0; LANES]; 4], [[0; LANES]; 4], [[0; LANES]; 4]);
+        for lane in 0..LANES {
+            let a = self.voxels.window_at::<4>(start[lane]);
+            for (row, (j, k)) in [(1, 1), (2, 1), (1, 2), (2, 2)].into_iter().enumerate() {
+                x[row][lane] = word(a.row::<4>(0, j, k));
+            }
+            for (row, (j, k)) in [(0, 1), (3, 1), (0, 2), (3, 2)].into_iter().enumerate() {
+                y[row][lane] = word(a.row::<2>(1, j, k));
+            }
+            for (row, (j, k)) in [(1, 0), (2, 0), (1, 3), (2, 3)].into_iter().enumerate() {
+                z[row][lane] = word(a.row::<2>(1, j, k));
+            }
+        }
+        let cross = Cross {
+            x: [self.raised(x[0]), self.raised(x[1]), self.raised(x[2]), self.raised(x[3])],
+            y: [self.raised(y[0]), self.raised(y[1]), self.raised(y[2]), self.raised(y[3])],
+            z: [self.raised(z[0]), self.raised(z[1]), self.raised(z[2]), self.raised(z[3])],
+        };
+        central::interpolated(cross, w)
+    }
+
+    /// Sobel's operator there: one column of taps of all cells after the other.
+    #[inline(always)]
+    fn sobel(&self, start: [usize; LANES], [wx, wy, wz]: [f64x8<S>; 3]) -> Vec3<f64x8<S>> {
+        let mut words = [[[0; LANES]; 4]; 4];
+        for lane in 0..LANES {
+            let a = self.voxels.window_at::<4>(start[lane]);
+            for k in 0..4 {
+                for j in 0..4 {
+                    words[k][j][lane] = word(a.row::<4>(0, j, k));
+                }
+            }
+        }
+        let (one, zero) = (f64x8::splat(self.simd, 1.0), f64x8::splat(self.simd, 0.0));
+        let x = sobel::taps_inside(wx, one, zero);
+        let (y, z) = (sobel::taps_inside(wy, one, zero), sobel::taps_inside(wz, one, zero));
+        let first = self.raised_at(words[1][1], 1);
+        let mut sums = [[zero; 4]; 3];
+        for i in 0..4 {
+            let of_column =
+                tensor::column_sums(&ColumnOfEach { reader: self, words: &words, i }, first, [&y, &z], zero);
+            for s in 0..3 {
+                sums[s][i] = of_column[s];
+            }
+        }
+        tensor::gradient_of_sums(&sums, &x)
+    }
+
+    /// Sobel's operator in one cell: its four columns together.
+    #[inline(always)]
+    fn sobel_alone(&self, start: usize, [wx, wy, wz]: [f64; 3]) -> Vec3<f64> {
+        let simd = self.simd;
+        let a = self.voxels.window_at::<4>(start);
+        let mut words = [[0; 4]; 4];
+        for k in 0..4 {
+            for j in 0..4 {
+                words[k][j] = word(a.row::<4>(0, j, k));
+            }
+        }
+        let columns = ColumnsOfOne { reader: self, words: &words };
+        let (one, zero) = (f64x4::splat(simd, 1.0), f64x4::splat(simd, 0.0));
+        let x = sobel::taps_inside(wx, 1.0, 0.0);
+        let y = sobel::taps_inside(f64x4::splat(simd, wy), one, zero);
+        let z = sobel::taps_inside(f64x4::splat(simd, wz), one, zero);
+        let first = f64x4::splat(simd, columns.number(1, 1)[1]);
+        let [s00, s10, s01] = tensor::column_sums(&columns, first, [&y, &z], zero);
+        tensor::gradient_of_sums(&[s00.into(), s10.into(), s01.into()], &x)
+    }
+}
+
+/// Column i of the voxels around eight cells, as they are stored.
+struct ColumnOfEach<'r, 'f, 'v, S: Simd, V> {
+    reader: &'r LaneReader<'f, 'v, S, V>,
+    words: &'r [[[u64; LANES]; 4]; 4],
+    i: usize,
+}
+
+impl<S: Simd, V: Packed> Column<f64x8<S>> for ColumnOfEach<'_, '_, '_, S, V> {
+    #[inline(always)]
+    fn number(&self, j: usize, k: usize) -> f64x8<S> {
+        self.reader.raised_at(self.words[k][j], self.i)
+    }
+}
+
+/// The four columns of the voxels around one cell.
+struct ColumnsOfOne<'r, 'f, 'v, S: Simd, V> {
+    reader: &'r LaneReader<'f, 'v, S, V>,
+    words: &'r [[u64; 4]; 4],
+}
+
+impl<S: Simd, V: Packed> Column<f64x4<S>> for ColumnsOfOne<'_, '_, '_, S, V> {
+    #[inline(always)]
+    fn number(&self, j: usize, k: usize) -> f64x4<S> {
+        self.reader.raised_row(self.words[k][j])
+    }
+}

@@ -1,0 +1,149 @@
+//! From sample to sample, front to back, in lanes ([RAY-1], [RAY-2], [VAL-3]).
+
+use super::correct::correct;
+use super::{Packet, vector};
+use crate::field::lanes::{LaneReader, Packed, Places};
+use crate::number::Vec3;
+use crate::ray::opacity::Correction;
+use crate::ray::prepared::Prepared;
+use crate::transfer;
+use drypoint_scene::counts::Counts;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, mask64x8};
+
+/// Eight rays on their way.
+pub(super) struct Walk<'p, 'v, S: Simd, V> {
+    pub(super) simd: S,
+    pub(super) prepared: &'p Prepared<'v, f64>,
+    pub(super) reader: LaneReader<'p, 'v, S, V>,
+    origin: Vec3<f64x8<S>>,
+    along: Vec3<f64x8<S>>,
+    depth_step: f64x8<S>,
+    /// Δ/Δ₀.
+    ratio: f64x8<S>,
+}
+
+/// Samples of one plane that can be seen.
+pub(super) struct Sample<S: Simd> {
+    pub(super) k: f64,
+    pub(super) at: Places<S>,
+    /// Between which nodes their values lie; its lanes are the ones that count.
+    pub(super) place: transfer::lanes::Places<S>,
+    /// The same lanes.
+    pub(super) seen: mask64x8<S>,
+}
+
+/// What samples look like.
+pub(super) trait Show<S: Simd> {
+    /// Straight colours and opacities per reference length of the lanes that are seen.
+    fn show<V: Packed>(
+        &mut self,
+        walk: &Walk<'_, '_, S, V>,
+        sample: &Sample<S>,
+        counts: &mut Counts,
+    ) -> ([f64x8<S>; 3], f64x8<S>);
+}
+
+/// What has come together on the rays.
+#[derive(Clone, Copy)]
+struct Light<S: Simd> {
+    rgb: [f64x8<S>; 3],
+    opacity: f64x8<S>,
+    /// The last opacities that were corrected, and what they became: levels of a function repeat along a ray.
+    corrected: [f64x8<S>; 2],
+}
+
+impl<S: Simd> Light<S> {
+    /// Corrects the opacities of the lanes `fresh`: together, or alone where they are few.
+    #[inline(always)]
+    fn correct(&mut self, fresh: u64, alpha: f64x8<S>, ratio: f64x8<S>) {
+        let lanes = mask64x8::from_bitmask(alpha.simd, fresh);
+        if fresh.count_ones() > 2 {
+            self.corrected[1] = lanes.select(correct(alpha, ratio), self.corrected[1]);
+        } else {
+            let mut left = fresh;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                self.corrected[1][lane] = Correction::new(ratio[lane]).apply(alpha[lane]);
+            }
+        }
+        self.corrected[0] = lanes.select(alpha, self.corrected[0]);
+    }
+}
+
+impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
+    #[inline(always)]
+    pub(super) fn new(simd: S, packet: &Packet<'p, 'v>, data: &'p [V]) -> Self {
+        let step: f64x8<S> = packet.step.simd_into(simd);
+        Self {
+            simd,
+            prepared: packet.prepared,
+            reader: LaneReader::new(simd, &packet.prepared.field, data),
+            origin: vector(simd, packet.origin),
+            along: vector(simd, packet.along),
+            depth_step: packet.depth_step.simd_into(simd),
+            ratio: step / packet.prepared.reference_length,
+        }
+    }
+
+    /// Visits all samples, the nearest plane first.
+    #[inline(always)]
+    pub(super) fn run(&self, packet: &mut Packet<'_, '_>, look: &mut impl Show<S>, counts: &mut Counts) {
+        let zero = f64x8::splat(self.simd, 0.0);
+        let mut light = Light { rgb: [zero; 3], opacity: zero, corrected: [zero; 2] };
+        let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
+        let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
+        'rays: for &[first, last] in &packet.together {
+            for k in first..=last {
+                let k = k as f64;
+                let open = farthest.simd_ge(k);
+                if open.all_false() {
+                    break 'rays;
+                }
+                let stopped = self.visit(k, open & nearest.simd_le(k), look, &mut light, counts);
+                farthest = stopped.select(f64x8::splat(self.simd, k), farthest);
+            }
+        }
+        packet.ends[1] = farthest.into();
+        let [r, g, b] = light.rgb;
+        packet.rgba = [r.into(), g.into(), b.into(), light.opacity.into()];
+    }
+
+    /// The index positions of sample k.
+    #[inline(always)]
+    pub(super) fn positions(&self, k: f64) -> Vec3<f64x8<S>> {
+        self.origin + self.along * (self.depth_step * (k + 0.5))
+    }
+
+    /// Visits sample k of the active lanes. Returns the lanes whose ray ends there.
+    #[inline(always)]
+    fn visit(
+        &self,
+        k: f64,
+        active: mask64x8<S>,
+        look: &mut impl Show<S>,
+        light: &mut Light<S>,
+        counts: &mut Counts,
+    ) -> mask64x8<S> {
+        let simd = self.simd;
+        let at = self.reader.places(self.positions(k), active);
+        let values = self.reader.values(&at);
+        let Some(place) = self.prepared.function.locate_lanes(values, active.to_bitmask()) else {
+            return mask64x8::splat(simd, false);
+        };
+        let seen = mask64x8::from_bitmask(simd, place.visible);
+        let sample = Sample { k, at, place, seen };
+        let (rgb, alpha) = look.show(self, &sample, counts);
+        let fresh = (seen & alpha.simd_ne(light.corrected[0])).to_bitmask();
+        if fresh != 0 {
+            light.correct(fresh, alpha, self.ratio);
+        }
+        let w = (f64x8::splat(simd, 1.0) - light.opacity) * light.corrected[1];
+        for (sum, c) in light.rgb.iter_mut().zip(rgb) {
+            *sum = seen.select(*sum + w * c, *sum);
+        }
+        light.opacity = seen.select(light.opacity + w, light.opacity);
+        seen & light.opacity.simd_ge(self.prepared.stop_at)
+    }
+}
