@@ -1,18 +1,17 @@
 //! The description of `[stipples]`.
 
-use super::kinds::ThresholdKind;
+use super::kinds::{PointsPerPixelKind, ThresholdKind};
 use super::{
-    FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples,
+    Even, FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples,
     curves::CURVES,
     factors::{BOUNDARY, DISTANCE, INTERIOR, LIGHTING, RESOLUTION, SILHOUETTE},
 };
 use crate::file::describe::{Key, Later, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, Number, On, TableOf, Text, Whole};
+use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, On, TableOf, Text, Whole};
 
 /// The description of `[stipples]`.
 pub(crate) static TABLE: Table<Stipples> = Table {
     later: &[
-        Later { name: "even", tag: "STIP-19" },
         Later { name: "hide_behind", tag: "STIP-15" },
     ],
     ..Table::new(
@@ -30,12 +29,9 @@ pub(crate) static TABLE: Table<Stipples> = Table {
             Key::new(
                 "k_max",
                 "STIP-3",
-                "Points of a voxel for each pixel, or square of side `size`, of its projection.",
-                &Slot {
-                    kind: Number { bounds: Bounds::POSITIVE, unit: "" },
-                    get: |s: &Stipples| Some(s.k_max),
-                    set: |s, v| s.k_max = v,
-                },
+                "Points of a voxel for each pixel, or square of side `size`, of its projection; \"auto\": as many as print a \
+                 coverage of 0.9 where all factors are 1 (STIP-17).",
+                &Slot { kind: PointsPerPixelKind, get: |s: &Stipples| Some(s.k_max), set: |s, v| s.k_max = v },
             ),
             Key::new(
                 "size",
@@ -193,6 +189,31 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     },
                     get: |s: &Stipples| Some(s.ink),
                     set: |s, v| s.ink = v,
+                },
+            ),
+            Key::new(
+                "even",
+                "STIP-19",
+                "Which points are drawn where there is a choice.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new(
+                                "none",
+                                Even::None,
+                                "The first of each voxel's list: the paper's, and what moving pictures need.",
+                            ),
+                            ChoiceOption::new(
+                                "page",
+                                Even::Page,
+                                "Of four times as many those that lie evenly on the page, over all faces that are seen \
+                                 there; all are drawn whole.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |s: &Stipples| Some(s.even),
+                    set: |s, v| s.even = v,
                 },
             ),
             Key::new(
