@@ -1,14 +1,16 @@
-//! Stippling: the preprocess of a 256³ volume and the points of its faces, and a frame of them.
+//! Stippling: the preprocess of a 256³ volume and the points of its faces, a frame of them, and dots chosen on the page.
 
+use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, Preprocess};
+use drypoint::reference::volume_stippling::{Candidate, Drawn, FrameInputs, Frames, Inputs, Preprocess, eliminate};
 use drypoint::scene::counts::Counts;
-use drypoint::scene::glam::DVec3;
+use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::Page;
+use drypoint::scene::philox;
 use drypoint::scene::points::Points;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Boundary, Camera, LightDirection, Silhouette, Stipples, Threshold, VolumeSource, VolumeTable,
+    Boundary, Camera, LightDirection, PointsPerPixel, Silhouette, Stipples, Threshold, VolumeSource, VolumeTable,
 };
 use drypoint::scene::view::View;
 use drypoint::scene::volume::{Volume, Voxels};
@@ -48,8 +50,8 @@ fn with_inputs<T>(volume: &Volume, f: impl FnOnce(Inputs<'_>) -> T) -> T {
     let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
     let (mut stipples, table) = (stipples(), table());
     let first = stipples.clone();
-    let inputs = Inputs { stipples: &first, table: &table, volume, view: &view, near: 0.5, square: 0.3 };
-    stipples.k_max = 25.0 * 65_536.0 / Preprocess::new(inputs).unwrap().area;
+    let inputs = Inputs { stipples: &first, table: &table, volume, view: &view, near: 0.5, square: 0.3, tone: None };
+    stipples.k_max = PointsPerPixel::Number(25.0 * 65_536.0 / Preprocess::new(inputs).unwrap().area);
     f(Inputs { stipples: &stipples, ..inputs })
 }
 
@@ -60,6 +62,17 @@ fn points(inputs: Inputs<'_>) -> Points {
 #[divan::bench(args = [500_000.0, 2_000_000.0], sample_count = 3, sample_size = 1)]
 fn preprocess_and_points(bencher: Bencher<'_, '_>, count: f64) {
     with_inputs(&ball(count), |inputs| bencher.bench_local(|| black_box(points(inputs)).len()));
+}
+
+/// White noise of which a quarter is kept, on one page.
+#[divan::bench(args = [200_000, 2_000_000], sample_count = 3, sample_size = 1)]
+fn sample_elimination(bencher: Bencher<'_, '_>, count: u32) {
+    let candidate = |i: u32| {
+        let [x, y, ..] = philox::uniforms(1, [i, 0, 0], 0);
+        Candidate { at: 150.0 * DVec2::new(x, y), share: 0.25 }
+    };
+    let candidates: Vec<Candidate> = (0..count).map(candidate).collect();
+    bencher.counter(ItemsCount::new(count)).bench_local(|| eliminate(black_box(&candidates)).len());
 }
 
 #[divan::bench(sample_count = 20)]
@@ -77,6 +90,7 @@ fn frame_of_two_millions(bencher: Bencher<'_, '_>) {
             size: 0.35,
             nib: None,
             surface: None,
+            tone: None,
         });
         let (page, mut drawn) = (Page::in_pixels(inputs.view.size, 0.0, 300.0), Drawn::default());
         bencher.bench_local(|| {

@@ -22,6 +22,8 @@ pub mod job;
 pub mod labels;
 mod memory;
 pub mod stippling;
+pub mod tone_plot;
+pub mod wedge;
 
 pub use drypoint_output as output;
 pub use drypoint_reference as reference;

@@ -7,11 +7,14 @@ use drypoint_output::{OutputError, exr, list, paint, plotter, png};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::suggest;
 use drypoint_reference::surface::IsoSurface;
-use drypoint_reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, Preprocess, StippleError, joined};
+use drypoint_reference::volume_stippling::{
+    Drawn, FrameInputs, Frames, Inputs, PenTone, Preprocess, StippleError, joined,
+};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::plan::Plan;
-use drypoint_scene::tables::{Background, Ids, Ink, Iso, Length, PageSettings, Scene, Stipples};
+use drypoint_scene::tables::{Background, Ids, Ink, Iso, Length, PageSettings, PointsPerPixel, Scene, Stipples};
+use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::Volume;
 use std::path::Path;
@@ -88,7 +91,12 @@ impl Stippling {
         // A_vol is in pixels, or in squares of side S_max where the picture is in mm ([STIP-3]).
         let in_mm = scene.picture.extent().is_some_and(|e| e.iter().any(|l| matches!(l, Length::Millimetres(_))));
         let square = if in_mm { size * page.pixels_per_mm() } else { 1.0 };
-        let inputs = Inputs { stipples, table: &scene.volume, volume, view: &view, near, square };
+        let (measured, ideal) = (self.tone()?, Tone::ideal());
+        let asked = (stipples.k_max == PointsPerPixel::Auto).then_some(&ideal);
+        // S_max's area, in pixels.
+        let dot = 0.25 * std::f64::consts::PI * (size * page.pixels_per_mm()).powi(2);
+        let tone = measured.as_ref().or(asked).map(|tone| (tone, dot));
+        let inputs = Inputs { stipples, table: &scene.volume, volume, view: &view, near, square, tone };
         let wrong = |error: StippleError| self.failure(&error);
         let preprocess = Preprocess::new(inputs).map_err(wrong)?;
         memory::room(preprocess.bytes()).map_err(|no_room| {
@@ -108,7 +116,10 @@ impl Stippling {
         });
         let surface = field.as_ref().zip(iso).map(|(field, iso)| IsoSurface::new(field, iso));
         let surface = surface.as_ref();
-        let inputs = FrameInputs { stipples, points: &points, light, grid, reference: &view, near, size, nib, surface };
+        let tone = measured.as_ref().map(|tone| PenTone { tone, ink: preprocess.ink, layers: preprocess.layers });
+        let reference = &view;
+        let inputs =
+            FrameInputs { stipples, points: &points, light, grid, reference, near, size, nib, surface, tone };
         let frames = Frames::new(&inputs);
         let mut drawn = Drawn::default();
         frames.draw(&view, &page, &mut drawn);
@@ -143,6 +154,11 @@ impl Stippling {
         };
         let field = Field::new(volume, how, Rung::Gradient);
         field.map(Some).map_err(|error| Failure::new(error, scene.given.position("volume"), "convert the volume"))
+    /// What the pen prints, if that was measured ([STIP-17]).
+    fn tone(&self) -> Result<Option<Tone>, Failure> {
+        let pens = &self.scene.pens;
+        let pen = pens.iter().find(|pen| self.stipples.pen.as_ref() == Some(&pen.name));
+        pen.and_then(|pen| pen.tone.as_ref()).map(|path| tone(path)).transpose()
     }
 
     fn failure(&self, error: &StippleError) -> Failure {
@@ -150,9 +166,19 @@ impl Stippling {
             StippleError::Field(_) => ("volume", "convert the volume"),
             StippleError::Length { key } => (*key, "give it in voxels or world units"),
             StippleError::TooMany { .. } => ("stipples.threshold", "make it larger"),
+            StippleError::TooDense { .. } => ("stipples.k_max", "make it smaller"),
         };
         Failure::new(error, self.scene.given.position(key), remedy)
     }
+}
+
+/// A measured step wedge ([STIP-17]).
+///
+/// # Errors
+/// A file that cannot be read, or a line of it that is none of a step wedge.
+pub fn tone(path: &Path) -> Result<Tone, Failure> {
+    let remedy = "the command wedge writes the table; fill in what was measured";
+    Tone::read(path).map_err(|error| Failure::new(&error, error.place(), remedy))
 }
 
 /// What draws: the pen that the table names, or its colour with dots of any size.

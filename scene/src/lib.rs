@@ -21,6 +21,7 @@ pub mod points;
 pub mod space;
 pub mod style;
 pub mod tables;
+pub mod tone;
 pub mod transfer;
 pub mod view;
 pub mod volume;

@@ -12,6 +12,8 @@ pub struct Points {
     pub grid: Grid,
     /// N_max: points of each voxel ([STIP-3]).
     pub each: usize,
+    /// How many of them T = 1 stands for: all, or with `k_max = "auto"` less than one fewer ([STIP-17]).
+    pub full: f64,
     /// The voxels that have points, in ascending linear order.
     pub voxels: Vec<PointVoxel>,
     /// From the voxel's centre to the point, in index space.

@@ -18,6 +18,7 @@ mod sheet;
 mod stats;
 mod styles;
 mod target;
+mod wedge;
 
 use arguments::Arguments;
 use clap::{Args, Parser, Subcommand};
@@ -72,6 +73,8 @@ enum Verb {
     Cost(cost::Cost),
     /// Write a contact sheet of volumes, scenes or pictures
     Sheet(sheet::Sheet),
+    /// Write a step wedge of a pen to be printed and measured, or plot what was measured
+    Wedge(wedge::Wedge),
     /// Print the JSON Schema of scene files
     Schema(schema::Schema),
     /// Print completions for a shell
@@ -147,6 +150,7 @@ impl Cli {
             Verb::Compare(verb) => verb.run(talk),
             Verb::Cost(verb) => verb.run(talk),
             Verb::Sheet(verb) => verb.run(talk),
+            Verb::Wedge(verb) => verb.run(talk),
             Verb::Schema(verb) => verb.run(),
             Verb::Completions(verb) => verb.run(),
         }

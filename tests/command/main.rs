@@ -21,3 +21,4 @@ mod sheet;
 mod stats;
 mod styles;
 mod usage;
+mod wedge;

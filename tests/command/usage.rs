@@ -22,9 +22,20 @@ fn help_and_version_are_no_errors() {
     }
     assert_eq!(folder.good("--version"), concat!("drypoint ", env!("CARGO_PKG_VERSION"), "\n"));
     let help = folder.good("--help");
-    for verb in
-        ["render", "info", "probe", "phantom", "plan", "styles", "compare", "cost", "sheet", "schema", "completions"]
-    {
+    for verb in [
+        "render",
+        "info",
+        "probe",
+        "phantom",
+        "plan",
+        "styles",
+        "compare",
+        "cost",
+        "sheet",
+        "wedge",
+        "schema",
+        "completions",
+    ] {
         assert!(help.contains(&format!("\n  {verb} ")), "{verb}\n{help}");
     }
 }
@@ -69,7 +80,7 @@ fn wrong_use_is_told_in_three_lines() {
 #[test]
 fn what_is_not_built_yet_says_so() {
     let folder = Folder::new();
-    let verbs = "the verbs of this version are render, info, probe, phantom, plan, points, styles, compare, cost, sheet, schema, completions";
+    let verbs = "the verbs of this version are render, info, probe, phantom, plan, points, styles, compare, cost, sheet, wedge, schema, completions";
     for (line, verb, tag) in
         [("pick scene.toml --pixel 1,2", "pick", "HALO-12"), ("-q validate scene.toml", "validate", "GPU-1")]
     {

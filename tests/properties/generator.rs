@@ -265,6 +265,7 @@ fn paper(r: &mut Random, scene: &mut Scene) {
         name: name.into(),
         width: r.pick(&[Length::Millimetres(0.3), Length::Pixels(2.0)]),
         color: r.pick(&[[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.2]]),
+        tone: r.pick(&[None, Some("wedge.csv".into())]),
     };
     scene.pens = ["fine", "broad"].into_iter().take(r.below(3)).map(|name| pen(name, r)).collect();
 }

@@ -16,7 +16,8 @@ pub(super) struct Dots {
 
 /// N_i = N_max·T of eq. 2 as dots of the size S_i = S_max·‖∇V_i‖·T_r·T_d·T_t, both over S_max.
 pub(super) fn dots(each: usize, share: f64, size: f64, ink: Ink, cell: [u32; 3]) -> Dots {
-    let n = (each as f64 * share).min(each as f64);
+    // A share that is no number, 0·∞ of factors beyond all bounds, draws nothing: `max` gives the other one.
+    let n = (each as f64 * share).max(0.0).min(each as f64);
     match ink {
         Ink::Fade => {
             let whole = n.floor();
@@ -27,12 +28,28 @@ pub(super) fn dots(each: usize, share: f64, size: f64, ink: Ink, cell: [u32; 3])
     }
 }
 
-/// The same drawn with a pen, which has one size: as many dots more or fewer as keep the ink's area, N_i·(S_i/nib)². What
-/// the list cannot hold is made up by larger dots. `per_nib` is S_max/nib.
-pub(super) fn dots_of_nib(each: usize, share: f64, size: f64, per_nib: f64, ink: Ink, cell: [u32; 3]) -> Dots {
-    let share = share * (size * per_nib) * (size * per_nib);
-    dots(each, share.min(1.0), share.max(1.0).sqrt(), ink, cell)
+/// What a pen, which has one size, makes of a share of the voxel's points: as many dots more or fewer as keep the ink's
+/// area, N_i·(S_i/nib)², and the dots' diameter over the nib. What the list cannot hold is made up by larger dots. `ink` is
+/// T·(S_i/S_max)², `per_nib` S_max/nib.
+pub(super) fn with_nib(ink: f64, per_nib: f64) -> (f64, f64) {
+    let share = ink * (per_nib * per_nib);
+    if share > 1.0 { (1.0, share.sqrt()) } else { (share, 1.0) }
 }
+
+/// How many points of a voxel are candidates for dots that are chosen on the page ([STIP-19]), and how many dots each
+/// stands for: four for each dot that is wanted, as far as the list goes.
+pub(super) fn candidates(each: usize, share: f64, cell: [u32; 3]) -> (usize, f64) {
+    let wanted = (each as f64 * share).max(0.0).min(each as f64);
+    let many = OVERSAMPLING * wanted;
+    if many < each as f64 {
+        (dots(each, many / each as f64, 1.0, Ink::Opaque, cell).whole, 1.0 / OVERSAMPLING)
+    } else {
+        (each, wanted / each as f64)
+    }
+}
+
+/// Of the three to five candidates a dot that sample elimination is good with.
+const OVERSAMPLING: f64 = 4.0;
 
 #[cfg(test)]
 mod tests {
@@ -46,6 +63,16 @@ mod tests {
         assert_eq!(dots(8, 1.0, 1.0, Ink::Fade, CELL), Dots { whole: 8, fading: 0.0, size: 1.0 });
         assert_eq!(dots(8, 0.0, 1.0, Ink::Fade, CELL), Dots { whole: 0, fading: 0.0, size: 1.0 });
         assert_eq!(dots(8, 1f64.next_up(), 1.0, Ink::Fade, CELL).whole, 8);
+    }
+
+    #[test]
+    fn a_share_that_is_no_number_draws_nothing() {
+        for ink in [Ink::Fade, Ink::Opaque] {
+            assert_eq!(dots(8, f64::NAN, 1.0, ink, CELL), Dots { whole: 0, fading: 0.0, size: 1.0 });
+            assert_eq!(dots(8, with_nib(f64::NAN, 1.0).0, 1.0, ink, CELL).whole, 0);
+            assert_eq!(dots(8, f64::INFINITY, 1.0, ink, CELL).whole, 8);
+            assert_eq!(dots(8, -0.5, 1.0, ink, CELL).whole, 0);
+        }
     }
 
     /// One ulp from an integer the dot is all there or not there, to rounding: no dot flickers.
@@ -80,15 +107,30 @@ mod tests {
 
     #[test]
     fn a_pen_keeps_the_area_of_ink() {
-        // Half of 100 dots at half the size, S_max twice the nib: as many dots of the nib.
-        assert_eq!(dots_of_nib(100, 0.5, 0.5, 2.0, Ink::Fade, CELL), Dots { whole: 50, fading: 0.0, size: 1.0 });
-        // At full size four times the area: 200 nibs, of which the list has 100: each has twice the area.
-        let Dots { whole, size, .. } = dots_of_nib(100, 0.5, 1.0, 2.0, Ink::Fade, CELL);
-        assert_eq!((whole, size), (100, 2f64.sqrt()));
-        for (share, size, per_nib) in [(0.3, 0.7, 1.3), (0.9, 0.9, 3.0), (0.1, 0.2, 0.5)] {
-            let d = dots_of_nib(100, share, size, per_nib, Ink::Fade, CELL);
-            let ink = (d.whole as f64 + d.fading) * d.size * d.size;
-            assert!((ink - 100.0 * share * (size * per_nib).powi(2)).abs() < 1e-9);
+        // Half of the dots at half the size, S_max twice the nib: as many dots of the nib.
+        assert_eq!(with_nib(0.5 * 0.25, 2.0), (0.5, 1.0));
+        // At full size four times the area: twice as many nibs as the list has: each has twice the area.
+        assert_eq!(with_nib(0.5, 2.0), (1.0, 2f64.sqrt()));
+        for (ink, per_nib) in [(0.147, 1.3), (0.729, 3.0), (0.004, 0.5)] {
+            let (share, size) = with_nib(ink, per_nib);
+            let d = dots(100, share, size, Ink::Fade, CELL);
+            let area = (d.whole as f64 + d.fading) * d.size * d.size;
+            assert!((area - 100.0 * ink * per_nib * per_nib).abs() < 1e-9);
         }
+    }
+
+    /// The dots that candidates stand for are N_i, on the mean over a tile of the mask, whatever the list can hold.
+    #[test]
+    fn candidates_stand_for_all_dots() {
+        for share in [0.0, 0.03125, 0.125, 0.25, 0.5, 1.0] {
+            let mut sum = 0.0;
+            for i in 0..32u32.pow(3) {
+                let (count, dots) = candidates(8, share, [i % 32, i / 32 % 32, i / 1024]);
+                assert!(count <= 8 && dots <= 1.0);
+                sum += count as f64 * dots;
+            }
+            assert_eq!(sum / 32f64.powi(3), 8.0 * share, "{share}");
+        }
+        assert_eq!(candidates(8, f64::NAN, CELL).0, 0);
     }
 }

@@ -9,8 +9,9 @@ use drypoint_scene::points::PointVoxel;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Curves, CurvesTest, Outside};
 use drypoint_scene::view::View;
-use drypoint_scene::volume::Volume;
+use drypoint_scene::volume::{Volume, Voxels};
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// ‖n × E‖ below which a segment has no direction.
 const NO_DIRECTION: f64 = 1.0 / (1 << 20) as f64;
@@ -42,10 +43,11 @@ pub struct Segment {
 }
 
 impl Edges {
-    /// Measures the voxels of a volume, of which `voxels` are those with ‖∇V‖ above Th_grad.
+    /// Measures the voxels of a volume, of which `voxels` are those with ‖∇V‖ above Th_grad; `range` is what V = 0 and 1
+    /// stand for.
     ///
-    /// LoG is the trace of the Hessian of the grid smoothed by a Gaussian of σ = 1 voxel, over its largest magnitude in the
-    /// volume; the turning of the normal is that of the same field.
+    /// LoG is the trace of the Hessian of V, a grid in [0, 1], smoothed by a Gaussian of σ = 1 voxel, over its largest
+    /// magnitude in the volume. The turning of the normal is that of the smoothed values themselves.
     ///
     /// # Errors
     /// No field of that volume.
@@ -54,34 +56,14 @@ impl Edges {
         voxels: &[PointVoxel],
         curves: &Curves,
         outside: Outside,
+        range: [f64; 2],
     ) -> Result<Self, StippleError> {
-        let grid = volume.grid();
-        let how = Reconstruction {
-            hessian: HessianEstimator::Gaussian,
-            scale: grid.voxel(),
-            outside,
-            ..Reconstruction::default()
-        };
-        let field = Field::<f64>::new(volume, how, Rung::Hessian)?;
-        let [nx, ny, _] = volume.dims();
+        let voxels: Vec<PointVoxel> = voxels.iter().filter(|voxel| voxel.magnitude > curves.grad).copied().collect();
+        let logs = laplacians(&within(volume, range), &voxels)?;
+        let field = smoothed(volume, outside)?;
         let voxels = with_sampler!(field, |sampler| {
-            let at = |cell: [u32; 3]| {
-                let p = DVec3::from_array(cell.map(f64::from));
-                let (g, h) = sampler.hessian(Vec3::from_glam(p));
-                let rows = [[h.xx, h.xy, h.xz], [h.xy, h.yy, h.yz], [h.xz, h.yz, h.zz]];
-                (g.to_glam(), DMat3::from_cols_array_2d(&rows))
-            };
-            let laplacian = |h: DMat3| h.x_axis.x + h.y_axis.y + h.z_axis.z;
-            let cell = |i: usize| [i % nx, i / nx % ny, i / (nx * ny)].map(|i| i as u32);
-            let largest = (0..grid.len()).into_par_iter().map(|i| laplacian(at(cell(i)).1).abs());
-            let largest = largest.reduce(|| 0.0, f64::max);
-            let edge = |voxel: &PointVoxel| {
-                if voxel.magnitude <= curves.grad {
-                    return None;
-                }
-                let (g, h) = at(voxel.cell);
-                // A field without second derivatives has no LoG.
-                let log = if largest > 0.0 { laplacian(h) / largest } else { 0.0 };
+            let edge = |(voxel, log): (&PointVoxel, &f64)| {
+                let (g, h) = at(sampler, voxel.cell);
                 let length = g.length();
                 (voxel.value * log < curves.log && length > 0.0).then(|| {
                     let n = g / length;
@@ -90,9 +72,9 @@ impl Edges {
                     Edge { cell: voxel.cell, normal: voxel.normal, turning: project * h * (sign / length) }
                 })
             };
-            voxels.par_iter().filter_map(edge).collect()
+            voxels.par_iter().zip(&logs).filter_map(edge).collect()
         });
-        Ok(Self { grid: grid.clone(), voxels })
+        Ok(Self { grid: volume.grid().clone(), voxels })
     }
 
     /// The segments that a camera sees, in the order of the voxels.
@@ -119,6 +101,50 @@ impl Edges {
         };
         self.voxels.par_iter().filter_map(segment).collect()
     }
+}
+
+/// The grid smoothed by a Gaussian of σ = 1 voxel, with its derivatives.
+fn smoothed(volume: &Volume, outside: Outside) -> Result<Field<'_, f64>, StippleError> {
+    let (hessian, scale) = (HessianEstimator::Gaussian, volume.grid().voxel());
+    let how = Reconstruction { hessian, scale, outside, ..Reconstruction::default() };
+    Ok(Field::new(volume, how, Rung::Hessian)?)
+}
+
+/// Gradient and Hessian at a voxel.
+fn at<S: Sampler<f64>>(sampler: &S, cell: [u32; 3]) -> (DVec3, DMat3) {
+    let (g, h) = sampler.hessian(Vec3::from_glam(DVec3::from_array(cell.map(f64::from))));
+    let rows = [[h.xx, h.xy, h.xz], [h.xy, h.yy, h.yz], [h.xz, h.yz, h.zz]];
+    (g.to_glam(), DMat3::from_cols_array_2d(&rows))
+}
+
+/// LoG at voxels, over its largest magnitude in the volume; 0 where a field has no second derivatives.
+fn laplacians(volume: &Volume, voxels: &[PointVoxel]) -> Result<Vec<f64>, StippleError> {
+    let field = smoothed(volume, Outside::Low)?;
+    let [nx, ny, _] = volume.dims();
+    let cell = |i: usize| [i % nx, i / nx % ny, i / (nx * ny)].map(|i| i as u32);
+    Ok(with_sampler!(field, |sampler| {
+        let laplacian = |cell: [u32; 3]| {
+            let (_, h) = at(sampler, cell);
+            h.x_axis.x + h.y_axis.y + h.z_axis.z
+        };
+        let largest = (0..volume.grid().len()).into_par_iter().map(|i| laplacian(cell(i)).abs());
+        let largest = largest.reduce(|| 0.0, f64::max);
+        let log = |voxel: &PointVoxel| if largest > 0.0 { laplacian(voxel.cell) / largest } else { 0.0 };
+        voxels.par_iter().map(log).collect()
+    }))
+}
+
+/// The volume with its values brought into a range, which V has from 0 to 1: what lies beyond has no Laplacian.
+fn within(volume: &Volume, [lo, hi]: [f64; 2]) -> Cow<'_, Volume> {
+    let [least, most] = volume.range();
+    if lo <= least && most <= hi {
+        return Cow::Borrowed(volume);
+    }
+    let [nx, ny, _] = volume.dims();
+    let value = |i: usize| volume.value([i % nx, i / nx % ny, i / (nx * ny)]).max(lo).min(hi);
+    let values = (0..volume.grid().len()).into_par_iter().map(value).collect();
+    // Finite numbers on a grid that is one make a volume.
+    Volume::new(volume.grid().clone(), Voxels::F64(values), 1.0, 0.0).map_or(Cow::Borrowed(volume), Cow::Owned)
 }
 
 /// E, the unit vector towards the eye, and how far it is; without end in an orthographic view.

@@ -22,4 +22,12 @@ pub enum StippleError {
         /// The most.
         most: usize,
     },
+    /// More points of a voxel than have a number each.
+    #[error("a voxel would have {each} points, and at most {most} are possible")]
+    TooDense {
+        /// N_max.
+        each: usize,
+        /// The most.
+        most: usize,
+    },
 }

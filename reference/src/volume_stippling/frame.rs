@@ -1,6 +1,8 @@
-//! A frame: of each voxel's list as many points as the factors say, on the page (section 5, [STIP-5], [STIP-6]).
+//! A frame: of each voxel's list as many points as the factors say, on the page (section 5, [STIP-5], [STIP-6]); with
+//! `even = "page"` those of four times as many that lie evenly there ([STIP-19]).
 
-use super::count::{dots, dots_of_nib};
+use super::count::{candidates, dots, with_nib};
+use super::elimination::{Candidate, eliminate};
 use super::factors::{Moving, Still, Whole};
 use super::hidden::Hidden;
 use crate::surface::IsoSurface;
@@ -8,7 +10,8 @@ use drypoint_scene::glam::{DMat3, DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Page};
 use drypoint_scene::points::Points;
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{LightDirection, Stipples};
+use drypoint_scene::tables::{Even, LightDirection, Stipples};
+use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
 use rayon::prelude::*;
 
@@ -32,6 +35,29 @@ pub struct Frames<'a> {
     size: f64,
     nib: Option<f64>,
     surface: Option<&'a IsoSurface<'a, 'a>>,
+    tone: Option<PenTone<'a>>,
+}
+
+/// What a pen prints, and how much ink the points are ([STIP-17]).
+#[derive(Clone, Copy, Debug)]
+pub struct PenTone<'a> {
+    /// What it prints.
+    pub tone: &'a Tone,
+    /// λa of dots of S_max in a face seen from the front, with T = 1.
+    pub ink: f64,
+    /// Voxels that lie over each other in it.
+    pub layers: f64,
+}
+
+impl PenTone<'_> {
+    /// The share of the ink that prints a share of the coverage that all of it prints.
+    fn share(&self, share: f64) -> f64 {
+        if self.ink <= 0.0 {
+            return share;
+        }
+        let full = self.tone.coverage_of_layers(self.ink, self.layers);
+        self.tone.ink_of_layers(full * share, self.layers) / self.ink
+    }
 }
 
 /// What frames are made of.
@@ -55,6 +81,8 @@ pub struct FrameInputs<'a> {
     pub nib: Option<f64>,
     /// What hides points; none: they are transparent ([STIP-15]).
     pub surface: Option<&'a IsoSurface<'a, 'a>>,
+    /// What the pen prints, where that was measured ([STIP-17]).
+    pub tone: Option<PenTone<'a>>,
 }
 
 /// The dots of a frame, in the order of the voxels, in parts that keep their memory from frame to frame.
@@ -107,7 +135,7 @@ impl Drawn {
 impl<'a> Frames<'a> {
     /// Computes what no camera changes.
     pub fn new(inputs: &FrameInputs<'a>) -> Self {
-        let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface } = *inputs;
+        let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone } = *inputs;
         let centre = grid.centre();
         Self {
             stipples,
@@ -121,6 +149,7 @@ impl<'a> Frames<'a> {
             size,
             nib,
             surface,
+            tone,
         }
     }
 
@@ -141,6 +170,23 @@ impl<'a> Frames<'a> {
                 self.voxel(i, &moving, &place, hidden.as_ref(), part);
             }
         });
+        if self.stipples.even == Even::Page {
+            self.choose(drawn);
+        }
+    }
+
+    /// Of the candidates that are there, whose opacity is how many dots each stands for, those that are drawn.
+    fn choose(&self, drawn: &mut Drawn) {
+        let candidates: Vec<Candidate> = drawn.dots().map(|dot| Candidate { at: dot.at, share: dot.opacity }).collect();
+        let kept = eliminate(&candidates);
+        let all = drawn.to_vec();
+        drawn.parts.truncate(1);
+        if let Some(part) = drawn.parts.first_mut() {
+            part.dots.clear();
+            part.dots.extend(kept.into_iter().map(|i| Dot { opacity: 1.0, ..all[i] }));
+            let is_larger = |dot: &&Dot| self.nib.is_some_and(|nib| dot.radius > 0.5 * nib);
+            part.larger = part.dots.iter().filter(is_larger).count() as u64;
+        }
     }
 
     fn voxel(&self, i: usize, moving: &Moving<'_>, place: &Place, hidden: Option<&Hidden<'_>>, part: &mut Part) {
@@ -153,16 +199,33 @@ impl<'a> Frames<'a> {
         }
         // Eq. 4, over S_max.
         let size = voxel.magnitude * factors.size;
-        let (ink, cell) = (self.stipples.ink, voxel.cell);
-        let (drawn, unit) = match self.nib {
-            None => (dots(each, factors.count, size, ink, cell), self.size),
-            Some(nib) => (dots_of_nib(each, factors.count, size, self.size / nib, ink, cell), nib),
+        // T = 1 is the whole list, but for the part of a point by which it is too long.
+        let count = factors.count * (self.points.full / each as f64);
+        let (share, size, unit) = match self.nib {
+            None => (count, size, self.size),
+            Some(nib) => {
+                let ink = count * (size * size);
+                let ink = self.tone.map_or(ink, |tone| tone.share(ink));
+                let (share, size) = with_nib(ink, self.size / nib);
+                (share, size, nib)
+            }
         };
-        let radius = 0.5 * unit * drawn.size;
+        let radius = 0.5 * unit * size;
         if radius <= 0.0 {
             return;
         }
-        let list = &self.points.of(i)[..drawn.whole + usize::from(drawn.fading > 0.0)];
+        let (opacities, listed) = match self.stipples.even {
+            Even::None => {
+                let drawn = dots(each, share, size, self.stipples.ink, voxel.cell);
+                ((drawn.whole, 1.0, drawn.fading), drawn.whole + usize::from(drawn.fading > 0.0))
+            }
+            Even::Page => {
+                let (count, dots) = candidates(each, share, voxel.cell);
+                ((count, dots, 0.0), count)
+            }
+        };
+        let (whole, opacity, fading) = opacities;
+        let list = &self.points.of(i)[..listed];
         let before = part.dots.len();
         for (k, offset) in list.iter().enumerate() {
             let o = DVec3::from_array(offset.map(f64::from));
@@ -172,11 +235,11 @@ impl<'a> Frames<'a> {
                     part.hidden += 1;
                     continue;
                 }
-                let opacity = if k < drawn.whole { 1.0 } else { drawn.fading };
+                let opacity = if k < whole { opacity } else { fading };
                 part.dots.push(Dot { at: on_page, world, radius, opacity });
             }
         }
-        if self.nib.is_some() && drawn.size > 1.0 {
+        if self.nib.is_some() && size > 1.0 {
             part.larger += (part.dots.len() - before) as u64;
         }
     }

@@ -6,11 +6,13 @@
 mod area;
 mod count;
 mod curves;
+mod elimination;
 mod error;
 mod factors;
 mod frame;
 mod hidden;
 mod joined;
+mod layers;
 mod norms;
 mod order;
 mod preprocess;
@@ -19,7 +21,8 @@ mod ridge;
 mod slab;
 
 pub use curves::{Edges, Segment, exhaustive};
+pub use elimination::{Candidate, eliminate};
 pub use error::StippleError;
-pub use frame::{Drawn, FrameInputs, Frames, viewing_distance};
+pub use frame::{Drawn, FrameInputs, Frames, PenTone, viewing_distance};
 pub use joined::joined;
 pub use preprocess::{Inputs, Preprocess};

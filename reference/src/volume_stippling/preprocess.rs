@@ -3,6 +3,8 @@
 use super::area::{box_side, points_each, projected_area};
 use super::curves::Edges;
 use super::error::StippleError;
+use super::frame::viewing_distance;
+use super::layers::layers;
 use super::norms::{norms, quantile_above};
 use super::order::{self, Sites};
 use super::resolution::boxes;
@@ -14,8 +16,9 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::points::{PointVoxel, Points};
 use drypoint_scene::tables::{
-    GradientRange, Outside, Snap, StippleGradient, StippleOrder, Stipples, Threshold, VolumeTable,
+    GradientRange, Outside, PointsPerPixel, Snap, StippleGradient, StippleOrder, Stipples, Threshold, VolumeTable,
 };
+use drypoint_scene::tone::{FULL, Tone};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
@@ -36,6 +39,9 @@ pub struct Inputs<'a> {
     pub near: f64,
     /// What A_vol is measured in, in pixels: the side of a square, 1 or S_max ([STIP-3]).
     pub square: f64,
+    /// What a pen prints, or discs of S_max, and the area of S_max in pixels, where tone is asked for ([STIP-17]): by
+    /// `k_max = "auto"`, or by a pen that was measured.
+    pub tone: Option<(&'a Tone, f64)>,
 }
 
 /// The voxels of a volume that get points, and how many.
@@ -54,6 +60,13 @@ pub struct Preprocess<'a> {
     pub box_side: usize,
     /// N_max ([STIP-3]).
     pub each: usize,
+    /// How many points of a voxel T = 1 stands for, at most N_max.
+    pub full: f64,
+    /// λa of dots of S_max on the page, where a face is seen from the front with T = 1; 0 where tone is not asked for
+    /// ([STIP-17]).
+    pub ink: f64,
+    /// How many voxels with points lie over each other in a face, on the mean; 1 where tone is not asked for.
+    pub layers: f64,
     /// Voxels whose gradient was measured.
     pub gradients: u64,
 }
@@ -62,9 +75,9 @@ impl<'a> Preprocess<'a> {
     /// Finds the voxels above the threshold. A constant volume has none.
     ///
     /// # Errors
-    /// No such field, a length of the wrong space, or too many voxels.
+    /// No such field, a length of the wrong space, or too many voxels or points of one.
     pub fn new(inputs: Inputs<'a>) -> Result<Self, StippleError> {
-        let Inputs { stipples, table, volume, view, near, square } = inputs;
+        let Inputs { stipples, table, volume, view, near, square, tone } = inputs;
         let area = projected_area(volume.grid(), view, near) / (square * square);
         let m = box_side(area, volume.dims());
         let fine = volume.range();
@@ -72,14 +85,32 @@ impl<'a> Preprocess<'a> {
         // In the voxels that points are made in.
         let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Length { key: "stipples.slab" })?;
         let field = field_of(&volume, stipples.gradient, table.outside)?;
-        let each = points_each(stipples.k_max, area, volume.dims());
         let range = table.range.unwrap_or(fine);
-        let (voxels, tops) = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
+        let Above { voxels, tops, layers } = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
+        // Voxels of a face that is seen from the front, a pixel.
+        let density = |layers: f64| {
+            let pixel =
+                view.pixel * if view.perspective { viewing_distance(view, volume.grid().centre(), near) } else { 1.0 };
+            let grid = volume.grid();
+            layers * grid.voxel() / grid.axes().determinant().abs() * pixel * pixel
+        };
+        let full = match (stipples.k_max, tone) {
+            (PointsPerPixel::Number(k_max), _) => points_each(k_max, area, volume.dims()) as f64,
+            (PointsPerPixel::Auto, Some((tone, dot))) => tone.ink_of_layers(FULL, layers) / (density(layers) * dot),
+            // Dots of no size print nothing, however many.
+            (PointsPerPixel::Auto, None) => 1.0,
+        };
+        // `as` saturates: what is too much for memory is refused before anything is allocated.
+        let each = (full.ceil() as usize).max(1);
+        let ink = tone.map_or(0.0, |(_, dot)| full * density(layers) * dot);
         if voxels.len() > order::MOST_VOXELS {
             return Err(StippleError::TooMany { voxels: voxels.len(), most: order::MOST_VOXELS });
         }
+        if each > order::MOST_EACH && !voxels.is_empty() {
+            return Err(StippleError::TooDense { each, most: order::MOST_EACH });
+        }
         let gradients = volume.grid().len() as u64;
-        Ok(Self { inputs, volume, voxels, tops, slab, area, box_side: m, each, gradients })
+        Ok(Self { inputs, volume, voxels, tops, slab, area, box_side: m, each, full, ink, layers, gradients })
     }
 
     /// The voxels above a ‖∇V‖, whatever the threshold of points, at the adjusted resolution: those that curves are made of
@@ -90,11 +121,11 @@ impl<'a> Preprocess<'a> {
     pub fn voxels_above(&self, magnitude: f64) -> Result<Vec<PointVoxel>, StippleError> {
         let threshold = Threshold::Magnitude(magnitude);
         let stipples = Stipples { threshold, thin: false, snap: Snap::None, ..self.inputs.stipples.clone() };
-        let inputs = Inputs { stipples: &stipples, ..self.inputs };
+        let inputs = Inputs { stipples: &stipples, tone: None, ..self.inputs };
         let table = self.inputs.table;
         let field = field_of(&self.volume, stipples.gradient, table.outside)?;
         let range = table.range.unwrap_or(self.inputs.volume.range());
-        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, range)).0)
+        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, range)).voxels)
     }
 
     /// What curves are found in, whatever the camera; none where the scene has none.
@@ -104,7 +135,9 @@ impl<'a> Preprocess<'a> {
     pub fn edges(&self) -> Result<Option<Edges>, StippleError> {
         let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
         let voxels = self.voxels_above(curves.grad)?;
-        Edges::new(&self.volume, &voxels, curves, self.inputs.table.outside).map(Some)
+        let Inputs { table, volume, .. } = self.inputs;
+        let range = table.range.unwrap_or(volume.range());
+        Edges::new(&self.volume, &voxels, curves, table.outside, range).map(Some)
     }
 
     /// Number of points.
@@ -146,7 +179,8 @@ impl<'a> Preprocess<'a> {
         };
         // N_max is bounded by memory, which a volume without a boundary does not take.
         let offsets = if cells.is_empty() { Vec::new() } else { order::points(&sites, self.each, done) };
-        let mut points = Points { grid: grid.clone(), each: self.each, voxels: self.voxels.clone(), offsets };
+        let (each, full) = (self.each, self.full);
+        let mut points = Points { grid: grid.clone(), each, full, voxels: self.voxels.clone(), offsets };
         onto_edges(&mut points, &self.tops);
         counts.preprocess.insert("stipple gradients".into(), self.gradients);
         counts.preprocess.insert("stipple points".into(), points.len() as u64);
@@ -168,14 +202,18 @@ fn estimator(gradient: StippleGradient) -> GradientEstimator {
     }
 }
 
-/// The voxels above the threshold, in linear order, and with `snap` where the edge is ([STIP-4]); `range` is what V = 0 and 1
-/// stand for.
-fn above<S: Sampler<f64>>(
-    sampler: &S,
-    field: &Field<'_, f64>,
-    inputs: &Inputs<'_>,
-    range: [f64; 2],
-) -> (Vec<PointVoxel>, Vec<f64>) {
+/// The voxels above the threshold.
+struct Above {
+    /// In linear order.
+    voxels: Vec<PointVoxel>,
+    /// With `snap` where the edge is ([STIP-4]).
+    tops: Vec<f64>,
+    /// How many of them lie over each other, where tone is asked for ([STIP-17]).
+    layers: f64,
+}
+
+/// Finds the voxels above the threshold; `range` is what V = 0 and 1 stand for.
+fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'_>, range: [f64; 2]) -> Above {
     let volume = field.volume();
     let (stipples, dims) = (inputs.stipples, volume.dims());
     let norms = norms(sampler, volume, estimator(stipples.gradient));
@@ -217,7 +255,14 @@ fn above<S: Sampler<f64>>(
     });
     let voxels = rows.collect::<Vec<_>>().concat();
     let tops = if stipples.snap == Snap::Edge { voxels.par_iter().map(top).collect() } else { Vec::new() };
-    (voxels, tops)
+    // A thin face has one layer, by what thin is.
+    let layers = if inputs.tone.is_some() && !stipples.thin {
+        let steps: Vec<([u32; 3], DVec3)> = voxels.iter().map(|v| (v.cell, to_step * v.normal)).collect();
+        layers(dims, &norms, |norm| norm > bound && is_above(norm), &steps)
+    } else {
+        1.0
+    };
+    Above { voxels, tops, layers }
 }
 
 /// Moves each point along n onto the plane on which ‖∇V‖ is largest: within a voxel an edge is flat but for a share of its

@@ -43,7 +43,7 @@ mod tests {
     fn widths_are_on_steps() {
         // 2 px at 300 dpi are 0.16933 mm.
         let page = Page::in_pixels([100, 100], 0.0, 300.0);
-        let pen = |width| PenSettings { name: "p".into(), width, color: [0.0; 4] };
+        let pen = |width| PenSettings { name: "p".into(), width, color: [0.0; 4], tone: None };
         let pens = [Length::Pixels(2.0), Length::Millimetres(0.35), Length::Pixels(1e-6)].map(pen);
         let found: Vec<(usize, f64)> = Pen::of(&pens, &page).iter().map(|pen| (pen.number, pen.width)).collect();
         assert_eq!(found, [(1, 0.169), (2, 0.35), (3, 0.001)]);

@@ -1,10 +1,11 @@
 //! `[[pen]]`: the pens that layers of points and lines are drawn with ([IO-7]).
 
 use crate::file::check::Check;
-use crate::file::describe::{Key, Later, Slot, Table};
+use crate::file::describe::{Key, Slot, Table};
 use crate::file::fault::Problem;
-use crate::file::kind::{Bounds, Colors, Lengths, On, Text};
+use crate::file::kind::{Bounds, Colors, Lengths, On, PathTo, Text};
 use crate::tables::Length;
+use std::path::PathBuf;
 
 /// One table `[[pen]]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,18 +16,18 @@ pub struct PenSettings {
     pub width: Length,
     /// Linear, straight.
     pub color: [f64; 4],
+    /// A measured step wedge ([STIP-17]); none: its dots are discs.
+    pub tone: Option<PathBuf>,
 }
 
 impl Default for PenSettings {
     fn default() -> Self {
-        Self { name: String::new(), width: Length::Millimetres(0.3), color: [0.0, 0.0, 0.0, 1.0] }
+        Self { name: String::new(), width: Length::Millimetres(0.3), color: [0.0, 0.0, 0.0, 1.0], tone: None }
     }
 }
 
 /// The description of a pen.
-pub(crate) static TABLE: Table<PenSettings> = Table {
-    later: &[Later { name: "tone", tag: "STIP-17" }],
-    ..Table::new(
+pub(crate) static TABLE: Table<PenSettings> = Table::new(
         "a pen",
         "What draws a layer of points and lines.",
         PenSettings::default,
@@ -58,9 +59,19 @@ pub(crate) static TABLE: Table<PenSettings> = Table {
                 "Of its ink.",
                 &Slot { kind: Colors, get: |p: &PenSettings| Some(p.color), set: |p, v| p.color = v },
             ),
+            Key::new(
+                "tone",
+                "STIP-17",
+                "What it prints: a step wedge as CSV with the columns `wanted` and `measured`, which the command `wedge` draws.",
+                &Slot {
+                    kind: PathTo { what: "a step wedge" },
+                    get: |p: &PenSettings| p.tone.clone(),
+                    set: |p, v| p.tone = Some(v),
+                },
+            )
+            .absent("discs of the nib"),
         ],
-    )
-};
+    );
 
 /// A pen is called by its name, so that no two may share one.
 pub(super) fn check_names(pens: &[PenSettings], check: &mut Check) {

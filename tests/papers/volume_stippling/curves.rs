@@ -6,7 +6,7 @@ use drypoint::reference::volume_stippling::{Edges, Inputs, Preprocess, exhaustiv
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::Page;
 use drypoint::scene::points::PointVoxel;
-use drypoint::scene::tables::{Camera, Curves, CurvesTest, Outside, Stipples};
+use drypoint::scene::tables::{Camera, Curves, CurvesTest, Outside, Stipples, VolumeTable};
 use drypoint::scene::view::View;
 use drypoint::scene::volume::Volume;
 use std::collections::BTreeSet;
@@ -30,7 +30,7 @@ fn voxels(volume: &Volume, view: &View, curves: &Curves) -> Vec<PointVoxel> {
     let (stipples, table) = (Stipples::default(), table());
     // Pixels enough for the resolution to stay as it is.
     let square = 0.05;
-    let inputs = Inputs { stipples: &stipples, table: &table, volume, view, near: 0.5, square };
+    let inputs = Inputs { stipples: &stipples, table: &table, volume, view, near: 0.5, square, tone: None };
     Preprocess::new(inputs).unwrap().voxels_above(curves.grad).unwrap()
 }
 
@@ -42,7 +42,7 @@ fn the_test_finds_what_the_exhaustive_search_finds() {
         let volume = ball(radius);
         for view in [orthographic(&volume, 8.0), perspective(&volume)] {
             let voxels = voxels(&volume, &view, &curves);
-            let edges = Edges::new(&volume, &voxels, &curves, Outside::Low).unwrap();
+            let edges = Edges::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
             let tested: BTreeSet<_> = edges.segments(&curves, &view).iter().map(|segment| segment.cell).collect();
             let twin: BTreeSet<_> = exhaustive(volume.grid(), &voxels, &curves, &view).into_iter().collect();
             let jaccard = tested.intersection(&twin).count() as f64 / tested.union(&twin).count() as f64;
@@ -64,9 +64,95 @@ fn the_literal_test_keeps_a_half() {
     let view = orthographic(&volume, 8.0);
     let curves = Curves { test: CurvesTest::Literal, log: 2.0, ..Curves::default() };
     let voxels = voxels(&volume, &view, &curves);
-    let edges = Edges::new(&volume, &voxels, &curves, Outside::Low).unwrap();
+    let edges = Edges::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
     let share = edges.segments(&curves, &view).len() as f64 / voxels.len() as f64;
     assert!((share - 0.5).abs() < 0.02, "{share}");
+}
+
+/// V in [0, 1] of a range, smoothed by a Gaussian of σ = 1 voxel as a sum over all voxels around, and second
+/// differences of the fourth order of that.
+fn log_by_sums(volume: &Volume, [lo, hi]: [f64; 2]) -> Vec<f64> {
+    let n = volume.dims()[0];
+    let index = |p: [usize; 3]| (p[2] * n + p[1]) * n + p[0];
+    let cell = |i: usize| [i % n, i / n % n, i / n / n];
+    let mut values: Vec<f64> =
+        (0..n * n * n).map(|i| ((volume.value(cell(i)) - lo) / (hi - lo)).clamp(0.0, 1.0)).collect();
+    let taps: Vec<f64> = (-4..=4).map(|k: i32| (-0.5 * f64::from(k * k)).exp()).collect();
+    let sum: f64 = taps.iter().sum();
+    for axis in 0..3 {
+        let along = |i: usize| {
+            let mut p = cell(i);
+            let at = p[axis];
+            let mut tap = |k: usize| {
+                p[axis] = (at + k).saturating_sub(4).min(n - 1);
+                taps[k] * values[index(p)]
+            };
+            (0..9).map(&mut tap).sum::<f64>() / sum
+        };
+        values = (0..n * n * n).map(along).collect();
+    }
+    let laplacian = |i: usize| {
+        let p = cell(i);
+        if p.iter().any(|&x| x < 2 || x > n - 3) {
+            return 0.0;
+        }
+        let second = |a| {
+            let near = |k: usize| values[i + k * n.pow(a)] + values[i - k * n.pow(a)];
+            (16.0 * near(1) - near(2) - 30.0 * values[i]) / 12.0
+        };
+        (0..3).map(second).sum::<f64>()
+    };
+    let found: Vec<f64> = (0..n * n * n).map(laplacian).collect();
+    let largest = found.iter().fold(0f64, |most, x| most.max(x.abs()));
+    found.iter().map(|x| x / largest).collect()
+}
+
+/// V·LoG(V) < Th_LOG, V in [0, 1] also where `volume.range` holds a part of the values: what lies beyond is flat.
+#[test]
+fn the_laplacian_is_that_of_v() {
+    let volume = ball(12.0);
+    let view = orthographic(&volume, 8.0);
+    let n = volume.dims()[0];
+    for range in [None, Some([0.3, 0.6]), Some([-1.0, 3.0])] {
+        let table = VolumeTable { range, ..table() };
+        let given = range.unwrap_or(volume.range());
+        let logs = log_by_sums(&volume, given);
+        for log in [-0.3, -0.02, 0.02, 0.12, 0.4] {
+            // n·E is below 2 everywhere: the Laplacian alone decides.
+            let curves = Curves { test: CurvesTest::Literal, eye: 2.0, grad: 0.1, log, ..Curves::default() };
+            let stipples = Stipples { curves: Some(curves), ..Stipples::default() };
+            let inputs = Inputs {
+                stipples: &stipples,
+                table: &table,
+                volume: &volume,
+                view: &view,
+                near: 0.5,
+                square: 0.05,
+                tone: None,
+            };
+            let preprocess = Preprocess::new(inputs).unwrap();
+            let found = preprocess.edges().unwrap().unwrap().segments(&curves, &view);
+            let found: BTreeSet<_> = found.iter().map(|segment| segment.cell).collect();
+            let (mut inside, mut outside) = (0, 0);
+            for voxel in preprocess.voxels_above(0.1).unwrap() {
+                let [x, y, z] = voxel.cell.map(|i| i as usize);
+                let product = voxel.value * logs[(z * n + y) * n + x];
+                // Of the Gaussian that a kink becomes a spline's second derivative is off by a twelfth of the fourth, and
+                // the differences by a ninetieth of the sixth, which is three: 0.083 + 0.033 of the largest.
+                if product < log - 0.12 {
+                    assert!(found.contains(&voxel.cell), "{range:?}, {log}: {product} at {:?}", voxel.cell);
+                    inside += 1;
+                } else if product > log + 0.12 {
+                    assert!(!found.contains(&voxel.cell), "{range:?}, {log}: {product} at {:?}", voxel.cell);
+                    outside += 1;
+                }
+            }
+            assert!(inside + outside > 1000, "{range:?}, {log}: {inside} and {outside}");
+            // In a narrow range the Laplacian at the kink at V = 1 is the largest of all.
+            let both = range == Some([0.3, 0.6]) && log == -0.3;
+            assert!(!both || (inside > 100 && outside > 100), "{log}: {inside} and {outside}");
+        }
+    }
 }
 
 #[test]
@@ -74,7 +160,7 @@ fn segments_lie_across_the_view_and_a_voxel_long() {
     let volume = ball(12.0);
     let (view, curves) = (perspective(&volume), Curves::default());
     let voxels = voxels(&volume, &view, &curves);
-    let edges = Edges::new(&volume, &voxels, &curves, Outside::Low).unwrap();
+    let edges = Edges::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
     let segments = edges.segments(&curves, &view);
     assert!(!segments.is_empty());
     for segment in &segments {

@@ -29,8 +29,15 @@ impl Shown {
         let camera = Camera { direction: DVec3::new(0.2, 1.0, -0.3), ..Camera::default() };
         let reference = View::new(&camera, volume.grid(), [200, 200]).unwrap();
         let (stipples, table) = (Stipples::default(), table());
-        let inputs =
-            Inputs { stipples: &stipples, table: &table, volume: &volume, view: &reference, near: 0.5, square: 1.0 };
+        let inputs = Inputs {
+            stipples: &stipples,
+            table: &table,
+            volume: &volume,
+            view: &reference,
+            near: 0.5,
+            square: 1.0,
+            tone: None,
+        };
         let points = Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap();
         Self { volume, points, reference }
     }
@@ -46,6 +53,7 @@ impl Shown {
             size: SIZE,
             nib,
             surface: None,
+            tone: None,
         });
         let mut drawn = Drawn::default();
         frames.draw(view, &page(view), &mut drawn);

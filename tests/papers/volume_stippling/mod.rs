@@ -1,17 +1,22 @@
 //! Volume stippling: what the paper and the specification say of the points and of what a frame draws.
 
 mod curves;
+mod even;
 mod frames;
 mod hidden;
 mod preprocess;
 mod quality;
+mod spectrum;
+mod tone;
 
 use crate::common;
 use drypoint::reference::volume_stippling::{Inputs, Preprocess};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::points::Points;
-use drypoint::scene::tables::{Camera, GradientRange, Length, Projection, Stipples, VolumeSource, VolumeTable};
+use drypoint::scene::tables::{
+    Camera, GradientRange, Length, PointsPerPixel, Projection, Stipples, VolumeSource, VolumeTable,
+};
 use drypoint::scene::view::View;
 use drypoint::scene::volume::Volume;
 
@@ -58,11 +63,12 @@ fn orthographic(volume: &Volume, pixels_a_unit: f64) -> View {
 fn points_of(dims: [usize; 3], value: impl Fn(DVec3) -> f64, stipples: &Stipples, each: usize) -> Preprocessed {
     let volume = common::volume(dims, value);
     let (view, table) = (orthographic(&volume, 8.0), table());
-    let inputs = |stipples| Inputs { stipples, table: &table, volume: &volume, view: &view, near: 0.5, square: 1.0 };
+    let inputs =
+        |stipples| Inputs { stipples, table: &table, volume: &volume, view: &view, near: 0.5, square: 1.0, tone: None };
     // Eq. 1 is linear in k_max.
     let once = Preprocess::new(inputs(stipples)).unwrap();
     let face = (dims.iter().product::<usize>() as f64).cbrt().powi(2);
-    let stipples = Stipples { k_max: each as f64 * face / once.area, ..stipples.clone() };
+    let stipples = Stipples { k_max: PointsPerPixel::Number(each as f64 * face / once.area), ..stipples.clone() };
     let preprocess = Preprocess::new(inputs(&stipples)).unwrap();
     assert_eq!((preprocess.each, preprocess.box_side), (each, 1));
     Preprocessed { points: preprocess.points(&mut Counts::default(), &|_| {}).unwrap() }

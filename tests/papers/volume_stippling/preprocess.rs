@@ -12,7 +12,7 @@ use drypoint::scene::volume::Volume;
 
 fn made(volume: &Volume, stipples: &Stipples, view: &View) -> Points {
     let table = table();
-    let inputs = Inputs { stipples, table: &table, volume, view, near: 0.5, square: 1.0 };
+    let inputs = Inputs { stipples, table: &table, volume, view, near: 0.5, square: 1.0, tone: None };
     Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
 }
 
@@ -111,8 +111,15 @@ fn small_voxels_become_boxes() {
     let at = |pixels| {
         let view = orthographic(&volume, pixels);
         let stipples = Stipples::default();
-        let inputs =
-            Inputs { stipples: &stipples, table: &table, volume: &volume, view: &view, near: 0.5, square: 1.0 };
+        let inputs = Inputs {
+            stipples: &stipples,
+            table: &table,
+            volume: &volume,
+            view: &view,
+            near: 0.5,
+            square: 1.0,
+            tone: None,
+        };
         let preprocess = Preprocess::new(inputs).unwrap();
         (preprocess.area, preprocess.box_side, preprocess.each)
     };

@@ -1,12 +1,20 @@
 //! How even points are ([STIP-18]), measured on a flat patch. The same measures stand beside white noise and one repeated
 //! tile, which they have to tell from it.
 
+use super::spectrum::Spectrum;
 use super::{Preprocessed, points_of};
+use crate::common;
+use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, viewing_distance};
 use drypoint::scene::glam::{DVec2, DVec3};
-use drypoint::scene::math::{cos, ln, sin};
+use drypoint::scene::marks::Page;
+use drypoint::scene::math::ln;
 use drypoint::scene::philox;
-use drypoint::scene::tables::{StippleOrder, Stipples, Threshold};
-use std::f64::consts::TAU;
+use drypoint::scene::points::Points;
+use drypoint::scene::tables::{Camera, Ink, LightDirection, Resolution, StippleOrder, Stipples, Threshold};
+use drypoint::scene::view::View;
+
+/// Half the side of the patch.
+const HALF: f64 = 24.0;
 
 /// What is measured of points in a square.
 #[derive(Clone, Copy, Debug)]
@@ -20,13 +28,15 @@ struct Quality {
 }
 
 impl Quality {
-    /// The measures for points of the square [−half, half]²; others tell how far the nearest is.
-    fn new(points: &[DVec2], half: f64) -> Self {
-        let inside: Vec<DVec2> = points.iter().copied().filter(|p| p.abs().max_element() <= half).collect();
-        let density = inside.len() as f64 / (4.0 * half * half);
-        let mean = inside.iter().map(|p| nearest(points, *p)).sum::<f64>() / inside.len() as f64;
-        let (low, peak) = power(&inside, half, density);
-        Self { nearest: mean * density.sqrt(), low, peak }
+    /// The measures for points of the patch; others tell how far the nearest is. `points` ascend in x.
+    fn new(points: &[DVec2]) -> Self {
+        let inside = |p: &DVec2| p.abs().max_element() <= HALF;
+        let chosen: Vec<DVec2> = points.iter().copied().filter(inside).collect();
+        let density = chosen.len() as f64 / (4.0 * HALF * HALF);
+        let distances = (0..points.len()).filter(|&i| inside(&points[i])).map(|i| nearest(points, i));
+        let nearest = distances.sum::<f64>() / chosen.len() as f64 * density.sqrt();
+        let (low, peak) = power(&chosen, density);
+        Self { nearest, low, peak }
     }
 
     fn is_even(&self, k: usize) -> bool {
@@ -34,50 +44,31 @@ impl Quality {
     }
 }
 
-/// The distance to the nearest other point; `points` ascend in x.
-fn nearest(points: &[DVec2], p: DVec2) -> f64 {
-    let at = points.partition_point(|q| q.x < p.x);
-    let mut best = f64::INFINITY;
+/// The distance to the nearest other point, 0 where two coincide; `points` ascend in x.
+fn nearest(points: &[DVec2], i: usize) -> f64 {
+    let (p, mut best) = (points[i], f64::INFINITY);
     let mut look = |q: &DVec2| {
-        let near = (q.x - p.x).abs() < best;
-        if near && *q != p {
-            best = best.min(q.distance(p));
-        }
-        near
+        best = best.min(q.distance(p));
+        (q.x - p.x).abs() < best
     };
-    points[at..].iter().all(&mut look);
-    points[..at].iter().rev().all(&mut look);
+    points[i + 1..].iter().all(&mut look);
+    points[..i].iter().rev().all(&mut look);
     best
 }
 
 /// Mean of the low and highest of all frequencies' power: whole waves in the square, so that its outline adds none.
-fn power(points: &[DVec2], half: f64, density: f64) -> (f64, f64) {
-    let (side, n) = (2.0 * half, points.len() as f64);
+fn power(points: &[DVec2], density: f64) -> (f64, f64) {
+    let side = 2.0 * HALF;
     let cut = 0.5 * (2.0 * density / 3f64.sqrt()).sqrt();
     let top = (2.0 * cut).max(2.0);
-    let most = (top * side) as i32;
-    let phase = |t: f64| [cos(TAU * t), sin(TAU * t)];
-    let turn = |a: [f64; 2], b: [f64; 2]| [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
-    let steps: Vec<[f64; 2]> = points.iter().map(|p| phase(p.x / side)).collect();
     let (mut sum, mut count, mut peak) = (0.0, 0.0, 0.0f64);
-    for j in 0..=most {
-        let start = |p: &DVec2| phase((f64::from(j) * p.y - f64::from(most) * p.x) / side);
-        let mut waves: Vec<[f64; 2]> = points.iter().map(start).collect();
-        for i in -most..=most {
-            let mut total = [0.0; 2];
-            for (wave, &step) in waves.iter_mut().zip(&steps) {
-                total = [total[0] + wave[0], total[1] + wave[1]];
-                *wave = turn(*wave, step);
-            }
-            let f = f64::from(i * i + j * j).sqrt() / side;
-            if f > top || (j == 0 && i <= 0) {
-                continue;
-            }
-            let power = (total[0] * total[0] + total[1] * total[1]) / n;
+    for (f, power) in Spectrum::new(points, HALF, (top * side) as usize).each() {
+        let f = f.length() / side;
+        if f <= top {
             peak = peak.max(power);
-            if f <= cut {
-                (sum, count) = (sum + power, count + 1.0);
-            }
+        }
+        if f <= cut {
+            (sum, count) = (sum + power, count + 1.0);
         }
     }
     let decibels = |x: f64| 10.0 * ln(x) / ln(10.0);
@@ -93,14 +84,9 @@ fn on_plane(points: impl Iterator<Item = DVec3>, centre: DVec3, n: DVec3) -> Vec
     flat
 }
 
-/// Half the side of a square that holds about 3000 points of `density`, or the largest.
-fn half_side(density: f64, largest: f64) -> f64 {
-    (0.5 * (3000.0 / density).sqrt()).min(largest)
-}
-
-/// A flat face of one layer of voxels: an edge that is a cubic step, eight voxels wide, thinned.
-fn patch(n: DVec3, order: StippleOrder) -> (Preprocessed, DVec3, f64) {
-    let dims = if n == DVec3::Z { [52, 52, 11] } else { [52, 52, 52] };
+/// A flat face of one layer of voxels, larger than the patch: an edge that is a cubic step, eight voxels wide, thinned.
+fn patch(n: DVec3, order: StippleOrder) -> (Preprocessed, DVec3) {
+    let dims = dims(n);
     let centre = DVec3::from_array(dims.map(|n| (n - 1) as f64 / 2.0));
     // A cubic step is as good: its slope is largest in the middle.
     let value = move |p: DVec3| {
@@ -108,8 +94,12 @@ fn patch(n: DVec3, order: StippleOrder) -> (Preprocessed, DVec3, f64) {
         t * (3.0 - t * t)
     };
     let stipples = Stipples { thin: true, threshold: Threshold::Magnitude(0.5), order, ..Stipples::default() };
-    let largest = if n == DVec3::Z { 24.0 } else { 17.0 };
-    (points_of(dims, value, &stipples, 25), centre, largest)
+    (points_of(dims, value, &stipples, 25), centre)
+}
+
+/// A corner of an oblique patch is 34 voxels from its middle.
+fn dims(n: DVec3) -> [usize; 3] {
+    if n == DVec3::Z { [52, 52, 11] } else { [72; 3] }
 }
 
 const OBLIQUE: DVec3 = DVec3::new(0.267_261_241_912_424_4, 0.534_522_483_824_848_8, 0.801_783_725_737_273_2);
@@ -117,10 +107,10 @@ const OBLIQUE: DVec3 = DVec3::new(0.267_261_241_912_424_4, 0.534_522_483_824_848
 #[test]
 fn prefixes_of_a_flat_patch_are_even() {
     for n in [DVec3::Z, OBLIQUE] {
-        let (made, centre, largest) = patch(n, StippleOrder::Neighbours);
+        let (made, centre) = patch(n, StippleOrder::Neighbours);
         for k in [1, 2, 4, 8, 16] {
             let flat = on_plane(made.prefix(k), centre, n);
-            let quality = Quality::new(&flat, half_side(k as f64, largest));
+            let quality = Quality::new(&flat);
             println!("{n} k = {k}: {quality:.3?}");
             assert!(quality.is_even(k), "{n} k = {k}: {quality:?}");
         }
@@ -131,20 +121,56 @@ fn prefixes_of_a_flat_patch_are_even() {
 /// spectrum; one voxel's points in every voxel have the voxels' frequency.
 #[test]
 fn white_noise_and_a_repeated_tile_are_not() {
-    let (made, centre, largest) = patch(DVec3::Z, StippleOrder::Neighbours);
+    let (made, centre) = patch(DVec3::Z, StippleOrder::Neighbours);
     for k in [1, 2, 4, 8, 16] {
-        let half = half_side(k as f64, largest);
         let count = (48 * 48 * k) as u32;
         let white = |i| philox::uniforms(9, [i, 0, 0], 0);
         let white = (0..count).map(white).map(|[x, y, ..]| centre + 48.0 * DVec3::new(x - 0.5, y - 0.5, 0.0));
-        let quality = Quality::new(&on_plane(white, centre, DVec3::Z), half);
+        let quality = Quality::new(&on_plane(white, centre, DVec3::Z));
         assert!((quality.nearest - 0.5).abs() < 0.02 && quality.low > -1.0, "white, k = {k}: {quality:?}");
         assert!(!quality.is_even(k));
         if k > 1 {
             let tile: Vec<DVec3> = made.offsets_of(0).take(k).collect();
             let cells = made.centres().flat_map(|c| tile.iter().map(move |o| c + *o));
-            let quality = Quality::new(&on_plane(cells, centre, DVec3::Z), half);
+            let quality = Quality::new(&on_plane(cells, centre, DVec3::Z));
             assert!(quality.peak > 20.0 && !quality.is_even(k), "a tile, k = {k}: {quality:?}");
+        }
+    }
+}
+
+/// The dots of a flat tone in opaque ink: T_r is one number for all voxels, and has `tone` points of each drawn.
+fn opaque(points: &Points, centre: DVec3, n: DVec3, tone: f64) -> Vec<DVec2> {
+    let volume = common::volume(dims(n), |_| 0.0);
+    let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
+    let reference = viewing_distance(&view, volume.grid().centre(), 0.5) * tone / points.each as f64;
+    let resolution = Resolution { re: 1.0, reference: Some(reference) };
+    let stipples = Stipples { ink: Ink::Opaque, resolution: Some(resolution), ..Stipples::default() };
+    let frames = Frames::new(&FrameInputs {
+        stipples: &stipples,
+        points,
+        light: LightDirection::Head,
+        grid: volume.grid(),
+        reference: &view,
+        near: 0.5,
+        size: 1.0,
+        nib: None,
+        tone: None,
+    });
+    let mut drawn = Drawn::default();
+    frames.draw(&view, &Page::in_pixels(view.size, 0.0, 254.0), &mut drawn);
+    on_plane(drawn.dots().map(|dot| dot.world), centre, n)
+}
+
+/// Where the mask decides which voxels draw a point, what they draw is even too.
+#[test]
+fn a_flat_tone_in_opaque_ink_is_even() {
+    for n in [DVec3::Z, OBLIQUE] {
+        let (made, centre) = patch(n, StippleOrder::Neighbours);
+        for tone in [0.1, 0.3, 1.0, 2.5] {
+            let flat = opaque(&made.points, centre, n, tone);
+            let quality = Quality::new(&flat);
+            println!("{n} tone {tone}: {quality:.3?}");
+            assert!(quality.nearest >= 0.7, "{n} tone {tone}: {quality:?}");
         }
     }
 }
@@ -153,8 +179,8 @@ fn white_noise_and_a_repeated_tile_are_not() {
 #[test]
 fn seeing_the_neighbours_makes_the_difference() {
     let measured = |order| {
-        let (made, centre, largest) = patch(DVec3::Z, order);
-        Quality::new(&on_plane(made.prefix(4), centre, DVec3::Z), half_side(4.0, largest)).nearest
+        let (made, centre) = patch(DVec3::Z, order);
+        Quality::new(&on_plane(made.prefix(4), centre, DVec3::Z)).nearest
     };
     let [voxel, neighbours] = [StippleOrder::Voxel, StippleOrder::Neighbours].map(measured);
     assert!(voxel < neighbours - 0.1, "{voxel} {neighbours}");

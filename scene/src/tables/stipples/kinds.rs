@@ -1,6 +1,6 @@
 //! The types of value that `[stipples]` alone has.
 
-use super::Threshold;
+use super::{PointsPerPixel, Threshold};
 use crate::file::check::Check;
 use crate::file::describe::{Kind, Shape};
 use crate::file::item::{Item, Value};
@@ -45,6 +45,41 @@ impl Kind for ThresholdKind {
         match value {
             Threshold::Magnitude(x) => Out::Number(*x),
             Threshold::Quantile(q) => Out::Text(format!("q{q}")),
+        }
+    }
+}
+
+/// A number above 0, or `"auto"`.
+pub(super) struct PointsPerPixelKind;
+
+/// The word in place of a number.
+const AUTO: &str = "auto";
+
+impl Shape for PointsPerPixelKind {
+    fn expected(&self) -> String {
+        format!("{}, or {AUTO:?}", Number { bounds: Bounds::POSITIVE, unit: "" }.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [Bounds::POSITIVE.schema(), { "const": AUTO }] })
+    }
+}
+
+impl Kind for PointsPerPixelKind {
+    type Of = PointsPerPixel;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<PointsPerPixel> {
+        let read = match &item.value {
+            Value::Text(text) => (text == AUTO).then_some(PointsPerPixel::Auto),
+            _ => item.number().filter(|x| Bounds::POSITIVE.contain(*x)).map(PointsPerPixel::Number),
+        };
+        read.or_else(|| check.wrong(item, self.expected()))
+    }
+
+    fn write(&self, value: &PointsPerPixel) -> Out {
+        match value {
+            PointsPerPixel::Number(x) => Out::Number(*x),
+            PointsPerPixel::Auto => Out::Text(AUTO.into()),
         }
     }
 }

@@ -20,7 +20,7 @@ pub struct Stipples {
     /// ‖∇V‖ above which voxels get points ([STIP-4]).
     pub threshold: Threshold,
     /// k_max of eq. 1 ([STIP-3]).
-    pub k_max: f64,
+    pub k_max: PointsPerPixel,
     /// S_max of eq. 4, the largest dot's diameter: a length on the page ([STIP-6]).
     pub size: Length,
     /// Key of the random numbers ([RAY-4]).
@@ -45,6 +45,8 @@ pub struct Stipples {
     pub ink: Ink,
     /// What hides points: an iso-surface ([STIP-15]); none: they are transparent.
     pub hide_behind: Option<Iso>,
+    /// Which points are drawn where there is a choice ([STIP-19]).
+    pub even: Even,
     /// T_b; none: 1.
     pub boundary: Option<Boundary>,
     /// T_s; none: 1.
@@ -68,6 +70,15 @@ pub enum Threshold {
     Magnitude(f64),
     /// The quantile of ‖g‖ over the voxels with a normal.
     Quantile(f64),
+}
+
+/// `k_max` ([STIP-3], [STIP-17]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointsPerPixel {
+    /// Points of a voxel for each pixel, or square of side S_max, of its projection.
+    Number(f64),
+    /// As many as print the coverage 0.9 where T = 1.
+    Auto,
 }
 
 /// `gradient` ([STIP-1]).
@@ -115,11 +126,20 @@ pub enum Ink {
     Opaque,
 }
 
+/// `even` ([STIP-19]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Even {
+    /// The first of each voxel's list.
+    None,
+    /// Those that lie evenly on the page.
+    Page,
+}
+
 impl Default for Stipples {
     fn default() -> Self {
         Self {
             threshold: Threshold::Magnitude(0.1),
-            k_max: 1.0,
+            k_max: PointsPerPixel::Number(1.0),
             size: Length::Millimetres(0.35),
             seed: 1,
             color: [0.0, 0.0, 0.0, 1.0],
@@ -132,6 +152,7 @@ impl Default for Stipples {
             factors: FactorRange::Clamp,
             ink: Ink::Fade,
             hide_behind: None,
+            even: Even::None,
             boundary: None,
             silhouette: None,
             resolution: None,

@@ -1,6 +1,8 @@
 //! The presets of stippling ([STIP-14]).
 
-use super::{Boundary, Curves, CurvesTest, Distance, Interior, Lighting, Resolution, Silhouette, Snap, Stipples};
+use super::{
+    Boundary, Curves, CurvesTest, Distance, Interior, Lighting, PointsPerPixel, Resolution, Silhouette, Snap, Stipples,
+};
 use crate::tables::Length;
 
 /// A preset that supplies `[stipples]`.
@@ -35,7 +37,7 @@ impl StipplePreset {
         match self {
             // Judged on real volumes, on a page of 160 mm: rims dark, faces light, one layer a face.
             Self::Plain => Stipples {
-                k_max: 6.0,
+                k_max: PointsPerPixel::Number(6.0),
                 size: Length::Millimetres(0.5),
                 thin: true,
                 snap: Snap::Edge,

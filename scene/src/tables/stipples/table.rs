@@ -1,12 +1,12 @@
 //! The description of `[stipples]`.
 
-use super::kinds::ThresholdKind;
+use super::kinds::{PointsPerPixelKind, ThresholdKind};
 use super::{
-    FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples,
+    Even, FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples,
     curves::CURVES,
     factors::{BOUNDARY, DISTANCE, INTERIOR, LIGHTING, RESOLUTION, SILHOUETTE},
 };
-use crate::file::describe::{Key, Later, Slot, Table};
+use crate::file::describe::{Key, Slot, Table};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, Number, On, TableOf, Text, Whole};
 use crate::plan::Pass;
 use crate::tables::Iso;
@@ -14,7 +14,6 @@ use crate::tables::surface::IsoKind;
 
 /// The description of `[stipples]`.
 pub(crate) static TABLE: Table<Stipples> = Table {
-    later: &[Later { name: "even", tag: "STIP-19" }],
     asks: |scene, asks| {
         if scene.stipples.as_ref().is_some_and(|stipples| stipples.hide_behind == Some(Iso::Auto)) {
             asks.pass(Pass::AutomaticIso, "hidden points", "stipples.hide_behind");
@@ -35,12 +34,9 @@ pub(crate) static TABLE: Table<Stipples> = Table {
             Key::new(
                 "k_max",
                 "STIP-3",
-                "Points of a voxel for each pixel, or square of side `size`, of its projection.",
-                &Slot {
-                    kind: Number { bounds: Bounds::POSITIVE, unit: "" },
-                    get: |s: &Stipples| Some(s.k_max),
-                    set: |s, v| s.k_max = v,
-                },
+                "Points of a voxel for each pixel, or square of side `size`, of its projection; \"auto\": as many as print a \
+                 coverage of 0.9 where all factors are 1 (STIP-17).",
+                &Slot { kind: PointsPerPixelKind, get: |s: &Stipples| Some(s.k_max), set: |s, v| s.k_max = v },
             ),
             Key::new(
                 "size",
@@ -207,6 +203,30 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                 &Slot { kind: IsoKind, get: |s: &Stipples| s.hide_behind, set: |s, v| s.hide_behind = Some(v) },
             )
             .absent("points are transparent"),
+                "even",
+                "STIP-19",
+                "Which points are drawn where there is a choice.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new(
+                                "none",
+                                Even::None,
+                                "The first of each voxel's list: the paper's, and what moving pictures need.",
+                            ),
+                            ChoiceOption::new(
+                                "page",
+                                Even::Page,
+                                "Of four times as many those that lie evenly on the page, over all faces that are seen \
+                                 there; all are drawn whole.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |s: &Stipples| Some(s.even),
+                    set: |s, v| s.even = v,
+                },
+            ),
             Key::new(
                 "boundary",
                 "STIP-7",

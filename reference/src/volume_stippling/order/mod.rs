@@ -1,0 +1,140 @@
+//! Relaxation and order of a volume's points ([STIP-4]).
+//!
+//! Each voxel has a pool of random points, more than it draws. One rank after the other, every voxel takes from its pool
+//! the point farthest from all points that are taken, its own and those of its 26 neighbours: what is taken is spread
+//! evenly at every rank, within a voxel and across its faces, and each prefix is a subset of the next.
+//!
+//! The voxels of one of the eight parity classes of 2×2×2 have no neighbour in their class, so that a class is taken at
+//! once, in parallel; the classes' order is hashed for each rank, so that none is always first. Voxels that came early in a
+//! rank could not see the later ones: in the first ranks, where few points fix the spacing, each takes again, now from all
+//! others of the rank (`SWEEPS`).
+//!
+//! What is even has to look so in projection. In a voxel that has no neighbour with points before and behind, along its
+//! normal, the face is thin: distances are those in the tangent plane. Elsewhere they are those in space.
+mod choice;
+mod class;
+mod first;
+mod groups;
+mod links;
+mod pool;
+
+use super::slab::Slab;
+use choice::{Seen, Step, take};
+use class::{by_class, class_of, class_order};
+use drypoint_scene::glam::{DMat3, DVec3};
+use groups::LANES;
+use links::Links;
+use pool::{Class, Site, point_of, pool_size};
+use rayon::prelude::*;
+
+pub(super) use links::MOST_VOXELS;
+pub(super) use pool::MOST_EACH;
+
+/// The voxels and how their points lie.
+pub(super) struct Sites<'a> {
+    /// In ascending linear order.
+    pub(super) cells: &'a [[u32; 3]],
+    /// n of each.
+    pub(super) normals: &'a [DVec3],
+    /// D.
+    pub(super) axes: DMat3,
+    /// The smallest spacing.
+    pub(super) voxel: f64,
+    /// Half the distance of the two planes, in world units.
+    pub(super) slab: f64,
+    pub(super) seed: u64,
+    /// Whether voxels see their neighbours.
+    pub(super) neighbours: bool,
+}
+
+/// How often each voxel takes its point of a rank after the first.
+fn sweeps(rank: usize) -> usize {
+    match rank {
+        1..4 => 3,
+        _ => 1,
+    }
+}
+
+/// Bytes a voxel of what is allocated to order the points, beside the points.
+pub(super) fn bytes_a_voxel(each: usize) -> u64 {
+    (pool_size(each) * (4 * size_of::<f32>() + size_of::<u32>() + 6 * size_of::<f32>() / LANES)
+        + 26 * size_of::<u32>()
+        + first::BYTES_A_VOXEL
+        + size_of::<Site>()) as u64
+}
+
+/// Takes `each` points for every voxel, in the order in which they are drawn, voxel after voxel. `done` hears how many of
+/// the ranks are done.
+pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Sync)) -> Vec<[f32; 3]> {
+    let n = sites.cells.len();
+    let size = pool_size(each);
+    let (ids, starts) = by_class(sites.cells);
+    let links = Links::new(sites, &ids);
+    let around: Vec<[f32; 3]> = (0..27).map(|k| scaled(sites, delta(k))).collect();
+    let mut classes: Vec<Class> = (0..8).map(|class| Class::new(sites, &links, &ids, &starts, class, size)).collect();
+    let mut taken = [vec![[0f32; 3]; n], vec![[0f32; 3]; n]];
+    let mut chosen = vec![0u32; n * each];
+    for (i, slot) in first::first_points(sites, &classes, &ids).into_iter().enumerate() {
+        let id = ids[i] as usize;
+        let class = &mut classes[class_of(sites.cells[i])];
+        let index = id - class.start;
+        class.sites[index].slot = slot;
+        chosen[id * each] = class.draw(index, slot);
+        taken[1][id] = scaled(sites, class.point(sites, index, slot));
+    }
+    done(1);
+    for rank in 1..each {
+        let order = class_order(sites.seed, rank);
+        let [before, now] = &mut taken;
+        std::mem::swap(before, now);
+        for sweep in 0..sweeps(rank) {
+            for (place, &class) in order.iter().enumerate() {
+                let earlier = if sweep == 0 { &order[..place] } else { &order[..] };
+                let earlier = earlier.iter().fold(0u8, |set, &c| set | 1 << c);
+                let step = Step { rank, sweep, links: &links, around: &around, earlier };
+                let class = &mut classes[class];
+                let (start, end) = (class.start, class.start + class.sites.len());
+                let (left, rest) = now.split_at_mut(start);
+                let (own, right) = rest.split_at_mut(end - start);
+                let seen = Seen { before, left, right, start, end };
+                take(sites, class, own, &mut chosen[start * each..end * each], each, &seen, &step);
+            }
+        }
+        done(rank + 1);
+    }
+    // From the order of the classes back to that of the voxels.
+    let mut points = vec![[0f32; 3]; n * each];
+    points.par_chunks_mut(each.max(1)).enumerate().for_each(|(i, points)| {
+        let id = ids[i] as usize;
+        let slab = Slab::new(sites.axes, sites.normals[i], sites.slab);
+        for (point, &draw) in points.iter_mut().zip(&chosen[id * each..][..each]) {
+            *point = point_of(&slab, sites.seed, sites.cells[i], draw);
+        }
+    });
+    points
+}
+
+/// From index to world space, in voxels.
+fn scaled(sites: &Sites<'_>, o: [f32; 3]) -> [f32; 3] {
+    let p = sites.axes * DVec3::from_array(o.map(f64::from)) / sites.voxel;
+    p.to_array().map(|x| x as f32)
+}
+
+fn flattened(f: [f32; 3], p: [f32; 3]) -> [f32; 3] {
+    let along = p[0] * f[0] + p[1] * f[1] + p[2] * f[2];
+    [p[0] - along * f[0], p[1] - along * f[1], p[2] - along * f[2]]
+}
+
+/// The step from a voxel to its neighbour of number k, x fastest.
+fn delta(k: usize) -> [f32; 3] {
+    [k % 3, k / 3 % 3, k / 9].map(|i| i as f32 - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    pub(super) fn sites<'a>(cells: &'a [[u32; 3]], normals: &'a [DVec3], neighbours: bool) -> Sites<'a> {
+        Sites { cells, normals, axes: DMat3::IDENTITY, voxel: 1.0, slab: 0.5, seed: 1, neighbours }
+    }
+}

@@ -1,0 +1,95 @@
+//! `wedge`: a page to print and measure, and what was measured as a plot ([STIP-17]).
+
+use super::input::{self, Set};
+use super::report::note;
+use super::{Done, Outcome, Talk, target};
+use clap::Args;
+use drypoint::output::atomic;
+use drypoint::scene::marks::{Page, Pen};
+use drypoint::scene::tables::Scene;
+use drypoint::scene::tone::Tone;
+use drypoint::stippling::{MarksFormat, tone, write};
+use drypoint::wedge::{template, wedge};
+use drypoint::{Failure, Failures, tone_plot};
+use std::path::{Path, PathBuf};
+
+/// Write a step wedge of a pen, to be printed and measured, with a table to fill in beside it; or plot such a table.
+#[derive(Debug, Args)]
+pub(super) struct Wedge {
+    /// Where to write; the suffix chooses SVG, PDF, PNG or EXR, of a plot SVG or PNG
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The pen's name; where --set says none, one of 0.3 mm in black
+    #[arg(long, value_name = "NAME", required_unless_present = "measured")]
+    pen: Option<String>,
+    /// Plot this measured table (.csv) and its inverse in place of a page
+    #[arg(long, value_name = "FILE", conflicts_with = "pen")]
+    measured: Option<PathBuf>,
+    #[command(flatten)]
+    set: Set,
+}
+
+impl Wedge {
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        if let Some(measured) = &self.measured {
+            return self.plot(measured, talk);
+        }
+        if MarksFormat::of(&self.output)? == MarksFormat::Csv {
+            let what = "the suffix is that of the table, which is written beside the page";
+            return Err(
+                Failure::new(what, self.output.display(), "give a name that ends in .svg, .pdf, .png or .exr").into()
+            );
+        }
+        let table = self.output.with_extension("csv");
+        for path in [&self.output, &table] {
+            atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))?;
+        }
+        let scene = input::page(&self.set)?;
+        let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
+        let page = wedge(&pen, &tone, &Page::of(&scene), 1)?;
+        let said = write(&page.marks, &scene, &self.output)?;
+        let [width, height] = page.marks.page.size.to_array();
+        note(talk, format_args!("{}: {width:.0} × {height:.0} mm", self.output.display()));
+        for line in said {
+            note(talk, line);
+        }
+        atomic::write(&table, template().as_bytes()).map_err(|error| Failure::picture(&error, table.display()))?;
+        note(talk, format_args!("{}: to be filled in, and given to [[pen]] as tone", table.display()));
+        Ok(Done::Yes)
+    }
+
+    fn plot(&self, measured: &Path, talk: Talk) -> Outcome {
+        let format = MarksFormat::of(&self.output)?;
+        atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
+        let (tone, name) = (tone(measured)?, target::stem(measured));
+        let bytes = match format {
+            MarksFormat::Svg => tone_plot::svg(&tone, &name).into_bytes(),
+            MarksFormat::Png => tone_plot::png(&tone, &name)
+                .map_err(|fault| Failure::new(fault, self.output.display(), "write an .svg"))?,
+            _ => return Err(no_plot(&self.output).into()),
+        };
+        atomic::write(&self.output, &bytes).map_err(|error| Failure::picture(&error, self.output.display()))?;
+        note(talk, self.output.display());
+        Ok(Done::Yes)
+    }
+}
+
+fn no_plot(path: &Path) -> Failure {
+    Failure::new("the suffix is that of no format for a plot", path.display(), "give a name that ends in .svg or .png")
+}
+
+/// The pen of a name, and what it prints: a pen of `--set`, or where there is none an ordinary one.
+fn pen(scene: &Scene, name: &str) -> Result<(Pen, Tone), Failures> {
+    let pens = Pen::of(&scene.pens, &Page::of(scene));
+    if pens.is_empty() {
+        let pen = Pen { number: 1, name: name.into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] };
+        return Ok((pen, Tone::ideal()));
+    }
+    let Some(i) = pens.iter().position(|pen| pen.name == name) else {
+        let names: Vec<&str> = pens.iter().map(|pen| pen.name.as_str()).collect();
+        let remedy = format!("write one of {}", names.join(", "));
+        return Err(Failure::new(format!("there is no pen {name:?}"), "--pen", remedy).into());
+    };
+    let tone = scene.pens[i].tone.as_deref().map_or(Ok(Tone::ideal()), tone)?;
+    Ok((pens[i].clone(), tone))
+}

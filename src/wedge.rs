@@ -1,0 +1,196 @@
+//! Step wedges: a page of patches of known tone, to be printed and measured ([STIP-17]).
+
+use crate::Failure;
+use drypoint_output::text::{CAP_HEIGHT, WEIGHT, strokes, width};
+use drypoint_reference::volume_stippling::{Candidate, eliminate};
+use drypoint_scene::glam::{DVec2, DVec3};
+use drypoint_scene::marks::{Dot, Layer, Marks, Page, Pen, Polyline, Vertex};
+use drypoint_scene::philox;
+use drypoint_scene::tone::Tone;
+use std::f64::consts::PI;
+use std::fmt::Write as _;
+
+/// Patches: 0, 0.05, … 0.9.
+const PATCHES: usize = 19;
+
+/// Patches in a row.
+const ROW: usize = 5;
+
+/// Candidates for each dot.
+const OVERSAMPLING: f64 = 4.0;
+
+/// Height of capitals, in mm.
+const LETTERS: f64 = 3.0;
+
+/// Room between a patch and what is beside it, in mm.
+const GAP: f64 = 4.0;
+
+/// Dots across a patch where they touch, at least: what is measured is a mean over many.
+const DOTS: f64 = 60.0;
+
+/// A page with a step wedge, and where its patches are.
+#[derive(Clone, Debug)]
+pub struct Wedge {
+    /// The page.
+    pub marks: Marks,
+    /// The patches in their order.
+    pub patches: Vec<Patch>,
+}
+
+/// A square of one tone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// The coverage that is wanted.
+    pub wanted: f64,
+    /// The upper left corner, in mm on the page.
+    pub corner: DVec2,
+    /// In mm.
+    pub side: f64,
+}
+
+/// The wanted tones.
+pub fn steps() -> impl Iterator<Item = f64> {
+    (0..PATCHES).map(|i| i as f64 / 20.0)
+}
+
+/// Draws a step wedge with a pen: dots of its nib, evenly spread, as many as its tone asks for, an outline around each patch
+/// and its tone below. `page` gives margin and resolution; its size follows from the nib.
+///
+/// # Errors
+/// A nib so wide that the page would be larger than a metre.
+pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Failure> {
+    let side = (DOTS * pen.width).max(15.0);
+    let cell = DVec2::new(side + GAP, side + 2.0 * GAP + LETTERS);
+    let rows = PATCHES.div_ceil(ROW);
+    let title = GAP + LETTERS;
+    let picture = DVec2::new(ROW as f64 * cell.x + GAP, title + rows as f64 * cell.y + GAP);
+    if picture.max_element() > 1000.0 {
+        let what = format!("a step wedge of a nib of {} mm would be {:.0} mm high", pen.width, picture.y);
+        return Err(Failure::new(what, "pen.width", "take a finer pen"));
+    }
+    let page = Page::in_millimetres(picture, page.margin, page.dpi);
+    let origin = DVec2::splat(page.margin);
+    let mut layer = Layer::new(pen.clone());
+    let (letters, nib) = (Letters { width: pen.width }, pen.width);
+    letters.write(&mut layer, &pen.label(), origin + DVec2::new(GAP, GAP + LETTERS));
+    let mut patches = Vec::new();
+    for (i, wanted) in steps().enumerate() {
+        let place = DVec2::new((i % ROW) as f64, (i / ROW) as f64) * cell;
+        let corner = origin + DVec2::new(GAP, title + GAP) + place;
+        let density = tone.ink(wanted) / (0.25 * PI * nib * nib);
+        for at in even(side, density, seed, i as u32) {
+            layer.dots.push(Dot { at: corner + at, world: DVec3::ZERO, radius: 0.5 * nib, opacity: 1.0 });
+        }
+        // Beyond the dots that hang over.
+        let around = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| corner - nib + c * (side + 2.0 * nib));
+        layer.lines.push(line(&around, nib, true));
+        let label = format!("{wanted:.2}");
+        let middle = 0.5 * (side - letters.width(&label));
+        letters.write(&mut layer, &label, corner + DVec2::new(middle, side + 2.0 * nib + LETTERS + 1.0));
+        patches.push(Patch { wanted, corner, side });
+    }
+    let mut marks = Marks { page, layers: vec![layer] };
+    marks.settle();
+    Ok(Wedge { marks, patches })
+}
+
+/// The table to be filled in: a row for each patch.
+pub fn template() -> String {
+    let mut text = String::from("wanted,measured\n");
+    for wanted in steps() {
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{wanted},");
+    }
+    text
+}
+
+/// Evenly spread places in a square of so many a unit of area.
+fn even(side: f64, density: f64, seed: u64, patch: u32) -> Vec<DVec2> {
+    if density <= 0.0 {
+        return Vec::new();
+    }
+    // One at random in each cell of a grid: as many everywhere. Chosen in a larger square, since at its border they would
+    // lie closer.
+    let cell = 1.0 / (OVERSAMPLING * density).sqrt();
+    let border = 4.0 / density.sqrt();
+    let cells = ((side + 2.0 * border) / cell).ceil() as u32;
+    let at = |i: u32| {
+        let [x, y, ..] = philox::uniforms(seed, [i, patch, 0], 0);
+        (DVec2::new(f64::from(i % cells), f64::from(i / cells)) + DVec2::new(x, y)) * cell - border
+    };
+    let all = 0..cells * cells;
+    let candidates: Vec<Candidate> = all.map(|i| Candidate { at: at(i), share: 1.0 / OVERSAMPLING }).collect();
+    let places = eliminate(&candidates).into_iter().map(|i| candidates[i].at);
+    places.filter(|p| p.min_element() >= 0.0 && p.max_element() <= side).collect()
+}
+
+/// Letters drawn with the pen.
+struct Letters {
+    width: f64,
+}
+
+impl Letters {
+    /// Millimetres of a font unit. A pen wider than letters stand gets larger ones.
+    fn scale(&self) -> f64 {
+        (LETTERS / CAP_HEIGHT).max(0.5 * self.width / WEIGHT)
+    }
+
+    fn width(&self, text: &str) -> f64 {
+        width(text) * self.scale()
+    }
+
+    /// Writes a line that begins at a place on the baseline.
+    fn write(&self, layer: &mut Layer, text: &str, at: DVec2) {
+        for stroke in strokes(text) {
+            let vertices: Vec<DVec2> = stroke.iter().map(|&[x, y]| at + DVec2::new(x, -y) * self.scale()).collect();
+            layer.lines.push(line(&vertices, self.width, false));
+        }
+    }
+}
+
+fn line(places: &[DVec2], width: f64, closed: bool) -> Polyline {
+    let vertex = |(i, at): (usize, &DVec2)| {
+        let t = i as f64 / (places.len() - 1).max(1) as f64;
+        Vertex { at: *at, world: DVec3::ZERO, radius: 0.5 * width, opacity: 1.0, t }
+    };
+    Polyline { vertices: places.iter().enumerate().map(vertex).collect(), closed }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pen(width: f64) -> Pen {
+        Pen { number: 1, name: "black".into(), width, color: [0.0, 0.0, 0.0, 1.0] }
+    }
+
+    #[test]
+    fn patches_lie_on_the_page_and_hold_their_dots() {
+        let page = Page::in_millimetres(DVec2::ONE, 10.0, 300.0);
+        for width in [0.1, 0.3, 1.0] {
+            let found = wedge(&pen(width), &Tone::ideal(), &page, 1).unwrap();
+            assert_eq!(found.patches.len(), 19);
+            let size = found.marks.page.size;
+            for patch in &found.patches {
+                assert!(patch.corner.min_element() >= 10.0 && (patch.corner + patch.side).cmple(size - 10.0).all());
+                let inside = |dot: &&Dot| {
+                    let o = dot.at - patch.corner;
+                    o.min_element() >= -1e-3 && o.max_element() <= patch.side + 1e-3
+                };
+                let ink = found.marks.layers[0].dots.iter().filter(inside).count() as f64 * 0.25 * PI * width * width;
+                let wanted = Tone::ideal().ink(patch.wanted) * patch.side * patch.side;
+                // Choosing dots evens their number out but for those at the border: their square root, and one.
+                let at_border = 4.0 * patch.side / width;
+                assert!((ink - wanted).abs() <= (at_border.sqrt() + 1.0) * width * width, "{}", patch.wanted);
+            }
+        }
+        assert!(wedge(&pen(9.0), &Tone::ideal(), &page, 1).is_err());
+    }
+
+    #[test]
+    fn the_table_has_a_row_a_patch() {
+        let text = template();
+        assert!(text.starts_with("wanted,measured\n0,\n0.05,\n0.1,\n0.15,\n") && text.ends_with("0.9,\n"), "{text}");
+        assert_eq!(text.lines().count(), 20);
+    }
+}
