@@ -4,6 +4,7 @@
 //! each voxel's list as many as the factors say.
 
 mod area;
+mod colors;
 mod count;
 mod curves;
 mod error;
@@ -17,6 +18,7 @@ mod resolution;
 mod ridge;
 mod slab;
 
+pub use colors::{Colors, Rgb, nearest, palette, split};
 pub use curves::{Edges, Segment, exhaustive};
 pub use error::StippleError;
 pub use frame::{Drawn, FrameInputs, Frames, viewing_distance};

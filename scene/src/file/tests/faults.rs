@@ -26,7 +26,6 @@ fn a_part_that_is_not_built_says_so() {
          and would not ignore it"
     );
     for (rest, what) in [
-        ("[orbit]\nframes = 36\n", "[orbit]"),
         ("[stipples]\nhide_behind = 120\n", "stipples.hide_behind"),
         ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
         ("[[box]]\n", "[[box]]"),

@@ -1,13 +1,14 @@
 //! The description of `[stipples]`.
 
-use super::kinds::ThresholdKind;
+use super::kinds::{DotColors, ThresholdKind};
 use super::{
     FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples,
     curves::CURVES,
     factors::{BOUNDARY, DISTANCE, INTERIOR, LIGHTING, RESOLUTION, SILHOUETTE},
+    rules,
 };
 use crate::file::describe::{Key, Later, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, Number, On, TableOf, Text, Whole};
+use crate::file::kind::{Bounds, Choice, ChoiceOption, Flag, Lengths, Number, On, TableOf, Text, Whole};
 
 /// The description of `[stipples]`.
 pub(crate) static TABLE: Table<Stipples> = Table {
@@ -15,6 +16,8 @@ pub(crate) static TABLE: Table<Stipples> = Table {
         Later { name: "even", tag: "STIP-19" },
         Later { name: "hide_behind", tag: "STIP-15" },
     ],
+    asks: rules::asks,
+    idle: |scene, _, idle| rules::idle(scene, idle),
     ..Table::new(
         "[stipples]",
         "Volume stippling: points on the volume's boundaries, made once, of which each frame draws as many as the \
@@ -60,8 +63,10 @@ pub(crate) static TABLE: Table<Stipples> = Table {
             Key::new(
                 "color",
                 "STIP-16",
-                "What the dots are drawn in.",
-                &Slot { kind: Colors, get: |s: &Stipples| Some(s.color), set: |s, v| s.color = v },
+                "What the dots are drawn in. `\"transfer\"`: the colour of `[transfer]` at their voxel's value, of a style \
+                 where it faces the eye; `\"label\"`: that of their label's row. With `[[pen]]` each dot goes to the pen of \
+                 the nearest colour; without, to one of at most 16 layers.",
+                &Slot { kind: DotColors, get: |s: &Stipples| Some(s.color), set: |s, v| s.color = v },
             ),
             Key::new(
                 "pen",
