@@ -3,7 +3,7 @@
 //! `cargo bench --bench marks`
 
 use divan::Bencher;
-use drypoint::output::list::encode_dots;
+use drypoint::output::list::{Form, encode_dots};
 use drypoint::output::paint::{Window, blank, paint};
 use drypoint::output::plotter::{Speed, plan};
 use drypoint::output::vector::Sheet;
@@ -61,7 +61,7 @@ fn pdf(bencher: Bencher) {
 #[divan::bench(sample_count = 5)]
 fn list(bencher: Bencher) {
     let marks = marks();
-    bencher.bench(|| encode_dots(marks).len());
+    bencher.bench(|| encode_dots(marks, Form::Csv).len());
 }
 
 #[divan::bench(args = [BlendSpace::Linear, BlendSpace::Srgb], sample_count = 3)]

@@ -80,7 +80,7 @@ fn frame_of_two_millions(bencher: Bencher<'_, '_>) {
     let volume = ball(2e6);
     with_inputs(&volume, |inputs| {
         let points = points(inputs);
-        let frames = Frames::new(&FrameInputs {
+        let frames = Frames::new(FrameInputs {
             stipples: inputs.stipples,
             points: &points,
             light: LightDirection::Head,

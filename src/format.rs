@@ -1,34 +1,81 @@
-//! Which file format the suffix of a picture's name asks for.
+//! Which file format the suffix of a name asks for.
 
 use crate::Failure;
 use std::path::Path;
 
-/// A format that rendered pictures are written in ([IO-2]).
+/// A format that pictures, points and lines are written in ([IO-2]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// The layer `beauty` alone, in 8 or 16 bits a channel.
     Png,
     /// Every layer, in 32-bit float ([IO-6]).
     Exr,
+    /// Points and lines as vectors, a millimetre a unit, over the picture ([IO-7]).
+    Svg,
+    /// The same as PDF.
+    Pdf,
+    /// Points alone, a row each ([STIP-16]).
+    Csv,
+    /// The same, a JSON object a line.
+    JsonLines,
 }
 
 impl Format {
+    /// Of rendered pictures.
+    pub const PICTURES: [Self; 2] = [Self::Png, Self::Exr];
+    /// Of what has points or lines over a picture or alone.
+    pub const SHEETS: [Self; 4] = [Self::Png, Self::Exr, Self::Svg, Self::Pdf];
+    /// All of them.
+    pub const ALL: [Self; 6] = [Self::Svg, Self::Pdf, Self::Png, Self::Exr, Self::Csv, Self::JsonLines];
+
+    /// The suffix, without its dot.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Exr => "exr",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+            Self::Csv => "csv",
+            Self::JsonLines => "jsonl",
+        }
+    }
+
+    /// Whether it has points alone.
+    pub fn is_list(self) -> bool {
+        matches!(self, Self::Csv | Self::JsonLines)
+    }
+
     /// The format of a name, by its suffix; case does not count.
+    pub fn of(path: &Path) -> Option<Self> {
+        let suffix = path.extension()?;
+        Self::ALL.into_iter().find(|format| suffix.eq_ignore_ascii_case(format.suffix()))
+    }
+
+    /// The format of a name, one of `may`.
     ///
     /// # Errors
-    /// A suffix of no format, or of one for points and strokes.
-    pub fn of(path: &Path) -> Result<Self, Failure> {
-        let suffix = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-        let refused = |what: String| Err(Failure::new(what, path.display(), "give a name that ends in .png or .exr"));
-        match suffix.as_str() {
-            "png" => Ok(Self::Png),
-            "exr" => Ok(Self::Exr),
-            "svg" | "pdf" => {
-                refused(format!(".{suffix} is for points and lines, which `drypoint points` writes ([IO-7])"))
-            }
-            "" => refused("the name has no suffix, which chooses the format of the picture".into()),
-            _ => refused(format!(".{suffix} is the suffix of no picture format that is written")),
+    /// A suffix of another format, or of none.
+    pub fn among(path: &Path, may: &[Self]) -> Result<Self, Failure> {
+        let found = Self::of(path);
+        if let Some(format) = found.filter(|format| may.contains(format)) {
+            return Ok(format);
         }
+        let suffix = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+        let what = match found {
+            Some(Self::Csv | Self::JsonLines) => {
+                format!(".{suffix} is for lists of points, which `drypoint points` writes ([STIP-16])")
+            }
+            Some(_) if *may == [Self::Png] => "this picture is written as PNG".into(),
+            Some(_) => format!("this picture is not written as .{suffix}"),
+            None if suffix.is_empty() => "the name has no suffix, which chooses the format of the picture".into(),
+            None => format!(".{suffix} is the suffix of no picture format that is written"),
+        };
+        let suffixes: Vec<String> = may.iter().map(|format| format!(".{}", format.suffix())).collect();
+        let suffixes = match suffixes.as_slice() {
+            [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
+            _ => suffixes.concat(),
+        };
+        Err(Failure::new(what, path.display(), format!("give a name that ends in {suffixes}")))
     }
 }
 
@@ -38,16 +85,20 @@ mod tests {
 
     #[test]
     fn the_suffix_chooses() {
-        let of = |name: &str| Format::of(Path::new(name));
+        let of = |name: &str| Format::among(Path::new(name), &Format::PICTURES);
         assert_eq!(of("a/b.c.PNG"), Ok(Format::Png));
         assert_eq!(of("b.exr"), Ok(Format::Exr));
         for (name, what) in [
-            ("a.pdf", ".pdf is for points and lines, which `drypoint points` writes ([IO-7])"),
+            ("a.pdf", "this picture is not written as .pdf"),
+            ("a.csv", ".csv is for lists of points, which `drypoint points` writes ([STIP-16])"),
             ("a.jpg", ".jpg is the suffix of no picture format that is written"),
             ("png", "the name has no suffix, which chooses the format of the picture"),
             (".png", "the name has no suffix, which chooses the format of the picture"),
         ] {
             assert_eq!(of(name).unwrap_err().what, what, "{name}");
         }
+        let remedy = |may| Format::among(Path::new("a"), may).unwrap_err().remedy;
+        assert_eq!(remedy(&[Format::Png]), "give a name that ends in .png");
+        assert_eq!(remedy(&Format::SHEETS), "give a name that ends in .png, .exr, .svg or .pdf");
     }
 }

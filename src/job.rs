@@ -59,11 +59,23 @@ pub struct Job {
     pub volume: Volume,
     /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
     pub counts: Counts,
-    function: Function,
+    wanted: Wanted,
+    /// What the volume is drawn in, or what dots take their colours from.
+    function: Option<Function>,
     labels: Option<LabelVolume>,
     further: [Option<Volume>; 2],
     styles: Vec<Style>,
     background: Option<Vec<Rgba>>,
+}
+
+/// What of a scene is wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wanted {
+    /// All that it draws.
+    #[default]
+    Picture,
+    /// Points and lines alone: the volume itself is not drawn, and nothing of that is called for.
+    Marks,
 }
 
 /// A scene with other knobs, and what follows from them.
@@ -72,7 +84,7 @@ pub struct Turned {
     pub scene: Scene,
     /// What it calls for.
     pub plan: Plan,
-    function: Function,
+    function: Option<Function>,
 }
 
 impl Job {
@@ -82,13 +94,23 @@ impl Job {
     /// # Errors
     /// All that cannot be read, does not exist, or draws nothing.
     pub fn load(scene: Scene) -> Result<Self, Failures> {
+        Self::load_for(scene, Wanted::Picture)
+    }
+
+    /// The same of what is wanted.
+    ///
+    /// # Errors
+    /// As [`Job::load`].
+    pub fn load_for(scene: Scene, wanted: Wanted) -> Result<Self, Failures> {
         match load_volume(&scene.volume, &scene.given) {
-            Ok(volume) => Self::with_volume(scene, volume),
+            Ok(volume) => Self::with_volume_for(scene, volume, wanted),
             Err(failure) => {
                 // What else is wrong does not wait for the volume.
                 let mut others = Vec::new();
-                styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
-                background(&scene, &mut others);
+                if calls_for_function(&plan_for(&scene, wanted)) {
+                    styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
+                }
+                background(&scene, wanted, &mut others);
                 Err(Failures::new(failure, others))
             }
         }
@@ -98,77 +120,126 @@ impl Job {
     ///
     /// # Errors
     /// As [`Job::load`].
-    pub fn with_volume(mut scene: Scene, volume: Volume) -> Result<Self, Failures> {
+    pub fn with_volume(scene: Scene, volume: Volume) -> Result<Self, Failures> {
+        Self::with_volume_for(scene, volume, Wanted::Picture)
+    }
+
+    /// The same of what is wanted.
+    ///
+    /// # Errors
+    /// As [`Job::load`].
+    pub fn with_volume_for(mut scene: Scene, volume: Volume, wanted: Wanted) -> Result<Self, Failures> {
         let volume = match scene.volume.ids {
             Ids::Values => volume,
             Ids::Mask => volume.present(),
         };
         // Of the scene as it was given: that its function was found in the data is part of the plan.
-        let mut plan = Plan::new(&scene);
+        let mut plan = plan_for(&scene, wanted);
         plan.settle(&scene, is_integer(&volume));
-        if let (Some(step), Ok(view)) =
-            (scene.sampling.step.world(volume.grid()), View::new(&scene.camera, volume.grid(), scene.picture.size))
-        {
+        if let (true, Some(step), Ok(view)) = (
+            plan.has_pass(Pass::Rays),
+            scene.sampling.step.world(volume.grid()),
+            View::new(&scene.camera, volume.grid(), scene.picture.size),
+        ) {
             let stretch = match scene.sampling.step_along {
                 StepAlong::Plane => view.largest_stretch(),
                 StepAlong::Ray => 1.0,
             };
             plan.warn_step(step * stretch, volume.grid().voxel());
         }
-        if scene.stipples.is_some() {
-            let what = "stipples are not drawn into a rendered picture yet ([STIP-16])";
-            let remedy = "draw them with `drypoint points`, or remove the table [stipples]";
-            return Err(Failure::new(what, scene.given.position("stipples"), remedy).into());
-        }
+        something_is_drawn(&scene, wanted)?;
         let mut failures = Vec::new();
-        let reads_labels = plan.needs(Quantity::Label) || plan.needs(Quantity::LabelDistance);
-        let labels = if reads_labels { Named::load(&scene.volume, &mut failures) } else { Named::default() };
+        let labels = if plan.reads_labels() { Named::load(&scene.volume, &mut failures) } else { Named::default() };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
-        if scene.transfer.is_none() && !plan.needs(Quantity::Surface) {
-            let place = scene.given.position("transfer");
-            let remedy = "add a [transfer] table, or a [surface] with a look";
-            return Err(Failure::new("the scene draws nothing", place, remedy).into());
-        }
         let mut counts = Counts::default();
-        if let Some(transfer) = scene.transfer.as_mut().filter(|transfer| transfer.is_automatic()) {
-            suggest::fill_function(transfer, &volume, scene.volume.outside, &mut counts);
-        }
-        if let Some(surface) = scene.surface.as_mut().filter(|_| plan.has_pass(Pass::AutomaticIso)) {
+        if let Some(surface) = scene.surface.as_mut().filter(|s| s.iso == Iso::Auto && plan.needs(Quantity::Surface)) {
             surface.iso = Iso::Value(suggest::iso(&volume, &scene.volume, &mut counts));
         }
+        let calls_for_function = calls_for_function(&plan);
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
-        let found = match &scene.transfer {
-            Some(transfer) => Function::new(transfer, range, &volume, &|name| labels.names.id(name)),
-            None => Ok(Some(Function::nothing())),
-        };
-        let function = found.unwrap_or_else(|errors| {
-            // Without the table every name would be unknown.
-            if failures.is_empty() {
-                failures.extend(errors.iter().map(|error| function_failure(error, &scene.given, &labels.names)));
+        // An iso-surface is drawn without one.
+        let mut function = scene.transfer.is_none().then(Function::nothing);
+        if let Some(transfer) = scene.transfer.as_mut().filter(|_| calls_for_function) {
+            if transfer.is_automatic() {
+                suggest::fill_function(transfer, &volume, scene.volume.outside, &mut counts);
             }
-            None
-        });
+            let found = Function::new(transfer, range, &volume, &|name| labels.names.id(name));
+            function = found.unwrap_or_else(|errors| {
+                // Without the table every name would be unknown.
+                if failures.is_empty() {
+                    failures.extend(errors.iter().map(|error| function_failure(error, &scene.given, &labels.names)));
+                }
+                None
+            });
+        }
         let styles = match &function {
             Some(Function::Style { names, .. }) => styles(&scene, names.iter().map(String::as_str), &mut failures),
-            Some(Function::Regular(_)) => Vec::new(),
-            None => styles(&scene, scene.transfer.iter().flat_map(named), &mut failures),
+            None if calls_for_function => styles(&scene, scene.transfer.iter().flat_map(named), &mut failures),
+            Some(Function::Regular(_)) | None => Vec::new(),
         };
-        let background = background(&scene, &mut failures);
-        let further = further(&scene, &mut failures);
+        let background = background(&scene, wanted, &mut failures);
+        let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
         Failures::check(failures)?;
-        let Some(function) = function else {
+        if calls_for_function && function.is_none() {
             let place = scene.given.position("transfer.nodes");
             return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
-        };
-        Ok(Self { scene, plan, volume, counts, function, labels: labels.volume, further, styles, background })
+        }
+        Ok(Self { scene, plan, volume, counts, wanted, function, labels: labels.volume, further, styles, background })
+    }
+
+    /// Whether the volume itself is drawn, by rays.
+    pub fn draws_volume(&self) -> bool {
+        self.plan.has_pass(Pass::Rays)
+    }
+
+    /// Whether a picture of it has the layer that points and lines are drawn over.
+    pub fn shows_beauty(&self) -> bool {
+        let layers = &self.scene.picture.layers;
+        !self.draws_volume() || layers.is_empty() || layers.contains(&LayerKind::Beauty)
+    }
+
+    /// What of the scene is wanted.
+    pub fn wanted(&self) -> Wanted {
+        self.wanted
+    }
+
+    /// What dots take their colours from, where they do.
+    pub(crate) fn function(&self) -> Option<&Function> {
+        self.function.as_ref()
+    }
+
+    /// The styles that the function names.
+    pub(crate) fn styles(&self) -> &[Style] {
+        &self.styles
+    }
+
+    /// The labels beside the volume, where something reads them.
+    pub(crate) fn labels(&self) -> Option<&LabelVolume> {
+        self.labels.as_ref()
+    }
+
+    /// The picture behind, premultiplied, where the scene has one.
+    pub(crate) fn background(&self) -> Option<&[Rgba]> {
+        self.background.as_deref()
+    }
+
+    /// The scene's camera in numbers.
+    ///
+    /// # Errors
+    /// A camera without direction, or a height on the page.
+    pub fn view(&self) -> Result<View, Failure> {
+        let scene = &self.scene;
+        View::new(&scene.camera, self.volume.grid(), scene.picture.size)
+            .map_err(|error| render_failure(&error.into(), scene))
     }
 
     /// The scene made ready for any number of frames.
     ///
     /// # Errors
-    /// A reconstruction that does not exist, a camera without direction, a picture for which there is no memory.
+    /// A volume that is not drawn itself, a reconstruction that does not exist, a camera without direction, a picture for
+    /// which there is no memory.
     pub fn renderer(&self) -> Result<Renderer<'_>, Failure> {
-        self.made_ready(&self.scene, &self.plan, &self.function, Renderer::new)
+        self.made_ready(&self.scene, &self.plan, self.function.as_ref(), Renderer::new)
     }
 
     /// Another scene over what this one has loaded: one that differs in its knobs alone ([COST-1]).
@@ -178,7 +249,7 @@ impl Job {
         // Over two quantities, labels among them, no knob changes the function.
         let over_value = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none());
         let function = over_value.and_then(|t| Function::new(t, range, &self.volume, &|_| None).ok().flatten());
-        Turned { function: function.unwrap_or_else(|| self.function.clone()), scene, plan }
+        Turned { function: function.or_else(|| self.function.clone()), scene, plan }
     }
 
     /// The same with other knobs.
@@ -186,7 +257,7 @@ impl Job {
     /// # Errors
     /// As [`Job::renderer`].
     pub fn renderer_of<'a>(&'a self, turned: &'a Turned) -> Result<Renderer<'a>, Failure> {
-        self.made_ready(&turned.scene, &turned.plan, &turned.function, Renderer::new)
+        self.made_ready(&turned.scene, &turned.plan, turned.function.as_ref(), Renderer::new)
     }
 
     /// The same of a phantom's own formula in place of the voxels ([COST-2]).
@@ -199,12 +270,12 @@ impl Job {
         phantom: &'a dyn Phantom,
     ) -> Result<Renderer<'a>, Failure> {
         let make = |inputs| Renderer::exact(inputs, phantom);
-        self.made_ready(&turned.scene, &turned.plan, &turned.function, make)
+        self.made_ready(&turned.scene, &turned.plan, turned.function.as_ref(), make)
     }
 
     /// The plan of a scene over what this job has loaded.
     fn plan_of(&self, scene: &Scene) -> Plan {
-        let mut plan = Plan::new(scene);
+        let mut plan = plan_for(scene, self.wanted);
         plan.settle(scene, is_integer(&self.volume));
         plan
     }
@@ -213,9 +284,13 @@ impl Job {
         &'a self,
         scene: &'a Scene,
         plan: &'a Plan,
-        function: &'a Function,
+        function: Option<&'a Function>,
         make: impl FnOnce(Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
     ) -> Result<Renderer<'a>, Failure> {
+        let Some(function) = function.filter(|_| plan.has_pass(Pass::Rays)) else {
+            let what = "the volume itself is not drawn";
+            return Err(Failure::new(what, scene.given.position("transfer"), "add a [transfer] table"));
+        };
         let background = match (&self.background, &scene.picture.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
             (None, Background::Color(color)) => Backdrop::Color(*color),
@@ -232,27 +307,7 @@ impl Job {
             background,
         };
         room_for_passes(self, plan)?;
-        let renderer = make(inputs).map_err(|error| {
-            let (key, remedy) = match &error {
-                RenderError::Field(FieldError::NotSmooth { .. }) => {
-                    ("sampling.hessian", "choose another sampling.kernel or sampling.hessian")
-                }
-                RenderError::Field(FieldError::TooLarge { .. }) => ("sampling.number", "write \"f64\""),
-                RenderError::Field(FieldError::Scale { .. }) => ("sampling.scale", "make it smaller, or leave it out"),
-                RenderError::View(ViewError::HeightOnPage) => ("camera.height", "give it in world units or in voxels"),
-                RenderError::View(ViewError::NoDirection) => {
-                    ("camera", "move camera.eye away from camera.target, or give camera.direction")
-                }
-                RenderError::TooManyPlanes { .. } => ("sampling.step", "make it longer, or move the camera nearer"),
-                RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
-                RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
-                RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
-                RenderError::NoSuchLabel { .. } => ("transfer.over", "name a label that the label volume has"),
-                RenderError::Length { key } => (*key, "give it in world units or in voxels"),
-                RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
-            };
-            Failure::new(&error, scene.given.position(key), remedy)
-        })?;
+        let renderer = make(inputs).map_err(|error| render_failure(&error, scene))?;
         // Of what is left: the picture's channels, and as much again while they are encoded.
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
         room(scene, 2 * 8 * channels)?;
@@ -276,7 +331,18 @@ impl Job {
 
     /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
     pub fn provenance(&self) -> Provenance {
-        provenance(&self.scene, &self.plan_of(&self.scene))
+        self.provenance_of(0)
+    }
+
+    /// The same of a frame: the first is the scene without `[orbit]`, byte for byte.
+    pub fn provenance_of(&self, frame: usize) -> Provenance {
+        let plan = self.plan_of(&self.scene);
+        if frame == 0 {
+            return provenance(&Scene { orbit: None, ..self.scene.clone() }, &plan);
+        }
+        let mut provenance = provenance(&self.scene, &plan);
+        provenance.plan.push_str(&format!("orbit: frame {frame}\n"));
+        provenance
     }
 
     /// Writes a picture of this job, as PNG or EXR by the suffix. The file appears whole or not at all.
@@ -285,12 +351,35 @@ impl Job {
     /// A suffix of no format, or what the operating system refuses.
     pub fn write(&self, picture: &Picture, path: &Path) -> Result<(), Failure> {
         let provenance = self.provenance();
-        let written = match Format::of(path)? {
-            Format::Png => png::write_png(picture, self.scene.picture.bits, &provenance, path),
+        let written = match Format::among(path, &Format::PICTURES)? {
             Format::Exr => exr::write_exr(picture, &provenance, path),
+            _ => png::write_png(picture, self.scene.picture.bits, &provenance, path),
         };
         written.map_err(|error| Failure::picture(&error, path.display()))
     }
+}
+
+/// What makes no picture, at the key that says it.
+pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
+    let (key, remedy) = match error {
+        RenderError::Field(FieldError::NotSmooth { .. }) => {
+            ("sampling.hessian", "choose another sampling.kernel or sampling.hessian")
+        }
+        RenderError::Field(FieldError::TooLarge { .. }) => ("sampling.number", "write \"f64\""),
+        RenderError::Field(FieldError::Scale { .. }) => ("sampling.scale", "make it smaller, or leave it out"),
+        RenderError::View(ViewError::HeightOnPage) => ("camera.height", "give it in world units or in voxels"),
+        RenderError::View(ViewError::NoDirection) => {
+            ("camera", "move camera.eye away from camera.target, or give camera.direction")
+        }
+        RenderError::TooManyPlanes { .. } => ("sampling.step", "make it longer, or move the camera nearer"),
+        RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
+        RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
+        RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
+        RenderError::NoSuchLabel { .. } => ("transfer.over", "name a label that the label volume has"),
+        RenderError::Length { key } => (*key, "give it in world units or in voxels"),
+        RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
+    };
+    Failure::new(error, scene.given.position(key), remedy)
 }
 
 /// What a picture of a scene says of its origin ([IO-2]).
@@ -308,13 +397,49 @@ pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Count
     suggest::scene(VolumeSource::File { path, raw: None }, volume, size, counts)
 }
 
+/// The same for a volume that is not drawn itself: the camera, and no function.
+pub fn stage(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+    suggest::stage(VolumeSource::File { path, raw: None }, volume, size, counts)
+}
+
+/// What is wanted of a scene calls for this.
+fn plan_for(scene: &Scene, wanted: Wanted) -> Plan {
+    match wanted {
+        Wanted::Picture => Plan::new(scene),
+        Wanted::Marks => Plan::of_marks(scene),
+    }
+}
+
+/// Whether something reads the transfer function: rays, or dots that take their colours from it.
+fn calls_for_function(plan: &Plan) -> bool {
+    plan.has_pass(Pass::Rays) || plan.has_pass(Pass::DotColors)
+}
+
+/// Whether the scene draws what is wanted.
+fn something_is_drawn(scene: &Scene, wanted: Wanted) -> Result<(), Failure> {
+    let at = |key| scene.given.position(key);
+    let stippled = scene.stipples.is_some();
+    match wanted {
+        Wanted::Marks if !stippled => {
+            let remedy = "add a table [stipples], or write preset = \"stipple\"";
+            Err(Failure::new("the scene has no stipples", at("stipples"), remedy))
+        }
+        Wanted::Picture if !stippled && !scene.draws_volume() => Err(Failure::new(
+            "the scene draws nothing",
+            at("transfer"),
+            "add a [transfer] table, or a [surface] with a look",
+        )),
+        Wanted::Marks | Wanted::Picture => Ok(()),
+    }
+}
+
 /// Whether a volume's file is of integers ([REC-3]).
 fn is_integer(volume: &Volume) -> bool {
     volume.voxels().voxel_type().is_integer()
 }
 
 /// Whether there is memory for so many bytes a pixel.
-fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
+pub(crate) fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
     let [width, height] = scene.picture.size;
     let needed = [width, height, bytes].into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
     memory::room(needed).map_err(|no_room| {
@@ -343,7 +468,7 @@ fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
 }
 
 /// Reads or generates a scene's volume.
-pub(crate) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
+fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
     match &table.source {
         VolumeSource::File { path, raw } => read::read(path, raw.as_ref()).map_err(Failure::from),
         VolumeSource::Phantom(source) => phantom::generate(source).map_err(|error| {
@@ -421,8 +546,13 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
 }
 
 /// The pixels behind, where the scene has a picture there; what is wrong goes to `failures`.
-fn background(scene: &Scene, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
+fn background(scene: &Scene, wanted: Wanted, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
     let Background::Picture(path) = &scene.picture.background else { return None };
+    if wanted == Wanted::Marks {
+        let (what, remedy) = ("a page has no picture behind it", "give a colour, or \"none\", or render the scene");
+        failures.push(Failure::new(what, scene.given.position("picture.background"), remedy));
+        return None;
+    }
     let [width, height] = scene.picture.size;
     if let Err(failure) = room(scene, size_of::<Rgba>()) {
         failures.push(failure);

@@ -11,11 +11,13 @@
 //! | everything that it names | [`job::Job::load`], [`job::Job::with_volume`] |
 //! | a picture, and what it took | [`job::Job::renderer`], then [`reference::ray::Renderer::frame`] |
 //! | a file | [`job::Job::write`] |
+//! | points and lines, and frames of all of it | [`stippling::Stippling`], [`drawing::Drawing`] |
 //! | what its accuracy costs | [`cost::sweep`] |
 //!
 //! Whatever can go wrong is a [`Failure`]: what, where, and what to do.
 
 pub mod cost;
+pub mod drawing;
 pub mod failure;
 pub mod format;
 pub mod job;

@@ -1,85 +1,182 @@
-//! From a scene to a page of dots: volume stippling (Lu et al. 2002), written as vectors, pixels or a list.
+//! The dots and lines of a scene with `[stipples]` (Lu et al. 2002): made once, then drawn for any number of cameras.
 
-use crate::job::{load_volume, provenance};
-use crate::{Failure, Failures, memory};
-use drypoint_output::vector::{Sheet, pdf, svg};
-use drypoint_output::{OutputError, exr, list, paint, plotter, png};
+mod pens;
+
+use crate::job::Job;
+use crate::{Failure, memory};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::suggest;
 use drypoint_reference::surface::IsoSurface;
 use drypoint_reference::volume_stippling::{
-    Drawn, FrameInputs, Frames, Inputs, PenTone, Preprocess, StippleError, joined,
+    Drawn, Edges, FrameInputs, Frames, Inputs, PenTone, Preprocess, StippleError, joined, seen,
 };
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
-use drypoint_scene::plan::Plan;
-use drypoint_scene::tables::{Background, Ids, Ink, Iso, Length, PageSettings, PointsPerPixel, Scene, Stipples};
+use drypoint_scene::plan::PointsPlan;
+use drypoint_scene::points::Points;
+use drypoint_scene::space::Grid;
+use drypoint_scene::tables::{Ink, Iso, Length, PointsPerPixel, Stipples};
 use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
-use drypoint_scene::volume::Volume;
+use pens::Pens;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
-/// A scene with `[stipples]` and its volume.
-pub struct Stippling {
-    /// The scene.
-    pub scene: Scene,
-    /// Its volume.
-    pub volume: Volume,
-    stipples: Stipples,
-    pen: Pen,
+/// Points of a scene, made once from its first camera.
+pub struct Stippling<'a> {
+    setting: Setting<'a>,
+    layers: Vec<Dots>,
+    /// What draws lines: one of the layers' pens, or one of its own.
+    line_pen: Pen,
+    edges: Option<Edges>,
+    /// Where the voxels of points and edges lie.
+    grid: Grid,
+    /// λa of dots of S_max in a face seen from the front, and how many voxels lie over each other in it ([STIP-17]).
+    ink: [f64; 2],
+    /// What hides points, and the value of its surface ([STIP-15]).
+    hiding: Option<(Field<'a, f64>, f64)>,
 }
 
-impl Stippling {
-    /// Loads the volume of a scene that has a table `[stipples]`.
+/// The points of one pen.
+struct Dots {
+    pen: Pen,
+    /// Of a pen of `[[pen]]`, which has one size ([STIP-6]).
+    nib: Option<f64>,
+    points: Points,
+}
+
+/// Frames of points.
+pub struct DotFrames<'a> {
+    stippling: &'a Stippling<'a>,
+    layers: Vec<Frames<'a>>,
+    surface: Option<Arc<IsoSurface<'a, 'a>>>,
+    drawn: Drawn,
+}
+
+/// What is known before the points are.
+struct Setting<'a> {
+    job: &'a Job,
+    /// As they are drawn: for a plotter in opaque ink.
+    stipples: Stipples,
+    page: Page,
+    /// From where points are made: frame 0.
+    first: View,
+    near: f64,
+    /// S_max in mm.
+    size: f64,
+    /// The side of the squares that A_vol is in, in pixels ([STIP-3]).
+    square: f64,
+    /// What the pen prints, where that was measured, or what discs do where `k_max = "auto"` asks ([STIP-17]).
+    tone: Option<Tone>,
+}
+
+impl<'a> Stippling<'a> {
+    /// Makes the points of a job whose scene has `[stipples]`. `progress` hears the share that is made, from any thread.
     ///
     /// # Errors
-    /// No such table, a volume that cannot be read, a pen that there is not.
-    pub fn load(scene: Scene) -> Result<Self, Failures> {
-        let volume = load_volume(&scene.volume, &scene.given)?;
-        Self::with_volume(scene, volume)
+    /// No stipples, a pen that there is not, a camera without direction, lengths of the wrong space, more points than there
+    /// is memory for.
+    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(f64) + Sync)) -> Result<Self, Failure> {
+        let start = Instant::now();
+        let setting = Setting::new(job)?;
+        let pens = Pens::new(&job.scene, &setting.stipples, &setting.page)?;
+        let wrong = |error: StippleError| failure(job, &error);
+        let preprocess = Preprocess::new(setting.inputs()).map_err(wrong)?;
+        memory::room(preprocess.bytes()).map_err(|no_room| {
+            let what = format!("{} points need {no_room}", preprocess.len());
+            let place = job.scene.given.position("stipples.k_max");
+            Failure::new(what, place, "make k_max smaller, or threshold larger")
+        })?;
+        let made = preprocess.each.max(1) as f64;
+        let points = preprocess.points(counts, &|ranks| progress(ranks as f64 / made)).map_err(wrong)?;
+        let edges = preprocess.edges().map_err(wrong)?;
+        let grid = points.grid.clone();
+        let ink = [preprocess.ink, preprocess.layers];
+        let (layers, line_pen) = pens.deal(job, points)?;
+        let hiding = hiding(job, counts)?;
+        counts.seconds.insert("points".into(), start.elapsed().as_secs_f64());
+        Ok(Self { setting, layers, line_pen, edges, grid, ink, hiding })
     }
 
-    /// The same for a volume that is already loaded.
+    /// How many points there will be.
     ///
     /// # Errors
-    /// As [`Stippling::load`].
-    pub fn with_volume(mut scene: Scene, volume: Volume) -> Result<Self, Failures> {
+    /// As [`Stippling::new`].
+    pub fn planned(job: &Job) -> Result<PointsPlan, Failure> {
+        let setting = Setting::new(job)?;
+        let preprocess = Preprocess::new(setting.inputs()).map_err(|error| failure(job, &error))?;
+        let each = preprocess.each as u64;
+        Ok(PointsPlan { voxels: preprocess.len() / each.max(1), each, bytes: preprocess.bytes() })
+    }
+
+    /// Makes ready what no camera changes.
+    pub fn frames(&self) -> DotFrames<'_> {
+        let Setting { job, stipples, first, near, size, .. } = &self.setting;
+        let (near, size, light, grid, reference) = (*near, *size, job.scene.light, job.volume.grid(), first);
+        let surface = self.hiding.as_ref().map(|(field, iso)| Arc::new(IsoSurface::new(field, *iso)));
+        let [ink, layers] = self.ink;
+        let measured = self.setting.tone.as_ref().filter(|_| self.setting.pen_tone().is_some());
+        let tone = measured.map(|tone| PenTone { tone, ink, layers });
+        let layers = self.layers.iter().map(|&Dots { nib, ref points, .. }| {
+            let surface = surface.clone();
+            Frames::new(FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone })
+        });
+        let layers = layers.collect();
+        DotFrames { stippling: self, layers, surface, drawn: Drawn::default() }
+    }
+}
+
+impl DotFrames<'_> {
+    /// The marks that a camera sees: a layer a pen, with its dots and, where the scene has them, silhouette curves.
+    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Marks {
+        let start = Instant::now();
+        let Stippling { setting, line_pen, edges, grid, .. } = self.stippling;
+        let Setting { page, near, stipples, .. } = setting;
+        let mut layers = Vec::with_capacity(self.layers.len());
+        for (frames, dots) in self.layers.iter().zip(&self.stippling.layers) {
+            frames.draw(view, page, &mut self.drawn);
+            if self.surface.is_some() {
+                *counts.preprocess.entry("hidden points".into()).or_default() += self.drawn.hidden();
+            }
+            layers.push(Layer { dots: self.drawn.to_vec(), ..Layer::new(dots.pen.clone()) });
+        }
+        if let Some(surface) = &self.surface {
+            counts.bytes.insert("surface".into(), surface.bytes() as u64);
+        }
+        if let (Some(curves), Some(edges)) = (&stipples.curves, edges) {
+            let mut segments = edges.segments(curves, view);
+            if let Some(surface) = &self.surface {
+                segments = seen(segments, surface, view, *near);
+            }
+            let lines = joined(&segments, grid, view, page, *near, line_pen.width / 2.0);
+            match layers.iter_mut().find(|layer| layer.pen == *line_pen) {
+                Some(layer) => layer.lines = lines,
+                None => layers.push(Layer { lines, ..Layer::new(line_pen.clone()) }),
+            }
+        }
+        let mut marks = Marks { page: *page, layers };
+        marks.settle();
+        counts.points += marks.layers.iter().map(|layer| layer.dots.len() as u64).sum::<u64>();
+        *counts.seconds.entry("dots".into()).or_default() += start.elapsed().as_secs_f64();
+        marks
+    }
+}
+
+impl<'a> Setting<'a> {
+    fn new(job: &'a Job) -> Result<Self, Failure> {
+        let scene = &job.scene;
+        let at = |key: &str| scene.given.position(key);
         let Some(mut stipples) = scene.stipples.clone() else {
             let remedy = "add a table [stipples], or write preset = \"stipple\"";
-            return Err(Failure::new("the scene has no stipples", scene.given.position("stipples"), remedy).into());
+            return Err(Failure::new("the scene has no stipples", at("stipples"), remedy));
         };
-        let volume = match scene.volume.ids {
-            Ids::Values => volume,
-            Ids::Mask => volume.present(),
-        };
-        if let Background::Picture(_) = &scene.picture.background {
-            let (what, remedy) = ("a page has no picture behind it", "give a colour, or \"none\"");
-            return Err(Failure::new(what, scene.given.position("picture.background"), remedy).into());
-        }
-        let pen = pen(&scene, &stipples)?;
         if scene.page.as_ref().is_some_and(|page| page.plotter) {
             // A nib has no opacity: a dot that fades would be drawn whole, and too much ink in all ([STIP-5]).
             stipples.ink = Ink::Opaque;
         }
-        // The volume itself is not drawn, so nothing of that is called for.
-        (scene.transfer, scene.shading, scene.contours, scene.style_mipmaps) = (None, None, None, None);
-        Ok(Self { scene, volume, stipples, pen })
-    }
-
-    /// Makes the points and draws one frame of them: a layer with the dots and, where the scene has them, silhouette curves.
-    /// `progress` hears the share of the points that is made, from any thread.
-    ///
-    /// # Errors
-    /// A camera without direction, lengths of the wrong space, more points than there is memory for.
-    pub fn marks(&self, counts: &mut Counts, progress: &(dyn Fn(f64) + Sync)) -> Result<Marks, Failure> {
-        let Self { scene, volume, stipples, pen } = self;
-        let start = Instant::now();
-        let grid = volume.grid();
-        let at = |key: &str| scene.given.position(key);
-        let view = View::new(&scene.camera, grid, scene.picture.size).map_err(|error| {
-            Failure::new(error, at("camera"), "give the camera a direction and a size in the world")
-        })?;
+        let grid = job.volume.grid();
+        let first = job.view()?;
         let near = scene.camera.near.unwrap_or(scene.sampling.step).world(grid).ok_or_else(|| {
             Failure::new("the length is on the page, not in the volume", at("camera.near"), "give it in voxels")
         })?;
@@ -91,85 +188,47 @@ impl Stippling {
         // A_vol is in pixels, or in squares of side S_max where the picture is in mm ([STIP-3]).
         let in_mm = scene.picture.extent().is_some_and(|e| e.iter().any(|l| matches!(l, Length::Millimetres(_))));
         let square = if in_mm { size * page.pixels_per_mm() } else { 1.0 };
-        let (measured, ideal) = (self.tone()?, Tone::ideal());
-        let asked = (stipples.k_max == PointsPerPixel::Auto).then_some(&ideal);
+        let mut setting = Self { job, stipples, page, first, near, size, square, tone: None };
+        setting.tone = match setting.pen_tone() {
+            Some(path) => Some(tone(path)?),
+            None => (setting.stipples.k_max == PointsPerPixel::Auto).then(Tone::ideal),
+        };
+        Ok(setting)
+    }
+
+    /// The table of what the pen prints, where there is one.
+    fn pen_tone(&self) -> Option<&'a Path> {
+        let pen = self.job.scene.pens.iter().find(|pen| self.stipples.pen.as_ref() == Some(&pen.name))?;
+        pen.tone.as_deref()
+    }
+
+    fn inputs(&self) -> Inputs<'_> {
+        let Self { job, stipples, first, near, square, .. } = self;
+        let (table, volume) = (&job.scene.volume, &job.volume);
         // S_max's area, in pixels.
-        let dot = 0.25 * std::f64::consts::PI * (size * page.pixels_per_mm()).powi(2);
-        let tone = measured.as_ref().or(asked).map(|tone| (tone, dot));
-        let inputs = Inputs { stipples, table: &scene.volume, volume, view: &view, near, square, tone };
-        let wrong = |error: StippleError| self.failure(&error);
-        let preprocess = Preprocess::new(inputs).map_err(wrong)?;
-        memory::room(preprocess.bytes()).map_err(|no_room| {
-            let what = format!("{} points need {no_room}", preprocess.len());
-            Failure::new(what, at("stipples.k_max"), "make k_max smaller, or threshold larger")
-        })?;
-        let made = preprocess.each.max(1) as f64;
-        let points = preprocess.points(counts, &|ranks| progress(ranks as f64 / made)).map_err(wrong)?;
-        counts.seconds.insert("points".into(), start.elapsed().as_secs_f64());
-        let start = Instant::now();
-        let nib = stipples.pen.as_ref().map(|_| pen.width);
-        let light = scene.light;
-        let field = self.hiding_field()?;
-        let iso = stipples.hide_behind.map(|iso| match iso {
-            Iso::Auto => suggest::iso(volume, &scene.volume, counts),
-            Iso::Value(value) => value,
-        });
-        let surface = field.as_ref().zip(iso).map(|(field, iso)| IsoSurface::new(field, iso));
-        let surface = surface.as_ref();
-        let tone = measured.as_ref().map(|tone| PenTone { tone, ink: preprocess.ink, layers: preprocess.layers });
-        let reference = &view;
-        let inputs =
-            FrameInputs { stipples, points: &points, light, grid, reference, near, size, nib, surface, tone };
-        let frames = Frames::new(&inputs);
-        let mut drawn = Drawn::default();
-        frames.draw(&view, &page, &mut drawn);
-        if let Some(surface) = surface {
-            counts.bytes.insert("surface".into(), surface.bytes() as u64);
-            counts.preprocess.insert("hidden points".into(), drawn.hidden());
-        }
-        let mut layer = Layer::new(pen.clone());
-        layer.dots = drawn.to_vec();
-        if let (Some(curves), Some(edges)) = (&stipples.curves, preprocess.edges().map_err(wrong)?) {
-            let segments = edges.segments(curves, &view);
-            layer.lines = joined(&segments, &points.grid, &view, &page, near, nib.unwrap_or(size) / 2.0);
-        }
-        let mut marks = Marks { page, layers: vec![layer] };
-        marks.settle();
-        counts.points += marks.layers.iter().map(|layer| layer.dots.len() as u64).sum::<u64>();
-        counts.seconds.insert("frame".into(), start.elapsed().as_secs_f64());
-        Ok(marks)
+        let dot = 0.25 * std::f64::consts::PI * (self.size * self.page.pixels_per_mm()).powi(2);
+        let tone = self.tone.as_ref().map(|tone| (tone, dot));
+        Inputs { stipples, table, volume, view: first, near: *near, square: *square, tone }
     }
+}
 
-    /// The field of the surface that hides points, if one does: as the scene samples it.
-    fn hiding_field(&self) -> Result<Option<Field<'_, f64>>, Failure> {
-        let Self { scene, volume, stipples, .. } = self;
-        if stipples.hide_behind.is_none() {
-            return Ok(None);
-        }
-        let how = Reconstruction {
-            kernel: scene.sampling.kernel,
-            gradient: scene.sampling.gradient,
-            outside: scene.volume.outside,
-            ..Reconstruction::default()
-        };
-        let field = Field::new(volume, how, Rung::Gradient);
-        field.map(Some).map_err(|error| Failure::new(error, scene.given.position("volume"), "convert the volume"))
-    /// What the pen prints, if that was measured ([STIP-17]).
-    fn tone(&self) -> Result<Option<Tone>, Failure> {
-        let pens = &self.scene.pens;
-        let pen = pens.iter().find(|pen| self.stipples.pen.as_ref() == Some(&pen.name));
-        pen.and_then(|pen| pen.tone.as_ref()).map(|path| tone(path)).transpose()
-    }
-
-    fn failure(&self, error: &StippleError) -> Failure {
-        let (key, remedy) = match error {
-            StippleError::Field(_) => ("volume", "convert the volume"),
-            StippleError::Length { key } => (*key, "give it in voxels or world units"),
-            StippleError::TooMany { .. } => ("stipples.threshold", "make it larger"),
-            StippleError::TooDense { .. } => ("stipples.k_max", "make it smaller"),
-        };
-        Failure::new(error, self.scene.given.position(key), remedy)
-    }
+/// What hides points, if something does: the field as the scene samples it, and the value of its surface.
+fn hiding<'a>(job: &'a Job, counts: &mut Counts) -> Result<Option<(Field<'a, f64>, f64)>, Failure> {
+    let Job { scene, volume, .. } = job;
+    let Some(iso) = scene.stipples.as_ref().and_then(|stipples| stipples.hide_behind) else { return Ok(None) };
+    let how = Reconstruction {
+        kernel: scene.sampling.kernel,
+        gradient: scene.sampling.gradient,
+        outside: scene.volume.outside,
+        ..Reconstruction::default()
+    };
+    let field = Field::new(volume, how, Rung::Gradient)
+        .map_err(|error| Failure::new(error, scene.given.position("volume"), "convert the volume"))?;
+    let iso = match iso {
+        Iso::Auto => suggest::iso(volume, &scene.volume, counts),
+        Iso::Value(value) => value,
+    };
+    Ok(Some((field, iso)))
 }
 
 /// A measured step wedge ([STIP-17]).
@@ -181,118 +240,12 @@ pub fn tone(path: &Path) -> Result<Tone, Failure> {
     Tone::read(path).map_err(|error| Failure::new(&error, error.place(), remedy))
 }
 
-/// What draws: the pen that the table names, or its colour with dots of any size.
-fn pen(scene: &Scene, stipples: &Stipples) -> Result<Pen, Failure> {
-    let page = Page::of(scene);
-    let Some(name) = &stipples.pen else {
-        let width = page.length(stipples.size).unwrap_or_default();
-        return Ok(Pen { number: 1, name: "stipples".into(), width, color: stipples.color });
+fn failure(job: &Job, error: &StippleError) -> Failure {
+    let (key, remedy) = match error {
+        StippleError::Field(_) => ("volume", "convert the volume"),
+        StippleError::Length { key } => (*key, "give it in voxels or world units"),
+        StippleError::TooMany { .. } => ("stipples.threshold", "make it larger"),
+        StippleError::TooDense { .. } => ("stipples.k_max", "make it smaller"),
     };
-    Pen::of(&scene.pens, &page).into_iter().find(|pen| pen.name == *name).ok_or_else(|| {
-        let names: Vec<&str> = scene.pens.iter().map(|pen| pen.name.as_str()).collect();
-        let remedy = if names.is_empty() {
-            "add a table [[pen]] with that name".into()
-        } else {
-            format!("write one of {}", names.join(", "))
-        };
-        Failure::new(format!("there is no pen {name:?}"), scene.given.position("stipples.pen"), remedy)
-    })
-}
-
-/// A format that marks are written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MarksFormat {
-    /// Vectors, a millimetre a unit.
-    Svg,
-    /// The same as PDF.
-    Pdf,
-    /// Pixels of 8 or 16 bits.
-    Png,
-    /// Pixels in linear light.
-    Exr,
-    /// A row a dot.
-    Csv,
-}
-
-impl MarksFormat {
-    /// The format of a name, by its suffix; case does not count.
-    ///
-    /// # Errors
-    /// A suffix of no format.
-    pub fn of(path: &Path) -> Result<Self, Failure> {
-        let suffix = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-        match suffix.as_str() {
-            "svg" => Ok(Self::Svg),
-            "pdf" => Ok(Self::Pdf),
-            "png" => Ok(Self::Png),
-            "exr" => Ok(Self::Exr),
-            "csv" => Ok(Self::Csv),
-            _ => {
-                let remedy = "give a name that ends in .svg, .pdf, .png, .exr or .csv";
-                Err(Failure::new("the suffix is that of no format for points", path.display(), remedy))
-            }
-        }
-    }
-}
-
-/// Writes marks on the page of a scene. What a plotter will do is returned, a sentence a layer. A list has the dots as they
-/// are, whatever draws them.
-///
-/// # Errors
-/// What the operating system refuses, or a page of no or too many pixels.
-pub fn write(marks: &Marks, scene: &Scene, path: &Path) -> Result<Vec<String>, Failure> {
-    let format = MarksFormat::of(path)?;
-    let wrong = |error: OutputError| Failure::picture(&error, path.display());
-    if format == MarksFormat::Csv {
-        list::write_dots(marks, path).map_err(wrong)?;
-        let lines: usize = marks.layers.iter().map(|layer| layer.lines.len()).sum();
-        return Ok(if lines > 0 {
-            vec![format!("{lines} lines are left out: a list has dots alone")]
-        } else {
-            Vec::new()
-        });
-    }
-    let plotter = scene.page.as_ref().is_some_and(|PageSettings { plotter, .. }| *plotter);
-    let plan = plotter.then(|| plotter::plan(marks, &plotter::Speed::default()));
-    let (marks, said) = match &plan {
-        Some(plan) => (&plan.marks, travel(plan)),
-        None => (marks, Vec::new()),
-    };
-    let background = match scene.picture.background {
-        Background::Color(color) => Some(color),
-        Background::None | Background::Picture(_) => None,
-    };
-    let provenance = provenance(scene, &Plan::new(scene));
-    let sheet = Sheet { marks, background, picture: None, plotter, provenance: &provenance };
-    match format {
-        MarksFormat::Svg => svg::write_svg(&sheet, path),
-        MarksFormat::Pdf => pdf::write_pdf(&sheet, path),
-        _ => {
-            let mut picture = paint::blank(&marks.page, background).map_err(wrong)?;
-            paint::paint(marks, &paint::Window::page(&marks.page), scene.picture.blend_space, &mut picture)
-                .map_err(wrong)?;
-            match format {
-                MarksFormat::Png => png::write_png(&picture, scene.picture.bits, &provenance, path),
-                _ => exr::write_exr(&picture, &provenance, path),
-            }
-        }
-    }
-    .map_err(wrong)?;
-    Ok(said)
-}
-
-/// What a plotter does, a sentence a layer.
-fn travel(plan: &plotter::Plan) -> Vec<String> {
-    let layers = plan.marks.layers.iter().zip(&plan.travel);
-    let mut said: Vec<String> = layers
-        .map(|(layer, t)| {
-            let (name, down, up) = (layer.pen.label(), t.pen_down / 1000.0, t.pen_up / 1000.0);
-            let minutes = t.seconds / 60.0;
-            format!("{name}: {} touches, {down:.1} m drawn, {up:.1} m between, about {minutes:.0} minutes", t.touches)
-        })
-        .collect();
-    if plan.dropped > 0 {
-        said.push(format!("{} dots are left out: they are closer than 0.7 nib to another", plan.dropped));
-    }
-    said
+    Failure::new(error, job.scene.given.position(key), remedy)
 }

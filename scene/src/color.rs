@@ -15,6 +15,21 @@ pub fn linear_to_srgb(c: f64) -> f64 {
     if c <= 0.0031308 { 12.92 * c } else { 1.055 * math::pow(c, 1.0 / 2.4) - 0.055 }
 }
 
+/// L, a and b of OKLab (Ottosson 2020) of a linear sRGB colour: equal distances look equally far.
+pub fn linear_to_oklab([r, g, b]: [f64; 3]) -> [f64; 3] {
+    let cone = [
+        0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b,
+        0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b,
+        0.088_302_461_9 * r + 0.281_718_837_6 * g + 0.629_978_700_5 * b,
+    ];
+    let [l, m, s] = cone.map(math::cbrt);
+    [
+        0.210_454_255_3 * l + 0.793_617_785_0 * m - 0.004_072_046_8 * s,
+        1.977_998_495_1 * l - 2.428_592_205_0 * m + 0.450_593_709_9 * s,
+        0.025_904_037_1 * l + 0.782_771_766_2 * m - 0.808_675_766_0 * s,
+    ]
+}
+
 /// Straight RGBA times its opacity.
 pub fn premultiply([r, g, b, a]: Rgba) -> Rgba {
     [r * a, g * a, b * a, a]
@@ -36,6 +51,18 @@ mod tests {
         // Mid grey 0x80: 0.5019607843 is 0.2158605001 in linear light.
         assert!((srgb_to_linear(128.0 / 255.0) - 0.215_860_500_1).abs() < 1e-9);
         assert!((linear_to_srgb(0.0031308) - 0.040_449_936).abs() < 1e-9);
+    }
+
+    /// The published coefficients give white L = 1 and no hue, and red what their author prints.
+    #[test]
+    fn oklab_hand_values() {
+        let near = |rgb, lab: [f64; 3], by: f64| {
+            let found = linear_to_oklab(rgb);
+            assert!(found.iter().zip(lab).all(|(a, b)| (a - b).abs() < by), "{found:?}");
+        };
+        near([1.0; 3], [1.0, 0.0, 0.0], 1e-7);
+        near([0.125; 3], [0.5, 0.0, 0.0], 1e-7);
+        near([1.0, 0.0, 0.0], [0.628, 0.225, 0.126], 5e-4);
     }
 
     #[test]

@@ -69,4 +69,15 @@ impl Counts {
             *self.seconds.entry(key.clone()).or_default() += s;
         }
     }
+
+    /// Adds the counts of a further frame, whose buffers take the place of the last one's: of each the larger is kept.
+    pub fn add_frame(&mut self, frame: &Self) {
+        let mut bytes = std::mem::take(&mut self.bytes);
+        for (key, n) in &frame.bytes {
+            let most = bytes.entry(key.clone()).or_default();
+            *most = (*most).max(*n);
+        }
+        self.add(frame);
+        self.bytes = bytes;
+    }
 }

@@ -127,8 +127,26 @@ pub enum Pass {
     Bricks,
     /// The mip chains of the styles ([STF-10]).
     StyleMipmaps,
+    /// ‖∇V‖ and V of stippling ([STIP-1]).
+    StippleGradients,
+    /// The points of stippling, relaxed and in order ([STIP-4]).
+    StipplePoints,
+    /// Where silhouette curves can be ([STIP-13]).
+    CurveVoxels,
+    /// The label of each voxel's dots.
+    DotLabels,
+    /// The colour of each voxel's dots ([STIP-16]).
+    DotColors,
+    /// A factor of stippling that no camera changes ([STIP-7], [STIP-11]).
+    StillFactor,
     /// The rays themselves.
     Rays,
+    /// A factor of stippling that the camera changes ([STIP-8] … [STIP-12]).
+    Factor,
+    /// The dots of a frame ([STIP-5], [STIP-6]).
+    Dots,
+    /// The silhouette curves of a frame.
+    Curves,
 }
 
 impl Pass {
@@ -143,7 +161,16 @@ impl Pass {
             Self::LabelDistances => "distances to a label",
             Self::Bricks => "brick ranges",
             Self::StyleMipmaps => "style mip-maps",
+            Self::StippleGradients => "stipple gradients",
+            Self::StipplePoints => "stipple points",
+            Self::CurveVoxels => "voxels of curves",
+            Self::DotLabels => "labels of dots",
+            Self::DotColors => "colours of dots",
+            Self::StillFactor => "factor, once",
             Self::Rays => "rays",
+            Self::Factor => "factor, a frame",
+            Self::Dots => "dots",
+            Self::Curves => "curves",
         }
     }
 
@@ -157,7 +184,16 @@ impl Pass {
             Self::LabelDistances => "one search a voxel of the labels, one number each",
             Self::Bricks => "one look at each voxel",
             Self::StyleMipmaps => "one look at each texel of a style, a third of it more to keep",
+            Self::StippleGradients => "one gradient a voxel",
+            Self::StipplePoints => "one order a voxel with points, 24 bytes a point",
+            Self::CurveVoxels => "one filter along each axis, one Hessian a voxel above stipples.curves.grad",
+            Self::DotLabels => "one look at the labels a voxel with points",
+            Self::DotColors => "one colour a voxel with points",
+            Self::StillFactor => "one number a voxel with points",
             Self::Rays => "samples² rays a pixel",
+            Self::Factor => "one number a voxel with points",
+            Self::Dots => "a count and a size a voxel with points, a place a dot",
+            Self::Curves => "one test a voxel of curves",
         }
     }
 
@@ -169,6 +205,12 @@ impl Pass {
             // A filter reads one copy and writes another; norms are gathered from the planes.
             Self::SmoothedCoefficients | Self::GradientRange => 16,
             Self::AutomaticTransfer | Self::AutomaticIso | Self::Bricks | Self::StyleMipmaps | Self::Rays => 0,
+            // A norm each, and what a fit smooths.
+            Self::StippleGradients => 16,
+            // Made of few voxels, or known once those are ([`PointsPlan`]).
+            Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
+            Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
+            Self::CurveVoxels => 16,
         }
     }
 }
@@ -230,24 +272,49 @@ pub struct Plan {
     pub passes: Vec<PassNeed>,
     /// Keys without effect.
     pub idle_keys: Vec<IdleKey>,
+    /// The points of stipples, where they have been counted.
+    pub points: Option<PointsPlan>,
     /// What the picture may lack.
     pub warnings: Vec<String>,
+}
+
+/// How many points stipples have, which takes a look at the volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PointsPlan {
+    /// Voxels above the threshold.
+    pub voxels: u64,
+    /// N_max: points of each ([STIP-3]).
+    pub each: u64,
+    /// Bytes while they are made: points, voxels, order.
+    pub bytes: u64,
 }
 
 impl Plan {
     /// The plan of a scene. It depends on the scene alone; what the scene leaves to the volume is in it until
     /// [`Plan::settle`].
     pub fn new(scene: &Scene) -> Self {
+        Self::of(scene, scene.draws_volume())
+    }
+
+    /// The plan of a scene's points and lines alone, whether or not it draws the volume too.
+    pub fn of_marks(scene: &Scene) -> Self {
+        Self::of(scene, false)
+    }
+
+    fn of(scene: &Scene, draws_volume: bool) -> Self {
         let sections: Vec<Section> = sections().collect();
         let mut asks = Asks { scene, needs: Vec::new(), passes: Vec::new() };
-        asks.pass(Pass::Rays, "picture", "picture.samples");
+        if draws_volume {
+            asks.pass(Pass::Rays, "picture", "picture.samples");
+        }
         sections.iter().for_each(|section| (section.asks)(scene, &mut asks));
         asks.close();
         sections.iter().for_each(|section| (section.serves)(scene, &mut asks));
         asks.close();
         asks.needs.sort_by_key(|need| need.quantity);
         asks.passes.sort_by_key(|need| need.pass);
-        let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys: Vec::new(), warnings: Vec::new() };
+        let (idle_keys, points, warnings) = (Vec::new(), None, Vec::new());
+        let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys, points, warnings };
         let mut idle = Idle { scene, keys: Vec::new() };
         sections.iter().for_each(|section| (section.idle)(scene, &plan, &mut idle));
         plan.idle_keys = idle.sorted();
@@ -267,6 +334,11 @@ impl Plan {
     /// Whether an effect of the scene reads a gradient anywhere: at samples, or on the iso-surface.
     pub fn reads_gradients(&self) -> bool {
         self.needs_at_first(Quantity::Gradient) || self.needs(Quantity::SurfaceNormal)
+    }
+
+    /// Whether something reads the labels of `volume.labels`.
+    pub fn reads_labels(&self) -> bool {
+        self.needs(Quantity::Label) || self.needs(Quantity::LabelDistance) || self.has_pass(Pass::DotLabels)
     }
 
     /// Whether an effect of the scene needs that pass.
@@ -349,6 +421,11 @@ impl Asks<'_> {
         said.cloned().or_else(|| given.is_chosen(key).then_some(Place::Chosen))
     }
 
+    /// Whether the volume itself is drawn.
+    pub(crate) fn casts_rays(&self) -> bool {
+        self.passes.iter().any(|need| need.pass == Pass::Rays)
+    }
+
     /// The first that needed a quantity, if anyone does.
     pub(crate) fn first(&self, quantity: Quantity) -> Option<&Need> {
         self.needs.iter().find(|need| need.quantity == quantity)
@@ -420,6 +497,13 @@ impl fmt::Display for Plan {
         for [effect, needs, adds, because] in &rows {
             let [a, b, c, _] = width;
             writeln!(f, "{effect:a$}  {needs:b$}  {adds:c$}  {because}")?;
+        }
+        if let Some(PointsPlan { voxels, each, bytes }) = self.points {
+            let points = voxels.saturating_mul(each);
+            writeln!(
+                f,
+                "\npoints\n  {voxels} voxels with {each} each: {points} points, {bytes} bytes while they are made"
+            )?;
         }
         let idle = self.idle_keys.iter().map(|key| {
             let place = Some(key.place.clone());

@@ -3,7 +3,7 @@
 use super::Talk;
 use super::raw::layout;
 use super::report::note;
-use drypoint::job::{Job, bare};
+use drypoint::job::{Job, Wanted, bare, stage};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
 use drypoint::scene::picture::LayerKind;
@@ -54,6 +54,8 @@ pub(super) struct Over {
     picture: Overrides,
     /// Those of `volume.raw` alone.
     raw: Overrides,
+    /// `preset` alone.
+    preset: Overrides,
     /// Whether one changes the kind of the transfer function.
     sets_kind: bool,
     flags: Vec<Flag>,
@@ -61,6 +63,8 @@ pub(super) struct Over {
     pub beauty_only: bool,
     /// Pixels that the longer side of the picture has, in place of what the scene says.
     pub longer_side: Option<usize>,
+    /// What of the scene is wanted.
+    pub wanted: Wanted,
 }
 
 impl Over {
@@ -93,6 +97,7 @@ impl Over {
         match key {
             _ if key.starts_with("picture.") => Some(&mut self.picture),
             _ if key.starts_with("volume.raw") => Some(&mut self.raw),
+            _ if key.starts_with("preset") => Some(&mut self.preset),
             _ => None,
         }
     }
@@ -130,13 +135,19 @@ pub(super) struct Found {
 
 /// Loads what a verb is given.
 pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
-    let Found { scene, volume, counts } = find(path, over)?;
-    let mut job = match volume {
-        Some(volume) => Job::with_volume(scene, volume),
-        None => Job::load(scene),
-    }?;
-    job.counts.add(&counts);
-    Ok(job)
+    find(path, over)?.load(over.wanted)
+}
+
+impl Found {
+    /// Loads what the scene names.
+    pub(super) fn load(self, wanted: Wanted) -> Result<Job, Failures> {
+        let mut job = match self.volume {
+            Some(volume) => Job::with_volume_for(self.scene, volume, wanted),
+            None => Job::load_for(self.scene, wanted),
+        }?;
+        job.counts.add(&self.counts);
+        Ok(job)
+    }
 }
 
 /// The scene that a verb is given, or that of a bare volume.
@@ -145,7 +156,8 @@ pub(super) fn find(path: Option<&Path>, over: &Over) -> Result<Found, Failures> 
         if over.beauty_only {
             scene.picture.layers = vec![LayerKind::Beauty];
         }
-        if let Some(side) = over.longer_side {
+        // Dots are as large as the page says, and would cover a smaller one: that is shown smaller.
+        if let Some(side) = over.longer_side.filter(|_| scene.stipples.is_none()) {
             let [width, height] = scene.picture.size;
             scene.picture.size = [width, height].map(|n| (n * side).div_ceil(width.max(height)));
         }
@@ -214,7 +226,8 @@ fn suggested(
     let parse = |text: &str, name: &str, overrides: &Overrides| file::parse(text, Path::new(name), overrides);
     // The camera frames the content in a picture of one shape. A fault of that is told below.
     let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
-    let suggested = bare(path.to_path_buf(), volume, size, counts);
+    let draws_volume = parse(NOTHING, "", &over.preset).map_or(true, |scene| scene.draws_volume());
+    let suggested = if draws_volume { bare } else { stage }(path.to_path_buf(), volume, size, counts);
     let mut text = file::write_full(&suggested);
     if over.sets_kind {
         // Nodes of one kind do not fit the other: they are found anew.
@@ -232,6 +245,17 @@ fn suggested(
         scene.volume.source = VolumeSource::File { path: path.to_path_buf(), raw: raw.cloned() };
     }
     Ok(scene)
+}
+
+/// What makes a page to print on, 160 mm wide, of a bare volume's points, rather than the pixels of a rendered picture; none
+/// where something else says a size.
+pub(super) fn page_flags(set: &Set) -> Vec<Flag> {
+    let sizes = ["picture.size", "picture.width", "picture.height", "picture="];
+    let says_size = |set: &String| sizes.iter().any(|key| set.trim_start().starts_with(key));
+    if set.set.iter().any(says_size) {
+        return Vec::new();
+    }
+    ["picture.width", "picture.height"].map(|key| Flag::name(key, key, "160 mm")).into()
 }
 
 /// A scene that says nothing: every key has its default.

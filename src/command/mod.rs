@@ -4,6 +4,7 @@ mod arguments;
 mod compare;
 mod completions;
 mod cost;
+mod frames;
 mod info;
 mod input;
 mod phantom;

@@ -5,6 +5,7 @@ use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::Args;
 use drypoint::scene::file::write_full;
+use drypoint::stippling::Stippling;
 use std::path::PathBuf;
 
 /// Say what a scene calls for, and which line asked.
@@ -23,10 +24,13 @@ pub(super) struct Plan {
 impl Plan {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let over = Over::new(&self.set, Vec::new())?;
-        let job = {
+        let mut job = {
             let _loading = Progress::new(talk, "loading");
             input::load(self.input.as_deref(), &over)?
         };
+        if !self.full && job.scene.stipples.is_some() {
+            job.plan.points = Some(Stippling::planned(&job)?);
+        }
         print(&if self.full { write_full(&job.scene) } else { job.plan.to_string() })
     }
 }

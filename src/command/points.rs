@@ -1,26 +1,28 @@
 //! `points`: a page of stipples.
 
+use super::frames::{self, Drawn, Files};
 use super::input::{self, Flag, Over, Set};
 use super::raw::Raw;
 use super::report::{Progress, note, print};
-use super::{Done, Outcome, Talk, stats};
+use super::{Done, Outcome, Talk, stats, target};
 use clap::Args;
-use drypoint::output::{atomic, list};
+use drypoint::drawing::write_page;
+use drypoint::job::Wanted;
+use drypoint::output::list;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::marks::{Marks, Page, Pen};
-use drypoint::scene::tables::Scene;
-use drypoint::stippling::{MarksFormat, Stippling, write};
-use drypoint::{Failure, Failures};
+use drypoint::{Failure, Format};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Stipple a scene or a bare volume onto a page, or write a saved list of dots in another format.
 #[derive(Debug, Args)]
 pub(super) struct Points {
-    /// A scene (.toml) with [stipples], a volume, which is drawn 160 mm wide, or a list of dots (.csv), whose page --set says
+    /// A scene (.toml) with [stipples], a volume, which is drawn 160 mm wide, or a list of dots (.csv, .jsonl), whose page --set says
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
-    /// Where to write; the suffix chooses SVG, PDF, PNG, EXR or CSV
+    /// Where to write; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit],
+    /// all of which an SVG without it shows in turn
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The preset of a bare volume: stipple, or stipple-fig1, stipple-fig4 … stipple-fig9 [default: stipple]
@@ -37,34 +39,50 @@ pub(super) struct Points {
 
 impl Points {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        MarksFormat::of(&self.output)?;
-        atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
-        let mut counts = Counts::default();
-        let (scene, marks) = if is_list(&self.input) { self.list(talk)? } else { self.stippled(&mut counts, talk)? };
-        let dots: usize = marks.layers.iter().map(|layer| layer.dots.len()).sum();
-        let lines: usize = marks.layers.iter().map(|layer| layer.lines.len()).sum();
-        if dots + lines == 0 {
-            note(talk, "warning: the page is empty");
+        if is_list(&self.input) {
+            return self.list(talk);
         }
+        target::format(&self.output, &Format::ALL)?;
+        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
+        let is_bare = !input::is_scene(&self.input);
+        if let Some(preset) = &self.preset {
+            flags.push(Flag::name("preset", "--preset", preset));
+        } else if is_bare {
+            flags.push(Flag::name("preset", "--preset", "stipple"));
+        }
+        if is_bare {
+            flags.extend(input::page_flags(&self.set));
+        }
+        let mut over = Over::new(&self.set, flags)?;
+        over.wanted = Wanted::Marks;
         let start = Instant::now();
-        let said = write(&marks, &scene, &self.output)?;
-        counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
-        note(talk, format_args!("{}: {dots} dots, {lines} lines", self.output.display()));
-        for line in said {
-            note(talk, line);
-        }
-        if self.stats {
-            return print(&stats::line(counts, None)?);
-        }
-        Ok(Done::Yes)
+        let (job, files) = {
+            let _loading = Progress::new(talk, "loading");
+            let found = input::find(Some(&self.input), &over)?;
+            let files = Files::of(&self.output, &found.scene)?;
+            (found.load(over.wanted)?, files)
+        };
+        let loaded = start.elapsed().as_secs_f64();
+        input::tell(talk, &job);
+        let Drawn { mut counts, .. } = frames::draw(&job, &files, 1, talk)?;
+        counts.seconds.insert("load".into(), loaded);
+        self.done(counts)
+    }
+
+    fn done(&self, counts: Counts) -> Outcome {
+        if self.stats { print(&stats::line(counts, None)?) } else { Ok(Done::Yes) }
     }
 
     /// A saved list, on the page that the overrides say.
-    fn list(&self, talk: Talk) -> Result<(Scene, Marks), Failures> {
-        if let Some(preset) = &self.preset {
-            let place = format!("--preset {preset}");
-            return Err(Failure::new("a list of dots has no preset", place, "leave it out").into());
+    fn list(&self, talk: Talk) -> Outcome {
+        for (flag, said) in [("--preset", self.preset.is_some()), ("--raw", self.raw.flag().is_some())] {
+            if said {
+                let what = format!("a list of dots has no use for {flag}");
+                return Err(Failure::new(what, flag, "leave it out").into());
+            }
         }
+        target::picture(&self.output, &Format::ALL)?;
+        let (mut counts, start) = (Counts::default(), Instant::now());
         let scene = input::page(&self.set)?;
         let page = Page::of(&scene);
         let mut pens = Pen::of(&scene.pens, &page);
@@ -77,45 +95,24 @@ impl Points {
         let mut marks = Marks { page, layers };
         let read = dots(&marks);
         marks.settle();
-        if dots(&marks) < read {
-            let (lost, [width, height]) = (read - dots(&marks), page.size.to_array());
+        let kept = dots(&marks);
+        if kept < read {
+            let (lost, [width, height]) = (read - kept, page.size.to_array());
             let says = "--set picture.width and picture.height say its size";
             note(talk, format_args!("warning: {lost} dots are not on a page of {width:.0} × {height:.0} mm; {says}"));
         }
-        Ok((scene, marks))
-    }
-
-    fn stippled(&self, counts: &mut Counts, talk: Talk) -> Result<(Scene, Marks), Failures> {
-        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
-        if let Some(preset) = &self.preset {
-            flags.push(Flag::name("preset", "--preset", preset));
-        } else if !input::is_scene(&self.input) {
-            flags.push(Flag::name("preset", "--preset", "stipple"));
-        }
-        let sizes = ["picture.size", "picture.width", "picture.height", "picture="];
-        let sizes_page = |set: &String| sizes.iter().any(|key| set.trim_start().starts_with(key));
-        if !input::is_scene(&self.input) && !self.set.set.iter().any(sizes_page) {
-            // A page to print on, rather than the pixels of a rendered picture.
-            flags.push(Flag::name("picture.width", "picture.width", "160 mm"));
-            flags.push(Flag::name("picture.height", "picture.height", "160 mm"));
-        }
-        let over = Over::new(&self.set, flags)?;
-        let stippling = {
-            let _loading = Progress::new(talk, "loading");
-            let found = input::find(Some(&self.input), &over)?;
-            counts.add(&found.counts);
-            match found.volume {
-                Some(volume) => Stippling::with_volume(found.scene, volume),
-                None => Stippling::load(found.scene),
-            }?
-        };
-        let progress = Progress::new(talk, "stippling");
-        let marks = stippling.marks(counts, &|share| progress.hear(share))?;
-        Ok((stippling.scene, marks))
+        counts.seconds.insert("load".into(), start.elapsed().as_secs_f64());
+        let start = Instant::now();
+        let said = write_page(marks, &scene, &self.output)?;
+        counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
+        counts.points = kept as u64;
+        note(talk, format_args!("{}: {kept} dots, 0 lines", self.output.display()));
+        said.iter().for_each(|line| note(talk, line));
+        self.done(counts)
     }
 }
 
 /// Whether a path is taken for a list of dots.
 fn is_list(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"))
+    list::Form::of(path).is_some()
 }

@@ -1,16 +1,14 @@
 //! `render`: a picture.
 
+use super::frames::{self, Drawn};
 use super::input::{self, Flag, Over, Set};
 use super::raw::Raw;
 use super::report::{Progress, note, print};
-use super::stats::{self, Times, cpu_seconds};
+use super::stats;
 use super::target::Target;
 use super::{Done, Outcome, Talk};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
-use drypoint::job::Job;
-use drypoint::scene::counts::Counts;
-use drypoint::scene::picture::Picture;
 use drypoint::{Failure, Format};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -21,7 +19,8 @@ pub(super) struct Render {
     /// A scene (.toml) or a volume (.nrrd, .nhdr, .nii, .nii.gz, .mhd, .mha, .raw)
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Where to write; the suffix chooses PNG or EXR [default: the input's name with .png, in the working directory]
+    /// Where to write; the suffix chooses PNG or EXR, or SVG or PDF for points over the picture; ### is the number of a
+    /// frame of [orbit] [default: the input's name with .png, in the working directory]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels of the picture
@@ -30,7 +29,7 @@ pub(super) struct Render {
     /// Who renders
     #[arg(long, value_enum, default_value_t = Backend::Reference)]
     backend: Backend,
-    /// The preset of a bare volume: style
+    /// The preset of a bare volume: style, stipple, or stipple-fig1, stipple-fig4 … stipple-fig9
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Layers of an EXR, separated by commas: beauty, Z, depth, normal, gradient, curvature, curvature.KV, first,
@@ -69,30 +68,22 @@ impl Render {
         }
         let target = Target::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
         let mut over = Over::new(&self.set, self.flags()?)?;
-        over.beauty_only = target.format == Format::Png;
+        over.beauty_only = target.format != Format::Exr;
         if let Some(threads) = self.threads {
             let started = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
             started.map_err(|e| Failure::new(e, format!("--threads {threads}"), "ask for fewer"))?;
         }
         let start = Instant::now();
-        let job = {
+        let (job, files) = {
             let _loading = Progress::new(talk, "loading");
-            input::load(self.input.as_deref(), &over)?
+            let found = input::find(self.input.as_deref(), &over)?;
+            let files = target.files(&found.scene)?;
+            (found.load(over.wanted)?, files)
         };
         let loaded = start.elapsed().as_secs_f64();
         input::tell(talk, &job);
-        let (picture, mut counts, times) = self.frames(&job, talk)?;
-        if job.shows_nothing(&picture) {
-            let seen =
-                "nothing is seen: no ray meets a value that transfer.nodes show; `drypoint info` tells the range";
-            note(talk, format_args!("warning: {seen} of a volume, `drypoint plan --full` the nodes and the camera"));
-        }
-        counts.add(&job.counts);
+        let Drawn { mut counts, times } = frames::draw(&job, &files, self.repeat.unwrap_or(1), talk)?;
         counts.seconds.insert("load".into(), loaded);
-        let start = Instant::now();
-        job.write(&picture, &target.path)?;
-        counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
-        note(talk, target.path.display());
         let line = stats::line(counts, self.repeat.map(|_| &times))?;
         if self.stats {
             return print(&line);
@@ -119,33 +110,16 @@ impl Render {
         }
         if let Some(preset) = &self.preset {
             flags.push(Flag::name("preset", "--preset", preset));
+            let is_bare = self.input.as_ref().is_some_and(|input| !input::is_scene(input));
+            if is_bare && self.size.is_none() && preset.starts_with("stipple") {
+                flags.extend(input::page_flags(&self.set));
+            }
         }
         if !self.layers.is_empty() {
             let typed = format!("--layers {}", self.layers.join(","));
             flags.push(Flag { key: "picture.layers", value: format!("{:?}", self.layers), typed });
         }
         Ok(flags)
-    }
-
-    /// Renders, as often as asked.
-    fn frames(&self, job: &Job, talk: Talk) -> Result<(Picture, Counts, Times), Failure> {
-        let progress = Progress::new(talk, "rendering");
-        let renderer = job.renderer()?;
-        let cpu = cpu_seconds();
-        let frame = || {
-            let start = Instant::now();
-            let (picture, counts) = renderer.frame(&|share| progress.hear(share));
-            (picture, counts, start.elapsed().as_secs_f64())
-        };
-        let (mut picture, mut counts, first) = frame();
-        let mut wall = vec![first];
-        for _ in 1..self.repeat.unwrap_or(1) {
-            let seconds;
-            (picture, counts, seconds) = frame();
-            wall.push(seconds);
-        }
-        let cpu = cpu_seconds().zip(cpu).map(|(after, before)| after - before);
-        Ok((picture, counts, Times::new(wall, cpu)))
     }
 }
 

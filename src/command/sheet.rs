@@ -1,5 +1,6 @@
 //! `sheet`: many pictures on one.
 
+use super::frames;
 use super::input::{self, Over, Set};
 use super::report::{Progress, note};
 use super::{Done, Outcome, Talk, target};
@@ -52,7 +53,7 @@ impl Sheet {
 
 /// One cell: a picture as it is, anything else rendered to fit.
 fn image(file: &Path, over: &Over, talk: Talk) -> Result<Image, Failures> {
-    if Format::of(file).is_ok() {
+    if Format::of(file).is_some_and(|format| Format::PICTURES.contains(&format)) {
         let image = read_image(file).map_err(|error| Failure::picture(&error, file.display()))?;
         if image.colors().is_none() {
             let what = format!("the picture has no channels R, G and B; it has {}", image.names().join(", "));
@@ -66,6 +67,5 @@ fn image(file: &Path, over: &Over, talk: Talk) -> Result<Image, Failures> {
     };
     input::tell(talk, &job);
     let progress = Progress::new(talk, file.display());
-    let (picture, _) = job.renderer()?.frame(&|share| progress.hear(share));
-    Ok(Image::from(&picture))
+    Ok(Image::from(&frames::first(&job, &|share| progress.hear(share))?))
 }

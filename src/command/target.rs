@@ -1,6 +1,8 @@
 //! Where a picture or a volume goes, settled before any work is done.
 
+use super::frames::Files;
 use drypoint::output::atomic;
+use drypoint::scene::tables::Scene;
 use drypoint::scene::volume::read;
 use drypoint::{Failure, Format};
 use std::path::{Path, PathBuf};
@@ -24,38 +26,35 @@ pub(super) fn stem(input: &Path) -> String {
 /// # Errors
 /// A wrong suffix, a pattern for several frames, a folder, or a folder that is not there or may not be written to.
 pub(super) fn picture(path: &Path, formats: &[Format]) -> Result<Format, Failure> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    if name.contains('#') {
-        return Err(Failure::new(
-            "a # stands for the number of a frame, and [orbit] is not built yet ([STIP-4])",
-            path.display(),
-            "give a name without #",
-        ));
+    if path.file_name().unwrap_or_default().to_string_lossy().contains('#') {
+        let what = "a # stands for the number of a frame, and this picture has one";
+        return Err(Failure::new(what, path.display(), "give a name without #"));
     }
-    if path.is_dir() {
-        // Its suffix does not matter.
-        writable(path)?;
-    }
-    let format = Format::of(path).map_err(|failure| match formats {
-        [Format::Png] => Failure { remedy: "give a name that ends in .png".into(), ..failure },
-        _ => failure,
-    })?;
-    if !formats.contains(&format) {
-        return Err(Failure::new("this picture is written as PNG", path.display(), "give a name that ends in .png"));
-    }
+    let format = format(path, formats)?;
     writable(path)?;
     Ok(format)
 }
 
+/// The format of a file that is no folder.
+pub(super) fn format(path: &Path, formats: &[Format]) -> Result<Format, Failure> {
+    if path.is_dir() {
+        // Its suffix does not matter.
+        writable(path)?;
+    }
+    Format::among(path, formats)
+}
+
 /// Whether a picture's file can be written now.
-fn writable(path: &Path) -> Result<(), Failure> {
+pub(super) fn writable(path: &Path) -> Result<(), Failure> {
     atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))
 }
 
-/// Where a rendered picture goes.
+/// Where a rendered picture goes, and frames of it.
 pub(super) struct Target {
-    /// The file.
-    pub path: PathBuf,
+    /// The file, or what the names of frames are made of.
+    path: PathBuf,
+    /// Whether `-o` says it.
+    said: bool,
     /// How it is written.
     pub format: Format,
 }
@@ -65,17 +64,38 @@ impl Target {
     /// suffix is `.png`, or `.exr` where layers are asked for, which only an EXR has.
     ///
     /// # Errors
-    /// As [`picture`], and layers for a PNG.
+    /// As [`picture`], and layers for another format.
     pub(super) fn new(output: Option<&Path>, input: Option<&Path>, layers: bool) -> Result<Self, Failure> {
         let suffix = if layers { "exr" } else { "png" };
         let default = || format!("{}.{suffix}", input.map_or("drypoint".into(), stem)).into();
         let path = output.map_or_else(default, Path::to_path_buf);
-        let format = picture(&path, &[Format::Png, Format::Exr])?;
-        if layers && format == Format::Png {
+        let format = format(&path, &Format::SHEETS)?;
+        if layers && format != Format::Exr {
             let remedy = "give a name that ends in .exr, or leave --layers out";
-            return Err(Failure::new("a PNG has no layers, and --layers asks for some", path.display(), remedy));
+            let what = format!("a {} has no layers, and --layers asks for some", format.suffix().to_uppercase());
+            return Err(Failure::new(what, path.display(), remedy));
         }
-        Ok(Self { path, format })
+        Ok(Self { path, said: output.is_some(), format })
+    }
+
+    /// The files of a scene's frames. A name that nobody said gets the numbers of frames.
+    ///
+    /// # Errors
+    /// As [`Files::of`], and a vector file of a scene without points.
+    pub(super) fn files(&self, scene: &Scene) -> Result<Files, Failure> {
+        if !Format::PICTURES.contains(&self.format) && scene.stipples.is_none() {
+            let suffix = self.format.suffix();
+            let what = format!(".{suffix} is for points and lines, and the scene has none ([IO-7])");
+            return Err(Failure::new(what, self.path.display(), "give a name that ends in .png or .exr"));
+        }
+        match scene.orbit {
+            Some(orbit) if !self.said => {
+                let digits = orbit.frames.to_string().len().max(3);
+                let name = format!("{}_{}.{}", stem(&self.path), "#".repeat(digits), self.format.suffix());
+                Files::of(Path::new(&name), scene)
+            }
+            _ => Files::of(&self.path, scene),
+        }
     }
 }
 

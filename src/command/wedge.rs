@@ -4,11 +4,13 @@ use super::input::{self, Set};
 use super::report::note;
 use super::{Done, Outcome, Talk, target};
 use clap::Args;
+use drypoint::drawing::write_page;
+use drypoint::format::Format;
 use drypoint::output::atomic;
 use drypoint::scene::marks::{Page, Pen};
 use drypoint::scene::tables::Scene;
 use drypoint::scene::tone::Tone;
-use drypoint::stippling::{MarksFormat, tone, write};
+use drypoint::stippling::tone;
 use drypoint::wedge::{template, wedge};
 use drypoint::{Failure, Failures, tone_plot};
 use std::path::{Path, PathBuf};
@@ -34,12 +36,13 @@ impl Wedge {
         if let Some(measured) = &self.measured {
             return self.plot(measured, talk);
         }
-        if MarksFormat::of(&self.output)? == MarksFormat::Csv {
+        if Format::of(&self.output) == Some(Format::Csv) {
             let what = "the suffix is that of the table, which is written beside the page";
             return Err(
                 Failure::new(what, self.output.display(), "give a name that ends in .svg, .pdf, .png or .exr").into()
             );
         }
+        Format::among(&self.output, &Format::SHEETS)?;
         let table = self.output.with_extension("csv");
         for path in [&self.output, &table] {
             atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))?;
@@ -47,8 +50,8 @@ impl Wedge {
         let scene = input::page(&self.set)?;
         let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
         let page = wedge(&pen, &tone, &Page::of(&scene), 1)?;
-        let said = write(&page.marks, &scene, &self.output)?;
         let [width, height] = page.marks.page.size.to_array();
+        let said = write_page(page.marks, &scene, &self.output)?;
         note(talk, format_args!("{}: {width:.0} × {height:.0} mm", self.output.display()));
         for line in said {
             note(talk, line);
@@ -59,23 +62,18 @@ impl Wedge {
     }
 
     fn plot(&self, measured: &Path, talk: Talk) -> Outcome {
-        let format = MarksFormat::of(&self.output)?;
+        let format = Format::among(&self.output, &[Format::Svg, Format::Png])?;
         atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
         let (tone, name) = (tone(measured)?, target::stem(measured));
-        let bytes = match format {
-            MarksFormat::Svg => tone_plot::svg(&tone, &name).into_bytes(),
-            MarksFormat::Png => tone_plot::png(&tone, &name)
-                .map_err(|fault| Failure::new(fault, self.output.display(), "write an .svg"))?,
-            _ => return Err(no_plot(&self.output).into()),
+        let bytes = if format == Format::Svg {
+            tone_plot::svg(&tone, &name).into_bytes()
+        } else {
+            tone_plot::png(&tone, &name).map_err(|fault| Failure::new(fault, self.output.display(), "write an .svg"))?
         };
         atomic::write(&self.output, &bytes).map_err(|error| Failure::picture(&error, self.output.display()))?;
         note(talk, self.output.display());
         Ok(Done::Yes)
     }
-}
-
-fn no_plot(path: &Path) -> Failure {
-    Failure::new("the suffix is that of no format for a plot", path.display(), "give a name that ends in .svg or .png")
 }
 
 /// The pen of a name, and what it prints: a pen of `--set`, or where there is none an ordinary one.

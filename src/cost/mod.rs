@@ -171,6 +171,10 @@ impl<'a> Variant<'a> {
 /// # Errors
 /// A key among `only` that is no knob of the scene, a scene without a knob, a truth that cannot be rendered.
 pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Sweep, Failures> {
+    if !job.draws_volume() {
+        let what = "what accuracy costs is measured on the volume, which this scene does not draw itself";
+        return Err(Failure::new(what, job.scene.given.position("transfer"), "add a [transfer] table").into());
+    }
     // Other layers are no part of the error, and would be part of the time.
     let mut base = job.scene.clone();
     base.picture.layers = vec![LayerKind::Beauty];

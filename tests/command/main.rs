@@ -6,6 +6,7 @@ mod compare;
 mod cost;
 mod extract;
 mod folder;
+mod frames;
 mod generated;
 mod info;
 mod interrupt;

@@ -112,16 +112,18 @@ fn a_picture_for_which_there_is_no_memory_is_refused() {
 fn suffixes_choose_the_format() {
     let folder = Folder::new();
     folder.scene("");
-    let remedy = "give a name that ends in .png or .exr";
+    let (pictures, sheets) =
+        ("give a name that ends in .png or .exr", "give a name that ends in .png, .exr, .svg or .pdf");
     for (name, what, remedy) in [
-        ("out.svg", ".svg is for points and lines, which `drypoint points` writes ([IO-7])", remedy),
-        ("out.pdf", ".pdf is for points and lines, which `drypoint points` writes ([IO-7])", remedy),
-        ("out.jpg", ".jpg is the suffix of no picture format that is written", remedy),
-        ("out", "the name has no suffix, which chooses the format of the picture", remedy),
+        ("out.svg", ".svg is for points and lines, and the scene has none ([IO-7])", pictures),
+        ("out.pdf", ".pdf is for points and lines, and the scene has none ([IO-7])", pictures),
+        ("out.csv", ".csv is for lists of points, which `drypoint points` writes ([STIP-16])", sheets),
+        ("out.jpg", ".jpg is the suffix of no picture format that is written", sheets),
+        ("out", "the name has no suffix, which chooses the format of the picture", sheets),
         (
             "turn_###.png",
-            "a # stands for the number of a frame, and [orbit] is not built yet ([STIP-4])",
-            "give a name without #",
+            "a # stands for the number of a frame, and the scene has no [orbit]",
+            "add a table [orbit], or give a name without #",
         ),
     ] {
         let expected = format!("error: {what}\n  at: {name}\n  try: {remedy}\n");

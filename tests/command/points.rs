@@ -22,7 +22,7 @@ fn text(folder: &Folder, name: &str) -> String {
 fn one_page_in_all_formats() {
     let folder = Folder::new();
     folder.write("ball.toml", SCENE);
-    for name in ["ball.svg", "ball.pdf", "ball.png", "ball.exr", "ball.csv"] {
+    for name in ["ball.svg", "ball.pdf", "ball.png", "ball.exr", "ball.csv", "ball.jsonl"] {
         folder.good(&format!("points ball.toml -o {name} -q"));
     }
     let csv = text(&folder, "ball.csv");
@@ -35,10 +35,13 @@ fn one_page_in_all_formats() {
     assert!(svg.contains("width=\"60mm\" height=\"40mm\" viewBox=\"0 0 60 40\""), "{}", &svg[..400]);
     // A list that was saved is the same page again, to the byte but for its scene.
     let page = ["picture.width=\"60 mm\"", "picture.height=\"40 mm\"", "picture.dpi=100"];
-    let words = ["points", "ball.csv", "-o", "again.csv"].into_iter().chain(page.iter().flat_map(|p| ["--set", *p]));
-    let said = folder.run(words);
-    assert_eq!(said.code, Some(0), "{}", said.err);
+    for (list, again) in [("ball.csv", "again.jsonl"), ("ball.jsonl", "again.csv")] {
+        let words = ["points", list, "-o", again].into_iter().chain(page.iter().flat_map(|p| ["--set", *p]));
+        let said = folder.run(words);
+        assert_eq!(said.code, Some(0), "{}", said.err);
+    }
     assert_eq!(text(&folder, "again.csv"), csv);
+    assert_eq!(folder.read("again.jsonl"), folder.read("ball.jsonl"));
     // The dots are the ball's, and nothing stands outside its outline.
     for line in csv.lines().skip(1) {
         let cells: Vec<f64> = line.split(',').map(|c| c.parse().unwrap()).collect();
@@ -63,10 +66,11 @@ fn what_makes_no_page_is_refused() {
     folder.write("ball.toml", SCENE);
     folder.write("plain.toml", "drypoint = 1\n[volume]\nphantom = { name = \"sphere\", size = 8 }\n");
     for (line, want) in [
-        ("points ball.toml -o ball.tiff", "the suffix is that of no format for points"),
+        ("points ball.toml -o ball.tiff", ".tiff is the suffix of no picture format that is written"),
         ("points plain.toml -o a.svg", "the scene has no stipples"),
         ("points ball.toml -o a.svg --set stipples.pen=red", "there is no pen \"red\""),
-        ("render ball.toml -o a.png", "stipples are not drawn into a rendered picture yet"),
+        ("points ball.toml -o a.svg --set stipples.color=transfer", "dots take their colours from [transfer]"),
+        ("cost ball.toml", "what accuracy costs is measured on the volume, which this scene does not draw itself"),
     ] {
         let told = folder.refused(line);
         assert!(told.starts_with(&format!("error: {want}")), "{line}: {told}");
@@ -101,4 +105,174 @@ fn a_plotter_s_page() {
     let csv = text(&folder, "ball.csv");
     assert!(csv.lines().count() > 200);
     assert!(csv.lines().skip(1).all(|line| line.split(',').nth(6) == Some("1")), "{}", &csv[..300]);
+}
+
+/// Errors of lists say where, and what a list has no use for is refused.
+#[test]
+fn lists_that_are_none() {
+    let folder = Folder::new();
+    folder.write("a.jsonl", "{\"x\": 1, \"y\": 2}\n");
+    assert_eq!(
+        folder.refused("points a.jsonl -o a.svg"),
+        "error: found nothing, expected a number\n  at: a.jsonl, line 1, column wx\n  try: correct the row, or write the list again\n"
+    );
+    for flag in ["--raw {size=[1,1,1],type=\"u8\"}", "--preset stipple"] {
+        let told = folder.refused(&format!("points a.jsonl -o a.svg {flag}"));
+        assert!(told.starts_with("error: a list of dots has no use for --"), "{told}");
+    }
+}
+
+const VOLUME: &str = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 100, color = \"#2040c0\", opacity = 0 }, \
+                      { at = 140, color = \"#c04020\", opacity = 0.2 }]\n";
+
+fn counts(folder: &Folder, line: &str) -> serde_json::Value {
+    serde_json::from_str(&folder.good(line)).unwrap()
+}
+
+/// `render` draws the volume where [transfer] is, and dots over it; `points` draws the dots alone, the same ones, and casts
+/// no ray.
+#[test]
+fn dots_over_the_volume() {
+    let folder = Folder::new();
+    folder.write("ball.toml", SCENE);
+    folder.write("both.toml", format!("{SCENE}{VOLUME}"));
+    for name in ["both.svg", "both.pdf", "both.png", "both.exr"] {
+        folder.good(&format!("render both.toml -o {name} -q"));
+    }
+    let both = counts(&folder, "render both.toml -o again.png -q --stats");
+    assert!(both["rays"].as_u64() > Some(0) && both["points"].as_u64() > Some(200));
+    assert_eq!(folder.read("again.png"), folder.read("both.png"));
+    let alone = counts(&folder, "points both.toml -o alone.svg -q --stats");
+    assert_eq!(
+        (&alone["points"], alone["rays"].as_u64(), alone["samples"].as_u64()),
+        (&both["points"], Some(0), Some(0))
+    );
+    let svg = text(&folder, "both.svg");
+    assert!(svg.contains("inkscape:label=\"%picture\"") && svg.find("%picture") < svg.find("1-stipples"));
+    // The dots are the same to the byte.
+    let dots = |svg: &str| svg[svg.find("id=\"layer1\"").unwrap()..].to_owned();
+    assert_eq!(dots(&svg), dots(&text(&folder, "alone.svg")));
+    // Without the table the volume is not drawn ([SCN-3]).
+    folder.good("render ball.toml -o dots.svg -q");
+    assert!(!text(&folder, "dots.svg").contains("%picture"));
+    assert_eq!(counts(&folder, "render ball.toml -o dots.png -q --stats")["rays"].as_u64(), Some(0));
+    // Where no beauty is asked for there is nothing to draw dots over.
+    let depth = counts(&folder, "render both.toml --layers Z -o z.exr -q --stats");
+    assert_eq!((depth["points"].as_u64(), depth["preprocess"].get("stipple points")), (Some(0), None));
+}
+
+/// A bare volume: what draws dots alone looks for no transfer function beyond what frames the picture.
+#[test]
+fn a_bare_volume_in_dots() {
+    let folder = Folder::new();
+    folder.good("phantom sphere --size 24 --type u8 -o ball.nrrd -q");
+    let drawn = counts(&folder, "render ball.nrrd --preset stipple -o dots.png -q --stats --set picture.dpi=60");
+    assert_eq!((drawn["rays"].as_u64(), drawn["gradients"].as_u64()), (Some(0), Some(0)));
+    assert!(drawn["points"].as_u64() > Some(100));
+    let plan = folder.good("plan ball.nrrd --set preset=stipple");
+    assert!(!plan.contains("transfer function") && !plan.contains("contours"), "{plan}");
+    assert!(plan.contains("stipple points") && plan.contains("\npoints\n"), "{plan}");
+    // A table over the style is an effect beside it.
+    let plan = folder.good("plan ball.nrrd --set stipples.k_max=2");
+    assert!(plan.contains("transfer function") && plan.contains("stipple points"), "{plan}");
+}
+
+#[test]
+fn the_plan_of_stipples_has_what_is_called_for() {
+    let folder = Folder::new();
+    folder.write(
+        "ball.toml",
+        SCENE.replace("dpi = 100", "dpi = 100\nsamples = 2")
+            + "[sampling]\nkernel = \"bspline\"\n[stipples]\nk_max = 2.0\n[stipples.boundary]\n",
+    );
+    let plan = folder.good("plan ball.toml");
+    let row = |words: &str| plan.lines().any(|line| line.split_whitespace().collect::<Vec<_>>().join(" ") == words);
+    assert!(
+        row("stipples stipple points one order a voxel with points, 24 bytes a point stipples.k_max (line 13)"),
+        "{plan}"
+    );
+    assert!(row("boundary factor, once one number a voxel with points stipples.boundary (line 14)"), "{plan}");
+    for absent in ["rays", "silhouette", "curves", "colours", "coefficients", "brick"] {
+        assert!(!plan.contains(absent), "{absent}\n{plan}");
+    }
+    for idle in ["picture.samples (line 10)", "sampling.kernel (line 12)"] {
+        assert!(plan.contains(&format!("  {idle}: the volume itself is not drawn")), "{plan}");
+    }
+    // The number of points is that of the list.
+    let said = plan.lines().skip_while(|line| *line != "points").nth(1).unwrap();
+    let stats = counts(&folder, "points ball.toml -o a.svg -q --stats");
+    assert!(said.contains(&format!(": {} points, ", stats["preprocess"]["stipple points"])), "{said} {stats}");
+}
+
+/// Dots in the colours of a function: with pens a layer a pen, without a layer a colour; the dots are the same.
+#[test]
+fn colours_of_the_transfer_function() {
+    let folder = Folder::new();
+    let stipples = "[stipples]\nk_max = 4.0\nink = \"opaque\"\ncolor = \"transfer\"\n";
+    let pens = "[[pen]]\nname = \"warm\"\ncolor = \"#b04030\"\n[[pen]]\nname = \"cold\"\ncolor = \"#3040b0\"\n";
+    folder.write("plain.toml", format!("{SCENE}{}", stipples.replace("transfer", "black")));
+    folder.write("few.toml", format!("{SCENE}{VOLUME}{stipples}"));
+    folder.write("pens.toml", format!("{SCENE}{VOLUME}{stipples}{pens}"));
+    for name in ["plain", "few", "pens"] {
+        folder.good(&format!("points {name}.toml -o {name}.csv -q"));
+        folder.good(&format!("points {name}.toml -o {name}.svg -q"));
+    }
+    let dots = |name: &str| {
+        let text = text(&folder, name);
+        let place = |row: &str| row.split(',').take(5).collect::<Vec<_>>().join(",");
+        let mut rows: Vec<String> = text.lines().skip(1).map(place).collect();
+        rows.sort();
+        rows
+    };
+    assert_eq!(dots("few.csv"), dots("plain.csv"));
+    let labels = |name: &str| {
+        let text = text(&folder, name);
+        let parts = text.split("inkscape:label=\"").skip(1).filter(|part| !part.starts_with('%'));
+        parts.map(|part| part.split('"').next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let few = labels("few.svg");
+    assert!((2..=16).contains(&few.len()) && few[0].starts_with("1-#"), "{few:?}");
+    assert_eq!(labels("pens.svg"), ["1-warm 0.3", "2-cold 0.3"]);
+    // Both pens draw: values go from the one colour to the other.
+    let pens = text(&folder, "pens.csv");
+    assert!(pens.contains(",\"warm\"\n") && pens.contains(",\"cold\"\n"));
+    let plan = folder.good("plan few.toml");
+    assert!(plan.contains("colours of dots"), "{plan}");
+    // Borrowed by dots alone, the function casts no ray.
+    assert_eq!(counts(&folder, "points few.toml -o a.svg -q --stats")["rays"].as_u64(), Some(0));
+}
+
+/// A row of the function for each label: its dots have its colour, whatever their values.
+#[test]
+fn colours_of_labels() {
+    let folder = Folder::new();
+    folder.good("phantom sphere --size 24 --type u8 -o ball.nrrd -q");
+    let raw = |r: &str| format!("{{ at = {r}, color = \"{}\", opacity = 0.5 }}", if r == "1" { "red" } else { "blue" });
+    // Two labels, left and right of the middle.
+    let labels: Vec<u8> = (0..24 * 24 * 24).map(|i| if i % 24 < 12 { 1 } else { 2 }).collect();
+    let head = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 24 24 24\nencoding: raw\n\n";
+    folder.write("labels.nrrd", [head.as_bytes(), &labels].concat());
+    let scene = format!(
+        "drypoint = 1\n[volume]\nfile = \"ball.nrrd\"\nlabels = \"labels.nrrd\"\n[picture]\nwidth = \"60 mm\"\nheight = \"40 mm\"\n\
+         [camera]\ndirection = [0, 1, 0]\n[transfer]\nkind = \"regular\"\nover = [\"value\", \"label\"]\n\
+         rows = [{{ at = 1, nodes = [{}] }}, {{ at = 2, nodes = [{}] }}]\n[stipples]\ncolor = \"label\"\n",
+        raw("1"),
+        raw("2")
+    );
+    folder.write("scene.toml", scene);
+    folder.good("points scene.toml -o a.csv -q");
+    let csv = text(&folder, "a.csv");
+    let mut seen = [0, 0];
+    for line in csv.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let [blue, red] = ["\"#0000ff\"", "\"#ff0000\""].map(|color| cells[7] == color);
+        assert!(blue || red, "{line}");
+        // A voxel's points stay within it.
+        let x: f64 = cells[2].parse().unwrap();
+        if (x - 11.5).abs() > 1.0 {
+            assert_eq!(red, x < 11.5, "{line}");
+        }
+        seen[usize::from(red)] += 1;
+    }
+    assert!(seen.iter().all(|&n| n > 20), "{seen:?}");
 }

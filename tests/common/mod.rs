@@ -169,6 +169,20 @@ impl Shot {
         (shown, in_lanes)
     }
 
+    /// The pictures from several cameras, one after another, by one renderer that is turned.
+    pub(crate) fn render_turned(&self, views: &[View]) -> Vec<Shown> {
+        let mut all = Vec::new();
+        self.render_by(|mut renderer| {
+            for view in views {
+                renderer.turn(view.clone()).unwrap();
+                let (picture, counts) = renderer.frame(&|_| {});
+                all.push(Shown { picture, counts });
+            }
+            renderer
+        });
+        all
+    }
+
     fn render_by(&self, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
         let function = self.function();
         let named: Vec<Style> = match &function {

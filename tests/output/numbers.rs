@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use crate::sample;
-use drypoint::output::list::{encode_dots, read_list};
+use drypoint::output::list::{Form, encode_dots, read_list};
 use drypoint::output::plotter::{Speed, plan};
 use drypoint::output::vector::Sheet;
 use drypoint::output::vector::pdf::encode_pdf;
@@ -209,11 +209,13 @@ fn every_file_has_every_mark_where_it_is() {
         assert!(of_svg(&svg) == expected, "SVG");
         assert!(of_pdf(&encode_pdf(&sheet).unwrap()) == expected, "PDF");
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.csv");
-        std::fs::write(&path, encode_dots(&marks)).unwrap();
-        let pens: Vec<_> = marks.layers.iter().map(|layer| layer.pen.clone()).collect();
-        let read = read_list(&path, &marks.page, &pens).unwrap();
-        assert!(read.iter().zip(&marks.layers).all(|(a, b)| a.dots == b.dots), "CSV");
+        for (form, name) in [(Form::Csv, "a.csv"), (Form::JsonLines, "a.jsonl")] {
+            let path = folder.path().join(name);
+            std::fs::write(&path, encode_dots(&marks, form)).unwrap();
+            let pens: Vec<_> = marks.layers.iter().map(|layer| layer.pen.clone()).collect();
+            let read = read_list(&path, &marks.page, &pens).unwrap();
+            assert!(read.iter().zip(&marks.layers).all(|(a, b)| a.dots == b.dots), "{name}");
+        }
     }
 }
 

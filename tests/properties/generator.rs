@@ -11,7 +11,7 @@ use drypoint::scene::space::Grid;
 use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
     Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Iso, Kappa,
-    Kernel, Length, LightDirection, Mix, NormalSide, Number, Outside, PageSettings, PenSettings, PhantomSource,
+    Kernel, Length, LightDirection, Mix, NormalSide, Number, Orbit, Outside, PageSettings, PenSettings, PhantomSource,
     Projection, Scene, Shading, SignFlip, SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Surface,
     SurfaceLook, Table, Transparency, Unit, VolumeSource,
 };
@@ -405,6 +405,11 @@ pub(crate) fn scene(seed: u64) -> Shot {
     }
     if r.once_in(4) {
         iso_surface(r, &mut shot);
+    }
+    // Of an orbit the first frame is drawn.
+    shot.scene.orbit = r.pick(&[None, None, None, Some(Orbit { frames: 7, degrees: -90.0 })]);
+    if let Some(orbit) = &mut shot.scene.orbit {
+        (orbit.frames, orbit.degrees) = (1 + r.below(40), r.pick(&[360.0, 90.0, -30.5]));
     }
     shot
 }

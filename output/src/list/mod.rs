@@ -1,4 +1,5 @@
-//! Lists of marks as data ([STIP-16]): CSV with the columns of the command `points` and `strokes`, written and read.
+//! Lists of marks as data ([STIP-16]): the columns of the commands `points` and `strokes`, as CSV or as JSON lines, an
+//! object a line with the columns as its keys; written and read.
 //!
 //! | column | what | unit |
 //! |---|---|---|
@@ -18,6 +19,26 @@ mod write;
 pub use read::read_list;
 pub use write::{encode_dots, encode_lines, write_dots, write_lines};
 
+use std::path::Path;
+
+/// How a list is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A header and a row a mark.
+    Csv,
+    /// A JSON object a line.
+    JsonLines,
+}
+
+impl Form {
+    /// The form of a name that ends in `.csv` or `.jsonl`; case does not count.
+    pub fn of(path: &Path) -> Option<Self> {
+        let suffix = path.extension()?;
+        let is = |name: &str| suffix.eq_ignore_ascii_case(name);
+        if is("csv") { Some(Self::Csv) } else { is("jsonl").then_some(Self::JsonLines) }
+    }
+}
+
 /// The columns that dots and vertices share.
 const COLUMNS: [&str; 7] = ["x", "y", "wx", "wy", "wz", "radius", "opacity"];
 
@@ -27,6 +48,7 @@ mod tests {
     use crate::OutputError;
     use drypoint_scene::glam::{DVec2, DVec3};
     use drypoint_scene::marks::{Dot, Layer, Marks, Page, Pen, Polyline, Vertex};
+    use proptest::prelude::*;
     use std::path::PathBuf;
 
     fn pen(number: usize, name: &str) -> Pen {
@@ -57,14 +79,20 @@ mod tests {
         marks
     }
 
+    const FORMS: [(Form, &str); 2] = [(Form::Csv, "list.csv"), (Form::JsonLines, "list.JSONL")];
+
     fn pages() -> [Page; 4] {
         let px = |dpi| Page::in_pixels([500, 400], 1.0, dpi);
         [Page::in_millimetres(DVec2::splat(90.0), 5.0, 300.0), px(300.0), px(72.0), px(1.0)]
     }
 
     fn file(text: &[u8]) -> (tempfile::TempDir, PathBuf) {
+        named("list.csv", text)
+    }
+
+    fn named(name: &str, text: &[u8]) -> (tempfile::TempDir, PathBuf) {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("list.csv");
+        let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();
         (folder, path)
     }
@@ -74,15 +102,17 @@ mod tests {
         for page in pages() {
             for pens in [vec![pen(1, "black")], vec![pen(1, "black"), pen(2, "a \"red\", one")]] {
                 let marks = marks(page, &pens);
-                let read = |text: &[u8]| {
-                    let (_folder, path) = file(text);
-                    read_list(&path, &page, &pens).unwrap()
-                };
-                let (dots, lines) = (read(&encode_dots(&marks)), read(&encode_lines(&marks)));
-                for ((found, dots), lines) in marks.layers.iter().zip(dots).zip(lines) {
-                    assert_eq!((&dots.pen, &dots.dots), (&found.pen, &found.dots));
-                    assert_eq!((&lines.pen, &lines.lines), (&found.pen, &found.lines));
-                    assert!(dots.lines.is_empty() && lines.dots.is_empty());
+                for (form, name) in FORMS {
+                    let read = |text: &[u8]| {
+                        let (_folder, path) = named(name, text);
+                        read_list(&path, &page, &pens).unwrap()
+                    };
+                    let (dots, lines) = (read(&encode_dots(&marks, form)), read(&encode_lines(&marks, form)));
+                    for ((found, dots), lines) in marks.layers.iter().zip(dots).zip(lines) {
+                        assert_eq!((&dots.pen, &dots.dots), (&found.pen, &found.dots));
+                        assert_eq!((&lines.pen, &lines.lines), (&found.pen, &found.lines));
+                        assert!(dots.lines.is_empty() && lines.dots.is_empty());
+                    }
                 }
             }
         }
@@ -97,17 +127,22 @@ mod tests {
         list.layers[0].lines[0].vertices.truncate(2);
         let text = |bytes| String::from_utf8(bytes).unwrap();
         assert_eq!(
-            text(encode_dots(&list)),
+            text(encode_dots(&list, Form::Csv)),
             "x,y,wx,wy,wz,radius,opacity\n1.5,0.001,0.1,-2,300000000000000000000,0.15,0.0625\n"
         );
         assert_eq!(
-            text(encode_lines(&list)),
+            text(encode_lines(&list, Form::Csv)),
             "stroke,t,x,y,wx,wy,wz,radius,opacity\n0,0,0,0,0,-0,1000000000,0.2,1\n\
              0,0.14285714285714285,1,0.333,0.3333333333333333,-0.000000000001,500000000,0.2,1\n"
         );
+        assert_eq!(
+            text(encode_dots(&list, Form::JsonLines)),
+            "{\"x\":1.5,\"y\":0.001,\"wx\":0.1,\"wy\":-2,\"wz\":300000000000000000000,\"radius\":0.15,\"opacity\":0.0625}\n"
+        );
+        assert!(text(encode_lines(&list, Form::JsonLines)).starts_with("{\"stroke\":0,\"t\":0,\"x\":0,"));
         // 1.5 mm at 254 dpi are 15 px.
         list.page = Page { dpi: 254.0, ..Page::in_pixels([100, 100], 0.0, 254.0) };
-        assert!(text(encode_dots(&list)).contains("\n15,0.01,0.1,-2,300000000000000000000,1.5,0.0625\n"));
+        assert!(text(encode_dots(&list, Form::Csv)).contains("\n15,0.01,0.1,-2,300000000000000000000,1.5,0.0625\n"));
     }
 
     #[test]
@@ -147,6 +182,63 @@ mod tests {
                     assert_eq!((l, c.as_str(), f.as_str()), (line, column, fault), "{text}");
                 }
                 other => panic!("{text}: {other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn errors_of_json_lines_name_them_too() {
+        let row =
+            |rest: &str| format!("{{\"x\":1,\"y\":2,\"wx\":0,\"wy\":0,\"wz\":0,\"radius\":0.1,\"opacity\":1{rest}}}\n");
+        for (text, line, column, fault) in [
+            (format!("{}\n{{\"x\":\n", row("")), 3, "character 5", "is not one JSON object"),
+            ("[1, 2]\n".into(), 1, "character 1", "is not one JSON object"),
+            ("{} {}\n".into(), 1, "character 4", "is not one JSON object"),
+            ("{\"x\":1}\n".into(), 1, "y", "found nothing, expected a number"),
+            (row("").replace("0.1", "\"0.1\""), 1, "radius", "found \"0.1\", expected a number above 0"),
+            (row("").replace("0.1", "-1"), 1, "radius", "found -1, expected a number above 0"),
+            (row(",\"pen\":3"), 1, "pen", "found 3, expected \"black\" or \"red\""),
+            (row(",\"stroke\":0.5"), 1, "stroke", "found 0.5, expected a whole number"),
+            (row(",\"stroke\":1"), 1, "t", "found nothing, expected a number from 0 to 1"),
+        ] {
+            let (_folder, path) = named("list.jsonl", text.as_bytes());
+            match read_list(&path, &pages()[0], &[pen(1, "black"), pen(2, "red")]) {
+                Err(OutputError::List { line: l, column: c, fault: f, .. }) => {
+                    assert_eq!((l, c.as_str(), f.as_str()), (line, column, fault), "{text}");
+                }
+                other => panic!("{text}: {other:?}"),
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(500))]
+
+        /// Whatever a file holds, it is a list or an error that names a line of it.
+        #[test]
+        fn files_of_anything(
+            bytes in prop::collection::vec(any::<u8>(), 0..200),
+            places in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..8),
+        ) {
+            for (form, name) in FORMS {
+                // Noise, and a list with some bytes changed.
+                let mut changed = encode_dots(&marks(pages()[0], &[pen(1, "black"), pen(2, "red")]), form);
+                changed.truncate(400);
+                for (at, byte) in &places {
+                    let at = at.index(changed.len());
+                    changed[at] = *byte;
+                }
+                for text in [&bytes, &changed] {
+                    let (_folder, path) = named(name, text);
+                    match read_list(&path, &pages()[0], &[pen(1, "black"), pen(2, "red")]) {
+                        Ok(layers) => prop_assert_eq!(layers.len(), 2),
+                        Err(OutputError::List { line, .. }) => {
+                            let lines = text.iter().filter(|&&b| b == b'\n' || b == b'\r').count() as u64;
+                            prop_assert!((1..=lines + 1).contains(&line), "{}", line);
+                        }
+                        Err(other) => prop_assert!(false, "{}", other),
+                    }
+                }
             }
         }
     }

@@ -1,85 +1,136 @@
 //! Writing lists.
 
-use super::COLUMNS;
+use super::{COLUMNS, Form};
 use crate::{OutputError, atomic};
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Marks, Page, PageUnit};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Writes the dots of all layers as CSV; the file appears whole or not at all.
+/// Writes the dots of all layers; the file appears whole or not at all.
 ///
 /// # Errors
 /// [`OutputError::Io`].
-pub fn write_dots(marks: &Marks, path: &Path) -> Result<(), OutputError> {
-    atomic::write(path, &encode_dots(marks))
+pub fn write_dots(marks: &Marks, form: Form, path: &Path) -> Result<(), OutputError> {
+    atomic::write(path, &encode_dots(marks, form))
 }
 
-/// Writes the lines of all layers as CSV; the file appears whole or not at all.
+/// Writes the lines of all layers; the file appears whole or not at all.
 ///
 /// # Errors
 /// [`OutputError::Io`].
-pub fn write_lines(marks: &Marks, path: &Path) -> Result<(), OutputError> {
-    atomic::write(path, &encode_lines(marks))
+pub fn write_lines(marks: &Marks, form: Form, path: &Path) -> Result<(), OutputError> {
+    atomic::write(path, &encode_lines(marks, form))
 }
 
 /// The bytes of [`write_dots`].
-pub fn encode_dots(marks: &Marks) -> Vec<u8> {
-    let (unit, several) = (Unit::of(&marks.page), marks.layers.len() > 1);
-    let mut out = header("", several);
+pub fn encode_dots(marks: &Marks, form: Form) -> Vec<u8> {
+    let mut table = Table::new(marks, form, &COLUMNS);
     for layer in &marks.layers {
-        let end = end(layer, several);
+        let end = table.end(layer);
         for dot in &layer.dots {
-            row(&mut out, &unit, dot.at, dot.world, [dot.radius, dot.opacity]);
-            out.push_str(&end);
+            table.mark(dot.at, dot.world, [dot.radius, dot.opacity]);
+            table.out.push_str(&end);
         }
     }
-    out.into_bytes()
+    table.out.into_bytes()
 }
 
 /// The bytes of [`write_lines`].
-pub fn encode_lines(marks: &Marks) -> Vec<u8> {
-    let (unit, several) = (Unit::of(&marks.page), marks.layers.len() > 1);
-    let mut out = header("stroke,t,", several);
+pub fn encode_lines(marks: &Marks, form: Form) -> Vec<u8> {
+    let columns: Vec<&'static str> = ["stroke", "t"].into_iter().chain(COLUMNS).collect();
+    let mut table = Table::new(marks, form, &columns);
     let mut number = 0;
     for layer in &marks.layers {
-        let end = end(layer, several);
+        let end = table.end(layer);
         for line in &layer.lines {
             let again = line.vertices.first().filter(|_| line.closed);
             for vertex in line.vertices.iter().chain(again) {
-                add(&mut out, format_args!("{number},{},", vertex.t));
-                row(&mut out, &unit, vertex.at, vertex.world, [vertex.radius, vertex.opacity]);
-                out.push_str(&end);
+                table.number(f64::from(number));
+                table.number(vertex.t);
+                table.mark(vertex.at, vertex.world, [vertex.radius, vertex.opacity]);
+                table.out.push_str(&end);
             }
             number += 1;
         }
     }
-    out.into_bytes()
+    table.out.into_bytes()
 }
 
-fn header(before: &str, several: bool) -> String {
-    format!("{before}{}{}\n", COLUMNS.join(","), if several { ",pen" } else { "" })
+/// A list while it is written.
+struct Table {
+    out: String,
+    form: Form,
+    unit: Unit,
+    several: bool,
+    /// What stands before each number of a row: commas, or names.
+    before: Vec<String>,
+    /// The next number of the row.
+    next: usize,
 }
 
-/// The end of a layer's rows, its pen's name quoted as CSV has it.
-fn end(layer: &Layer, several: bool) -> String {
-    if several { format!(",\"{}\"\n", layer.pen.name.replace('"', "\"\"")) } else { "\n".into() }
-}
+impl Table {
+    fn new(marks: &Marks, form: Form, columns: &[&'static str]) -> Self {
+        let several = marks.layers.len() > 1;
+        let (out, before) = match form {
+            Form::Csv => {
+                let before = (0..columns.len()).map(|i| if i == 0 { "" } else { "," }.to_owned());
+                (format!("{}{}\n", columns.join(","), if several { ",pen" } else { "" }), before.collect())
+            }
+            Form::JsonLines => {
+                let name = |(i, column): (usize, &&str)| format!("{}\"{column}\":", if i == 0 { '{' } else { ',' });
+                (String::new(), columns.iter().enumerate().map(name).collect())
+            }
+        };
+        Self { out, form, unit: Unit::of(&marks.page), several, before, next: 0 }
+    }
 
-fn row(out: &mut String, unit: &Unit, at: DVec2, world: DVec3, [radius, opacity]: [f64; 2]) {
-    unit.add(out, at.x);
-    unit.add(out, at.y);
-    add(out, format_args!("{},{},{},", world.x, world.y, world.z));
-    unit.add(out, radius);
-    add(out, format_args!("{opacity}"));
-}
+    /// The end of a layer's rows, with its pen's name.
+    fn end(&self, layer: &Layer) -> String {
+        let name = &layer.pen.name;
+        match (self.form, self.several) {
+            (Form::Csv, false) => "\n".into(),
+            (Form::Csv, true) => format!(",\"{}\"\n", name.replace('"', "\"\"")),
+            (Form::JsonLines, false) => "}\n".into(),
+            (Form::JsonLines, true) => format!(",\"pen\":{}}}\n", serde_json::Value::from(name.as_str())),
+        }
+    }
 
-fn add(out: &mut String, text: std::fmt::Arguments) {
-    // A String takes whatever is written to it.
-    let _ = out.write_fmt(text);
+    fn mark(&mut self, at: DVec2, world: DVec3, [radius, opacity]: [f64; 2]) {
+        self.length(at.x);
+        self.length(at.y);
+        world.to_array().into_iter().for_each(|w| self.number(w));
+        self.length(radius);
+        self.number(opacity);
+    }
+
+    fn number(&mut self, n: f64) {
+        self.begin();
+        // A String takes whatever is written to it.
+        let _ = write!(self.out, "{n}");
+    }
+
+    /// A length on the page, in its unit.
+    fn length(&mut self, mm: f64) {
+        match self.unit {
+            Unit::Millimetres => self.number(mm),
+            Unit::Pixels(scale, decimals) => {
+                self.begin();
+                let _ = write!(self.out, "{:.decimals$}", mm * scale);
+                let kept = self.out.trim_end_matches('0').trim_end_matches('.').len();
+                self.out.truncate(kept);
+            }
+        }
+    }
+
+    fn begin(&mut self) {
+        self.out.push_str(&self.before[self.next]);
+        self.next = (self.next + 1) % self.before.len();
+    }
 }
 
 /// How a length on the page is written.
+#[derive(Clone, Copy)]
 enum Unit {
     Millimetres,
     /// Times so many pixels, with so many decimals.
@@ -97,17 +148,5 @@ impl Unit {
                 Self::Pixels(scale, finest as usize)
             }
         }
-    }
-
-    fn add(&self, out: &mut String, mm: f64) {
-        match *self {
-            Self::Millimetres => add(out, format_args!("{mm}")),
-            Self::Pixels(scale, decimals) => {
-                add(out, format_args!("{:.decimals$}", mm * scale));
-                let kept = out.trim_end_matches('0').trim_end_matches('.').len();
-                out.truncate(kept);
-            }
-        }
-        out.push(',');
     }
 }

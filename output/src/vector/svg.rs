@@ -24,16 +24,73 @@ pub fn write_svg(sheet: &Sheet, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_svg(sheet)?)
 }
 
+/// Writes frames as one SVG that shows each for `seconds` in its turn, over and over (SMIL); what does not move shows
+/// frame 0. There is one page, and one background, those of the first; there must be a frame.
+///
+/// # Errors
+/// As [`write_svg`].
+pub fn write_animated_svg(frames: &[Sheet], seconds: f64, path: &Path) -> Result<(), OutputError> {
+    atomic::write(path, &encode_animated_svg(frames, seconds)?)
+}
+
 /// The bytes of [`write_svg`].
 ///
 /// # Errors
 /// As [`write_svg`], but for the file's.
 pub fn encode_svg(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
-    let page = &sheet.marks.page;
     let mut out = Vec::new();
-    let [width, height] = page.size.to_array().map(number);
+    head(sheet, &mut out);
+    content(sheet, "", &mut out)?;
+    out.extend_from_slice(b"</svg>\n");
+    Ok(out)
+}
+
+/// The bytes of [`write_animated_svg`].
+///
+/// # Errors
+/// As [`encode_svg`].
+pub fn encode_animated_svg(frames: &[Sheet], seconds: f64) -> Result<Vec<u8>, OutputError> {
+    let mut out = Vec::new();
+    if let Some(first) = frames.first() {
+        head(first, &mut out);
+    }
+    let all = frames.len();
+    for (i, frame) in frames.iter().enumerate() {
+        let hidden = if i == 0 { "" } else { " display=\"none\"" };
+        text(
+            &mut out,
+            format_args!("<g inkscape:groupmode=\"layer\" inkscape:label=\"%frame {i}\" id=\"frame{i}\"{hidden}>\n"),
+        );
+        // The end of one frame and the beginning of the next are the same number.
+        let [from, to] = [i, i + 1].map(|i| i as f64 / all as f64);
+        let turns = match (i, i + 1 == all) {
+            (0, true) => None,
+            (0, false) => Some(("inline;none", format!("0;{to}"))),
+            (_, false) => Some(("none;inline;none", format!("0;{from};{to}"))),
+            (_, true) => Some(("none;inline", format!("0;{from}"))),
+        };
+        if let Some((values, times)) = turns {
+            let whole = seconds * all as f64;
+            text(
+                &mut out,
+                format_args!(
+                    "<animate attributeName=\"display\" calcMode=\"discrete\" values=\"{values}\" \
+                     keyTimes=\"{times}\" dur=\"{whole}s\" repeatCount=\"indefinite\"/>\n"
+                ),
+            );
+        }
+        content(frame, &format!("frame{i}-"), &mut out)?;
+        out.extend_from_slice(b"</g>\n");
+    }
+    out.extend_from_slice(b"</svg>\n");
+    Ok(out)
+}
+
+/// The page, where it comes from, and its background.
+fn head(sheet: &Sheet, out: &mut Vec<u8>) {
+    let [width, height] = sheet.marks.page.size.to_array().map(number);
     text(
-        &mut out,
+        out,
         format_args!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" \
          xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
@@ -41,36 +98,40 @@ pub fn encode_svg(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
          width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {width} {height}\">\n"
         ),
     );
-    metadata(sheet, &mut out);
+    metadata(sheet, out);
     if let Some(color) = sheet.background {
         let (color, opacity) = (hex(color), opacity("fill-opacity", color[3]));
         text(
-            &mut out,
+            out,
             format_args!(
                 "<g inkscape:groupmode=\"layer\" inkscape:label=\"%background\" id=\"background\">\n\
              <rect width=\"{width}\" height=\"{height}\" fill=\"{color}\"{opacity}/>\n</g>\n"
             ),
         );
     }
+}
+
+/// The picture and the marks; `id` stands before their names.
+fn content(sheet: &Sheet, id: &str, out: &mut Vec<u8>) -> Result<(), OutputError> {
+    let page = &sheet.marks.page;
     if let Some(picture) = sheet.picture {
         let [width, height] = page.picture().to_array().map(number);
         let margin = number(page.margin);
         text(
-            &mut out,
+            out,
             format_args!(
-                "<g inkscape:groupmode=\"layer\" inkscape:label=\"%picture\" id=\"picture\">\n\
+                "<g inkscape:groupmode=\"layer\" inkscape:label=\"%picture\" id=\"{id}picture\">\n\
              <image x=\"{margin}\" y=\"{margin}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
              xlink:href=\"data:image/png;base64,"
             ),
         );
-        base64::encode(&encode_png(picture, 8, sheet.provenance)?, &mut out);
+        base64::encode(&encode_png(picture, 8, sheet.provenance)?, out);
         out.extend_from_slice(b"\"/>\n</g>\n");
     }
     for (i, layer) in sheet.marks.layers.iter().enumerate() {
-        draw(layer, i, sheet.plotter, &mut out);
+        draw(layer, &format!("{id}layer{}", i + 1), sheet.plotter, out);
     }
-    out.extend_from_slice(b"</svg>\n");
-    Ok(out)
+    Ok(())
 }
 
 /// Where the program, the scene and the plan stand.
@@ -83,14 +144,13 @@ fn metadata(sheet: &Sheet, out: &mut Vec<u8>) {
     out.extend_from_slice(b"</metadata>\n");
 }
 
-fn draw(layer: &Layer, index: usize, plotter: bool, out: &mut Vec<u8>) {
+fn draw(layer: &Layer, id: &str, plotter: bool, out: &mut Vec<u8>) {
     let (label, color, width) = (escaped(&layer.pen.label()), hex(layer.pen.color), number(layer.pen.width));
     text(
         out,
         format_args!(
-            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{label}\" id=\"layer{}\" fill=\"none\" stroke=\"{color}\" \
-         stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
-            index + 1
+            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{label}\" id=\"{id}\" fill=\"none\" stroke=\"{color}\" \
+         stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
         ),
     );
     let pen = micrometres(layer.pen.width);
@@ -254,6 +314,28 @@ Drypoint plan: κ &lt; 1
 </svg>
 "##
         );
+    }
+
+    #[test]
+    fn frames_take_turns() {
+        let (provenance, marks) = (Provenance::default(), marks());
+        let background = Some([1.0; 4]);
+        let sheet = Sheet { marks: &marks, background, picture: None, plotter: false, provenance: &provenance };
+        let frames = |n: usize| String::from_utf8(encode_animated_svg(&vec![sheet; n], 0.5).unwrap()).unwrap();
+        let found = frames(4);
+        let turn = |values: &str, times: &str| {
+            let turn = format!("calcMode=\"discrete\" values=\"{values}\" keyTimes=\"{times}\"");
+            format!("<animate attributeName=\"display\" {turn} dur=\"2s\" repeatCount=\"indefinite\"/>")
+        };
+        for said in [
+            format!("id=\"frame0\">\n{}", turn("inline;none", "0;0.25")),
+            format!("id=\"frame1\" display=\"none\">\n{}", turn("none;inline;none", "0;0.25;0.5")),
+            format!("id=\"frame3\" display=\"none\">\n{}", turn("none;inline", "0;0.75")),
+        ] {
+            assert!(found.contains(&said), "{said}\n{found}");
+        }
+        assert_eq!((found.matches("%background").count(), found.matches(" id=\"frame2-layer1\"").count()), (1, 1));
+        assert!(!frames(1).contains("<animate"));
     }
 
     #[test]

@@ -20,6 +20,7 @@ use crate::with_sampler;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::plan::{Pass, Plan, Quantity};
+use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{
     Axis, BlendSpace, GradientRange, Kappa, Length, Mix, Scene, SignFlip, SphereFrame, StyleMipmaps, Transparency,
 };
@@ -54,10 +55,7 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
     let view = View::new(&scene.camera, grid, scene.picture.size)?;
     let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
     let lattice = Lattice { step, along: sampling.step_along, near };
-    let planes = lattice.planes(&view, grid);
-    if planes >= MOST_PLANES {
-        return Err(RenderError::TooManyPlanes { planes });
-    }
+    within_planes(&lattice, &view, grid)?;
     let bricks = plan.has_pass(Pass::Bricks).then(|| field.bricks());
     if let Some(bricks) = &bricks {
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
@@ -136,6 +134,27 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
         field,
         view,
     })
+}
+
+/// Turns the camera of what is prepared: all that depends on where it stands, with the same lens and picture.
+pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, scene: &Scene, view: View) -> Result<(), RenderError> {
+    within_planes(&prepared.lattice, &view, prepared.volume.grid())?;
+    prepared.eye_axes = eye_axes(&view);
+    match &mut prepared.look {
+        Look::Regular { phong, .. } => *phong = scene.shading.as_ref().map(|s| Phong::new(s, scene.light, &view)),
+        Look::Style(styled) => styled.eye_axes = eye_axes(&view),
+    }
+    if let Some(surface) = &mut prepared.surface {
+        surface.turn(scene, &view);
+    }
+    prepared.view = view;
+    Ok(())
+}
+
+/// Whether sample planes are told apart all the way ([RAY-1]).
+fn within_planes(lattice: &Lattice, view: &View, grid: &Grid) -> Result<(), RenderError> {
+    let planes = lattice.planes(view, grid);
+    if planes >= MOST_PLANES { Err(RenderError::TooManyPlanes { planes }) } else { Ok(()) }
 }
 
 /// lo and hi − lo of |g| ([VAL-2]), times the power of two of [SPACE-4].

@@ -3,7 +3,7 @@
 use super::cast::{self, Cast};
 use super::draw::{CastAll, draw};
 use super::lanes;
-use super::prepare::{gradient_range, prepare};
+use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
 use super::skip::Boxes;
 use crate::field::{Exact, FieldError, Sampler};
@@ -18,7 +18,7 @@ use drypoint_scene::plan::Plan;
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{Number, Scene};
 use drypoint_scene::transfer::Function;
-use drypoint_scene::view::ViewError;
+use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
 use std::time::Instant;
@@ -107,6 +107,7 @@ pub enum RenderError {
 /// A scene that is ready to be rendered any number of times.
 pub struct Renderer<'a> {
     ready: Ready<'a>,
+    scene: &'a Scene,
     background: Backdrop<'a>,
     counts: Counts,
     tile: usize,
@@ -164,7 +165,7 @@ impl<'a> Renderer<'a> {
         }
         counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
         let lanes = matches!(&ready, Ready::F64(p) if lanes::serve(p));
-        Self { ready, background: inputs.background, counts, tile: TILE, lanes }
+        Self { ready, scene: inputs.scene, background: inputs.background, counts, tile: TILE, lanes }
     }
 
     /// The same with tiles of another side, from 1 to 1024 pixels; it shows nowhere ([RAY-3]).
@@ -183,8 +184,32 @@ impl<'a> Renderer<'a> {
         self.lanes
     }
 
+    /// Turns the camera for the frames that follow: of the lens and the picture of the scene's own, elsewhere. What was
+    /// prepared stays.
+    ///
+    /// # Errors
+    /// Sample planes that fall together, seen from there.
+    pub fn turn(&mut self, view: View) -> Result<(), RenderError> {
+        match &mut self.ready {
+            Ready::F64(p) | Ready::Exact(p, _) => turn(p, self.scene, view),
+            Ready::F32(p) => turn(p, self.scene, view),
+        }
+    }
+
+    /// What preparing took and keeps; it is in the counts of each [`frame`](Self::frame).
+    pub fn prepared(&self) -> &Counts {
+        &self.counts
+    }
+
     /// Renders one frame. `progress` hears the share of the picture that is done, from any thread.
     pub fn frame(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
+        let (picture, mut counts) = self.again(progress);
+        counts.add(&self.counts);
+        (picture, counts)
+    }
+
+    /// The same with what the frame itself took: a further one, prepared with the first.
+    pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let start = Instant::now();
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) if self.lanes => {
@@ -205,7 +230,6 @@ impl<'a> Renderer<'a> {
             }
         };
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
-        counts.add(&self.counts);
         let channels: usize = picture.layers.iter().map(|l| l.channels.len()).sum();
         counts.bytes.insert("picture".into(), (channels * picture.width * picture.height * 8) as u64);
         (picture, counts)

@@ -36,6 +36,11 @@ pub(super) struct Surface<R> {
     alone: bool,
 }
 
+/// How a lit surface is lit: by `[shading]`, or its defaults.
+fn phong<R: Real>(scene: &Scene, view: &View) -> Phong<R> {
+    Phong::new(&scene.shading.clone().unwrap_or_default(), scene.light, view)
+}
+
 impl<R: Real> Surface<R> {
     /// The surface that a scene draws, if it draws one.
     pub(super) fn new(
@@ -63,7 +68,7 @@ impl<R: Real> Surface<R> {
         Some(Self {
             roots,
             rgb: if lit { [0, 1, 2].map(|c| R::from_f64(surface.color[c])) } else { [R::ONE; 3] },
-            phong: lit.then(|| Phong::new(&scene.shading.clone().unwrap_or_default(), scene.light, view)),
+            phong: lit.then(|| phong(scene, view)),
             calls: if lit { Calls::NORMAL } else { Calls::NONE }.and(layers([
                 Normal,
                 Gradient,
@@ -73,6 +78,13 @@ impl<R: Real> Surface<R> {
             first: layers([FirstNormal, FirstNormal, FirstCurvature, FirstCurvatureAlongView]),
             alone: scene.transfer.is_none(),
         })
+    }
+
+    /// Lights it for another camera.
+    pub(super) fn turn(&mut self, scene: &Scene, view: &View) {
+        if let Some(lit) = &mut self.phong {
+            *lit = phong(scene, view);
+        }
     }
 
     /// Looks for roots in every cell: the bricks are not those of the field.

@@ -39,10 +39,19 @@ const SMOOTHED: usize = 1 << 25;
 /// A scene for a bare volume: an opaque surface in a translucent hull, or alone, with contours, framed by a camera. A
 /// volume of labels is shown as the surface of all of them. Voxels that were looked at go to `counts`.
 pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
-    let ids = if labels::are_ids(volume) { Ids::Mask } else { Ids::Values };
-    match ids {
-        Ids::Values => of_values(source, volume, size, counts),
-        Ids::Mask => of_labels(source, &volume.present(), size),
+    suggested(Scene::for_volume(source), volume, size, counts)
+}
+
+/// The same for a volume that is not drawn itself: the camera alone, and no function, style or contour.
+pub fn stage(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+    suggested(Scene { transfer: None, ..Scene::for_volume(source) }, volume, size, counts)
+}
+
+fn suggested(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+    if labels::are_ids(volume) {
+        of_labels(scene, &volume.present(), size)
+    } else {
+        of_values(scene, volume, size, counts)
     }
 }
 
@@ -74,8 +83,7 @@ fn levels(volume: &Volume, outside: Outside, counts: &mut Counts) -> Option<Leve
     levels
 }
 
-fn of_values(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
-    let mut scene = Scene::for_volume(source);
+fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     let (boundary, outside) = Boundary::judge(levels(volume, Outside::Low, counts).as_ref(), volume);
     scene.volume.outside = outside;
     if let Some(transfer) = &mut scene.transfer {
@@ -87,8 +95,7 @@ fn of_values(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &m
 }
 
 /// The step from 0 to 1 between voxels is rounded off by a smoothing kernel, or every voxel would show.
-fn of_labels(source: VolumeSource, present: &Volume, size: [usize; 2]) -> Scene {
-    let mut scene = Scene::for_volume(source);
+fn of_labels(mut scene: Scene, present: &Volume, size: [usize; 2]) -> Scene {
     scene.volume.ids = Ids::Mask;
     scene.sampling.kernel = Kernel::BsplineSmooth;
     if let Some(transfer) = &mut scene.transfer {
@@ -104,12 +111,6 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: 
     let Stance { direction, up } = Stance::of(volume, &body);
     let fit = framing::fit(volume, &body, seen, direction, up, FOV, size);
     scene.picture.size = size;
-    let finer = fit.extent / (FINE * volume.grid().voxel());
-    if finer < 1.0 {
-        // Or else so little matter would stay translucent.
-        scene.sampling.step = Length::Voxels(three_digits(0.5 * finer));
-        scene.sampling.reference_length = Length::Voxels(three_digits(finer));
-    }
     scene.camera = Camera {
         projection: Projection::Perspective { fov: FOV },
         eye: Some(fit.eye),
@@ -117,6 +118,15 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: 
         up,
         ..Camera::default()
     };
+    if scene.transfer.is_none() {
+        return;
+    }
+    let finer = fit.extent / (FINE * volume.grid().voxel());
+    if finer < 1.0 {
+        // Or else so little matter would stay translucent.
+        scene.sampling.step = Length::Voxels(three_digits(0.5 * finer));
+        scene.sampling.reference_length = Length::Voxels(three_digits(finer));
+    }
     // Slices leave terraces on what is scanned, and noise leaves grain: normals over 3³ voxels, and curvatures of a
     // smoothed grid, draw neither.
     scene.sampling.gradient = GradientEstimator::Sobel;
@@ -214,6 +224,16 @@ mod tests {
         };
         // Rounded to three digits: half a unit of the third.
         assert!((lines(1.0) / lines(0.013) - 1.0).abs() < 0.01);
+    }
+
+    /// What is not drawn is not thought of; the camera is the same.
+    #[test]
+    fn a_stage_is_the_camera_alone() {
+        let ball = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
+        let source = VolumeSource::File { path: "x.nrrd".into(), raw: None };
+        let stage = stage(source, &ball, [64, 64], &mut Counts::default());
+        assert_eq!(stage.camera, suggested(&ball).camera);
+        assert_eq!((stage.transfer, stage.contours), (None, None));
     }
 
     #[test]

@@ -14,6 +14,7 @@ use drypoint_scene::tables::{Even, LightDirection, Stipples};
 use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 pub use super::factors::viewing_distance;
 
@@ -34,7 +35,7 @@ pub struct Frames<'a> {
     near: f64,
     size: f64,
     nib: Option<f64>,
-    surface: Option<&'a IsoSurface<'a, 'a>>,
+    surface: Option<Arc<IsoSurface<'a, 'a>>>,
     tone: Option<PenTone<'a>>,
 }
 
@@ -61,7 +62,7 @@ impl PenTone<'_> {
 }
 
 /// What frames are made of.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct FrameInputs<'a> {
     /// `[stipples]`.
     pub stipples: &'a Stipples,
@@ -80,7 +81,7 @@ pub struct FrameInputs<'a> {
     /// The width of the pen's nib in mm, where a pen draws, which has one size ([STIP-6]).
     pub nib: Option<f64>,
     /// What hides points; none: they are transparent ([STIP-15]).
-    pub surface: Option<&'a IsoSurface<'a, 'a>>,
+    pub surface: Option<Arc<IsoSurface<'a, 'a>>>,
     /// What the pen prints, where that was measured ([STIP-17]).
     pub tone: Option<PenTone<'a>>,
 }
@@ -134,8 +135,8 @@ impl Drawn {
 
 impl<'a> Frames<'a> {
     /// Computes what no camera changes.
-    pub fn new(inputs: &FrameInputs<'a>) -> Self {
-        let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone } = *inputs;
+    pub fn new(inputs: FrameInputs<'a>) -> Self {
+        let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone } = inputs;
         let centre = grid.centre();
         Self {
             stipples,
@@ -159,7 +160,7 @@ impl<'a> Frames<'a> {
         let whole = Whole { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
         let moving = Moving::new(self.stipples, self.light, view, &whole);
         let place = Place::new(view, page, &self.points.grid);
-        let hidden = self.surface.map(|surface| Hidden::new(surface, view, self.near));
+        let hidden = self.surface.as_deref().map(|surface| Hidden::new(surface, view, self.near));
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, Part::default);
         drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {

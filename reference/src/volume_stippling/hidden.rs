@@ -1,8 +1,10 @@
 //! Points that an opaque iso-surface hides ([STIP-15]). The paper's points are transparent.
 
+use super::curves::Segment;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::view::View;
+use rayon::prelude::*;
 
 /// How far from a point its foot on the surface may be, in voxels along the gradient.
 const REACH: f64 = 1.5;
@@ -37,6 +39,16 @@ impl<'a> Hidden<'a> {
         let tested = foot.map_or(point, |foot| grid.to_world(self.surface.in_front(foot, self.offset)));
         self.surface.hides(tested, self.view, self.near)
     }
+}
+
+/// The segments of curves whose middle the surface does not hide.
+pub fn seen(mut segments: Vec<Segment>, surface: &IsoSurface<'_, '_>, view: &View, near: f64) -> Vec<Segment> {
+    let hidden = Hidden::new(surface, view, near);
+    let middle = |segment: &Segment| (segment.ends[0] + segment.ends[1]) / 2.0;
+    let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(middle(segment))).collect();
+    let mut hides = hides.into_iter();
+    segments.retain(|_| hides.next() == Some(false));
+    segments
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! each voxel's list as many as the factors say.
 
 mod area;
+mod colors;
 mod count;
 mod curves;
 mod elimination;
@@ -20,9 +21,11 @@ mod resolution;
 mod ridge;
 mod slab;
 
+pub use colors::{Colors, Rgb, nearest, palette, split};
 pub use curves::{Edges, Segment, exhaustive};
 pub use elimination::{Candidate, eliminate};
 pub use error::StippleError;
 pub use frame::{Drawn, FrameInputs, Frames, PenTone, viewing_distance};
+pub use hidden::seen;
 pub use joined::joined;
 pub use preprocess::{Inputs, Preprocess};

@@ -92,7 +92,7 @@ pub(crate) static TABLE: Table<Camera> = Table {
                 idle.key("camera.near", "the camera is orthographic: depths have any sign");
             }
         }
-        if camera.eye.is_some() && camera.direction_given {
+        if camera.eye.is_some() && camera.direction_given && scene.orbit.is_none() {
             idle.key("camera.target", "eye and direction say where the camera looks");
         }
     },

@@ -91,7 +91,7 @@ fn has_kappa(scene: &Scene) -> bool {
 /// The description of `[contours]`.
 pub(crate) static TABLE: Table<Contours> = Table {
     asks: |scene, asks| {
-        let Some(contours) = scene.contours.as_ref().filter(|_| has_styles(scene)) else { return };
+        let Some(contours) = scene.contours.as_ref().filter(|_| asks.casts_rays() && has_styles(scene)) else { return };
         match contours.kappa {
             Kappa::Ray => asks.need(Quantity::PreviousNormal, "contours", "contours.kappa"),
             Kappa::Exact => asks.need(Quantity::Hessian, "contours", "contours.kappa"),

@@ -7,6 +7,7 @@ pub mod camera;
 pub mod contours;
 pub mod length;
 pub mod nodes;
+pub mod orbit;
 pub mod over;
 pub mod page;
 pub mod pen;
@@ -26,6 +27,7 @@ pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use length::Length;
 pub use nodes::{Row, RowAt, Stand};
+pub use orbit::Orbit;
 pub use over::{Axis, LabelKey, Over};
 pub use page::PageSettings;
 pub use pen::PenSettings;
@@ -34,8 +36,8 @@ pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Numb
 pub use scene::Scene;
 pub use shading::{LightDirection, Shading};
 pub use stipples::{
-    Boundary, Curves, CurvesTest, Distance, Even, FactorRange, Ink, Interior, Lighting, PointsPerPixel, Resolution,
-    Silhouette, Snap, StippleGradient, StippleOrder, Stipples, Threshold,
+    Boundary, Curves, CurvesTest, Distance, DotColor, Even, FactorRange, Ink, Interior, Lighting, PointsPerPixel,
+    Resolution, Silhouette, Snap, StippleGradient, StippleOrder, Stipples, Threshold,
 };
 pub use style_mipmaps::StyleMipmaps;
 pub use styles::{StyleFile, StyleSource, Styles};

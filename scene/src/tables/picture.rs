@@ -10,7 +10,7 @@ use crate::file::kind::{
 use crate::file::out::Out;
 use crate::knobs::Ladder;
 use crate::picture::LayerKind;
-use crate::plan::Quantity;
+use crate::plan::{Pass, Quantity};
 use crate::tables::Length;
 use crate::tables::contours::{Measured, measured_curvature};
 use serde_json::{Value as Json, json};
@@ -131,6 +131,9 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
         check_layers(&picture.layers, check);
     },
     asks: |scene, asks| {
+        if !asks.casts_rays() {
+            return;
+        }
         for (i, layer) in scene.picture.layers.iter().enumerate() {
             let effect = format!("layer {layer}");
             let key = format!("picture.layers[{i}]");
@@ -150,7 +153,12 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
             needs.iter().for_each(|&quantity| asks.need_where(quantity, first_only, &effect, &key));
         }
     },
-    idle: |_, _, idle| {
+    idle: |_, plan, idle| {
+        if !plan.has_pass(Pass::Rays) {
+            for key in ["picture.samples", "picture.layers"] {
+                idle.key(key, "the volume itself is not drawn");
+            }
+        }
         if !idle.says("picture.width") {
             idle.key("picture.dpi", "nothing is in mm: size is in pixels");
         }

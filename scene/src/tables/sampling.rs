@@ -181,6 +181,9 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         }
     },
     serves: |scene, asks| {
+        if !asks.casts_rays() {
+            return;
+        }
         let sampling = &scene.sampling;
         if matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5) {
             asks.pass(Pass::Coefficients, "prefiltered kernel", "sampling.kernel");
@@ -197,6 +200,13 @@ pub(crate) static TABLE: Table<Sampling> = Table {
     },
     idle: |scene, plan, idle| {
         let sampling = &scene.sampling;
+        if !plan.has_pass(Pass::Rays) {
+            // The step is still the default of camera.near.
+            for key in TABLE.keys.iter().filter(|key| key.name != "step") {
+                idle.key(&format!("sampling.{}", key.name), "the volume itself is not drawn");
+            }
+            return;
+        }
         if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
             idle.key("sampling.step_along", "planes and shells are the same in an orthographic picture");
         }

@@ -3,12 +3,12 @@
 use super::stipples::StipplePreset;
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, LightDirection, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
-    StyleMipmaps, Styles, Surface, Transfer, TransferKind, VolumeSource, VolumeTable,
+    Camera, Contours, LightDirection, Orbit, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
+    StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use super::{
-    camera, contours, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface, transfer,
-    volume,
+    camera, contours, orbit, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface,
+    transfer, volume,
 };
 use crate::file::Given;
 use crate::file::check::Check;
@@ -16,7 +16,7 @@ use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
 use crate::file::item::{Item, Value};
 use crate::file::kind::{Choice, ChoiceOption, ListOf, TableOf};
 use crate::file::out::Out;
-use crate::plan::Quantity;
+use crate::plan::{Pass, Quantity};
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
@@ -30,6 +30,8 @@ pub struct Scene {
     pub volume: VolumeTable,
     /// From where.
     pub camera: Camera,
+    /// Several frames; none: one.
+    pub orbit: Option<Orbit>,
     /// On what.
     pub picture: PictureSettings,
     /// The paper of points and lines; none: without a margin, and not for a plotter.
@@ -62,12 +64,18 @@ impl Scene {
         Self { transfer: Some(Transfer::automatic(TransferKind::Style)), ..Self::without_effects(source) }
     }
 
+    /// Whether the volume itself is drawn, by rays ([SCN-3]).
+    pub fn draws_volume(&self) -> bool {
+        self.transfer.is_some() || self.surface.is_some_and(|surface| surface.look != SurfaceLook::None)
+    }
+
     /// A volume, every default, and no effect.
     fn without_effects(source: VolumeSource) -> Self {
         Self {
             light: LightDirection::Head,
             volume: VolumeTable::new(source),
             camera: Camera::default(),
+            orbit: None,
             picture: PictureSettings::default(),
             page: None,
             pens: Vec::new(),
@@ -129,7 +137,6 @@ const fn later(name: &'static str, tag: &'static str) -> Later {
 /// The whole file.
 pub(crate) static ROOT: Table<Scene> = Table {
     later: &[
-        later("orbit", "STIP-4"),
         later("halo", "HALO-1"),
         later("combine", "VS-3"),
         later("object", "VS-2"),
@@ -147,17 +154,29 @@ pub(crate) static ROOT: Table<Scene> = Table {
         check_styles(scene, check);
         pen::check_names(&scene.pens, check);
         over::check_labels(scene, check);
+        stipples::check_colors(scene, check);
     },
-    idle: |scene, _, idle| {
-        if idle.says("transfer") {
-            idle.key("preset", "the scene has [transfer] itself");
+    idle: |scene, plan, idle| {
+        // What a preset supplies is there and was not said.
+        let supplied = [(scene.transfer.is_some(), "transfer"), (scene.stipples.is_some(), "stipples")];
+        if !supplied.iter().any(|(is_there, table)| *is_there && !idle.says(table)) {
+            idle.key("preset", "the scene has its tables itself");
         }
         let lit = shading::lit(scene);
         match &scene.shading {
             Some(shading) if lit && shading.light.is_some() => idle.key("light", "shading.light wins"),
             Some(_) if lit => {}
             _ if shading::lit_surface(scene) => {}
+            _ if scene.stipples.as_ref().and_then(|s| s.lighting).is_some_and(|lighting| lighting.light.is_none()) => {}
             _ => idle.key("light", "nothing is lit: a light acts on [shading] of a regular function"),
+        }
+        if !plan.has_pass(Pass::Rays) {
+            for key in ["transfer", "styles", "shading", "contours", "style_mipmaps"] {
+                let colors = plan.has_pass(Pass::DotColors) && matches!(key, "transfer" | "styles");
+                if !colors {
+                    idle.key(key, "the volume itself is not drawn");
+                }
+            }
         }
     },
     ..Table::new(
@@ -266,6 +285,13 @@ pub(crate) static ROOT: Table<Scene> = Table {
                     set: |s, v| s.camera = v,
                 },
             ),
+            Key::new(
+                "orbit",
+                "STIP-4",
+                "Several frames about the volume.",
+                &Slot { kind: TableOf(&orbit::TABLE), get: |s: &Scene| s.orbit, set: |s, v| s.orbit = Some(v) },
+            )
+            .absent("one frame"),
             Key::new(
                 "picture",
                 "RAY-6",

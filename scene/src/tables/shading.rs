@@ -68,7 +68,7 @@ pub(crate) static TABLE: Table<Shading> = Table {
     ],
     asks: |scene, asks| {
         let lit = scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular);
-        if lit && scene.shading.is_some() {
+        if lit && scene.shading.is_some() && asks.casts_rays() {
             asks.need(Quantity::Gradient, "shading", "shading");
         }
     },

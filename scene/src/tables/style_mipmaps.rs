@@ -55,7 +55,9 @@ fn biases(_: &Scene, plan: &Plan) -> &'static [&'static str] {
 /// The description of `[style_mipmaps]`.
 pub(crate) static TABLE: Table<StyleMipmaps> = Table {
     asks: |scene, asks| {
-        let Some(mipmaps) = scene.style_mipmaps.as_ref().filter(|_| has_styles(scene)) else { return };
+        let Some(mipmaps) = scene.style_mipmaps.as_ref().filter(|_| asks.casts_rays() && has_styles(scene)) else {
+            return;
+        };
         asks.pass(Pass::StyleMipmaps, "style mip-maps", "style_mipmaps");
         if mipmaps.measured_curvature_bias(scene) != 0.0 {
             let exact = scene.contours.as_ref().is_some_and(|contours| contours.kappa == Kappa::Exact);

@@ -96,7 +96,8 @@ pub(crate) static TABLE: Table<Surface> = Table {
         }
     },
     asks: |scene, asks| {
-        let Some(surface) = scene.surface.filter(|surface| surface.look != SurfaceLook::None) else { return };
+        let drawn = |surface: &Surface| surface.look != SurfaceLook::None && asks.casts_rays();
+        let Some(surface) = scene.surface.filter(drawn) else { return };
         asks.need(Quantity::Surface, "iso-surface", "surface");
         if surface.iso == Iso::Auto {
             asks.pass(Pass::AutomaticIso, "iso-surface", "surface.iso");

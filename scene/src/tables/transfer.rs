@@ -153,7 +153,7 @@ pub(crate) static TABLE: Description<Transfer> = Description {
         }
     },
     asks: |scene, asks| {
-        let Some(transfer) = &scene.transfer else { return };
+        let Some(transfer) = scene.transfer.as_ref().filter(|_| asks.casts_rays()) else { return };
         asks.need(Quantity::Value, "transfer function", "transfer");
         if transfer.is_automatic() {
             asks.pass(Pass::AutomaticTransfer, "automatic function", "transfer.nodes");

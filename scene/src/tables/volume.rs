@@ -178,11 +178,12 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
         if matches!(scene.volume.source, VolumeSource::Phantom(_)) {
             idle.key("volume.raw", "a phantom has no file");
         }
-        if scene.transfer.as_ref().is_some_and(|transfer| transfer.unit != Unit::Normalized) {
+        let stippled = scene.stipples.is_some();
+        if !stippled && scene.transfer.as_ref().is_some_and(|transfer| transfer.unit != Unit::Normalized) {
             idle.key("volume.range", "only transfer.unit = \"normalized\" is measured in it");
         }
         let why = match scene.volume.labels {
-            Some(_) if plan.needs(Quantity::Label) || plan.needs(Quantity::LabelDistance) => None,
+            Some(_) if plan.reads_labels() => None,
             Some(_) => Some("nothing reads a label"),
             None => Some("volume.labels names no label volume"),
         };
@@ -191,11 +192,11 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
                 idle.key(key, why);
             }
         }
-        if !plan.needs(Quantity::GradientMagnitudeRange) {
+        if !stippled && !plan.needs(Quantity::GradientMagnitudeRange) {
             idle.key("volume.gradient_range", "nothing reads |g|");
         }
         let turned = scene.sampling.normal == NormalSide::Outward || plan.needs_at_first(Quantity::Hessian);
-        if !(turned && plan.reads_gradients()) {
+        if !(stippled || turned && plan.reads_gradients()) {
             idle.key("volume.outside", "nothing reads an outward normal or a signed curvature");
         }
     },

@@ -30,7 +30,7 @@ fn draw(made: &Preprocessed, volume: &Volume, tone: f64, even: Even) -> (Vec<Dot
     let reference = viewing_distance(&view, volume.grid().centre(), 0.5) * tone / EACH as f64;
     let resolution = Some(Resolution { re: 1.0, reference: Some(reference) });
     let stipples = Stipples { even, ink: Ink::Opaque, resolution, ..Stipples::default() };
-    let frames = Frames::new(&FrameInputs {
+    let frames = Frames::new(FrameInputs {
         stipples: &stipples,
         points: &made.points,
         light: LightDirection::Head,

@@ -145,7 +145,7 @@ fn opaque(points: &Points, centre: DVec3, n: DVec3, tone: f64) -> Vec<DVec2> {
     let reference = viewing_distance(&view, volume.grid().centre(), 0.5) * tone / points.each as f64;
     let resolution = Resolution { re: 1.0, reference: Some(reference) };
     let stipples = Stipples { ink: Ink::Opaque, resolution: Some(resolution), ..Stipples::default() };
-    let frames = Frames::new(&FrameInputs {
+    let frames = Frames::new(FrameInputs {
         stipples: &stipples,
         points,
         light: LightDirection::Head,

@@ -124,7 +124,7 @@ fn face(n: DVec3, width: f64, thin: bool) -> f64 {
     };
     let preprocess = Preprocess::new(inputs).unwrap();
     let points = preprocess.points(&mut Counts::default(), &|_| {}).unwrap();
-    let frames = Frames::new(&FrameInputs {
+    let frames = Frames::new(FrameInputs {
         stipples: &stipples,
         points: &points,
         light: LightDirection::Head,

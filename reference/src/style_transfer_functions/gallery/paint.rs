@@ -1,8 +1,7 @@
 //! Colours as a painter mixes them: in OKLab (Ottosson 2020), where equal steps look equal and a mixture of two hues
 //! does not turn grey or bright on its way.
 
-use drypoint_scene::color::{linear_to_srgb, srgb_to_linear};
-use drypoint_scene::math;
+use drypoint_scene::color::{linear_to_oklab, linear_to_srgb, srgb_to_linear};
 use std::sync::LazyLock;
 
 /// Linear red, green and blue.
@@ -27,18 +26,8 @@ impl Paint {
     }
 
     /// From linear sRGB.
-    pub(super) fn linear([r, g, b]: Linear) -> Self {
-        let cone = [
-            0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b,
-            0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b,
-            0.088_302_461_9 * r + 0.281_718_837_6 * g + 0.629_978_700_5 * b,
-        ];
-        let [l, m, s] = cone.map(math::cbrt);
-        Self([
-            0.210_454_255_3 * l + 0.793_617_785_0 * m - 0.004_072_046_8 * s,
-            1.977_998_495_1 * l - 2.428_592_205_0 * m + 0.450_593_709_9 * s,
-            0.025_904_037_1 * l + 0.782_771_766_2 * m - 0.808_675_766_0 * s,
-        ])
+    pub(super) fn linear(color: Linear) -> Self {
+        Self(linear_to_oklab(color))
     }
 
     /// As sRGB in [0, 1]; what lies outside the gamut is clamped.

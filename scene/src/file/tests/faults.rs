@@ -26,8 +26,6 @@ fn a_part_that_is_not_built_says_so() {
          and would not ignore it"
     );
     for (rest, what) in [
-        ("[orbit]\nframes = 36\n", "[orbit]"),
-        ("[stipples]\neven = \"page\"\n", "stipples.even"),
         ("[surface]\nlook = \"toon\"\n", "surface.look = \"toon\""),
         ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
         ("[[box]]\n", "[[box]]"),

@@ -1,10 +1,10 @@
 //! The types of value that `[stipples]` alone has.
 
-use super::{PointsPerPixel, Threshold};
+use super::{DotColor, PointsPerPixel, Threshold};
 use crate::file::check::Check;
 use crate::file::describe::{Kind, Shape};
 use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Number};
+use crate::file::kind::{Bounds, Colors, Number, nearest_color, parse_color};
 use crate::file::out::Out;
 use crate::tables::volume::quantile;
 use serde_json::{Value as Json, json};
@@ -15,6 +15,47 @@ pub(super) const SHARE: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: ""
 pub(super) const EXPONENT: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
 /// A number of either sign.
 pub(super) const SIGNED: Number = Number { bounds: Bounds::ANY, unit: "" };
+
+/// A colour, or where colours are taken from.
+pub(super) struct DotColors;
+
+/// What stands in place of a colour.
+const SOURCES: [(&str, DotColor); 2] = [("transfer", DotColor::Transfer), ("label", DotColor::Label)];
+
+impl Shape for DotColors {
+    fn expected(&self) -> String {
+        format!("{}, \"transfer\" or \"label\"", Colors.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [{ "enum": SOURCES.map(|(name, _)| name) }, Colors.schema()] })
+    }
+}
+
+impl Kind for DotColors {
+    type Of = DotColor;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<DotColor> {
+        let text = item.text();
+        if let Some((_, source)) = SOURCES.iter().find(|(name, _)| text == Some(name)) {
+            return Some(*source);
+        }
+        match text {
+            Some(text) => match parse_color(text) {
+                Some(color) => Some(DotColor::Fixed(color)),
+                None => check.wrong_name(item, self.expected(), nearest_color(text)),
+            },
+            None => check.wrong(item, self.expected()),
+        }
+    }
+
+    fn write(&self, value: &DotColor) -> Out {
+        match value {
+            DotColor::Fixed(color) => Colors.write(color),
+            source => Out::Text(SOURCES.iter().find(|(_, s)| s == source).map_or("", |(name, _)| name).into()),
+        }
+    }
+}
 
 /// A ‖∇V‖, or a quantile such as `"q0.9"`.
 pub(super) struct ThresholdKind;

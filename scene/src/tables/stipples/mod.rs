@@ -4,11 +4,13 @@ mod curves;
 mod factors;
 mod kinds;
 mod presets;
+mod rules;
 mod table;
 
 pub use curves::{Curves, CurvesTest};
 pub use factors::{Boundary, Distance, Interior, Lighting, Resolution, Silhouette};
 pub(crate) use presets::StipplePreset;
+pub(crate) use rules::check_colors;
 pub(crate) use table::TABLE;
 
 use crate::color::Rgba;
@@ -25,8 +27,8 @@ pub struct Stipples {
     pub size: Length,
     /// Key of the random numbers ([RAY-4]).
     pub seed: u64,
-    /// What the dots are drawn in: linear, straight.
-    pub color: Rgba,
+    /// What the dots are drawn in ([STIP-16]).
+    pub color: DotColor,
     /// The pen of `[[pen]]` that draws, in its colour and size ([STIP-6]); none: dots of `color` and any size.
     pub pen: Option<String>,
     /// Estimator of V and ∇V ([STIP-1]).
@@ -61,6 +63,17 @@ pub struct Stipples {
     pub lighting: Option<Lighting>,
     /// Silhouette curves; none: none.
     pub curves: Option<Curves>,
+}
+
+/// `color` ([STIP-16]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DotColor {
+    /// One colour: linear, straight.
+    Fixed(Rgba),
+    /// That of the transfer function at the voxel's V; of a style where it faces the eye.
+    Transfer,
+    /// That of the voxel's label: of the most opaque node of its row in the transfer function.
+    Label,
 }
 
 /// `threshold` ([STIP-4]).
@@ -142,7 +155,7 @@ impl Default for Stipples {
             k_max: PointsPerPixel::Number(1.0),
             size: Length::Millimetres(0.35),
             seed: 1,
-            color: [0.0, 0.0, 0.0, 1.0],
+            color: DotColor::Fixed([0.0, 0.0, 0.0, 1.0]),
             pen: None,
             gradient: StippleGradient::Regression,
             slab: Length::Voxels(0.5),

@@ -1,24 +1,20 @@
 //! The description of `[stipples]`.
 
-use super::kinds::{PointsPerPixelKind, ThresholdKind};
+use super::kinds::{DotColors, PointsPerPixelKind, ThresholdKind};
 use super::{
     Even, FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples,
     curves::CURVES,
     factors::{BOUNDARY, DISTANCE, INTERIOR, LIGHTING, RESOLUTION, SILHOUETTE},
+    rules,
 };
 use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Colors, Flag, Lengths, Number, On, TableOf, Text, Whole};
-use crate::plan::Pass;
-use crate::tables::Iso;
+use crate::file::kind::{Bounds, Choice, ChoiceOption, Flag, Lengths, On, TableOf, Text, Whole};
 use crate::tables::surface::IsoKind;
 
 /// The description of `[stipples]`.
 pub(crate) static TABLE: Table<Stipples> = Table {
-    asks: |scene, asks| {
-        if scene.stipples.as_ref().is_some_and(|stipples| stipples.hide_behind == Some(Iso::Auto)) {
-            asks.pass(Pass::AutomaticIso, "hidden points", "stipples.hide_behind");
-        }
-    },
+    asks: rules::asks,
+    idle: |scene, _, idle| rules::idle(scene, idle),
     ..Table::new(
         "[stipples]",
         "Volume stippling: points on the volume's boundaries, made once, of which each frame draws as many as the \
@@ -61,8 +57,10 @@ pub(crate) static TABLE: Table<Stipples> = Table {
             Key::new(
                 "color",
                 "STIP-16",
-                "What the dots are drawn in.",
-                &Slot { kind: Colors, get: |s: &Stipples| Some(s.color), set: |s, v| s.color = v },
+                "What the dots are drawn in. `\"transfer\"`: the colour of `[transfer]` at their voxel's value, of a style \
+                 where it faces the eye; `\"label\"`: that of their label's row. With `[[pen]]` each dot goes to the pen of \
+                 the nearest colour; without, to one of at most 16 layers.",
+                &Slot { kind: DotColors, get: |s: &Stipples| Some(s.color), set: |s, v| s.color = v },
             ),
             Key::new(
                 "pen",
@@ -203,6 +201,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                 &Slot { kind: IsoKind, get: |s: &Stipples| s.hide_behind, set: |s, v| s.hide_behind = Some(v) },
             )
             .absent("points are transparent"),
+            Key::new(
                 "even",
                 "STIP-19",
                 "Which points are drawn where there is a choice.",

@@ -1,0 +1,67 @@
+//! The rows of a CSV file.
+
+use super::{Column, Rows, Wrong};
+use crate::list::COLUMNS;
+use csv::{ByteRecord, Position, Reader};
+use std::fs::File;
+
+pub(super) struct CsvRows {
+    table: Reader<File>,
+    /// Where each of [`Column::ALL`] stands.
+    at: [Option<usize>; 10],
+    row: ByteRecord,
+    line: u64,
+}
+
+impl CsvRows {
+    /// Reads the header.
+    pub(super) fn new(file: File) -> Result<Self, Wrong> {
+        // Rows of another length are told by the column that is missing.
+        let mut table = csv::ReaderBuilder::new().flexible(true).from_reader(file);
+        let header = table.byte_headers().map_err(broken)?;
+        let find = |name: &str| header.iter().position(|column| column.trim_ascii() == name.as_bytes());
+        let at = Column::ALL.map(|column| find(column.name()));
+        let with_strokes = if at[Column::Stroke as usize].is_some() { &["t"][..] } else { &[] };
+        if let Some(absent) = COLUMNS.iter().chain(with_strokes).find(|name| find(name).is_none()) {
+            return Err((absent.to_string(), "is not there".into()));
+        }
+        Ok(Self { table, at, row: ByteRecord::new(), line: 1 })
+    }
+
+    fn bytes(&self, column: Column) -> Option<&[u8]> {
+        self.at[column as usize].and_then(|at| self.row.get(at))
+    }
+}
+
+/// A file that the reader cannot go on with.
+fn broken(error: csv::Error) -> Wrong {
+    ("x".into(), error.to_string())
+}
+
+impl Rows for CsvRows {
+    fn next(&mut self) -> Result<bool, Wrong> {
+        let is_row = self.table.read_byte_record(&mut self.row).map_err(broken)?;
+        self.line = self.row.position().map_or(0, Position::line);
+        Ok(is_row)
+    }
+
+    fn line(&self) -> u64 {
+        self.line
+    }
+
+    fn has(&self, column: Column) -> bool {
+        self.at[column as usize].is_some()
+    }
+
+    fn number(&self, column: Column) -> Option<f64> {
+        self.text(column).and_then(|text| text.parse().ok())
+    }
+
+    fn text(&self, column: Column) -> Option<&str> {
+        self.bytes(column).and_then(|bytes| std::str::from_utf8(bytes).ok()).map(str::trim)
+    }
+
+    fn found(&self, column: Column) -> Option<String> {
+        self.bytes(column).map(|bytes| format!("{:?}", String::from_utf8_lossy(bytes)))
+    }
+}

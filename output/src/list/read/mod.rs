@@ -1,0 +1,170 @@
+//! Reading lists.
+
+mod csv_rows;
+mod json_rows;
+
+use super::Form;
+use crate::OutputError;
+use csv_rows::CsvRows;
+use drypoint_scene::glam::{DVec2, DVec3};
+use drypoint_scene::marks::{Dot, Layer, Marks, Page, PageUnit, Pen, Polyline, Vertex};
+use json_rows::JsonRows;
+use std::fs::File;
+use std::path::Path;
+
+/// The columns of a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Column {
+    X,
+    Y,
+    Wx,
+    Wy,
+    Wz,
+    Radius,
+    Opacity,
+    Stroke,
+    T,
+    Pen,
+}
+
+impl Column {
+    const ALL: [Self; 10] =
+        [Self::X, Self::Y, Self::Wx, Self::Wy, Self::Wz, Self::Radius, Self::Opacity, Self::Stroke, Self::T, Self::Pen];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Wx => "wx",
+            Self::Wy => "wy",
+            Self::Wz => "wz",
+            Self::Radius => "radius",
+            Self::Opacity => "opacity",
+            Self::Stroke => "stroke",
+            Self::T => "t",
+            Self::Pen => "pen",
+        }
+    }
+}
+
+/// What is wrong in a row: the column, or how far on the line, and why.
+type Wrong = (String, String);
+
+/// The rows of a file, one after another.
+trait Rows {
+    /// Goes on to the next row, if there is one.
+    fn next(&mut self) -> Result<bool, Wrong>;
+    /// The row's line, from 1; before the first row, the header's.
+    fn line(&self) -> u64;
+    /// Whether there is such a column.
+    fn has(&self, column: Column) -> bool;
+    /// A number that stands there.
+    fn number(&self, column: Column) -> Option<f64>;
+    /// A text that stands there.
+    fn text(&self, column: Column) -> Option<&str>;
+    /// What stands there, for a message; none for nothing.
+    fn found(&self, column: Column) -> Option<String>;
+}
+
+/// Reads a list of dots, or of lines if it has the column `stroke`, as JSON lines if the name ends in `.jsonl` and as CSV
+/// otherwise: a layer for each of `pens`, in their order.
+///
+/// Lengths are in the page's unit; marks are put onto their steps. Without a column `pen` all belong to the first pen.
+/// Columns may stand in any order, and others beside them are passed over.
+///
+/// # Errors
+/// [`OutputError::Io`]; [`OutputError::List`] with the line and the column for what is missing or cannot stand there.
+pub fn read_list(path: &Path, page: &Page, pens: &[Pen]) -> Result<Vec<Layer>, OutputError> {
+    let refused = |source| OutputError::Io { path: path.into(), action: "read", source };
+    let file = File::open(path).map_err(refused)?;
+    match Form::of(path) {
+        Some(Form::JsonLines) => List { path, rows: JsonRows::new(file) }.read(page, pens),
+        Some(Form::Csv) | None => {
+            let fault = |(column, fault)| OutputError::List { path: path.into(), line: 1, column, fault };
+            List { path, rows: CsvRows::new(file).map_err(fault)? }.read(page, pens)
+        }
+    }
+}
+
+/// The file while it is read.
+struct List<'a, R> {
+    path: &'a Path,
+    rows: R,
+}
+
+impl<R: Rows> List<'_, R> {
+    fn read(mut self, page: &Page, pens: &[Pen]) -> Result<Vec<Layer>, OutputError> {
+        let scale = match page.unit {
+            PageUnit::Millimetres => 1.0,
+            PageUnit::Pixels => 1.0 / page.pixels_per_mm(),
+        };
+        let mut layers: Vec<Layer> = pens.iter().cloned().map(Layer::new).collect();
+        let mut last = None;
+        while self.rows.next().map_err(|(column, fault)| self.fault(&column, fault))? {
+            let any = |column| self.number(column, |_| true, "a number");
+            let at = DVec2::new(any(Column::X)?, any(Column::Y)?) * scale;
+            let world = DVec3::new(any(Column::Wx)?, any(Column::Wy)?, any(Column::Wz)?);
+            let radius = self.number(Column::Radius, |r| r > 0.0, "a number above 0")? * scale;
+            let opacity = self.number(Column::Opacity, |a| a > 0.0 && a <= 1.0, "a number above 0 and of at most 1")?;
+            let layer = self.layer(&mut layers)?;
+            if !self.rows.has(Column::Stroke) {
+                layer.dots.push(Dot { at, world, radius, opacity });
+                continue;
+            }
+            let number = self.number(Column::Stroke, |n| n.fract() == 0.0, "a whole number")?;
+            let t = self.number(Column::T, |t| (0.0..=1.0).contains(&t), "a number from 0 to 1")?;
+            if last != Some(number) {
+                layer.lines.push(Polyline { vertices: Vec::new(), closed: false });
+                last = Some(number);
+            }
+            if let Some(line) = layer.lines.last_mut() {
+                line.vertices.push(Vertex { at, world, radius, opacity, t });
+            }
+        }
+        let mut marks = Marks { page: *page, layers };
+        marks.layers.iter_mut().flat_map(|layer| &mut layer.lines).for_each(close);
+        marks.round();
+        Ok(marks.layers)
+    }
+
+    fn fault(&self, column: &str, fault: String) -> OutputError {
+        OutputError::List { path: self.path.into(), line: self.rows.line(), column: column.into(), fault }
+    }
+
+    /// What the row has in a column is not what should stand there.
+    fn wrong(&self, column: Column, expected: &str) -> OutputError {
+        let found = self.rows.found(column).unwrap_or_else(|| "nothing".into());
+        self.fault(column.name(), format!("found {found}, expected {expected}"))
+    }
+
+    /// A finite number that may stand there.
+    fn number(&self, column: Column, may: impl Fn(f64) -> bool, expected: &str) -> Result<f64, OutputError> {
+        let number = self.rows.number(column);
+        number.filter(|&n| n.is_finite() && may(n)).ok_or_else(|| self.wrong(column, expected))
+    }
+
+    /// The layer of the row's pen.
+    fn layer<'l>(&self, layers: &'l mut [Layer]) -> Result<&'l mut Layer, OutputError> {
+        let at = if self.rows.has(Column::Pen) {
+            let text = self.rows.text(Column::Pen);
+            layers.iter().position(|layer| text == Some(layer.pen.name.trim())).ok_or_else(|| {
+                let names: Vec<String> = layers.iter().map(|layer| format!("{:?}", layer.pen.name)).collect();
+                self.wrong(Column::Pen, &names.join(" or "))
+            })?
+        } else {
+            0
+        };
+        layers.get_mut(at).ok_or_else(|| self.fault("pen", "there is no pen to draw with".into()))
+    }
+}
+
+/// A line whose last vertex is its first again is closed.
+fn close(line: &mut Polyline) {
+    if let [first, .., last] = line.vertices.as_slice()
+        && line.vertices.len() > 3
+        && (first.at, first.world) == (last.at, last.world)
+    {
+        line.vertices.pop();
+        line.closed = true;
+    }
+}

@@ -1,0 +1,119 @@
+//! What `[stipples]` needs of the rest of a scene, and what it makes of other tables.
+
+use super::DotColor;
+use crate::file::Problem;
+use crate::file::check::Check;
+use crate::plan::{Asks, Idle, Pass};
+use crate::tables::{Axis, Iso, Over, Scene};
+
+/// Whether a function has a row of values for each label.
+fn over_label(over: &Over) -> bool {
+    matches!(over, Over::Two([Axis::Value, Axis::Label]))
+}
+
+/// Colours are borrowed from `[transfer]`, and a dot has its value and its label, no other quantity.
+pub(crate) fn check_colors(scene: &Scene, check: &mut Check) {
+    let Some(stipples) = &scene.stipples else { return };
+    if matches!(stipples.color, DotColor::Fixed(_)) || !check.sound(&["transfer", "stipples.color"]) {
+        return;
+    }
+    let (what, remedy) = match (&scene.transfer, stipples.color) {
+        (None, _) => {
+            ("dots take their colours from [transfer], and there is none", "add a table [transfer], or give a colour")
+        }
+        (Some(transfer), DotColor::Label) if !over_label(&transfer.over) => (
+            "dots take the colours of their labels, and the function is not over [\"value\", \"label\"]",
+            "give it a row for each label, or write \"transfer\"",
+        ),
+        (Some(transfer), _) if transfer.over != Over::Value && !over_label(&transfer.over) => (
+            "dots have a value and a label, and the function is over another quantity",
+            "make it one over the value, or over [\"value\", \"label\"], or give a colour",
+        ),
+        _ => return,
+    };
+    check.fault_in("stipples.color", Problem::Contradiction { what: what.into(), remedy: remedy.into() });
+}
+
+/// What is made once, and what a frame does.
+pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
+    let Some(stipples) = &scene.stipples else { return };
+    asks.pass(Pass::StippleGradients, "stipples", "stipples.gradient");
+    asks.pass(Pass::StipplePoints, "stipples", "stipples.k_max");
+    asks.pass(Pass::Dots, "stipples", "stipples");
+    if stipples.hide_behind == Some(Iso::Auto) {
+        asks.pass(Pass::AutomaticIso, "hidden points", "stipples.hide_behind");
+    }
+    if stipples.curves.is_some() {
+        asks.pass(Pass::CurveVoxels, "silhouette curves", "stipples.curves");
+        asks.pass(Pass::Curves, "silhouette curves", "stipples.curves");
+    }
+    if stipples.pen.is_none() && !matches!(stipples.color, DotColor::Fixed(_)) {
+        asks.pass(Pass::DotColors, "colours of dots", "stipples.color");
+        if scene.transfer.as_ref().is_some_and(|transfer| over_label(&transfer.over)) {
+            asks.pass(Pass::DotLabels, "colours of dots", "stipples.color");
+        }
+        if !asks.casts_rays() && scene.transfer.as_ref().is_some_and(|transfer| transfer.is_automatic()) {
+            asks.pass(Pass::AutomaticTransfer, "colours of dots", "transfer.nodes");
+        }
+    }
+    for (has, pass, key) in [
+        (stipples.boundary.is_some(), Pass::StillFactor, "stipples.boundary"),
+        (stipples.interior.is_some(), Pass::StillFactor, "stipples.interior"),
+        (stipples.silhouette.is_some(), Pass::Factor, "stipples.silhouette"),
+        (stipples.resolution.is_some(), Pass::Factor, "stipples.resolution"),
+        (stipples.distance.is_some(), Pass::Factor, "stipples.distance"),
+        (stipples.lighting.is_some(), Pass::Factor, "stipples.lighting"),
+    ] {
+        if has {
+            asks.pass(pass, key.rsplit('.').next().unwrap_or(key), key);
+        }
+    }
+}
+
+/// Keys that its own neighbours make idle.
+pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
+    let Some(stipples) = &scene.stipples else { return };
+    if stipples.pen.is_some() {
+        idle.key("stipples.color", "stipples.pen says the colour");
+    }
+    if scene.page.as_ref().is_some_and(|page| page.plotter) {
+        idle.key("stipples.ink", "a plotter's nib cannot fade: its ink is opaque");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file::{Overrides, parse};
+    use std::path::Path;
+
+    fn faults(rest: &str) -> Option<String> {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\nlabels = \"l.nrrd\"\n{rest}");
+        parse(&text, Path::new("scene.toml"), &Overrides::default()).err().map(|faults| faults.to_string())
+    }
+
+    #[test]
+    fn colours_are_borrowed_from_a_function_that_dots_can_read() {
+        let rows = |over: &str| {
+            format!(
+                "[transfer]\nkind = \"regular\"\nover = {over}\nrows = [{{ at = 1, nodes = [{{ at = 1, color = \"red\" }}] }}]\n"
+            )
+        };
+        let labels = rows("[\"value\", \"label\"]");
+        for (color, transfer, wrong) in [
+            ("red", String::new(), None),
+            ("transfer", String::new(), Some("and there is none")),
+            ("label", String::new(), Some("and there is none")),
+            ("transfer", "[transfer]\n".into(), None),
+            ("label", "[transfer]\n".into(), Some("is not over [\"value\", \"label\"]")),
+            ("transfer", labels.clone(), None),
+            ("label", labels, None),
+            ("transfer", rows("[\"value\", \"k1\"]"), Some("over another quantity")),
+        ] {
+            let told = faults(&format!("[stipples]\ncolor = \"{color}\"\n{transfer}"));
+            assert_eq!(told.is_some(), wrong.is_some(), "{color} {transfer}: {told:?}");
+            if let (Some(told), Some(wrong)) = (told, wrong) {
+                assert!(told.contains(wrong) && told.contains("stipples.color"), "{told}");
+            }
+        }
+    }
+}

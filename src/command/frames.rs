@@ -1,0 +1,223 @@
+//! Which file each frame of a scene goes to, and the frames drawn into them.
+
+use super::report::{Progress, note};
+use super::stats::{Times, cpu_seconds};
+use super::{Talk, target};
+use drypoint::drawing::{Drawing, Frame, room_for_animation, write_animation};
+use drypoint::job::{Job, Wanted};
+use drypoint::scene::counts::Counts;
+use drypoint::scene::picture::Picture;
+use drypoint::scene::tables::Scene;
+use drypoint::stippling::Stippling;
+use drypoint::{Failure, Format};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// The files of a scene's frames.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Files {
+    /// One frame.
+    One(PathBuf),
+    /// All frames in one SVG.
+    Animated(PathBuf),
+    /// A file a frame: what stands before and after its number, and the digits of that.
+    Numbered(PathBuf, [String; 2], usize),
+}
+
+impl Files {
+    /// The files that a name stands for; each can be written now. A run of `#` in it is the number of a frame.
+    ///
+    /// # Errors
+    /// `#` without `[orbit]`, `[orbit]` without `#` where the format has no frames, fewer digits than the last frame needs,
+    /// more than one run, or a folder that is not there or may not be written to.
+    pub(super) fn of(path: &Path, scene: &Scene) -> Result<Self, Failure> {
+        let files = Self::named(path, scene)?;
+        target::writable(&files.path(0))?;
+        Ok(files)
+    }
+
+    fn named(path: &Path, scene: &Scene) -> Result<Self, Failure> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let runs: Vec<&str> = name.split(|c| c != '#').filter(|run| !run.is_empty()).collect();
+        let refused = |what: String, remedy: String| Err(Failure::new(what, path.display(), remedy));
+        let Some(orbit) = scene.orbit else {
+            if runs.is_empty() {
+                return Ok(Self::One(path.into()));
+            }
+            let what = "a # stands for the number of a frame, and the scene has no [orbit]";
+            return refused(what.into(), "add a table [orbit], or give a name without #".into());
+        };
+        let digits = (orbit.frames - 1).max(1).ilog10() as usize + 1;
+        let stem = target::stem(path);
+        let suffix = path.extension().unwrap_or_default().to_string_lossy();
+        let example = || format!("write {stem}_{}.{suffix}", "#".repeat(digits.max(3)));
+        match runs[..] {
+            [] if Format::of(path) == Some(Format::Svg) && scene.stipples.is_some() => Ok(Self::Animated(path.into())),
+            [] => {
+                let frames = orbit.frames;
+                refused(format!("[orbit] has {frames} frames, and the name has no ### for their numbers"), example())
+            }
+            [run] if run.len() < digits => {
+                let (n, last) = (run.len(), orbit.frames - 1);
+                refused(format!("{run} has {n} of the {digits} digits of frame {last}"), "write more #".into())
+            }
+            [run] => {
+                let (before, after) = name.split_once(run).unwrap_or_default();
+                Ok(Self::Numbered(path.into(), [before, after].map(String::from), run.len()))
+            }
+            _ => refused("a name has one number of a frame, and this one has several runs of #".into(), example()),
+        }
+    }
+
+    /// The file of a frame.
+    fn path(&self, frame: usize) -> PathBuf {
+        match self {
+            Self::One(path) | Self::Animated(path) => path.clone(),
+            Self::Numbered(path, [before, after], digits) => {
+                path.with_file_name(format!("{before}{frame:0digits$}{after}"))
+            }
+        }
+    }
+
+    /// What was written.
+    fn said(&self, frames: usize) -> String {
+        match self {
+            Self::One(path) => path.display().to_string(),
+            Self::Animated(path) => format!("{}: {frames} frames", path.display()),
+            Self::Numbered(..) => {
+                format!("{} … {}: {frames} frames", self.path(0).display(), self.path(frames - 1).display())
+            }
+        }
+    }
+}
+
+/// What drawing all frames took.
+pub(super) struct Drawn {
+    /// Of all frames together; what is made once is in them once, and of buffers the largest.
+    pub counts: Counts,
+    /// Of each frame.
+    pub times: Times,
+}
+
+/// The first frame of a job in pixels.
+pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Picture, Failure> {
+    let mut counts = Counts::default();
+    let stippling = if is_stippled(job) { Some(Stippling::new(job, &mut counts, &|_| ())?) } else { None };
+    let (frame, _) = Drawing::new(job, stippling.as_ref(), &mut counts)?.frame(0, progress)?;
+    frame.painted(job)
+}
+
+/// Draws every frame of a job, `repeat` times each, and writes them.
+pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Failure> {
+    let mut counts = job.counts.clone();
+    let stippling = if is_stippled(job) {
+        let progress = Progress::new(talk, "stippling");
+        Some(Stippling::new(job, &mut counts, &|share| progress.hear(share))?)
+    } else {
+        None
+    };
+    let mut drawing = Drawing::new(job, stippling.as_ref(), &mut counts)?;
+    let frames = drawing.frames();
+    if matches!(files, Files::Animated(_)) {
+        room_for_animation(job, frames)?;
+    }
+    let (mut cpu, mut wall) = (Some(0.0), Vec::new());
+    let (mut animated, mut said, mut marks) = (Vec::new(), Vec::new(), [0, 0]);
+    {
+        let progress = Progress::new(talk, "rendering");
+        for i in 0..frames {
+            let before = cpu_seconds();
+            let mut timed = || {
+                let start = Instant::now();
+                let drawn = drawing.frame(i, &|share| progress.hear((i as f64 + share) / frames as f64));
+                wall.push(start.elapsed().as_secs_f64());
+                drawn
+            };
+            let (frame, own) = timed()?;
+            for _ in 1..repeat {
+                timed()?;
+            }
+            // Without what writing takes.
+            cpu = cpu_seconds().zip(before).zip(cpu).map(|((after, before), sum)| sum + after - before);
+            counts.add_frame(&own);
+            if i == 0 {
+                marks = frame.marks();
+                warn_of_nothing(job, &frame, talk);
+            }
+            if matches!(files, Files::Animated(_)) {
+                animated.push(frame);
+                continue;
+            }
+            let start = Instant::now();
+            let of_plotter = frame.write(job, &files.path(i))?;
+            *counts.seconds.entry("write".into()).or_default() += start.elapsed().as_secs_f64();
+            if i == 0 {
+                said = of_plotter;
+            }
+        }
+    }
+    if let Files::Animated(path) = files {
+        let start = Instant::now();
+        write_animation(job, &animated, path)?;
+        counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
+    }
+    let [dots, lines] = marks;
+    match files {
+        Files::One(_) if stippling.is_some() => {
+            note(talk, format_args!("{}: {dots} dots, {lines} lines", files.said(frames)));
+        }
+        _ => note(talk, files.said(frames)),
+    }
+    said.iter().for_each(|line| note(talk, line));
+    Ok(Drawn { counts, times: Times::new(wall, cpu) })
+}
+
+/// Whether points and lines are drawn: layers without the beauty show none.
+fn is_stippled(job: &Job) -> bool {
+    job.scene.stipples.is_some() && (job.wanted() == Wanted::Marks || job.shows_beauty())
+}
+
+/// Says where the first frame shows nothing.
+fn warn_of_nothing(job: &Job, frame: &Frame, talk: Talk) {
+    let [dots, lines] = frame.marks();
+    if frame.marks.is_some() && !job.draws_volume() && dots + lines == 0 {
+        note(talk, "warning: the page is empty");
+    }
+    if job.draws_volume() && frame.picture.as_ref().is_some_and(|picture| job.shows_nothing(picture)) {
+        let seen = "nothing is seen: no ray meets a value that transfer.nodes show; `drypoint info` tells the range";
+        note(talk, format_args!("warning: {seen} of a volume, `drypoint plan --full` the nodes and the camera"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint::scene::file::{Overrides, parse};
+
+    fn files(name: &str, rest: &str) -> Result<Files, Failure> {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
+        Files::named(Path::new(name), &parse(&text, Path::new("a.toml"), &Overrides::default()).unwrap())
+    }
+
+    #[test]
+    fn names_of_frames() {
+        let orbit = "[orbit]\n";
+        let numbered = files("a#/turn_###.png", orbit).unwrap();
+        assert_eq!(numbered.path(7), Path::new("a#/turn_007.png"));
+        assert_eq!(files("##.exr", orbit).unwrap().path(35), Path::new("35.exr"));
+        assert_eq!(files("a.png", "").unwrap(), Files::One("a.png".into()));
+        assert_eq!(files("a.svg", "[stipples]\n[orbit]\n").unwrap(), Files::Animated("a.svg".into()));
+        for (name, rest, what, remedy) in [
+            ("a_#.png", "", "a # stands for", "add a table [orbit], or give a name without #"),
+            ("a.png", orbit, "[orbit] has 36 frames, and the name has no ###", "write a_###.png"),
+            ("a.svg", orbit, "[orbit] has 36 frames", "write a_###.svg"),
+            ("a.pdf", "[stipples]\n[orbit]\n", "[orbit] has 36 frames", "write a_###.pdf"),
+            ("a.png", "[orbit]\nframes = 10001\n", "[orbit] has 10001 frames", "write a_#####.png"),
+            ("a_#.png", orbit, "# has 1 of the 2 digits of frame 35", "write more #"),
+            ("#_#.png", orbit, "a name has one number", "write #_#_###.png"),
+        ] {
+            let failure = files(name, rest).unwrap_err();
+            assert!(failure.what.starts_with(what) && failure.remedy == remedy, "{name}: {failure}");
+        }
+    }
+}

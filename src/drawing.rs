@@ -1,0 +1,143 @@
+//! What a scene draws, frame by frame: the volume, points and lines over it, or either alone; and the files of that.
+
+mod paper;
+
+use crate::Failure;
+use crate::job::{Job, Wanted, provenance, render_failure, room};
+use crate::stippling::{DotFrames, Stippling};
+use drypoint_reference::ray::Renderer;
+use drypoint_scene::color::Rgba;
+use drypoint_scene::counts::Counts;
+use drypoint_scene::marks::Marks;
+use drypoint_scene::picture::{Layer, LayerKind, Picture};
+use drypoint_scene::plan::Plan;
+use drypoint_scene::tables::{Orbit, Scene};
+use drypoint_scene::view::View;
+use paper::Paper;
+use std::path::Path;
+
+/// A job made ready for any number of frames.
+pub struct Drawing<'a> {
+    job: &'a Job,
+    first: View,
+    orbit: Option<Orbit>,
+    renderer: Option<Renderer<'a>>,
+    dots: Option<DotFrames<'a>>,
+}
+
+/// One frame.
+pub struct Frame {
+    /// Its number, from 0.
+    pub number: usize,
+    /// The volume with what lies behind it, or a picture that lies behind points alone.
+    pub picture: Option<Picture>,
+    /// What is drawn over it.
+    pub marks: Option<Marks>,
+}
+
+impl<'a> Drawing<'a> {
+    /// Prepares the rays, and the frames of the points that were made of the job. What preparing took goes to `counts`.
+    ///
+    /// # Errors
+    /// As [`Job::renderer`].
+    pub fn new(job: &'a Job, stippling: Option<&'a Stippling<'a>>, counts: &mut Counts) -> Result<Self, Failure> {
+        let renderer = if job.draws_volume() { Some(job.renderer()?) } else { None };
+        if let Some(renderer) = &renderer {
+            counts.add(renderer.prepared());
+        }
+        let dots = stippling.map(Stippling::frames);
+        Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, dots })
+    }
+
+    /// Number of frames: those of `[orbit]`, or one.
+    pub fn frames(&self) -> usize {
+        self.orbit.map_or(1, |orbit| orbit.frames)
+    }
+
+    /// Draws a frame; what that took alone goes to its counts. `progress` hears the share of the rays that is done, from
+    /// any thread.
+    ///
+    /// # Errors
+    /// A camera so far away that sample planes are not told apart, a picture for which there is no memory.
+    pub fn frame(&mut self, frame: usize, progress: &(dyn Fn(f64) + Sync)) -> Result<(Frame, Counts), Failure> {
+        let scene = &self.job.scene;
+        let mut counts = Counts::default();
+        let view = match self.orbit {
+            Some(orbit) => orbit.view(&self.first, &scene.camera, self.job.volume.grid(), frame),
+            None => self.first.clone(),
+        };
+        let picture = match &mut self.renderer {
+            Some(renderer) => {
+                if self.orbit.is_some() {
+                    renderer.turn(view.clone()).map_err(|error| render_failure(&error, scene))?;
+                }
+                let (picture, own) = renderer.again(progress);
+                counts.add(&own);
+                Some(picture)
+            }
+            None => self.job.background().map(|pixels| of_pixels(pixels, scene.picture.size)),
+        };
+        let marks = self.dots.as_mut().map(|dots| dots.draw(&view, &mut counts));
+        Ok((Frame { number: frame, picture, marks }, counts))
+    }
+}
+
+impl Frame {
+    /// Dots, and lines.
+    pub fn marks(&self) -> [usize; 2] {
+        let sum = |n: fn(&drypoint_scene::marks::Layer) -> usize| {
+            self.marks.iter().flat_map(|marks| &marks.layers).map(n).sum()
+        };
+        [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
+    }
+
+    /// The frame in pixels, with its points and lines painted over the layer `beauty`: the page with its margin where points
+    /// and lines are all that is wanted, and else a picture of the scene's size.
+    ///
+    /// # Errors
+    /// A picture of no or too many pixels.
+    pub fn painted(self, job: &Job) -> Result<Picture, Failure> {
+        Paper::of(job, self.number).painted(self.picture, self.marks.as_ref())
+    }
+
+    /// Writes the frame by the suffix; the file appears whole or not at all. What a plotter will do is returned, a sentence
+    /// a layer. A list has the dots as they are, whatever draws them.
+    ///
+    /// # Errors
+    /// What the operating system refuses, or a picture of no or too many pixels.
+    pub fn write(self, job: &Job, path: &Path) -> Result<Vec<String>, Failure> {
+        Paper::of(job, self.number).write(self, path)
+    }
+}
+
+/// Writes marks on the page of a scene, as [`Frame::write`] does.
+///
+/// # Errors
+/// As [`Frame::write`].
+pub fn write_page(marks: Marks, scene: &Scene, path: &Path) -> Result<Vec<String>, Failure> {
+    let provenance = provenance(scene, &Plan::of_marks(scene));
+    let frame = Frame { number: 0, picture: None, marks: Some(marks) };
+    Paper { scene, wanted: Wanted::Marks, provenance }.write(frame, path)
+}
+
+/// Writes frames as one SVG that shows them in turn, over and over.
+///
+/// # Errors
+/// What the operating system refuses.
+pub fn write_animation(job: &Job, frames: &[Frame], path: &Path) -> Result<(), Failure> {
+    Paper::of(job, 0).write_animation(frames, path)
+}
+
+/// Whether there is memory for the pictures of so many frames at once, which an animation has.
+///
+/// # Errors
+/// There is not.
+pub fn room_for_animation(job: &Job, frames: usize) -> Result<(), Failure> {
+    room(&job.scene, if job.draws_volume() { 4 * 8 * frames } else { 0 })
+}
+
+/// Premultiplied pixels as a picture.
+fn of_pixels(pixels: &[Rgba], [width, height]: [usize; 2]) -> Picture {
+    let channels = (0..4).map(|c| pixels.iter().map(|pixel| pixel[c]).collect()).collect();
+    Picture { width, height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] }
+}

@@ -1,0 +1,132 @@
+//! Frames on paper: as pixels, vectors or a list.
+
+use super::Frame;
+use crate::job::{Job, Wanted};
+use crate::{Failure, Format};
+use drypoint_output::vector::{Sheet, pdf, svg};
+use drypoint_output::{OutputError, exr, list, paint, plotter, png};
+use drypoint_scene::color::Rgba;
+use drypoint_scene::marks::{Marks, Page};
+use drypoint_scene::picture::{LayerKind, Picture, Provenance};
+use drypoint_scene::tables::{Background, Scene};
+use std::borrow::Cow;
+use std::path::Path;
+
+/// Seconds for which an animation shows a frame: between the 4 and 15 frames a second of Lu et al.
+const FRAME_SECONDS: f64 = 0.1;
+
+/// What frames of a scene are written on.
+pub(super) struct Paper<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) wanted: Wanted,
+    pub(super) provenance: Provenance,
+}
+
+/// Marks as they are drawn, and what a plotter does with them, a sentence a layer.
+struct Planned<'a> {
+    marks: Cow<'a, Marks>,
+    said: Vec<String>,
+}
+
+impl<'a> Paper<'a> {
+    pub(super) fn of(job: &'a Job, frame: usize) -> Self {
+        Self { scene: &job.scene, wanted: job.wanted(), provenance: job.provenance_of(frame) }
+    }
+
+    /// See [`Frame::write`].
+    pub(super) fn write(&self, frame: Frame, path: &Path) -> Result<Vec<String>, Failure> {
+        let format = Format::among(path, &Format::ALL)?;
+        let wrong = |error: OutputError| Failure::picture(&error, path.display());
+        if let (Some(form), Some(marks)) = (list::Form::of(path), &frame.marks) {
+            list::write_dots(marks, form, path).map_err(wrong)?;
+            let [_, lines] = frame.marks();
+            let said = (lines > 0).then(|| format!("{lines} lines are left out: a list has dots alone"));
+            return Ok(said.into_iter().collect());
+        }
+        let planned = frame.marks.as_ref().map(|marks| self.planned(marks));
+        let marks = planned.as_ref().map(|planned| &*planned.marks);
+        match (format, marks) {
+            (Format::Svg, Some(marks)) => svg::write_svg(&self.sheet(marks, frame.picture.as_ref()), path),
+            (Format::Pdf, Some(marks)) => pdf::write_pdf(&self.sheet(marks, frame.picture.as_ref()), path),
+            (Format::Exr, marks) => exr::write_exr(&self.painted(frame.picture, marks)?, &self.provenance, path),
+            (_, marks) => {
+                let picture = self.painted(frame.picture, marks)?;
+                png::write_png(&picture, self.scene.picture.bits, &self.provenance, path)
+            }
+        }
+        .map_err(wrong)?;
+        Ok(planned.map(|planned| planned.said).unwrap_or_default())
+    }
+
+    /// See [`super::write_animation`].
+    pub(super) fn write_animation(&self, frames: &[Frame], path: &Path) -> Result<(), Failure> {
+        let with_marks = frames.iter().filter_map(|frame| frame.marks.as_ref().map(|marks| (marks, &frame.picture)));
+        let drawn: Vec<_> = with_marks.map(|(marks, picture)| (self.planned(marks), picture)).collect();
+        let sheets: Vec<Sheet> =
+            drawn.iter().map(|(planned, picture)| self.sheet(&planned.marks, picture.as_ref())).collect();
+        let written = svg::write_animated_svg(&sheets, FRAME_SECONDS, path);
+        written.map_err(|error| Failure::picture(&error, path.display()))
+    }
+
+    /// See [`Frame::painted`].
+    pub(super) fn painted(&self, picture: Option<Picture>, marks: Option<&Marks>) -> Result<Picture, Failure> {
+        let Scene { picture: settings, given, .. } = self.scene;
+        // A picture has its own size, without the page's margin.
+        let page = Page::of(self.scene);
+        let (window, blank) = match self.wanted {
+            Wanted::Marks => (paint::Window::page(&page), page),
+            Wanted::Picture => {
+                (paint::Window::frame(&page, settings.size), Page::in_pixels(settings.size, 0.0, settings.dpi))
+            }
+        };
+        let wrong = |error: OutputError| Failure::picture(&error, given.position("picture"));
+        let mut picture = match picture {
+            Some(picture) => picture,
+            None => paint::blank(&blank, self.background()).map_err(wrong)?,
+        };
+        if let Some(marks) = marks.filter(|_| picture.layer(LayerKind::Beauty).is_some()) {
+            paint::paint(marks, &window, settings.blend_space, &mut picture).map_err(wrong)?;
+        }
+        Ok(picture)
+    }
+
+    fn sheet<'s>(&'s self, marks: &'s Marks, picture: Option<&'s Picture>) -> Sheet<'s> {
+        Sheet { marks, background: self.background(), picture, plotter: self.plotter(), provenance: &self.provenance }
+    }
+
+    fn plotter(&self) -> bool {
+        self.scene.page.as_ref().is_some_and(|page| page.plotter)
+    }
+
+    fn background(&self) -> Option<Rgba> {
+        match self.scene.picture.background {
+            Background::Color(color) => Some(color),
+            Background::None | Background::Picture(_) => None,
+        }
+    }
+
+    fn planned<'m>(&self, marks: &'m Marks) -> Planned<'m> {
+        if !self.plotter() {
+            return Planned { marks: Cow::Borrowed(marks), said: Vec::new() };
+        }
+        let plan = plotter::plan(marks, &plotter::Speed::default());
+        let said = travel(&plan);
+        Planned { marks: Cow::Owned(plan.marks), said }
+    }
+}
+
+/// What a plotter does, a sentence a layer.
+fn travel(plan: &plotter::Plan) -> Vec<String> {
+    let layers = plan.marks.layers.iter().zip(&plan.travel);
+    let mut said: Vec<String> = layers
+        .map(|(layer, t)| {
+            let (name, down, up) = (layer.pen.label(), t.pen_down / 1000.0, t.pen_up / 1000.0);
+            let minutes = t.seconds / 60.0;
+            format!("{name}: {} touches, {down:.1} m drawn, {up:.1} m between, about {minutes:.0} minutes", t.touches)
+        })
+        .collect();
+    if plan.dropped > 0 {
+        said.push(format!("{} dots are left out: they are closer than 0.7 nib to another", plan.dropped));
+    }
+    said
+}
