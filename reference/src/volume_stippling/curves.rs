@@ -1,6 +1,7 @@
 //! Silhouette curves: voxels of boundaries that turn away from the eye (5.6, [STIP-13]).
 
 use super::StippleError;
+use super::ridge::across;
 use crate::field::{Field, HessianEstimator, Reconstruction, Rung, Sampler};
 use crate::number::Vec3;
 use crate::with_sampler;
@@ -16,11 +17,17 @@ use std::borrow::Cow;
 /// ‖n × E‖ below which a segment has no direction.
 const NO_DIRECTION: f64 = 1.0 / (1 << 20) as f64;
 
+/// How far from its voxel's centre, in voxels along each axis, a snapped piece may lie: half a voxel, and a little so that
+/// none is lost between two.
+const OWN: f64 = 0.55;
+
 /// The voxels that can lie on a curve, whatever the camera: V·LoG(V) < Th_LOG and ‖∇V‖ > Th_grad.
 #[derive(Clone, Debug)]
 pub struct Edges {
     grid: Grid,
     voxels: Vec<Edge>,
+    /// Whether segments lie where the curve is, rather than through the voxels' centres.
+    is_snapped: bool,
 }
 
 /// One of them.
@@ -31,6 +38,8 @@ struct Edge {
     normal: DVec3,
     /// ∂n/∂x in the world: how the normal turns from place to place.
     turning: DMat3,
+    /// From the voxel's centre to the edge, along n.
+    to_edge: DVec3,
 }
 
 /// A piece of a curve, one voxel long.
@@ -69,12 +78,27 @@ impl Edges {
                     let n = g / length;
                     let project = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
                     let sign = if outside == Outside::Low { -1.0 } else { 1.0 };
-                    Edge { cell: voxel.cell, normal: voxel.normal, turning: project * h * (sign / length) }
+                    let turning = project * h * (sign / length);
+                    Edge { cell: voxel.cell, normal: voxel.normal, turning, to_edge: DVec3::ZERO }
                 })
             };
             voxels.par_iter().zip(&logs).filter_map(edge).collect()
         });
-        Ok(Self { grid: volume.grid().clone(), voxels })
+        Ok(Self { grid: volume.grid().clone(), voxels, is_snapped: false })
+    }
+
+    /// The same with segments where the curve is: on the edge of ‖∇V‖, `tops` steps along n from the centre of each of
+    /// `voxels`, and there where n·E is 0. The voxels are those that [`new`](Self::new) had.
+    pub(super) fn snapped(mut self, voxels: &[PointVoxel], tops: &[f64]) -> Self {
+        // Both in linear order.
+        let mut all = voxels.iter().zip(tops);
+        for edge in &mut self.voxels {
+            if let Some((voxel, top)) = all.find(|(voxel, _)| voxel.cell == edge.cell) {
+                edge.to_edge = voxel.normal * (top * across(&self.grid, voxel.normal));
+            }
+        }
+        self.is_snapped = true;
+        self
     }
 
     /// The segments that a camera sees, in the order of the voxels.
@@ -84,14 +108,20 @@ impl Edges {
             let centre = self.grid.to_world(DVec3::from_array(edge.cell.map(f64::from)));
             let (e, distance) = towards_eye(view, centre);
             let facing = edge.normal.dot(e);
-            let passes = match curves.test {
+            // E turns too as the eye is near: ∂E/∂x = −(I − EEᵀ)/distance.
+            let turning = edge.turning.transpose() * e - (edge.normal - e * facing) / distance;
+            let mut passes = match curves.test {
                 CurvesTest::Literal => facing < curves.eye,
-                CurvesTest::TwoSided => {
-                    // E turns too as the eye is near: ∂E/∂x = −(I − EEᵀ)/distance.
-                    let turning = edge.turning.transpose() * e - (edge.normal - e * facing) / distance;
-                    facing.abs() < curves.c * turning.length() * voxel
-                }
+                CurvesTest::TwoSided => facing.abs() < curves.c * turning.length() * voxel,
             };
+            let mut centre = centre;
+            if self.is_snapped && curves.test == CurvesTest::TwoSided {
+                // A step of Newton in the tangent plane leads to n·E = 0; a voxel has the piece that lies in it.
+                let within = turning - edge.normal * edge.normal.dot(turning);
+                let to_curve = within * (-facing / within.length_squared());
+                passes &= (self.grid.inverse_axes() * to_curve).abs().max_element() <= OWN;
+                centre += edge.to_edge + to_curve;
+            }
             let along = edge.normal.cross(e);
             let length = along.length();
             (passes && length >= NO_DIRECTION).then(|| {

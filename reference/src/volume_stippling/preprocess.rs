@@ -8,7 +8,7 @@ use super::layers::layers;
 use super::norms::{norms, quantile_above};
 use super::order::{self, Sites};
 use super::resolution::boxes;
-use super::ridge::Norms;
+use super::ridge::{Norms, across};
 use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
@@ -121,23 +121,32 @@ impl<'a> Preprocess<'a> {
     pub fn voxels_above(&self, magnitude: f64) -> Result<Vec<PointVoxel>, StippleError> {
         let threshold = Threshold::Magnitude(magnitude);
         let stipples = Stipples { threshold, thin: false, snap: Snap::None, ..self.inputs.stipples.clone() };
-        let inputs = Inputs { stipples: &stipples, tone: None, ..self.inputs };
-        let table = self.inputs.table;
-        let field = field_of(&self.volume, stipples.gradient, table.outside)?;
-        let range = table.range.unwrap_or(self.inputs.volume.range());
-        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, range)).voxels)
+        self.above(&stipples).map(|above| above.voxels)
     }
 
-    /// What curves are found in, whatever the camera; none where the scene has none.
+    /// The voxels above the threshold of other stipples.
+    fn above(&self, stipples: &Stipples) -> Result<Above, StippleError> {
+        let inputs = Inputs { stipples, tone: None, ..self.inputs };
+        let field = field_of(&self.volume, stipples.gradient, self.inputs.table.outside)?;
+        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, self.range())))
+    }
+
+    /// What V = 0 and 1 stand for ([VAL-1]).
+    fn range(&self) -> [f64; 2] {
+        self.inputs.table.range.unwrap_or(self.inputs.volume.range())
+    }
+
+    /// What curves are found in, whatever the camera; none where the scene has none. With `thin` and `snap` they are the same
+    /// voxels as those of points, and their segments lie on the edge.
     ///
     /// # Errors
     /// None that [`new`](Self::new) has not found.
     pub fn edges(&self) -> Result<Option<Edges>, StippleError> {
         let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
-        let voxels = self.voxels_above(curves.grad)?;
-        let Inputs { table, volume, .. } = self.inputs;
-        let range = table.range.unwrap_or(volume.range());
-        Edges::new(&self.volume, &voxels, curves, table.outside, range).map(Some)
+        let threshold = Threshold::Magnitude(curves.grad);
+        let Above { voxels, tops, .. } = self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
+        let edges = Edges::new(&self.volume, &voxels, curves, self.inputs.table.outside, self.range())?;
+        Ok(Some(if tops.is_empty() { edges } else { edges.snapped(&voxels, &tops) }))
     }
 
     /// Number of points.
@@ -233,13 +242,13 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
         }
     };
     let grid = volume.grid();
-    let (to_step, outward) =
-        (grid.inverse_axes() * grid.voxel(), if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 });
+    let to_step = |normal: DVec3| grid.inverse_axes() * (normal * across(grid, normal));
+    let outward = if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 };
     let ridge = Norms { dims, all: &norms };
     let voxel = |x: usize, y: usize, z: usize, norm: f64| {
         let cell = [x, y, z];
         let normal = (sampler.voxel_gradient(cell).to_glam() * (outward / norm)).normalize();
-        let keeps = !stipples.thin || ridge.is_largest(cell, to_step * normal);
+        let keeps = !stipples.thin || ridge.is_largest(cell, to_step(normal));
         keeps.then(|| PointVoxel {
             cell: cell.map(|i| i as u32),
             value: normalized(field.smoothed_value(cell), range),
@@ -247,7 +256,7 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
             normal,
         })
     };
-    let top = |v: &PointVoxel| ridge.top(v.cell.map(|i| i as usize), to_step * v.normal);
+    let top = |v: &PointVoxel| ridge.top(v.cell.map(|i| i as usize), to_step(v.normal));
     let rows = norms.par_chunks(dims[0]).enumerate().map(|(row, norms)| {
         let (y, z) = (row % dims[1], row / dims[1]);
         let candidates = norms.iter().enumerate().filter(|&(_, &norm)| norm > bound && is_above(norm));
@@ -255,10 +264,13 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
     });
     let voxels = rows.collect::<Vec<_>>().concat();
     let tops = if stipples.snap == Snap::Edge { voxels.par_iter().map(top).collect() } else { Vec::new() };
-    // A thin face has one layer, by what thin is.
+    // A thin face has one layer, as thick as its voxels reach along the normal.
     let layers = if inputs.tone.is_some() && !stipples.thin {
+        let to_step = grid.inverse_axes() * grid.voxel();
         let steps: Vec<([u32; 3], DVec3)> = voxels.iter().map(|v| (v.cell, to_step * v.normal)).collect();
         layers(dims, &norms, |norm| norm > bound && is_above(norm), &steps)
+    } else if inputs.tone.is_some() && !voxels.is_empty() {
+        voxels.iter().map(|v| across(grid, v.normal)).sum::<f64>() / (voxels.len() as f64 * grid.voxel())
     } else {
         1.0
     };
@@ -269,12 +281,12 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
 /// curvature.
 fn onto_edges(points: &mut Points, tops: &[f64]) {
     let grid = &points.grid;
-    let (axes, voxel, to_index) = (grid.axes(), grid.voxel(), grid.inverse_axes());
+    let (axes, to_index) = (grid.axes(), grid.inverse_axes());
     let each = points.offsets.par_chunks_mut(points.each).zip(&points.voxels).zip(tops);
     each.for_each(|((offsets, v), top)| {
         for offset in offsets {
             let o = DVec3::from_array(offset.map(f64::from));
-            let along = top * voxel - v.normal.dot(axes * o);
+            let along = top * across(grid, v.normal) - v.normal.dot(axes * o);
             *offset = (o + to_index * v.normal * along).to_array().map(|x| x as f32);
         }
     });

@@ -5,6 +5,17 @@
 //! quadratics. (Linear interpolation lies below a ridge between voxels, which would make oblique faces thicker.)
 
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::space::Grid;
+
+/// How far a voxel reaches along a normal, in world units: at least the smallest voxel, and as far as the largest step of the
+/// grid leads along n. Voxels whose centres lie within half of it of a plane are a layer without holes, also where slices
+/// are far apart.
+pub(super) fn across(grid: &Grid, normal: DVec3) -> f64 {
+    let axes = grid.axes();
+    let steps = [axes.x_axis, axes.y_axis, axes.z_axis].map(|step| step.dot(normal).abs());
+    let dims = grid.dims();
+    (0..3).filter(|&a| dims[a] > 1).fold(grid.voxel(), |reach, a| reach.max(steps[a]))
+}
 
 /// Norms of the voxels of a grid, x fastest.
 #[derive(Clone, Copy)]
@@ -35,7 +46,8 @@ impl Norms<'_> {
         self.all[(cell[2] * self.dims[1] + cell[1]) * self.dims[0] + cell[0]]
     }
 
-    /// Whether a voxel's norm is the largest along ±n within one voxel; `step` leads one voxel along n in index space. Of
+    /// Whether a voxel's norm is the largest along ±n within one voxel; `step` leads one voxel along n in index space, as far
+    /// as [`across`] says. Of
     /// equals the side of the lower linear index is kept.
     pub(super) fn is_largest(&self, cell: [usize; 3], step: DVec3) -> bool {
         // Which of the two comes first in linear order.
@@ -79,6 +91,37 @@ mod tests {
                     assert_eq!(norms.is_largest(cell, n), t(cell).abs() < 0.5, "{n} {cell:?}: {}", t(cell));
                 }
                 assert!((norms.top(cell, n) - (-t(cell)).clamp(-1.0, 1.0)).abs() < 1e-10);
+            }
+        }
+    }
+
+    /// Slices 4 apart: wherever between them a face across them lies, each column has one voxel, and of oblique faces no
+    /// column is without.
+    #[test]
+    fn far_slices_leave_no_holes() {
+        let grid = Grid::with_spacing([12, 12, 12], [1.0, 1.0, 4.0]).unwrap();
+        for n in [DVec3::Z, DVec3::X, DVec3::new(1.0, 0.0, 1.0).normalize(), DVec3::new(1.0, 2.0, 3.0).normalize()] {
+            let largest = (n * DVec3::new(1.0, 1.0, 4.0)).abs().max_element();
+            assert_eq!(across(&grid, n), largest.max(1.0));
+            for offset in [0.0, 0.3, 1.1, 1.9, 2.3, 3.7] {
+                let t = |cell: [usize; 3]| {
+                    let world = DVec3::new(cell[0] as f64, cell[1] as f64, 4.0 * cell[2] as f64);
+                    (world - DVec3::new(5.5, 5.5, 20.0 + offset)).dot(n)
+                };
+                let all: Vec<f64> =
+                    (0..1728).map(|i| [i % 12, i / 12 % 12, i / 144]).map(|c| 1e4 - t(c) * t(c)).collect();
+                let norms = Norms { dims: [12; 3], all: &all };
+                let step = grid.inverse_axes() * (n * across(&grid, n));
+                // Along the axis in which a step leads farthest along n.
+                let lead = if n.z > 0.0 { 2 } else { 0 };
+                for i in 4..8 {
+                    for j in 4..8 {
+                        let cell = |k: usize| if lead == 2 { [i, j, k] } else { [k, i, j] };
+                        let kept = (1..11).filter(|&k| norms.is_largest(cell(k), step)).count();
+                        let within = (1..11).any(|k| t(cell(k)).abs() < 0.49 * largest);
+                        assert!(kept <= 1 && (kept == 1 || !within), "{n} {offset} {i} {j}: {kept}");
+                    }
+                }
             }
         }
     }
