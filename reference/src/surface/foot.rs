@@ -8,12 +8,12 @@ use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 
 impl IsoSurface<'_, '_> {
-    /// Where the straight line of the gradient through a point first meets the surface, at most `reach` world units from the
-    /// point to either side, the nearer of both; none where there is no such place, no gradient, or the point is outside the
-    /// volume. In index space.
-    pub fn foot(&self, point: DVec3, reach: f64) -> Option<DVec3> {
+    /// Where the straight line through a point along a unit vector of the world, such as its gradient's, first meets the
+    /// surface, at most `reach` world units from the point to either side, the nearer of both; none where there is no such
+    /// place. The point and its foot are in index space.
+    pub fn foot(&self, point: DVec3, along: DVec3, reach: f64) -> Option<DVec3> {
         let grid = self.field.volume().grid();
-        let along = grid.inverse_axes() * self.normal(point)?;
+        let along = grid.inverse_axes() * along;
         let to = |way: f64| self.first_root_in_index(point, along * way, [0.0, reach]).map(|t| way * t);
         let foot = match (to(1.0), to(-1.0)) {
             (Some(a), Some(b)) => Some(if a <= -b { a } else { b }),
@@ -32,7 +32,7 @@ impl IsoSurface<'_, '_> {
     }
 
     /// N in world space, by the field's gradient; none where it is rounding ([PREC-3]), and outside the volume.
-    fn normal(&self, index: DVec3) -> Option<DVec3> {
+    pub fn normal(&self, index: DVec3) -> Option<DVec3> {
         let field = self.field;
         let g = self.holds(index).then(|| with_sampler!(field, |sampler| sampler.gradient(Vec3::from_glam(index))))?;
         outward(g, field.reconstruction().outside, field.no_normal_below()).map(Vec3::to_glam)

@@ -1,7 +1,7 @@
 //! Iso-surfaces where rays and lines meet them: the first root of f = iso, what it hides, and the foot of a point on it
 //! (Nagy et al. 2002, 4.3.2; [HATCH-7], [HATCH-14], [STIP-15]).
 //!
-//! Along a line the trilinear interpolation of a cell is a cubic, of which the first root is found ([`cubic`]); for other
+//! Along a line the trilinear interpolation of a cell is a cubic, of which the first root is found; for other
 //! kernels values are looked at every quarter of a voxel, and a change of sign is narrowed down to neighbouring numbers: a
 //! pair of roots closer than that is missed. A root is a place where f − iso is 0 or changes its sign. So a plateau at the
 //! value begins where the line enters it, a volume that is iso everywhere is met at its face, and a field that touches the

@@ -313,7 +313,7 @@ fn a_sphere_hides_its_back() {
     for _ in 0..4000 {
         let n = r.vector(-1.0, 1.0).normalize();
         let start = centre + n * (radius + 2.4 * (r.next() - 0.5));
-        let foot = surface.foot(start, 1.5).unwrap();
+        let foot = surface.foot(start, surface.normal(start).unwrap(), 1.5).unwrap();
         // The gradient of the interpolation is off the radius by a few degrees of a voxel at most.
         assert!(((foot - centre).length() - radius).abs() < 0.05, "{foot}");
         let point = surface.in_front(foot, delta * surface.front(&view));
@@ -328,14 +328,15 @@ fn a_sphere_hides_its_back() {
         }
     }
     assert!(front > 1000 && back > 1000);
-    // No foot farther away than that, nor where there is no gradient, nor outside.
-    assert_eq!(surface.foot(centre + DVec3::X * 8.0, 1.5), None);
-    assert_eq!(surface.foot(DVec3::splat(-1.0), 1.5), None);
+    // No foot farther away than that, nor outside, and no normal there.
+    assert_eq!(surface.foot(centre + DVec3::X * 8.0, DVec3::X, 1.5), None);
+    assert_eq!(surface.foot(DVec3::splat(-1.0), DVec3::X, 99.0), None);
+    assert_eq!(surface.normal(DVec3::splat(-1.0)), None);
     // From inside, in front is inwards, and nothing of the sphere is hidden.
     let inside =
         View::new(&camera(Projection::Perspective { fov: 60.0 }, centre + DVec3::X), volume.grid(), [64, 64]).unwrap();
     assert_eq!((surface.front(&view), surface.front(&inside)), (1.0, -1.0));
-    let ahead = surface.foot(centre + DVec3::from(inside.forward) * radius, 1.5).unwrap();
+    let ahead = surface.foot(centre + inside.forward * radius, inside.forward, 1.5).unwrap();
     assert!(!surface.hides(surface.in_front(ahead, -delta), &inside, 0.5));
     assert!(surface.hides(surface.in_front(ahead, delta), &inside, 0.5));
     assert!(

@@ -47,6 +47,8 @@ struct Edge {
 pub struct Segment {
     /// Its voxel.
     pub cell: [u32; 3],
+    /// n there, outward, in the world.
+    pub normal: DVec3,
     /// Its ends in the world.
     pub ends: [DVec3; 2],
 }
@@ -126,7 +128,7 @@ impl Edges {
             let length = along.length();
             (passes && length >= NO_DIRECTION).then(|| {
                 let half = along * (0.5 * voxel / length);
-                Segment { cell: edge.cell, ends: [centre - half, centre + half] }
+                Segment { cell: edge.cell, normal: edge.normal, ends: [centre - half, centre + half] }
             })
         };
         self.voxels.par_iter().filter_map(segment).collect()

@@ -160,7 +160,8 @@ impl<'a> Frames<'a> {
         let whole = Whole { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
         let moving = Moving::new(self.stipples, self.light, view, &whole);
         let place = Place::new(view, page, &self.points.grid);
-        let hidden = self.surface.as_deref().map(|surface| Hidden::new(surface, view, self.near));
+        let surface = self.surface.as_deref();
+        let hidden = surface.map(|surface| Hidden::new(surface, view, self.near, self.points.grid.voxel()));
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, Part::default);
         drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
@@ -232,7 +233,7 @@ impl<'a> Frames<'a> {
             let o = DVec3::from_array(offset.map(f64::from));
             if let Some(on_page) = place.on_page(at + place.to_eye * o, self.near) {
                 let world = place.world(centre + o);
-                if hidden.is_some_and(|hidden| hidden.hides(world)) {
+                if hidden.is_some_and(|hidden| hidden.hides(world, voxel.normal)) {
                     part.hidden += 1;
                     continue;
                 }

@@ -6,10 +6,10 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::view::View;
 use rayon::prelude::*;
 
-/// How far from a point its foot on the surface may be, in voxels along the gradient.
+/// How far from a point its foot on the surface may be, along the gradient of its voxel, in voxels that points are made in.
 const REACH: f64 = 1.5;
 
-/// δ of [HATCH-7]: how far before the surface it is asked for, in voxels.
+/// δ of [HATCH-7]: how far before the surface it is asked for, in voxels of the volume.
 const OFFSET: f64 = 0.15;
 
 /// What hides points from one camera.
@@ -25,27 +25,34 @@ pub(super) struct Hidden<'a> {
 }
 
 impl<'a> Hidden<'a> {
-    /// `near` is that of a perspective camera, in world units.
-    pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64) -> Self {
+    /// `near` is that of a perspective camera and `of_points` the voxel that points are made in ([STIP-2]), in world units.
+    pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64, of_points: f64) -> Self {
         let voxel = surface.field().volume().grid().voxel();
-        Self { surface, view, near, reach: REACH * voxel, offset: OFFSET * voxel * surface.front(view) }
+        Self { surface, view, near, reach: REACH * of_points, offset: OFFSET * voxel * surface.front(view) }
     }
 
-    /// Whether the surface hides a point of the world. A point near the surface is taken for one that lies on it: it is asked
-    /// for at its foot, δ in front; else a point's own distance would hide it behind the surface that it stands for.
-    pub(super) fn hides(&self, point: DVec3) -> bool {
+    /// Whether the surface hides a point of the world, of a voxel with that normal. A point near the surface is taken for one
+    /// that lies on it: it is asked for at its foot, δ in front; else a point's own distance would hide it behind the surface
+    /// that it stands for.
+    pub(super) fn hides(&self, point: DVec3, normal: DVec3) -> bool {
         let grid = self.surface.field().volume().grid();
-        let foot = self.surface.foot(grid.to_index(point), self.reach);
+        let foot = self.surface.foot(grid.to_index(point), normal, self.reach);
         let tested = foot.map_or(point, |foot| grid.to_world(self.surface.in_front(foot, self.offset)));
         self.surface.hides(tested, self.view, self.near)
     }
 }
 
-/// The segments of curves whose middle the surface does not hide.
-pub fn seen(mut segments: Vec<Segment>, surface: &IsoSurface<'_, '_>, view: &View, near: f64) -> Vec<Segment> {
-    let hidden = Hidden::new(surface, view, near);
+/// The segments of curves whose middle the surface does not hide. `voxel` is the one that they are made in, in world units.
+pub fn seen(
+    mut segments: Vec<Segment>,
+    surface: &IsoSurface<'_, '_>,
+    view: &View,
+    near: f64,
+    voxel: f64,
+) -> Vec<Segment> {
+    let hidden = Hidden::new(surface, view, near, voxel);
     let middle = |segment: &Segment| (segment.ends[0] + segment.ends[1]) / 2.0;
-    let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(middle(segment))).collect();
+    let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(middle(segment), segment.normal)).collect();
     let mut hides = hides.into_iter();
     segments.retain(|_| hides.next() == Some(false));
     segments
@@ -77,7 +84,7 @@ mod tests {
         for projection in [Projection::Orthographic { height: None }, Projection::Perspective { fov: 40.0 }] {
             let camera = Camera { projection, direction, ..Camera::default() };
             let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-            let hidden = Hidden::new(&surface, &view, 0.5);
+            let hidden = Hidden::new(&surface, &view, 0.5, 1.0);
             let limit = -(2.0 * OFFSET / radius).sqrt();
             for i in 0..4000 {
                 let draw = |k| 2.0 * uniform(11, [i, k, 0], 0) - 1.0;
@@ -85,7 +92,7 @@ mod tests {
                 let point = centre + n * (radius + 1.3 * draw(3));
                 let foot = centre + n * radius;
                 let towards = if view.perspective { (view.eye - foot).normalize() } else { -view.forward };
-                let hides = hidden.hides(point);
+                let hides = hidden.hides(point, n);
                 if n.dot(towards) > 0.0 {
                     assert!(!hides, "{}", n.dot(towards));
                     front += 1;
@@ -95,8 +102,8 @@ mod tests {
                 }
             }
             // Without a foot a point is asked for itself: inside it is hidden, before the sphere it is not.
-            assert!(hidden.hides(centre + direction) && !hidden.hides(centre - direction.normalize() * 18.0));
-            assert!(hidden.hides(centre + direction.normalize() * 18.0));
+            let hides = |along: f64| hidden.hides(centre + direction.normalize() * along, DVec3::X);
+            assert!(hides(1.0) && hides(18.0) && !hides(-18.0));
         }
         assert!(front > 2500 && back > 2500, "{front} {back}");
     }
