@@ -30,18 +30,18 @@ pub(super) fn picture(path: &Path, formats: &[Format]) -> Result<Format, Failure
         let what = "a # stands for the number of a frame, and this picture has one";
         return Err(Failure::new(what, path.display(), "give a name without #"));
     }
-    let format = format(path, formats)?;
-    writable(path)?;
-    Ok(format)
+    format(path, formats)
 }
 
-/// The format of a file that is no folder.
+/// The format of a file, or of files of frames, in a folder that can be written to now.
 pub(super) fn format(path: &Path, formats: &[Format]) -> Result<Format, Failure> {
     if path.is_dir() {
         // Its suffix does not matter.
         writable(path)?;
     }
-    Format::among(path, formats)
+    let format = Format::among(path, formats)?;
+    writable(path)?;
+    Ok(format)
 }
 
 /// Whether a picture's file can be written now.

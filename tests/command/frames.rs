@@ -27,14 +27,14 @@ fn text(folder: &Folder, name: &str) -> String {
 #[test]
 fn a_volume_goes_round() {
     let folder = Folder::new();
-    folder.scene("[contours]\n[camera]\neye = [9.5, -40, 9.5]\ntarget = [9.5, 9.5, 9.5]\n");
+    folder.scene("[contours]\n[camera]\neye = [-30, 9.5, 9.5]\ntarget = [9.5, 9.5, 9.5]\nup = [0, 1, 0]\n");
     folder.good("render scene.toml -o still.exr -q");
     let orbit = "--set orbit.frames=4 --set orbit.degrees=360";
     let told = folder.line(&format!("render scene.toml {orbit} -o turn_##.exr"));
     assert_eq!((told.code, told.err.as_str()), (Some(0), "turn_00.exr … turn_03.exr: 4 frames\n"));
     assert_eq!(folder.read("turn_00.exr"), folder.read("still.exr"));
-    // A quarter of a turn to the right, by hand.
-    folder.good("render scene.toml -o quarter.exr -q --set camera.eye=[59,9.5,9.5]");
+    // A quarter of a turn to the right, by hand: from the torus's rim to its face.
+    folder.good("render scene.toml -o quarter.exr -q --set camera.eye=[9.5,9.5,49]");
     folder.good("compare quarter.exr turn_01.exr --max 1e-9");
     assert_eq!(folder.line("compare turn_00.exr turn_01.exr --max 0.01").code, Some(1));
     // A name that nobody gave gets numbers.

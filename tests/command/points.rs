@@ -166,14 +166,14 @@ fn dots_over_the_volume() {
 fn a_bare_volume_in_dots() {
     let folder = Folder::new();
     folder.good("phantom sphere --size 24 --type u8 -o ball.nrrd -q");
-    let drawn = counts(&folder, "render ball.nrrd --preset stipple -o dots.png -q --stats --set picture.dpi=60");
+    let drawn = counts(&folder, "render ball.nrrd --preset stipple -o dots.png -q --stats --size 60x60");
     assert_eq!((drawn["rays"].as_u64(), drawn["gradients"].as_u64()), (Some(0), Some(0)));
     assert!(drawn["points"].as_u64() > Some(100));
-    let plan = folder.good("plan ball.nrrd --set preset=stipple");
+    let plan = folder.good("plan ball.nrrd --set preset=stipple --set picture.size=[60,60]");
     assert!(!plan.contains("transfer function") && !plan.contains("contours"), "{plan}");
     assert!(plan.contains("stipple points") && plan.contains("\npoints\n"), "{plan}");
     // A table over the style is an effect beside it.
-    let plan = folder.good("plan ball.nrrd --set stipples.k_max=2");
+    let plan = folder.good("plan ball.nrrd --set stipples.k_max=2 --set picture.size=[60,60]");
     assert!(plan.contains("transfer function") && plan.contains("stipple points"), "{plan}");
 }
 
@@ -188,14 +188,14 @@ fn the_plan_of_stipples_has_what_is_called_for() {
     let plan = folder.good("plan ball.toml");
     let row = |words: &str| plan.lines().any(|line| line.split_whitespace().collect::<Vec<_>>().join(" ") == words);
     assert!(
-        row("stipples stipple points one order a voxel with points, 24 bytes a point stipples.k_max (line 13)"),
+        row("stipples stipple points one order a voxel with points, 24 bytes a point stipples.k_max (line 15)"),
         "{plan}"
     );
-    assert!(row("boundary factor, once one number a voxel with points stipples.boundary (line 14)"), "{plan}");
+    assert!(row("boundary factor, once one number a voxel with points stipples.boundary (line 16)"), "{plan}");
     for absent in ["rays", "silhouette", "curves", "colours", "coefficients", "brick"] {
         assert!(!plan.contains(absent), "{absent}\n{plan}");
     }
-    for idle in ["picture.samples (line 10)", "sampling.kernel (line 12)"] {
+    for idle in ["picture.samples (line 11)", "sampling.kernel (line 13)"] {
         assert!(plan.contains(&format!("  {idle}: the volume itself is not drawn")), "{plan}");
     }
     // The number of points is that of the list.
