@@ -91,7 +91,8 @@ impl Stippling {
         let (measured, ideal) = (self.tone()?, Tone::ideal());
         let asked = (stipples.k_max == PointsPerPixel::Auto).then_some(&ideal);
         // S_max's area, in pixels.
-        let dot = 0.25 * std::f64::consts::PI * (size * page.pixels_per_mm()).powi(2);
+        let diameter = size * page.pixels_per_mm();
+        let dot = 0.25 * std::f64::consts::PI * (diameter * diameter);
         let tone = measured.as_ref().or(asked).map(|tone| (tone, dot));
         let inputs = Inputs { stipples, table: &scene.volume, volume, view: &view, near, square, tone };
         let wrong = |error: StippleError| self.failure(&error);

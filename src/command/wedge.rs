@@ -60,13 +60,15 @@ impl Wedge {
 
     fn plot(&self, measured: &Path, talk: Talk) -> Outcome {
         let format = MarksFormat::of(&self.output)?;
+        if !matches!(format, MarksFormat::Svg | MarksFormat::Png) {
+            return Err(no_plot(&self.output).into());
+        }
         atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
         let (tone, name) = (tone(measured)?, target::stem(measured));
         let bytes = match format {
             MarksFormat::Svg => tone_plot::svg(&tone, &name).into_bytes(),
-            MarksFormat::Png => tone_plot::png(&tone, &name)
+            _ => tone_plot::png(&tone, &name)
                 .map_err(|fault| Failure::new(fault, self.output.display(), "write an .svg"))?,
-            _ => return Err(no_plot(&self.output).into()),
         };
         atomic::write(&self.output, &bytes).map_err(|error| Failure::picture(&error, self.output.display()))?;
         note(talk, self.output.display());

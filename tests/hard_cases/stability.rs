@@ -49,6 +49,7 @@ static THEMES: &[&Theme] = &[
     &crate::small::THEME,
     &crate::masks::THEME,
     &crate::empty::THEME,
+    &crate::stipples::THEME,
 ];
 
 /// What makes the page be written.
