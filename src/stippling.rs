@@ -206,7 +206,8 @@ impl<'a> Setting<'a> {
         let Self { job, stipples, first, near, square, .. } = self;
         let (table, volume) = (&job.scene.volume, &job.volume);
         // S_max's area, in pixels.
-        let dot = 0.25 * std::f64::consts::PI * (self.size * self.page.pixels_per_mm()).powi(2);
+        let diameter = self.size * self.page.pixels_per_mm();
+        let dot = 0.25 * std::f64::consts::PI * (diameter * diameter);
         let tone = self.tone.as_ref().map(|tone| (tone, dot));
         Inputs { stipples, table, volume, view: first, near: *near, square: *square, tone }
     }

@@ -9,14 +9,8 @@ use std::ffi::OsString;
 use std::path::Path;
 
 /// Verbs of the specification that this version does not have, and where it has them.
-const LATER: &[(&str, &str)] = &[
-    ("validate", "GPU-1"),
-    ("pick", "HALO-12"),
-    ("paint", "VS-6"),
-    ("strokes", "STIP-16"),
-    ("halo", "HALO-4"),
-    ("wedge", "STIP-17"),
-];
+const LATER: &[(&str, &str)] =
+    &[("validate", "GPU-1"), ("pick", "HALO-12"), ("paint", "VS-6"), ("strokes", "STIP-16"), ("halo", "HALO-4")];
 
 /// The verb of a command line that names none.
 const DEFAULT: &str = "render";
@@ -95,7 +89,8 @@ pub(super) fn refused(error: &clap::Error, verb: &str) -> Failure {
     let suggested = [ContextKind::SuggestedArg, ContextKind::SuggestedSubcommand, ContextKind::SuggestedValue];
     let meant = suggested.into_iter().find_map(|kind| match error.get(kind)? {
         ContextValue::String(one) => Some(one.clone()),
-        ContextValue::Strings(some) => some.first().cloned(),
+        // The likeliest stands last.
+        ContextValue::Strings(some) => some.last().cloned(),
         _ => None,
     });
     let help = format!("`{place} --help` tells what there is");

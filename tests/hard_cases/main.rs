@@ -25,6 +25,7 @@ mod slabs;
 mod small;
 mod stability;
 mod steps;
+mod stipples;
 mod styles;
 mod surfaces;
 mod symmetry;

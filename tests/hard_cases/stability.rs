@@ -50,6 +50,7 @@ static THEMES: &[&Theme] = &[
     &crate::masks::THEME,
     &crate::empty::THEME,
     &crate::surfaces::THEME,
+    &crate::stipples::THEME,
 ];
 
 /// What makes the page be written.
