@@ -108,7 +108,7 @@ fn made(volume: &Volume, stipples: &Stipples) -> Points {
 }
 
 fn drawn(points: &Points, stipples: &Stipples, view: &View) -> Vec<Dot> {
-    let frames = Frames::new(&FrameInputs {
+    let frames = Frames::new(FrameInputs {
         stipples,
         points,
         light: LightDirection::Head,
@@ -117,6 +117,7 @@ fn drawn(points: &Points, stipples: &Stipples, view: &View) -> Vec<Dot> {
         near: 0.5,
         size: 0.5,
         nib: None,
+        surface: None,
         tone: None,
     });
     let mut drawn = Drawn::default();

@@ -39,6 +39,7 @@ fn draw(made: &Preprocessed, volume: &Volume, tone: f64, even: Even) -> (Vec<Dot
         near: 0.5,
         size: 0.05,
         nib: None,
+        surface: None,
         tone: None,
     });
     let page = Page::in_pixels(view.size, 0.0, 254.0);

@@ -1,5 +1,6 @@
 //! Points behind an iso-surface ([STIP-15]), in whole pages.
 
+use drypoint::job::{Job, Wanted};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
@@ -21,13 +22,15 @@ thin = true
 snap = "edge"
 "#;
 
-/// Dots lie on the edge, so that all have a foot on the surface: those of the scene with a line more in `[stipples]`, what was counted, and the middle of the sphere.
+/// Dots lie on the edge, so that all have a foot on the surface: those of the scene with a line more in `[stipples]`, what was
+/// counted, and the middle of the sphere.
 fn page(line: &str) -> (Vec<Dot>, Counts, DVec3) {
     let scene = parse(&format!("{SCENE}{line}\n"), Path::new("sphere.toml"), &Overrides::default()).unwrap();
-    let stippling = Stippling::load(scene).unwrap();
+    let job = Job::load_for(scene, Wanted::Marks).unwrap();
     let mut counts = Counts::default();
-    let marks = stippling.marks(&mut counts, &|_| ()).unwrap();
-    (marks.layers[0].dots.clone(), counts, stippling.volume.grid().centre())
+    let stippling = Stippling::new(&job, &mut counts, &|_| ()).unwrap();
+    let marks = stippling.frames().draw(&job.view().unwrap(), &mut counts);
+    (marks.layers[0].dots.clone(), counts, job.volume.grid().centre())
 }
 
 /// Where the sphere's surface lies among the values: the middle of the 8 bits.

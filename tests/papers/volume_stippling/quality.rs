@@ -154,6 +154,7 @@ fn opaque(points: &Points, centre: DVec3, n: DVec3, tone: f64) -> Vec<DVec2> {
         near: 0.5,
         size: 1.0,
         nib: None,
+        surface: None,
         tone: None,
     });
     let mut drawn = Drawn::default();

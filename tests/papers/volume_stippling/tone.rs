@@ -133,6 +133,7 @@ fn face(n: DVec3, width: f64, thin: bool) -> f64 {
         near: 0.5,
         size,
         nib: None,
+        surface: None,
         tone: None,
     });
     let mut drawn = Drawn::default();
