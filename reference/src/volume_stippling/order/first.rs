@@ -7,7 +7,7 @@
 //! early keep away from each other farther than from those that join them late, and every tone is even.
 
 use super::class::class_of;
-use super::groups::{LANES, Lane};
+use super::groups::{LANES, Lane, REACH as GROUP_REACH};
 use super::links::Rows;
 use super::pool::Class;
 use super::{Sites, flattened, scaled};
@@ -72,7 +72,7 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
                     let p = [p[0] + o[0], p[1] + o[1], p[2] + o[2]];
                     (flattened(home.sites[index].flat, p), tones[i].max(tones[voxel]))
                 }));
-                let slot = farthest(home.pool(index), near);
+                let slot = farthest(home.pool(index), home.groups(index), near);
                 Taken { at: scaled(sites, home.point(sites, index, slot)), slot }
             };
             let found: Vec<Taken> = members[class].par_iter().with_min_len(64).map_init(Vec::new, take).collect();
@@ -84,10 +84,35 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
     taken.into_iter().map(|taken| taken.slot).collect()
 }
 
-/// The place in a pool of the point farthest from some points, each squared distance times the tone beside it.
-fn farthest(pool: &[[Lane; 4]], near: &[([f32; 3], f32)]) -> usize {
+/// The place in a pool of the point farthest from some points, each squared distance times the tone beside it. A group is
+/// looked into only if it can have it, that of the largest bound first.
+fn farthest(pool: &[[Lane; 4]], groups: &[[Lane; 6]], near: &[([f32; 3], f32)]) -> usize {
+    let bound = |row: &[Lane; 6]| {
+        let mut least = [f32::MAX; LANES];
+        for (p, tone) in near {
+            for l in 0..LANES {
+                let (dx, dy, dz) = (row[0][l] - p[0], row[1][l] - p[1], row[2][l] - p[2]);
+                let far = (dx * dx + dy * dy + dz * dz).sqrt() + row[GROUP_REACH][l];
+                let to = far * far * tone;
+                least[l] = if to < least[l] { to } else { least[l] };
+            }
+        }
+        least
+    };
+    let bounds: Vec<Lane> = groups.iter().map(bound).collect();
+    let bound = |group: usize| bounds[group / LANES][group % LANES];
+    let mut first = 0;
+    for group in 1..pool.len() {
+        if bound(group) > bound(first) {
+            first = group;
+        }
+    }
     let (mut best, mut at) = (-1f32, 0);
-    for (group, [x, y, z, d]) in pool.iter().enumerate() {
+    for group in std::iter::once(first).chain(0..pool.len()) {
+        if bound(group) <= best {
+            continue;
+        }
+        let [x, y, z, d] = &pool[group];
         let mut least = *d;
         for (p, tone) in near {
             for l in 0..LANES {
@@ -166,5 +191,32 @@ mod tests {
         assert_ne!(sorted, order(1, 1));
         sorted.sort_unstable();
         assert_eq!(sorted, std::array::from_fn(|i| i));
+    }
+    /// What is not looked into does not matter: the point is that of looking at every pair.
+    #[test]
+    fn bounds_hide_no_point() {
+        use super::super::class::by_class;
+        use super::super::links::Links;
+        use super::super::pool::pool_size;
+        let (cells, normals) = ([[3, 4, 5]], [drypoint_scene::glam::DVec3::new(1.0, 2.0, 3.0).normalize()]);
+        let sites = super::super::tests::sites(&cells, &normals, true);
+        let (ids, starts) = by_class(&cells);
+        let links = Links::new(&sites, &ids);
+        let class = Class::new(&sites, &links, &ids, &starts, 1 + 4, pool_size(25));
+        for i in 0..200u32 {
+            let point = |k: u32| {
+                let [x, y, z, tone] = philox::uniforms(2, [i, k, 0], 0);
+                ([x, y, z].map(|x| 5.0 * x as f32 - 2.5), tone as f32)
+            };
+            let near: Vec<([f32; 3], f32)> = (0..i % 20).map(point).collect();
+            let least = |at: usize| {
+                let lanes = &class.pool(0)[at / LANES];
+                let squared = |p: &[f32; 3]| (0..3).map(|c| lanes[c][at % LANES] - p[c]).map(|x| x * x).sum::<f32>();
+                near.iter().map(|(p, tone)| squared(p) * tone).fold(lanes[3][at % LANES], f32::min)
+            };
+            let found = farthest(class.pool(0), class.groups(0), &near);
+            let most = (0..class.pool(0).len() * LANES).map(least).fold(-1.0, f32::max);
+            assert_eq!(least(found), most, "{i}");
+        }
     }
 }

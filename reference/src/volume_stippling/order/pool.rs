@@ -95,6 +95,12 @@ impl Class {
         &self.pools[index * groups..][..groups]
     }
 
+    /// What is known of the groups of that pool.
+    pub(super) fn groups(&self, index: usize) -> &[[Lane; 6]] {
+        let rows = self.groups.len() / self.sites.len();
+        &self.groups[index * rows..][..rows]
+    }
+
     /// The draw that made a point of a pool.
     pub(super) fn draw(&self, index: usize, slot: usize) -> u32 {
         self.draws[index * (self.draws.len() / self.sites.len()) + slot]
