@@ -262,8 +262,14 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
         let candidates = norms.iter().enumerate().filter(|&(_, &norm)| norm > bound && is_above(norm));
         candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)).collect::<Vec<_>>()
     });
-    let voxels = rows.collect::<Vec<_>>().concat();
+    let mut voxels = rows.collect::<Vec<_>>().concat();
     let tops = if stipples.snap == Snap::Edge { voxels.par_iter().map(top).collect() } else { Vec::new() };
+    // What a point stands for is where it is: how far a voxel's centre is from the edge would show as terraces.
+    voxels.par_iter_mut().zip(&tops).for_each(|(v, top)| {
+        let (cell, step) = (v.cell.map(|i| i as usize), to_step(v.normal) * *top);
+        v.value = normalized(smoothed_at(field, cell, step), range);
+        v.magnitude = magnitude(ridge.at(cell, step));
+    });
     // A thin face has one layer, as thick as its voxels reach along the normal.
     let layers = if inputs.tone.is_some() && !stipples.thin {
         let to_step = grid.inverse_axes() * grid.voxel();
@@ -275,6 +281,21 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
         1.0
     };
     Above { voxels, tops, layers }
+}
+
+/// The smoothed value a step from a voxel in index space, at most one along each axis: linear between the voxels' own, which
+/// go on beyond the border.
+fn smoothed_at(field: &Field<'_, f64>, cell: [usize; 3], step: DVec3) -> f64 {
+    let (step, dims) = (step.to_array(), field.volume().dims());
+    let next = |a: usize| {
+        let to = if step[a] < 0.0 { cell[a].saturating_sub(1) } else { (cell[a] + 1).min(dims[a] - 1) };
+        [cell[a], to]
+    };
+    let ends = [next(0), next(1), next(2)];
+    let value = |i: usize| field.smoothed_value(std::array::from_fn(|a| ends[a][i >> a & 1]));
+    let along = |a: usize, at: f64, to: f64| at + step[a].abs() * (to - at);
+    let x = [0, 2, 4, 6].map(|i| along(0, value(i), value(i + 1)));
+    along(2, along(1, x[0], x[1]), along(1, x[2], x[3]))
 }
 
 /// Moves each point along n onto the plane on which ‖∇V‖ is largest: within a voxel an edge is flat but for a share of its

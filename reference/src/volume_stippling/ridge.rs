@@ -27,7 +27,7 @@ pub(super) struct Norms<'a> {
 impl Norms<'_> {
     /// At a place `s` from a voxel, in index space, |s| ≤ 1 on each axis. Beyond the border the last voxels go on; a norm
     /// that is not valid counts as 0.
-    fn at(&self, cell: [usize; 3], s: DVec3) -> f64 {
+    pub(super) fn at(&self, cell: [usize; 3], s: DVec3) -> f64 {
         let weights = s.to_array().map(|s| [0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)]);
         let index = |a: usize, k: usize| (cell[a] + k).saturating_sub(1).min(self.dims[a] - 1);
         let mut sum = 0.0;
