@@ -29,7 +29,7 @@ fn main() -> Result<(), String> {
             job(&format!("figure_7_{name}"), &["contours=off"])?,
         ];
         let [(a, l), (b, m), (c, n)] = in_turns(&jobs, |renderer| renderer)?;
-        let [(alone, _), (styled_alone, _), _] = in_turns(&jobs, Renderer::ray_by_ray)?;
+        let [(alone, _), (styled_alone, _), _] = in_turns(&jobs, |renderer| renderer.ray_by_ray())?;
         println!(
             "| {name} | {:.0} | {:.0} | {:.2} | {:.2} | {:.2} | {:.2} | {} : {} : {} |",
             a * 1e3,
