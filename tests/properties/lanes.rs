@@ -11,7 +11,8 @@ use drypoint::scene::tables::{
 fn shot(seed: u64) -> Shot {
     let shot = scene(seed).with(|s| {
         s.sampling.kernel = Kernel::Trilinear;
-        s.sampling.gradient = if seed % 3 == 0 { GradientEstimator::Sobel } else { GradientEstimator::Central };
+        s.sampling.gradient =
+            if seed.is_multiple_of(3) { GradientEstimator::Sobel } else { GradientEstimator::Central };
         s.sampling.hessian = HessianEstimator::Auto;
         s.sampling.number = Number::F64;
         s.picture.layers = Vec::new();

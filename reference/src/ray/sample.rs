@@ -137,6 +137,10 @@ impl<R: Real> Styled<R> {
             return ([R::ZERO; 3], R::ZERO);
         }
         let share = transparency::share(self.transparency, place.alpha_u(), n_dot_v, tau, facts.magnitude);
+        // What follows would change no bit.
+        if alpha_d == R::ONE {
+            return ([r, g, b], share);
+        }
         ([r / alpha_d, g / alpha_d, b / alpha_d], alpha_d * share)
     }
 }

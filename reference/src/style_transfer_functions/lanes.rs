@@ -129,9 +129,9 @@ impl StyleIndex {
                 if j0 != j1 {
                     let all = place.w.simd_ge(1.0).to_bitmask();
                     mixed = place.visible & place.w.simd_ne(0.0).to_bitmask() & !all;
-                    for lane in 0..LANES {
+                    for (lane, j) in first.iter_mut().enumerate() {
                         if all >> lane & 1 == 1 {
-                            first[lane] = j1;
+                            *j = j1;
                         }
                     }
                 }
@@ -185,21 +185,32 @@ impl Spheres<f64> {
         turned(texels)
     }
 
-    /// Reads a style in each of some lanes, at one normal.
+    /// Reads a style in each of some lanes, at one normal; perhaps in others too.
     #[inline(always)]
     fn read<S: Simd>(&self, styles: &[u32; LANES], lanes: u64, n: [f64x8<S>; 2], texels: &mut [f64x4<S>; LANES]) {
         let mut left = lanes;
         while left != 0 {
             // Neighbours mostly show the same style.
             let style = styles[left.trailing_zeros() as usize];
+            let mut alike = 0;
+            for (lane, &other) in styles.iter().enumerate() {
+                alike |= u64::from(other == style) << lane;
+            }
             let map = self.map(style as usize);
-            let (start, w) = map.cells(n);
-            for lane in 0..LANES {
-                if left >> lane & 1 == 1 && styles[lane] == style {
-                    left &= !(1 << lane);
-                    texels[lane] = map.filtered(n[0].simd, start[lane], [w[0][lane], w[1][lane]]);
+            let (start, w) = map.cells(n, left & alike);
+            if left & !alike == 0 && left == lanes {
+                // Without a branch for each lane, which nothing predicts.
+                for (lane, texel) in texels.iter_mut().enumerate() {
+                    *texel = map.filtered(n[0].simd, start[lane], [w[0][lane], w[1][lane]]);
+                }
+                return;
+            }
+            for (lane, texel) in texels.iter_mut().enumerate() {
+                if (left & alike) >> lane & 1 == 1 {
+                    *texel = map.filtered(n[0].simd, start[lane], [w[0][lane], w[1][lane]]);
                 }
             }
+            left &= !alike;
         }
     }
 }
@@ -217,14 +228,15 @@ fn straight<S: Simd>(texel: f64x4<S>) -> f64x4<S> {
 }
 
 impl SphereMap<f64> {
-    /// The first texel of the cell of each normal, and the place in it.
+    /// The first texel of the cell of each normal, and the place in it; the first cell in lanes that are not asked for.
     #[inline(always)]
-    fn cells<S: Simd>(&self, [x, y]: [f64x8<S>; 2]) -> ([usize; LANES], [f64x8<S>; 2]) {
+    fn cells<S: Simd>(&self, [x, y]: [f64x8<S>; 2], asked: u64) -> ([usize; LANES], [f64x8<S>; 2]) {
         let side = self.side as f64;
         let half_side = side * 0.5;
         let (i, wx) = cell((x + 1.0) * half_side - 0.5, side);
         let (j, wy) = cell((1.0 - y) * half_side - 0.5, side);
-        (whole(j * side + i), [wx, wy])
+        let start = mask64x8::from_bitmask(x.simd, asked).select(j * side + i, f64x8::splat(x.simd, 0.0));
+        (whole(start), [wx, wy])
     }
 
     /// Bilinear in the cell whose first texel this is: x, then y.
@@ -295,8 +307,8 @@ mod tests {
     }
 
     fn same(got: [f64; LANES], want: impl Fn(usize) -> f64) {
-        for lane in 0..LANES {
-            assert_eq!(got[lane].to_bits(), want(lane).to_bits(), "lane {lane}: {} {}", got[lane], want(lane));
+        for (lane, got) in got.into_iter().enumerate() {
+            assert_eq!(got.to_bits(), want(lane).to_bits(), "lane {lane}: {got} {}", want(lane));
         }
     }
 

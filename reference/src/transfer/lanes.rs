@@ -118,8 +118,8 @@ impl<S: Simd> Places<S> {
                 for lane in 0..LANES {
                     if self.visible >> lane & 1 == 1 {
                         let color = self.place(lane, nodes).color(colors);
-                        for i in 0..3 {
-                            columns[i][lane] = color[i];
+                        for (column, c) in columns.iter_mut().zip(color) {
+                            column[lane] = c;
                         }
                     }
                 }

@@ -87,9 +87,9 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         let mut words = [[[0; LANES]; 4]; 4];
         for lane in 0..LANES {
             let a = self.voxels.window_at::<4>(start[lane]);
-            for k in 0..4 {
-                for j in 0..4 {
-                    words[k][j][lane] = word(a.row::<4>(0, j, k));
+            for (k, plane) in words.iter_mut().enumerate() {
+                for (j, row) in plane.iter_mut().enumerate() {
+                    row[lane] = word(a.row::<4>(0, j, k));
                 }
             }
         }
@@ -101,8 +101,8 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         for i in 0..4 {
             let of_column =
                 tensor::column_sums(&ColumnOfEach { reader: self, words: &words, i }, first, [&y, &z], zero);
-            for s in 0..3 {
-                sums[s][i] = of_column[s];
+            for (sum, column) in sums.iter_mut().zip(of_column) {
+                sum[i] = column;
             }
         }
         tensor::gradient_of_sums(&sums, &x)
@@ -114,9 +114,9 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         let simd = self.simd;
         let a = self.voxels.window_at::<4>(start);
         let mut words = [[0; 4]; 4];
-        for k in 0..4 {
-            for j in 0..4 {
-                words[k][j] = word(a.row::<4>(0, j, k));
+        for (k, plane) in words.iter_mut().enumerate() {
+            for (j, row) in plane.iter_mut().enumerate() {
+                *row = word(a.row::<4>(0, j, k));
             }
         }
         let columns = ColumnsOfOne { reader: self, words: &words };

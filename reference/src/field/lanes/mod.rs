@@ -156,7 +156,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     fn numbers<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
         let mut numbers = self.raised(words);
         for number in &mut numbers {
-            *number = *number - (TO_BITS + V::SIGN as f64);
+            *number -= TO_BITS + V::SIGN as f64;
         }
         numbers
     }

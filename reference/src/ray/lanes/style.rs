@@ -57,9 +57,8 @@ impl<'p, S: Simd> InStyle<'p, S> {
             }
         };
         let mut axes = [Vec3::new(zero, zero, zero); 3];
-        for i in 0..3 {
-            let Vec3 { x, y, z } = styled.eye_axes.0[i];
-            axes[i] = Vec3::new(f64x8::splat(simd, x), f64x8::splat(simd, y), f64x8::splat(simd, z));
+        for (axis, row) in axes.iter_mut().zip(styled.eye_axes.0) {
+            *axis = Vec3::new(f64x8::splat(simd, row.x), f64x8::splat(simd, row.y), f64x8::splat(simd, row.z));
         }
         Self {
             simd,
@@ -91,22 +90,18 @@ impl<'p, S: Simd> InStyle<'p, S> {
         let before = sample.k - 1.0;
         let known = self.previous.k.simd_eq(before);
         let (mut n_before, mut has_before) = (self.previous.n, known & self.previous.has);
-        let p = walk.positions(before);
-        let [lo, hi] = walk.prepared.ends;
-        let inside = p.x.simd_ge(lo.x)
-            & p.x.simd_le(hi.x)
-            & p.y.simd_ge(lo.y)
-            & p.y.simd_le(hi.y)
-            & p.z.simd_ge(lo.z)
-            & p.z.simd_le(hi.z);
-        let asked = sample.seen & has & !known & inside & self.beyond.simd_le(before);
-        let number = asked.to_bitmask().count_ones();
-        if number > 0 {
-            let g = walk.reader.gradients(&walk.reader.places(p, asked), asked);
-            counts.gradients += u64::from(number);
-            let fetched = Normals::new(walk.prepared, self.v, g);
-            n_before = select(asked, fetched.n, n_before);
-            has_before = has_before | (asked & fetched.has);
+        let unknown = sample.seen & has & !known;
+        if !unknown.all_false() {
+            let p = walk.positions(before);
+            let asked = unknown & inside(p, walk.prepared.ends) & self.beyond.simd_le(before);
+            let number = asked.to_bitmask().count_ones();
+            if number > 0 {
+                let g = walk.reader.gradients(&walk.reader.places(p, asked), asked);
+                counts.gradients += u64::from(number);
+                let fetched = Normals::new(walk.prepared, self.v, g);
+                n_before = select(asked, fetched.n, n_before);
+                has_before |= asked & fetched.has;
+            }
         }
         let both = (sample.seen & has & has_before).to_bitmask();
         let kappa = lanes::kappa(walk.prepared.turn, n, n_before, both, self.step);
@@ -131,6 +126,17 @@ impl<'p, S: Simd> InStyle<'p, S> {
             }
         }
     }
+}
+
+/// Whether positions lie in a closed box.
+#[inline(always)]
+fn inside<S: Simd>(p: Vec3<f64x8<S>>, [lo, hi]: [Vec3<f64>; 2]) -> mask64x8<S> {
+    p.x.simd_ge(lo.x)
+        & p.x.simd_le(hi.x)
+        & p.y.simd_ge(lo.y)
+        & p.y.simd_le(hi.y)
+        & p.z.simd_ge(lo.z)
+        & p.z.simd_le(hi.z)
 }
 
 impl<S: Simd> Show<S> for InStyle<'_, S> {
@@ -165,8 +171,12 @@ impl<S: Simd> Show<S> for InStyle<'_, S> {
         let blends = styled.index.blends(place);
         counts.style_lookups += blends.lookups(place.visible);
         let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
-        let clear = alpha_d.simd_eq(0.0);
         let share = lanes::share(styled.transparency, place, n_dot_v, tau, magnitude);
+        let opaque = alpha_d.simd_eq(1.0) | !sample.seen;
+        if opaque.all_true() {
+            return ([r, g, b], share);
+        }
+        let clear = alpha_d.simd_eq(0.0);
         let mut rgb = [r, g, b];
         for c in &mut rgb {
             *c = clear.select(zero, *c / alpha_d);
