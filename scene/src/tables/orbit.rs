@@ -159,16 +159,16 @@ mod tests {
     fn the_camera_turns_as_a_whole() {
         let orthographic = Projection::Orthographic { height: None };
         for projection in [Projection::Perspective { fov: 40.0 }, orthographic] {
-            let target = Some(DVec3::new(3.0, 1.0, 7.0));
+            let target = DVec3::new(3.0, 1.0, 7.0);
             let up = DVec3::new(0.1, -2.0, 5.0);
-            let camera = Camera { projection, target, up, ..Camera::default() };
+            let camera = Camera { projection, target: Some(target), up, ..Camera::default() };
             let (view, grid) = first(&camera);
             let orbit = Orbit { frames: 7, degrees: -200.0 };
             for frame in 1..7 {
                 let turned = orbit.view(&view, &camera, &grid, frame);
                 // A handful of roundings of numbers below 100.
                 let near = |a: DVec3, b: DVec3| (a - b).length() < 1e-12;
-                assert!(near(turned.to_eye(target.unwrap()), view.to_eye(target.unwrap())));
+                assert!(near(turned.to_eye(target), view.to_eye(target)));
                 assert!(near(turned.right.cross(turned.up), -turned.forward));
                 assert!((turned.forward.dot(up) - view.forward.dot(up)).abs() < 1e-12);
                 assert!(!near(turned.forward, view.forward));
