@@ -8,14 +8,14 @@ use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::suggest;
 use drypoint_reference::surface::IsoSurface;
 use drypoint_reference::volume_stippling::{
-    Drawn, Edges, FrameInputs, Frames, Inputs, PenTone, Preprocess, StippleError, joined, seen,
+    Drawn, Edges, FrameInputs, Frames, Inputs, PenTone, Preprocess, StippleError, choose_on_page, joined, seen,
 };
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::plan::PointsPlan;
 use drypoint_scene::points::Points;
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{Ink, Iso, Length, PointsPerPixel, Stipples};
+use drypoint_scene::tables::{Even, Ink, Iso, Length, PointsPerPixel, Stipples};
 use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
 use pens::Pens;
@@ -51,7 +51,8 @@ pub struct DotFrames<'a> {
     stippling: &'a Stippling<'a>,
     layers: Vec<Frames<'a>>,
     surface: Option<Arc<IsoSurface<'a, 'a>>>,
-    drawn: Drawn,
+    /// Of each layer.
+    drawn: Vec<Drawn>,
 }
 
 /// What is known before the points are.
@@ -90,7 +91,7 @@ impl<'a> Stippling<'a> {
         })?;
         let made = preprocess.each.max(1) as f64;
         let points = preprocess.points(counts, &|ranks| progress(ranks as f64 / made)).map_err(wrong)?;
-        let edges = preprocess.edges().map_err(wrong)?;
+        let edges = preprocess.edges(counts).map_err(wrong)?;
         let grid = points.grid.clone();
         let ink = [preprocess.ink, preprocess.layers];
         let (layers, line_pen) = pens.deal(job, points)?;
@@ -122,8 +123,9 @@ impl<'a> Stippling<'a> {
             let surface = surface.clone();
             Frames::new(FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone })
         });
-        let layers = layers.collect();
-        DotFrames { stippling: self, layers, surface, drawn: Drawn::default() }
+        let layers: Vec<_> = layers.collect();
+        let drawn = vec![Drawn::default(); layers.len()];
+        DotFrames { stippling: self, layers, surface, drawn }
     }
 }
 
@@ -134,12 +136,20 @@ impl DotFrames<'_> {
         let Stippling { setting, line_pen, edges, grid, .. } = self.stippling;
         let Setting { page, near, stipples, .. } = setting;
         let mut layers = Vec::with_capacity(self.layers.len());
-        for (frames, dots) in self.layers.iter().zip(&self.stippling.layers) {
-            frames.draw(view, page, &mut self.drawn);
+        for (frames, drawn) in self.layers.iter().zip(&mut self.drawn) {
+            frames.draw(view, page, drawn);
+        }
+        if stipples.even == Even::Page {
+            choose_on_page(&mut self.drawn);
+        }
+        for (drawn, dots) in self.drawn.iter().zip(&self.stippling.layers) {
             if self.surface.is_some() {
-                *counts.preprocess.entry("hidden points".into()).or_default() += self.drawn.hidden();
+                *counts.preprocess.entry("hidden points".into()).or_default() += drawn.hidden();
             }
-            layers.push(Layer { dots: self.drawn.to_vec(), ..Layer::new(dots.pen.clone()) });
+            if dots.nib.is_some() {
+                *counts.preprocess.entry("dots larger than the nib".into()).or_default() += drawn.larger_than_nib();
+            }
+            layers.push(Layer { dots: drawn.to_vec(), ..Layer::new(dots.pen.clone()) });
         }
         if let Some(surface) = &self.surface {
             counts.bytes.insert("surface".into(), surface.bytes() as u64);

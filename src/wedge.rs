@@ -181,7 +181,11 @@ mod tests {
                 let wanted = Tone::ideal().ink(patch.wanted) * patch.side * patch.side;
                 // Choosing dots evens their number out but for those at the border: their square root, and one.
                 let at_border = 4.0 * patch.side / width;
-                assert!((ink - wanted).abs() <= (at_border.sqrt() + 1.0) * width * width, "{}", patch.wanted);
+                assert!(
+                    (ink - wanted).abs() <= (at_border.sqrt() + 1.0) * width * width,
+                    "{}: {ink} for {wanted}, {width}",
+                    patch.wanted
+                );
             }
         }
         assert!(wedge(&pen(9.0), &Tone::ideal(), &page, 1).is_err());

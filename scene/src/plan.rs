@@ -145,6 +145,10 @@ pub enum Pass {
     Factor,
     /// The dots of a frame ([STIP-5], [STIP-6]).
     Dots,
+    /// Which points an iso-surface hides ([STIP-15]).
+    HiddenPoints,
+    /// The choice of dots on the page ([STIP-19]).
+    DotsOnPage,
     /// The silhouette curves of a frame.
     Curves,
 }
@@ -170,6 +174,8 @@ impl Pass {
             Self::Rays => "rays",
             Self::Factor => "factor, a frame",
             Self::Dots => "dots",
+            Self::HiddenPoints => "hidden points",
+            Self::DotsOnPage => "choice on the page",
             Self::Curves => "curves",
         }
     }
@@ -185,14 +191,16 @@ impl Pass {
             Self::Bricks => "one look at each voxel",
             Self::StyleMipmaps => "one look at each texel of a style, a third of it more to keep",
             Self::StippleGradients => "one gradient a voxel",
-            Self::StipplePoints => "one order a voxel with points, 24 bytes a point",
-            Self::CurveVoxels => "one filter along each axis, one Hessian a voxel above stipples.curves.grad",
+            Self::StipplePoints => "one order a voxel with points",
+            Self::CurveVoxels => "one gradient and one Hessian a voxel",
             Self::DotLabels => "one look at the labels a voxel with points",
             Self::DotColors => "one colour a voxel with points",
             Self::StillFactor => "one number a voxel with points",
             Self::Rays => "samples² rays a pixel",
             Self::Factor => "one number a voxel with points",
             Self::Dots => "a count and a size a voxel with points, a place a dot",
+            Self::HiddenPoints => "one look at each voxel, once; a search and a line towards the eye a point",
+            Self::DotsOnPage => "four candidates a dot, each with its neighbours",
             Self::Curves => "one test a voxel of curves",
         }
     }
@@ -210,6 +218,7 @@ impl Pass {
             // Made of few voxels, or known once those are ([`PointsPlan`]).
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
+            Self::HiddenPoints | Self::DotsOnPage => 0,
             Self::CurveVoxels => 16,
         }
     }

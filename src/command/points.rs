@@ -85,10 +85,7 @@ impl Points {
         let (mut counts, start) = (Counts::default(), Instant::now());
         let scene = input::page(&self.set)?;
         let page = Page::of(&scene);
-        let mut pens = Pen::of(&scene.pens, &page);
-        if pens.is_empty() {
-            pens.push(Pen { number: 1, name: "stipples".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] });
-        }
+        let pens = Pen::of(&scene.pens, &page);
         let layers = list::read_list(&self.input, &page, &pens)
             .map_err(|error| Failure::picture(&error, self.input.display()))?;
         let dots = |marks: &Marks| marks.layers.iter().map(|layer| layer.dots.len()).sum::<usize>();

@@ -56,7 +56,12 @@ impl Wedge {
         for line in said {
             note(talk, line);
         }
-        atomic::write(&table, template().as_bytes()).map_err(|error| Failure::picture(&error, table.display()))?;
+        let template = template();
+        if std::fs::read_to_string(&table).is_ok_and(|there| there != template) {
+            note(talk, format_args!("{}: is there and stays as it is", table.display()));
+            return Ok(Done::Yes);
+        }
+        atomic::write(&table, template.as_bytes()).map_err(|error| Failure::picture(&error, table.display()))?;
         note(talk, format_args!("{}: to be filled in, and given to [[pen]] as tone", table.display()));
         Ok(Done::Yes)
     }

@@ -42,7 +42,7 @@ fn faults_are_told() {
         ("wedge -o a.svg", &["--pen"]),
         ("wedge --measured bad.csv -o a.svg", &["found 2, expected a coverage from 0 to 1", "bad.csv, line 3"]),
         ("wedge --measured none.csv -o a.svg", &["cannot be read", "none.csv"]),
-        ("wedge --measured bad.csv -o a.pdf", &["no format for a plot"]),
+        ("wedge --measured bad.csv -o a.pdf", &["not written as .pdf"]),
     ] {
         let said = folder.line(line);
         assert_eq!(said.code, Some(2), "{line}: {}", said.err);

@@ -2,11 +2,14 @@
 
 use crate::data;
 use crate::measure::measure;
-use drypoint::job::Job;
+use drypoint::drawing::Drawing;
+use drypoint::job::{Job, Wanted};
+use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::plan::Quantity;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
+use drypoint::stippling::Stippling;
 use std::path::{Path, PathBuf};
 
 /// Every scene file in a folder and the folders in it.
@@ -26,6 +29,22 @@ fn is_of_a_phantom(path: &Path) -> bool {
     std::fs::read_to_string(path).unwrap().contains("\nphantom = ")
 }
 
+/// Dots of a scene on a small page, and how much of it they cover.
+fn stippled(path: &Path) -> (usize, f64) {
+    let in_mm = std::fs::read_to_string(path).unwrap().contains("\nwidth = ");
+    let small = if in_mm { ("picture.dpi", "30") } else { ("picture.size", "[96, 96]") };
+    let scene = load(path, &[small, ("picture.background", "none")].into_iter().collect()).unwrap();
+    let job = Job::load_for(scene, Wanted::Marks).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
+    assert_eq!(job.plan.idle_keys, [], "{}: keys without effect", path.display());
+    let mut counts = Counts::default();
+    let stippling = Stippling::new(&job, &mut counts, &|_| ()).unwrap();
+    let (frame, _) = Drawing::new(&job, Some(&stippling), &mut counts).unwrap().frame(0, &|_| ()).unwrap();
+    let dots = frame.marks()[0];
+    let page = frame.painted(&job).unwrap();
+    let coverage = &page.layers[0].channels[3];
+    (dots, coverage.iter().sum::<f64>() / coverage.len() as f64)
+}
+
 #[test]
 fn every_scene_gives_a_picture() {
     let here = data().is_some();
@@ -33,6 +52,12 @@ fn every_scene_gives_a_picture() {
     for path in all() {
         if !here && !is_of_a_phantom(&path) {
             println!("skipped: no data for {}", path.display());
+            continue;
+        }
+        if std::fs::read_to_string(&path).unwrap().contains("\n[stipples]") {
+            let (dots, ink) = stippled(&path);
+            assert!(dots > 20 && (0.0005..0.9).contains(&ink), "{}: {dots} dots, {ink}", path.display());
+            seen += 1;
             continue;
         }
         let small = [("picture.size", "[64, 64]"), ("picture.background", "none")];

@@ -2,12 +2,16 @@
 //! `two_quantities_*.toml` of `data/scenes` is a picture in `docs/pictures`.
 
 use crate::files;
-use drypoint::job::Job;
+use drypoint::Failures;
+use drypoint::drawing::Drawing;
+use drypoint::job::{Job, Wanted};
 use drypoint::output::encode::{quantize, straight_srgb};
 use drypoint::scene::color::srgb_to_linear;
+use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::picture::{Layer, LayerKind, Picture};
-use drypoint::scene::tables::Background;
+use drypoint::scene::tables::{Background, Scene};
+use drypoint::stippling::Stippling;
 use std::path::{Path, PathBuf};
 
 /// The most bytes of a picture in `docs`.
@@ -24,7 +28,11 @@ pub(crate) fn write() -> Result<(), String> {
     for scene in scenes()? {
         let (Some(paper), Some(name)) = (scene.parent().and_then(Path::file_name), scene.file_stem()) else { continue };
         let file = format!("pictures/{}/{}.png", paper.display(), name.display());
-        let bytes = opaque_png(&picture(&scene)?).map_err(|e| format!("{file}: {e}"))?;
+        let bytes = picture(&scene).and_then(|(picture, ink)| {
+            let bytes = if ink { ink_png(&picture) } else { opaque_png(&picture) };
+            bytes.map_err(|e| e.to_string())
+        });
+        let bytes = bytes.map_err(|e| format!("{file}: {e}"))?;
         if bytes.len() > LARGEST {
             return Err(format!(
                 "{file} has {} bytes, more than {LARGEST}: make the scene's picture smaller",
@@ -36,7 +44,7 @@ pub(crate) fn write() -> Result<(), String> {
     Ok(())
 }
 
-/// The scenes of figures, but not the twins with regular functions, which are there to be timed, and those of Fig. 1,
+/// The scenes of figures, but not the twins with regular functions, which are there to be timed, and those of Fig. 1 of styles,
 /// which are laid out beside the painting.
 fn scenes() -> Result<Vec<PathBuf>, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes");
@@ -46,26 +54,40 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
     };
     let mut scenes = Vec::new();
     for paper in entries(&root)?.iter().filter(|path| path.is_dir()) {
+        let styles = paper.ends_with("style_transfer_functions");
         scenes.extend(entries(paper)?.into_iter().filter(|path| {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             path.extension().is_some_and(|e| e == "toml")
-                && (stem.starts_with("figure_") || stem.starts_with("two_quantities_"))
-                && !(stem.ends_with("_regular") || stem.starts_with("figure_1_"))
+                && (stem.starts_with("figure_") || stem.starts_with("two_quantities_") || stem == "skull-plotter")
+                && !(stem.ends_with("_regular") || (styles && stem.starts_with("figure_1_")))
         }));
     }
     scenes.sort();
     Ok(scenes)
 }
 
-fn picture(scene: &Path) -> Result<Picture, String> {
+/// The picture of a scene, and whether it is dots and lines of black ink.
+fn picture(scene: &Path) -> Result<(Picture, bool), String> {
     let mut scene = load(scene, &Overrides::default()).map_err(|e| e.to_string())?;
     let is_map = scene.picture.layers.contains(&LayerKind::CurvatureAlongView);
     if is_map {
         scene.picture.background = Background::None;
     }
+    if scene.stipples.is_some() {
+        return stipples(scene).map_err(|e| e.to_string()).map(|picture| (picture, true));
+    }
     let job = Job::load(scene).map_err(|e| e.to_string())?;
     let (picture, _) = job.renderer().map_err(|e| e.to_string())?.frame(&|_| ());
-    if is_map { map(&picture).ok_or_else(|| "the picture has no curvature".into()) } else { Ok(picture) }
+    let picture = if is_map { map(&picture).ok_or("the picture has no curvature")? } else { picture };
+    Ok((picture, false))
+}
+
+fn stipples(scene: Scene) -> Result<Picture, Failures> {
+    let job = Job::load_for(scene, Wanted::Marks)?;
+    let mut counts = Counts::default();
+    let stippling = Stippling::new(&job, &mut counts, &|_| ())?;
+    let (frame, _) = Drawing::new(&job, Some(&stippling), &mut counts)?.frame(0, &|_| ())?;
+    Ok(frame.painted(&job)?)
 }
 
 /// |κ_v| as grey on white: the darker, the more curved; as faint as the picture is.
@@ -79,6 +101,19 @@ fn map(picture: &Picture) -> Option<Picture> {
     Some(Picture { layers: vec![Layer { kind: LayerKind::Beauty, channels }], ..*picture })
 }
 
+/// Black ink on white as 16 greys, which is all that the edge of a dot needs, the smallest file.
+fn ink_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
+    let mut data = Vec::with_capacity((picture.width / 2 + 1) * picture.height);
+    if let Some([r, g, b, ..]) = picture.layer(LayerKind::Beauty).map(|layer| layer.channels.as_slice()) {
+        let grey = |i: usize| quantize(straight_srgb([r[i], g[i], b[i], 1.0])[1], 15) as u8;
+        for row in 0..picture.height {
+            let pixels: Vec<u8> = (0..picture.width).map(|x| grey(row * picture.width + x)).collect();
+            data.extend(pixels.chunks(2).map(|pair| (pair[0] << 4) | pair.get(1).copied().unwrap_or(0)));
+        }
+    }
+    encode(picture, png::ColorType::Grayscale, png::BitDepth::Four, &data)
+}
+
 /// An opaque picture as 8 bits of sRGB without alpha, the smallest file.
 fn opaque_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     let mut data = Vec::with_capacity(3 * picture.width * picture.height);
@@ -88,12 +123,21 @@ fn opaque_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
             data.extend([r, g, b].map(|c| quantize(c, 255) as u8));
         }
     }
+    encode(picture, png::ColorType::Rgb, png::BitDepth::Eight, &data)
+}
+
+fn encode(
+    picture: &Picture,
+    color: png::ColorType,
+    depth: png::BitDepth,
+    data: &[u8],
+) -> Result<Vec<u8>, png::EncodingError> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, picture.width as u32, picture.height as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     encoder.set_compression(png::Compression::High);
-    encoder.write_header()?.write_image_data(&data)?;
+    encoder.write_header()?.write_image_data(data)?;
     Ok(file)
 }

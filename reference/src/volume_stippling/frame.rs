@@ -90,12 +90,13 @@ pub struct FrameInputs<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Drawn {
     parts: Vec<Part>,
+    /// Of the pen, where one draws.
+    nib: Option<f64>,
 }
 
 #[derive(Clone, Debug, Default)]
 struct Part {
     dots: Vec<Dot>,
-    larger: u64,
     hidden: u64,
 }
 
@@ -117,7 +118,8 @@ impl Drawn {
 
     /// Dots that are larger than the nib, since their voxel's list has no more ([STIP-6]).
     pub fn larger_than_nib(&self) -> u64 {
-        self.parts.iter().map(|part| part.larger).sum()
+        let is_larger = |dot: &&Dot| self.nib.is_some_and(|nib| dot.radius > 0.5 * nib);
+        self.dots().filter(is_larger).count() as u64
     }
 
     /// Points that were looked at and are hidden ([STIP-15]).
@@ -154,7 +156,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// The dots that a camera sees, on a page; dots whose centre the picture does not hold are left out, and in perspective
+    /// The dots that a camera sees, on a page, or with `even = "page"` the candidates for [`choose_on_page`]; dots whose centre the picture does not hold are left out, and in perspective
     /// those nearer than `near`.
     pub fn draw(&self, view: &View, page: &Page, drawn: &mut Drawn) {
         let whole = Whole { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
@@ -164,31 +166,15 @@ impl<'a> Frames<'a> {
         let hidden = surface.map(|surface| Hidden::new(surface, view, self.near, self.points.grid.voxel()));
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, Part::default);
+        drawn.nib = self.nib;
         drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
-            (part.larger, part.hidden) = (0, 0);
+            part.hidden = 0;
             part.dots.clear();
             let range = p * PART..((p + 1) * PART).min(self.points.voxels.len());
             for i in range {
                 self.voxel(i, &moving, &place, hidden.as_ref(), part);
             }
         });
-        if self.stipples.even == Even::Page {
-            self.choose(drawn);
-        }
-    }
-
-    /// Of the candidates that are there, whose opacity is how many dots each stands for, those that are drawn.
-    fn choose(&self, drawn: &mut Drawn) {
-        let candidates: Vec<Candidate> = drawn.dots().map(|dot| Candidate { at: dot.at, share: dot.opacity }).collect();
-        let kept = eliminate(&candidates);
-        let all = drawn.to_vec();
-        drawn.parts.truncate(1);
-        if let Some(part) = drawn.parts.first_mut() {
-            part.dots.clear();
-            part.dots.extend(kept.into_iter().map(|i| Dot { opacity: 1.0, ..all[i] }));
-            let is_larger = |dot: &&Dot| self.nib.is_some_and(|nib| dot.radius > 0.5 * nib);
-            part.larger = part.dots.iter().filter(is_larger).count() as u64;
-        }
     }
 
     fn voxel(&self, i: usize, moving: &Moving<'_>, place: &Place, hidden: Option<&Hidden<'_>>, part: &mut Part) {
@@ -202,13 +188,13 @@ impl<'a> Frames<'a> {
         // Eq. 4, over S_max.
         let size = voxel.magnitude * factors.size;
         // T = 1 is the whole list, but for the part of a point by which it is too long.
-        let count = factors.count * (self.points.full / each as f64);
+        let whole_list = self.points.full / each as f64;
         let (share, size, unit) = match self.nib {
-            None => (count, size, self.size),
+            None => (factors.count * whole_list, size, self.size),
             Some(nib) => {
-                let ink = count * (size * size);
+                let ink = factors.count * (size * size);
                 let ink = self.tone.map_or(ink, |tone| tone.share(ink));
-                let (share, size) = with_nib(ink, self.size / nib);
+                let (share, size) = with_nib(ink * whole_list, self.size / nib);
                 (share, size, nib)
             }
         };
@@ -228,7 +214,6 @@ impl<'a> Frames<'a> {
         };
         let (whole, opacity, fading) = opacities;
         let list = &self.points.of(i)[..listed];
-        let before = part.dots.len();
         for (k, offset) in list.iter().enumerate() {
             let o = DVec3::from_array(offset.map(f64::from));
             if let Some(on_page) = place.on_page(at + place.to_eye * o, self.near) {
@@ -241,9 +226,22 @@ impl<'a> Frames<'a> {
                 part.dots.push(Dot { at: on_page, world, radius, opacity });
             }
         }
-        if self.nib.is_some() && size > 1.0 {
-            part.larger += (part.dots.len() - before) as u64;
-        }
+    }
+}
+
+/// Of the candidates of one frame those that are drawn, evenly on the page whatever pen draws them ([STIP-19]); a
+/// candidate's opacity says how many dots it stands for.
+pub fn choose_on_page(drawn: &mut [Drawn]) {
+    let all = || drawn.iter().flat_map(Drawn::dots);
+    let candidates: Vec<Candidate> = all().map(|dot| Candidate { at: dot.at, share: dot.opacity }).collect();
+    let mut is_kept = vec![false; candidates.len()];
+    for i in eliminate(&candidates) {
+        is_kept[i] = true;
+    }
+    let mut is_kept = is_kept.into_iter();
+    for dots in drawn.iter_mut().flat_map(|drawn| &mut drawn.parts).map(|part| &mut part.dots) {
+        dots.retain(|_| is_kept.next() == Some(true));
+        dots.iter_mut().for_each(|dot| dot.opacity = 1.0);
     }
 }
 

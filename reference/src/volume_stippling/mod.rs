@@ -25,7 +25,7 @@ pub use colors::{Colors, Rgb, nearest, palette, split};
 pub use curves::{Edges, Segment, exhaustive};
 pub use elimination::{Candidate, eliminate};
 pub use error::StippleError;
-pub use frame::{Drawn, FrameInputs, Frames, PenTone, viewing_distance};
+pub use frame::{Drawn, FrameInputs, Frames, PenTone, choose_on_page, viewing_distance};
 pub use hidden::seen;
 pub use joined::joined;
 pub use preprocess::{Inputs, Preprocess};

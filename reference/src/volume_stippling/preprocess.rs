@@ -141,10 +141,13 @@ impl<'a> Preprocess<'a> {
     ///
     /// # Errors
     /// None that [`new`](Self::new) has not found.
-    pub fn edges(&self) -> Result<Option<Edges>, StippleError> {
+    pub fn edges(&self, counts: &mut Counts) -> Result<Option<Edges>, StippleError> {
         let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
         let threshold = Threshold::Magnitude(curves.grad);
         let Above { voxels, tops, .. } = self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
+        // ‖∇V‖ anew, and LoG, of which the largest is looked for.
+        *counts.preprocess.entry("stipple gradients".into()).or_default() += self.gradients;
+        counts.preprocess.insert("curve Hessians".into(), self.gradients);
         let edges = Edges::new(&self.volume, &voxels, curves, self.inputs.table.outside, self.range())?;
         Ok(Some(if tops.is_empty() { edges } else { edges.snapped(&voxels, &tops) }))
     }

@@ -153,13 +153,13 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
             needs.iter().for_each(|&quantity| asks.need_where(quantity, first_only, &effect, &key));
         }
     },
-    idle: |_, plan, idle| {
+    idle: |scene, plan, idle| {
         if !plan.has_pass(Pass::Rays) {
             for key in ["picture.samples", "picture.layers"] {
                 idle.key(key, "the volume itself is not drawn");
             }
         }
-        if !idle.says("picture.width") {
+        if !idle.says("picture.width") && scene.stipples.is_none() {
             idle.key("picture.dpi", "nothing is in mm: size is in pixels");
         }
     },

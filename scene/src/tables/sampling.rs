@@ -202,7 +202,9 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         let sampling = &scene.sampling;
         if !plan.has_pass(Pass::Rays) {
             // The step is still the default of camera.near.
-            for key in TABLE.keys.iter().filter(|key| key.name != "step") {
+            let hides = plan.has_pass(Pass::HiddenPoints);
+            let acts = |name: &str| name == "step" || (hides && matches!(name, "kernel" | "gradient"));
+            for key in TABLE.keys.iter().filter(|key| !acts(key.name)) {
                 idle.key(&format!("sampling.{}", key.name), "the volume itself is not drawn");
             }
             return;

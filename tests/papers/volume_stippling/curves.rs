@@ -3,6 +3,7 @@
 use super::{orthographic, table};
 use crate::common;
 use drypoint::reference::volume_stippling::{Edges, Inputs, Preprocess, exhaustive, joined};
+use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::Page;
 use drypoint::scene::points::PointVoxel;
@@ -131,7 +132,7 @@ fn the_laplacian_is_that_of_v() {
                 tone: None,
             };
             let preprocess = Preprocess::new(inputs).unwrap();
-            let found = preprocess.edges().unwrap().unwrap().segments(&curves, &view);
+            let found = preprocess.edges(&mut Counts::default()).unwrap().unwrap().segments(&curves, &view);
             let found: BTreeSet<_> = found.iter().map(|segment| segment.cell).collect();
             let (mut inside, mut outside) = (0, 0);
             for voxel in preprocess.voxels_above(0.1).unwrap() {

@@ -2,7 +2,7 @@
 
 use super::{Preprocessed, orthographic, points_of};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, viewing_distance};
+use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, choose_on_page, viewing_distance};
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Page};
 use drypoint::scene::tables::{Even, Ink, LightDirection, Resolution, Stipples, Threshold};
@@ -45,6 +45,9 @@ fn draw(made: &Preprocessed, volume: &Volume, tone: f64, even: Even) -> (Vec<Dot
     let page = Page::in_pixels(view.size, 0.0, 254.0);
     let mut drawn = Drawn::default();
     frames.draw(&view, &page, &mut drawn);
+    if even == Even::Page {
+        choose_on_page(std::slice::from_mut(&mut drawn));
+    }
     (drawn.to_vec(), page)
 }
 

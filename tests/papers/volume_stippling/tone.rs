@@ -3,7 +3,7 @@
 use super::table;
 use crate::common;
 use drypoint::output::paint::{Window, blank, paint};
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, Preprocess};
+use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, PenTone, Preprocess};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Layer, Marks, Page, Pen};
@@ -92,8 +92,19 @@ fn the_inverse_of_a_measured_wedge_prints_what_is_wanted() {
     }
 }
 
+/// What draws.
+#[derive(Clone, Copy, PartialEq)]
+enum With {
+    /// Dots of any size.
+    Discs,
+    /// A pen with a nib of their size.
+    Pen,
+    /// The same with a table that says what discs print.
+    Table,
+}
+
 /// What an edge `width` voxels wide prints where n faces the eye, all factors 1.
-fn face(n: DVec3, width: f64, thin: bool) -> f64 {
+fn face(n: DVec3, width: f64, thin: bool, with: With) -> f64 {
     let volume = common::volume([40; 3], |p| {
         let t = ((DVec3::splat(19.63) - p).dot(n) / (0.5 * width)).clamp(-1.0, 1.0);
         t * (3.0 - t * t)
@@ -123,7 +134,11 @@ fn face(n: DVec3, width: f64, thin: bool) -> f64 {
         tone: Some((&tone, dot)),
     };
     let preprocess = Preprocess::new(inputs).unwrap();
-    let points = preprocess.points(&mut Counts::default(), &|_| {}).unwrap();
+    let mut points = preprocess.points(&mut Counts::default(), &|_| {}).unwrap();
+    if with != With::Discs {
+        // A pen's dots are as many as the ink of the sizes that they should have.
+        points.voxels.iter_mut().for_each(|voxel| voxel.magnitude = 1.0);
+    }
     let frames = Frames::new(FrameInputs {
         stipples: &stipples,
         points: &points,
@@ -132,9 +147,9 @@ fn face(n: DVec3, width: f64, thin: bool) -> f64 {
         reference: &view,
         near: 0.5,
         size,
-        nib: None,
+        nib: (with != With::Discs).then_some(size),
         surface: None,
-        tone: None,
+        tone: (with == With::Table).then_some(PenTone { tone: &tone, ink: preprocess.ink, layers: preprocess.layers }),
     });
     let mut drawn = Drawn::default();
     frames.draw(&view, &page, &mut drawn);
@@ -142,6 +157,15 @@ fn face(n: DVec3, width: f64, thin: bool) -> f64 {
     let dots = drawn.dots().map(|d| Dot { radius: 0.5 * size, ..*d }).collect();
     let marks = Marks { page, layers: vec![Layer { dots, ..Layer::new(pen(size)) }] };
     coverage(&marks, DVec2::splat(2.0), 16.0)
+}
+
+/// With all factors 1 a pen prints what discs of its nib do, and a table that says nothing new changes nothing.
+#[test]
+fn a_table_of_what_discs_print_changes_nothing_at_full_tone() {
+    for n in [DVec3::Z, DVec3::new(1.0, 2.0, 3.0).normalize()] {
+        let [discs, pen, table] = [With::Discs, With::Pen, With::Table].map(|with| face(n, 2.0, true, with));
+        assert!((pen - discs).abs() < 1e-3 && (table - pen).abs() < 1e-3, "{discs} {pen} {table}");
+    }
 }
 
 #[test]
@@ -153,7 +177,7 @@ fn a_face_is_as_dark_at_every_orientation() {
             let (z, turn) = (2.0 * u - 1.0, TAU * v);
             let r = (1.0 - z * z).sqrt();
             let n = if i == 0 { DVec3::Z } else { DVec3::new(r * turn.cos(), r * turn.sin(), z).normalize() };
-            found.push(face(n, width, thin));
+            found.push(face(n, width, thin, With::Discs));
         }
         let (least, most) = found.iter().fold((1.0f64, 0.0f64), |(a, b), &x| (a.min(x), b.max(x)));
         let mean = found.iter().sum::<f64>() / 20.0;

@@ -6,6 +6,7 @@ mod json_rows;
 use super::Form;
 use crate::OutputError;
 use csv_rows::CsvRows;
+use drypoint_scene::color::srgb_to_linear;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Layer, Marks, Page, PageUnit, Pen, Polyline, Vertex};
 use json_rows::JsonRows;
@@ -67,7 +68,8 @@ trait Rows {
 }
 
 /// Reads a list of dots, or of lines if it has the column `stroke`, as JSON lines if the name ends in `.jsonl` and as CSV
-/// otherwise: a layer for each of `pens`, in their order.
+/// otherwise: a layer for each of `pens`, in their order, or where there are none a layer for each name that the list has, in
+/// the colour that a name such as `#c04006` says, and else in black.
 ///
 /// Lengths are in the page's unit; marks are put onto their steps. Without a column `pen` all belong to the first pen.
 /// Columns may stand in any order, and others beside them are passed over.
@@ -106,7 +108,7 @@ impl<R: Rows> List<'_, R> {
             let world = DVec3::new(any(Column::Wx)?, any(Column::Wy)?, any(Column::Wz)?);
             let radius = self.number(Column::Radius, |r| r > 0.0, "a number above 0")? * scale;
             let opacity = self.number(Column::Opacity, |a| a > 0.0 && a <= 1.0, "a number above 0 and of at most 1")?;
-            let layer = self.layer(&mut layers)?;
+            let layer = self.layer(&mut layers, pens.is_empty())?;
             if !self.rows.has(Column::Stroke) {
                 layer.dots.push(Dot { at, world, radius, opacity });
                 continue;
@@ -144,9 +146,16 @@ impl<R: Rows> List<'_, R> {
     }
 
     /// The layer of the row's pen.
-    fn layer<'l>(&self, layers: &'l mut [Layer]) -> Result<&'l mut Layer, OutputError> {
-        let at = if self.rows.has(Column::Pen) {
-            let text = self.rows.text(Column::Pen);
+    fn layer<'l>(&self, layers: &'l mut Vec<Layer>, are_found: bool) -> Result<&'l mut Layer, OutputError> {
+        let has_pens = self.rows.has(Column::Pen);
+        if are_found {
+            let name = if has_pens { self.rows.text(Column::Pen) } else { Some("stipples") };
+            if let Some(name) = name.map(str::trim).filter(|name| layers.iter().all(|layer| layer.pen.name != *name)) {
+                layers.push(Layer::new(found_pen(layers.len() + 1, name)));
+            }
+        }
+        let at = if has_pens {
+            let text = self.rows.text(Column::Pen).map(str::trim);
             layers.iter().position(|layer| text == Some(layer.pen.name.trim())).ok_or_else(|| {
                 let names: Vec<String> = layers.iter().map(|layer| format!("{:?}", layer.pen.name)).collect();
                 self.wrong(Column::Pen, &names.join(" or "))
@@ -157,6 +166,17 @@ impl<R: Rows> List<'_, R> {
         layers.get_mut(at).ok_or_else(|| self.fault("pen", "there is no pen to draw with".into()))
     }
 }
+
+/// A pen that is known by its name alone.
+fn found_pen(number: usize, name: &str) -> Pen {
+    let digits = name.strip_prefix('#').filter(|digits| digits.len() == 6);
+    let bytes = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok()).unwrap_or(0).to_be_bytes();
+    let [r, g, b] = [bytes[1], bytes[2], bytes[3]].map(|byte| srgb_to_linear(f64::from(byte) / 255.0));
+    Pen { number, name: name.into(), width: FOUND_WIDTH, color: [r, g, b, 1.0] }
+}
+
+/// The nib of such a pen, in mm.
+const FOUND_WIDTH: f64 = 0.3;
 
 /// A line whose last vertex is its first again is closed.
 fn close(line: &mut Polyline) {

@@ -1,6 +1,6 @@
 //! What `[stipples]` needs of the rest of a scene, and what it makes of other tables.
 
-use super::DotColor;
+use super::{CurvesTest, DotColor, Even};
 use crate::file::Problem;
 use crate::file::check::Check;
 use crate::plan::{Asks, Idle, Pass};
@@ -40,6 +40,12 @@ pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
     asks.pass(Pass::StippleGradients, "stipples", "stipples.gradient");
     asks.pass(Pass::StipplePoints, "stipples", "stipples.k_max");
     asks.pass(Pass::Dots, "stipples", "stipples");
+    if stipples.hide_behind.is_some() {
+        asks.pass(Pass::HiddenPoints, "hidden points", "stipples.hide_behind");
+    }
+    if stipples.even == Even::Page {
+        asks.pass(Pass::DotsOnPage, "even on the page", "stipples.even");
+    }
     if stipples.hide_behind == Some(Iso::Auto) {
         asks.pass(Pass::AutomaticIso, "hidden points", "stipples.hide_behind");
     }
@@ -78,6 +84,18 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
     }
     if scene.page.as_ref().is_some_and(|page| page.plotter) {
         idle.key("stipples.ink", "a plotter's nib cannot fade: its ink is opaque");
+    } else if stipples.even == Even::Page {
+        idle.key("stipples.ink", "dots that are chosen on the page are whole");
+    }
+    match stipples.curves.map(|curves| curves.test) {
+        Some(CurvesTest::TwoSided) => idle.key("stipples.curves.eye", "it is for test = \"literal\""),
+        Some(CurvesTest::Literal) => idle.key("stipples.curves.c", "it is for test = \"two-sided\""),
+        None => {}
+    }
+    for (i, pen) in scene.pens.iter().enumerate() {
+        if pen.tone.is_some() && stipples.pen.as_ref() != Some(&pen.name) {
+            idle.key(&format!("pen.{i}.tone"), "only the pen that stipples.pen names prints by its table");
+        }
     }
 }
 
