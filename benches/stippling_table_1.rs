@@ -7,7 +7,7 @@
 use drypoint::drawing::Drawing;
 use drypoint::job::{Job, Wanted};
 use drypoint::scene::counts::Counts;
-use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::file::{Overrides, data_folders, parse};
 use drypoint::scene::tables::Orbit;
 use drypoint::stippling::Stippling;
 use std::path::Path;
@@ -35,7 +35,7 @@ const CURVES: &str = "[stipples.curves]\n";
 
 fn main() -> Result<(), String> {
     println!(
-        "| | volume | made once, s | points, 1000 | drawn, 1000 | curves, 1000 | stipples | curves | both | the paper's |"
+        "| | volume | made once, s | points, 1000 | drawn, 1000 | curves | stipples | curves | both | the paper's |"
     );
     println!("|---|---|--:|--:|--:|--:|--:|--:|--:|--:|");
     for (name, volume, paper) in ROWS {
@@ -48,7 +48,7 @@ fn main() -> Result<(), String> {
             both.once,
             both.points / 1000,
             stipples.dots / 1000,
-            curves.lines / 1000,
+            curves.lines,
             stipples.rate,
             curves.rate,
             both.rate,
@@ -71,6 +71,10 @@ struct Measured {
 }
 
 fn frames(volume: &str, stipples: &str) -> Result<Measured, String> {
+    let folders = data_folders();
+    let found = folders.iter().map(|folder| folder.join(volume)).find(|path| path.is_file());
+    let volume = found.ok_or_else(|| format!("{volume} is in no folder of DRYPOINT_DATA"))?;
+    let volume = volume.display();
     let file =
         format!("drypoint = 1\n[volume]\nfile = \"{volume}\"\n[picture]\nsize = [500, 500]\n[stipples]\n{stipples}");
     let mut scene = parse(&file, Path::new("table_1.toml"), &Overrides::default()).map_err(|e| e.to_string())?;
