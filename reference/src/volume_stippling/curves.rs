@@ -103,6 +103,11 @@ impl Edges {
         self
     }
 
+    /// Where the voxels lie.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
     /// The segments that a camera sees, in the order of the voxels.
     pub fn segments(&self, curves: &Curves, view: &View) -> Vec<Segment> {
         let voxel = self.grid.voxel();

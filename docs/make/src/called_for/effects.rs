@@ -62,6 +62,20 @@ nodes = [
 ]
 "#;
 
+/// Dots alone, all factors 1.
+const STIPPLES: &str = r#"
+drypoint = 1
+[volume]
+phantom = { name = "specimen", size = 96 }
+[camera]
+direction = [0.3, 1, -0.6]
+[picture]
+size = [256, 256]
+[stipples]
+size = "1.5 px"
+threshold = 0.3
+"#;
+
 /// Rows of [`REGULAR`]'s nodes, all alike: what the second quantity measures changes the work and not the picture.
 const ROWS: &str = r#"[
   { at = -1e9, nodes = [
@@ -287,6 +301,74 @@ pub(super) const EFFECTS: &[Effect] = &[
         base: REGULAR,
         with: &[("picture.samples", "2")],
         more: &["rays", "rays_skipped", "samples"],
+        ..NOTHING
+    },
+    Effect {
+        name: "an opaque iso-surface",
+        asked_by: "`[surface]`",
+        base: REGULAR,
+        with: &[("surface.iso", "120")],
+        only: &["bytes.surface"],
+        fewer: &["samples"],
+        ..NOTHING
+    },
+    Effect {
+        name: "an iso-surface that is lit",
+        asked_by: "`surface.look = \"phong\"`",
+        base: REGULAR,
+        without: &[("surface.iso", "120")],
+        with: &[("surface.iso", "120"), ("surface.look", "phong")],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "dots over the volume",
+        asked_by: "`[stipples]`",
+        base: REGULAR,
+        with: &[("stipples.threshold", "0.3")],
+        only: &["points", "bytes.points", "preprocess.stipple gradients", "preprocess.stipple points"],
+        ..NOTHING
+    },
+    Effect {
+        name: "fewer dots inside",
+        asked_by: "`[stipples.interior]`",
+        base: STIPPLES,
+        with: &[("stipples.interior.te", "0.5")],
+        fewer: &["points"],
+        ..NOTHING
+    },
+    Effect {
+        name: "dots in the shade",
+        asked_by: "`[stipples.lighting]`",
+        base: STIPPLES,
+        with: &[("stipples.lighting.le", "1")],
+        fewer: &["points"],
+        ..NOTHING
+    },
+    Effect {
+        name: "one layer of dots a face",
+        asked_by: "`stipples.thin`",
+        base: STIPPLES,
+        with: &[("stipples.thin", "true")],
+        fewer: &["points", "bytes.points", "preprocess.stipple points"],
+        ..NOTHING
+    },
+    Effect {
+        name: "silhouette curves",
+        asked_by: "`[stipples.curves]`",
+        base: STIPPLES,
+        with: &[("stipples.curves.grad", "0.3")],
+        only: &["preprocess.curve Hessians"],
+        more: &["preprocess.stipple gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "hidden dots",
+        asked_by: "`stipples.hide_behind`",
+        base: STIPPLES,
+        with: &[("stipples.hide_behind", "120")],
+        only: &["bytes.surface", "preprocess.hidden points"],
+        fewer: &["points"],
         ..NOTHING
     },
 ];

@@ -1,6 +1,7 @@
 //! Counts and seconds of one scene.
 
 use super::effects::Settings;
+use drypoint::drawing::Drawing;
 use drypoint::job::Job;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
@@ -8,6 +9,7 @@ use drypoint::scene::phantom;
 use drypoint::scene::tables::PhantomSource;
 use drypoint::scene::volume::VoxelType;
 use drypoint::scene::volume::write::write_nrrd;
+use drypoint::stippling::Stippling;
 use std::collections::BTreeMap;
 use std::time::Instant;
 use tempfile::TempDir;
@@ -46,10 +48,15 @@ impl Folder {
 /// What a scene's preparation and one frame did, and in how many seconds.
 pub(super) fn run(job: &Job) -> Result<(Named, f64), String> {
     let start = Instant::now();
-    let renderer = job.renderer().map_err(|e| e.to_string())?;
-    let (picture, counts) = renderer.frame(&|_| ());
+    let mut counts = Counts::default();
+    let is_stippled = job.scene.stipples.is_some();
+    let stippling = is_stippled.then(|| Stippling::new(job, &mut counts, &|_| ())).transpose();
+    let stippling = stippling.map_err(|e| e.to_string())?;
+    let mut drawing = Drawing::new(job, stippling.as_ref(), &mut counts).map_err(|e| e.to_string())?;
+    let (frame, own) = drawing.frame(0, &|_| ()).map_err(|e| e.to_string())?;
+    counts.add(&own);
     let seconds = start.elapsed().as_secs_f64();
-    std::hint::black_box(picture);
+    std::hint::black_box(frame.marks());
     Ok((named(&counts)?, seconds))
 }
 
