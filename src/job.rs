@@ -25,27 +25,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod load;
+
 use crate::labels::Named;
 use crate::{Failure, Failures, Format, memory};
-use drypoint_output::read::read_background;
-use drypoint_output::{OutputError, exr, png};
+use drypoint_output::{exr, png};
 use drypoint_reference::field::FieldError;
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
-use drypoint_scene::file::{Given, identity};
-use drypoint_scene::phantom::{self, Phantom, PhantomError};
+use drypoint_scene::file::identity;
+use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::plan::{Pass, Plan, Quantity};
-use drypoint_scene::style::{Style, StyleError, load as load_styles};
-use drypoint_scene::tables::{
-    Axis, Background, Ids, Iso, NodeColor, Scene, StepAlong, Transfer, VolumeSource, VolumeTable,
-};
-use drypoint_scene::transfer::{Function, FunctionError};
+use drypoint_scene::style::Style;
+use drypoint_scene::tables::{Background, Ids, Iso, Scene, StepAlong, VolumeSource};
+use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
-use drypoint_scene::volume::labels::{LabelNames, LabelVolume};
-use drypoint_scene::volume::{Volume, read};
+use drypoint_scene::volume::Volume;
+use drypoint_scene::volume::labels::LabelVolume;
+use load::{background, function_failure, further, load_volume, named, styles};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
@@ -465,100 +465,4 @@ fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
         })?;
     }
     Ok(())
-}
-
-/// Reads or generates a scene's volume.
-fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
-    match &table.source {
-        VolumeSource::File { path, raw } => read::read(path, raw.as_ref()).map_err(Failure::from),
-        VolumeSource::Phantom(source) => phantom::generate(source).map_err(|error| {
-            let remedy = match &error {
-                PhantomError::Memory { .. } => "ask for fewer voxels with volume.phantom.size",
-                PhantomError::Space(_) => "give other numbers as volume.phantom.size or spacing",
-                _ => "`drypoint phantom --list` lists phantoms and parameters",
-            };
-            Failure::new(error, given.position("volume.phantom"), remedy)
-        }),
-    }
-}
-
-/// The further volumes that the transfer function is over; what is wrong goes to `failures`.
-fn further(scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Volume>; 2] {
-    let axes = scene.transfer.as_ref().map_or(&[][..], |transfer| transfer.over.axes());
-    [0, 1].map(|i| match axes.get(i) {
-        Some(Axis::Volume(path)) => read::read(path, None).map_err(|error| failures.push(Failure::from(error))).ok(),
-        _ => None,
-    })
-}
-
-/// The names of the styles that nodes carry.
-fn named(transfer: &Transfer) -> impl Iterator<Item = &str> {
-    transfer.all_nodes().filter_map(|node| match &node.color {
-        NodeColor::Style(name) => Some(name.as_str()),
-        NodeColor::Color(_) => None,
-    })
-}
-
-/// What makes no function, at the key that says it.
-fn function_failure(error: &FunctionError, given: &Given, names: &LabelNames) -> Failure {
-    let key = match error {
-        FunctionError::UnknownLabel { row: Some(row), .. } | FunctionError::LabelTwice { row, .. } => {
-            format!("transfer.rows[{row}].at")
-        }
-        FunctionError::UnknownLabel { row: None, .. } => "transfer.over".into(),
-    };
-    let remedy = match error {
-        FunctionError::LabelTwice { .. } => "keep one row for each label".into(),
-        FunctionError::UnknownLabel { name, .. } => match names.nearest(name) {
-            Some(nearest) => format!("write {nearest:?}"),
-            None if names.iter().next().is_none() => "write an id, or name the labels with volume.label_names".into(),
-            None => "write an id, or one of the names in volume.label_names".into(),
-        },
-    };
-    Failure::new(error, given.position(&key), remedy)
-}
-
-/// The styles of those names; what is wrong goes to `failures`.
-fn styles<'a>(scene: &Scene, names: impl Iterator<Item = &'a str>, failures: &mut Vec<Failure>) -> Vec<Style> {
-    let mut styles = Vec::new();
-    for name in names {
-        match load_styles(&scene.styles, [name]) {
-            Ok(style) => styles.extend(style),
-            Err(error) => failures.push(style_failure(scene, &error)),
-        }
-    }
-    styles
-}
-
-/// A style or theme that cannot be had, at the key that names it.
-fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
-    let own = |name: &String| scene.styles.files.iter().any(|(known, _)| known == name);
-    let is_bare = |name: &String| name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
-    let key = match error {
-        StyleError::File { name, .. } | StyleError::Picture { name, .. } if own(name) && is_bare(name) => {
-            format!("styles.{name}")
-        }
-        StyleError::File { name, .. } | StyleError::Picture { name, .. } if own(name) => format!("styles.{name:?}"),
-        StyleError::Unknown { .. } => "transfer.nodes".into(),
-        _ => "styles.theme".into(),
-    };
-    Failure::new(error, scene.given.position(&key), error.help())
-}
-
-/// The pixels behind, where the scene has a picture there; what is wrong goes to `failures`.
-fn background(scene: &Scene, wanted: Wanted, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
-    let Background::Picture(path) = &scene.picture.background else { return None };
-    if wanted == Wanted::Marks {
-        let (what, remedy) = ("a page has no picture behind it", "give a colour, or \"none\", or render the scene");
-        failures.push(Failure::new(what, scene.given.position("picture.background"), remedy));
-        return None;
-    }
-    let [width, height] = scene.picture.size;
-    if let Err(failure) = room(scene, size_of::<Rgba>()) {
-        failures.push(failure);
-        return None;
-    }
-    let pixels = read_background(path, width, height);
-    let failed = |error| Failure::new(&error, scene.given.position("picture.background"), OutputError::help(&error));
-    pixels.map_err(|error| failures.push(failed(error))).ok()
 }

@@ -91,7 +91,9 @@ impl<'a> Paper<'a> {
     }
 
     fn sheet<'s>(&'s self, marks: &'s Marks, picture: Option<&'s Picture>) -> Sheet<'s> {
-        Sheet { marks, background: self.background(), picture, plotter: self.plotter(), provenance: &self.provenance }
+        // The paper has its colour, and programs that know nothing of layers with % would draw round the page.
+        let background = self.background().filter(|_| !self.plotter());
+        Sheet { marks, background, picture, plotter: self.plotter(), provenance: &self.provenance }
     }
 
     fn plotter(&self) -> bool {

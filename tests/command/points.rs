@@ -100,6 +100,8 @@ fn a_plotter_s_page() {
     assert!(told.contains("1-red 0.3: ") && told.contains(" touches, "), "{told}");
     let svg = text(&folder, "ball.svg");
     assert!(svg.contains("inkscape:label=\"1-red 0.3\"") && !svg.contains("opacity=\"0."));
+    // Nothing but what the pen draws: a background would be a line round the page.
+    assert!(!svg.contains("<rect") && !svg.contains("label=\"%"));
     let told = folder.line("points ball.toml -o ball.csv").err;
     assert!(told.contains(" lines are left out: a list has dots alone"), "{told}");
     let csv = text(&folder, "ball.csv");

@@ -1,0 +1,117 @@
+//! The passes of a plan.
+
+/// A pass over the volume or the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Pass {
+    /// Coefficients of a prefiltered B-spline ([REC-1]).
+    Coefficients,
+    /// Coefficients of the B-spline of the smoothed grid ([REC-3]).
+    SmoothedCoefficients,
+    /// The quantile of ‖g‖ over the voxels, where `gradient_range` is none that is given ([VAL-2]).
+    GradientRange,
+    /// The automatic transfer function, from values and their differences between neighbours.
+    AutomaticTransfer,
+    /// The automatic iso-value, from the same.
+    AutomaticIso,
+    /// The distance of every voxel to a label ([STF-4]).
+    LabelDistances,
+    /// The ranges of bricks, by which empty space is skipped ([RAY-2]).
+    Bricks,
+    /// The mip chains of the styles ([STF-10]).
+    StyleMipmaps,
+    /// ‖∇V‖ and V of stippling ([STIP-1]).
+    StippleGradients,
+    /// The points of stippling, relaxed and in order ([STIP-4]).
+    StipplePoints,
+    /// Where silhouette curves can be ([STIP-13]).
+    CurveVoxels,
+    /// The label of each voxel's dots.
+    DotLabels,
+    /// The colour of each voxel's dots ([STIP-16]).
+    DotColors,
+    /// A factor of stippling that no camera changes ([STIP-7], [STIP-11]).
+    StillFactor,
+    /// The rays themselves.
+    Rays,
+    /// A factor of stippling that the camera changes ([STIP-8] … [STIP-12]).
+    Factor,
+    /// The dots of a frame ([STIP-5], [STIP-6]).
+    Dots,
+    /// Which points an iso-surface hides ([STIP-15]).
+    HiddenPoints,
+    /// The choice of dots on the page ([STIP-19]).
+    DotsOnPage,
+    /// The silhouette curves of a frame.
+    Curves,
+}
+
+impl Pass {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Coefficients => "B-spline coefficients",
+            Self::SmoothedCoefficients => "smoothed coefficients",
+            Self::GradientRange => "range of |g|",
+            Self::AutomaticTransfer => "automatic function",
+            Self::AutomaticIso => "automatic iso-value",
+            Self::LabelDistances => "distances to a label",
+            Self::Bricks => "brick ranges",
+            Self::StyleMipmaps => "style mip-maps",
+            Self::StippleGradients => "stipple gradients",
+            Self::StipplePoints => "stipple points",
+            Self::CurveVoxels => "voxels of curves",
+            Self::DotLabels => "labels of dots",
+            Self::DotColors => "colours of dots",
+            Self::StillFactor => "factor, once",
+            Self::Rays => "rays",
+            Self::Factor => "factor, a frame",
+            Self::Dots => "dots",
+            Self::HiddenPoints => "hidden points",
+            Self::DotsOnPage => "choice on the page",
+            Self::Curves => "curves",
+        }
+    }
+
+    /// What it adds to a picture's work.
+    pub fn adds(self) -> &'static str {
+        match self {
+            Self::Coefficients => "one filter along each axis, one number a voxel",
+            Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
+            Self::GradientRange => "one gradient a voxel",
+            Self::AutomaticTransfer | Self::AutomaticIso => "one look at each voxel and its neighbours",
+            Self::LabelDistances => "one search a voxel of the labels, one number each",
+            Self::Bricks => "one look at each voxel",
+            Self::StyleMipmaps => "one look at each texel of a style, a third of it more to keep",
+            Self::StippleGradients => "one gradient a voxel",
+            Self::StipplePoints => "one order a voxel with points",
+            Self::CurveVoxels => "one gradient and one Hessian a voxel",
+            Self::DotLabels => "one look at the labels a voxel with points",
+            Self::DotColors => "one colour a voxel with points",
+            Self::StillFactor => "one number a voxel with points",
+            Self::Rays => "samples² rays a pixel",
+            Self::Factor => "one number a voxel with points",
+            Self::Dots => "a count and a size a voxel with points, a place a dot",
+            Self::HiddenPoints => "one look at each voxel, once; a search and a line towards the eye a point",
+            Self::DotsOnPage => "four candidates a dot, each with its neighbours",
+            Self::Curves => "one test a voxel of curves",
+        }
+    }
+
+    /// Bytes that it takes for each voxel of the volume while it runs, at the most: what may be more than there is.
+    pub fn bytes_a_voxel(self) -> u64 {
+        match self {
+            // One number of 64 bits.
+            Self::Coefficients | Self::LabelDistances => 8,
+            // A filter reads one copy and writes another; norms are gathered from the planes.
+            Self::SmoothedCoefficients | Self::GradientRange => 16,
+            Self::AutomaticTransfer | Self::AutomaticIso | Self::Bricks | Self::StyleMipmaps | Self::Rays => 0,
+            // A norm each, and what a fit smooths.
+            Self::StippleGradients => 16,
+            // Made of few voxels, or known once those are ([`PointsPlan`](super::PointsPlan)).
+            Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
+            Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
+            Self::HiddenPoints | Self::DotsOnPage => 0,
+            Self::CurveVoxels => 16,
+        }
+    }
+}
