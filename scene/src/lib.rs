@@ -19,6 +19,7 @@ pub mod picture;
 pub mod plan;
 pub mod points;
 pub mod space;
+pub mod strokes;
 pub mod style;
 pub mod tables;
 pub mod tone;

@@ -1,0 +1,26 @@
+//! Strokes on surfaces: what hatching and outlines make and pictures draw (Nagy, Schneider and Westermann 2002, 3.2, 4.1;
+//! [HATCH-10]).
+
+use glam::DVec3;
+
+/// A place on a stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrokeVertex {
+    /// In world units.
+    pub world: DVec3,
+    /// The outward normal N there, of length 1, in world space.
+    pub normal: DVec3,
+    /// u ∈ [0, 1]: the arc length from the tail over the whole length.
+    pub u: f64,
+}
+
+/// A curve on an iso-surface, as straight segments between its vertices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stroke {
+    /// From the tail, at least two. A closed one does not repeat its first.
+    pub vertices: Vec<StrokeVertex>,
+    /// Whether the last vertex is joined to the first.
+    pub closed: bool,
+    /// What its random numbers are drawn by ([RAY-4]): the index of the cell that it grew from.
+    pub key: u64,
+}
