@@ -60,6 +60,11 @@ pub(crate) fn style(name: &str, side: usize, texel: impl Fn(f64, f64) -> Rgba) -
     Style::from_straight(name, side, &texels, true).unwrap()
 }
 
+/// What a style's texel keeps of a colour.
+pub(crate) fn in_a_texture(color: Rgba) -> Rgba {
+    color.map(|c| f64::from(c as f32))
+}
+
 /// One colour everywhere.
 pub(crate) fn plain(name: &str, color: Rgba) -> Style {
     style(name, 1, |_, _| color)

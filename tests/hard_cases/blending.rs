@@ -1,6 +1,6 @@
 //! Colours composited ([VAL-3], [IO-6]): by hand, on volumes whose rays meet one or two samples.
 
-use crate::common::{Shot, ball, orthographic, plain, volume};
+use crate::common::{Shot, ball, in_a_texture, orthographic, plain, volume};
 use drypoint::scene::color::{linear_to_srgb, srgb_to_linear};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -96,7 +96,8 @@ fn an_encoded_style_by_hand() {
         s.picture.blend_space = BlendSpace::Srgb;
         s.picture.background = Background::Color([0.0, 0.0, 0.0, 1.0]);
     });
-    let expected = [0.3, 0.6, 0.9].map(|c| srgb_to_linear(0.5 * linear_to_srgb(c)));
+    let [r, g, b, _] = in_a_texture([0.15, 0.3, 0.45, 0.5]);
+    let expected = [r, g, b].map(|c| srgb_to_linear(0.5 * linear_to_srgb(c / 0.5)));
     all(&shot, [expected[0], expected[1], expected[2], 1.0]);
 }
 

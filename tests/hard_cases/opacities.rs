@@ -13,7 +13,7 @@ pub(crate) static THEME: Theme = Theme::new(
             name: "α_u = 1: α = α_d, whatever the exponent and Δ/Δ₀",
             breaks: "1^x or 0^0 by logarithms: 0.999…; ln 0 = −∞",
             done: "0 and 1 are asked before any logarithm [VAL-4, PREC-4]",
-            of: "pixels whose opacity is not α_d: 1 at every Δ/Δ₀ from 10⁻³⁰⁰ to 10³⁰⁰, ¼, ½ and 10⁻³⁰⁰ at 1",
+            of: "pixels whose opacity is not α_d: 1 at every Δ/Δ₀ from 10⁻³⁰⁰ to 10³⁰⁰, ¼, ½ and 2⁻¹²⁶ at 1",
             bound: 0.0,
             why: "1 to any power is 1, and (1 − 1) to any power is 0",
             measure: ones,
@@ -93,9 +93,9 @@ fn ones() -> f64 {
                     let shot = shot.with(|s| s.sampling.reference_length = Length::World(1.0 / ratio));
                     wrong += usize::from(opacity(1.0, &shot) != 1.0);
                 }
-                for alpha_d in [0.25, 0.5, 1e-300] {
-                    let rounded = if number == Number::F32 { f64::from(alpha_d as f32) } else { alpha_d };
-                    wrong += usize::from(opacity(alpha_d, &shot) != rounded);
+                // The last is the least that a texel holds with all its digits.
+                for alpha_d in [0.25, 0.5, f64::from(f32::MIN_POSITIVE)] {
+                    wrong += usize::from(opacity(alpha_d, &shot) != alpha_d);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Styles where their formulas have an edge ([STF-1] … [STF-9]).
 
 use crate::common::strip::ramp;
-use crate::common::{Shot, corrected, on, orthographic, perspective, plain, style, volume};
+use crate::common::{Shot, corrected, in_a_texture, on, orthographic, perspective, plain, style, volume};
 use crate::stability::{Case, Theme, worse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -282,7 +282,7 @@ fn a_picture_of_one_pixel_and_a_style_of_one_texel() {
     let texel = Shot::styled(ball, vec![plain("s", [0.3, 0.6, 0.9, 1.0])], &[(0.0, "s", 0.0), (0.0, "s", 1.0)]);
     let pushed = texel.with(|s| s.contours = Some(Contours { thickness: Length::World(9.0), ..Contours::default() }));
     assert_eq!(pushed.render().bits(), texel.render().bits());
-    assert!(texel.render().pixels().iter().all(|p| p[3] == 0.0 || *p == [0.3, 0.6, 0.9, 1.0]));
+    assert!(texel.render().pixels().iter().all(|p| p[3] == 0.0 || *p == in_a_texture([0.3, 0.6, 0.9, 1.0])));
 }
 
 /// One sample a ray, on the plane through the middle of the volume, and nothing to correct.

@@ -7,7 +7,7 @@ use crate::number::{Arithmetic, Vec3, lanes};
 use crate::transfer::lanes::{Nodes, Places};
 use drypoint_scene::tables::{Mix, Transparency};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4, f64x8, mask64x8};
+use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
 
 /// [`Real::clamp_01`](crate::number::Real::clamp_01).
 #[inline(always)]
@@ -227,7 +227,7 @@ fn straight<S: Simd>(texel: f64x4<S>) -> f64x4<S> {
     straight
 }
 
-impl SphereMap<f64> {
+impl SphereMap {
     /// The first texel of the cell of each normal, and the place in it; the first cell in lanes that are not asked for.
     #[inline(always)]
     fn cells<S: Simd>(&self, [x, y]: [f64x8<S>; 2], asked: u64) -> ([usize; LANES], [f64x8<S>; 2]) {
@@ -242,13 +242,14 @@ impl SphereMap<f64> {
     /// Bilinear in the cell whose first texel this is: x, then y.
     #[inline(always)]
     fn filtered<S: Simd>(&self, simd: S, start: usize, [wx, wy]: [f64; 2]) -> f64x4<S> {
-        // With a single texel the cell has no second one, and the weights are 0.
-        let next = usize::from(self.side > 1);
-        let down = next * self.side;
-        let texels = &self.texels[start..][..down + next + 1];
         let (wx, wy) = (f64x4::splat(simd, wx), f64x4::splat(simd, wy));
-        let upper = f64x4::lerp(texels[0].simd_into(simd), texels[next].simd_into(simd), wx);
-        let lower = f64x4::lerp(texels[down].simd_into(simd), texels[down + next].simd_into(simd), wx);
+        if self.side == 1 {
+            // The cell has no second texel, and the weights are 0.
+            return f64x4::simd_from(simd, self.texels[0].map(f64::from));
+        }
+        let row = |at: usize| f32x8::from_slice(simd, self.texels[at..][..2].as_flattened());
+        let ((a, b), (c, d)) = (simd.widen_f32x8(row(start)), simd.widen_f32x8(row(start + self.side)));
+        let (upper, lower) = (f64x4::lerp(a, b, wx), f64x4::lerp(c, d, wx));
         f64x4::lerp(upper, lower, wy)
     }
 }

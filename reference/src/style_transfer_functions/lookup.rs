@@ -105,7 +105,7 @@ impl<R: Real> Blend2<R> {
 /// The texture `sft` (4.1): the distinct styles of a transfer function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spheres<R> {
-    maps: Vec<SphereMap<R>>,
+    maps: Vec<SphereMap>,
     /// The chain of each style, where the scene has `[style_mipmaps]`.
     chains: Vec<MipMap<R>>,
     pub(super) mix: Mix,
@@ -128,7 +128,7 @@ impl<R: Real> Spheres<R> {
     }
 
     /// Style j.
-    pub fn map(&self, j: usize) -> &SphereMap<R> {
+    pub fn map(&self, j: usize) -> &SphereMap {
         &self.maps[j]
     }
 

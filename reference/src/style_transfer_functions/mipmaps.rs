@@ -63,7 +63,7 @@ pub struct MipMap<R> {
     /// log₂ S.
     last: R,
     /// λ of each level, ascending, and its picture.
-    levels: Vec<(R, SphereMap<R>)>,
+    levels: Vec<(R, SphereMap)>,
 }
 
 impl<R: Real> MipMap<R> {
@@ -77,7 +77,7 @@ impl<R: Real> MipMap<R> {
     /// The lookup of `style`, which this is the chain of, at λ = clamp(`below_last` + log₂ S, 0, log₂ S): bilinear in the
     /// two levels about λ, and linear between them. At λ = 0 it is the lookup of the style itself, bit for bit.
     #[inline]
-    pub fn sample(&self, style: &SphereMap<R>, nx: R, ny: R, below_last: R) -> [R; 4] {
+    pub fn sample(&self, style: &SphereMap, nx: R, ny: R, below_last: R) -> [R; 4] {
         // In this order of operands what is not a number (turn 0 seen from no distance) counts as 0.
         let lambda = R::ZERO.max(below_last + self.last).min(self.last);
         let above = self.levels.iter().position(|(at, _)| *at > lambda).unwrap_or(self.levels.len());
@@ -173,7 +173,7 @@ mod tests {
     fn nothing_to_tell_apart_is_level_0() {
         let flat = Detail { turn: 0.0, ..detail(1.0) };
         assert_eq!(lambda(&flat, 512.0, 0.0, 0.0), 0.0);
-        let (picture, chain) = (SphereMap::<f64>::new(&noise(8)), MipMap::<f64>::new(&noise(8)));
+        let (picture, chain) = (SphereMap::new(&noise(8)), MipMap::<f64>::new(&noise(8)));
         for below_last in [f64::NEG_INFINITY, f64::NAN, -1e300] {
             assert_eq!(chain.sample(&picture, 0.3, 0.2, below_last), picture.sample(0.3, 0.2));
         }
@@ -190,8 +190,9 @@ mod tests {
             let found = MipMap::new(&style).sample(&SphereMap::new(&style), 0.4, -0.7, 0.0);
             for c in 0..4 {
                 let mean = inside.iter().map(|t| t[c]).sum::<f64>() / inside.len() as f64;
-                // As many roundings as there are texels.
-                assert!((found[c] - mean).abs() <= inside.len() as f64 * f64::EPSILON, "{side}");
+                // As many roundings as there are texels, and one to f32.
+                let bound = inside.len() as f64 * f64::EPSILON + 0.5 * f64::from(f32::EPSILON);
+                assert!((found[c] - mean).abs() <= bound, "{side}");
             }
         }
     }
@@ -216,7 +217,7 @@ mod tests {
     #[test]
     fn levels_are_mixed_by_their_lambdas() {
         let style = noise(12);
-        let (picture, chain) = (SphereMap::<f64>::new(&style), MipMap::<f64>::new(&style));
+        let (picture, chain) = (SphereMap::new(&style), MipMap::<f64>::new(&style));
         let last = math::log2(12.0);
         let at = |lambda: f64| chain.sample(&picture, 0.31, -0.42, lambda - last);
         let alone = |k: usize| match k {
@@ -243,7 +244,7 @@ mod tests {
             side in 1usize..40, angle in 0.0..6.3f64, r in 0.0..=1.0f64, below in -30.0..=0.0f64,
         ) {
             let style = noise(side);
-            let (picture, chain) = (SphereMap::<f64>::new(&style), MipMap::<f64>::new(&style));
+            let (picture, chain) = (SphereMap::new(&style), MipMap::<f64>::new(&style));
             let [nx, ny] = [r * angle.cos(), r * angle.sin()];
             let below_last = below - math::log2(side as f64);
             prop_assert_eq!(chain.sample(&picture, nx, ny, below_last), picture.sample(nx, ny));
@@ -258,8 +259,9 @@ mod tests {
             let lookup = |style: &Style| MipMap::<f64>::new(style).sample(&SphereMap::new(style), nx, ny, below);
             prop_assert!(lookup(&noise(side)).iter().all(|v| (0.0..=1.0).contains(v)));
             let constant = lookup(&style(side, |_, _| [c, 1.0, 0.0, 1.0]));
-            // Of n equal numbers the sum rounds n times.
-            prop_assert!((constant[0] - c).abs() <= (side * side) as f64 * f64::EPSILON);
+            // Of n equal numbers the sum rounds n times, and a texel once to f32.
+            let bound = (side * side) as f64 * f64::EPSILON + 0.5 * f64::from(f32::EPSILON);
+            prop_assert!((constant[0] - c).abs() <= bound);
             prop_assert_eq!([constant[1], constant[2], constant[3]], [1.0, 0.0, 1.0]);
         }
 

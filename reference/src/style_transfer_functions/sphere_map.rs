@@ -5,13 +5,16 @@ use drypoint_scene::color::Rgba;
 use drypoint_scene::style::Style;
 
 /// One style's picture, sampled.
+///
+/// Its texels are rounded to f32 once, whatever the precision of the samples: what a texture of a graphics card holds, and
+/// far finer than any painted picture. A style of 192² texels is then 0.6 MB, and a core keeps two of them at hand.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SphereMap<R> {
+pub struct SphereMap {
     pub(super) side: usize,
-    pub(super) texels: Vec<[R; 4]>,
+    pub(super) texels: Vec<[f32; 4]>,
 }
 
-impl<R: Real> SphereMap<R> {
+impl SphereMap {
     /// From a decoded style, whose texels outside the disk are already extended from its rim.
     pub fn new(style: &Style) -> Self {
         Self::from_texels(style.side, &style.texels)
@@ -19,7 +22,7 @@ impl<R: Real> SphereMap<R> {
 
     /// From S × S texels with the same property.
     pub(super) fn from_texels(side: usize, texels: &[Rgba]) -> Self {
-        Self { side, texels: texels.iter().map(|texel| texel.map(R::from_f64)).collect() }
+        Self { side, texels: texels.iter().map(|texel| texel.map(|c| c as f32)).collect() }
     }
 
     /// The size of the texels in memory.
@@ -31,22 +34,23 @@ impl<R: Real> SphereMap<R> {
     /// x = (N_x + 1)S/2 − ½, y = (1 − N_y)S/2 − ½, both clamped to [0, S − 1]. Each step is a + w(b − a), which
     /// returns a constant style exactly.
     #[inline]
-    pub fn sample(&self, nx: R, ny: R) -> [R; 4] {
+    pub fn sample<R: Real>(&self, nx: R, ny: R) -> [R; 4] {
         let half_side = R::from_f64(self.side as f64) * R::HALF;
         let (i, wx) = self.cell((nx + R::ONE) * half_side - R::HALF);
         let (j, wy) = self.cell((R::ONE - ny) * half_side - R::HALF);
         // With a single texel the cell has no second one, and the weight is 0.
         let next = usize::from(self.side > 1);
         let row = |j: usize| {
-            let (a, b) = (self.texels[j * self.side + i], self.texels[j * self.side + i + next]);
-            mix(a, b, wx)
+            let texel = |at: usize| self.texels[at].map(|c| R::from_f64(f64::from(c)));
+            let at = j * self.side + i;
+            mix(texel(at), texel(at + next), wx)
         };
         mix(row(j), row(j + next), wy)
     }
 
     /// The cell min(⌊x⌋, max(S − 2, 0)) of a coordinate clamped to [0, S − 1], and the place in it.
     #[inline]
-    fn cell(&self, x: R) -> (usize, R) {
+    fn cell<R: Real>(&self, x: R) -> (usize, R) {
         let end = R::from_f64((self.side - 1) as f64);
         let (i, w) = x.max(R::ZERO).min(end).split();
         if i + 1 >= self.side && i > 0 { (i - 1, w + R::ONE) } else { (i, w) }
@@ -74,7 +78,12 @@ mod tests {
         Style::from_straight("test", side, &texels, true).unwrap()
     }
 
-    fn sphere(side: usize, texel: impl Fn(usize, usize) -> [f64; 4]) -> SphereMap<f64> {
+    /// What a texel keeps of a number.
+    fn in_a_texture(c: f64) -> f64 {
+        f64::from(c as f32)
+    }
+
+    fn sphere(side: usize, texel: impl Fn(usize, usize) -> [f64; 4]) -> SphereMap {
         SphereMap::new(&style(side, texel))
     }
 
@@ -109,7 +118,7 @@ mod tests {
     #[test]
     fn one_texel_is_a_constant() {
         let map = sphere(1, |_, _| [0.3, 0.2, 0.1, 0.7]);
-        let texel = [0.3 * 0.7, 0.2 * 0.7, 0.1 * 0.7, 0.7];
+        let texel = [0.3 * 0.7, 0.2 * 0.7, 0.1 * 0.7, 0.7].map(in_a_texture);
         for (nx, ny) in [(0.0, 0.0), (1.0, 0.0), (0.0, -1.0), (-0.6, 0.8)] {
             assert_eq!(map.sample(nx, ny), texel);
         }
@@ -151,11 +160,11 @@ mod tests {
     #[test]
     fn f32_agrees_to_its_rounding() {
         let picture = style(16, |i, j| [i as f64 / 15.0, j as f64 / 15.0, 0.5, 1.0]);
-        let (f64s, f32s) = (SphereMap::<f64>::new(&picture), SphereMap::<f32>::new(&picture));
+        let map = SphereMap::new(&picture);
         for k in 0..200 {
             let angle = f64::from(k) * 0.1;
             let [nx, ny] = [angle.cos(), angle.sin()].map(|c| c * f64::from(k) / 200.0);
-            let (a, b) = (f64s.sample(nx, ny), f32s.sample(nx as f32, ny as f32));
+            let (a, b) = (map.sample(nx, ny), map.sample(nx as f32, ny as f32));
             for c in 0..4 {
                 // Coordinates up to 16 are rounded to 2⁻²⁰, the picture's slope is 1/15 a texel.
                 assert!((a[c] - f64::from(b[c])).abs() < 1e-6);
@@ -166,14 +175,14 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(300))]
 
-        /// Constants come back with the same bits wherever they are looked up, so a rim or a filter weight leaves no
+        /// Constants come back with the bits of their texels wherever they are looked up, so a rim or a filter weight leaves no
         /// trace ([STF-12]'s constant style).
         #[test]
         fn a_constant_style_returns_its_colour_exactly(
             side in 1usize..20, angle in 0.0..6.3f64, r in 0.0..=1.0f64, c in prop::array::uniform4(0.0..=1.0f64),
         ) {
             let map = sphere(side, |_, _| c);
-            let texel = [c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]];
+            let texel = [c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]].map(in_a_texture);
             prop_assert_eq!(map.sample(r * angle.cos(), r * angle.sin()), texel);
         }
 

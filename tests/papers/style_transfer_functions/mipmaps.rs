@@ -80,7 +80,7 @@ fn every_pixel_has_the_level_of_the_formula() {
     let centre = grid.centre();
     let field = |p: DVec3| (36.0 - (p - centre).length_squared()) / 12.0;
     let styles = vec![grain(side)];
-    let (picture, chain) = (SphereMap::<f64>::new(&styles[0]), MipMap::<f64>::new(&styles[0]));
+    let (picture, chain) = (SphereMap::new(&styles[0]), MipMap::<f64>::new(&styles[0]));
     let shot = Shot::styled(on(grid, field), styles, &[(0.0, "grain", 0.0), (0.0, "grain", 1.0)])
         .layers(&[CurvatureAlongView, Normal, Gradient, Z])
         .with(|s| {
@@ -204,8 +204,8 @@ fn mip_maps_cost_what_they_are_asked_for() {
     assert!(!bare.bytes.contains_key("style_mipmaps") && !bare.preprocess.contains_key("gradients"));
     let with = |table: StyleMipmaps| shot.with(|s| s.style_mipmaps = Some(table));
     let c = with(unbiased()).render().counts;
-    // Sides 6, 3, 2, 1 of four f64.
-    assert_eq!(c.bytes["style_mipmaps"], (36 + 9 + 4 + 1) * 32);
+    // Sides 6, 3, 2, 1 of four f32.
+    assert_eq!(c.bytes["style_mipmaps"], (36 + 9 + 4 + 1) * 16);
     let same = |c: &drypoint::scene::counts::Counts| {
         (c.samples, c.gradients, c.hessians, c.style_lookups, c.preprocess.clone())
     };

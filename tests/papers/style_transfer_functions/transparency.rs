@@ -20,7 +20,8 @@ fn linear() -> Volume {
 /// τ a constant threshold times its fade. One sample a ray: the pixel is α_d α_u^(0.5 + max(0, |N·v| − τ)(1 − |g|)).
 #[test]
 fn eq_2_by_hand_at_every_pixel() {
-    let (alpha_d, color, direction) = (0.8, [0.3, 0.6, 0.9], [0.6, 0.7, -0.2]);
+    // Colours and opacity that a texel holds exactly.
+    let (alpha_d, color, direction) = (0.8125, [0.25, 0.625, 0.875], [0.6, 0.7, -0.2]);
     let v = -DVec3::from_array(direction).normalize();
     let n_v = (G.normalize().dot(v)).abs();
     let nodes = [(-2.0, "glass", 0.05), (2.0, "glass", 0.95)];

@@ -10,7 +10,7 @@ const PARTS: usize = 4;
 /// The layer `beauty` of a square picture with a sphere of the style on white that touches its sides, antialiased by
 /// 4 × 4 samples a pixel.
 pub fn preview(style: &Style, side: usize) -> Picture {
-    let map = SphereMap::<f64>::new(style);
+    let map = SphereMap::new(style);
     let mut channels = vec![vec![1.0; side * side]; 4];
     for (i, pixel) in (0..side * side).map(|i| (i, pixel(&map, side, i % side, i / side))) {
         for (channel, value) in channels.iter_mut().zip(pixel) {
@@ -21,7 +21,7 @@ pub fn preview(style: &Style, side: usize) -> Picture {
 }
 
 /// Linear premultiplied pixel (x, y): the sphere over white.
-fn pixel(map: &SphereMap<f64>, side: usize, x: usize, y: usize) -> [f64; 4] {
+fn pixel(map: &SphereMap, side: usize, x: usize, y: usize) -> [f64; 4] {
     let mut sum = [0.0; 4];
     let at = |k: usize, part: usize| (k as f64 + (part as f64 + 0.5) / PARTS as f64) * 2.0 / side as f64 - 1.0;
     for part in 0..PARTS * PARTS {
