@@ -1,0 +1,248 @@
+//! The pyramid over the volume that leads to the cells of an iso-surface (3.2; [HATCH-5]).
+//!
+//! A pointerless octree. An entry of its lowest level, the paper's second, is a *block* of 2 × 2 × 2 cells, that is of
+//! 3 × 3 × 3 voxels: neighbours share voxels, or no block would hold the cells between them.
+
+use drypoint_scene::volume::Volume;
+use rayon::prelude::*;
+
+/// Ranges of values, level by level.
+#[derive(Clone, Debug)]
+pub struct Pyramid {
+    /// Blocks first, then each level of 2 × 2 × 2 entries of the one below, up to a single one.
+    levels: Vec<Level>,
+    cells: [usize; 3],
+    /// The values of byte 0 and of byte 255.
+    range: [f64; 2],
+}
+
+/// A level: x fastest, the least and the largest value of an entry as bytes, rounded outwards.
+#[derive(Clone, Debug)]
+struct Level {
+    dims: [usize; 3],
+    ranges: Vec<[u8; 2]>,
+}
+
+/// The cells of a grid along each axis; an axis of one voxel has one, without thickness.
+pub(super) fn cells_of(dims: [usize; 3]) -> [usize; 3] {
+    dims.map(|n| (n - 1).max(1))
+}
+
+impl Level {
+    fn at(&self, [x, y, z]: [usize; 3]) -> [u8; 2] {
+        self.ranges[x + self.dims[0] * (y + self.dims[1] * z)]
+    }
+
+    /// The entries of the level above, which take the least and the largest of their children.
+    fn above(&self) -> Self {
+        let dims = self.dims.map(|n| n.div_ceil(2));
+        let ranges = positions(dims).map(|entry| {
+            children(entry, self.dims)
+                .map(|child| self.at(child))
+                .fold([u8::MAX, 0], |a, b| [a[0].min(b[0]), a[1].max(b[1])])
+        });
+        Self { dims, ranges: ranges.collect() }
+    }
+}
+
+/// The places of a grid, x fastest.
+fn positions([nx, ny, nz]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
+}
+
+/// The up to eight parts of an entry among the finer ones, x fastest.
+fn children(entry: [usize; 3], finer: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    let part = move |axis: usize| 2 * entry[axis]..(2 * entry[axis] + 2).min(finer[axis]);
+    part(2).flat_map(move |z| part(1).flat_map(move |y| part(0).map(move |x| [x, y, z])))
+}
+
+impl Pyramid {
+    /// Looks once at each voxel of a volume; more often where blocks share it.
+    pub fn new(volume: &Volume) -> Self {
+        let dims = volume.dims();
+        let cells = cells_of(dims);
+        let blocks = cells.map(|n| n.div_ceil(2));
+        let range = volume.range();
+        let row = |row: usize| -> Vec<[u8; 2]> {
+            let [y, z] = [row % blocks[1], row / blocks[1]];
+            // The least and the largest of the up to nine voxels in each plane of x, which blocks share.
+            let span = |block: usize, axis: usize| 2 * block..(2 * block + 3).min(dims[axis]);
+            let planes: Vec<[f64; 2]> = (0..dims[0])
+                .map(|x| {
+                    let voxels = span(z, 2).flat_map(|k| span(y, 1).map(move |j| [x, j, k]));
+                    voxels.map(|at| volume.value(at)).fold(NOTHING, |a, v| joined(a, [v, v]))
+                })
+                .collect();
+            (0..blocks[0])
+                .map(|x| planes[span(x, 0)].iter().fold(NOTHING, |a, &b| joined(a, b)))
+                .map(|[lo, hi]| [byte(range, lo).floor() as u8, byte(range, hi).ceil() as u8])
+                .collect()
+        };
+        let ranges = (0..blocks[1] * blocks[2]).into_par_iter().flat_map_iter(row).collect();
+        let mut levels = vec![Level { dims: blocks, ranges }];
+        while let Some(last) = levels.last().filter(|level| level.dims != [1; 3]) {
+            levels.push(last.above());
+        }
+        Self { levels, cells, range }
+    }
+
+    /// The cells of the grid along each axis.
+    pub fn cells(&self) -> [usize; 3] {
+        self.cells
+    }
+
+    /// Bytes of all levels.
+    pub fn bytes(&self) -> u64 {
+        self.levels.iter().map(|level| size_of_val(level.ranges.as_slice()) as u64).sum()
+    }
+
+    /// Entries of all levels.
+    pub fn entries(&self) -> u64 {
+        self.levels.iter().map(|level| level.ranges.len() as u64).sum()
+    }
+
+    /// The blocks that a value may lie in, depth first: no block is left out that has it in its closed range (4.1;
+    /// [HATCH-6]).
+    pub fn blocks(&self, value: f64) -> Vec<[usize; 3]> {
+        let b = byte(self.range, value);
+        let mut found = Vec::new();
+        self.descend(self.levels.len() - 1, [0; 3], [b.floor(), b.ceil()], &mut found);
+        found
+    }
+
+    fn descend(&self, level: usize, entry: [usize; 3], wanted: [f64; 2], found: &mut Vec<[usize; 3]>) {
+        let [lo, hi] = self.levels[level].at(entry).map(f64::from);
+        if lo > wanted[1] || hi < wanted[0] {
+            return;
+        }
+        match level.checked_sub(1) {
+            None => found.push(entry),
+            Some(below) => {
+                for child in children(entry, self.levels[below].dims) {
+                    self.descend(below, child, wanted, found);
+                }
+            }
+        }
+    }
+
+    /// The cells of a block, x fastest.
+    pub fn cells_of_block(&self, block: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+        children(block, self.cells)
+    }
+}
+
+const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+/// A value on the scale of bytes, not yet rounded; it keeps the order of values. All is 0 in a constant volume but what
+/// lies outside of its value.
+fn byte([lo, hi]: [f64; 2], value: f64) -> f64 {
+    // Halves, since the difference of the largest numbers is none.
+    let (width, above) = (0.5 * hi - 0.5 * lo, 0.5 * value - 0.5 * lo);
+    if width > 0.0 {
+        above / width * 255.0
+    } else if above == 0.0 {
+        0.0
+    } else {
+        f64::INFINITY.copysign(above)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::philox::uniform;
+    use drypoint_scene::space::Grid;
+    use drypoint_scene::volume::Voxels;
+
+    fn volume(dims: [usize; 3], value: impl Fn([usize; 3]) -> f64) -> Volume {
+        let voxels = positions(dims).map(value).collect();
+        Volume::new(Grid::with_spacing(dims, [1.0; 3]).unwrap(), Voxels::F64(voxels), 1.0, 0.0).unwrap()
+    }
+
+    fn noise(dims: [usize; 3]) -> Volume {
+        volume(dims, |at| uniform(3, at.map(|i| i as u32), 0) * 100.0 - 20.0)
+    }
+
+    /// All blocks whose voxels have a value in their closed range.
+    fn exhaustive(volume: &Volume, value: f64) -> Vec<[usize; 3]> {
+        let dims = volume.dims();
+        let block_has = |block: &[usize; 3]| {
+            let span = |axis: usize| 2 * block[axis]..(2 * block[axis] + 3).min(dims[axis]);
+            let voxels = span(2).flat_map(|z| span(1).flat_map(move |y| span(0).map(move |x| [x, y, z])));
+            let [lo, hi] = voxels.map(|at| volume.value(at)).fold(NOTHING, |a, v| joined(a, [v, v]));
+            lo <= value && value <= hi
+        };
+        positions(cells_of(dims).map(|n| n.div_ceil(2))).filter(block_has).collect()
+    }
+
+    /// Nothing is lost, whatever the sides; what is too much is no more than a byte's rounding lets in.
+    #[test]
+    fn blocks_are_those_of_a_search_through_all() {
+        for dims in [[2, 2, 2], [3, 4, 5], [9, 2, 17], [1, 6, 6], [1, 1, 1], [12, 13, 8]] {
+            let volume = noise(dims);
+            let pyramid = Pyramid::new(&volume);
+            let [lo, hi] = volume.range();
+            for k in 0..=40 {
+                let value = lo + (hi - lo) * f64::from(k) / 40.0;
+                let mut found = pyramid.blocks(value);
+                found.sort_by_key(|&[x, y, z]| [z, y, x]);
+                assert!(found.windows(2).all(|w| w[0] != w[1]));
+                assert!(exhaustive(&volume, value).iter().all(|block| found.contains(block)), "{dims:?} {value}");
+            }
+            assert_eq!(pyramid.blocks(lo - 1.0), [[0; 3]; 0]);
+            assert_eq!(pyramid.blocks(hi + 1.0), [[0; 3]; 0]);
+        }
+    }
+
+    /// Of bytes nothing is rounded: exactly the blocks of the search.
+    #[test]
+    fn of_bytes_no_block_is_too_much() {
+        let volume = volume([11, 9, 10], |at| (uniform(5, at.map(|i| i as u32), 0) * 256.0).floor().max(0.0));
+        let [lo, hi] = volume.range();
+        assert_eq!([lo, hi], [0.0, 255.0]);
+        let pyramid = Pyramid::new(&volume);
+        for value in [0.0, 1.0, 17.0, 17.5, 128.0, 254.0, 255.0] {
+            let mut found = pyramid.blocks(value);
+            found.sort_by_key(|&[x, y, z]| [z, y, x]);
+            let want = exhaustive(&volume, value);
+            if value.fract() == 0.0 {
+                assert_eq!(found, want, "{value}");
+            } else {
+                assert!(want.iter().all(|block| found.contains(block)));
+            }
+        }
+    }
+
+    #[test]
+    fn a_constant_has_its_value_everywhere_and_no_other() {
+        let pyramid = Pyramid::new(&volume([5, 5, 5], |_| 7.0));
+        assert_eq!(pyramid.blocks(7.0).len(), 8);
+        assert_eq!(pyramid.blocks(7.0f64.next_up()), [[0; 3]; 0]);
+        assert_eq!(pyramid.blocks(-7.0), [[0; 3]; 0]);
+    }
+
+    /// 17³ voxels are 16³ cells, 8³ blocks: 512 + 64 + 8 + 1 entries of two bytes.
+    #[test]
+    fn levels_by_hand() {
+        let pyramid = Pyramid::new(&noise([17; 3]));
+        assert_eq!((pyramid.entries(), pyramid.bytes(), pyramid.cells()), (585, 1170, [16; 3]));
+        assert_eq!(pyramid.cells_of_block([7, 0, 3]).count(), 8);
+        let odd = Pyramid::new(&noise([4, 2, 1]));
+        assert_eq!(odd.cells_of_block([1, 0, 0]).collect::<Vec<_>>(), [[2, 0, 0]]);
+    }
+
+    /// Depth first: the blocks of an eighth of the volume follow each other.
+    #[test]
+    fn the_way_is_depth_first() {
+        let blocks = Pyramid::new(&volume([17; 3], |_| 1.0)).blocks(1.0);
+        assert_eq!(
+            blocks[..8],
+            [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]]
+        );
+        assert!(blocks[..64].iter().all(|block| block.iter().all(|&i| i < 4)));
+    }
+}
