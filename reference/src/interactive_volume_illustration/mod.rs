@@ -5,7 +5,9 @@
 mod measures;
 mod pyramid;
 mod seeds;
+mod spacing;
 
 pub use measures::{Largest, Measure};
 pub use pyramid::Pyramid;
 pub use seeds::{SeedRule, Seeds};
+pub use spacing::{Apart, spread};

@@ -1,0 +1,323 @@
+//! Tone from spacing, for pens of one width ([HATCH-19]; after Jobard and Lefer, *Creating Evenly-Spaced Streamlines of
+//! Arbitrary Density*, 1997).
+//!
+//! Lines come with their tone as opacity and leave with none: where the tone is τ they are a pen's width over τ apart, on the
+//! mean. Of many parallel lines, accepted in some order where they are farther than d from all before, the gaps that remain
+//! are d/0.7476 wide on the mean (Rényi 1958, the parking problem); so d is 0.7476 times the distance that is wanted.
+
+use drypoint_scene::glam::DVec2;
+use drypoint_scene::marks::{Polyline, Vertex};
+
+/// Rényi's constant: how full a street is where cars park at random.
+const RENYI: f64 = 0.747_597_920_253_411_4;
+
+/// How far apart lines are wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Apart {
+    /// The pen's width over the tone, which is a line's opacity; below `least` nothing is drawn.
+    Tone {
+        /// The faintest tone.
+        least: f64,
+    },
+    /// The same everywhere, in mm; tone 0 is white.
+    Everywhere(f64),
+}
+
+impl Apart {
+    /// The distance that is wanted where the tone is τ, none where nothing is drawn.
+    fn at(self, nib: f64, tone: f64) -> Option<f64> {
+        match self {
+            Self::Tone { least } => (tone >= least).then(|| nib / tone.min(1.0)),
+            Self::Everywhere(d) => (tone > 0.0).then_some(d),
+        }
+    }
+
+    /// The largest.
+    fn most(self, nib: f64) -> f64 {
+        match self {
+            Self::Tone { least } => nib / least,
+            Self::Everywhere(d) => d,
+        }
+    }
+}
+
+/// The parts of lines that are so far from each other, longest lines first, drawn with a nib of this width. Parts shorter
+/// than `shortest` are left out. All lengths in mm.
+pub fn spread(lines: Vec<Polyline>, nib: f64, apart: Apart, shortest: f64) -> Vec<Polyline> {
+    let mut order: Vec<(f64, usize)> = lines.iter().enumerate().map(|(i, line)| (line.length(), i)).collect();
+    order.retain(|&(length, _)| length >= shortest);
+    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let Some(mut paper) = Paper::new(&lines, nib, RENYI * apart.most(nib)) else { return Vec::new() };
+    let mut kept = Vec::new();
+    for (_, i) in order {
+        let parts = paper.free(&lines[i], |tone| apart.at(nib, tone).map(|d| RENYI * d));
+        for part in parts {
+            let line = Polyline { vertices: part, closed: false };
+            if line.length() >= shortest {
+                paper.take(&line);
+                kept.push((i, line));
+            }
+        }
+    }
+    kept.sort_by_key(|(i, _)| *i);
+    kept.into_iter()
+        .map(|(_, mut line)| {
+            for vertex in &mut line.vertices {
+                (vertex.radius, vertex.opacity) = (nib / 2.0, 1.0);
+            }
+            line
+        })
+        .collect()
+}
+
+/// The most cells of a side.
+const MOST: f64 = 4096.0;
+
+/// No place is near.
+const NONE: u32 = u32::MAX;
+
+/// The places of the lines that were taken, and which of them is near each cell of a raster.
+struct Paper {
+    first: DVec2,
+    /// Side of a cell, and how far apart places are along a line.
+    cell: f64,
+    dims: [usize; 2],
+    /// How far lines are felt.
+    reach: f64,
+    near: Vec<u32>,
+    places: Vec<DVec2>,
+}
+
+impl Paper {
+    /// Of the smallest box around lines; none where there is none.
+    fn new(lines: &[Polyline], nib: f64, reach: f64) -> Option<Self> {
+        let places = lines.iter().flat_map(|line| line.vertices.iter().map(|vertex| vertex.at));
+        let (lo, hi) = places.fold(None, |found: Option<(DVec2, DVec2)>, at| {
+            Some(found.map_or((at, at), |(lo, hi)| (lo.min(at), hi.max(at))))
+        })?;
+        let cell = (0.5 * nib).max((hi - lo).max_element() / MOST);
+        let dims = [hi.x - lo.x, hi.y - lo.y].map(|length| (length / cell) as usize + 1);
+        Some(Self { first: lo, cell, dims, reach, near: vec![NONE; dims[0] * dims[1]], places: Vec::new() })
+    }
+
+    fn cell_of(&self, at: DVec2) -> [usize; 2] {
+        let inside = |x: f64, n: usize| ((x / self.cell) as usize).min(n - 1);
+        [inside(at.x - self.first.x, self.dims[0]), inside(at.y - self.first.y, self.dims[1])]
+    }
+
+    /// Whether a place is at least `d` from all that was taken.
+    fn is_free(&self, at: DVec2, d: f64) -> bool {
+        let [x, y] = self.cell_of(at);
+        // The nearest of a cell's middle need not be that of each of its places: its neighbours know others.
+        let about = |i: usize, n: usize| i.saturating_sub(1)..(i + 2).min(n);
+        about(y, self.dims[1]).flat_map(|j| about(x, self.dims[0]).map(move |i| (i, j))).all(|(i, j)| {
+            let near = self.near[i + j * self.dims[0]];
+            near == NONE || self.places[near as usize].distance_squared(at) >= d * d
+        })
+    }
+
+    /// The parts of a line that are free, where it has a distance at all.
+    fn free(&self, line: &Polyline, apart: impl Fn(f64) -> Option<f64>) -> Vec<Vec<Vertex>> {
+        let mut parts = Vec::new();
+        let mut part: Vec<Vertex> = Vec::new();
+        let joined = line.closed.then(|| line.vertices.first().map(|v| Vertex { t: 1.0, ..*v })).flatten();
+        let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(joined).collect();
+        for (k, pair) in vertices.windows(2).enumerate() {
+            let steps = self.steps(pair[0].at, pair[1].at);
+            for step in usize::from(k > 0)..=steps {
+                let place = between(&pair[0], &pair[1], step as f64 / steps as f64);
+                if apart(place.opacity).is_some_and(|d| self.is_free(place.at, d)) {
+                    // Places in the middle of a straight piece are not kept, but its ends are.
+                    if part.len() > 1 && step > 1 {
+                        part.pop();
+                    }
+                    part.push(place);
+                } else if !part.is_empty() {
+                    parts.push(std::mem::take(&mut part));
+                }
+            }
+        }
+        parts.push(part);
+        parts.retain(|part| part.len() > 1);
+        parts
+    }
+
+    /// The steps of a straight piece, a cell each at the most.
+    fn steps(&self, a: DVec2, b: DVec2) -> usize {
+        ((a.distance(b) / self.cell).ceil() as usize).max(1)
+    }
+
+    /// Takes the place of a line.
+    fn take(&mut self, line: &Polyline) {
+        for pair in line.vertices.windows(2) {
+            let steps = self.steps(pair[0].at, pair[1].at);
+            for step in 0..=steps {
+                self.put(pair[0].at.lerp(pair[1].at, step as f64 / steps as f64));
+            }
+        }
+    }
+
+    fn put(&mut self, at: DVec2) {
+        let number = self.places.len() as u32;
+        self.places.push(at);
+        let cells = (self.reach / self.cell).ceil() as usize + 1;
+        let [x, y] = self.cell_of(at);
+        let about = |i: usize, n: usize| i.saturating_sub(cells)..(i + cells + 1).min(n);
+        for j in about(y, self.dims[1]) {
+            for i in about(x, self.dims[0]) {
+                let middle = self.first + DVec2::new(i as f64 + 0.5, j as f64 + 0.5) * self.cell;
+                let near = &mut self.near[i + j * self.dims[0]];
+                let nearer = |other: u32| self.places[other as usize].distance_squared(middle);
+                if *near == NONE || at.distance_squared(middle) < nearer(*near) {
+                    *near = number;
+                }
+            }
+        }
+    }
+}
+
+/// A place on a straight piece.
+fn between(a: &Vertex, b: &Vertex, s: f64) -> Vertex {
+    let mix = |a: f64, b: f64| a + s * (b - a);
+    Vertex {
+        at: a.at.lerp(b.at, s),
+        world: a.world.lerp(b.world, s),
+        radius: mix(a.radius, b.radius),
+        opacity: mix(a.opacity, b.opacity),
+        t: mix(a.t, b.t),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::glam::DVec3;
+    use drypoint_scene::philox::uniforms;
+
+    const NIB: f64 = 0.3;
+
+    fn line(from: DVec2, to: DVec2, tone: impl Fn(DVec2) -> f64) -> Polyline {
+        let vertex = |k: usize| {
+            let t = k as f64 / 20.0;
+            let at = from.lerp(to, t);
+            Vertex { at, world: DVec3::ZERO, radius: 0.0, opacity: tone(at), t }
+        };
+        Polyline { vertices: (0..=20).map(vertex).collect(), closed: false }
+    }
+
+    /// Nearly horizontal lines over 60 × 60 mm.
+    fn lines(n: u32, tone: impl Fn(DVec2) -> f64) -> Vec<Polyline> {
+        let of = |k: u32| {
+            let [y, x, length, _] = uniforms(9, [k, 0, 0], 0);
+            let from = DVec2::new(70.0 * x - 10.0, 60.0 * y);
+            line(from, from + DVec2::new(10.0 + 10.0 * length, 0.0), &tone)
+        };
+        (0..n).map(of).collect()
+    }
+
+    /// The length of all lines between two x, times the nib, over the area.
+    fn ink(lines: &[Polyline], [from, to]: [f64; 2]) -> f64 {
+        let inside = |pair: &[Vertex]| (pair[0].at.x.max(from)..pair[1].at.x.min(to)).len_f64();
+        lines.iter().flat_map(|line| line.vertices.windows(2).map(inside)).sum::<f64>() * NIB / (60.0 * (to - from))
+    }
+
+    trait Length {
+        fn len_f64(&self) -> f64;
+    }
+
+    impl Length for std::ops::Range<f64> {
+        fn len_f64(&self) -> f64 {
+            (self.end - self.start).max(0.0)
+        }
+    }
+
+    fn distance(a: &Polyline, b: &Polyline) -> f64 {
+        let one_way = |a: &Polyline, b: &Polyline| {
+            let to_piece = |at: DVec2, pair: &[Vertex]| {
+                let (from, along) = (pair[0].at, pair[1].at - pair[0].at);
+                let s = ((at - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+                at.distance(from + along * s)
+            };
+            a.vertices
+                .iter()
+                .flat_map(|v| b.vertices.windows(2).map(|pair| to_piece(v.at, pair)))
+                .fold(f64::MAX, f64::min)
+        };
+        one_way(a, b).min(one_way(b, a))
+    }
+
+    /// The tone is within ±0.05 of what is wanted, from 0.1 to 0.8.
+    #[test]
+    fn flat_tones_print_as_they_are_wanted() {
+        for tone in [0.1, 0.2, 0.35, 0.5, 0.65, 0.8] {
+            let all = lines(12_000, |_| tone);
+            let kept = spread(all, NIB, Apart::Tone { least: 0.05 }, 1.0);
+            let found = ink(&kept, [10.0, 50.0]);
+            assert!((found - tone).abs() <= 0.05, "{tone}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_ramp_prints_as_it_is_wanted() {
+        let tone = |at: DVec2| (0.8 * at.x / 60.0).clamp(0.0, 1.0);
+        let kept = spread(lines(30_000, tone), NIB, Apart::Tone { least: 0.05 }, 0.6);
+        for k in 1..8 {
+            let range = [60.0 / 8.0 * f64::from(k), 60.0 / 8.0 * f64::from(k + 1)];
+            let wanted = tone(DVec2::new(0.5 * (range[0] + range[1]), 0.0));
+            let found = ink(&kept, range);
+            assert!((found - wanted).abs() <= 0.05, "{wanted}: {found}");
+        }
+    }
+
+    /// No two parts of different lines come nearer than d, less what lies between the places of a line: half a nib along
+    /// it, √(d² − (nib/4)²) across at the least.
+    #[test]
+    fn lines_keep_their_distance() {
+        let slanted = |k: u32| {
+            let [x, y, a, _] = uniforms(4, [k, 0, 0], 0);
+            let from = DVec2::new(20.0 * x, 20.0 * y);
+            line(from, from + 8.0 * DVec2::new(a - 0.5, 1.0 - a), |_| 0.3)
+        };
+        let kept = spread((0..800).map(slanted).collect(), NIB, Apart::Tone { least: 0.05 }, 0.5);
+        assert!(kept.len() > 20, "{}", kept.len());
+        let d = RENYI * NIB / 0.3;
+        let bound = (d * d - NIB * NIB / 16.0).sqrt() - 1e-9;
+        for (i, a) in kept.iter().enumerate() {
+            for b in &kept[..i] {
+                // Parts of one line follow each other on it.
+                let one = a.vertices[0].at.distance(b.vertices[0].at) < 8.0 && distance(a, b) < bound;
+                assert!(!one || same_line(a, b), "{}", distance(a, b));
+            }
+        }
+    }
+
+    fn same_line(a: &Polyline, b: &Polyline) -> bool {
+        let direction = |l: &Polyline| (l.vertices[l.vertices.len() - 1].at - l.vertices[0].at).normalize();
+        let between = b.vertices[0].at - a.vertices[0].at;
+        direction(a).perp_dot(direction(b)).abs() < 1e-9 && direction(a).perp_dot(between).abs() < 1e-9
+    }
+
+    #[test]
+    fn a_length_is_a_distance_everywhere_and_white_is_white() {
+        let kept = spread(lines(12_000, |at| if at.x < 30.0 { 0.9 } else { 0.0 }), NIB, Apart::Everywhere(1.5), 1.0);
+        assert!((ink(&kept, [5.0, 25.0]) - NIB / 1.5).abs() < 0.02);
+        assert_eq!(ink(&kept, [33.0, 60.0]), 0.0);
+        assert!(kept.iter().flat_map(|l| &l.vertices).all(|v| v.opacity == 1.0 && v.radius == NIB / 2.0));
+    }
+
+    #[test]
+    fn nothing_and_one() {
+        assert!(spread(Vec::new(), NIB, Apart::Everywhere(1.0), 0.0).is_empty());
+        let alone = line(DVec2::ZERO, DVec2::new(5.0, 2.0), |_| 0.5);
+        let kept = spread(vec![alone.clone()], NIB, Apart::Tone { least: 0.05 }, 1.0);
+        assert_eq!(kept.len(), 1);
+        assert!((kept[0].length() - alone.length()).abs() < 1e-12);
+        // A dash that is too short is none, and neither is one without tone.
+        assert!(spread(vec![alone.clone()], NIB, Apart::Everywhere(1.0), 6.0).is_empty());
+        let faint = line(DVec2::ZERO, DVec2::new(5.0, 2.0), |_| 0.04);
+        assert!(spread(vec![faint], NIB, Apart::Tone { least: 0.05 }, 1.0).is_empty());
+        let closed = Polyline { closed: true, ..alone };
+        let kept = spread(vec![closed.clone()], NIB, Apart::Everywhere(1.0), 1.0);
+        assert!((kept[0].length() - closed.length()).abs() < 1e-12);
+    }
+}
