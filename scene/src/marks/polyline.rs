@@ -41,6 +41,15 @@ pub struct Piece {
 }
 
 impl Polyline {
+    /// Its length on the page, in mm.
+    pub fn length(&self) -> f64 {
+        let along = self.vertices.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum::<f64>();
+        match self.vertices.as_slice() {
+            [first, .., last] if self.closed => along + last.at.distance(first.at),
+            _ => along,
+        }
+    }
+
     /// The line cut where its width or its opacity changes: a segment has the mean of its ends', on the steps of
     /// [`Marks::round`](super::Marks::round), where a radius may lie halfway between two; equal neighbours join. A
     /// segment without opacity or width is left out.
@@ -125,6 +134,13 @@ mod tests {
         assert_eq!(pieces.iter().map(xs).collect::<Vec<_>>(), [[0.0, 1.0], [1.0, 2.0], [2.0, 3.0], [4.0, 5.0]]);
         assert!((pieces[1].radius - 0.15).abs() < 1e-15);
         assert_eq!(pieces.iter().map(|p| p.opacity).collect::<Vec<_>>(), [1.0, 1.0, 0.5, 0.5]);
+    }
+
+    #[test]
+    fn lengths_go_round_closed_lines() {
+        let corners = [(0.0, 0.0, 1.0, 1.0), (3.0, 0.0, 1.0, 1.0), (3.0, 4.0, 1.0, 1.0)];
+        assert_eq!((line(false, &corners).length(), line(true, &corners).length()), (7.0, 12.0));
+        assert_eq!((line(true, &corners[..1]).length(), line(true, &[]).length()), (0.0, 0.0));
     }
 
     #[test]
