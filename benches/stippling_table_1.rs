@@ -9,7 +9,7 @@ use drypoint::job::{Job, Wanted};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, data_folders, parse};
 use drypoint::scene::tables::Orbit;
-use drypoint::stippling::Stippling;
+use drypoint::marking::Marking;
 use std::path::Path;
 use std::time::Instant;
 
@@ -82,8 +82,8 @@ fn frames(volume: &str, stipples: &str) -> Result<Measured, String> {
     let job = Job::load_for(scene, Wanted::Marks).map_err(|e| e.to_string())?;
     let mut counts = Counts::default();
     let start = Instant::now();
-    let stippling = Stippling::new(&job, &mut counts, &|_| ()).map_err(|e| e.to_string())?;
-    let mut drawing = Drawing::new(&job, Some(&stippling), &mut counts).map_err(|e| e.to_string())?;
+    let marking = Marking::new(&job, &mut counts, &|_| ()).map_err(|e| e.to_string())?;
+    let mut drawing = Drawing::new(&job, &marking, &mut counts).map_err(|e| e.to_string())?;
     let once = start.elapsed().as_secs_f64();
     let (mut seconds, mut marks) = (Vec::new(), [0; 2]);
     for i in 0..=FRAMES {

@@ -4,7 +4,7 @@ mod paper;
 
 use crate::Failure;
 use crate::job::{Job, Wanted, provenance, render_failure, room};
-use crate::stippling::{DotFrames, Stippling};
+use crate::marking::{MarkFrames, Marking};
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
@@ -22,7 +22,7 @@ pub struct Drawing<'a> {
     first: View,
     orbit: Option<Orbit>,
     renderer: Option<Renderer<'a>>,
-    dots: Option<DotFrames<'a>>,
+    marks: Option<MarkFrames<'a>>,
 }
 
 /// One frame.
@@ -36,17 +36,16 @@ pub struct Frame {
 }
 
 impl<'a> Drawing<'a> {
-    /// Prepares the rays, and the frames of the points that were made of the job. What preparing took goes to `counts`.
+    /// Prepares the rays, and the frames of the points and lines that were made of the job. What preparing took goes to `counts`.
     ///
     /// # Errors
     /// As [`Job::renderer`].
-    pub fn new(job: &'a Job, stippling: Option<&'a Stippling<'a>>, counts: &mut Counts) -> Result<Self, Failure> {
+    pub fn new(job: &'a Job, marking: &'a Marking<'a>, counts: &mut Counts) -> Result<Self, Failure> {
         let renderer = if job.draws_volume() { Some(job.renderer()?) } else { None };
         if let Some(renderer) = &renderer {
             counts.add(renderer.prepared());
         }
-        let dots = stippling.map(Stippling::frames);
-        Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, dots })
+        Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks: marking.frames() })
     }
 
     /// Number of frames: those of `[orbit]`, or one.
@@ -77,7 +76,7 @@ impl<'a> Drawing<'a> {
             }
             None => self.job.background().map(|pixels| of_pixels(pixels, scene.picture.size)),
         };
-        let marks = self.dots.as_mut().map(|dots| dots.draw(&view, &mut counts));
+        let marks = self.marks.as_mut().map(|marks| marks.draw(&view, &mut counts));
         Ok((Frame { number: frame, picture, marks }, counts))
     }
 }
@@ -101,7 +100,7 @@ impl Frame {
     }
 
     /// Writes the frame by the suffix; the file appears whole or not at all. What a plotter will do is returned, a sentence
-    /// a layer. A list has the dots as they are, whatever draws them.
+    /// a layer. A list has the dots, or where strokes are wanted the lines, as they are, whatever draws them.
     ///
     /// # Errors
     /// What the operating system refuses, or a picture of no or too many pixels.
@@ -110,14 +109,14 @@ impl Frame {
     }
 }
 
-/// Writes marks on the page of a scene, as [`Frame::write`] does.
+/// Writes marks on the page of a scene, as [`Frame::write`] does; a list has strokes where those are wanted, else dots.
 ///
 /// # Errors
 /// As [`Frame::write`].
-pub fn write_page(marks: Marks, scene: &Scene, path: &Path) -> Result<Vec<String>, Failure> {
+pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> Result<Vec<String>, Failure> {
     let provenance = provenance(scene, &Plan::of_marks(scene));
     let frame = Frame { number: 0, picture: None, marks: Some(marks) };
-    Paper { scene, wanted: Wanted::Marks, provenance }.write(frame, path)
+    Paper { scene, wanted, provenance }.write(frame, path)
 }
 
 /// Writes frames as one SVG that shows them in turn, over and over.

@@ -74,8 +74,24 @@ pub enum Wanted {
     /// All that it draws.
     #[default]
     Picture,
-    /// Points and lines alone: the volume itself is not drawn, and nothing of that is called for.
+    /// Points and lines alone, on their page: the volume itself is not drawn, and nothing of that is called for.
     Marks,
+    /// Of them the stipples alone.
+    Points,
+    /// Of them the strokes alone.
+    Strokes,
+}
+
+impl Wanted {
+    /// Whether stipples are drawn, where the scene has some.
+    pub fn has_points(self) -> bool {
+        self != Self::Strokes
+    }
+
+    /// Whether strokes are drawn, where the scene has some.
+    pub fn has_strokes(self) -> bool {
+        self != Self::Points
+    }
 }
 
 /// A scene with other knobs, and what follows from them.
@@ -152,9 +168,7 @@ impl Job {
         let labels = if plan.reads_labels() { Named::load(&scene.volume, &mut failures) } else { Named::default() };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
         let mut counts = Counts::default();
-        if let Some(surface) = scene.surface.as_mut().filter(|s| s.iso == Iso::Auto && plan.needs(Quantity::Surface)) {
-            surface.iso = Iso::Value(suggest::iso(&volume, &scene.volume, &mut counts));
-        }
+        find_iso_values(&mut scene, &plan, &volume, &mut counts);
         let calls_for_function = calls_for_function(&plan);
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
         // An iso-surface is drawn without one.
@@ -402,11 +416,25 @@ pub fn stage(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Coun
     suggest::stage(VolumeSource::File { path, raw: None }, volume, size, counts)
 }
 
+/// Puts the value that is found in the volume where a scene leaves it to that and something asks for it.
+fn find_iso_values(scene: &mut Scene, plan: &Plan, volume: &Volume, counts: &mut Counts) {
+    let (drawn, strokes) = (plan.needs(Quantity::Surface), plan.has_pass(Pass::HiddenStrokes));
+    let surface = scene.surface.as_mut().filter(|_| drawn || strokes).map(|surface| &mut surface.iso);
+    let outlines = scene.outlines.as_mut().filter(|_| strokes).map(|outlines| &mut outlines.iso);
+    let asked: Vec<&mut Iso> = surface.into_iter().chain(outlines).filter(|iso| **iso == Iso::Auto).collect();
+    if !asked.is_empty() {
+        let found = suggest::iso(volume, &scene.volume, counts);
+        asked.into_iter().for_each(|iso| *iso = Iso::Value(found));
+    }
+}
+
 /// What is wanted of a scene calls for this.
 fn plan_for(scene: &Scene, wanted: Wanted) -> Plan {
     match wanted {
         Wanted::Picture => Plan::new(scene),
         Wanted::Marks => Plan::of_marks(scene),
+        Wanted::Points => Plan::of_points(scene),
+        Wanted::Strokes => Plan::of_strokes(scene),
     }
 }
 
@@ -418,18 +446,21 @@ fn calls_for_function(plan: &Plan) -> bool {
 /// Whether the scene draws what is wanted.
 fn something_is_drawn(scene: &Scene, wanted: Wanted) -> Result<(), Failure> {
     let at = |key| scene.given.position(key);
-    let stippled = scene.stipples.is_some();
     match wanted {
-        Wanted::Marks if !stippled => {
+        Wanted::Marks | Wanted::Points if wanted == Wanted::Points && scene.stipples.is_none() || !scene.has_marks() => {
             let remedy = "add a table [stipples], or write preset = \"stipple\"";
             Err(Failure::new("the scene has no stipples", at("stipples"), remedy))
         }
-        Wanted::Picture if !stippled && !scene.draws_volume() => Err(Failure::new(
+        Wanted::Strokes if !scene.has_strokes() => {
+            let remedy = "add a table [outlines], or write preset = \"outline\"";
+            Err(Failure::new("the scene has no strokes", at("outlines"), remedy))
+        }
+        Wanted::Picture if !scene.has_marks() && !scene.draws_volume() => Err(Failure::new(
             "the scene draws nothing",
             at("transfer"),
             "add a [transfer] table, or a [surface] with a look",
         )),
-        Wanted::Marks | Wanted::Picture => Ok(()),
+        _ => Ok(()),
     }
 }
 

@@ -11,7 +11,7 @@
 //! | everything that it names | [`job::Job::load`], [`job::Job::with_volume`] |
 //! | a picture, and what it took | [`job::Job::renderer`], then [`reference::ray::Renderer::frame`] |
 //! | a file | [`job::Job::write`] |
-//! | points and lines, and frames of all of it | [`stippling::Stippling`], [`drawing::Drawing`] |
+//! | points and lines, and frames of all of it | [`marking::Marking`], [`drawing::Drawing`] |
 //! | what its accuracy costs | [`cost::sweep`] |
 //!
 //! Whatever can go wrong is a [`Failure`]: what, where, and what to do.
@@ -22,8 +22,10 @@ pub mod failure;
 pub mod format;
 pub mod job;
 pub mod labels;
+pub mod marking;
 mod memory;
 pub mod stippling;
+pub mod stroking;
 pub mod tone_plot;
 pub mod wedge;
 

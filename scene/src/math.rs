@@ -9,6 +9,7 @@ pub mod power;
 pub mod transmittance;
 
 pub use angle::angle;
+pub use double::compare_products;
 pub use power::power;
 pub use transmittance::{ln_one_minus, one_minus_exp};
 

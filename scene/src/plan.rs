@@ -190,18 +190,28 @@ impl Plan {
     /// The plan of a scene. It depends on the scene alone; what the scene leaves to the volume is in it until
     /// [`Plan::settle`].
     pub fn new(scene: &Scene) -> Self {
-        Self::of(scene, scene.draws_volume())
+        Self::of(scene, Drawn { volume: scene.draws_volume(), points: true, strokes: true })
     }
 
     /// The plan of a scene's points and lines alone, whether or not it draws the volume too.
     pub fn of_marks(scene: &Scene) -> Self {
-        Self::of(scene, false)
+        Self::of(scene, Drawn { volume: false, points: true, strokes: true })
     }
 
-    fn of(scene: &Scene, draws_volume: bool) -> Self {
+    /// The plan of a scene's stipples alone.
+    pub fn of_points(scene: &Scene) -> Self {
+        Self::of(scene, Drawn { volume: false, points: true, strokes: false })
+    }
+
+    /// The plan of a scene's strokes alone.
+    pub fn of_strokes(scene: &Scene) -> Self {
+        Self::of(scene, Drawn { volume: false, points: false, strokes: true })
+    }
+
+    fn of(scene: &Scene, drawn: Drawn) -> Self {
         let sections: Vec<Section> = sections().collect();
-        let mut asks = Asks { scene, needs: Vec::new(), passes: Vec::new() };
-        if draws_volume {
+        let mut asks = Asks { scene, drawn, needs: Vec::new(), passes: Vec::new() };
+        if drawn.volume {
             asks.pass(Pass::Rays, "picture", "picture.samples");
         }
         sections.iter().for_each(|section| (section.asks)(scene, &mut asks));
@@ -279,10 +289,19 @@ impl Plan {
     }
 }
 
+/// What of a scene is drawn, as far as it has it.
+#[derive(Clone, Copy, Debug)]
+struct Drawn {
+    volume: bool,
+    points: bool,
+    strokes: bool,
+}
+
 /// Collects what the effects of a scene need.
 #[derive(Debug)]
 pub(crate) struct Asks<'a> {
     scene: &'a Scene,
+    drawn: Drawn,
     needs: Vec<Need>,
     passes: Vec<PassNeed>,
 }
@@ -321,6 +340,21 @@ impl Asks<'_> {
     /// Whether the volume itself is drawn.
     pub(crate) fn casts_rays(&self) -> bool {
         self.passes.iter().any(|need| need.pass == Pass::Rays)
+    }
+
+    /// Whether stipples are drawn, if the scene has some.
+    pub(crate) fn draws_points(&self) -> bool {
+        self.drawn.points
+    }
+
+    /// Whether strokes are drawn, if the scene has some.
+    pub(crate) fn draws_strokes(&self) -> bool {
+        self.drawn.strokes
+    }
+
+    /// Whether someone needed a pass.
+    pub(crate) fn has_pass(&self, pass: Pass) -> bool {
+        self.passes.iter().any(|need| need.pass == pass)
     }
 
     /// The first that needed a quantity, if anyone does.

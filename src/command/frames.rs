@@ -4,11 +4,11 @@ use super::report::{Progress, note};
 use super::stats::{Times, cpu_seconds};
 use super::{Talk, target};
 use drypoint::drawing::{Drawing, Frame, room_for_animation, write_animation};
-use drypoint::job::{Job, Wanted};
+use drypoint::job::Job;
+use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::picture::Picture;
 use drypoint::scene::tables::Scene;
-use drypoint::stippling::Stippling;
 use drypoint::{Failure, Format};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -52,7 +52,7 @@ impl Files {
         let suffix = path.extension().unwrap_or_default().to_string_lossy();
         let example = || format!("write {stem}_{}.{suffix}", "#".repeat(digits.max(3)));
         match runs[..] {
-            [] if Format::of(path) == Some(Format::Svg) && scene.stipples.is_some() => Ok(Self::Animated(path.into())),
+            [] if Format::of(path) == Some(Format::Svg) && scene.has_marks() => Ok(Self::Animated(path.into())),
             [] => {
                 let frames = orbit.frames;
                 refused(format!("[orbit] has {frames} frames, and the name has no ### for their numbers"), example())
@@ -102,21 +102,19 @@ pub(super) struct Drawn {
 /// The first frame of a job in pixels.
 pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Picture, Failure> {
     let mut counts = Counts::default();
-    let stippling = if is_stippled(job) { Some(Stippling::new(job, &mut counts, &|_| ())?) } else { None };
-    let (frame, _) = Drawing::new(job, stippling.as_ref(), &mut counts)?.frame(0, progress)?;
+    let marking = Marking::new(job, &mut counts, &|_| ())?;
+    let (frame, _) = Drawing::new(job, &marking, &mut counts)?.frame(0, progress)?;
     frame.painted(job)
 }
 
 /// Draws every frame of a job, `repeat` times each, and writes them.
 pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Failure> {
     let mut counts = job.counts.clone();
-    let stippling = if is_stippled(job) {
-        let progress = Progress::new(talk, "stippling");
-        Some(Stippling::new(job, &mut counts, &|share| progress.hear(share))?)
-    } else {
-        None
+    let marking = {
+        let progress = Progress::new(talk, "points and lines");
+        Marking::new(job, &mut counts, &|share| progress.hear(share))?
     };
-    let mut drawing = Drawing::new(job, stippling.as_ref(), &mut counts)?;
+    let mut drawing = Drawing::new(job, &marking, &mut counts)?;
     let frames = drawing.frames();
     if matches!(files, Files::Animated(_)) {
         room_for_animation(job, frames)?;
@@ -163,18 +161,13 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
     }
     let [dots, lines] = marks;
     match files {
-        Files::One(_) if stippling.is_some() => {
+        Files::One(_) if !marking.is_empty() => {
             note(talk, format_args!("{}: {dots} dots, {lines} lines", files.said(frames)));
         }
         _ => note(talk, files.said(frames)),
     }
     said.iter().for_each(|line| note(talk, line));
     Ok(Drawn { counts, times: Times::new(wall, cpu) })
-}
-
-/// Whether points and lines are drawn: layers without the beauty show none.
-fn is_stippled(job: &Job) -> bool {
-    job.scene.stipples.is_some() && (job.wanted() == Wanted::Marks || job.shows_beauty())
 }
 
 /// Says where the first frame shows nothing.

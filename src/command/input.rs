@@ -157,7 +157,7 @@ pub(super) fn find(path: Option<&Path>, over: &Over) -> Result<Found, Failures> 
             scene.picture.layers = vec![LayerKind::Beauty];
         }
         // Dots are as large as the page says, and would cover a smaller one: that is shown smaller.
-        if let Some(side) = over.longer_side.filter(|_| scene.stipples.is_none()) {
+        if let Some(side) = over.longer_side.filter(|_| !scene.has_marks()) {
             let [width, height] = scene.picture.size;
             scene.picture.size = [width, height].map(|n| (n * side).div_ceil(width.max(height)));
         }

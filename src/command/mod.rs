@@ -7,6 +7,7 @@ mod cost;
 mod frames;
 mod info;
 mod input;
+mod page;
 mod phantom;
 mod plan;
 mod points;
@@ -17,6 +18,7 @@ mod report;
 mod schema;
 mod sheet;
 mod stats;
+mod strokes;
 mod styles;
 mod target;
 mod wedge;
@@ -66,6 +68,8 @@ enum Verb {
     Plan(plan::Plan),
     /// Stipple a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
     Points(points::Points),
+    /// Draw the strokes of a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
+    Strokes(strokes::Strokes),
     /// List the styles of a theme, write a preview sheet, or make a style from a picture
     Styles(styles::Styles),
     /// Compare two pictures; exit code 1 when a bound is exceeded
@@ -147,6 +151,7 @@ impl Cli {
             Verb::Phantom(verb) => verb.run(talk),
             Verb::Plan(verb) => verb.run(talk),
             Verb::Points(verb) => verb.run(talk),
+            Verb::Strokes(verb) => verb.run(talk),
             Verb::Styles(verb) => verb.run(talk),
             Verb::Compare(verb) => verb.run(talk),
             Verb::Cost(verb) => verb.run(talk),

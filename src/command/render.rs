@@ -29,7 +29,7 @@ pub(super) struct Render {
     /// Who renders
     #[arg(long, value_enum, default_value_t = Backend::Reference)]
     backend: Backend,
-    /// The preset of a bare volume: style, stipple, or stipple-fig1, stipple-fig4 … stipple-fig9
+    /// The preset of a bare volume: style, outline, stipple, or stipple-fig1, stipple-fig4 … stipple-fig9
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Layers of an EXR, separated by commas: beauty, Z, depth, normal, gradient, curvature, curvature.KV, first,
@@ -111,7 +111,7 @@ impl Render {
         if let Some(preset) = &self.preset {
             flags.push(Flag::name("preset", "--preset", preset));
             let is_bare = self.input.as_ref().is_some_and(|input| !input::is_scene(input));
-            if is_bare && self.size.is_none() && preset.starts_with("stipple") {
+            if is_bare && self.size.is_none() && (preset.starts_with("stipple") || preset == "outline") {
                 flags.extend(input::page_flags(&self.set));
             }
         }

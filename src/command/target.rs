@@ -83,7 +83,7 @@ impl Target {
     /// # Errors
     /// As [`Files::of`], and a vector file of a scene without points.
     pub(super) fn files(&self, scene: &Scene) -> Result<Files, Failure> {
-        if !Format::PICTURES.contains(&self.format) && scene.stipples.is_none() {
+        if !Format::PICTURES.contains(&self.format) && !scene.has_marks() {
             let suffix = self.format.suffix();
             let what = format!(".{suffix} is for points and lines, and the scene has none ([IO-7])");
             return Err(Failure::new(what, self.path.display(), "give a name that ends in .png or .exr"));

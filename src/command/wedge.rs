@@ -5,6 +5,7 @@ use super::report::note;
 use super::{Done, Outcome, Talk, target};
 use clap::Args;
 use drypoint::drawing::write_page;
+use drypoint::job::Wanted;
 use drypoint::format::Format;
 use drypoint::output::atomic;
 use drypoint::scene::marks::{Page, Pen};
@@ -51,7 +52,7 @@ impl Wedge {
         let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
         let page = wedge(&pen, &tone, &Page::of(&scene), 1)?;
         let [width, height] = page.marks.page.size.to_array();
-        let said = write_page(page.marks, &scene, &self.output)?;
+        let said = write_page(page.marks, &scene, Wanted::Marks, &self.output)?;
         note(talk, format_args!("{}: {width:.0} × {height:.0} mm", self.output.display()));
         for line in said {
             note(talk, line);

@@ -38,6 +38,10 @@ impl<'a> Paper<'a> {
         let format = Format::among(path, &Format::ALL)?;
         let wrong = |error: OutputError| Failure::picture(&error, path.display());
         if let (Some(form), Some(marks)) = (list::Form::of(path), &frame.marks) {
+            if self.wanted == Wanted::Strokes {
+                list::write_lines(marks, form, path).map_err(wrong)?;
+                return Ok(Vec::new());
+            }
             list::write_dots(marks, form, path).map_err(wrong)?;
             let [_, lines] = frame.marks();
             let said = (lines > 0).then(|| format!("{lines} lines are left out: a list has dots alone"));
@@ -74,7 +78,7 @@ impl<'a> Paper<'a> {
         // A picture has its own size, without the page's margin.
         let page = Page::of(self.scene);
         let (window, blank) = match self.wanted {
-            Wanted::Marks => (paint::Window::page(&page), page),
+            Wanted::Marks | Wanted::Points | Wanted::Strokes => (paint::Window::page(&page), page),
             Wanted::Picture => {
                 (paint::Window::frame(&page, settings.size), Page::in_pixels(settings.size, 0.0, settings.dpi))
             }

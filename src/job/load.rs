@@ -98,7 +98,7 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
 /// The pixels behind, where the scene has a picture there; what is wrong goes to `failures`.
 pub(super) fn background(scene: &Scene, wanted: Wanted, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
     let Background::Picture(path) = &scene.picture.background else { return None };
-    if wanted == Wanted::Marks {
+    if wanted != Wanted::Picture {
         let (what, remedy) = ("a page has no picture behind it", "give a colour, or \"none\", or render the scene");
         failures.push(Failure::new(what, scene.given.position("picture.background"), remedy));
         return None;

@@ -9,7 +9,7 @@ use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::plan::Quantity;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
-use drypoint::stippling::Stippling;
+use drypoint::marking::Marking;
 use std::path::{Path, PathBuf};
 
 /// Every scene file in a folder and the folders in it.
@@ -37,8 +37,8 @@ fn stippled(path: &Path) -> (usize, f64) {
     let job = Job::load_for(scene, Wanted::Marks).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
     assert_eq!(job.plan.idle_keys, [], "{}: keys without effect", path.display());
     let mut counts = Counts::default();
-    let stippling = Stippling::new(&job, &mut counts, &|_| ()).unwrap();
-    let (frame, _) = Drawing::new(&job, Some(&stippling), &mut counts).unwrap().frame(0, &|_| ()).unwrap();
+    let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
+    let (frame, _) = Drawing::new(&job, &marking, &mut counts).unwrap().frame(0, &|_| ()).unwrap();
     let dots = frame.marks()[0];
     let page = frame.painted(&job).unwrap();
     let coverage = &page.layers[0].channels[3];

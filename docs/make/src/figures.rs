@@ -11,7 +11,7 @@ use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::picture::{Layer, LayerKind, Picture};
 use drypoint::scene::tables::{Background, Scene};
-use drypoint::stippling::Stippling;
+use drypoint::marking::Marking;
 use std::path::{Path, PathBuf};
 
 /// The most bytes of a picture in `docs`.
@@ -73,7 +73,7 @@ fn picture(scene: &Path) -> Result<(Picture, bool), String> {
     if is_map {
         scene.picture.background = Background::None;
     }
-    if scene.stipples.is_some() {
+    if scene.has_marks() && !scene.draws_volume() || scene.stipples.is_some() {
         return stipples(scene).map_err(|e| e.to_string()).map(|picture| (picture, true));
     }
     let job = Job::load(scene).map_err(|e| e.to_string())?;
@@ -85,8 +85,8 @@ fn picture(scene: &Path) -> Result<(Picture, bool), String> {
 fn stipples(scene: Scene) -> Result<Picture, Failures> {
     let job = Job::load_for(scene, Wanted::Marks)?;
     let mut counts = Counts::default();
-    let stippling = Stippling::new(&job, &mut counts, &|_| ())?;
-    let (frame, _) = Drawing::new(&job, Some(&stippling), &mut counts)?.frame(0, &|_| ())?;
+    let marking = Marking::new(&job, &mut counts, &|_| ())?;
+    let (frame, _) = Drawing::new(&job, &marking, &mut counts)?.frame(0, &|_| ())?;
     Ok(frame.painted(&job)?)
 }
 

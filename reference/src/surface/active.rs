@@ -69,6 +69,13 @@ impl Active {
         }
     }
 
+    /// The bricks in which the value can be, in their order.
+    pub(super) fn all(&self) -> Vec<[usize; 3]> {
+        let [nx, ny, nz] = self.bricks.dims;
+        let at = |i: usize| [i % nx, i / nx % ny, i / (nx * ny)];
+        (0..nx * ny * nz).map(at).filter(|&brick| self.bricks.get(brick)).collect()
+    }
+
     /// Bytes in memory.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.bricks.words.as_slice()) + size_of_val(self.blocks.words.as_slice())
@@ -91,5 +98,6 @@ mod tests {
         assert_eq!(active.empty([20, 4, 0]), Some(BRICK));
         assert_eq!(active.empty([0, 0, 0]), Some(BLOCK));
         assert_eq!(active.empty([39, 7, 7]), Some(BLOCK));
+        assert_eq!(active.all(), [[5, 0, 0]]);
     }
 }

@@ -79,7 +79,7 @@ impl Cubic {
 /// is 0, or else the first of the two neighbouring numbers between which the sign changes.
 ///
 /// Secants first, with the bisection of every third step so that no shape of the function makes them slow.
-pub(super) fn bracketed(f: impl Fn(f64) -> f64, [mut lo, mut at_lo]: [f64; 2], [mut hi, mut at_hi]: [f64; 2]) -> f64 {
+pub(crate) fn bracketed(f: impl Fn(f64) -> f64, [mut lo, mut at_lo]: [f64; 2], [mut hi, mut at_hi]: [f64; 2]) -> f64 {
     let below = at_lo < 0.0;
     // The values that secants go through: the end that stays counts half, or it would stay for ever (Illinois).
     let (mut left, mut right) = (at_lo, at_hi);

@@ -48,6 +48,11 @@ impl Roots {
         self.iso
     }
 
+    /// The bricks in which the value can be; none where that is not known.
+    pub(super) fn bricks(&self) -> Option<Vec<[usize; 3]>> {
+        self.active.as_ref().map(Active::all)
+    }
+
     /// Forgets what is known of bricks: for a sampler that they do not bound.
     pub(crate) fn look_everywhere(&mut self) {
         self.active = None;

@@ -16,11 +16,13 @@ mod foot;
 mod hidden;
 mod walk;
 
+pub(crate) use cubic::bracketed;
 pub(crate) use first_root::Roots;
 
 use crate::field::{Field, Sampler};
 use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::volume::BRICK;
 
 /// The surface f = iso of a field.
 ///
@@ -65,6 +67,14 @@ impl<'f, 'v> IsoSurface<'f, 'v> {
     /// The field.
     pub fn field(&self) -> &'f Field<'v, f64> {
         self.field
+    }
+
+    /// The bricks of cells in which the field can have the value, in their order ([RAY-2]).
+    pub(crate) fn bricks(&self) -> Vec<[usize; 3]> {
+        self.roots.bricks().unwrap_or_else(|| {
+            let [nx, ny, nz] = self.field.volume().dims().map(|n| (n.max(2) - 1).div_ceil(BRICK));
+            (0..nx * ny * nz).map(|i| [i % nx, i / nx % ny, i / (nx * ny)]).collect()
+        })
     }
 
     /// Bytes that it holds beside the field.

@@ -96,7 +96,7 @@ fn read(text: &str, overrides: &Overrides, check: &mut Check) -> Option<Scene> {
     };
     overrides.apply(&mut document, check);
     let mut scene = check.table(&ROOT, &document)?;
-    if scene.transfer.is_none() && scene.stipples.is_none() && scene.surface.is_none() {
+    if scene.transfer.is_none() && scene.surface.is_none() && !scene.has_marks() {
         // The preset `style`, for a scene that would draw nothing ([SCN-3]).
         scene.transfer = Some(Transfer::automatic(TransferKind::Style));
     }

@@ -1,10 +1,20 @@
 //! Numbers of twice f64's digits, for tables and for the truth that tests compare with.
 
+use std::cmp::Ordering;
+
 /// The unevaluated sum of two numbers, the second at most half an ulp of the first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Double {
     pub(super) hi: f64,
     pub(super) lo: f64,
+}
+
+/// How a₀·a₁ compares with b₀·b₁, exactly, unless a product leaves the range of f64. Numbers that are none are equal.
+pub fn compare_products(a: [f64; 2], b: [f64; 2]) -> Ordering {
+    let compare = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
+    // Rounding keeps the order, so that only equal products need what was rounded off.
+    compare(a[0] * a[1], b[0] * b[1])
+        .then_with(|| compare(Double::product(a[0], a[1]).lo, Double::product(b[0], b[1]).lo))
 }
 
 impl Double {
@@ -90,6 +100,19 @@ mod tests {
     use super::*;
 
     /// The digits of ln 2 and e beyond those of f64, after OEIS A002162 and A001113, as the next double.
+    #[test]
+    fn products_that_round_to_the_same() {
+        // (1 + 2⁻³⁰)² = 1 + 2⁻²⁹ + 2⁻⁶⁰, of which f64 keeps the first two.
+        let (a, b) = (1.0 + 2f64.powi(-30), 1.0 + 2f64.powi(-29));
+        assert_eq!(a * a, b);
+        assert_eq!(compare_products([a, a], [b, 1.0]), Ordering::Greater);
+        assert_eq!(compare_products([-a, a], [b, -1.0]), Ordering::Less);
+        assert_eq!(compare_products([0.0, 5.0], [-0.0, 7.0]), Ordering::Equal);
+        assert_eq!(compare_products([3.0, 4.0], [6.0, 2.0]), Ordering::Equal);
+        assert_eq!(compare_products([1e300, 1e300], [2.0, 1.0]), Ordering::Greater);
+        assert_eq!(compare_products([f64::NAN, 1.0], [2.0, 1.0]), Ordering::Equal);
+    }
+
     #[test]
     fn two_known_numbers() {
         let ln_2 = Double::ln_ratio(2.0, 1.0);

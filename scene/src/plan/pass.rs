@@ -43,6 +43,10 @@ pub enum Pass {
     DotsOnPage,
     /// The silhouette curves of a frame.
     Curves,
+    /// The outlines of a frame ([HATCH-18]).
+    Outlines,
+    /// Which parts of strokes an iso-surface hides ([HATCH-14]).
+    HiddenStrokes,
 }
 
 impl Pass {
@@ -69,6 +73,8 @@ impl Pass {
             Self::HiddenPoints => "hidden points",
             Self::DotsOnPage => "choice on the page",
             Self::Curves => "curves",
+            Self::Outlines => "outlines",
+            Self::HiddenStrokes => "hidden strokes",
         }
     }
 
@@ -94,6 +100,8 @@ impl Pass {
             Self::HiddenPoints => "one look at each voxel, once; a search and a line towards the eye a point",
             Self::DotsOnPage => "four candidates a dot, each with its neighbours",
             Self::Curves => "one test a voxel of curves",
+            Self::Outlines => "a value and a gradient a voxel of the surface, a search a place of an outline",
+            Self::HiddenStrokes => "one look at each voxel, once; a line towards the eye every half pixel of a stroke",
         }
     }
 
@@ -110,7 +118,7 @@ impl Pass {
             // Made of few voxels, or known once those are ([`PointsPlan`](super::PointsPlan)).
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
-            Self::HiddenPoints | Self::DotsOnPage => 0,
+            Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes => 0,
             Self::CurveVoxels => 16,
         }
     }

@@ -159,7 +159,7 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
                 idle.key(key, "the volume itself is not drawn");
             }
         }
-        if !idle.says("picture.width") && scene.stipples.is_none() {
+        if !idle.says("picture.width") && !scene.has_marks() {
             idle.key("picture.dpi", "nothing is in mm: size is in pixels");
         }
     },

@@ -181,12 +181,15 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         }
     },
     serves: |scene, asks| {
-        if !asks.casts_rays() {
+        let sampling = &scene.sampling;
+        if !(asks.casts_rays() || asks.has_pass(Pass::Outlines)) {
             return;
         }
-        let sampling = &scene.sampling;
         if matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5) {
             asks.pass(Pass::Coefficients, "prefiltered kernel", "sampling.kernel");
+        }
+        if !asks.casts_rays() {
+            return;
         }
         let hessian = asks.first(Quantity::Hessian).map(|need| need.effect.clone());
         if let (Some(effect), HessianEstimator::Gaussian | HessianEstimator::Auto) = (hessian, sampling.hessian) {
@@ -202,7 +205,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         let sampling = &scene.sampling;
         if !plan.has_pass(Pass::Rays) {
             // The step is still the default of camera.near.
-            let hides = plan.has_pass(Pass::HiddenPoints);
+            let hides = plan.has_pass(Pass::HiddenPoints) || plan.has_pass(Pass::HiddenStrokes);
             let acts = |name: &str| name == "step" || (hides && matches!(name, "kernel" | "gradient"));
             for key in TABLE.keys.iter().filter(|key| !acts(key.name)) {
                 idle.key(&format!("sampling.{}", key.name), "the volume itself is not drawn");
@@ -212,8 +215,10 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
             idle.key("sampling.step_along", "planes and shells are the same in an orthographic picture");
         }
-        if !plan.reads_gradients() {
+        if !plan.reads_gradients() && !plan.has_pass(Pass::Outlines) {
             idle.key("sampling.gradient", "nothing needs a gradient");
+        }
+        if !plan.reads_gradients() {
             idle.key("sampling.normal", "nothing needs a normal");
         }
         if !plan.needs_at_first(Quantity::Hessian) {

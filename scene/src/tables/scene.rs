@@ -3,11 +3,11 @@
 use super::stipples::StipplePreset;
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, LightDirection, Orbit, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
+    Camera, Contours, LightDirection, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
     StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use super::{
-    camera, contours, orbit, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface,
+    camera, contours, orbit, outlines, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface,
     transfer, volume,
 };
 use crate::file::Given;
@@ -52,6 +52,8 @@ pub struct Scene {
     pub style_mipmaps: Option<StyleMipmaps>,
     /// Volume stippling; none: no dots.
     pub stipples: Option<Stipples>,
+    /// Lines where an iso-surface turns away; none: none.
+    pub outlines: Option<Outlines>,
     /// An opaque iso-surface; none: none.
     pub surface: Option<Surface>,
     /// Which keys the scene said itself, and where. It takes no part in comparisons.
@@ -62,6 +64,16 @@ impl Scene {
     /// The shortest scene: a volume, every default, and the preset `style`.
     pub fn for_volume(source: VolumeSource) -> Self {
         Self { transfer: Some(Transfer::automatic(TransferKind::Style)), ..Self::without_effects(source) }
+    }
+
+    /// Whether points or lines are drawn.
+    pub fn has_marks(&self) -> bool {
+        self.stipples.is_some() || self.has_strokes()
+    }
+
+    /// Whether strokes are drawn.
+    pub fn has_strokes(&self) -> bool {
+        self.outlines.is_some()
     }
 
     /// Whether the volume itself is drawn, by rays ([SCN-3]).
@@ -86,6 +98,7 @@ impl Scene {
             contours: None,
             style_mipmaps: None,
             stipples: None,
+            outlines: None,
             surface: None,
             given: Given::default(),
         }
@@ -99,6 +112,8 @@ enum Preset {
     Style,
     /// A table `[stipples]`.
     Stipples(StipplePreset),
+    /// A table `[outlines]`.
+    Outline,
 }
 
 /// The version of the format.
@@ -147,7 +162,6 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("fan", "VS-10"),
         later("label", "VS-10"),
         later("hatching", "HATCH-1"),
-        later("outlines", "HATCH-18"),
         later("conventions", "GPU-6"),
     ],
     check: |scene, check| {
@@ -158,7 +172,11 @@ pub(crate) static ROOT: Table<Scene> = Table {
     },
     idle: |scene, plan, idle| {
         // What a preset supplies is there and was not said.
-        let supplied = [(scene.transfer.is_some(), "transfer"), (scene.stipples.is_some(), "stipples")];
+        let supplied = [
+            (scene.transfer.is_some(), "transfer"),
+            (scene.stipples.is_some(), "stipples"),
+            (scene.outlines.is_some(), "outlines"),
+        ];
         if !supplied.iter().any(|(is_there, table)| *is_there && !idle.says(table)) {
             idle.key("preset", "the scene has its tables itself");
         }
@@ -241,6 +259,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
                                 Preset::Stipples(StipplePreset::Fig9),
                                 "Silhouette, boundary, distance and curves, Fig. 9: the head.",
                             ),
+                            ChoiceOption::new("outline", Preset::Outline, "Outlines alone, of what is opaque."),
                         ],
                         later: &[
                             ("toon", "HATCH-15"),
@@ -254,6 +273,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
                     set: |scene: &mut Scene, preset| match preset {
                         Preset::Style => scene.transfer = Some(Transfer::automatic(TransferKind::Style)),
                         Preset::Stipples(preset) => scene.stipples = Some(preset.table()),
+                        Preset::Outline => scene.outlines = Some(Outlines::default()),
                     },
                 },
             )
@@ -397,6 +417,17 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 },
             )
             .absent("no stipples"),
+            Key::new(
+                "outlines",
+                "HATCH-18",
+                "Lines where an iso-surface turns away.",
+                &Slot {
+                    kind: TableOf(&outlines::TABLE),
+                    get: |s: &Scene| s.outlines.clone(),
+                    set: |s, v| s.outlines = Some(v),
+                },
+            )
+            .absent("no outlines"),
             Key::new(
                 "surface",
                 "HATCH-14",

@@ -107,11 +107,11 @@ pub(crate) static TABLE: Table<Surface> = Table {
         }
     },
     idle: |scene, _, idle| match scene.surface.map(|surface| surface.look) {
-        Some(SurfaceLook::None) => {
+        Some(SurfaceLook::None) if !scene.has_strokes() => {
             idle.key("surface", "look = \"none\" hides strokes alone, and the scene has none");
         }
         Some(SurfaceLook::White) => idle.key("surface.color", "look = \"white\" is white"),
-        Some(SurfaceLook::Phong) | None => {}
+        Some(SurfaceLook::Phong | SurfaceLook::None) | None => {}
     },
     ..Table::new(
         "[surface]",

@@ -196,7 +196,7 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
             idle.key("volume.gradient_range", "nothing reads |g|");
         }
         let turned = scene.sampling.normal == NormalSide::Outward || plan.needs_at_first(Quantity::Hessian);
-        if !(stippled || turned && plan.reads_gradients()) {
+        if !(stippled || scene.has_strokes() || turned && plan.reads_gradients()) {
             idle.key("volume.outside", "nothing reads an outward normal or a signed curvature");
         }
     },

@@ -9,7 +9,7 @@ use drypoint::scene::phantom;
 use drypoint::scene::tables::PhantomSource;
 use drypoint::scene::volume::VoxelType;
 use drypoint::scene::volume::write::write_nrrd;
-use drypoint::stippling::Stippling;
+use drypoint::marking::Marking;
 use std::collections::BTreeMap;
 use std::time::Instant;
 use tempfile::TempDir;
@@ -49,10 +49,8 @@ impl Folder {
 pub(super) fn run(job: &Job) -> Result<(Named, f64), String> {
     let start = Instant::now();
     let mut counts = Counts::default();
-    let is_stippled = job.scene.stipples.is_some();
-    let stippling = is_stippled.then(|| Stippling::new(job, &mut counts, &|_| ())).transpose();
-    let stippling = stippling.map_err(|e| e.to_string())?;
-    let mut drawing = Drawing::new(job, stippling.as_ref(), &mut counts).map_err(|e| e.to_string())?;
+    let marking = Marking::new(job, &mut counts, &|_| ()).map_err(|e| e.to_string())?;
+    let mut drawing = Drawing::new(job, &marking, &mut counts).map_err(|e| e.to_string())?;
     let (frame, own) = drawing.frame(0, &|_| ()).map_err(|e| e.to_string())?;
     counts.add(&own);
     let seconds = start.elapsed().as_secs_f64();

@@ -14,6 +14,7 @@ const PHANTOM: (&str, &str) = ("volume.phantom.name", "torus");
 const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.type", "u16")];
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
+const OUTLINES: (&str, &str) = ("outlines", "{}");
 const SURFACE: (&str, &str) = ("surface.look", "phong");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
 
@@ -164,6 +165,12 @@ const SAMPLES: &[Sample] = &[
     ("stipples.curves.grad", &[("stipples.curves", "{}")], "0.3"),
     ("stipples.curves.log", &[("stipples.curves", "{}")], "0.22"),
     ("stipples.hide_behind", &[STIPPLES], "120"),
+    ("outlines", &[], "{}"),
+    ("outlines.iso", &[OUTLINES], "12.5"),
+    ("outlines.width", &[OUTLINES], "2 px"),
+    ("outlines.color", &[OUTLINES], "red"),
+    ("outlines.pen", &[OUTLINES], "red"),
+    ("outlines.min_length", &[OUTLINES], "0 px"),
     ("surface", &[], "{}"),
     ("surface.iso", &[SURFACE], "12.5"),
     ("surface.look", &[], "phong"),

@@ -36,7 +36,7 @@ pub(crate) fn check_colors(scene: &Scene, check: &mut Check) {
 
 /// What is made once, and what a frame does.
 pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
-    let Some(stipples) = &scene.stipples else { return };
+    let Some(stipples) = scene.stipples.as_ref().filter(|_| asks.draws_points()) else { return };
     asks.pass(Pass::StippleGradients, "stipples", "stipples.gradient");
     asks.pass(Pass::StipplePoints, "stipples", "stipples.k_max");
     asks.pass(Pass::Dots, "stipples", "stipples");

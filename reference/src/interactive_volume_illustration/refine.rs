@@ -1,0 +1,94 @@
+//! A place that is near a common zero of two functions, moved onto it ([HATCH-18]).
+
+use crate::field::Sampler;
+use crate::number::Vec3;
+use drypoint_scene::glam::{DVec2, DVec3};
+
+/// The last step, in voxels.
+const CLOSE: f64 = 1e-6;
+
+/// How far from each other, in voxels, values are whose difference is a derivative: between the root of an ulp, where
+/// rounding would show, and what bends within a cell.
+const APART: f64 = 1e-5;
+
+/// The longest step, in voxels.
+const LONGEST: f64 = 0.5;
+
+/// How far a place may move in all, in voxels.
+const REACH: f64 = 1.75;
+
+/// Steps, of which the last ones are shortened: where the field has a kink Newton's may go to and fro.
+const STEPS: u32 = 24;
+
+/// Moves places in index space along the shortest way onto f = iso, q = 0.
+pub(super) struct Refine<'s, S, Q> {
+    pub(super) sampler: &'s S,
+    /// f − iso, scaled, of a value.
+    pub(super) over: &'s (dyn Fn(f64) -> f64 + Sync),
+    /// q at a place, in index space.
+    pub(super) q: Q,
+    /// Where the box begins and ends.
+    pub(super) bounds: [DVec3; 2],
+}
+
+impl<S: Sampler<f64>, Q: Fn(DVec3) -> f64> Refine<'_, S, Q> {
+    fn both(&self, at: DVec3) -> DVec2 {
+        DVec2::new((self.over)(self.sampler.value(Vec3::from_glam(at))), (self.q)(at))
+    }
+
+    /// Newton's method for two equations with three unknowns: each step is the shortest that the linear functions ask for.
+    /// None where it does not come to rest near the place.
+    pub(super) fn onto_curve(&self, start: DVec3) -> Option<DVec3> {
+        let [lo, hi] = self.bounds;
+        let mut at = start;
+        for step in 0..STEPS {
+            let here = self.both(at);
+            // Towards the middle of the box, so that none lies outside.
+            let way = DVec3::select(at.cmpgt((lo + hi) / 2.0), DVec3::NEG_ONE, DVec3::ONE);
+            let along = |axis: DVec3| (self.both(at + axis * way * APART) - here) / APART;
+            let (dx, dy, dz) = (along(DVec3::X), along(DVec3::Y), along(DVec3::Z));
+            let (f, q) = (DVec3::new(dx.x, dy.x, dz.x) * way, DVec3::new(dx.y, dy.y, dz.y) * way);
+            let move_by = shortest([f, q], here)?;
+            let length = move_by.length();
+            let damped = if step < STEPS / 2 { 1.0 } else { 0.5 };
+            let scale = if length > LONGEST { LONGEST / length } else { damped };
+            at = (at + move_by * scale).clamp(lo, hi);
+            if !at.is_finite() || at.distance(start) > REACH {
+                return None;
+            }
+            if length <= CLOSE {
+                return Some(at);
+            }
+        }
+        None
+    }
+}
+
+/// The shortest step after which two linear functions with these gradients and values are 0; none where the gradients are
+/// parallel.
+fn shortest([f, q]: [DVec3; 2], values: DVec2) -> Option<DVec3> {
+    /// The sine of the angle between gradients below which they are parallel.
+    const PARALLEL: f64 = 1e-6;
+    let (f_length, q_length) = (f.length(), q.length());
+    let (f, q) = (f / f_length, q / q_length);
+    let across = f.cross(q).length_squared();
+    if !(across > PARALLEL * PARALLEL) {
+        return None;
+    }
+    let (a, b, cos) = (-values.x / f_length, -values.y / q_length, f.dot(q));
+    Some((f * (a - b * cos) + q * (b - a * cos)) / across)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_step_by_hand() {
+        // x = 1 and x + y = 3, seen from the origin: (1, 2, 0).
+        let step = shortest([DVec3::X * 2.0, DVec3::new(1.0, 1.0, 0.0)], DVec2::new(-2.0, -3.0)).unwrap();
+        assert!((step - DVec3::new(1.0, 2.0, 0.0)).length() < 1e-14, "{step}");
+        assert_eq!(shortest([DVec3::X, -DVec3::X], DVec2::ONE), None);
+        assert_eq!(shortest([DVec3::ZERO, DVec3::X], DVec2::ONE), None);
+    }
+}

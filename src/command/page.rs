@@ -1,0 +1,135 @@
+//! What `points` and `strokes` have in common: a page of marks, of a scene, a bare volume or a saved list.
+
+use super::frames::{self, Drawn, Files};
+use super::input::{self, Flag, Over, Set};
+use super::raw::Raw;
+use super::report::{Progress, note, print};
+use super::{Done, Outcome, Talk, stats, target};
+use drypoint::drawing::write_page;
+use drypoint::job::Wanted;
+use drypoint::output::list;
+use drypoint::scene::counts::Counts;
+use drypoint::scene::marks::{Layer, Marks, Page as Paper, Pen};
+use drypoint::{Failure, Format};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What is to be written.
+pub(super) struct Page {
+    /// A scene, a volume or a list.
+    pub input: PathBuf,
+    /// Where to.
+    pub output: PathBuf,
+    /// The preset of a bare volume, where one is said.
+    pub preset: Option<String>,
+    /// The preset where none is.
+    pub default_preset: &'static str,
+    /// Bytes without a header.
+    pub raw: Raw,
+    /// `--set`.
+    pub set: Set,
+    /// Whether counts are printed.
+    pub stats: bool,
+    /// Points or strokes.
+    pub wanted: Wanted,
+}
+
+impl Page {
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        if is_list(&self.input) {
+            return self.list(talk);
+        }
+        target::format(&self.output, &Format::ALL)?;
+        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
+        let is_bare = !input::is_scene(&self.input);
+        if let Some(preset) = &self.preset {
+            flags.push(Flag::name("preset", "--preset", preset));
+        } else if is_bare {
+            flags.push(Flag::name("preset", "--preset", self.default_preset));
+        }
+        if is_bare {
+            flags.extend(input::page_flags(&self.set));
+        }
+        let mut over = Over::new(&self.set, flags)?;
+        over.wanted = self.wanted;
+        let start = Instant::now();
+        let (job, files) = {
+            let _loading = Progress::new(talk, "loading");
+            let found = input::find(Some(&self.input), &over)?;
+            let files = Files::of(&self.output, &found.scene)?;
+            (found.load(over.wanted)?, files)
+        };
+        let loaded = start.elapsed().as_secs_f64();
+        input::tell(talk, &job);
+        let Drawn { mut counts, .. } = frames::draw(&job, &files, 1, talk)?;
+        counts.seconds.insert("load".into(), loaded);
+        self.done(counts)
+    }
+
+    fn done(&self, counts: Counts) -> Outcome {
+        if self.stats { print(&stats::line(counts, None)?) } else { Ok(Done::Yes) }
+    }
+
+    /// What the marks of a list are called.
+    fn noun(&self) -> &'static str {
+        if self.wanted == Wanted::Strokes { "lines" } else { "dots" }
+    }
+
+    /// A saved list, on the page that the overrides say.
+    fn list(&self, talk: Talk) -> Outcome {
+        let noun = self.noun();
+        for (flag, said) in [("--preset", self.preset.is_some()), ("--raw", self.raw.flag().is_some())] {
+            if said {
+                let what = format!("a list of {noun} has no use for {flag}");
+                return Err(Failure::new(what, flag, "leave it out").into());
+            }
+        }
+        target::picture(&self.output, &Format::ALL)?;
+        let (mut counts, start) = (Counts::default(), Instant::now());
+        let scene = input::page(&self.set)?;
+        let page = Paper::of(&scene);
+        let pens = Pen::of(&scene.pens, &page);
+        let layers = list::read_list(&self.input, &page, &pens)
+            .map_err(|error| Failure::picture(&error, self.input.display()))?;
+        let [dots, lines] = sums(&layers);
+        let strokes = self.wanted == Wanted::Strokes;
+        if let (true, 1.., 0) = (strokes, dots, lines) {
+            let remedy = "give it to `drypoint points`";
+            return Err(Failure::new("the list has dots and no strokes", self.input.display(), remedy).into());
+        }
+        let mut marks = Marks { page, layers };
+        let read = if strokes { ends(&marks) } else { dots };
+        marks.settle();
+        let [dots, lines] = sums(&marks.layers);
+        let kept = if strokes { ends(&marks) } else { dots };
+        if kept < read {
+            let (lost, [width, height]) = (read - kept, page.size.to_array());
+            let says = "--set picture.width and picture.height say its size";
+            let what = if strokes { "vertices" } else { "dots" };
+            note(talk, format_args!("warning: {lost} {what} are not on a page of {width:.0} × {height:.0} mm; {says}"));
+        }
+        counts.seconds.insert("load".into(), start.elapsed().as_secs_f64());
+        let start = Instant::now();
+        let said = write_page(marks, &scene, self.wanted, &self.output)?;
+        counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
+        (counts.points, counts.strokes) = (dots as u64, lines as u64);
+        note(talk, format_args!("{}: {dots} dots, {lines} lines", self.output.display()));
+        said.iter().for_each(|line| note(talk, line));
+        self.done(counts)
+    }
+}
+
+/// Dots and lines of layers.
+fn sums(layers: &[Layer]) -> [usize; 2] {
+    [layers.iter().map(|layer| layer.dots.len()).sum(), layers.iter().map(|layer| layer.lines.len()).sum()]
+}
+
+/// The vertices of all lines: a line that the frame cuts has fewer, or more ends.
+fn ends(marks: &Marks) -> usize {
+    marks.layers.iter().flat_map(|layer| &layer.lines).map(|line| line.vertices.len()).sum()
+}
+
+/// Whether a path is taken for a list of marks.
+fn is_list(path: &Path) -> bool {
+    list::Form::of(path).is_some()
+}

@@ -1,0 +1,39 @@
+//! `strokes`: a page of outlines.
+
+use super::input::Set;
+use super::page::Page;
+use super::raw::Raw;
+use super::{Outcome, Talk};
+use clap::Args;
+use drypoint::job::Wanted;
+use std::path::PathBuf;
+
+/// Draw the strokes of a scene or a bare volume onto a page, without what is hidden, or write a saved list of strokes in another format.
+#[derive(Debug, Args)]
+pub(super) struct Strokes {
+    /// A scene (.toml) with [outlines], a volume, which is drawn 160 mm wide, or a list of strokes (.csv, .jsonl), whose page --set says
+    #[arg(value_name = "SCENE|VOLUME|LIST")]
+    input: PathBuf,
+    /// Where to write; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit],
+    /// all of which an SVG without it shows in turn
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The preset of a bare volume: outline [default: outline]
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    #[command(flatten)]
+    raw: Raw,
+    #[command(flatten)]
+    set: Set,
+    /// Print the counts as one JSON object, alone on standard output
+    #[arg(long)]
+    stats: bool,
+}
+
+impl Strokes {
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        let Self { input, output, preset, raw, set, stats } = self;
+        let (default_preset, wanted) = ("outline", Wanted::Strokes);
+        Page { input, output, preset, default_preset, raw, set, stats, wanted }.run(talk)
+    }
+}

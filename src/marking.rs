@@ -1,0 +1,97 @@
+//! The points and lines of a scene, all that is drawn over or without the volume: stipples ([STIP-1]) and strokes
+//! ([HATCH-18]). What no camera changes is made once.
+
+use crate::Failure;
+use crate::job::{Job, Wanted};
+use crate::stippling::{DotFrames, Stippling};
+use crate::stroking::{StrokeFrames, Stroking};
+use drypoint_scene::counts::Counts;
+use drypoint_scene::marks::{Layer, Marks, Page};
+use drypoint_scene::view::View;
+
+/// What a job wants of its scene's points and lines.
+pub struct Marking<'a> {
+    page: Page,
+    stippling: Option<Stippling<'a>>,
+    stroking: Option<Stroking<'a>>,
+}
+
+/// Frames of them.
+pub struct MarkFrames<'a> {
+    page: Page,
+    dots: Option<DotFrames<'a>>,
+    strokes: Option<StrokeFrames<'a>>,
+}
+
+impl<'a> Marking<'a> {
+    /// Makes what no camera changes; nothing of a scene without points and lines, or where nothing shows them: they are drawn
+    /// over the layer `beauty`. `progress` hears the share that is made, from any thread.
+    ///
+    /// # Errors
+    /// As [`Stippling::new`] and [`Stroking::new`].
+    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(f64) + Sync)) -> Result<Self, Failure> {
+        let wanted = job.wanted();
+        let shown = wanted != Wanted::Picture || job.shows_beauty();
+        let stippled = shown && wanted.has_points() && job.scene.stipples.is_some();
+        let stroked = shown && wanted.has_strokes() && job.scene.has_strokes();
+        Ok(Self {
+            page: Page::of(&job.scene),
+            stippling: if stippled { Some(Stippling::new(job, counts, progress)?) } else { None },
+            stroking: if stroked { Some(Stroking::new(job, counts)?) } else { None },
+        })
+    }
+
+    /// Whether there is nothing to draw.
+    pub fn is_empty(&self) -> bool {
+        self.stippling.is_none() && self.stroking.is_none()
+    }
+
+    /// Makes frames of what there is to draw.
+    pub fn frames(&self) -> Option<MarkFrames<'_>> {
+        let dots = self.stippling.as_ref().map(Stippling::frames);
+        let strokes = self.stroking.as_ref().map(Stroking::frames);
+        (!self.is_empty()).then_some(MarkFrames { page: self.page, dots, strokes })
+    }
+}
+
+impl MarkFrames<'_> {
+    /// The marks that a camera sees: dots, and over them strokes. A pen has one layer.
+    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Marks {
+        let nothing = || Marks { page: self.page, layers: Vec::new() };
+        let mut marks = self.dots.as_mut().map_or_else(nothing, |dots| dots.draw(view, counts));
+        for layer in self.strokes.iter_mut().flat_map(|strokes| strokes.draw(view, counts)) {
+            add(&mut marks.layers, layer);
+        }
+        marks
+    }
+}
+
+/// Adds what a pen draws to its layer, or as one of its own, under a number that no other has.
+fn add(layers: &mut Vec<Layer>, mut layer: Layer) {
+    if let Some(same) = layers.iter_mut().find(|other| other.pen == layer.pen) {
+        same.dots.append(&mut layer.dots);
+        same.lines.append(&mut layer.lines);
+        return;
+    }
+    if layers.iter().any(|other| other.pen.number == layer.pen.number) {
+        layer.pen.number = layers.iter().map(|other| other.pen.number).max().unwrap_or(0) + 1;
+    }
+    layers.push(layer);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::marks::Pen;
+
+    #[test]
+    fn a_pen_has_one_layer_and_a_layer_a_number_of_its_own() {
+        let pen = |number, name: &str| Pen { number, name: name.into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] };
+        let mut layers = Vec::new();
+        for pen in [pen(1, "stipples"), pen(4, "red"), pen(1, "outlines"), pen(4, "red")] {
+            add(&mut layers, Layer::new(pen));
+        }
+        let found: Vec<(usize, &str)> = layers.iter().map(|l| (l.pen.number, l.pen.name.as_str())).collect();
+        assert_eq!(found, [(1, "stipples"), (4, "red"), (5, "outlines")]);
+    }
+}
