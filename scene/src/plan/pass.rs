@@ -45,6 +45,16 @@ pub enum Pass {
     Curves,
     /// The outlines of a frame ([HATCH-18]).
     Outlines,
+    /// The ranges that lead to the cells of an iso-surface ([HATCH-5]).
+    Pyramid,
+    /// Gradient and curvature about them, which seeds are drawn by ([HATCH-6]).
+    SeedMeasures,
+    /// The strokes of hatching ([HATCH-8]).
+    Strokes,
+    /// Those that cross them ([HATCH-11]).
+    CrossStrokes,
+    /// Which of them are drawn, so that they are apart on the page ([HATCH-19]).
+    Spacing,
     /// Which parts of strokes an iso-surface hides ([HATCH-14]).
     HiddenStrokes,
 }
@@ -74,6 +84,11 @@ impl Pass {
             Self::DotsOnPage => "choice on the page",
             Self::Curves => "curves",
             Self::Outlines => "outlines",
+            Self::Pyramid => "pyramid",
+            Self::SeedMeasures => "measures of seeds",
+            Self::Strokes => "strokes",
+            Self::CrossStrokes => "crossing strokes",
+            Self::Spacing => "spacing of strokes",
             Self::HiddenStrokes => "hidden strokes",
         }
     }
@@ -101,6 +116,11 @@ impl Pass {
             Self::DotsOnPage => "four candidates a dot, each with its neighbours",
             Self::Curves => "one test a voxel of curves",
             Self::Outlines => "a value and a gradient a voxel of the surface, a search a place of an outline",
+            Self::Pyramid => "one look at each voxel, two bytes every eight",
+            Self::SeedMeasures => "one gradient and one direction a voxel of the surface",
+            Self::Strokes => "some ten to a hundred directions a stroke, smoothed grids where they are asked for",
+            Self::CrossStrokes => "as many for each second stroke",
+            Self::Spacing => "one look every half pen's width of a stroke",
             Self::HiddenStrokes => "one look at each voxel, once; a line towards the eye every half pixel of a stroke",
         }
     }
@@ -119,6 +139,11 @@ impl Pass {
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
             Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes => 0,
+            // Of the cells of a surface alone.
+            Self::SeedMeasures | Self::CrossStrokes | Self::Spacing => 0,
+            Self::Pyramid => 1,
+            // Three scales of smoothed numbers and as many to compare with, where strokes are.
+            Self::Strokes => 48,
             Self::CurveVoxels => 16,
         }
     }

@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod contours;
+pub mod hatching;
 pub mod length;
 pub mod nodes;
 pub mod orbit;
@@ -26,6 +27,7 @@ pub mod volume;
 
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
+pub use hatching::{DirectionRule, Directions, Family, Hatching, Measure, Reference, SeedsBy, Spacing, StrokeStyle};
 pub use length::Length;
 pub use nodes::{Row, RowAt, Stand};
 pub use orbit::Orbit;

@@ -1,14 +1,15 @@
 //! The scene: the top of a scene file ([SCN-1], [SCN-3]).
 
+use super::hatching::HatchPreset;
 use super::stipples::StipplePreset;
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, LightDirection, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
-    StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
+    Camera, Contours, Hatching, LightDirection, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling,
+    Shading, Stipples, StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use super::{
-    camera, contours, orbit, outlines, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface,
-    transfer, volume,
+    camera, contours, hatching, orbit, outlines, over, page, pen, picture, sampling, shading, stipples, style_mipmaps,
+    styles, surface, transfer, volume,
 };
 use crate::file::Given;
 use crate::file::check::Check;
@@ -52,6 +53,8 @@ pub struct Scene {
     pub style_mipmaps: Option<StyleMipmaps>,
     /// Volume stippling; none: no dots.
     pub stipples: Option<Stipples>,
+    /// Strokes along the lines of curvature of an iso-surface; none: none.
+    pub hatching: Option<Hatching>,
     /// Lines where an iso-surface turns away; none: none.
     pub outlines: Option<Outlines>,
     /// An opaque iso-surface; none: none.
@@ -73,7 +76,7 @@ impl Scene {
 
     /// Whether strokes are drawn.
     pub fn has_strokes(&self) -> bool {
-        self.outlines.is_some()
+        self.outlines.is_some() || self.hatching.is_some()
     }
 
     /// Whether the volume itself is drawn, by rays ([SCN-3]).
@@ -98,6 +101,7 @@ impl Scene {
             contours: None,
             style_mipmaps: None,
             stipples: None,
+            hatching: None,
             outlines: None,
             surface: None,
             given: Given::default(),
@@ -112,6 +116,8 @@ enum Preset {
     Style,
     /// A table `[stipples]`.
     Stipples(StipplePreset),
+    /// A table `[hatching]`, and what belongs to the picture.
+    Hatch(HatchPreset),
     /// A table `[outlines]`.
     Outline,
 }
@@ -161,7 +167,6 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("arrow", "VS-8"),
         later("fan", "VS-10"),
         later("label", "VS-10"),
-        later("hatching", "HATCH-1"),
         later("conventions", "GPU-6"),
     ],
     check: |scene, check| {
@@ -175,6 +180,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
         let supplied = [
             (scene.transfer.is_some(), "transfer"),
             (scene.stipples.is_some(), "stipples"),
+            (scene.hatching.is_some(), "hatching"),
             (scene.outlines.is_some(), "outlines"),
         ];
         if !supplied.iter().any(|(is_there, table)| *is_there && !idle.says(table)) {
@@ -186,6 +192,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
             Some(_) if lit => {}
             _ if shading::lit_surface(scene) => {}
             _ if scene.stipples.as_ref().and_then(|s| s.lighting).is_some_and(|lighting| lighting.light.is_none()) => {}
+            _ if scene.hatching.as_ref().is_some_and(|h| h.is_lit() && h.stroke.light.is_none()) => {}
             _ => idle.key("light", "nothing is lit: a light acts on [shading] of a regular function"),
         }
         if !plan.has_pass(Pass::Rays) {
@@ -259,13 +266,28 @@ pub(crate) static ROOT: Table<Scene> = Table {
                                 Preset::Stipples(StipplePreset::Fig9),
                                 "Silhouette, boundary, distance and curves, Fig. 9: the head.",
                             ),
+                            ChoiceOption::new(
+                                "hatch",
+                                Preset::Hatch(HatchPreset::Plain),
+                                "Hatching for a pen of one width, crossed in the dark, with outlines.",
+                            ),
+                            ChoiceOption::new(
+                                "hatch-fig6-left",
+                                Preset::Hatch(HatchPreset::Fig6Left),
+                                "Strokes where the surface bends, crossed in the dark, as in Nagy et al., Fig. 6, left.",
+                            ),
+                            ChoiceOption::new(
+                                "hatch-fig6-right",
+                                Preset::Hatch(HatchPreset::Fig6Right),
+                                "A short stroke in every cell, Fig. 6, right.",
+                            ),
                             ChoiceOption::new("outline", Preset::Outline, "Outlines alone, of what is opaque."),
                         ],
                         later: &[
                             ("toon", "HATCH-15"),
                             ("halo", "HALO-1"),
-                            ("hatch", "HATCH-17"),
                             ("hatch-fig4", "HATCH-17"),
+                            ("hatch-fig5", "HATCH-17"),
                         ],
                     },
                     get: |_| None,
@@ -273,6 +295,10 @@ pub(crate) static ROOT: Table<Scene> = Table {
                     set: |scene: &mut Scene, preset| match preset {
                         Preset::Style => scene.transfer = Some(Transfer::automatic(TransferKind::Style)),
                         Preset::Stipples(preset) => scene.stipples = Some(preset.table()),
+                        Preset::Hatch(preset) => {
+                            scene.hatching = Some(preset.table());
+                            scene.outlines = preset.outlines();
+                        }
                         Preset::Outline => scene.outlines = Some(Outlines::default()),
                     },
                 },
@@ -417,6 +443,17 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 },
             )
             .absent("no stipples"),
+            Key::new(
+                "hatching",
+                "HATCH-8",
+                "Strokes along the lines of curvature of an iso-surface.",
+                &Slot {
+                    kind: TableOf(&hatching::TABLE),
+                    get: |s: &Scene| s.hatching.clone(),
+                    set: |s, v| s.hatching = Some(v),
+                },
+            )
+            .absent("no hatching"),
             Key::new(
                 "outlines",
                 "HATCH-18",

@@ -14,6 +14,7 @@ const PHANTOM: (&str, &str) = ("volume.phantom.name", "torus");
 const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.type", "u16")];
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
+const HATCHING: (&str, &str) = ("hatching", "{}");
 const OUTLINES: (&str, &str) = ("outlines", "{}");
 const SURFACE: (&str, &str) = ("surface.look", "phong");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
@@ -165,6 +166,40 @@ const SAMPLES: &[Sample] = &[
     ("stipples.curves.grad", &[("stipples.curves", "{}")], "0.3"),
     ("stipples.curves.log", &[("stipples.curves", "{}")], "0.22"),
     ("stipples.hide_behind", &[STIPPLES], "120"),
+    ("hatching", &[], "{}"),
+    ("hatching.iso", &[HATCHING], "12.5"),
+    ("hatching.length", &[HATCHING], "7 voxels"),
+    ("hatching.tolerance", &[HATCHING], "0.1 voxels"),
+    ("hatching.seeds", &[HATCHING], "dense"),
+    ("hatching.seed", &[HATCHING], "9"),
+    ("hatching.cross", &[HATCHING], "45"),
+    ("hatching.cross_length", &[HATCHING], "0.25"),
+    ("hatching.width", &[HATCHING], "2 px"),
+    ("hatching.color", &[HATCHING], "red"),
+    ("hatching.pen", &[HATCHING], "red"),
+    ("hatching.measure", &[HATCHING], "curvedness"),
+    ("hatching.min_curvature", &[HATCHING], "0.1"),
+    ("hatching.min_gradient", &[HATCHING], "0.1"),
+    ("hatching.family", &[HATCHING], "min"),
+    ("hatching.max_angle", &[HATCHING], "45"),
+    ("hatching.min_step", &[HATCHING], "0.1 voxels"),
+    ("hatching.offset", &[HATCHING], "0.3 voxels"),
+    ("hatching.chord", &[HATCHING], "0.2 voxels"),
+    ("hatching.spacing", &[HATCHING], "tone"),
+    ("hatching.stroke", &[HATCHING], "{ tone = 2 }"),
+    ("hatching.stroke.tone", &[HATCHING], "2"),
+    ("hatching.stroke.taper", &[HATCHING], "0.3"),
+    ("hatching.stroke.min_width", &[HATCHING], "1 px"),
+    ("hatching.stroke.ambient", &[HATCHING], "0.2"),
+    ("hatching.stroke.light", &[HATCHING], "{ world = [1, 0, 0] }"),
+    ("hatching.directions", &[HATCHING], "{ rule = \"raw\" }"),
+    ("hatching.directions.rule", &[HATCHING], "raw"),
+    ("hatching.directions.reference", &[HATCHING], "axial"),
+    ("hatching.directions.axis", &[HATCHING], "[1, 0, 0]"),
+    ("hatching.directions.center", &[HATCHING], "[1, 2, 3]"),
+    ("hatching.directions.gap", &[HATCHING], "0.2"),
+    ("hatching.directions.noise", &[HATCHING], "3"),
+    ("hatching.directions.agree", &[HATCHING], "30"),
     ("outlines", &[], "{}"),
     ("outlines.iso", &[OUTLINES], "12.5"),
     ("outlines.width", &[OUTLINES], "2 px"),

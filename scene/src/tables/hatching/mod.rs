@@ -1,0 +1,131 @@
+//! `[hatching]`: strokes along the lines of curvature of an iso-surface ([HATCH-1] … [HATCH-21]).
+
+mod directions;
+mod presets;
+mod rules;
+mod stroke;
+mod table;
+
+pub use directions::{DirectionRule, Directions, Reference};
+pub(crate) use presets::HatchPreset;
+pub use stroke::StrokeStyle;
+pub(crate) use table::TABLE;
+
+use crate::color::Rgba;
+use crate::tables::{Iso, Length};
+
+/// The table `[hatching]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hatching {
+    /// Of which surface.
+    pub iso: Iso,
+    /// Of a stroke, in the world ([HATCH-8]).
+    pub length: Length,
+    /// The most that a step may err by, in the world ([HATCH-8]).
+    pub tolerance: Length,
+    /// Which cells strokes begin in ([HATCH-6]).
+    pub seeds: SeedsBy,
+    /// Key of the random numbers ([RAY-4]).
+    pub seed: u64,
+    /// The angle between normal and light beyond which a second stroke crosses the first, in degrees ([HATCH-11]); none:
+    /// no stroke is crossed.
+    pub cross: Option<f64>,
+    /// Its length, as a share of `length`.
+    pub cross_length: f64,
+    /// Of the widest strokes, on the page ([HATCH-13]).
+    pub width: Length,
+    /// Linear, straight.
+    pub color: Rgba,
+    /// A pen of `[[pen]]`, which draws in place of `width` and `color`.
+    pub pen: Option<String>,
+    /// What a seed's κ is ([HATCH-5], [HATCH-6]).
+    pub measure: Measure,
+    /// C₀ ([HATCH-6]).
+    pub min_curvature: f64,
+    /// C₁ ([HATCH-6]).
+    pub min_gradient: f64,
+    /// Which of the two directions strokes follow ([HATCH-8]).
+    pub family: Family,
+    /// How far a stroke may turn from its first direction, in degrees ([HATCH-8]).
+    pub max_angle: f64,
+    /// The smallest step, in the world ([HATCH-8]).
+    pub min_step: Length,
+    /// δ, how far strokes lie before the surface, in the world ([HATCH-7]).
+    pub offset: Length,
+    /// c, the most that straight segments may leave the stroke by, in the world ([HATCH-10]).
+    pub chord: Length,
+    /// How far strokes are apart on the page ([HATCH-19]).
+    pub spacing: Spacing,
+    /// How a stroke is drawn ([HATCH-13]).
+    pub stroke: StrokeStyle,
+    /// Where directions come from ([HATCH-3], [HATCH-4]).
+    pub directions: Directions,
+}
+
+/// `seeds` ([HATCH-6]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SeedsBy {
+    /// By chance, the more the more the surface bends and the steeper it is.
+    Curvature,
+    /// Every cell of the surface.
+    Dense,
+}
+
+/// `measure` ([HATCH-6]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// |κ₁ + κ₂|/2, the paper's.
+    Mean,
+    /// √((κ₁² + κ₂²)/2), which minimal surfaces have, too.
+    Curvedness,
+}
+
+/// `family` ([HATCH-8]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// That of the larger |κ| at the seed.
+    Larger,
+    /// That of κ₁, the larger by value.
+    Max,
+    /// That of κ₂.
+    Min,
+}
+
+/// `spacing` ([HATCH-19]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spacing {
+    /// As the seeds fall: the paper's.
+    Random,
+    /// A pen's width over the tone.
+    Tone,
+    /// The same everywhere, on the page.
+    Length(Length),
+}
+
+impl Default for Hatching {
+    fn default() -> Self {
+        Self {
+            iso: Iso::Auto,
+            length: Length::Voxels(40.0),
+            tolerance: Length::Voxels(0.01),
+            seeds: SeedsBy::Curvature,
+            seed: 1,
+            cross: None,
+            cross_length: 0.5,
+            width: Length::Millimetres(0.25),
+            color: [0.0, 0.0, 0.0, 1.0],
+            pen: None,
+            measure: Measure::Mean,
+            min_curvature: 0.02,
+            min_gradient: 0.05,
+            family: Family::Larger,
+            max_angle: 90.0,
+            min_step: Length::Voxels(0.01),
+            offset: Length::Voxels(0.15),
+            chord: Length::Voxels(0.1),
+            spacing: Spacing::Random,
+            stroke: StrokeStyle::default(),
+            directions: Directions::default(),
+        }
+    }
+}
