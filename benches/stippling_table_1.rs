@@ -6,10 +6,10 @@
 
 use drypoint::drawing::Drawing;
 use drypoint::job::{Job, Wanted};
+use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, data_folders, parse};
 use drypoint::scene::tables::Orbit;
-use drypoint::marking::Marking;
 use std::path::Path;
 use std::time::Instant;
 

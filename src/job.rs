@@ -447,7 +447,9 @@ fn calls_for_function(plan: &Plan) -> bool {
 fn something_is_drawn(scene: &Scene, wanted: Wanted) -> Result<(), Failure> {
     let at = |key| scene.given.position(key);
     match wanted {
-        Wanted::Marks | Wanted::Points if wanted == Wanted::Points && scene.stipples.is_none() || !scene.has_marks() => {
+        Wanted::Marks | Wanted::Points
+            if wanted == Wanted::Points && scene.stipples.is_none() || !scene.has_marks() =>
+        {
             let remedy = "add a table [stipples], or write preset = \"stipple\"";
             Err(Failure::new("the scene has no stipples", at("stipples"), remedy))
         }

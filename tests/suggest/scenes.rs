@@ -4,12 +4,12 @@ use crate::data;
 use crate::measure::measure;
 use drypoint::drawing::Drawing;
 use drypoint::job::{Job, Wanted};
+use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::plan::Quantity;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
-use drypoint::marking::Marking;
 use std::path::{Path, PathBuf};
 
 /// Every scene file in a folder and the folders in it.

@@ -5,13 +5,13 @@ use crate::files;
 use drypoint::Failures;
 use drypoint::drawing::Drawing;
 use drypoint::job::{Job, Wanted};
+use drypoint::marking::Marking;
 use drypoint::output::encode::{quantize, straight_srgb};
 use drypoint::scene::color::srgb_to_linear;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::picture::{Layer, LayerKind, Picture};
 use drypoint::scene::tables::{Background, Scene};
-use drypoint::marking::Marking;
 use std::path::{Path, PathBuf};
 
 /// The most bytes of a picture in `docs`.

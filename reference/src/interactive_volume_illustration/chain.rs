@@ -42,7 +42,13 @@ pub(super) fn chains(mut pieces: Vec<[u64; 2]>) -> Vec<Chain> {
             is_used[at] = true;
             places.push(keys[at]);
             let [a, b] = joined[at];
-            let next = if before == NONE { a.min(b) } else if a == before { b } else { a };
+            let next = if before == NONE {
+                a.min(b)
+            } else if a == before {
+                b
+            } else {
+                a
+            };
             (before, at) = (at, next);
         }
         if places.len() > 1 {

@@ -140,7 +140,9 @@ mod tests {
     #[test]
     fn points_and_strokes_are_wanted_apart() {
         let both = scene("[outlines]\niso = 3\n[stipples]\n");
-        assert!(passes(&Plan::of_points(&both)).iter().all(|pass| !matches!(pass, Pass::Outlines | Pass::HiddenStrokes)));
+        assert!(
+            passes(&Plan::of_points(&both)).iter().all(|pass| !matches!(pass, Pass::Outlines | Pass::HiddenStrokes))
+        );
         assert_eq!(passes(&Plan::of_strokes(&both)), [Pass::Outlines, Pass::HiddenStrokes]);
         assert_eq!(passes(&Plan::of_marks(&both)), passes(&Plan::new(&both)));
     }

@@ -3,12 +3,12 @@
 use super::stipples::StipplePreset;
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, LightDirection, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
-    StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
+    Camera, Contours, LightDirection, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading,
+    Stipples, StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use super::{
-    camera, contours, orbit, outlines, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface,
-    transfer, volume,
+    camera, contours, orbit, outlines, over, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles,
+    surface, transfer, volume,
 };
 use crate::file::Given;
 use crate::file::check::Check;

@@ -3,13 +3,13 @@
 use super::effects::Settings;
 use drypoint::drawing::Drawing;
 use drypoint::job::Job;
+use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::phantom;
 use drypoint::scene::tables::PhantomSource;
 use drypoint::scene::volume::VoxelType;
 use drypoint::scene::volume::write::write_nrrd;
-use drypoint::marking::Marking;
 use std::collections::BTreeMap;
 use std::time::Instant;
 use tempfile::TempDir;

@@ -179,8 +179,7 @@ fn where_the_surface_meets_the_box() {
     let (centre, radius) = (DVec3::new(16.0, 16.0, 4.0), 11.0);
     let volume = sampled(grid, |p| radius - (p - centre).length(), Voxels::F64);
     let found = found(&volume, 0.0, [1.0, 0.2, 0.1], PARALLEL);
-    let on_box: Vec<&Stroke> =
-        found.strokes.iter().filter(|s| s.vertices.iter().all(|v| v.world.z == 0.0)).collect();
+    let on_box: Vec<&Stroke> = found.strokes.iter().filter(|s| s.vertices.iter().all(|v| v.world.z == 0.0)).collect();
     assert_eq!((on_box.len(), found.strokes.len()), (1, 2));
     assert!(on_box[0].closed);
     let expected = (radius * radius - 16.0f64).sqrt();
@@ -245,7 +244,8 @@ fn plateaus_and_stored_values() {
 #[test]
 fn noise_on_any_number_of_threads() {
     let grid = Grid::with_spacing([21, 18, 19], [1.0, 0.7, 1.3]).unwrap();
-    let volume = sampled(grid, |p| (uniform(5, [p.x as u32, (p.y * 10.0) as u32, (p.z * 10.0) as u32], 0) * 4.0).floor(), bytes);
+    let volume =
+        sampled(grid, |p| (uniform(5, [p.x as u32, (p.y * 10.0) as u32, (p.z * 10.0) as u32], 0) * 4.0).floor(), bytes);
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| found(&volume, 1.0, [0.3, 0.7, -0.4], Projection::Perspective { fov: 60.0 }))
@@ -262,6 +262,7 @@ fn noise_on_any_number_of_threads() {
     // Ranges of bricks leave nothing out.
     assert_eq!(strokes, outlines(&IsoSurface::without_skipping(&field, 1.0), &amid).strokes);
     // A flat volume has no cells.
-    let flat = Volume::new(Grid::with_spacing([4, 1, 4], [1.0; 3]).unwrap(), Voxels::U8(vec![9; 16]), 1.0, 0.0).unwrap();
+    let flat =
+        Volume::new(Grid::with_spacing([4, 1, 4], [1.0; 3]).unwrap(), Voxels::U8(vec![9; 16]), 1.0, 0.0).unwrap();
     assert_eq!(found(&flat, 9.0, [0.0, 1.0, 0.0], PARALLEL), Outlines::default());
 }

@@ -122,7 +122,8 @@ fn an_eye_amid_strokes() {
     let sight = Sight { view: &view, page: &page, near: 0.5, surface: Some(&surface), offset: 0.15 };
     let circle = latitude(eye, 1.0, 0.2);
     let vertex = |x: f64, u: f64| StrokeVertex { world: eye + DVec3::new(x, 1e-9, 0.0), normal: DVec3::X, u };
-    let through = Stroke { vertices: vec![vertex(-2.0, 0.0), vertex(0.0, 0.5), vertex(5.0, 1.0)], closed: false, key: 1 };
+    let through =
+        Stroke { vertices: vec![vertex(-2.0, 0.0), vertex(0.0, 0.5), vertex(5.0, 1.0)], closed: false, key: 1 };
     let nothing = Stroke::default();
     let one = Stroke { vertices: vec![vertex(0.0, 0.0)], closed: true, key: 2 };
     let lines = sight.seen(&[circle, through, nothing, one], |_, _| INK).lines;
