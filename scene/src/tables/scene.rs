@@ -2,6 +2,7 @@
 
 use super::stipples::StipplePreset;
 use super::styles::check_styles;
+use super::toon::ToonPreset;
 use super::{
     Camera, Contours, LightDirection, Orbit, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
     StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
@@ -66,7 +67,7 @@ impl Scene {
 
     /// Whether the volume itself is drawn, by rays ([SCN-3]).
     pub fn draws_volume(&self) -> bool {
-        self.transfer.is_some() || self.surface.is_some_and(|surface| surface.look != SurfaceLook::None)
+        self.transfer.is_some() || self.surface.as_ref().is_some_and(|surface| surface.look != SurfaceLook::None)
     }
 
     /// A volume, every default, and no effect.
@@ -99,6 +100,8 @@ enum Preset {
     Style,
     /// A table `[stipples]`.
     Stipples(StipplePreset),
+    /// Tables `[surface]` and `[shading]`.
+    Toon(ToonPreset),
 }
 
 /// The version of the format.
@@ -158,7 +161,12 @@ pub(crate) static ROOT: Table<Scene> = Table {
     },
     idle: |scene, plan, idle| {
         // What a preset supplies is there and was not said.
-        let supplied = [(scene.transfer.is_some(), "transfer"), (scene.stipples.is_some(), "stipples")];
+        let supplied = [
+            (scene.transfer.is_some(), "transfer"),
+            (scene.stipples.is_some(), "stipples"),
+            (scene.shading.is_some(), "shading"),
+            (scene.surface.is_some(), "surface"),
+        ];
         if !supplied.iter().any(|(is_there, table)| *is_there && !idle.says(table)) {
             idle.key("preset", "the scene has its tables itself");
         }
@@ -241,19 +249,28 @@ pub(crate) static ROOT: Table<Scene> = Table {
                                 Preset::Stipples(StipplePreset::Fig9),
                                 "Silhouette, boundary, distance and curves, Fig. 9: the head.",
                             ),
+                            ChoiceOption::new(
+                                "toon",
+                                Preset::Toon(ToonPreset::Plain),
+                                "An iso-surface in three tones of its colour, with silhouettes.",
+                            ),
+                            ChoiceOption::new(
+                                "hatch-fig2",
+                                Preset::Toon(ToonPreset::Fig2),
+                                "The same in two tones, with the half-level lighting of Nagy et al., Fig. 2.",
+                            ),
                         ],
-                        later: &[
-                            ("toon", "HATCH-15"),
-                            ("halo", "HALO-1"),
-                            ("hatch", "HATCH-17"),
-                            ("hatch-fig4", "HATCH-17"),
-                        ],
+                        later: &[("halo", "HALO-1"), ("hatch", "HATCH-17"), ("hatch-fig4", "HATCH-17")],
                     },
                     get: |_| None,
                     // It is read before the tables, of which each that the file has takes the place of the preset's.
                     set: |scene: &mut Scene, preset| match preset {
                         Preset::Style => scene.transfer = Some(Transfer::automatic(TransferKind::Style)),
                         Preset::Stipples(preset) => scene.stipples = Some(preset.table()),
+                        Preset::Toon(preset) => {
+                            let (surface, shading) = preset.tables();
+                            (scene.surface, scene.shading) = (Some(surface), Some(shading));
+                        }
                     },
                 },
             )
@@ -401,7 +418,11 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 "surface",
                 "HATCH-14",
                 "An opaque iso-surface.",
-                &Slot { kind: TableOf(&surface::TABLE), get: |s: &Scene| s.surface, set: |s, v| s.surface = Some(v) },
+                &Slot {
+                    kind: TableOf(&surface::TABLE),
+                    get: |s: &Scene| s.surface.clone(),
+                    set: |s, v| s.surface = Some(v),
+                },
             )
             .absent("no surface")
             .needs(&[Quantity::Surface]),
