@@ -411,9 +411,11 @@ pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Count
     suggest::scene(VolumeSource::File { path, raw: None }, volume, size, counts)
 }
 
-/// The same for a volume that is not drawn itself: the camera, and no function.
-pub fn stage(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
-    suggest::stage(VolumeSource::File { path, raw: None }, volume, size, counts)
+/// The same for the tables that a preset supplies: a function, an iso-surface, or the camera alone.
+pub fn bare_for(preset: &Scene, path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+    let source = VolumeSource::File { path, raw: None };
+    let (transfer, surface) = (preset.transfer.clone(), preset.surface.clone());
+    suggest::fill(Scene { transfer, surface, ..Scene::for_volume(source) }, volume, size, counts)
 }
 
 /// Puts the value that is found in the volume where a scene leaves it to that and something asks for it.

@@ -72,7 +72,7 @@ impl<'a> Stroking<'a> {
             Iso::Auto => Err(Failure::new("the iso-value was not found", at("outlines.iso"), "give a number")),
         };
         let own = value(table.iso)?;
-        let hiding = scene.surface.map_or(Ok(own), |surface| value(surface.iso))?;
+        let hiding = scene.surface.as_ref().map_or(Ok(own), |surface| value(surface.iso))?;
         for (name, bytes) in field.bytes() {
             *counts.bytes.entry(format!("strokes {name}")).or_default() += bytes;
         }

@@ -3,7 +3,7 @@
 use super::Talk;
 use super::raw::layout;
 use super::report::note;
-use drypoint::job::{Job, Wanted, bare, stage};
+use drypoint::job::{Job, Wanted, bare, bare_for};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
 use drypoint::scene::picture::LayerKind;
@@ -226,8 +226,11 @@ fn suggested(
     let parse = |text: &str, name: &str, overrides: &Overrides| file::parse(text, Path::new(name), overrides);
     // The camera frames the content in a picture of one shape. A fault of that is told below.
     let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
-    let draws_volume = parse(NOTHING, "", &over.preset).map_or(true, |scene| scene.draws_volume());
-    let suggested = if draws_volume { bare } else { stage }(path.to_path_buf(), volume, size, counts);
+    let preset = parse(NOTHING, "", &over.preset).ok();
+    let suggested = match &preset {
+        Some(preset) => bare_for(preset, path.to_path_buf(), volume, size, counts),
+        None => bare(path.to_path_buf(), volume, size, counts),
+    };
     let mut text = file::write_full(&suggested);
     if over.sets_kind {
         // Nodes of one kind do not fit the other: they are found anew.

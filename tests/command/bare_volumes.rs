@@ -48,6 +48,31 @@ fn overrides_act_on_it_as_on_any_scene() {
     assert_ne!(covered(&folder, "d.png"), covered(&folder, "e.png"));
 }
 
+/// Presets in tones draw the outermost surface, framed as ever: opaque, and of few colours inside.
+#[test]
+fn a_volume_in_tones() {
+    let folder = Folder::new();
+    folder.torus();
+    for (preset, tones) in [("toon", 4), ("hatch-fig2", 3)] {
+        let flags = format!("--preset {preset} --size 48x48 --set picture.background=none --set picture.samples=1");
+        let counts = folder.good(&format!("render torus.nrrd {flags} -q --stats -o a.png"));
+        for none in ["\"hessians\":0", "\"style_lookups\":0", "\"samples\":0"] {
+            assert!(counts.contains(none), "{none}: {counts}");
+        }
+        let (n, [left, right, ..]) = covered(&folder, "a.png");
+        assert!(n > 48 * 48 / 10 && right - left > 24, "{n} {left} {right}");
+        let image = read_image(&folder.path("a.png")).unwrap();
+        let [r, a] = ["R", "A"].map(|name| image.channel(name).unwrap());
+        let mut seen: Vec<u64> = r.iter().zip(a).filter(|(_, a)| **a > 0.0).map(|(r, _)| r.to_bits()).collect();
+        seen.sort_unstable();
+        seen.dedup();
+        // Black and the tones, of which a torus shows each.
+        assert_eq!(seen.len(), tones, "{preset}");
+        let plan = folder.good(&format!("plan torus.nrrd --set preset={preset}"));
+        assert!(plan.contains("surface.silhouette") && !plan.contains("without effect"), "{plan}");
+    }
+}
+
 #[test]
 fn another_kind_of_function_gets_nodes_of_its_own() {
     let folder = Folder::new();

@@ -80,12 +80,12 @@ fn what_leads_nowhere_is_refused() {
             "error: picture.size cannot be [99999999999, 99999999999]\n  at: --size 99999999999x99999999999\n  try: write a size [width, height], each a whole number from 1 to 1048576, at most 1073741824 pixels in all\n",
         ),
         (
-            "--preset toon",
-            "error: preset = \"toon\" is not built yet ([HATCH-15])\n  at: --preset toon\n  try: remove it: this version cannot draw it, and would not ignore it\n",
+            "--preset halo",
+            "error: preset = \"halo\" is not built yet ([HALO-1])\n  at: --preset halo\n  try: remove it: this version cannot draw it, and would not ignore it\n",
         ),
         (
             "--preset stlye",
-            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\" or \"stipple-fig9\"\n",
+            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\", \"stipple-fig9\", \"toon\" or \"hatch-fig2\"\n",
         ),
     ] {
         assert_eq!(folder.refused(&format!("render scene.toml {line}")), expected, "{line}");

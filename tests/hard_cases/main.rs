@@ -31,3 +31,4 @@ mod surfaces;
 mod symmetry;
 mod termination;
 mod thresholds;
+mod toon;

@@ -38,7 +38,14 @@ fn a_lit_ball_in_closed_form() {
     let direction = DVec3::new(0.3, 0.9, -0.2);
     for light in lights {
         for shininess in [1.0, 12.5] {
-            let material = Shading { ambient: 0.2, diffuse: 0.7, specular: 0.4, shininess, light: Some(light) };
+            let material = Shading {
+                ambient: 0.2,
+                diffuse: 0.7,
+                specular: 0.4,
+                shininess,
+                light: Some(light),
+                ..Shading::default()
+            };
             for camera in [orthographic(Some(18.0)), perspective(80.0)] {
                 let shot = shaded(material.clone()).with(|s| {
                     s.camera = camera;

@@ -51,6 +51,7 @@ static THEMES: &[&Theme] = &[
     &crate::empty::THEME,
     &crate::surfaces::THEME,
     &crate::stipples::THEME,
+    &crate::toon::THEME,
 ];
 
 /// What makes the page be written.

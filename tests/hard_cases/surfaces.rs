@@ -290,10 +290,10 @@ fn scaled() -> f64 {
 /// Sides, lights and materials on a ball, in closed form: N = (centre → point)/R, also where it is turned.
 #[test]
 fn a_lit_ball_in_closed_form() {
-    let material = Shading { ambient: 0.2, diffuse: 0.5, specular: 0.25, shininess: 8.0, light: None };
+    let material = Shading { ambient: 0.2, diffuse: 0.5, specular: 0.25, shininess: 8.0, ..Shading::default() };
     let lit = exact_ball(SurfaceLook::Phong).with(|s| {
         s.shading = Some(material);
-        s.surface = s.surface.map(|surface| Surface { color: [0.9, 0.6, 0.3, 1.0], ..surface });
+        s.surface = s.surface.clone().map(|surface| Surface { color: [0.9, 0.6, 0.3, 1.0], ..surface });
     });
     // The mirrored field, with the outside high: the same picture.
     let mut mirrored = lit.with(|s| s.volume.outside = Outside::High);

@@ -12,8 +12,8 @@ use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
     Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Iso, Kappa,
     Kernel, Length, LightDirection, Mix, NormalSide, Number, Orbit, Outside, PageSettings, PenSettings, PhantomSource,
-    Projection, Scene, Shading, SignFlip, SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Surface,
-    SurfaceLook, Table, Transparency, Unit, VolumeSource,
+    Projection, Scene, Shading, ShadingModel, SignFlip, SilhouetteShading, SphereFrame, StepAlong, StyleMipmaps,
+    StyleSource, Styles, Surface, SurfaceLook, Table, Tone, ToonShading, Transparency, Unit, VolumeSource,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -315,8 +315,24 @@ fn shading(r: &mut Random, scene: &mut Scene) {
             specular: r.pick(&[0.0, 0.3, 2.0]),
             shininess: r.pick(&[0.0, 1.0, 17.3]),
             light: if r.once_in(2) { None } else { Some(r.pick(&directions)) },
+            model: r.pick(&[ShadingModel::Phong, ShadingModel::Phong, ShadingModel::Toon]),
+            toon: if r.once_in(2) { Some(toon(r)) } else { None },
+            silhouette: silhouette(r),
+            view_opacity: r.pick(&[0.0, 0.0, 0.7, 30.0]),
         });
     }
+}
+
+/// One tone or several, whose steps some normals of a box lie on.
+fn toon(r: &mut Random) -> ToonShading {
+    let n = 1 + r.below(4);
+    let first = r.pick(&[-2.0, -0.5, 0.0]);
+    let tone = |i: usize| Tone { at: first + 0.5 * i as f64, color: [i as f64 / 4.0, 0.5, 1.0, 1.0] };
+    ToonShading { offset: r.pick(&[0.0, 0.5, -0.3]), tones: (0..n).map(tone).collect() }
+}
+
+fn silhouette(r: &mut Random) -> Option<SilhouetteShading> {
+    r.pick(&[None, None, Some(SilhouetteShading { offset: 0.45 }), Some(SilhouetteShading { offset: -0.2 })])
 }
 
 /// An opaque iso-surface at some value of the volume, or at its lowest, or at one that is found.
@@ -325,8 +341,11 @@ fn iso_surface(r: &mut Random, shot: &mut Shot) {
     let some = lo + r.between(0.0, 1.0) * (hi - lo);
     shot.scene.surface = Some(Surface {
         iso: r.pick(&[Iso::Value(some), Iso::Value(some), Iso::Value(lo), Iso::Auto]),
-        look: r.pick(&[SurfaceLook::White, SurfaceLook::Phong, SurfaceLook::Phong, SurfaceLook::None]),
+        look: r.pick(&[SurfaceLook::White, SurfaceLook::Phong, SurfaceLook::Toon, SurfaceLook::None]),
         color: r.pick(&[[1.0; 4], [0.6, 0.2, 0.1, 1.0]]),
+        toon: if r.once_in(2) { Some(toon(r)) } else { None },
+        silhouette: silhouette(r),
+        view_opacity: r.pick(&[0.0, 2.0]),
     });
 }
 

@@ -6,6 +6,7 @@ mod gradient_range;
 mod lanes;
 pub mod lattice;
 mod layers;
+mod lit;
 mod need;
 pub mod opacity;
 mod over_two;

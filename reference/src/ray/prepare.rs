@@ -2,14 +2,16 @@
 
 use super::gradient_range::quantile_of_norms;
 use super::lattice::{Lattice, MOST_PLANES};
+use super::lit::Lit;
 use super::need::Needs;
 use super::over_two::OverTwo;
 use super::prepared::{Calls, KappaSource, Prepared, Side};
 use super::render::{Inputs, RenderError};
-use super::sample::{EyeAxes, Look, Styled};
+use super::sample::{EyeAxes, Illustrated, Look, Styled};
 use super::skip::Skip;
 use super::surface::Surface;
 use crate::field::{Field, Reconstruction, Rung, Sampler};
+use crate::interactive_volume_illustration::ViewOpacity;
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
@@ -22,7 +24,8 @@ use drypoint_scene::picture::LayerKind;
 use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{
-    Axis, BlendSpace, GradientRange, Kappa, Length, Mix, Scene, SignFlip, SphereFrame, StyleMipmaps, Transparency,
+    Axis, BlendSpace, GradientRange, Kappa, Length, Mix, Scene, Shading, ShadingModel, SignFlip, SphereFrame,
+    StyleMipmaps, Transparency,
 };
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
@@ -104,8 +107,8 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
     let layers = if scene.picture.layers.is_empty() { vec![LayerKind::Beauty] } else { scene.picture.layers.clone() };
     let collects = layers.iter().any(|&l| l != LayerKind::Beauty && l != LayerKind::Counts);
     let encode = scene.picture.blend_space == BlendSpace::Srgb;
-    let styled = matches!(look, Look::Style(_));
-    let more = styled || table.is_some() || over_two.is_some() || gradient_range.is_some() || collects || encode;
+    let plain = matches!(look, Look::Regular { .. });
+    let more = !plain || table.is_some() || over_two.is_some() || gradient_range.is_some() || collects || encode;
     Ok(Prepared {
         volume,
         lattice,
@@ -142,6 +145,11 @@ pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, scene: &Scene, view:
     prepared.eye_axes = eye_axes(&view);
     match &mut prepared.look {
         Look::Regular { phong, .. } => *phong = scene.shading.as_ref().map(|s| Phong::new(s, scene.light, &view)),
+        Look::Illustrated(illustrated) => {
+            if let Some(shading) = &scene.shading {
+                illustrated.lit = Lit::of_shading(shading, scene, &view);
+            }
+        }
         Look::Style(styled) => styled.eye_axes = eye_axes(&view),
     }
     if let Some(surface) = &mut prepared.surface {
@@ -237,10 +245,18 @@ fn eye_axes<R: Real>(view: &View) -> EyeAxes<R> {
 fn look<R: Real>(inputs: &Inputs<'_>, view: &View) -> Result<Look<R>, RenderError> {
     let Inputs { scene, volume, styles, .. } = *inputs;
     match inputs.function {
-        Function::Regular(nodes) => Ok(Look::Regular {
-            colors: nodes.color.iter().map(|c| c.map(R::from_f64)).collect(),
-            phong: scene.shading.as_ref().map(|s| Phong::new(s, scene.light, view)),
-        }),
+        Function::Regular(nodes) => {
+            let colors = nodes.color.iter().map(|c| c.map(R::from_f64)).collect();
+            let shading = scene.shading.as_ref();
+            Ok(match shading.filter(|shading| is_illustrated(shading)) {
+                None => Look::Regular { colors, phong: shading.map(|s| Phong::new(s, scene.light, view)) },
+                Some(shading) => Look::Illustrated(Illustrated {
+                    colors,
+                    lit: Lit::of_shading(shading, scene, view),
+                    view_opacity: ViewOpacity::new(shading.view_opacity),
+                }),
+            })
+        }
         Function::Style { nodes, names } => {
             if names.len() != styles.len() {
                 return Err(RenderError::Styles { named: names.len(), given: styles.len() });
@@ -268,6 +284,11 @@ fn look<R: Real>(inputs: &Inputs<'_>, view: &View) -> Result<Look<R>, RenderErro
             }))
         }
     }
+}
+
+/// Whether shading is more than Phong.
+fn is_illustrated(shading: &Shading) -> bool {
+    shading.model != ShadingModel::Phong || shading.silhouette.is_some() || shading.view_opacity > 0.0
 }
 
 /// The level of detail of styles ([STF-10]), in rays of the picture.

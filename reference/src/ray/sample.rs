@@ -1,5 +1,8 @@
 //! What a visible sample looks like: its straight colour and its opacity per reference length.
 
+use super::lit::Lit;
+use super::opacity::Correction;
+use crate::interactive_volume_illustration::ViewOpacity;
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
 use crate::style_transfer_functions::{Blend2, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
@@ -40,7 +43,7 @@ pub(super) struct Sight<R> {
     pub(super) v: Vec3<R>,
     /// v in eye space.
     pub(super) v_eye: Vec3<R>,
-    /// Ĥ in world space, where there is Phong shading.
+    /// Ĥ in world space, where there is Phong shading; else 0.
     pub(super) half: Vec3<R>,
 }
 
@@ -65,8 +68,19 @@ pub(super) enum Look<R> {
         /// Material and light.
         phong: Option<Phong<R>>,
     },
+    /// Colours with more than Phong: tones, silhouettes, view-dependent opacity ([HATCH-15]).
+    Illustrated(Illustrated<R>),
     /// Styles (Bruckner and Gröller 2007).
     Style(Styled<R>),
+}
+
+/// A regular function with more than Phong.
+pub(super) struct Illustrated<R> {
+    /// Linear straight colour of each node.
+    pub(super) colors: Vec<[R; 3]>,
+    pub(super) lit: Lit<R>,
+    /// None: opacities are as they are.
+    pub(super) view_opacity: Option<ViewOpacity>,
 }
 
 /// What a style transfer function needs.
@@ -91,6 +105,7 @@ impl<R: Real> Look<R> {
     pub(super) fn sight(&self, v: Vec3<R>, v_eye: Vec3<R>) -> Sight<R> {
         let half = match self {
             Self::Regular { phong: Some(phong), .. } => phong.half_vector(v),
+            Self::Illustrated(illustrated) => illustrated.lit.half_vector(v),
             _ => Vec3::zero(),
         };
         Sight { v, v_eye, half }
@@ -115,8 +130,24 @@ impl<R: Real> Look<R> {
                 };
                 (rgb, place.alpha_u())
             }
+            Self::Illustrated(illustrated) => illustrated.color(place, facts, sight),
             Self::Style(styled) => styled.color(place, facts, sight, counts),
         }
+    }
+}
+
+impl<R: Real> Illustrated<R> {
+    #[inline(never)]
+    fn color(&self, place: impl Between<R>, facts: Facts<R>, sight: &Sight<R>) -> ([R; 3], R) {
+        let rgb = self.lit.color(place.color(&self.colors), facts.normal, [sight.v, sight.half]);
+        let alpha = match (self.view_opacity, facts.normal) {
+            // |N·v| counts as 1 where there is no normal ([PREC-3]), and then the exponent is 1.
+            (Some(view_opacity), Some(n)) => {
+                Correction::new(view_opacity.exponent(n.dot(sight.v))).apply(place.alpha_u())
+            }
+            _ => place.alpha_u(),
+        };
+        (rgb, alpha)
     }
 }
 

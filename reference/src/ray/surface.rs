@@ -2,6 +2,7 @@
 
 use super::cast::Walk;
 use super::layers::Seen;
+use super::lit::Lit;
 use super::need::{self, Need, Needs};
 use super::opacity::Correction;
 use super::prepared::{Calls, KappaSource};
@@ -10,12 +11,12 @@ use super::sample::Facts;
 use super::skip::Boxes;
 use crate::field::{Field, Sampler};
 use crate::number::{Real, Vec3};
-use crate::shading::Phong;
 use crate::style_transfer_functions::curvature_along_ray;
 use crate::suggest;
 use crate::surface::Roots;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
+use drypoint_scene::plan::Quantity;
 use drypoint_scene::tables::contours::{Measured, measured_curvature};
 use drypoint_scene::tables::{Iso, Scene, SurfaceLook};
 use drypoint_scene::view::View;
@@ -26,19 +27,13 @@ pub(super) struct Surface<R> {
     roots: Roots,
     /// Linear.
     rgb: [R; 3],
-    /// Where it is lit.
-    phong: Option<Phong<R>>,
+    lit: Lit<R>,
     /// What a place on it has to know.
     calls: Calls,
     /// What it has to know beyond that where nothing lies before it, for the layers `first.*`.
     first: Calls,
     /// Whether it is drawn alone, without the volume.
     alone: bool,
-}
-
-/// How a lit surface is lit: by `[shading]`, or its defaults.
-fn phong<R: Real>(scene: &Scene, view: &View) -> Phong<R> {
-    Phong::new(&scene.shading.clone().unwrap_or_default(), scene.light, view)
 }
 
 impl<R: Real> Surface<R> {
@@ -51,14 +46,15 @@ impl<R: Real> Surface<R> {
         counts: &mut Counts,
     ) -> Option<Self> {
         let scene = inputs.scene;
-        let surface = scene.surface.filter(|surface| surface.look != SurfaceLook::None)?;
+        let surface = scene.surface.as_ref().filter(|surface| surface.look != SurfaceLook::None)?;
         let iso = match surface.iso {
             Iso::Value(value) => value,
             Iso::Auto => suggest::iso(inputs.volume, &scene.volume, counts),
         };
         let roots = Roots::new(field, iso, bricks);
         counts.bytes.insert("surface".into(), roots.bytes() as u64);
-        let lit = surface.look == SurfaceLook::Phong;
+        let colored = surface.look != SurfaceLook::White;
+        let lit = inputs.plan.needs(Quantity::SurfaceNormal);
         let layers = |layers: [LayerKind; 4]| {
             let [normal, gradient, curvature, along_view] = layers.map(|layer| scene.picture.layers.contains(&layer));
             calls(scene, normal || gradient, curvature, along_view)
@@ -67,8 +63,8 @@ impl<R: Real> Surface<R> {
         use LayerKind::{FirstCurvature, FirstCurvatureAlongView, FirstNormal};
         Some(Self {
             roots,
-            rgb: if lit { [0, 1, 2].map(|c| R::from_f64(surface.color[c])) } else { [R::ONE; 3] },
-            phong: lit.then(|| phong(scene, view)),
+            rgb: if colored { [0, 1, 2].map(|c| R::from_f64(surface.color[c])) } else { [R::ONE; 3] },
+            lit: Lit::of_surface(surface, scene, view),
             calls: if lit { Calls::NORMAL } else { Calls::NONE }.and(layers([
                 Normal,
                 Gradient,
@@ -82,8 +78,8 @@ impl<R: Real> Surface<R> {
 
     /// Lights it for another camera.
     pub(super) fn turn(&mut self, scene: &Scene, view: &View) {
-        if let Some(lit) = &mut self.phong {
-            *lit = phong(scene, view);
+        if let Some(surface) = &scene.surface {
+            self.lit = Lit::of_surface(surface, scene, view);
         }
     }
 
@@ -180,10 +176,8 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         let calls = if self.sums.is_empty() { surface.calls.and(surface.first) } else { surface.calls };
         let facts = self.learn_at(depth, calls, counts);
         counts.without_normal += u64::from(calls.gradient && facts.normal.is_none());
-        let rgb = match (&surface.phong, facts.normal) {
-            (Some(phong), Some(n)) => phong.shade(surface.rgb, n, phong.half_vector(self.sight.v)),
-            _ => surface.rgb,
-        };
+        let v = self.sight.v;
+        let rgb = surface.lit.color(surface.rgb, facts.normal, [v, surface.lit.half_vector(v)]);
         let w = self.end_at(rgb);
         if prepared.collects {
             let seen = Seen {

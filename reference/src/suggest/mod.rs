@@ -16,7 +16,7 @@ use body::{Body, Inside};
 use boundary::Boundary;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
-    Camera, Contours, GradientEstimator, HessianEstimator, Ids, Kappa, Kernel, Length, Outside, Projection, Scene,
+    Camera, Contours, GradientEstimator, HessianEstimator, Ids, Iso, Kappa, Kernel, Length, Outside, Projection, Scene,
     Transfer, Unit, VolumeSource, VolumeTable,
 };
 use drypoint_scene::volume::Volume;
@@ -39,15 +39,12 @@ const SMOOTHED: usize = 1 << 25;
 /// A scene for a bare volume: an opaque surface in a translucent hull, or alone, with contours, framed by a camera. A
 /// volume of labels is shown as the surface of all of them. Voxels that were looked at go to `counts`.
 pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
-    suggested(Scene::for_volume(source), volume, size, counts)
+    fill(Scene::for_volume(source), volume, size, counts)
 }
 
-/// The same for a volume that is not drawn itself: the camera alone, and no function, style or contour.
-pub fn stage(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
-    suggested(Scene { transfer: None, ..Scene::for_volume(source) }, volume, size, counts)
-}
-
-fn suggested(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+/// The same into a scene that has its tables: a function gets nodes and contours, an iso-surface the value of the outermost
+/// boundary; with neither there is the camera alone. Voxels that were looked at go to `counts`.
+pub fn fill(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     if labels::are_ids(volume) {
         of_labels(scene, &volume.present(), size)
     } else {
@@ -89,6 +86,11 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
     }
+    if let Some(surface) = scene.surface.as_mut().filter(|surface| surface.iso == Iso::Auto) {
+        // What is inside would hang in the air without it.
+        let outermost = boundary.outermost();
+        surface.iso = Iso::Value(look::short(outermost.value, outermost.step));
+    }
     let [inside, seen] = [boundary.outermost().value, look::first_seen(&boundary, outside)];
     frame(&mut scene, volume, [inside, seen].map(|value| Inside { value, outside }), size);
     scene
@@ -118,6 +120,15 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: 
         up,
         ..Camera::default()
     };
+    // Slices leave terraces on what is scanned, and noise leaves grain: normals over 3³ voxels, and curvatures of a
+    // smoothed grid, draw neither.
+    if scene.transfer.is_some() || scene.surface.is_some() {
+        scene.sampling.gradient = GradientEstimator::Sobel;
+    }
+    if scene.surface.is_some() {
+        // Steps between tones are as hard as the rim.
+        scene.picture.samples = 2;
+    }
     if scene.transfer.is_none() {
         return;
     }
@@ -127,9 +138,6 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: 
         scene.sampling.step = Length::Voxels(three_digits(0.5 * finer));
         scene.sampling.reference_length = Length::Voxels(three_digits(finer));
     }
-    // Slices leave terraces on what is scanned, and noise leaves grain: normals over 3³ voxels, and curvatures of a
-    // smoothed grid, draw neither.
-    scene.sampling.gradient = GradientEstimator::Sobel;
     let smoothed = volume.grid().len() <= SMOOTHED;
     if smoothed {
         scene.sampling.hessian = HessianEstimator::Gaussian;
@@ -231,7 +239,8 @@ mod tests {
     fn a_stage_is_the_camera_alone() {
         let ball = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
         let source = VolumeSource::File { path: "x.nrrd".into(), raw: None };
-        let stage = stage(source, &ball, [64, 64], &mut Counts::default());
+        let stage = Scene { transfer: None, ..Scene::for_volume(source) };
+        let stage = fill(stage, &ball, [64, 64], &mut Counts::default());
         assert_eq!(stage.camera, suggested(&ball).camera);
         assert_eq!((stage.transfer, stage.contours), (None, None));
     }

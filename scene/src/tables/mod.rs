@@ -21,6 +21,7 @@ pub mod stipples;
 pub mod style_mipmaps;
 pub mod styles;
 pub mod surface;
+pub mod toon;
 pub mod transfer;
 mod transfer_rules;
 pub mod volume;
@@ -38,7 +39,7 @@ pub use pen::PenSettings;
 pub use picture::{Background, BlendSpace, PictureSettings};
 pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Number, Sampling, StepAlong};
 pub use scene::Scene;
-pub use shading::{LightDirection, Shading};
+pub use shading::{LightDirection, Shading, ShadingModel};
 pub use stipples::{
     Boundary, Curves, CurvesTest, Distance, DotColor, Even, FactorRange, Ink, Interior, Lighting, PointsPerPixel,
     Resolution, Silhouette, Snap, StippleGradient, StippleOrder, Stipples, Threshold,
@@ -46,5 +47,6 @@ pub use stipples::{
 pub use style_mipmaps::StyleMipmaps;
 pub use styles::{StyleFile, StyleSource, Styles};
 pub use surface::{Iso, Surface, SurfaceLook};
+pub use toon::{SilhouetteShading, Tone, ToonShading};
 pub use transfer::{Mix, Node, NodeColor, SphereFrame, Table, Transfer, TransferKind, Transparency, Unit};
 pub use volume::{GradientRange, Ids, LabelLookup, Outside, PhantomSource, RawLayout, VolumeSource, VolumeTable};

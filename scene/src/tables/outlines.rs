@@ -44,7 +44,7 @@ pub(crate) static TABLE: Table<Outlines> = Table {
             asks.pass(Pass::AutomaticIso, "outlines", "outlines.iso");
         }
         let drawn = |look| look != SurfaceLook::None && asks.casts_rays();
-        if scene.surface.is_some_and(|surface| surface.iso == Iso::Auto && !drawn(surface.look)) {
+        if scene.surface.as_ref().is_some_and(|surface| surface.iso == Iso::Auto && !drawn(surface.look)) {
             asks.pass(Pass::AutomaticIso, "hidden strokes", "surface.iso");
         }
     },

@@ -3,6 +3,7 @@
 use super::hatching::HatchPreset;
 use super::stipples::StipplePreset;
 use super::styles::check_styles;
+use super::toon::ToonPreset;
 use super::{
     Camera, Contours, Hatching, LightDirection, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling,
     Shading, Stipples, StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
@@ -81,7 +82,7 @@ impl Scene {
 
     /// Whether the volume itself is drawn, by rays ([SCN-3]).
     pub fn draws_volume(&self) -> bool {
-        self.transfer.is_some() || self.surface.is_some_and(|surface| surface.look != SurfaceLook::None)
+        self.transfer.is_some() || self.surface.as_ref().is_some_and(|surface| surface.look != SurfaceLook::None)
     }
 
     /// A volume, every default, and no effect.
@@ -120,6 +121,8 @@ enum Preset {
     Hatch(HatchPreset),
     /// A table `[outlines]`.
     Outline,
+    /// Tables `[surface]` and `[shading]`.
+    Toon(ToonPreset),
 }
 
 /// The version of the format.
@@ -182,6 +185,8 @@ pub(crate) static ROOT: Table<Scene> = Table {
             (scene.stipples.is_some(), "stipples"),
             (scene.hatching.is_some(), "hatching"),
             (scene.outlines.is_some(), "outlines"),
+            (scene.shading.is_some(), "shading"),
+            (scene.surface.is_some(), "surface"),
         ];
         if !supplied.iter().any(|(is_there, table)| *is_there && !idle.says(table)) {
             idle.key("preset", "the scene has its tables itself");
@@ -282,13 +287,18 @@ pub(crate) static ROOT: Table<Scene> = Table {
                                 "A short stroke in every cell, Fig. 6, right.",
                             ),
                             ChoiceOption::new("outline", Preset::Outline, "Outlines alone, of what is opaque."),
+                            ChoiceOption::new(
+                                "toon",
+                                Preset::Toon(ToonPreset::Plain),
+                                "An iso-surface in three tones of its colour, with silhouettes.",
+                            ),
+                            ChoiceOption::new(
+                                "hatch-fig2",
+                                Preset::Toon(ToonPreset::Fig2),
+                                "The same in two tones, with the half-level lighting of Nagy et al., Fig. 2.",
+                            ),
                         ],
-                        later: &[
-                            ("toon", "HATCH-15"),
-                            ("halo", "HALO-1"),
-                            ("hatch-fig4", "HATCH-17"),
-                            ("hatch-fig5", "HATCH-17"),
-                        ],
+                        later: &[("halo", "HALO-1"), ("hatch-fig4", "HATCH-17"), ("hatch-fig5", "HATCH-17")],
                     },
                     get: |_| None,
                     // It is read before the tables, of which each that the file has takes the place of the preset's.
@@ -300,6 +310,10 @@ pub(crate) static ROOT: Table<Scene> = Table {
                             scene.outlines = preset.outlines();
                         }
                         Preset::Outline => scene.outlines = Some(Outlines::default()),
+                        Preset::Toon(preset) => {
+                            let (surface, shading) = preset.tables();
+                            (scene.surface, scene.shading) = (Some(surface), Some(shading));
+                        }
                     },
                 },
             )
@@ -469,7 +483,11 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 "surface",
                 "HATCH-14",
                 "An opaque iso-surface.",
-                &Slot { kind: TableOf(&surface::TABLE), get: |s: &Scene| s.surface, set: |s, v| s.surface = Some(v) },
+                &Slot {
+                    kind: TableOf(&surface::TABLE),
+                    get: |s: &Scene| s.surface.clone(),
+                    set: |s, v| s.surface = Some(v),
+                },
             )
             .absent("no surface")
             .needs(&[Quantity::Surface]),

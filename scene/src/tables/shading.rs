@@ -1,18 +1,21 @@
-//! `[shading]`: Blinn–Phong for a regular transfer function ([STF-11]).
+//! `[shading]`: light on a regular transfer function, Blinn–Phong ([STF-11]) or in tones ([HATCH-15]).
 
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
 use crate::file::item::{Item, Value};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, TableOf};
 use crate::file::out::Out;
-use crate::plan::Quantity;
-use crate::tables::{Scene, SurfaceLook, TransferKind};
+use crate::plan::{Idle, Quantity};
+use crate::tables::toon::{SHADING_SILHOUETTE, SHADING_TOON, VIEW_OPACITY};
+use crate::tables::{Scene, SilhouetteShading, SurfaceLook, ToonShading, TransferKind};
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 
 /// The table `[shading]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shading {
+    /// How light is reflected.
+    pub model: ShadingModel,
     /// k_a.
     pub ambient: f64,
     /// k_d.
@@ -23,6 +26,21 @@ pub struct Shading {
     pub shininess: f64,
     /// Towards the light; none: the scene's.
     pub light: Option<LightDirection>,
+    /// The tones of [`ShadingModel::Toon`]; none: two, of L·N > ½.
+    pub toon: Option<ToonShading>,
+    /// Silhouettes; none: none.
+    pub silhouette: Option<SilhouetteShading>,
+    /// s of the view-dependent opacity; 0: opacities are as they are.
+    pub view_opacity: f64,
+}
+
+/// How light is reflected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShadingModel {
+    /// Blinn–Phong.
+    Phong,
+    /// In tones.
+    Toon,
 }
 
 /// Towards the light.
@@ -38,18 +56,64 @@ pub enum LightDirection {
 
 impl Default for Shading {
     fn default() -> Self {
-        Self { ambient: 0.3, diffuse: 0.6, specular: 0.3, shininess: 30.0, light: None }
+        Self {
+            model: ShadingModel::Phong,
+            ambient: 0.3,
+            diffuse: 0.6,
+            specular: 0.3,
+            shininess: 30.0,
+            light: None,
+            toon: None,
+            silhouette: None,
+            view_opacity: 0.0,
+        }
+    }
+}
+
+impl Shading {
+    /// The tones of [`ShadingModel::Toon`]; none under another model.
+    pub fn tones(&self) -> Option<ToonShading> {
+        (self.model == ShadingModel::Toon).then(|| self.toon.clone().unwrap_or_default())
     }
 }
 
 /// Whether the scene has an iso-surface that is lit.
 pub(super) fn lit_surface(scene: &Scene) -> bool {
-    scene.surface.is_some_and(|surface| surface.look == SurfaceLook::Phong)
+    let lit = |look| matches!(look, SurfaceLook::Phong | SurfaceLook::Toon);
+    scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
+}
+
+/// Whether its transfer function has colours, which light falls on.
+fn is_regular(scene: &Scene) -> bool {
+    scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular)
 }
 
 /// Whether a scene has something that `[shading]` acts on.
 pub(super) fn lit(scene: &Scene) -> bool {
-    scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular) || lit_surface(scene)
+    is_regular(scene) || lit_surface(scene)
+}
+
+/// Which keys say nothing although something is lit.
+fn idle_keys(scene: &Scene, shading: &Shading, idle: &mut Idle) {
+    let regular = is_regular(scene);
+    let toon = shading.model == ShadingModel::Toon;
+    let glossy = scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
+    if glossy || (regular && !toon) {
+        if shading.specular == 0.0 {
+            idle.key("shading.shininess", "specular is 0");
+        }
+    } else {
+        for key in ["shading.ambient", "shading.diffuse", "shading.specular", "shading.shininess"] {
+            idle.key(key, "nothing is lit by Blinn–Phong: tones are the table toon's");
+        }
+    }
+    if !regular {
+        for key in ["shading.model", "shading.toon", "shading.silhouette", "shading.view_opacity"] {
+            idle.key(key, "it acts on a regular function; a surface has keys of its own");
+        }
+    } else if !toon {
+        idle.key("shading.toon", "model is \"phong\"");
+    }
 }
 
 /// A share of light.
@@ -62,14 +126,19 @@ pub(crate) static TABLE: Table<Shading> = Table {
         Later { name: "table", tag: "VS-5" },
         Later { name: "contour", tag: "VS-5" },
         Later { name: "divisor_floor", tag: "VS-5" },
-        Later { name: "view_opacity", tag: "HATCH-15" },
-        Later { name: "toon", tag: "HATCH-15" },
-        Later { name: "silhouette", tag: "HATCH-15" },
     ],
     asks: |scene, asks| {
-        let lit = scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular);
-        if lit && scene.shading.is_some() && asks.casts_rays() {
-            asks.need(Quantity::Gradient, "shading", "shading");
+        let Some(shading) = scene.shading.as_ref().filter(|_| is_regular(scene) && asks.casts_rays()) else { return };
+        match shading.tones() {
+            None => asks.need(Quantity::Gradient, "shading", "shading"),
+            Some(toon) if toon.reads_normals() => asks.need(Quantity::Gradient, "toon shading", "shading.model"),
+            Some(_) => {}
+        }
+        if shading.silhouette.is_some() {
+            asks.need(Quantity::Gradient, "silhouettes", "shading.silhouette");
+        }
+        if shading.view_opacity > 0.0 {
+            asks.need(Quantity::Gradient, "view-dependent opacity", "shading.view_opacity");
         }
     },
     idle: |scene, _, idle| {
@@ -78,12 +147,9 @@ pub(crate) static TABLE: Table<Shading> = Table {
         if !lit_surface(scene) && kind == Some(TransferKind::Style) {
             idle.key("shading", "styles carry their own light: shading acts on a regular function");
         } else if !lit(scene) && scene.surface.is_some() {
-            idle.key(
-                "shading",
-                "nothing is lit: it acts on a regular function, and on a surface with look = \"phong\"",
-            );
-        } else if shading.specular == 0.0 {
-            idle.key("shading.shininess", "specular is 0");
+            idle.key("shading", "nothing is lit: it acts on a regular function, and on a surface with a lit look");
+        } else {
+            idle_keys(scene, shading, idle);
         }
     },
     ..Table::new(
@@ -97,11 +163,14 @@ pub(crate) static TABLE: Table<Shading> = Table {
                 "How light is reflected.",
                 &Slot {
                     kind: Choice {
-                        options: &[ChoiceOption::new("phong", (), "Blinn–Phong.")],
-                        later: &[("toon", "HATCH-15"), ("lighting-function", "VS-5")],
+                        options: &[
+                            ChoiceOption::new("phong", ShadingModel::Phong, "Blinn–Phong."),
+                            ChoiceOption::new("toon", ShadingModel::Toon, "In tones with hard steps between them."),
+                        ],
+                        later: &[("lighting-function", "VS-5")],
                     },
-                    get: |_| Some(()),
-                    set: |_, ()| {},
+                    get: |s: &Shading| Some(s.model),
+                    set: |s, v| s.model = v,
                 },
             ),
             Key::new(
@@ -135,6 +204,31 @@ pub(crate) static TABLE: Table<Shading> = Table {
                 &Slot { kind: Light, get: |s: &Shading| s.light, set: |s, v| s.light = Some(v) },
             )
             .absent("the scene's `light`"),
+            Key::new(
+                "toon",
+                "HATCH-15",
+                "The tones of model = \"toon\".",
+                &Slot { kind: TableOf(&SHADING_TOON), get: |s: &Shading| s.toon.clone(), set: |s, v| s.toon = Some(v) },
+            )
+            .absent("offset 0 and two tones, `#404040` and white"),
+            Key::new(
+                "silhouette",
+                "HATCH-15",
+                "Black where the surface turns away from the eye, under any model.",
+                &Slot {
+                    kind: TableOf(&SHADING_SILHOUETTE),
+                    get: |s: &Shading| s.silhouette,
+                    set: |s, v| s.silhouette = Some(v),
+                },
+            )
+            .absent("no silhouettes"),
+            Key::new(
+                "view_opacity",
+                "HATCH-15",
+                "s: opacities become 1 − (1 − α)^(1 + s(1/|N·V| − 1)), more opaque where the surface turns away from \
+                 the eye.",
+                &Slot { kind: VIEW_OPACITY, get: |s: &Shading| Some(s.view_opacity), set: |s, v| s.view_opacity = v },
+            ),
         ],
     )
 };

@@ -2,16 +2,18 @@
 
 use crate::color::Rgba;
 use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
+use crate::file::describe::{Key, Kind, Shape, Slot, Table};
 use crate::file::fault::Problem;
 use crate::file::item::{Item, Value};
-use crate::file::kind::{Choice, ChoiceOption, Colors};
+use crate::file::kind::{Choice, ChoiceOption, Colors, TableOf};
 use crate::file::out::Out;
 use crate::plan::{Pass, Quantity};
+use crate::tables::toon::{SURFACE_SILHOUETTE, SURFACE_TOON, VIEW_OPACITY};
+use crate::tables::{SilhouetteShading, ToonShading};
 use serde_json::{Value as Json, json};
 
 /// The table `[surface]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// Where it lies.
     pub iso: Iso,
@@ -19,6 +21,12 @@ pub struct Surface {
     pub look: SurfaceLook,
     /// Of a lit surface: linear, opaque.
     pub color: Rgba,
+    /// The tones of [`SurfaceLook::Toon`]; none: two, of L·N > ½.
+    pub toon: Option<ToonShading>,
+    /// Silhouettes on any look; none: none.
+    pub silhouette: Option<SilhouetteShading>,
+    /// s of the view-dependent opacity, which leaves an opacity of 1 as it is.
+    pub view_opacity: f64,
 }
 
 /// A value of the field.
@@ -37,13 +45,29 @@ pub enum SurfaceLook {
     White,
     /// Blinn–Phong.
     Phong,
+    /// In tones ([HATCH-15]).
+    Toon,
     /// Not at all.
     None,
 }
 
 impl Default for Surface {
     fn default() -> Self {
-        Self { iso: Iso::Auto, look: SurfaceLook::White, color: [1.0; 4] }
+        Self {
+            iso: Iso::Auto,
+            look: SurfaceLook::White,
+            color: [1.0; 4],
+            toon: None,
+            silhouette: None,
+            view_opacity: 0.0,
+        }
+    }
+}
+
+impl Surface {
+    /// The tones of [`SurfaceLook::Toon`]; none under another look.
+    pub fn tones(&self) -> Option<ToonShading> {
+        (self.look == SurfaceLook::Toon).then(|| self.toon.clone().unwrap_or_default())
     }
 }
 
@@ -83,11 +107,6 @@ impl Kind for IsoKind {
 
 /// The description of `[surface]`.
 pub(crate) static TABLE: Table<Surface> = Table {
-    later: &[
-        Later { name: "view_opacity", tag: "HATCH-15" },
-        Later { name: "toon", tag: "HATCH-15" },
-        Later { name: "silhouette", tag: "HATCH-15" },
-    ],
     check: |surface, check| {
         if surface.color[3] != 1.0 && check.sound(&["color"]) {
             let what = "surface.color has an opacity, and the surface is opaque".into();
@@ -97,7 +116,7 @@ pub(crate) static TABLE: Table<Surface> = Table {
     },
     asks: |scene, asks| {
         let drawn = |surface: &Surface| surface.look != SurfaceLook::None && asks.casts_rays();
-        let Some(surface) = scene.surface.filter(drawn) else { return };
+        let Some(surface) = scene.surface.as_ref().filter(|surface| drawn(surface)) else { return };
         asks.need(Quantity::Surface, "iso-surface", "surface");
         if surface.iso == Iso::Auto {
             asks.pass(Pass::AutomaticIso, "iso-surface", "surface.iso");
@@ -105,13 +124,25 @@ pub(crate) static TABLE: Table<Surface> = Table {
         if surface.look == SurfaceLook::Phong {
             asks.need(Quantity::SurfaceNormal, "lit iso-surface", "surface.look");
         }
-    },
-    idle: |scene, _, idle| match scene.surface.map(|surface| surface.look) {
-        Some(SurfaceLook::None) if !scene.has_strokes() => {
-            idle.key("surface", "look = \"none\" hides strokes alone, and the scene has none");
+        if surface.tones().is_some_and(|toon| toon.reads_normals()) {
+            asks.need(Quantity::SurfaceNormal, "iso-surface in tones", "surface.look");
         }
-        Some(SurfaceLook::White) => idle.key("surface.color", "look = \"white\" is white"),
-        Some(SurfaceLook::Phong | SurfaceLook::None) | None => {}
+        if surface.silhouette.is_some() {
+            asks.need(Quantity::SurfaceNormal, "silhouettes of the iso-surface", "surface.silhouette");
+        }
+    },
+    idle: |scene, _, idle| {
+        let Some(surface) = &scene.surface else { return };
+        if surface.look == SurfaceLook::None && !scene.has_strokes() {
+            return idle.key("surface", "look = \"none\" hides strokes alone, and the scene has none");
+        }
+        if surface.look == SurfaceLook::White {
+            idle.key("surface.color", "look = \"white\" is white");
+        }
+        if surface.look != SurfaceLook::Toon {
+            idle.key("surface.toon", "look is not \"toon\"");
+        }
+        idle.key("surface.view_opacity", "the surface is opaque, and an opacity of 1 stays 1 from every side");
     },
     ..Table::new(
         "[surface]",
@@ -142,9 +173,14 @@ pub(crate) static TABLE: Table<Surface> = Table {
                                 SurfaceLook::Phong,
                                 "Lit, with the constants of [shading] or their defaults.",
                             ),
+                            ChoiceOption::new(
+                                "toon",
+                                SurfaceLook::Toon,
+                                "In tones with hard steps between them, under the light of [shading] or the scene's.",
+                            ),
                             ChoiceOption::new("none", SurfaceLook::None, "Not at all: it hides strokes alone."),
                         ],
-                        later: &[("toon", "HATCH-15")],
+                        later: &[],
                     },
                     get: |s: &Surface| Some(s.look),
                     set: |s, v| s.look = v,
@@ -155,6 +191,30 @@ pub(crate) static TABLE: Table<Surface> = Table {
                 "HATCH-14",
                 "Of a lit surface.",
                 &Slot { kind: Colors, get: |s: &Surface| Some(s.color), set: |s, v| s.color = v },
+            ),
+            Key::new(
+                "toon",
+                "HATCH-15",
+                "The tones of look = \"toon\".",
+                &Slot { kind: TableOf(&SURFACE_TOON), get: |s: &Surface| s.toon.clone(), set: |s, v| s.toon = Some(v) },
+            )
+            .absent("offset 0 and two tones, `#404040` and white"),
+            Key::new(
+                "silhouette",
+                "HATCH-15",
+                "Black where the surface turns away from the eye, on any look.",
+                &Slot {
+                    kind: TableOf(&SURFACE_SILHOUETTE),
+                    get: |s: &Surface| s.silhouette,
+                    set: |s, v| s.silhouette = Some(v),
+                },
+            )
+            .absent("no silhouettes"),
+            Key::new(
+                "view_opacity",
+                "HATCH-15",
+                "s of shading.view_opacity; the surface is opaque, and its opacity stays 1 for every s.",
+                &Slot { kind: VIEW_OPACITY, get: |s: &Surface| Some(s.view_opacity), set: |s, v| s.view_opacity = v },
             ),
         ],
     )

@@ -115,6 +115,44 @@ pub(super) const EFFECTS: &[Effect] = &[
         ..NOTHING
     },
     Effect {
+        name: "shading in tones",
+        asked_by: "`shading.model = \"toon\"`",
+        base: REGULAR,
+        with: &[("shading.model", "toon")],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "silhouettes on shading",
+        asked_by: "`[shading.silhouette]`",
+        base: REGULAR,
+        without: &[("shading.model", "toon")],
+        with: &[("shading.model", "toon"), ("shading.silhouette.offset", "0.45")],
+        ..NOTHING
+    },
+    Effect {
+        name: "silhouettes and tones of no light",
+        asked_by: "`[shading.silhouette]`",
+        base: REGULAR,
+        without: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]")],
+        with: &[
+            ("shading.model", "toon"),
+            ("shading.toon.tones", "[[0, \"white\"]]"),
+            ("shading.silhouette.offset", "0.45"),
+        ],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "view-dependent opacity",
+        asked_by: "`shading.view_opacity`",
+        base: REGULAR,
+        without: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]")],
+        with: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]"), ("shading.view_opacity", "1")],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
         name: "contours of a constant threshold",
         asked_by: "`contours.kappa = \"none\"`",
         with: &[("contours.kappa", "none")],
@@ -318,6 +356,24 @@ pub(super) const EFFECTS: &[Effect] = &[
         base: REGULAR,
         without: &[("surface.iso", "120")],
         with: &[("surface.iso", "120"), ("surface.look", "phong")],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "an iso-surface in tones",
+        asked_by: "`surface.look = \"toon\"`",
+        base: REGULAR,
+        without: &[("surface.iso", "120")],
+        with: &[("surface.iso", "120"), ("surface.look", "toon")],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "silhouettes of an iso-surface",
+        asked_by: "`[surface.silhouette]`",
+        base: REGULAR,
+        without: &[("surface.iso", "120")],
+        with: &[("surface.iso", "120"), ("surface.silhouette.offset", "0.45")],
         only: &["gradients"],
         ..NOTHING
     },

@@ -181,7 +181,7 @@ pub(super) const FAMILIES: [Family; 17] = [
     },
     Family {
         letters: "HATCH",
-        subject: "Curvature hatching, toon shading, silhouettes and opaque surfaces (Nagy et al. 2002); surfaces are built",
+        subject: "Curvature hatching, toon shading, silhouettes and opaque surfaces (Nagy et al. 2002); surfaces and toon shading are built",
         rules: &[
             (1, "Strokes follow the principal directions of a surface."),
             (7, "What lies on a surface is asked for a fixed length in front of it."),

@@ -206,6 +206,7 @@ impl<'p, 'v> Packet<'p, 'v> {
                 walk.run(self, &mut Shaded::new(simd, self, colors, phong), counts);
             }
             Look::Regular { colors, .. } => walk.run(self, &mut Unshaded { colors }, counts),
+            Look::Illustrated(_) => unreachable!("its needs are anything, which lanes serve for styles alone"),
             Look::Style(styled) => walk.run(self, &mut InStyle::new(simd, self, styled), counts),
         }
     }

@@ -17,6 +17,7 @@ const STIPPLES: (&str, &str) = ("stipples", "{}");
 const HATCHING: (&str, &str) = ("hatching", "{}");
 const OUTLINES: (&str, &str) = ("outlines", "{}");
 const SURFACE: (&str, &str) = ("surface.look", "phong");
+const TOON: (&str, &str) = ("shading.model", "toon");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
 
 const SAMPLES: &[Sample] = &[
@@ -115,6 +116,13 @@ const SAMPLES: &[Sample] = &[
     ("shading.specular", &[("shading", "{}")], "0.1"),
     ("shading.shininess", &[("shading", "{}")], "5"),
     ("shading.light", &[("shading", "{}")], "{ world = [1, 0, 0] }"),
+    ("shading.model", &[("shading", "{}")], "toon"),
+    ("shading.toon", &[TOON], "{}"),
+    ("shading.toon.offset", &[TOON], "0.5"),
+    ("shading.toon.tones", &[TOON], "[[0, \"red\"]]"),
+    ("shading.silhouette", &[("shading", "{}")], "{}"),
+    ("shading.silhouette.offset", &[("shading", "{}")], "0.3"),
+    ("shading.view_opacity", &[("shading", "{}")], "1.5"),
     ("contours", &[], "{}"),
     ("contours.thickness", &[("contours", "{}")], "3 voxels"),
     ("contours.kappa", &[("contours", "{}")], "exact"),
@@ -210,10 +218,16 @@ const SAMPLES: &[Sample] = &[
     ("surface.iso", &[SURFACE], "12.5"),
     ("surface.look", &[], "phong"),
     ("surface.color", &[SURFACE], "red"),
+    ("surface.toon", &[SURFACE], "{}"),
+    ("surface.toon.offset", &[SURFACE], "0.5"),
+    ("surface.toon.tones", &[SURFACE], "[[0, \"red\"]]"),
+    ("surface.silhouette", &[SURFACE], "{}"),
+    ("surface.silhouette.offset", &[SURFACE], "0.3"),
+    ("surface.view_opacity", &[SURFACE], "2"),
 ];
 
 /// Keys that can have one value only, so far.
-const ONE_VALUE: [&str; 3] = ["drypoint", "preset", "shading.model"];
+const ONE_VALUE: [&str; 2] = ["drypoint", "preset"];
 
 fn with(settings: &[(&str, &str)]) -> Result<Scene, Faults> {
     parse(HEAD, Path::new("scene.toml"), &settings.iter().copied().collect())

@@ -26,14 +26,11 @@ fn a_part_that_is_not_built_says_so() {
          and would not ignore it"
     );
     for (rest, what) in [
-        ("[surface]\nlook = \"toon\"\n", "surface.look = \"toon\""),
         ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
         ("[[box]]\n", "[[box]]"),
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),
-        ("[shading]\nmodel = \"toon\"\n", "shading.model = \"toon\""),
         ("[shading]\nmodel = \"lighting-function\"\n", "shading.model = \"lighting-function\""),
-        ("[shading.toon]\noffset = 0\n", "shading.toon"),
-        ("[shading]\nview_opacity = 0.0\n", "shading.view_opacity"),
+        ("[shading]\ndivisor_floor = 0.1\n", "shading.divisor_floor"),
         ("[picture]\nlayers = [\"halo0\"]\n", "picture.layers[0] = \"halo0\""),
     ] {
         let text = faults(rest);

@@ -1,0 +1,45 @@
+//! Silhouettes: black where the surface turns away from the eye (4.4, [HATCH-15]).
+
+use crate::number::Real;
+use drypoint_scene::tables::SilhouetteShading;
+
+/// The test (N·V)² + offset > ½.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Silhouette<R> {
+    offset: R,
+}
+
+impl<R: Real> Silhouette<R> {
+    /// By its table.
+    pub fn new(table: SilhouetteShading) -> Self {
+        Self { offset: R::from_f64(table.offset) }
+    }
+
+    /// Whether a place with that N·V, of either sign, is black.
+    #[inline]
+    pub fn is_black(self, n_dot_v: R) -> bool {
+        n_dot_v * n_dot_v + self.offset <= R::from_f64(0.5)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The edge is at |N·V| = √(½ − offset), and belongs to the black; squares have no sign.
+    #[test]
+    fn black_up_to_the_root() {
+        let black = |offset: f64, x: f64| {
+            let silhouette = Silhouette::<f64>::new(SilhouetteShading { offset });
+            assert_eq!(silhouette.is_black(x), silhouette.is_black(-x));
+            assert_eq!(silhouette.is_black(x), Silhouette::<f32>::new(SilhouetteShading { offset }).is_black(x as f32));
+            silhouette.is_black(x)
+        };
+        assert!(black(0.25, 0.5) && !black(0.25, 0.53125) && black(0.25, 0.0));
+        assert!(black(0.5, 0.0) && !black(0.5, 0.125));
+        assert!(!black(0.75, 0.0));
+        assert!(black(-0.5, 1.0));
+        // √0.05 = 0.2236…
+        assert!(black(0.45, 0.2236) && !black(0.45, 0.2237));
+    }
+}

@@ -1,0 +1,310 @@
+//! `[shading.toon]`, `[shading.silhouette]`, and the same of `[surface]` ([HATCH-15]).
+
+use crate::color::{Rgba, srgb_to_linear};
+use crate::file::check::Check;
+use crate::file::describe::{Key, Kind, Shape, Slot, Table};
+use crate::file::fault::Problem;
+use crate::file::item::Item;
+use crate::file::kind::{Bounds, Colors, ListOf, Number};
+use crate::file::out::Out;
+use crate::tables::{LightDirection, Shading, Surface, SurfaceLook};
+use glam::DVec3;
+use serde_json::{Value as Json, json};
+
+/// A table `toon`: tones with hard steps between them.
+///
+/// The tone of x = L·N + offset is the last one whose `at` is below x, and the first one where none is. So `at` of the
+/// first says nothing, and the two tones of the default are those of L·N + offset > ½.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToonShading {
+    /// What is added to L·N.
+    pub offset: f64,
+    /// At least one, in ascending order of `at`.
+    pub tones: Vec<Tone>,
+}
+
+/// One tone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tone {
+    /// Where it begins, in x = L·N + offset; this x itself still has the tone before.
+    pub at: f64,
+    /// What the colour is multiplied by: linear, opaque.
+    pub color: Rgba,
+}
+
+/// A table `silhouette`: black where (N·V)² + offset ≤ ½.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SilhouetteShading {
+    /// What is added to (N·V)².
+    pub offset: f64,
+}
+
+impl Default for ToonShading {
+    fn default() -> Self {
+        let dark = srgb_to_linear(64.0 / 255.0);
+        let tones = vec![Tone { at: 0.0, color: [dark, dark, dark, 1.0] }, Tone { at: 0.5, color: [1.0; 4] }];
+        Self { offset: 0.0, tones }
+    }
+}
+
+impl ToonShading {
+    /// Whether the tone can depend on the normal: not of one tone.
+    pub fn reads_normals(&self) -> bool {
+        self.tones.len() > 1
+    }
+}
+
+impl Default for SilhouetteShading {
+    fn default() -> Self {
+        Self { offset: 0.45 }
+    }
+}
+
+/// A preset that draws an automatic iso-surface in tones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ToonPreset {
+    /// A first picture.
+    Plain,
+    /// Fig. 2.
+    Fig2,
+}
+
+impl ToonPreset {
+    /// The tables `[surface]` and `[shading]`, whose light comes from the upper left: under a head light no tone tells left
+    /// from right. Judged on real volumes, on a white page.
+    pub(crate) fn tables(self) -> (Surface, Shading) {
+        let color = |bytes: [f64; 3]| {
+            let [r, g, b] = bytes.map(|byte| srgb_to_linear(byte / 255.0));
+            [r, g, b, 1.0]
+        };
+        let grey = |at: f64, byte: f64| Tone { at, color: color([byte; 3]) };
+        let (paint, toon, silhouette) = match self {
+            // The light, a half-tone for walls that it grazes, and a shadow; lines so thin that floors seen at a slant stay.
+            Self::Plain => {
+                let tones = vec![grey(0.0, 116.0), grey(0.05, 198.0), grey(0.45, 255.0)];
+                ([231.0, 191.0, 133.0], ToonShading { offset: 0.0, tones }, SilhouetteShading { offset: 0.47 })
+            }
+            // "Half-level": the light ends at 90°.
+            Self::Fig2 => {
+                let toon = ToonShading { offset: 0.5, ..ToonShading::default() };
+                ([232.0, 224.0, 208.0], toon, SilhouetteShading::default())
+            }
+        };
+        let surface = Surface {
+            look: SurfaceLook::Toon,
+            color: color(paint),
+            toon: Some(toon),
+            silhouette: Some(silhouette),
+            ..Surface::default()
+        };
+        let light = Some(LightDirection::Eye(DVec3::new(-1.0, 1.5, 0.8)));
+        (surface, Shading { light, ..Shading::default() })
+    }
+}
+
+/// s of α' = 1 − (1 − α)^(1 + s(1/|N·V| − 1)): a key of two tables.
+pub(super) const VIEW_OPACITY: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
+
+/// An offset.
+const OFFSET: Number = Number { bounds: Bounds::ANY, unit: "" };
+
+/// `[at, colour]`.
+struct ToneKind;
+
+impl Shape for ToneKind {
+    fn expected(&self) -> String {
+        "[at, color], a number and a colour".into()
+    }
+
+    fn schema(&self) -> Json {
+        let either = json!({ "anyOf": [{ "type": "number" }, Colors.schema()] });
+        json!({ "type": "array", "items": either, "minItems": 2, "maxItems": 2 })
+    }
+}
+
+impl Kind for ToneKind {
+    type Of = Tone;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Tone> {
+        match item.list() {
+            Some([at, color]) => {
+                let Some(at) = at.number() else { return check.wrong(item, self.expected()) };
+                Colors.read(color, check).map(|color| Tone { at, color })
+            }
+            _ => check.wrong(item, self.expected()),
+        }
+    }
+
+    fn write(&self, tone: &Tone) -> Out {
+        Out::List(vec![Out::Number(tone.at), Colors.write(&tone.color)])
+    }
+}
+
+static TOON_KEYS: [Key<ToonShading>; 2] = [
+    Key::new(
+        "offset",
+        "HATCH-15",
+        "Added to L·N. With the two default tones, 0 ends the light at 60° from it, 0.5 at 90°.",
+        &Slot { kind: OFFSET, get: |t: &ToonShading| Some(t.offset), set: |t, v| t.offset = v },
+    ),
+    Key::new(
+        "tones",
+        "HATCH-15",
+        "What colours are multiplied by, each tone where L·N + offset is above its `at`; the first also below.",
+        &Slot {
+            kind: ListOf { what: "a list of tones", each: ToneKind },
+            get: |t: &ToonShading| Some(t.tones.clone()),
+            set: |t, v| t.tones = v,
+        },
+    ),
+];
+
+static SILHOUETTE_KEYS: [Key<SilhouetteShading>; 1] = [Key::new(
+    "offset",
+    "HATCH-15",
+    "Black where (N·V)² + offset ≤ 0.5: of a sphere's disc the share 0.5 − offset.",
+    &Slot { kind: OFFSET, get: |t: &SilhouetteShading| Some(t.offset), set: |t, v| t.offset = v },
+)];
+
+const fn toon(title: &'static str) -> Table<ToonShading> {
+    Table {
+        check: check_tones,
+        ..Table::new(title, "Tones with hard steps, by the angle to the light.", ToonShading::default, &TOON_KEYS)
+    }
+}
+
+const fn silhouette(title: &'static str) -> Table<SilhouetteShading> {
+    Table::new(title, "Black where the surface turns away from the eye.", SilhouetteShading::default, &SILHOUETTE_KEYS)
+}
+
+/// The description of `[shading.toon]`.
+pub(super) static SHADING_TOON: Table<ToonShading> = toon("[shading.toon]");
+/// The description of `[shading.silhouette]`.
+pub(super) static SHADING_SILHOUETTE: Table<SilhouetteShading> = silhouette("[shading.silhouette]");
+/// The description of `[surface.toon]`.
+pub(super) static SURFACE_TOON: Table<ToonShading> = toon("[surface.toon]");
+/// The description of `[surface.silhouette]`.
+pub(super) static SURFACE_SILHOUETTE: Table<SilhouetteShading> = silhouette("[surface.silhouette]");
+
+/// Each tone begins beyond the one before, and is opaque.
+fn check_tones(toon: &ToonShading, check: &mut Check) {
+    if !check.sound(&["tones"]) {
+        return;
+    }
+    for (i, tone) in toon.tones.iter().enumerate() {
+        let mut contradiction = |what: String, remedy: &str| {
+            let problem = Problem::Contradiction { what, remedy: remedy.into() };
+            check.fault_in(&format!("tones[{i}]"), problem);
+        };
+        if tone.color[3] != 1.0 {
+            let what = format!("tone {i} has an opacity, and a tone is what a colour is multiplied by");
+            contradiction(what, "write it as \"#rrggbb\"; what is translucent is a matter of [transfer]");
+        }
+        if i > 0 && tone.at <= toon.tones[i - 1].at {
+            let what = format!("tone {i} begins at {}, and the one before at {}", tone.at, toon.tones[i - 1].at);
+            contradiction(what, "put the tones in ascending order of `at`");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file::{Overrides, parse};
+    use crate::plan::{Plan, Quantity};
+    use crate::tables::{Scene, ShadingModel};
+    use std::path::Path;
+
+    fn scene(rest: &str) -> Result<Scene, String> {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
+        parse(&text, Path::new("s"), &Overrides::default()).map_err(|faults| faults.to_string())
+    }
+
+    const REGULAR: &str = "[transfer]\nkind = \"regular\"\n[shading]\n";
+
+    fn needs(rest: &str) -> Vec<(Quantity, String)> {
+        let plan = Plan::new(&scene(rest).unwrap());
+        plan.needs.iter().filter(|n| n.quantity != Quantity::Value).map(|n| (n.quantity, n.key.clone())).collect()
+    }
+
+    fn idle(rest: &str) -> Vec<String> {
+        Plan::new(&scene(rest).unwrap()).idle_keys.into_iter().map(|idle| idle.key).collect()
+    }
+
+    #[test]
+    fn the_defaults_are_the_two_tones_of_the_format() {
+        let read = scene(&format!(
+            "{REGULAR}model = \"toon\"\ntoon = {{ offset = 0.0, tones = [[0, \"#404040\"], [0.5, \"white\"]] }}\n\
+             silhouette = {{ offset = 0.45 }}\nview_opacity = 0.0\n"
+        ))
+        .unwrap();
+        let shading = read.shading.unwrap();
+        assert_eq!(shading.model, ShadingModel::Toon);
+        assert_eq!(shading.toon, Some(super::ToonShading::default()));
+        assert_eq!(shading.silhouette, Some(super::SilhouetteShading::default()));
+    }
+
+    /// Each effect asks for the normal and nothing else, and one tone for nothing.
+    #[test]
+    fn normals_alone_are_asked_for() {
+        let gradient = |key: &str| vec![(Quantity::Gradient, key.to_owned())];
+        assert_eq!(needs(&format!("{REGULAR}model = \"toon\"\n")), gradient("shading.model"));
+        let one = "model = \"toon\"\ntoon.tones = [[0, \"white\"]]\n";
+        assert_eq!(needs(&format!("{REGULAR}{one}")), []);
+        assert_eq!(needs(&format!("{REGULAR}{one}silhouette = {{}}\n")), gradient("shading.silhouette"));
+        assert_eq!(needs(&format!("{REGULAR}{one}view_opacity = 1\n")), gradient("shading.view_opacity"));
+        let of_surface = |key: &str| vec![(Quantity::Surface, "surface".into()), (Quantity::SurfaceNormal, key.into())];
+        assert_eq!(needs("[surface]\niso = 1\nlook = \"toon\"\n"), of_surface("surface.look"));
+        assert_eq!(needs("[surface]\niso = 1\nsilhouette = {}\n"), of_surface("surface.silhouette"));
+        assert_eq!(needs("[surface]\niso = 1\n").len(), 1);
+    }
+
+    #[test]
+    fn keys_without_effect_are_told() {
+        assert_eq!(idle(&format!("{REGULAR}[shading.toon]\noffset = 1\n")), ["shading.toon"]);
+        assert_eq!(
+            idle(&format!("{REGULAR}model = \"toon\"\nambient = 0\nshininess = 3\n")),
+            ["shading.ambient", "shading.shininess"]
+        );
+        let opaque = "[surface]\niso = 1\nlook = \"toon\"\ncolor = \"red\"\n";
+        assert_eq!(idle(opaque), [""; 0]);
+        assert_eq!(idle(&format!("{opaque}view_opacity = 1\n")), ["surface.view_opacity"]);
+        assert_eq!(idle("[surface]\niso = 1\n[surface.toon]\noffset = 1\n"), ["surface.toon"]);
+        assert_eq!(idle("[transfer]\n[shading]\nmodel = \"toon\"\n"), ["shading"]);
+        // The light of a surface is that of [shading] or of the scene.
+        assert_eq!(idle(&format!("light = [0, 0, 1]\n{opaque}").replace("light", "[shading]\nlight")), [""; 0]);
+    }
+
+    /// Tables that the file has take the place of the preset's.
+    #[test]
+    fn presets_supply_tables() {
+        let given = |rest: &str| scene(rest).unwrap();
+        for (name, tones, offset) in [("toon", 3, 0.0), ("hatch-fig2", 2, 0.5)] {
+            let text = format!("drypoint = 1\npreset = \"{name}\"\nvolume.file = \"a\"\n");
+            let read = |rest: &str| parse(&format!("{text}{rest}"), Path::new("s"), &Overrides::default()).unwrap();
+            let whole = read("");
+            let toon = whole.surface.as_ref().unwrap().tones().unwrap();
+            assert_eq!((toon.tones.len(), toon.offset), (tones, offset));
+            assert_eq!((whole.transfer.as_ref(), &Plan::new(&whole).idle_keys[..]), (None, &[][..]));
+            let own = read("[surface]\niso = 3\n");
+            assert_eq!(own.surface, given("[surface]\niso = 3\n").surface);
+            assert_eq!(own.shading, whole.shading);
+            assert_eq!(Plan::new(&read("[surface]\n[shading]\n")).idle_keys[0].key, "preset");
+        }
+    }
+
+    #[test]
+    fn tones_ascend_and_are_opaque() {
+        let fault = |tones: &str| scene(&format!("{REGULAR}model = \"toon\"\ntoon.tones = {tones}\n")).unwrap_err();
+        assert_eq!(
+            fault("[[0, \"black\"], [0, \"white\"]]"),
+            "tone 1 begins at 0, and the one before at 0\n  at s:8:29, key shading.toon.tones[1]\n  \
+             put the tones in ascending order of `at`"
+        );
+        assert!(fault("[[0, \"#00000080\"]]").starts_with("tone 0 has an opacity"));
+        for wrong in ["[]", "[[0]]", "[[\"red\", 0]]", "[[0, \"rot\"]]", "3", "[[nan, \"red\"]]"] {
+            assert!(fault(wrong).contains("shading.toon.tones"), "{wrong}");
+        }
+        let negative = scene(&format!("{REGULAR}view_opacity = -1\n")).unwrap_err();
+        assert!(negative.contains("write a number of at least 0"), "{negative}");
+    }
+}

@@ -1,0 +1,3 @@
+//! Nagy, Schneider and Westermann 2002, in pictures of phantoms whose truth is known.
+
+mod toon;
