@@ -3,5 +3,6 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod interactive_volume_illustration;
 mod style_transfer_functions;
 mod volume_stippling;
