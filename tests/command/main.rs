@@ -20,6 +20,7 @@ mod raw;
 mod repeatable;
 mod sheet;
 mod stats;
+mod strokes;
 mod styles;
 mod usage;
 mod wedge;

@@ -7,11 +7,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use toml::Value;
 
 /// Keys that the generator does not draw, each with why: a key with all below it.
-const NOT_DRAWN: [(&str, &str); 7] = [
+const NOT_DRAWN: [(&str, &str); 9] = [
     ("drypoint", "it has one value"),
     ("preset", "it fills in tables that a drawn scene has itself"),
     ("picture.width", "another word for size, which is drawn"),
     ("picture.height", "another word for size, which is drawn"),
+    ("hatching", "it is drawn over a picture, as stipples are"),
+    ("outlines", "they are drawn over a picture, as stipples are"),
     ("stipples", "they are drawn over a picture, not by its rays, which the properties are about"),
     ("styles.*", "it names a file: styles are handed over decoded, themes are drawn"),
     ("volume.raw", "the layout of a file: voxels are handed over, of every type"),

@@ -29,8 +29,8 @@ fn is_of_a_phantom(path: &Path) -> bool {
     std::fs::read_to_string(path).unwrap().contains("\nphantom = ")
 }
 
-/// Dots of a scene on a small page, and how much of it they cover.
-fn stippled(path: &Path) -> (usize, f64) {
+/// Dots and lines of a scene on a small page, and how much of it they cover.
+fn drawn(path: &Path) -> ([usize; 2], f64) {
     let in_mm = std::fs::read_to_string(path).unwrap().contains("\nwidth = ");
     let small = if in_mm { ("picture.dpi", "30") } else { ("picture.size", "[96, 96]") };
     let scene = load(path, &[small, ("picture.background", "none")].into_iter().collect()).unwrap();
@@ -39,10 +39,10 @@ fn stippled(path: &Path) -> (usize, f64) {
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
     let (frame, _) = Drawing::new(&job, &marking, &mut counts).unwrap().frame(0, &|_| ()).unwrap();
-    let dots = frame.marks()[0];
+    let marks = frame.marks();
     let page = frame.painted(&job).unwrap();
     let coverage = &page.layers[0].channels[3];
-    (dots, coverage.iter().sum::<f64>() / coverage.len() as f64)
+    (marks, coverage.iter().sum::<f64>() / coverage.len() as f64)
 }
 
 #[test]
@@ -54,10 +54,13 @@ fn every_scene_gives_a_picture() {
             println!("skipped: no data for {}", path.display());
             continue;
         }
-        if std::fs::read_to_string(&path).unwrap().contains("\n[stipples]") {
-            let (dots, ink) = stippled(&path);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let [has_dots, has_lines] = ["\n[stipples]", "\n[outlines]"].map(|table| text.contains(table));
+        if has_dots || has_lines {
+            let ([dots, lines], ink) = drawn(&path);
             // A leg from afar is a few faint dots on so small a page.
-            assert!(dots > 20 && ink > 0.0 && ink < 0.9, "{}: {dots} dots, {ink}", path.display());
+            assert!(ink > 0.0 && ink < 0.9 && (dots > 20 || !has_dots), "{}: {dots} dots, {ink}", path.display());
+            assert!(lines > 10 || !has_lines, "{}: {lines} lines", path.display());
             seen += 1;
             continue;
         }

@@ -1,3 +1,5 @@
-//! Nagy, Schneider and Westermann 2002, in pictures of phantoms whose truth is known.
+//! Nagy, Schneider and Westermann 2002: what the paper and the specification say, in pictures and strokes of phantoms whose
+//! truth is known.
 
+mod outlines;
 mod toon;

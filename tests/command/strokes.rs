@@ -1,0 +1,169 @@
+//! `strokes`: a page of outlines, and lists of strokes ([HATCH-18], [IO-7]).
+
+use crate::folder::Folder;
+use serde_json::Value;
+
+const SCENE: &str = r##"drypoint = 1
+[volume]
+phantom = { name = "sphere", size = 32, type = "u8" }
+[camera]
+projection = "orthographic"
+[picture]
+width = "60 mm"
+height = "40 mm"
+dpi = 100
+[outlines]
+iso = 127.5
+"##;
+
+fn text(folder: &Folder, name: &str) -> String {
+    String::from_utf8(folder.read(name)).unwrap()
+}
+
+fn counts(folder: &Folder, line: &str) -> Value {
+    serde_json::from_str(&folder.good(line)).unwrap()
+}
+
+/// The vertices of a list of strokes in CSV: the stroke, then every other number.
+fn rows(csv: &str) -> Vec<(usize, Vec<f64>)> {
+    let row = |line: &str| {
+        let mut cells = line.split(',');
+        (cells.next().unwrap().parse().unwrap(), cells.map(|c| c.parse().unwrap()).collect())
+    };
+    csv.lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn one_circle_in_all_formats() {
+    let folder = Folder::new();
+    folder.write("ball.toml", SCENE);
+    for name in ["ball.svg", "ball.pdf", "ball.png", "ball.exr", "ball.csv", "ball.jsonl"] {
+        folder.good(&format!("strokes ball.toml -o {name} -q"));
+    }
+    let csv = text(&folder, "ball.csv");
+    assert_eq!(csv.lines().next(), Some("stroke,t,x,y,wx,wy,wz,radius,opacity"));
+    let rows = rows(&csv);
+    assert!(rows.len() > 30 && rows.iter().all(|(stroke, _)| *stroke == 0), "{}", rows.len());
+    // Closed: the first vertex comes again. The ball's radius is 0.3 of the box's side of 31, the box's diagonal fills the
+    // height of 40 mm, and a place is on a step of 0.001 mm; the field of 8 bits is off by a hundredth of a voxel or so.
+    assert_eq!(rows[0].1[1..], rows[rows.len() - 1].1[1..]);
+    let mm = 0.3 * 40.0 / 3.0f64.sqrt();
+    for (_, row) in &rows {
+        let from = (row[1] - 30.0).hypot(row[2] - 20.0);
+        assert!((from - mm).abs() < 0.02 * mm, "{from} {mm}");
+        assert_eq!(row[6], 0.175);
+    }
+    // A list that was saved is the same page again, to the byte.
+    let page = ["picture.width=\"60 mm\"", "picture.height=\"40 mm\"", "picture.dpi=100"];
+    for (list, again) in [("ball.csv", "again.jsonl"), ("ball.jsonl", "again.csv"), ("ball.csv", "again.svg")] {
+        let words = ["strokes", list, "-o", again].into_iter().chain(page.iter().flat_map(|p| ["--set", *p]));
+        let said = folder.run(words);
+        assert_eq!(said.code, Some(0), "{}", said.err);
+        assert!(said.err.contains("0 dots, 1 lines"), "{}", said.err);
+    }
+    assert_eq!(text(&folder, "again.csv"), csv);
+    assert_eq!(folder.read("again.jsonl"), folder.read("ball.jsonl"));
+    assert!(text(&folder, "ball.svg").contains("inkscape:label=\"1-outlines 0.35\""));
+}
+
+/// Only what is called for: no rays, no dots; and the count is that of the lines.
+#[test]
+fn counts_and_plan() {
+    let folder = Folder::new();
+    folder.write("ball.toml", SCENE);
+    let stats = counts(&folder, "strokes ball.toml -o a.svg -q --stats");
+    for name in ["rays", "samples", "gradients", "hessians", "points"] {
+        assert_eq!(stats[name].as_u64(), Some(0), "{name}");
+    }
+    assert_eq!(stats["strokes"].as_u64(), Some(1));
+    assert!(stats["preprocess"]["outline places"].as_u64().unwrap() > 50, "{stats}");
+    let plan = folder.good("plan ball.toml");
+    assert!(plan.contains("hidden strokes") && !plan.contains("rays"), "{plan}");
+    // Threads change no byte.
+    folder.good("render ball.toml -o one.svg -q --threads 1");
+    folder.good("render ball.toml -o two.svg -q --threads 2");
+    assert_eq!(folder.read("one.svg"), folder.read("two.svg"));
+}
+
+/// Dots and outlines on one page, each in its layer; `points` and `strokes` have their own alone.
+#[test]
+fn with_stipples_on_one_page() {
+    let folder = Folder::new();
+    folder.write("both.toml", format!("{SCENE}[stipples]\nk_max = 0.5\n"));
+    folder.good("render both.toml -o both.svg -q");
+    folder.good("points both.toml -o dots.svg -q");
+    folder.good("strokes both.toml -o lines.svg -q");
+    let labels = |name: &str| {
+        let svg = text(&folder, name);
+        let parts = svg.split("inkscape:label=\"").skip(1).filter(|part| !part.starts_with('%'));
+        parts.map(|part| part.split('"').next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(labels("both.svg"), ["1-stipples 0.35", "2-outlines 0.35"]);
+    assert_eq!(labels("dots.svg"), ["1-stipples 0.35"]);
+    assert_eq!(labels("lines.svg"), ["1-outlines 0.35"]);
+    let stats = counts(&folder, "strokes both.toml -o a.csv -q --stats");
+    assert_eq!(stats["points"].as_u64(), Some(0));
+    assert!(!stats["seconds"].as_object().unwrap().contains_key("points"), "{stats}");
+    // One pen for both is one layer.
+    let pen = "[page]\nplotter = true\n[[pen]]\nname = \"ink\"\nwidth = \"0.3 mm\"\n";
+    let one = SCENE.replace("[outlines]", "[outlines]\npen = \"ink\"");
+    folder.write("pen.toml", format!("{one}[stipples]\nk_max = 0.5\npen = \"ink\"\n{pen}"));
+    let told = folder.line("render pen.toml -o pen.svg").err;
+    assert!(told.contains("1-ink 0.3: ") && told.contains("m drawn"), "{told}");
+    assert_eq!(labels("pen.svg"), ["1-ink 0.3"]);
+}
+
+/// What `[surface]` says hides, drawn or not: a larger ball around hides all of the smaller.
+#[test]
+fn another_surface_hides() {
+    let folder = Folder::new();
+    for (look, lines) in [("none", 0), ("white", 0)] {
+        folder.write("ball.toml", format!("{SCENE}[surface]\niso = 20\nlook = \"{look}\"\n"));
+        let stats = counts(&folder, "strokes ball.toml -o a.svg -q --stats");
+        assert_eq!(stats["strokes"].as_u64(), Some(lines), "{look}");
+    }
+    // A smaller one inside hides nothing that is on the rim.
+    folder.write("ball.toml", format!("{SCENE}[surface]\niso = 200\n"));
+    assert_eq!(counts(&folder, "strokes ball.toml -o a.svg -q --stats")["strokes"].as_u64(), Some(1));
+    // Over the surface that is drawn.
+    assert_eq!(counts(&folder, "render ball.toml -o a.png -q --stats")["strokes"].as_u64(), Some(1));
+}
+
+/// A bare volume takes the preset, and a line that is too short is left out.
+#[test]
+fn a_bare_volume() {
+    let folder = Folder::new();
+    folder.good("phantom sphere --size 24 --type u8 -o ball.nrrd -q");
+    let stats = counts(&folder, "strokes ball.nrrd -o a.svg -q --stats");
+    assert!(stats["strokes"].as_u64().unwrap() > 0, "{stats}");
+    assert!(text(&folder, "a.svg").contains("width=\"160mm\""));
+    let told = folder.line("strokes ball.nrrd -o a.svg --set outlines.min_length=\"900mm\"").err;
+    assert!(told.contains("warning: the page is empty"), "{told}");
+}
+
+#[test]
+fn what_makes_no_page_is_refused() {
+    let folder = Folder::new();
+    folder.write("ball.toml", SCENE);
+    folder.write("plain.toml", "drypoint = 1\n[volume]\nphantom = { name = \"sphere\", size = 8 }\n");
+    folder.write("dots.csv", "x,y,wx,wy,wz,radius,opacity\n1,2,0,0,0,0.1,1\n");
+    for (line, want) in [
+        ("strokes ball.toml -o ball.tiff", ".tiff is the suffix of no picture format that is written"),
+        ("strokes plain.toml -o a.svg", "the scene has no strokes"),
+        ("points ball.toml -o a.svg", "the scene has no stipples"),
+        ("strokes ball.toml -o a.svg --set outlines.pen=red", "there is no pen \"red\""),
+        ("strokes ball.toml -o a.svg --set outlines.iso=high", "outlines.iso cannot be \"high\""),
+        ("strokes ball.toml -o a.svg --set outlines.width=3", "outlines.width cannot be 3"),
+        (
+            "strokes ball.toml -o a.svg --set outlines.min_length=\"2voxels\"",
+            "outlines.min_length cannot be \"2voxels\"",
+        ),
+        ("strokes dots.csv -o a.svg", "the list has dots and no strokes"),
+        ("strokes dots.csv -o a.svg --preset outline", "a list of lines has no use for --preset"),
+        ("cost ball.toml", "what accuracy costs is measured on the volume, which this scene does not draw itself"),
+    ] {
+        let told = folder.refused(line);
+        assert!(told.starts_with(&format!("error: {want}")), "{line}: {told}");
+        assert_eq!(told.lines().count(), 3, "{told}");
+    }
+}
