@@ -3,6 +3,7 @@
 //! This crate opens no file and knows no file format; what it reads and makes are plain types of `drypoint_scene`.
 
 pub mod field;
+pub mod interactive_volume_illustration;
 pub mod labels;
 pub mod number;
 mod other_grid;
