@@ -177,7 +177,7 @@ impl<R: Real> Coefficients<R> {
 }
 
 /// Fills what lies outside the n samples from `pad` on; a sample is a run of `lanes` numbers.
-fn continue_lanes<R: Real>(data: &mut [R], lanes: usize, n: usize, pad: usize) {
+pub(super) fn continue_lanes<R: Real>(data: &mut [R], lanes: usize, n: usize, pad: usize) {
     let padded = data.len() / lanes;
     for i in pad + n..padded {
         for lane in 0..lanes {

@@ -17,6 +17,7 @@ mod prefilter;
 pub mod probe;
 mod ranges;
 mod sampler;
+pub mod smoothed;
 mod stencil;
 mod tensor;
 

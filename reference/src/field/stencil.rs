@@ -109,10 +109,15 @@ impl<'v> Stencils<'v> {
 
     /// The whole row of voxels at y and z.
     pub(super) fn read_row<R: Real>(&self, y: usize, z: usize, out: &mut [R]) {
+        self.read_run([0, y, z], out);
+    }
+
+    /// As many voxels of a row as asked for, from one on.
+    pub(super) fn read_run<R: Real>(&self, [start, y, z]: [usize; 3], out: &mut [R]) {
         let scale = self.scale;
         with_access!(self.volume, |a| {
             for (x, out) in out.iter_mut().enumerate() {
-                *out = number(a.at(x, y, z), scale);
+                *out = number(a.at(start + x, y, z), scale);
             }
         });
     }

@@ -1,35 +1,54 @@
 //! Interactive volume illustration (Nagy, Schneider and Westermann, Vision, Modeling and Visualization 2002).
 //!
-//! Lines on iso-surfaces: [`Pyramid`] leads to the cells of one, [`Seeds`] are those of them that strokes begin in (4.1).
-//! [`outlines`] are found anew for each camera. [`Sight`] brings strokes to the page, without what is hidden (4.3.2), and
-//! [`spread`] keeps them apart there.
+//! Lines on iso-surfaces: [`Pyramid`] leads to the cells of one, [`Seeds`] are those of them that strokes begin in, and
+//! [`Strokes`] grows a stroke along a line of curvature from each (3, 4.1, 4.2). [`outlines`] are found anew for each camera.
+//! [`Sight`] brings both to the page, without what is hidden (4.3.2), and [`spread`] keeps them apart there.
 //!
 //! Section 4.4: [`toon`] chooses a tone by the light, [`silhouette`] blackens what turns away from the eye, and
 //! [`view_opacity`] makes it more opaque.
 
 mod chain;
+mod counts;
+pub mod directions;
+mod front;
+mod ground;
+pub mod integrator;
 mod level;
 mod measures;
+mod orientation;
 mod outline;
+mod placement;
 mod project;
 mod pyramid;
 mod refine;
 mod rim;
+mod search;
 mod seeds;
 mod sight;
 pub mod silhouette;
 mod spacing;
+mod strokes;
 mod tetrahedra;
 mod thin;
 pub mod toon;
+mod umbilics;
 pub mod view_opacity;
 
+pub use counts::{HatchCounts, NoDirection, Rejected, Rejections, Scales, Stop, Stops};
+pub use ground::Ground;
 pub use measures::{Largest, Measure};
+pub use orientation::{Reference, longest_axis};
 pub use outline::{Outlines, outlines};
+pub use placement::Seed;
 pub use pyramid::Pyramid;
 pub use seeds::{SeedRule, Seeds};
 pub use sight::{Pen, Seen, Sight};
 pub use silhouette::Silhouette;
 pub use spacing::{Apart, spread};
+pub use strokes::{Family, Grown, Hatching, Strokes};
 pub use toon::Toon;
+pub use umbilics::{Directions, Rule, Thresholds};
 pub use view_opacity::ViewOpacity;
+
+#[cfg(test)]
+mod tests;

@@ -39,7 +39,7 @@ pub(in crate::field) fn smoothed<R: Real>(stencils: &Stencils<'_>, taps: &[Vec<f
 }
 
 /// Weights at 0, 1, … ⌊4σ⌋, normalized over all taps, those to the left counted too.
-fn half_taps(sigma: f64) -> Vec<f64> {
+pub(in crate::field) fn half_taps(sigma: f64) -> Vec<f64> {
     // At least one: σ = 0 leaves the samples as they are.
     let reach = (4.0 * sigma) as usize;
     let weight = |k: usize| if k == 0 { 1.0 } else { math::exp(-0.5 * (k as f64 / sigma) * (k as f64 / sigma)) };
@@ -50,7 +50,7 @@ fn half_taps(sigma: f64) -> Vec<f64> {
 
 /// The weights that make smoothed sample i of a line of n ≥ 2, and the first sample that they belong to. Taps beyond
 /// the border weight the samples that the line is continued from.
-fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize, Vec<R>) {
+pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize, Vec<R>) {
     let reach = half.len() - 1;
     let short = n.min(3);
     // Where a tap falls outside, the three samples at that border are read too.

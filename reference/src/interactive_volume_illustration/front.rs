@@ -1,0 +1,156 @@
+//! The polyline of a stroke: as few vertices as the curve allows, all of it in front of the surface ([HATCH-9], [HATCH-10]).
+
+use super::counts::HatchCounts;
+use super::ground::{index_inside, inside, normal};
+use super::integrator::{Piece, point, vertices};
+use super::placement::Seed;
+use super::strokes::Strokes;
+use crate::field::Outside;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::strokes::{Stroke, StrokeVertex};
+
+/// How often a segment that dips behind the surface is halved before the stroke is cut there.
+const HALVINGS: u32 = 8;
+
+/// How far, in voxels, the surface of a vertex is looked for, at how many places to either side, and in how many evaluations.
+const REACH: f64 = 1.0;
+const PLACES: u32 = 8;
+const EVALUATIONS: u32 = 40;
+
+/// A vertex of the polyline: its place on the curve, and where it is put.
+#[derive(Clone, Copy)]
+struct Vertex {
+    t: f64,
+    world: DVec3,
+}
+
+/// Vertices in a row; from one run to the next the stroke is broken.
+struct Runs(Vec<Vec<Vertex>>);
+
+impl Runs {
+    fn push(&mut self, vertex: Vertex) {
+        match self.0.last_mut() {
+            Some(run) => run.push(vertex),
+            None => self.0.push(vec![vertex]),
+        }
+    }
+
+    fn cut(&mut self) {
+        self.0.push(Vec::new());
+    }
+}
+
+impl Strokes<'_, '_> {
+    /// The stroke of a curve on which the seed is the beginning of piece `at_seed`; of one that is broken the part with the
+    /// seed, and none if that has no two vertices.
+    pub(super) fn polyline(
+        &self,
+        pieces: &[Piece],
+        at_seed: usize,
+        closed: bool,
+        seed: &Seed,
+        counts: &mut HatchCounts,
+    ) -> Option<Stroke> {
+        if pieces.is_empty() {
+            return None;
+        }
+        let mut runs = Runs(vec![Vec::new()]);
+        let mut before: Option<Vertex> = None;
+        for t in vertices(pieces, self.how().chord) {
+            let next = self.put_back(point(pieces, t), seed.target).map(|world| Vertex { t, world });
+            match (before, next) {
+                (Some(a), Some(b)) => self.segment(pieces, seed.target, [a, b], HALVINGS, &mut runs),
+                (None, Some(b)) => runs.push(b),
+                (_, None) => runs.cut(),
+            }
+            before = next;
+        }
+        let broken = runs.0.len() > 1;
+        counts.cut += u64::from(broken);
+        let at = at_seed as f64;
+        let holds = |run: &Vec<Vertex>| run.first().is_some_and(|v| v.t <= at) && run.last().is_some_and(|v| v.t >= at);
+        let mut run = runs.0.into_iter().find(holds)?;
+        let closed = closed && !broken;
+        if closed {
+            // Its last vertex is its first.
+            run.pop();
+        }
+        let places: Vec<_> = run.iter().map(|v| v.world).collect();
+        self.finished(&places, closed, seed)
+    }
+
+    /// Adds the end of a segment, and what must come between so that none of it lies behind the surface.
+    fn segment(&self, pieces: &[Piece], target: f64, [a, b]: [Vertex; 2], halvings: u32, runs: &mut Runs) {
+        if self.stays_in_front([a.world, b.world]) {
+            runs.push(b);
+            return;
+        }
+        let t = 0.5 * (a.t + b.t);
+        let middle = (halvings > 0).then(|| self.put_back(point(pieces, t), target)).flatten();
+        match middle.map(|world| Vertex { t, world }) {
+            Some(middle) => {
+                self.segment(pieces, target, [a, middle], halvings - 1, runs);
+                self.segment(pieces, target, [middle, b], halvings - 1, runs);
+            }
+            None => {
+                runs.cut();
+                runs.push(b);
+            }
+        }
+    }
+
+    /// A place moved along its normal to where the field has a value; none where there is none near.
+    pub(super) fn put_back(&self, x: DVec3, target: f64) -> Option<DVec3> {
+        let index = inside(self.ground(), x)?;
+        if (self.ground().value(index) - target).abs() <= self.near(target) {
+            return Some(x);
+        }
+        let (n, _) = normal(self.ground(), index)?;
+        let reach = REACH / (self.ground().grid().inverse_axes() * n).length();
+        let s = self.meets(x, n, target, reach, PLACES, EVALUATIONS)?;
+        Some(x + n * s)
+    }
+
+    /// Whether a segment lies in front of the surface at its middle and where it passes from cell to cell; without a surface
+    /// it always does ([HATCH-16]).
+    fn stays_in_front(&self, [a, b]: [DVec3; 2]) -> bool {
+        let Some(iso) = self.iso() else { return true };
+        let (ground, grid) = (self.ground(), self.ground().grid());
+        let (from, to) = (grid.to_index(a), grid.to_index(b));
+        let in_front = |s: f64| {
+            let value = index_inside(ground, from + (to - from) * s).map(|at| ground.value(at));
+            value.is_some_and(|value| match ground.outside() {
+                Outside::Low => value <= iso,
+                Outside::High => value >= iso,
+            })
+        };
+        let faces = (0..3).flat_map(|a| {
+            let (lo, hi) = (from[a].min(to[a]), from[a].max(to[a]));
+            let (first, last) = (lo.floor() as i64 + 1, hi.ceil() as i64 - 1);
+            (first..=last).map(move |face| (face as f64 - from[a]) / (to[a] - from[a]))
+        });
+        in_front(0.5) && faces.map(|s| s.clamp(0.0, 1.0)).all(in_front)
+    }
+
+    /// The stroke of a polyline, with normals and u; none if it has no two vertices or if one has no normal.
+    fn finished(&self, places: &[DVec3], closed: bool, seed: &Seed) -> Option<Stroke> {
+        if places.len() < 2 {
+            return None;
+        }
+        let mut length = 0.0;
+        let mut along = vec![0.0];
+        for pair in places.windows(2) {
+            length += pair[0].distance(pair[1]);
+            along.push(length);
+        }
+        let whole = if closed { length + places[places.len() - 1].distance(places[0]) } else { length };
+        let vertex = |(&world, along): (&DVec3, f64)| {
+            let (normal, _) = normal(self.ground(), inside(self.ground(), world)?)?;
+            Some(StrokeVertex { world, normal, u: if whole > 0.0 { along / whole } else { 0.0 } })
+        };
+        let vertices = places.iter().zip(along).map(vertex).collect::<Option<Vec<_>>>()?;
+        let [nx, ny, _] = self.ground().grid().dims();
+        let [x, y, z] = seed.cell;
+        Some(Stroke { vertices, closed, key: ((z * ny + y) * nx + x) as u64 })
+    }
+}

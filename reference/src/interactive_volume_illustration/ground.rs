@@ -1,0 +1,105 @@
+//! What strokes ask of a field, whatever its kernel.
+
+use crate::field::normal::outward;
+use crate::field::{Field, Outside, Sampler};
+use crate::number::{Sym3, Vec3};
+use crate::with_sampler;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::space::Grid;
+
+/// A field as strokes grow on it: positions are in index space inside the box of [SPACE-1], derivatives in world space, times
+/// 2^−e ([SPACE-4]).
+pub trait Ground: Sync {
+    /// Where it lies.
+    fn grid(&self) -> &Grid;
+
+    /// Which values are outside ([NORM-1]).
+    fn outside(&self) -> Outside;
+
+    /// Lowest and highest value.
+    fn range(&self) -> [f64; 2];
+
+    /// e.
+    fn exponent(&self) -> i32;
+
+    /// The length of a gradient, times 2^−e, at or below which it is rounding ([PREC-3]).
+    fn no_normal_below(&self) -> f64;
+
+    /// Whether a cell touches a masked voxel ([PREC-2]).
+    fn masked(&self, cell: [usize; 3]) -> bool;
+
+    /// The cell of a position.
+    fn cell(&self, index: Vec3<f64>) -> [usize; 3];
+
+    /// The value.
+    fn value(&self, index: Vec3<f64>) -> f64;
+
+    /// The gradient by the field's estimator.
+    fn gradient(&self, index: Vec3<f64>) -> Vec3<f64>;
+
+    /// The Hessian by the field's estimator, after the gradient that it belongs to.
+    fn second(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>);
+}
+
+impl Ground for Field<'_, f64> {
+    fn grid(&self) -> &Grid {
+        self.volume().grid()
+    }
+
+    fn outside(&self) -> Outside {
+        self.reconstruction().outside
+    }
+
+    fn range(&self) -> [f64; 2] {
+        self.volume().range()
+    }
+
+    fn exponent(&self) -> i32 {
+        self.scale_exponent()
+    }
+
+    fn no_normal_below(&self) -> f64 {
+        self.no_normal_below()
+    }
+
+    fn masked(&self, cell: [usize; 3]) -> bool {
+        self.volume().mask().is_some_and(|mask| mask.touches_cell(cell))
+    }
+
+    fn cell(&self, index: Vec3<f64>) -> [usize; 3] {
+        with_sampler!(self, |s| s.cell(index))
+    }
+
+    fn value(&self, index: Vec3<f64>) -> f64 {
+        with_sampler!(self, |s| s.value(index))
+    }
+
+    fn gradient(&self, index: Vec3<f64>) -> Vec3<f64> {
+        with_sampler!(self, |s| s.gradient(index))
+    }
+
+    fn second(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>) {
+        with_sampler!(self, |s| s.hessian(index))
+    }
+}
+
+/// A place of the world in index space; none outside the volume's box and in cells that touch a masked voxel.
+pub(super) fn inside(ground: &dyn Ground, world: DVec3) -> Option<Vec3<f64>> {
+    index_inside(ground, ground.grid().to_index(world))
+}
+
+/// The same of a place in index space.
+pub(super) fn index_inside(ground: &dyn Ground, index: DVec3) -> Option<Vec3<f64>> {
+    let [lo, hi] = ground.grid().index_box();
+    if !(index.cmpge(lo).all() && index.cmple(hi).all()) {
+        return None;
+    }
+    let index = Vec3::from_glam(index);
+    (!ground.masked(ground.cell(index))).then_some(index)
+}
+
+/// N and ‖g‖, in the value's unit per world unit times 2^−e; none where the gradient is rounding.
+pub(super) fn normal(ground: &dyn Ground, index: Vec3<f64>) -> Option<(DVec3, f64)> {
+    let gradient = ground.gradient(index);
+    outward(gradient, ground.outside(), ground.no_normal_below()).map(|n| (n.to_glam(), gradient.length()))
+}

@@ -1,0 +1,108 @@
+//! A piece of a curve: the cubic Hermite between two places with their directions ([HATCH-8]).
+
+use drypoint_scene::glam::DVec3;
+
+/// Places on a piece among which the start of a search is chosen.
+const STARTS: u32 = 8;
+
+/// A cubic Hermite, p(s) for s in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// p(0) and p(1).
+    pub ends: [DVec3; 2],
+    /// p'(0) and p'(1): the directions times the step.
+    pub tangents: [DVec3; 2],
+}
+
+impl Piece {
+    /// p(s) = (1 + 2s)(1 − s)² p₀ + s(1 − s)² p'₀ + s²(3 − 2s) p₁ − s²(1 − s) p'₁.
+    pub fn point(&self, s: f64) -> DVec3 {
+        let r = 1.0 - s;
+        let ([p, q], [t, u]) = (self.ends, self.tangents);
+        p * ((1.0 + 2.0 * s) * r * r) + t * (s * r * r) + q * (s * s * (3.0 - 2.0 * s)) - u * (s * s * r)
+    }
+
+    /// p'(s).
+    pub fn tangent(&self, s: f64) -> DVec3 {
+        let r = 1.0 - s;
+        let ([p, q], [t, u]) = (self.ends, self.tangents);
+        (q - p) * (6.0 * s * r) + t * (r * (1.0 - 3.0 * s)) - u * (s * (2.0 - 3.0 * s))
+    }
+
+    /// What of it lies in [0, s], again as a piece: the same cubic.
+    pub fn until(&self, s: f64) -> Self {
+        Self { ends: [self.ends[0], self.point(s)], tangents: [self.tangents[0] * s, self.tangent(s) * s] }
+    }
+
+    /// The same curve from its end to its beginning.
+    pub fn reversed(&self) -> Self {
+        let ([p, q], [t, u]) = (self.ends, self.tangents);
+        Self { ends: [q, p], tangents: [-u, -t] }
+    }
+
+    /// The parameter of the point nearest to a place, and its distance: Gauss–Newton on (p(s) − x)·p'(s) from the best of
+    /// nine starts. On a piece that hardly bends the second derivative does not matter.
+    pub fn nearest(&self, x: DVec3) -> (f64, f64) {
+        let distance = |s: f64| self.point(s).distance(x);
+        let starts = (0..=STARTS).map(|i| f64::from(i) / f64::from(STARTS));
+        let (mut s, mut at) = (0.0, f64::INFINITY);
+        for (start, d) in starts.map(|start| (start, distance(start))) {
+            if d < at {
+                (s, at) = (start, d);
+            }
+        }
+        loop {
+            let t = self.tangent(s);
+            let square = t.length_squared();
+            if square == 0.0 {
+                return (s, at);
+            }
+            let next = (s - (self.point(s) - x).dot(t) / square).clamp(0.0, 1.0);
+            let d = distance(next);
+            if d >= at || d.is_nan() {
+                return (s, at);
+            }
+            (s, at) = (next, d);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn piece() -> Piece {
+        let (a, b) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 1.5, 4.0));
+        Piece { ends: [a, b], tangents: [DVec3::new(0.5, 0.7, 0.1), DVec3::new(1.1, -0.4, 0.9)] }
+    }
+
+    /// A Hermite of a cubic is that cubic: p(s) = (s³, s², s).
+    #[test]
+    fn it_is_the_cubic_of_its_ends() {
+        let p = Piece { ends: [DVec3::ZERO, DVec3::ONE], tangents: [DVec3::Z, DVec3::new(3.0, 2.0, 1.0)] };
+        for s in [0.0, 0.25, 0.5, 0.8, 1.0] {
+            assert!(p.point(s).distance(DVec3::new(s * s * s, s * s, s)) < 1e-15);
+            assert!(p.tangent(s).distance(DVec3::new(3.0 * s * s, 2.0 * s, 1.0)) < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_part_and_the_way_back_are_the_same_curve() {
+        let (whole, part, back) = (piece(), piece().until(0.3), piece().reversed());
+        for s in [0.0, 0.2, 0.7, 1.0] {
+            assert!(part.point(s).distance(whole.point(0.3 * s)) < 1e-15);
+            assert!(back.point(1.0 - s).distance(whole.point(s)) < 1e-15);
+            assert!(back.tangent(1.0 - s).distance(-whole.tangent(s)) < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_nearest_point_is_found() {
+        let p = piece();
+        for s in [0.0, 0.13, 0.5, 0.77, 1.0] {
+            let off = p.tangent(s).normalize().any_orthonormal_vector() * 0.05;
+            let (found, distance) = p.nearest(p.point(s) + off);
+            assert!((found - s).abs() < 1e-6 && (distance - 0.05).abs() < 1e-9, "{s} {found} {distance}");
+        }
+    }
+}

@@ -1,0 +1,384 @@
+//! Curves along a field of lines: RK4(3) with first-same-as-last, adaptive steps and dense output ([HATCH-4], [HATCH-8];
+//! Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4; Stalling and Hege 1995).
+//!
+//! A field of lines has directions without sign: v and −v are the same. So the stages of a step are turned to its first one,
+//! k₁, and the new direction k₅ to k₄; no orientation of the whole field is needed, and there may be none.
+
+use super::Piece;
+use drypoint_scene::glam::DVec3;
+
+/// cos 60°: a stage that turns by more belongs to no smooth line.
+const SMOOTH: f64 = 0.5;
+
+/// Bisections that find where a piece has turned by the largest angle: to 2⁻³⁰ of it.
+const BISECTIONS: usize = 30;
+
+/// How many times the distance that closes a curve it must have gone before it can come back.
+const OUT: f64 = 4.0;
+
+/// A field of lines.
+pub trait Lines {
+    /// Why there may be none.
+    type Cause;
+
+    /// The direction at a place, of length 1, with either sign.
+    ///
+    /// # Errors
+    /// There is none here.
+    fn at(&mut self, x: DVec3) -> Result<DVec3, Self::Cause>;
+
+    /// Where a step ends instead that has come off what the curve is to stay on; none where it is fine.
+    fn put_back(&mut self, _x: DVec3) -> Option<DVec3> {
+        None
+    }
+}
+
+/// A place that a curve may come to, to end there.
+#[derive(Clone, Copy, Debug)]
+pub struct Goal {
+    /// Where it is.
+    pub at: DVec3,
+    /// The direction of a curve that comes to it.
+    pub along: DVec3,
+    /// How near a curve must pass.
+    pub within: f64,
+}
+
+/// How far and how exactly a curve is followed; all lengths in the unit of the places.
+#[derive(Clone, Copy, Debug)]
+pub struct Control {
+    /// The most that a step may err by, as it estimates itself: ‖h/6·(k₄ − k₅)‖.
+    pub tolerance: f64,
+    /// The first step.
+    pub first: f64,
+    /// The least step; a curve that needs a smaller one ends.
+    pub min_step: f64,
+    /// The largest step.
+    pub max_step: f64,
+    /// The arc length.
+    pub length: f64,
+    /// cos of the largest angle to the first direction; −1: any.
+    pub cos_max_angle: f64,
+    /// Where the curve is closed.
+    pub goal: Option<Goal>,
+}
+
+/// Why a curve ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End<C> {
+    /// It has its length.
+    Length,
+    /// Its direction is too far from the first.
+    Angle,
+    /// The field has no direction, whatever the step.
+    Field(C),
+    /// The lines of the field turn within the smallest step.
+    Turns,
+    /// The tolerance asks for a smaller step than the smallest.
+    Step,
+    /// It is at its goal, and its last piece ends there.
+    Closed,
+}
+
+/// One way from a place.
+#[derive(Clone, Debug)]
+pub struct Half<C> {
+    /// One after another.
+    pub pieces: Vec<Piece>,
+    /// Its arc length, the sum of the steps.
+    pub length: f64,
+    /// Why it ends.
+    pub end: End<C>,
+    /// How often the field was asked.
+    pub evaluations: u32,
+    /// Steps that were tried again.
+    pub rejected: u32,
+}
+
+/// What is wrong with a step.
+enum Fault<C> {
+    Field(C),
+    Turns,
+    /// The error is too large; the factor for the next try.
+    Error(f64),
+}
+
+/// A step that is fine.
+struct Step {
+    piece: Piece,
+    /// k₅, the next k₁.
+    next: DVec3,
+    /// For the next step.
+    factor: f64,
+}
+
+/// Follows the line from `start` along `along`, the field's direction there with the sign that is wanted.
+pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Control) -> Half<L::Cause> {
+    let mut half = Half { pieces: Vec::new(), length: 0.0, end: End::Length, evaluations: 0, rejected: 0 };
+    let (mut x, mut k, mut h) = (start, along, control.first.min(control.max_step));
+    loop {
+        let left = control.length - half.length;
+        if left <= 0.0 {
+            return half;
+        }
+        let last = h >= left;
+        let step = if last { left } else { h };
+        match try_step(field, [x, k], step, control.tolerance, &mut half.evaluations) {
+            Ok(done) => {
+                if let Some((piece, share, end)) = ends(&done, along, half.length, step, control) {
+                    half.pieces.push(piece);
+                    half.length += share * step;
+                    half.end = end;
+                    return half;
+                }
+                half.pieces.push(done.piece);
+                half.length = if last { control.length } else { half.length + step };
+                (x, k) = (done.piece.ends[1], done.next);
+                h = (step * done.factor).min(control.max_step);
+            }
+            Err(fault) if step <= control.min_step => {
+                half.end = match fault {
+                    Fault::Field(cause) => End::Field(cause),
+                    Fault::Turns => End::Turns,
+                    Fault::Error(_) => End::Step,
+                };
+                return half;
+            }
+            Err(fault) => {
+                half.rejected += 1;
+                let factor = if let Fault::Error(factor) = fault { factor } else { 0.5 };
+                h = (step * factor).max(control.min_step);
+            }
+        }
+    }
+}
+
+/// A step of classical RK4 with its error by the third-order solution that has k₅ in place of k₄, and the factor for the
+/// next: clamp(0.9·(tol/err)^¼, 0.2, 4).
+fn try_step<L: Lines>(
+    field: &mut L,
+    [x, k1]: [DVec3; 2],
+    h: f64,
+    tolerance: f64,
+    evaluations: &mut u32,
+) -> Result<Step, Fault<L::Cause>> {
+    let mut stage = |field: &mut L, at: DVec3, like: DVec3| {
+        *evaluations += 1;
+        let v = field.at(at).map_err(Fault::Field)?;
+        let v = if v.dot(like) < 0.0 { -v } else { v };
+        if v.dot(like) < SMOOTH { Err(Fault::Turns) } else { Ok(v) }
+    };
+    let k2 = stage(field, x + k1 * (0.5 * h), k1)?;
+    let k3 = stage(field, x + k2 * (0.5 * h), k1)?;
+    let k4 = stage(field, x + k3 * h, k1)?;
+    let mut to = x + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0);
+    let mut k5 = stage(field, to, k4)?;
+    let error = (k4 - k5).length() * (h / 6.0);
+    let factor = if error > 0.0 { (0.9 * (tolerance / error).sqrt().sqrt()).clamp(0.2, 4.0) } else { 4.0 };
+    if error > tolerance {
+        // Another try is a shorter one.
+        return Err(Fault::Error(factor.min(0.9)));
+    }
+    if let Some(back) = field.put_back(to) {
+        to = back;
+        k5 = stage(field, to, k5)?;
+    }
+    Ok(Step { piece: Piece { ends: [x, to], tangents: [k1 * h, k5 * h] }, next: k5, factor })
+}
+
+/// Whether a step is the last: what of its piece counts, as a piece and as a share, and why it ends there.
+fn ends<C>(done: &Step, along: DVec3, before: f64, step: f64, control: &Control) -> Option<(Piece, f64, End<C>)> {
+    let piece = &done.piece;
+    if let Some(goal) = control.goal
+        && before > OUT * goal.within
+        && goal.at.distance(piece.ends[1]) <= step + goal.within
+    {
+        let (s, distance) = piece.nearest(goal.at);
+        if distance <= goal.within && s > 0.0 && piece.tangent(s).dot(goal.along) > SMOOTH * step {
+            let mut closed = piece.until(s);
+            closed.ends[1] = goal.at;
+            closed.tangents[1] = goal.along * (s * step);
+            return Some((closed, s, End::Closed));
+        }
+    }
+    if done.next.dot(along) < control.cos_max_angle {
+        let turned = |s: f64| {
+            let t = piece.tangent(s);
+            t.dot(along) < control.cos_max_angle * t.length()
+        };
+        let (mut lo, mut hi) = (0.0, 1.0);
+        for _ in 0..BISECTIONS {
+            let s = 0.5 * (lo + hi);
+            if turned(s) { hi = s } else { lo = s }
+        }
+        return Some((piece.until(lo), lo, End::Angle));
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{PI, TAU};
+
+    /// A field by a formula, whose sign jumps from place to place as no tracer must notice.
+    struct Formula<F>(F);
+
+    impl<F: Fn(DVec3) -> DVec3> Lines for Formula<F> {
+        type Cause = ();
+        fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
+            let v = (self.0)(x);
+            if v.length() < 1e-12 {
+                return Err(());
+            }
+            let flip = ((x.x * 7919.0).floor() + (x.y * 104729.0).floor()) as i64 % 2 == 0;
+            Ok(if flip { -v.normalize() } else { v.normalize() })
+        }
+    }
+
+    fn control(tolerance: f64, length: f64) -> Control {
+        Control {
+            tolerance,
+            first: 1.0,
+            min_step: 1e-9,
+            max_step: f64::INFINITY,
+            length,
+            cos_max_angle: -1.0,
+            goal: None,
+        }
+    }
+
+    fn circle(x: DVec3) -> DVec3 {
+        DVec3::new(-x.y, x.x, 0.0)
+    }
+
+    fn helix(x: DVec3) -> DVec3 {
+        DVec3::new(-x.y, x.x, 3.0)
+    }
+
+    fn end<C>(half: &Half<C>) -> DVec3 {
+        half.pieces[half.pieces.len() - 1].ends[1]
+    }
+
+    /// The global error after an arc of 40 on a circle of radius 20 and a helix of radius 10 is at most twice the tolerance,
+    /// from 10⁻¹ to 10⁻¹⁰, and falls with the fourth power of the number of steps: slope −3.8 or steeper.
+    #[test]
+    fn the_error_is_that_of_the_tolerance_and_of_fourth_order() {
+        let n = 109f64.sqrt();
+        let on_circle = |s: f64| DVec3::new((s / 20.0).cos(), (s / 20.0).sin(), 0.0) * 20.0;
+        let on_helix = |s: f64| DVec3::new(10.0 * (s / n).cos(), 10.0 * (s / n).sin(), 3.0 * s / n);
+        let helix_at_start = DVec3::new(0.0, 10.0, 3.0) / n;
+        let mut measured = [const { Vec::new() }; 2];
+        for power in 1..=10 {
+            let control = control(10f64.powi(-power), 40.0);
+            let halves = [
+                (trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &control), on_circle(40.0)),
+                (trace(&mut Formula(helix), DVec3::X * 10.0, helix_at_start, &control), on_helix(40.0)),
+            ];
+            for ((half, want), measured) in halves.into_iter().zip(&mut measured) {
+                let error = end(&half).distance(want);
+                assert!(error <= 2.0 * control.tolerance, "{error:e} at {:e}", control.tolerance);
+                assert_eq!((half.end, half.length), (End::Length, 40.0));
+                assert_eq!(half.evaluations as usize, 4 * half.pieces.len() + 4 * half.rejected as usize);
+                measured.push(((half.pieces.len() as f64).ln(), error.ln()));
+            }
+        }
+        for measured in measured {
+            let ((n0, e0), (n1, e1)) = (measured[4], measured[9]);
+            assert!((e1 - e0) / (n1 - n0) <= -3.8, "{}", (e1 - e0) / (n1 - n0));
+        }
+    }
+
+    /// Between the ends the cubic leaves the circle by h⁴/(384 r³), and as much again for what its ends err.
+    #[test]
+    fn between_the_steps_it_is_as_exact() {
+        let half = trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &control(1e-6, 40.0));
+        for piece in &half.pieces {
+            let h = piece.tangents[0].length();
+            for i in 0..=10 {
+                let off = (piece.point(f64::from(i) / 10.0).length() - 20.0).abs();
+                assert!(off <= h.powi(4) / (384.0 * 8000.0) * 1.1 + 1e-6, "{off:e} at {h}");
+            }
+        }
+    }
+
+    /// The other way round the same curve, mirrored: a helix turned by 180° about x is itself.
+    #[test]
+    fn both_ways_are_the_same() {
+        let along = DVec3::new(0.0, 10.0, 3.0) / 109f64.sqrt();
+        let [to, fro] = [along, -along].map(|k| trace(&mut Formula(helix), DVec3::X * 10.0, k, &control(1e-4, 40.0)));
+        assert_eq!(to.pieces.len(), fro.pieces.len());
+        for (a, b) in to.pieces.iter().zip(&fro.pieces) {
+            assert_eq!(a.ends[1], b.ends[1] * DVec3::new(1.0, -1.0, -1.0));
+        }
+    }
+
+    /// A circle is joined where it began, and a spiral that misses its beginning by more than is allowed is not.
+    #[test]
+    fn a_ring_closes_and_a_spiral_does_not() {
+        let goal = |along| Some(Goal { at: DVec3::X * 20.0, along, within: 0.25 });
+        let closing = Control { goal: goal(DVec3::Y), ..control(1e-4, 400.0) };
+        let ring = trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &closing);
+        assert_eq!((ring.end, end(&ring)), (End::Closed, DVec3::X * 20.0));
+        // Sixteen steps of 10⁻⁴ at the most, and half as much in the length of the last.
+        assert!((ring.length - 40.0 * PI).abs() < 2e-3, "{}", ring.length);
+        let spiral = |x: DVec3| circle(x) + x * (0.5 / (20.0 * TAU));
+        let along = spiral(DVec3::X * 20.0).normalize();
+        let closing = Control { goal: goal(along), ..closing };
+        assert_eq!(trace(&mut Formula(spiral), DVec3::X * 20.0, along, &closing).end, End::Length);
+    }
+
+    #[test]
+    fn it_ends_at_the_largest_angle() {
+        let control = Control { cos_max_angle: (PI / 4.0).cos(), ..control(1e-6, 400.0) };
+        let half = trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &control);
+        assert_eq!(half.end, End::Angle);
+        // The cubic's direction errs by h³/(96·√3·r³) or so, some 10⁻⁵ here.
+        assert!((half.length - 5.0 * PI).abs() < 1e-3, "{}", half.length);
+    }
+
+    /// Where the field ends the curve ends, the smallest step before it.
+    #[test]
+    fn it_goes_up_to_the_border_of_the_field() {
+        let inside = |x: DVec3| if x.x < 7.3 { DVec3::X } else { DVec3::ZERO };
+        let control = Control { min_step: 1e-3, max_step: 2.0, ..control(1e-3, 40.0) };
+        let half = trace(&mut Formula(inside), DVec3::ZERO, DVec3::X, &control);
+        assert_eq!(half.end, End::Field(()));
+        assert!(end(&half).x < 7.3 && end(&half).x > 7.3 - 2e-3, "{}", end(&half));
+        assert!(half.pieces.iter().all(|piece| piece.tangents[0].x <= 2.0));
+    }
+
+    /// A kink by less than 60° is gone round in small steps; one by more ends the curve.
+    #[test]
+    fn a_kink_ends_it() {
+        let kink = |degrees: f64| {
+            let (s, c) = degrees.to_radians().sin_cos();
+            let field = move |x: DVec3| if x.x < 5.0 { DVec3::X } else { DVec3::new(c, s, 0.0) };
+            let control = Control { min_step: 1e-3, ..control(1e-2, 20.0) };
+            trace(&mut Formula(field), DVec3::ZERO, DVec3::X, &control)
+        };
+        assert_eq!(kink(40.0).end, End::Length);
+        let turned = kink(70.0);
+        assert_eq!(turned.end, End::Turns);
+        assert!((end(&turned).x - 5.0).abs() < 2e-3);
+    }
+
+    /// A curve on the unit sphere along a field that leads off it stays on it, and asks once more for each step.
+    #[test]
+    fn a_step_that_comes_off_is_put_back() {
+        struct Climbing;
+        impl Lines for Climbing {
+            type Cause = ();
+            fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
+                Ok((circle(x) + x * 0.1).normalize())
+            }
+            fn put_back(&mut self, x: DVec3) -> Option<DVec3> {
+                Some(x.normalize())
+            }
+        }
+        let along = DVec3::new(0.1, 1.0, 0.0).normalize();
+        let half = trace(&mut Climbing, DVec3::X, along, &Control { first: 0.1, ..control(1e-3, 5.0) });
+        assert!(half.pieces.iter().all(|piece| (piece.ends[1].length() - 1.0).abs() < 1e-15));
+        assert_eq!(half.evaluations as usize, 5 * half.pieces.len() + 4 * half.rejected as usize);
+    }
+}

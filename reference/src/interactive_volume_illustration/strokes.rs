@@ -1,0 +1,320 @@
+//! Strokes along the lines of curvature, traced both ways from their seeds ([HATCH-4], [HATCH-8], [HATCH-9], [HATCH-11]).
+
+use super::counts::{HatchCounts, NoDirection, Rejected, Stop};
+use super::ground::{Ground, inside, normal};
+use super::integrator::{Control, End, Goal, Half, Lines, Piece, trace};
+use super::orientation::Reference;
+use super::placement::Seed;
+use super::umbilics::{Directions, Rule};
+use crate::field::Field;
+use crate::field::curvature::Curvature;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::math::{cos, scale_by_power_of_two};
+use drypoint_scene::space::Grid;
+use drypoint_scene::strokes::Stroke;
+use rayon::prelude::*;
+
+/// The share by which the larger |κ| must exceed the other to be called so.
+const TIE: f64 = 0.01;
+
+/// The largest step, in voxels: stages are then in neighbouring cells, and nothing is stepped over.
+const LARGEST_STEP: f64 = 2.0;
+
+/// The same times √(voxel/tolerance): an interpolated field has kinks at the faces of cells, and a step across one errs by its
+/// square, which the difference of two stages near its end does not show.
+const LARGEST_STEP_OVER_KINKS: f64 = 20.0;
+
+/// How far, in voxels, a step may come off its iso-surface before it is put back.
+const DRIFT: f64 = 0.5;
+
+/// The least part of a direction that lies in the tangent plane, cos 60°: surface and derivatives are of one place.
+const TANGENT: f64 = 0.5;
+
+/// What δ is at least beyond the chords' error, in voxels ([HATCH-7]).
+const CLEARANCE: f64 = 0.05;
+
+/// Which lines of curvature strokes follow; all are told apart by the value of their curvature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Those of the curvature that is larger in magnitude at the seed; within 1 %, of the larger one.
+    Larger,
+    /// Those of κ₁, the larger one.
+    Max,
+    /// Those of κ₂.
+    Min,
+}
+
+impl Family {
+    /// `Max` or `Min`, for a stroke that begins where these are the curvatures.
+    pub fn of(self, c: &Curvature<f64>) -> Self {
+        match self {
+            Self::Larger if c.k2.abs() > (1.0 + TIE) * c.k1.abs() => Self::Min,
+            Self::Larger => Self::Max,
+            named => named,
+        }
+    }
+
+    /// The other one; of `Larger` nothing.
+    fn other(self) -> Self {
+        match self {
+            Self::Max => Self::Min,
+            Self::Min => Self::Max,
+            Self::Larger => Self::Larger,
+        }
+    }
+
+    fn direction(self, c: &Curvature<f64>) -> DVec3 {
+        match self {
+            Self::Min => c.e2.to_glam(),
+            Self::Max | Self::Larger => c.e1.to_glam(),
+        }
+    }
+}
+
+/// How strokes are grown; lengths are in world units, angles in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hatching {
+    /// Of a whole stroke, both ways together.
+    pub length: f64,
+    /// Of a stroke along the other direction, as a share of it.
+    pub cross_length: f64,
+    /// Of a step of the integration.
+    pub tolerance: f64,
+    /// The least step.
+    pub min_step: f64,
+    /// δ, how far strokes lie in front of the surface; what chords take and 0.05 voxel at least.
+    pub offset: f64,
+    /// c, how far a chord may be from the curve.
+    pub chord: f64,
+    /// From the seed's direction, each way; 180: any.
+    pub max_angle: f64,
+    /// Which lines.
+    pub family: Family,
+    /// How directions are found.
+    pub rule: Rule,
+    /// Which way they run.
+    pub reference: Reference,
+}
+
+impl Hatching {
+    /// The defaults of a scene for a grid.
+    pub fn new(grid: &Grid) -> Self {
+        let voxel = grid.voxel();
+        Self {
+            length: 40.0 * voxel,
+            cross_length: 0.5,
+            tolerance: 0.01 * voxel,
+            min_step: 0.01 * voxel,
+            offset: 0.15 * voxel,
+            chord: 0.1 * voxel,
+            max_angle: 90.0,
+            family: Family::Larger,
+            rule: Rule::Scaled(Default::default()),
+            reference: Reference::cylindrical(grid),
+        }
+    }
+
+    /// δ, but no less than the chords and 0.05 voxel.
+    pub(super) fn in_front(&self, grid: &Grid) -> f64 {
+        self.offset.max(self.chord + CLEARANCE * grid.voxel())
+    }
+}
+
+/// Strokes of seeds, in their order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Grown {
+    /// Along the first direction, each with its seed.
+    pub strokes: Vec<(Seed, Stroke)>,
+    /// Along the other one, of the seeds that were to have one.
+    pub cross: Vec<(Seed, Stroke)>,
+    /// What was done.
+    pub counts: HatchCounts,
+}
+
+/// Grows strokes on a field.
+pub struct Strokes<'f, 'v> {
+    ground: &'f dyn Ground,
+    directions: Directions<'f, 'v>,
+    iso: Option<f64>,
+    how: Hatching,
+}
+
+impl<'f, 'v> Strokes<'f, 'v> {
+    /// On the surface f = iso of a field; without a value each stroke stays at the value of its cell's centre ([HATCH-16]). The
+    /// field has to be prepared for gradients, with the rule `raw` for Hessians. Nothing is computed yet.
+    pub fn new(field: &'f Field<'v, f64>, iso: Option<f64>, how: Hatching) -> Self {
+        Self { ground: field, directions: Directions::new(field, how.rule), iso, how }
+    }
+
+    /// On whatever ground, by the ground's own Hessians.
+    pub fn on(ground: &'f dyn Ground, iso: Option<f64>, how: Hatching) -> Self {
+        Self { ground, directions: Directions::raw(), iso, how }
+    }
+
+    /// What they grow on.
+    pub fn ground(&self) -> &'f dyn Ground {
+        self.ground
+    }
+
+    /// The principal directions.
+    pub fn directions(&self) -> &Directions<'f, 'v> {
+        &self.directions
+    }
+
+    /// The surface's value.
+    pub fn iso(&self) -> Option<f64> {
+        self.iso
+    }
+
+    /// How they are grown.
+    pub fn how(&self) -> &Hatching {
+        &self.how
+    }
+
+    /// The strokes of cells, in parallel and in their order; a second one along the other direction where `cross` says so for
+    /// the seed ([HATCH-11]).
+    pub fn grow_all(&self, cells: &[[usize; 3]], cross: impl Fn(&Seed) -> bool + Sync) -> Grown {
+        let each = |&cell: &[usize; 3]| {
+            let mut counts = HatchCounts::default();
+            let mut stroke = None;
+            let mut second = None;
+            match self.place(cell, &mut counts).and_then(|seed| Ok((seed, self.grow(&seed, &mut counts)?))) {
+                Ok((seed, grown)) => {
+                    second = if cross(&seed) { self.grow_across(&seed, &mut counts) } else { None }.map(|s| (seed, s));
+                    stroke = Some((seed, grown));
+                }
+                Err(rejected) => counts.rejected.count(rejected),
+            }
+            (stroke, second, counts)
+        };
+        let all: Vec<_> = cells.par_iter().map(each).collect();
+        let mut grown = Grown::default();
+        for (stroke, cross, counts) in all {
+            grown.strokes.extend(stroke);
+            grown.cross.extend(cross);
+            grown.counts += counts;
+        }
+        grown
+    }
+
+    /// The stroke of a seed.
+    ///
+    /// # Errors
+    /// It has no two vertices.
+    pub fn grow(&self, seed: &Seed, counts: &mut HatchCounts) -> Result<Stroke, Rejected> {
+        let stroke = self.follow(seed, seed.family, self.how.length, counts).ok_or(Rejected::Short)?;
+        counts.strokes += 1;
+        Ok(stroke)
+    }
+
+    /// The shorter stroke of a seed along the other principal direction ([HATCH-11]); none if it has no two vertices.
+    pub fn grow_across(&self, seed: &Seed, counts: &mut HatchCounts) -> Option<Stroke> {
+        let length = self.how.length * self.how.cross_length;
+        let stroke = self.follow(seed, seed.family.other(), length, counts)?;
+        counts.cross += 1;
+        Some(stroke)
+    }
+
+    fn follow(&self, seed: &Seed, family: Family, length: f64, counts: &mut HatchCounts) -> Option<Stroke> {
+        let mut counted = *counts;
+        let mut lines = OnSurface { strokes: self, family, target: seed.target, counts: &mut counted };
+        let along = self.how.reference.signed(lines.at(seed.world).ok()?, seed.world);
+        let voxel = self.ground.grid().voxel();
+        let control = Control {
+            tolerance: self.how.tolerance,
+            first: voxel,
+            min_step: self.how.min_step,
+            max_step: LARGEST_STEP.min(LARGEST_STEP_OVER_KINKS * (self.how.tolerance / voxel).sqrt()) * voxel,
+            length: 0.5 * length,
+            cos_max_angle: if self.how.max_angle >= 180.0 { -1.0 } else { cos(self.how.max_angle.to_radians()) },
+            goal: None,
+        };
+        // As near as its own error and a chord's: what is joined there shows no kink.
+        let within = self.how.chord + 5.0 * self.how.tolerance;
+        let goal = |at: DVec3, along: DVec3| Some(Goal { at, along, within });
+        let forward = trace(&mut lines, seed.world, along, &Control { goal: goal(seed.world, along), ..control });
+        let stop = stop(&forward.end);
+        let (pieces, at_seed, stops) = if stop == Stop::Closed {
+            (forward.pieces, 0, [Some(stop), None])
+        } else {
+            // The other half may come round to where this one ended.
+            let far = forward.pieces.last().filter(|_| stop == Stop::Length);
+            let far = far.and_then(|piece| goal(piece.ends[1], -piece.tangents[1].normalize_or_zero()));
+            let back = trace(&mut lines, seed.world, -along, &Control { goal: far, ..control });
+            joined(&back, forward, stop)
+        };
+        let closed = stops.contains(&Some(Stop::Closed));
+        let stroke = self.polyline(&pieces, at_seed, closed, seed, &mut counted);
+        if stroke.is_some() {
+            stops.into_iter().flatten().for_each(|stop| counted.stops.count(stop));
+        }
+        *counts = counted;
+        stroke
+    }
+}
+
+/// Both halves as one curve from its tail, the number of the piece that begins at the seed, and why the ends are there.
+fn joined(
+    back: &Half<NoDirection>,
+    forward: Half<NoDirection>,
+    stop_forward: Stop,
+) -> (Vec<Piece>, usize, [Option<Stop>; 2]) {
+    let stop_back = stop(&back.end);
+    let pieces = back.pieces.iter().rev().map(Piece::reversed).chain(forward.pieces).collect();
+    // Where they meet there is one end, not two.
+    let first = (stop_back != Stop::Closed).then_some(stop_forward);
+    (pieces, back.pieces.len(), [first, Some(stop_back)])
+}
+
+fn stop(end: &End<NoDirection>) -> Stop {
+    match end {
+        End::Length => Stop::Length,
+        End::Angle => Stop::Angle,
+        End::Field(NoDirection::Volume) => Stop::Volume,
+        End::Field(NoDirection::Gradient) => Stop::Gradient,
+        End::Field(NoDirection::Umbilic) => Stop::Direction,
+        End::Turns => Stop::Turns,
+        End::Step => Stop::Step,
+        End::Closed => Stop::Closed,
+    }
+}
+
+/// The lines of curvature of one family near the surface f = target.
+pub(super) struct OnSurface<'s, 'f, 'v> {
+    pub strokes: &'s Strokes<'f, 'v>,
+    /// `Max` or `Min`.
+    pub family: Family,
+    pub target: f64,
+    pub counts: &'s mut HatchCounts,
+}
+
+impl Lines for OnSurface<'_, '_, '_> {
+    type Cause = NoDirection;
+
+    /// The principal direction, projected onto the tangent plane of ∇f there ([HATCH-9]).
+    fn at(&mut self, x: DVec3) -> Result<DVec3, NoDirection> {
+        let ground = self.strokes.ground;
+        let index = inside(ground, x).ok_or(NoDirection::Volume)?;
+        let (n, _) = normal(ground, index).ok_or(NoDirection::Gradient)?;
+        let curvature = self.strokes.directions.at(ground, index, &mut self.counts.scales)?;
+        let e = self.family.direction(&curvature);
+        let tangent = e - n * e.dot(n);
+        let length = tangent.length();
+        if length > TANGENT { Ok(tangent / length) } else { Err(NoDirection::Umbilic) }
+    }
+
+    fn put_back(&mut self, x: DVec3) -> Option<DVec3> {
+        let ground = self.strokes.ground;
+        let index = inside(ground, x)?;
+        let drift = DRIFT * ground.grid().voxel();
+        let over = ground.value(index) - self.target;
+        let (_, slope) = normal(ground, index)?;
+        // f − target over ‖g‖, without dividing.
+        if scale_by_power_of_two(over.abs(), -ground.exponent()) <= drift * slope {
+            return None;
+        }
+        let back = self.strokes.put_back(x, self.target)?;
+        self.counts.put_back += 1;
+        Some(back)
+    }
+}

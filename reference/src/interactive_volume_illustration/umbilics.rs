@@ -1,0 +1,187 @@
+//! Which directions mean something: umbilics and the data's error ([HATCH-3]).
+//!
+//! On a sampled sphere the two curvatures differ by noise, and a plain formula makes a direction of it everywhere. So a
+//! direction counts only where the curvatures differ by a share of themselves and by more than the rounding of the stored
+//! numbers can make, and where a somewhat larger scale says the same; the finest scale at which all holds is taken.
+
+use super::counts::{NoDirection, Scales};
+use super::directions;
+use super::ground::Ground;
+use crate::field::curvature::Curvature;
+use crate::field::normal::outward;
+use crate::field::smoothed::Smoothed;
+use crate::field::{Field, Outside};
+use crate::number::Vec3;
+use drypoint_scene::math;
+
+/// σ in voxels.
+const SCALES: [f64; 3] = [1.0, 2.0, 4.0];
+
+/// The scale that a direction is compared at, in σ.
+const LARGER: f64 = 1.5;
+
+/// The constants of the rule `scaled`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thresholds {
+    /// ε: |κ₁ − κ₂| > ε(|κ₁| + |κ₂|).
+    pub gap: f64,
+    /// How many standard deviations of the noise |κ₁ − κ₂|·‖g‖ must be above.
+    pub noise: f64,
+    /// The angle, in degrees, below which the lines at σ and 1.5σ are to differ.
+    pub agree: f64,
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self { gap: 0.1, noise: 8.0, agree: 20.0 }
+    }
+}
+
+/// How directions are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rule {
+    /// From Gaussian derivatives at the first of σ = 1, 2, 4 voxels that is sure.
+    Scaled(Thresholds),
+    /// The paper's plain formula on the field's own Hessian.
+    Raw,
+}
+
+/// Principal curvatures and directions of a field.
+#[derive(Debug)]
+pub struct Directions<'f, 'v> {
+    scaled: Option<Scaled<'f, 'v>>,
+}
+
+#[derive(Debug)]
+struct Scaled<'f, 'v> {
+    thresholds: Thresholds,
+    /// At σ and 1.5σ.
+    pairs: [[Smoothed<'f, 'v>; 2]; 3],
+    /// cos of twice the angle within which two lines agree.
+    cos_double: f64,
+    outside: Outside,
+    no_normal_below: f64,
+}
+
+impl<'f, 'v> Directions<'f, 'v> {
+    /// Nothing is smoothed before a direction is asked for.
+    pub fn new(field: &'f Field<'v, f64>, rule: Rule) -> Self {
+        match rule {
+            Rule::Raw => Self::raw(),
+            Rule::Scaled(thresholds) => Self {
+                scaled: Some(Scaled {
+                    thresholds,
+                    pairs: SCALES.map(|s| [s, LARGER * s].map(|sigma| Smoothed::new(field, sigma))),
+                    cos_double: math::cos((2.0 * thresholds.agree).to_radians()),
+                    outside: field.reconstruction().outside,
+                    no_normal_below: field.no_normal_below(),
+                }),
+            },
+        }
+    }
+
+    /// The paper's plain formula, on whatever ground.
+    pub fn raw() -> Self {
+        Self { scaled: None }
+    }
+
+    /// Bytes of the smoothed bricks that were made.
+    pub fn bytes(&self) -> u64 {
+        self.scaled.iter().flat_map(|s| s.pairs.iter().flatten()).map(Smoothed::bytes).sum()
+    }
+
+    /// The curvatures and their directions at a position in index space inside the box of [SPACE-1].
+    ///
+    /// # Errors
+    /// There is none.
+    ///
+    /// # Panics
+    /// With the rule `raw`, if the ground has no Hessian: a field that was prepared for a lower rung.
+    pub fn at(
+        &self,
+        ground: &dyn Ground,
+        index: Vec3<f64>,
+        counts: &mut Scales,
+    ) -> Result<Curvature<f64>, NoDirection> {
+        match &self.scaled {
+            Some(scaled) => scaled.at(index, counts),
+            None => {
+                let (gradient, hessian) = ground.second(index);
+                if outward(gradient, ground.outside(), ground.no_normal_below()).is_none() {
+                    counts.gradient += 1;
+                    return Err(NoDirection::Gradient);
+                }
+                let c = directions::principal(gradient, hessian, ground.outside());
+                if c.k1 == c.k2 {
+                    counts.umbilic[0] += 1;
+                    return Err(NoDirection::Umbilic);
+                }
+                counts.given[0] += 1;
+                Ok(c)
+            }
+        }
+    }
+}
+
+/// Why a scale is not sure.
+enum Unsure {
+    Gradient,
+    Umbilic,
+    Noise,
+    Disagree,
+}
+
+impl Scaled<'_, '_> {
+    fn at(&self, index: Vec3<f64>, counts: &mut Scales) -> Result<Curvature<f64>, NoDirection> {
+        let mut flat = true;
+        for (i, pair) in self.pairs.iter().enumerate() {
+            match self.estimate(pair, index) {
+                Ok(curvature) => {
+                    counts.given[i] += 1;
+                    return Ok(curvature);
+                }
+                Err(Unsure::Gradient) => continue,
+                Err(Unsure::Umbilic) => counts.umbilic[i] += 1,
+                Err(Unsure::Noise) => counts.noise[i] += 1,
+                Err(Unsure::Disagree) => counts.disagree[i] += 1,
+            }
+            flat = false;
+        }
+        counts.gradient += u64::from(flat);
+        Err(if flat { NoDirection::Gradient } else { NoDirection::Umbilic })
+    }
+
+    /// The curvatures at one scale, if all three conditions hold.
+    fn estimate(&self, [one, larger]: &[Smoothed<'_, '_>; 2], index: Vec3<f64>) -> Result<Curvature<f64>, Unsure> {
+        let (c, norm) = self.curvature(one, index)?;
+        let difference = c.k1 - c.k2;
+        if difference <= self.thresholds.gap * (c.k1.abs() + c.k2.abs()) {
+            return Err(Unsure::Umbilic);
+        }
+        if difference * norm <= self.thresholds.noise * one.noise() {
+            return Err(Unsure::Noise);
+        }
+        let (other, _) = self.curvature(larger, index)?;
+        if other.k1 == other.k2 || cos_double(&c, &other) <= self.cos_double {
+            return Err(Unsure::Disagree);
+        }
+        Ok(c)
+    }
+
+    /// The curvatures at one scale, and ‖g‖ there.
+    fn curvature(&self, scale: &Smoothed<'_, '_>, index: Vec3<f64>) -> Result<(Curvature<f64>, f64), Unsure> {
+        let (gradient, hessian) = scale.derivatives(index);
+        let norm = gradient.length();
+        if norm <= self.no_normal_below {
+            return Err(Unsure::Gradient);
+        }
+        Ok((directions::principal(gradient, hessian, self.outside), norm))
+    }
+}
+
+/// D:D'/(‖D‖‖D'‖) of the traceless shape operators, D = (κ₁ − κ₂)/2·(e₁e₁ᵀ − e₂e₂ᵀ): the cosine of twice the angle between
+/// the lines, where the tangent planes are the same.
+fn cos_double(a: &Curvature<f64>, b: &Curvature<f64>) -> f64 {
+    let square = |x: f64| x * x;
+    0.5 * (square(a.e1.dot(b.e1)) - square(a.e1.dot(b.e2)) - square(a.e2.dot(b.e1)) + square(a.e2.dot(b.e2)))
+}
