@@ -423,7 +423,9 @@ fn find_iso_values(scene: &mut Scene, plan: &Plan, volume: &Volume, counts: &mut
     let (drawn, strokes) = (plan.needs(Quantity::Surface), plan.has_pass(Pass::HiddenStrokes));
     let surface = scene.surface.as_mut().filter(|_| drawn || strokes).map(|surface| &mut surface.iso);
     let outlines = scene.outlines.as_mut().filter(|_| strokes).map(|outlines| &mut outlines.iso);
-    let asked: Vec<&mut Iso> = surface.into_iter().chain(outlines).filter(|iso| **iso == Iso::Auto).collect();
+    let hatching = scene.hatching.as_mut().filter(|_| strokes).map(|hatching| &mut hatching.iso);
+    let asked: Vec<&mut Iso> =
+        surface.into_iter().chain(outlines).chain(hatching).filter(|iso| **iso == Iso::Auto).collect();
     if !asked.is_empty() {
         let found = suggest::iso(volume, &scene.volume, counts);
         asked.into_iter().for_each(|iso| *iso = Iso::Value(found));
@@ -456,7 +458,7 @@ fn something_is_drawn(scene: &Scene, wanted: Wanted) -> Result<(), Failure> {
             Err(Failure::new("the scene has no stipples", at("stipples"), remedy))
         }
         Wanted::Strokes if !scene.has_strokes() => {
-            let remedy = "add a table [outlines], or write preset = \"outline\"";
+            let remedy = "add a table [hatching] or [outlines], or write preset = \"hatch\"";
             Err(Failure::new("the scene has no strokes", at("outlines"), remedy))
         }
         Wanted::Picture if !scene.has_marks() && !scene.draws_volume() => Err(Failure::new(

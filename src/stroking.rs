@@ -1,44 +1,58 @@
-//! The strokes of a scene: outlines ([HATCH-18]), found anew for each camera, on the page without what is hidden
-//! ([HATCH-14]).
+//! The strokes of a scene on the page, without what is hidden ([HATCH-14]): hatching ([HATCH-8]), which is grown once, and
+//! outlines ([HATCH-18]), which are found anew for each camera.
+
+mod hatching;
+mod outlining;
 
 use crate::Failure;
 use crate::job::Job;
 use drypoint_reference::field::{Field, Reconstruction, Rung};
-use drypoint_reference::interactive_volume_illustration::{Pen as Nib, Sight, outlines};
+use drypoint_reference::interactive_volume_illustration::Sight;
 use drypoint_reference::surface::IsoSurface;
+use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::{Layer, Marks, Page, Pen, Polyline};
-use drypoint_scene::tables::{Iso, Outlines, Scene};
+use drypoint_scene::marks::{Layer, Marks, Page, Pen};
+use drypoint_scene::tables::{DirectionRule, Iso, Length, Scene};
 use drypoint_scene::view::View;
+use hatching::Hatched;
+use outlining::Outlining;
 use std::time::Instant;
-
-/// How far in front of the surface outlines are asked for, in voxels. The surface leaves the line towards the eye slowly there,
-/// and that of a real scan is rough: with the 0.15 voxel of [HATCH-7] it breaks its own outline. With half a
-/// voxel lines go on round their ends, as small hooks.
-const OFFSET: f64 = 0.3;
 
 /// What strokes are made of, whatever the camera.
 pub struct Stroking<'a> {
     field: Field<'a, f64>,
-    /// The value of the outlines' surface, and that of the one that hides.
-    values: [f64; 2],
-    pen: Pen,
     page: Page,
     near: f64,
-    /// In mm.
-    min_length: f64,
+    /// The value of the surface that hides, where there is one for all.
+    hides: Option<f64>,
+    hatched: Option<Hatched<'a>>,
+    outlining: Option<Outlining>,
 }
 
 /// Frames of strokes.
 pub struct StrokeFrames<'a> {
     stroking: &'a Stroking<'a>,
-    surface: IsoSurface<'a, 'a>,
-    /// What hides, where that is another one.
-    hiding: Option<IsoSurface<'a, 'a>>,
+    /// The surfaces that strokes lie on and that hide them.
+    surfaces: Vec<IsoSurface<'a, 'a>>,
+}
+
+/// What every stroke of a frame has to know.
+struct Frame<'a> {
+    view: &'a View,
+    page: &'a Page,
+    near: f64,
+    hides: &'a IsoSurface<'a, 'a>,
+}
+
+impl<'a> Frame<'a> {
+    /// The camera for strokes that lie in front of the surface themselves, or are asked for at some distance in front of it.
+    fn sight(&self, offset: f64) -> Sight<'a> {
+        Sight { view: self.view, page: self.page, near: self.near, surface: Some(self.hides), offset }
+    }
 }
 
 impl<'a> Stroking<'a> {
-    /// Prepares the field of a job whose scene has strokes, as the scene samples it.
+    /// Prepares the field of a job whose scene has strokes, as the scene samples it, and grows those of hatching.
     ///
     /// # Errors
     /// No strokes, a pen that there is not, lengths of the wrong space, a reconstruction that does not exist.
@@ -46,94 +60,121 @@ impl<'a> Stroking<'a> {
         let start = Instant::now();
         let Job { scene, volume, .. } = job;
         let at = |key: &str| scene.given.position(key);
-        let Some(table) = &scene.outlines else {
-            return Err(Failure::new("the scene has no strokes", at("outlines"), "add a table [outlines]"));
-        };
+        if !scene.has_strokes() {
+            return Err(Failure::new(
+                "the scene has no strokes",
+                at("outlines"),
+                "add a table [hatching] or [outlines]",
+            ));
+        }
         let page = Page::of(scene);
-        let pen = pen(scene, table, &page)?;
-        let min_length = page.length(table.min_length).ok_or_else(|| {
-            let what = "the length is in the volume, not on the page";
-            Failure::new(what, at("outlines.min_length"), "give it in mm or px")
-        })?;
         let near = scene.camera.near.unwrap_or(scene.sampling.step).world(volume.grid()).ok_or_else(|| {
             Failure::new("the length is on the page, not in the volume", at("camera.near"), "give it in voxels")
         })?;
         let how = Reconstruction {
             kernel: scene.sampling.kernel,
             gradient: scene.sampling.gradient,
+            hessian: scene.sampling.hessian,
             outside: scene.volume.outside,
             ..Reconstruction::default()
         };
-        let field =
-            Field::new(volume, how, Rung::Gradient).map_err(|error| Failure::new(error, at("volume"), "convert it"))?;
-        // A job has found the values that its scene leaves to the volume.
-        let value = |iso: Iso| match iso {
-            Iso::Value(value) => Ok(value),
-            Iso::Auto => Err(Failure::new("the iso-value was not found", at("outlines.iso"), "give a number")),
-        };
-        let own = value(table.iso)?;
-        let hiding = scene.surface.as_ref().map_or(Ok(own), |surface| value(surface.iso))?;
+        // Hessians of their own scales are those of the rule, not of the field.
+        let raw = scene.hatching.as_ref().is_some_and(|h| h.directions.rule == DirectionRule::Raw);
+        let rung = if raw { Rung::Hessian } else { Rung::Gradient };
+        let field = Field::new(volume, how, rung).map_err(|error| Failure::new(error, at("volume"), "convert it"))?;
+        let hides = scene.surface.as_ref().map(|surface| value(scene, surface.iso, "surface.iso")).transpose()?;
         for (name, bytes) in field.bytes() {
             *counts.bytes.entry(format!("strokes {name}")).or_default() += bytes;
         }
+        let outlining = scene.outlines.as_ref().map(|table| Outlining::new(scene, table, &page)).transpose()?;
+        let hatched =
+            scene.hatching.as_ref().map(|table| Hatched::new(scene, table, &field, &page, counts)).transpose()?;
         counts.seconds.insert("strokes".into(), start.elapsed().as_secs_f64());
-        Ok(Self { field, values: [own, hiding], pen, page, near, min_length })
+        Ok(Self { field, page, near, hides, hatched, outlining })
     }
 
-    /// Looks at the ranges of the field, once.
+    /// Looks at the ranges of the field, once for each value.
     pub fn frames(&self) -> StrokeFrames<'_> {
-        let [own, hiding] = self.values;
-        let surface = IsoSurface::new(&self.field, own);
-        let hiding = (hiding != own).then(|| IsoSurface::new(&self.field, hiding));
-        StrokeFrames { stroking: self, surface, hiding }
+        let own = [self.hatched.as_ref().map(Hatched::iso), self.outlining.as_ref().map(Outlining::iso)];
+        let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
+        for iso in own.into_iter().chain([self.hides]).flatten() {
+            if !surfaces.iter().any(|surface| surface.iso() == iso) {
+                surfaces.push(IsoSurface::new(&self.field, iso));
+            }
+        }
+        StrokeFrames { stroking: self, surfaces }
     }
 }
 
 impl StrokeFrames<'_> {
     /// The strokes that a camera sees, a layer a pen.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Vec<Layer> {
-        let Stroking { pen, page, near, min_length, field, .. } = self.stroking;
-        let start = Instant::now();
-        let found = outlines(&self.surface, view);
-        counts.preprocess.insert("outline places".into(), found.places);
-        counts.preprocess.insert("outline places without a root".into(), found.lost);
-        *counts.seconds.entry("outlines".into()).or_default() += start.elapsed().as_secs_f64();
-
-        let start = Instant::now();
-        let hiding = self.hiding.as_ref().unwrap_or(&self.surface);
-        let offset = OFFSET * field.volume().grid().voxel();
-        let sight = Sight { view, page, near: *near, surface: Some(hiding), offset };
-        let nib = Nib { radius: pen.width / 2.0, opacity: 1.0 };
-        let seen = sight.seen(&found.strokes, |_, _| nib);
-        let all = seen.lines.len();
-        let lines: Vec<Polyline> = seen.lines.into_iter().filter(|line| line.length() >= *min_length).collect();
-        counts.preprocess.insert("looks for what hides".into(), seen.looks);
-        counts.preprocess.insert("short strokes".into(), (all - lines.len()) as u64);
-        let bytes = self.surface.bytes() + self.hiding.as_ref().map_or(0, IsoSurface::bytes);
+        let Stroking { field, page, near, hides, hatched, outlining } = self.stroking;
+        // Each value has its surface.
+        let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
+        let mut layers = Vec::new();
+        if let Some(hatched) = hatched
+            && let Some(hides) = surface(hides.unwrap_or(hatched.iso()))
+        {
+            layers.extend(hatched.draw(&Frame { view, page, near: *near, hides }, counts));
+        }
+        if let Some(outlining) = outlining
+            && let Some((own, hides)) = surface(outlining.iso()).zip(surface(hides.unwrap_or(outlining.iso())))
+        {
+            let voxel = field.volume().grid().voxel();
+            layers.push(outlining.draw(&Frame { view, page, near: *near, hides }, own, voxel, counts));
+        }
+        let bytes: usize = self.surfaces.iter().map(IsoSurface::bytes).sum();
         counts.bytes.insert("surface".into(), bytes as u64);
-        let mut marks = Marks { page: *page, layers: vec![Layer { lines, ..Layer::new(pen.clone()) }] };
+        let mut marks = Marks { page: *page, layers };
         marks.settle();
         counts.strokes += marks.layers.iter().map(|layer| layer.lines.len() as u64).sum::<u64>();
-        *counts.seconds.entry("hidden strokes".into()).or_default() += start.elapsed().as_secs_f64();
         marks.layers
     }
 }
 
-/// What draws outlines: a pen of `[[pen]]`, or one of their own.
-fn pen(scene: &Scene, table: &Outlines, page: &Page) -> Result<Pen, Failure> {
-    let at = |key: &str| scene.given.position(key);
-    if let Some(name) = &table.pen {
-        return Pen::of(&scene.pens, page).into_iter().find(|pen| pen.name == *name).ok_or_else(|| {
+/// A job has found the values that its scene leaves to the volume.
+fn value(scene: &Scene, iso: Iso, key: &str) -> Result<f64, Failure> {
+    match iso {
+        Iso::Value(value) => Ok(value),
+        Iso::Auto => Err(Failure::new("the iso-value was not found", scene.given.position(key), "give a number")),
+    }
+}
+
+/// A length on the page, in mm.
+fn on_page(scene: &Scene, page: &Page, length: Length, key: &str) -> Result<f64, Failure> {
+    page.length(length).ok_or_else(|| {
+        let what = "the length is in the volume, not on the page";
+        Failure::new(what, scene.given.position(key), "give it in mm or px")
+    })
+}
+
+/// A length in the volume, in world units.
+fn in_world(scene: &Scene, length: Length, key: &str, grid: &drypoint_scene::space::Grid) -> Result<f64, Failure> {
+    length.world(grid).ok_or_else(|| {
+        let what = "the length is on the page, not in the volume";
+        Failure::new(what, scene.given.position(key), "give it in voxels")
+    })
+}
+
+/// What draws the strokes of a table: a pen of `[[pen]]`, or one of their own.
+fn pen(
+    scene: &Scene,
+    table: &str,
+    page: &Page,
+    named: Option<&str>,
+    (width, color): (Length, Rgba),
+) -> Result<Pen, Failure> {
+    if let Some(name) = named {
+        return Pen::of(&scene.pens, page).into_iter().find(|pen| pen.name == name).ok_or_else(|| {
             let names: Vec<&str> = scene.pens.iter().map(|pen| pen.name.as_str()).collect();
             let remedy = match names.as_slice() {
                 [] => "add a table [[pen]] with that name".into(),
                 names => format!("write one of {}", names.join(", ")),
             };
-            Failure::new(format!("there is no pen {name:?}"), at("outlines.pen"), remedy)
+            Failure::new(format!("there is no pen {name:?}"), scene.given.position(&format!("{table}.pen")), remedy)
         });
     }
-    let width = page.length(table.width).ok_or_else(|| {
-        Failure::new("the length is in the volume, not on the page", at("outlines.width"), "give it in mm or px")
-    })?;
-    Ok(Pen { number: 1, name: "outlines".into(), width, color: table.color })
+    let width = on_page(scene, page, width, &format!("{table}.width"))?;
+    Ok(Pen { number: 1, name: table.into(), width, color })
 }

@@ -1,4 +1,4 @@
-//! `strokes`: a page of outlines.
+//! `strokes`: a page of hatching and outlines.
 
 use super::input::Set;
 use super::page::Page;
@@ -11,14 +11,14 @@ use std::path::PathBuf;
 /// Draw the strokes of a scene or a bare volume onto a page, without what is hidden, or write a saved list of strokes in another format.
 #[derive(Debug, Args)]
 pub(super) struct Strokes {
-    /// A scene (.toml) with [outlines], a volume, which is drawn 160 mm wide, or a list of strokes (.csv, .jsonl), whose page --set says
+    /// A scene (.toml) with [hatching] or [outlines], a volume, which is drawn 160 mm wide, or a list of strokes (.csv, .jsonl), whose page --set says
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
     /// Where to write; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit],
     /// all of which an SVG without it shows in turn
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The preset of a bare volume: outline [default: outline]
+    /// The preset of a bare volume: hatch, outline, or one of the figures' [default: hatch]
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     #[command(flatten)]
@@ -33,7 +33,7 @@ pub(super) struct Strokes {
 impl Strokes {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let Self { input, output, preset, raw, set, stats } = self;
-        let (default_preset, wanted) = ("outline", Wanted::Strokes);
+        let (default_preset, wanted) = ("hatch", Wanted::Strokes);
         Page { input, output, preset, default_preset, raw, set, stats, wanted }.run(talk)
     }
 }

@@ -7,6 +7,7 @@
 //! Section 4.4: [`toon`] chooses a tone by the light, [`silhouette`] blackens what turns away from the eye, and
 //! [`view_opacity`] makes it more opaque.
 
+mod cells;
 mod chain;
 mod counts;
 pub mod directions;
@@ -34,6 +35,7 @@ pub mod toon;
 mod umbilics;
 pub mod view_opacity;
 
+pub use cells::gradient_range;
 pub use counts::{HatchCounts, NoDirection, Rejected, Rejections, Scales, Stop, Stops};
 pub use ground::Ground;
 pub use measures::{Largest, Measure};

@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 /// The quantile q of ‖g‖ over the voxels where it exceeds [PREC-3]'s bound, times the power of two of [SPACE-4], and
 /// the number of voxels that were evaluated. 0 where no voxel has a normal. Voxels whose stencil touches a masked one are
 /// left out.
-pub(super) fn quantile_of_norms<R: Real, S: Sampler<R>>(
+pub(crate) fn quantile_of_norms<R: Real, S: Sampler<R>>(
     sampler: &S,
     volume: &Volume,
     estimator: GradientEstimator,

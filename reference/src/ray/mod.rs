@@ -17,5 +17,5 @@ mod sample;
 pub mod skip;
 mod surface;
 
-pub(crate) use gradient_range::touches as touches_mask;
+pub(crate) use gradient_range::{quantile_of_norms, touches as touches_mask};
 pub use render::{Backdrop, Inputs, RenderError, Renderer};

@@ -1,0 +1,54 @@
+//! From a field to the seeds of its strokes ([HATCH-5], [HATCH-6]).
+
+use super::counts::Scales;
+use super::measures::Measure;
+use super::pyramid::Pyramid;
+use super::seeds::{SeedRule, Seeds};
+use super::strokes::Strokes;
+use crate::field::Field;
+use crate::number::Vec3;
+use crate::ray::quantile_of_norms;
+use crate::with_sampler;
+use drypoint_scene::math::scale_by_power_of_two;
+use drypoint_scene::tables::{GradientRange, Measure as Kind};
+
+/// What |∇| = 0 and 1 stand for ([VAL-2]), times the power of two of [SPACE-4], and the voxels that were looked at for it.
+pub fn gradient_range(field: &Field<'_, f64>, range: GradientRange) -> ([f64; 2], u64) {
+    match range {
+        GradientRange::Fixed(range) => (range.map(|g| scale_by_power_of_two(g, -field.scale_exponent())), 0),
+        GradientRange::Quantile(q) => {
+            let (estimator, bound) = (field.reconstruction().gradient, field.no_normal_below());
+            let (hi, voxels) = with_sampler!(field, |s| quantile_of_norms(s, field.volume(), estimator, bound, q));
+            ([0.0, hi], voxels)
+        }
+    }
+}
+
+impl Strokes<'_, '_> {
+    /// |∇| and κ at a voxel: 0 where it has no direction, as on flat and on round surfaces.
+    fn measure(&self, voxel: [usize; 3], kind: Kind, [lo, hi]: [f64; 2]) -> Measure {
+        let ground = self.ground();
+        let [x, y, z] = voxel.map(|i| i as f64);
+        let at = Vec3::new(x, y, z);
+        let norm = ground.gradient(at).length();
+        let gradient = if hi > lo { ((norm - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
+        let curvature = self.directions().at(ground, at, &mut Scales::default()).map_or(0.0, |c| match kind {
+            Kind::Mean => (0.5 * (c.k1 + c.k2)).abs(),
+            Kind::Curvedness => (0.5 * (c.k1 * c.k1 + c.k2 * c.k2)).sqrt(),
+        });
+        Measure { gradient, curvature: (curvature * ground.grid().voxel()).min(1.0) }
+    }
+
+    /// The cells of the surface f = `iso` of a field, which the strokes grow on, with their probabilities. `range` is what |∇| is
+    /// measured by, and idle where every cell has a seed.
+    pub fn seeds(
+        &self,
+        pyramid: &Pyramid,
+        field: &Field<'_, f64>,
+        iso: f64,
+        rule: SeedRule,
+        (kind, range): (Kind, [f64; 2]),
+    ) -> Seeds {
+        Seeds::new(pyramid, field.volume(), iso, rule, |voxel| self.measure(voxel, kind, range))
+    }
+}
