@@ -45,7 +45,8 @@ impl<'a> Drawing<'a> {
         if let Some(renderer) = &renderer {
             counts.add(renderer.prepared());
         }
-        Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks: marking.frames() })
+        let marks = marking.frames(counts);
+        Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks })
     }
 
     /// Number of frames: those of `[orbit]`, or one.

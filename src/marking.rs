@@ -47,9 +47,9 @@ impl<'a> Marking<'a> {
     }
 
     /// Makes frames of what there is to draw.
-    pub fn frames(&self) -> Option<MarkFrames<'_>> {
+    pub fn frames(&self, counts: &mut Counts) -> Option<MarkFrames<'_>> {
         let dots = self.stippling.as_ref().map(Stippling::frames);
-        let strokes = self.stroking.as_ref().map(Stroking::frames);
+        let strokes = self.stroking.as_ref().map(|stroking| stroking.frames(counts));
         (!self.is_empty()).then_some(MarkFrames { page: self.page, dots, strokes })
     }
 }

@@ -14,7 +14,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::tables::{DirectionRule, Iso, Length, Scene};
 use drypoint_scene::view::View;
-use hatching::Hatched;
+use hatching::{Hatched, Hatching};
 use outlining::Outlining;
 use std::time::Instant;
 
@@ -25,7 +25,7 @@ pub struct Stroking<'a> {
     near: f64,
     /// The value of the surface that hides, where there is one for all.
     hides: Option<f64>,
-    hatched: Option<Hatched<'a>>,
+    hatching: Option<Hatching<'a>>,
     outlining: Option<Outlining>,
 }
 
@@ -34,6 +34,7 @@ pub struct StrokeFrames<'a> {
     stroking: &'a Stroking<'a>,
     /// The surfaces that strokes lie on and that hide them.
     surfaces: Vec<IsoSurface<'a, 'a>>,
+    hatched: Option<Hatched<'a>>,
 }
 
 /// What every stroke of a frame has to know.
@@ -52,7 +53,7 @@ impl<'a> Frame<'a> {
 }
 
 impl<'a> Stroking<'a> {
-    /// Prepares the field of a job whose scene has strokes, as the scene samples it, and grows those of hatching.
+    /// Prepares the field of a job whose scene has strokes, as the scene samples it.
     ///
     /// # Errors
     /// No strokes, a pen that there is not, lengths of the wrong space, a reconstruction that does not exist.
@@ -87,36 +88,37 @@ impl<'a> Stroking<'a> {
             *counts.bytes.entry(format!("strokes {name}")).or_default() += bytes;
         }
         let outlining = scene.outlines.as_ref().map(|table| Outlining::new(scene, table, &page)).transpose()?;
-        let hatched =
-            scene.hatching.as_ref().map(|table| Hatched::new(scene, table, &field, &page, counts)).transpose()?;
+        let grid = volume.grid();
+        let hatching = scene.hatching.as_ref().map(|table| Hatching::new(scene, table, grid, &page)).transpose()?;
         counts.seconds.insert("strokes".into(), start.elapsed().as_secs_f64());
-        Ok(Self { field, page, near, hides, hatched, outlining })
+        Ok(Self { field, page, near, hides, hatching, outlining })
     }
 
-    /// Looks at the ranges of the field, once for each value.
-    pub fn frames(&self) -> StrokeFrames<'_> {
-        let own = [self.hatched.as_ref().map(Hatched::iso), self.outlining.as_ref().map(Outlining::iso)];
+    /// Looks at the ranges of the field, once for each value, and grows the strokes of hatching.
+    pub fn frames(&self, counts: &mut Counts) -> StrokeFrames<'_> {
+        let own = [self.hatching.as_ref().map(Hatching::iso), self.outlining.as_ref().map(Outlining::iso)];
         let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
         for iso in own.into_iter().chain([self.hides]).flatten() {
             if !surfaces.iter().any(|surface| surface.iso() == iso) {
                 surfaces.push(IsoSurface::new(&self.field, iso));
             }
         }
-        StrokeFrames { stroking: self, surfaces }
+        let hatched = self.hatching.as_ref().map(|hatching| hatching.grow(&self.field, counts));
+        StrokeFrames { stroking: self, surfaces, hatched }
     }
 }
 
 impl StrokeFrames<'_> {
     /// The strokes that a camera sees, a layer a pen.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Vec<Layer> {
-        let Stroking { field, page, near, hides, hatched, outlining } = self.stroking;
+        let Stroking { field, page, near, hides, hatching, outlining } = self.stroking;
         // Each value has its surface.
         let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
         let mut layers = Vec::new();
-        if let Some(hatched) = hatched
-            && let Some(hides) = surface(hides.unwrap_or(hatched.iso()))
+        if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref())
+            && let Some(hides) = surface(hides.unwrap_or(hatching.iso()))
         {
-            layers.extend(hatched.draw(&Frame { view, page, near: *near, hides }, counts));
+            layers.push(hatched.draw(&Frame { view, page, near: *near, hides }, counts));
         }
         if let Some(outlining) = outlining
             && let Some((own, hides)) = surface(outlining.iso()).zip(surface(hides.unwrap_or(outlining.iso())))

@@ -6,11 +6,14 @@ use drypoint_reference::field::Field;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_reference::shading::towards;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::glam::DVec3;
+use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Page, Pen, Polyline};
 use drypoint_scene::math;
+use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
-use drypoint_scene::tables::{DirectionRule, Family, Hatching, LightDirection, Reference, Scene, SeedsBy, Spacing};
+use drypoint_scene::tables::{
+    DirectionRule, Family, GradientRange, Hatching as Table, LightDirection, Reference, Scene, SeedsBy, Spacing,
+};
 use std::time::Instant;
 
 /// τ above which strokes are crossed where the tone is in the spacing ([HATCH-19]).
@@ -22,145 +25,204 @@ const LEAST: f64 = 0.08;
 /// The shortest line on the page, in pen's widths.
 const SHORTEST: f64 = 6.0;
 
-/// Strokes of a surface.
-pub(super) struct Hatched<'a> {
-    table: &'a Hatching,
+/// What hatching is made by.
+pub(super) struct Hatching<'a> {
+    table: &'a Table,
     light: LightDirection,
     iso: f64,
     pen: Pen,
     /// In mm.
     min_width: f64,
     spacing: Option<room::Apart>,
-    strokes: Vec<Stroke>,
-    /// With N at their seeds.
-    cross: Vec<(DVec3, Stroke)>,
+    how: room::Hatching,
+    gradient_range: GradientRange,
 }
 
-impl<'a> Hatched<'a> {
-    /// Finds the seeds and grows their strokes.
-    pub(super) fn new(
-        scene: &'a Scene,
-        table: &'a Hatching,
-        field: &Field<'_, f64>,
-        page: &Page,
-        counts: &mut Counts,
-    ) -> Result<Self, Failure> {
-        let start = Instant::now();
-        let iso = value(scene, table.iso, "hatching.iso")?;
-        let pen = pen(scene, "hatching", page, table.pen.as_deref(), (table.width, table.color))?;
+/// The strokes of a surface.
+pub(super) struct Hatched<'a> {
+    hatching: &'a Hatching<'a>,
+    strokes: room::Strokes<'a, 'a>,
+    cells: Vec<[usize; 3]>,
+    /// Of all cells, where they fall as their seeds do: the first, and those that cross, with N at their seeds.
+    grown: Option<Grown>,
+}
+
+struct Grown {
+    first: Vec<Stroke>,
+    across: Vec<(DVec3, Stroke)>,
+}
+
+impl<'a> Hatching<'a> {
+    pub(super) fn new(scene: &'a Scene, table: &'a Table, grid: &Grid, page: &Page) -> Result<Self, Failure> {
         let spacing = match table.spacing {
             Spacing::Random => None,
             Spacing::Tone => Some(room::Apart::Tone { least: LEAST }),
             Spacing::Length(length) => Some(room::Apart::Everywhere(on_page(scene, page, length, "hatching.spacing")?)),
         };
-        let min_width = on_page(scene, page, table.stroke.min_width, "hatching.stroke.min_width")?;
-        let volume = field.volume();
-        let pyramid = room::Pyramid::new(volume);
-        counts.bytes.insert("pyramid".into(), pyramid.bytes());
-        let strokes = room::Strokes::new(field, Some(iso), how(scene, table, field)?);
-        let rule = match table.seeds {
-            SeedsBy::Dense => room::SeedRule::Dense,
-            SeedsBy::Curvature => {
-                room::SeedRule::Curvature { min_curvature: table.min_curvature, min_gradient: table.min_gradient }
-            }
-        };
-        let range = match table.seeds {
-            SeedsBy::Dense => [0.0; 2],
-            SeedsBy::Curvature => {
-                let (range, voxels) = room::gradient_range(field, scene.volume.gradient_range);
-                *counts.preprocess.entry("gradients".into()).or_default() += voxels;
-                range
-            }
-        };
-        let seeds = strokes.seeds(&pyramid, field, iso, rule, (table.measure, range));
-        counts.preprocess.insert("measures of seeds".into(), seeds.measured);
-        counts.preprocess.insert("pyramid".into(), pyramid.entries());
-        counts.seconds.insert("seeds".into(), start.elapsed().as_secs_f64());
-
-        let start = Instant::now();
-        let cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
-        let crossed = table.cross.is_some();
-        let grown = strokes.grow_all(&cells, |_| crossed);
-        counts.directions += grown.counts.scales.directions() + seeds.measured;
-        for (cause, number) in grown.counts.stops.named() {
-            *counts.stops.entry(cause.into()).or_default() += number;
-        }
-        counts.preprocess.insert("seeds".into(), cells.len() as u64);
-        counts.preprocess.insert("seeds without a stroke".into(), grown.counts.rejected.total());
-        counts.bytes.insert("smoothed bricks".into(), strokes.directions().bytes());
-        counts.seconds.insert("grown strokes".into(), start.elapsed().as_secs_f64());
         Ok(Self {
             table,
             light: table.stroke.light.unwrap_or(scene.light),
-            iso,
-            pen,
-            min_width,
+            iso: value(scene, table.iso, "hatching.iso")?,
+            pen: pen(scene, "hatching", page, table.pen.as_deref(), (table.width, table.color))?,
+            min_width: on_page(scene, page, table.stroke.min_width, "hatching.stroke.min_width")?,
             spacing,
-            strokes: grown.strokes.into_iter().map(|(_, stroke)| stroke).collect(),
-            cross: grown.cross.into_iter().map(|(seed, stroke)| (seed.normal, stroke)).collect(),
+            how: how(scene, table, grid)?,
+            gradient_range: scene.volume.gradient_range,
         })
     }
 
-    /// The value of the surface that they lie on.
+    /// The value of the surface that strokes lie on.
     pub(super) fn iso(&self) -> f64 {
         self.iso
     }
 
+    /// Finds the seeds, and grows their strokes where no camera has a say in which.
+    pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> Hatched<'a> {
+        let start = Instant::now();
+        let table = self.table;
+        let pyramid = room::Pyramid::new(field.volume());
+        counts.bytes.insert("pyramid".into(), pyramid.bytes());
+        counts.preprocess.insert("pyramid".into(), pyramid.entries());
+        let strokes = room::Strokes::new(field, Some(self.iso), self.how);
+        let (rule, range) = match table.seeds {
+            SeedsBy::Dense => (room::SeedRule::Dense, [0.0; 2]),
+            SeedsBy::Curvature => {
+                let (range, voxels) = room::gradient_range(field, self.gradient_range);
+                *counts.preprocess.entry("gradients".into()).or_default() += voxels;
+                let (min_curvature, min_gradient) = (table.min_curvature, table.min_gradient);
+                (room::SeedRule::Curvature { min_curvature, min_gradient }, range)
+            }
+        };
+        let seeds = strokes.seeds(&pyramid, field, self.iso, rule, (table.measure, range));
+        counts.directions += seeds.measured;
+        counts.preprocess.insert("measures of seeds".into(), seeds.measured);
+        let cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
+        counts.preprocess.insert("seeds".into(), cells.len() as u64);
+        counts.seconds.insert("seeds".into(), start.elapsed().as_secs_f64());
+
+        let start = Instant::now();
+        let grown = self.spacing.is_none().then(|| {
+            let crossed = table.cross.is_some();
+            let grown = strokes.grow_all(&cells, |_| crossed);
+            add(counts, &grown.counts);
+            Grown {
+                first: grown.strokes.into_iter().map(|(_, stroke)| stroke).collect(),
+                across: grown.cross.into_iter().map(|(seed, stroke)| (seed.normal, stroke)).collect(),
+            }
+        });
+        counts.bytes.insert("smoothed bricks".into(), strokes.directions().bytes());
+        counts.seconds.insert("grown strokes".into(), start.elapsed().as_secs_f64());
+        Hatched { hatching: self, strokes, cells, grown }
+    }
+}
+
+impl Hatched<'_> {
     /// Those that a camera sees.
-    pub(super) fn draw(&self, frame: &Frame<'_>, counts: &mut Counts) -> Option<Layer> {
-        let light = towards(self.light, frame.view);
-        let tone = |normal: DVec3| 1.0 - (self.table.stroke.ambient + normal.dot(light)).clamp(0.0, 1.0);
-        let crossed = self.table.cross.is_some();
-        let by_tone = self.table.spacing == Spacing::Tone;
-        // Of what both families print, 1 − (1 − τ₁)(1 − τ₂) is the tone.
-        let first = |tau: f64| if crossed { tau.min(CROSSED) } else { tau };
-        let second = |tau: f64| (tau - CROSSED) / (1.0 - CROSSED);
-        let mut lines = self.lines(frame, &self.strokes, &tone, first, counts);
-        if let Some(angle) = self.table.cross {
-            let limit = math::cos(angle.to_radians());
-            let chosen = self.cross.iter().filter(|(normal, _)| by_tone || normal.dot(light) < limit);
-            let chosen: Vec<Stroke> = chosen.map(|(_, stroke)| stroke.clone()).collect();
-            lines.extend(self.lines(frame, &chosen, &tone, second, counts));
-        }
-        (!lines.is_empty()).then(|| Layer { lines, ..Layer::new(self.pen.clone()) })
+    pub(super) fn draw(&self, frame: &Frame<'_>, counts: &mut Counts) -> Layer {
+        let Hatching { table, pen, spacing, .. } = self.hatching;
+        let start = Instant::now();
+        let light = towards(self.hatching.light, frame.view);
+        let tone = |normal: DVec3| 1.0 - (table.stroke.ambient + normal.dot(light)).clamp(0.0, 1.0);
+        // They lie in front of the surface themselves.
+        let sight = frame.sight(0.0);
+        let lines = match (&self.grown, *spacing) {
+            (Some(grown), _) => self.as_they_fall(&sight, grown, light, &tone, counts),
+            (None, Some(apart)) => self.evenly(&sight, apart, &tone, counts),
+            (None, None) => Vec::new(),
+        };
+        *counts.seconds.entry("hatching".into()).or_default() += start.elapsed().as_secs_f64();
+        Layer { lines, ..Layer::new(pen.clone()) }
     }
 
-    /// The lines of some strokes; `share` is how much of the tone they print.
-    fn lines(
+    /// All strokes, drawn as `[hatching.stroke]` says; those that cross, where the light falls flatly enough.
+    fn as_they_fall(
         &self,
-        frame: &Frame<'_>,
-        strokes: &[Stroke],
+        sight: &room::Sight<'_>,
+        grown: &Grown,
+        light: DVec3,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
-        share: impl Fn(f64) -> f64 + Sync,
         counts: &mut Counts,
     ) -> Vec<Polyline> {
-        let start = Instant::now();
-        let by_tone = self.table.spacing == Spacing::Tone;
-        let one_width = self.table.has_one_width();
-        let style = self.table.stroke;
+        let Hatching { table, pen, min_width, .. } = self.hatching;
+        let style = table.stroke;
+        let one_width = table.has_one_width();
         let nib = |stroke: &Stroke, vertex: &StrokeVertex| {
-            let opacity = if by_tone { share(tone(vertex.normal)).max(0.0) } else { 1.0 };
             let width = if one_width {
-                self.pen.width
+                pen.width
             } else {
-                let width =
-                    self.pen.width * math::pow(tone(vertex.normal), style.tone) * taper(stroke, vertex.u, style.taper);
-                if width < self.min_width { 0.0 } else { width }
+                let taper = taper(stroke, vertex.u, style.taper);
+                let width = pen.width * math::pow(tone(vertex.normal), style.tone) * taper;
+                if width < *min_width { 0.0 } else { width }
             };
-            room::Pen { radius: width / 2.0, opacity }
+            room::Pen { radius: width / 2.0, opacity: 1.0 }
         };
-        // They lie in front of the surface themselves.
-        let seen = frame.sight(0.0).seen(strokes, nib);
+        let mut seen = sight.seen(&grown.first, nib);
+        if let Some(angle) = table.cross {
+            let limit = math::cos(angle.to_radians());
+            let across = grown.across.iter().filter(|(normal, _)| normal.dot(light) < limit);
+            let across: Vec<Stroke> = across.map(|(_, stroke)| stroke.clone()).collect();
+            let more = sight.seen(&across, nib);
+            seen.lines.extend(more.lines);
+            seen.looks += more.looks;
+        }
         *counts.preprocess.entry("looks for what hides".into()).or_default() += seen.looks;
-        *counts.seconds.entry("hidden strokes".into()).or_default() += start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let lines = match self.spacing {
-            Some(apart) => room::spread(seen.lines, self.pen.width, apart, SHORTEST * self.pen.width),
-            None => seen.lines,
+        seen.lines
+    }
+
+    /// Strokes that keep their distance on the page, those of each direction among themselves.
+    fn evenly(
+        &self,
+        sight: &room::Sight<'_>,
+        apart: room::Apart,
+        tone: &(impl Fn(DVec3) -> f64 + Sync),
+        counts: &mut Counts,
+    ) -> Vec<Polyline> {
+        let Hatching { table, pen, .. } = self.hatching;
+        let crossed = table.cross.is_some();
+        let by_tone = table.spacing == Spacing::Tone;
+        let limit = table.cross.map_or(-1.0, |angle| math::cos(angle.to_radians()));
+        let ambient = table.stroke.ambient;
+        // Of what both print together 1 − (1 − τ₁)(1 − τ₂) is the tone. Where the distance is the same everywhere the second
+        // begins at its angle.
+        let first = |normal: DVec3| match (by_tone, crossed) {
+            (true, true) => tone(normal).min(CROSSED),
+            (true, false) => tone(normal),
+            (false, _) => 1.0,
         };
-        *counts.seconds.entry("spacing of strokes".into()).or_default() += start.elapsed().as_secs_f64();
+        let second = |normal: DVec3| {
+            if by_tone {
+                (tone(normal) - CROSSED) / (1.0 - CROSSED)
+            } else {
+                f64::from(1.0 - tone(normal) - ambient < limit)
+            }
+        };
+        let mut lines = Vec::new();
+        let mut add_lines = |along, tone: &(dyn Fn(DVec3) -> f64 + Sync)| {
+            let margin = DVec2::splat(sight.page.margin);
+            let corners = [margin, sight.page.size - margin];
+            let mut spread = room::Spread::new(corners, pen.width, apart, SHORTEST * pen.width);
+            let even = self.strokes.evenly(sight, (&self.cells, table.seed), along, tone, &mut spread);
+            add(counts, &even.counts);
+            *counts.preprocess.entry("looks for what hides".into()).or_default() += even.looks + even.seen;
+            *counts.preprocess.entry("strokes tried".into()).or_default() += even.tried;
+            lines.extend(even.lines);
+        };
+        add_lines(room::Along::First, &first);
+        if crossed {
+            add_lines(room::Along::Across, &second);
+        }
+        counts.bytes.insert("smoothed bricks".into(), self.strokes.directions().bytes());
         lines
     }
+}
+
+/// Adds what growing did.
+fn add(counts: &mut Counts, grown: &room::HatchCounts) {
+    counts.directions += grown.scales.directions();
+    for (cause, number) in grown.stops.named() {
+        *counts.stops.entry(cause.into()).or_default() += number;
+    }
+    *counts.preprocess.entry("seeds without a stroke".into()).or_default() += grown.rejected.total();
 }
 
 /// min(1, u/b, (1 − u)/b); 1 on a stroke without ends.
@@ -169,8 +231,7 @@ fn taper(stroke: &Stroke, u: f64, b: f64) -> f64 {
 }
 
 /// The table in world units.
-fn how(scene: &Scene, table: &Hatching, field: &Field<'_, f64>) -> Result<room::Hatching, Failure> {
-    let grid = field.volume().grid();
+fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
     let length = |length, key: &str| in_world(scene, length, &format!("hatching.{key}"), grid);
     let directions = &table.directions;
     let axis = directions.axis.unwrap_or_else(|| room::longest_axis(grid));

@@ -2,7 +2,7 @@
 //!
 //! Lines on iso-surfaces: [`Pyramid`] leads to the cells of one, [`Seeds`] are those of them that strokes begin in, and
 //! [`Strokes`] grows a stroke along a line of curvature from each (3, 4.1, 4.2). [`outlines`] are found anew for each camera.
-//! [`Sight`] brings both to the page, without what is hidden (4.3.2), and [`spread`] keeps them apart there.
+//! [`Sight`] brings both to the page, without what is hidden (4.3.2), and a [`Spread`] keeps them apart there.
 //!
 //! Section 4.4: [`toon`] chooses a tone by the light, [`silhouette`] blackens what turns away from the eye, and
 //! [`view_opacity`] makes it more opaque.
@@ -11,6 +11,7 @@ mod cells;
 mod chain;
 mod counts;
 pub mod directions;
+mod even;
 mod front;
 mod ground;
 pub mod integrator;
@@ -37,6 +38,7 @@ pub mod view_opacity;
 
 pub use cells::gradient_range;
 pub use counts::{HatchCounts, NoDirection, Rejected, Rejections, Scales, Stop, Stops};
+pub use even::{Along, Even};
 pub use ground::Ground;
 pub use measures::{Largest, Measure};
 pub use orientation::{Reference, longest_axis};
@@ -46,7 +48,7 @@ pub use pyramid::Pyramid;
 pub use seeds::{SeedRule, Seeds};
 pub use sight::{Pen, Seen, Sight};
 pub use silhouette::Silhouette;
-pub use spacing::{Apart, spread};
+pub use spacing::{Apart, Spread};
 pub use strokes::{Family, Grown, Hatching, Strokes};
 pub use toon::Toon;
 pub use umbilics::{Directions, Rule, Thresholds};

@@ -41,6 +41,17 @@ impl<'a> Onto<'a> {
         self.page.place(size / 2.0 + off, self.view.size)
     }
 
+    /// The place of a point of the world inside the frame.
+    pub(super) fn place(&self, world: DVec3) -> Option<DVec2> {
+        let eye = self.view.to_eye(world);
+        if self.view.perspective && -eye.z < self.near {
+            return None;
+        }
+        let at = self.on_page(eye, if self.view.perspective { -eye.z } else { 1.0 });
+        let margin = DVec2::splat(self.page.margin);
+        (at.cmpge(margin).all() && at.cmple(self.page.size - margin).all()).then_some(at)
+    }
+
     /// What the frame, with `beyond` mm around it, holds of a piece of the world.
     pub(super) fn cut(&self, piece: [DVec3; 2], beyond: f64) -> Option<Cut> {
         let eye = piece.map(|p| self.view.to_eye(p));
@@ -156,6 +167,9 @@ mod tests {
     fn the_frame_cuts() {
         let (view, page) = (view(Projection::Orthographic { height: None }), page());
         let onto = Onto::new(&view, &page, 1.0);
+        let middle = onto.place(DVec3::new(0.0, 0.0, 50.0)).unwrap();
+        assert!((middle - DVec2::splat(55.0)).length() < 1e-9);
+        assert_eq!(onto.place(DVec3::new(f64::NAN, 0.0, 0.0)), None);
         let unit = 100.0 / (view.pixel * 100.0);
         let across = |x: f64| DVec3::new(x / unit, 0.0, 50.0);
         let cut = onto.cut([across(-100.0), across(100.0)], 0.0).unwrap();

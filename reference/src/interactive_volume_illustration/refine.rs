@@ -72,7 +72,7 @@ fn shortest([f, q]: [DVec3; 2], values: DVec2) -> Option<DVec3> {
     let (f_length, q_length) = (f.length(), q.length());
     let (f, q) = (f / f_length, q / q_length);
     let across = f.cross(q).length_squared();
-    if !(across > PARALLEL * PARALLEL) {
+    if across.is_nan() || across <= PARALLEL * PARALLEL {
         return None;
     }
     let (a, b, cos) = (-values.x / f_length, -values.y / q_length, f.dot(q));

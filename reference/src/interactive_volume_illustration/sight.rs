@@ -5,7 +5,7 @@
 
 use super::project::{Cut, Onto};
 use crate::surface::IsoSurface;
-use drypoint_scene::glam::DVec3;
+use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Page, Polyline, Vertex};
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use drypoint_scene::view::View;
@@ -52,6 +52,16 @@ pub struct Seen {
 }
 
 impl Sight<'_> {
+    /// Where a place of the world is on the page; none outside the frame.
+    pub fn place(&self, world: DVec3) -> Option<DVec2> {
+        Onto::new(self.view, self.page, self.near).place(world)
+    }
+
+    /// Whether a place is not hidden.
+    pub fn sees(&self, world: DVec3) -> bool {
+        self.surface.is_none_or(|surface| !surface.hides(world, self.view, self.near))
+    }
+
     /// What is seen of strokes, inside the frame, drawn with what `pen` says for each of their vertices.
     pub fn seen(&self, strokes: &[Stroke], pen: impl Fn(&Stroke, &StrokeVertex) -> Pen + Sync) -> Seen {
         let front = self.surface.map_or(1.0, |surface| surface.front(self.view));

@@ -11,6 +11,10 @@ use drypoint_scene::marks::{Polyline, Vertex};
 /// Rényi's constant: how full a street is where cars park at random.
 const RENYI: f64 = 0.747_597_920_253_411_4;
 
+/// A line begins where it is farther than d from all others, and goes on until it is nearer than this share of d: so lines that
+/// draw together slowly are not cut into pieces.
+const GOES_ON: f64 = 0.6;
+
 /// How far apart lines are wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Apart {
@@ -41,33 +45,55 @@ impl Apart {
     }
 }
 
-/// The parts of lines that are so far from each other, longest lines first, drawn with a nib of this width. Parts shorter
-/// than `shortest` are left out. All lengths in mm.
-pub fn spread(lines: Vec<Polyline>, nib: f64, apart: Apart, shortest: f64) -> Vec<Polyline> {
-    let mut order: Vec<(f64, usize)> = lines.iter().enumerate().map(|(i, line)| (line.length(), i)).collect();
-    order.retain(|&(length, _)| length >= shortest);
-    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let Some(mut paper) = Paper::new(&lines, nib, RENYI * apart.most(nib)) else { return Vec::new() };
-    let mut kept = Vec::new();
-    for (_, i) in order {
-        let parts = paper.free(&lines[i], |tone| apart.at(nib, tone).map(|d| RENYI * d));
-        for part in parts {
-            let line = Polyline { vertices: part, closed: false };
-            if line.length() >= shortest {
-                paper.take(&line);
-                kept.push((i, line));
+/// A page on which lines keep their distance.
+pub struct Spread {
+    paper: Paper,
+    nib: f64,
+    apart: Apart,
+    shortest: f64,
+}
+
+impl Spread {
+    /// An empty page between two corners, for a nib of this width; parts of lines that are shorter than `shortest` are left out.
+    /// All lengths in mm.
+    pub fn new(corners: [DVec2; 2], nib: f64, apart: Apart, shortest: f64) -> Self {
+        Self { paper: Paper::new(corners, nib, RENYI * apart.most(nib)), nib, apart, shortest }
+    }
+
+    /// Whether a line may begin at a place where the tone is τ.
+    pub fn is_open(&self, at: DVec2, tone: f64) -> bool {
+        !self.paper.is_closed(at) && self.distance(tone).is_some_and(|d| self.paper.is_free(at, d))
+    }
+
+    /// No other line is to begin at a place, nor a nib's width around it.
+    pub fn close(&mut self, at: DVec2) {
+        self.paper.close(at);
+    }
+
+    fn distance(&self, tone: f64) -> Option<f64> {
+        self.apart.at(self.nib, tone).map(|d| RENYI * d)
+    }
+
+    /// Takes the parts of lines that are so far from all before, longest lines first, as the nib draws them.
+    pub fn add(&mut self, lines: &[Polyline]) -> Vec<Polyline> {
+        let mut order: Vec<(f64, &Polyline)> = lines.iter().map(|line| (line.length(), line)).collect();
+        order.retain(|(length, _)| *length >= self.shortest);
+        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut kept = Vec::new();
+        for (_, line) in order {
+            for vertices in self.paper.free(line, |tone| self.distance(tone)) {
+                let mut part = Polyline { vertices, closed: false };
+                if part.length() >= self.shortest {
+                    self.paper.take(&part);
+                    for vertex in &mut part.vertices {
+                        (vertex.radius, vertex.opacity) = (self.nib / 2.0, 1.0);
+                    }
+                    kept.push(part);
+                }
             }
         }
+        kept
     }
-    kept.sort_by_key(|(i, _)| *i);
-    kept.into_iter()
-        .map(|(_, mut line)| {
-            for vertex in &mut line.vertices {
-                (vertex.radius, vertex.opacity) = (nib / 2.0, 1.0);
-            }
-            line
-        })
-        .collect()
 }
 
 /// The most cells of a side.
@@ -86,18 +112,30 @@ struct Paper {
     reach: f64,
     near: Vec<u32>,
     places: Vec<DVec2>,
+    /// Where no line is to begin.
+    closed: Vec<bool>,
 }
 
 impl Paper {
-    /// Of the smallest box around lines; none where there is none.
-    fn new(lines: &[Polyline], nib: f64, reach: f64) -> Option<Self> {
-        let places = lines.iter().flat_map(|line| line.vertices.iter().map(|vertex| vertex.at));
-        let (lo, hi) = places.fold(None, |found: Option<(DVec2, DVec2)>, at| {
-            Some(found.map_or((at, at), |(lo, hi)| (lo.min(at), hi.max(at))))
-        })?;
-        let cell = (0.5 * nib).max((hi - lo).max_element() / MOST);
-        let dims = [hi.x - lo.x, hi.y - lo.y].map(|length| (length / cell) as usize + 1);
-        Some(Self { first: lo, cell, dims, reach, near: vec![NONE; dims[0] * dims[1]], places: Vec::new() })
+    fn new([first, last]: [DVec2; 2], nib: f64, reach: f64) -> Self {
+        let cell = (0.5 * nib).max((last - first).max_element() / MOST);
+        let dims = [last.x - first.x, last.y - first.y].map(|length| (length / cell) as usize + 1);
+        let cells = dims[0] * dims[1];
+        Self { first, cell, dims, reach, near: vec![NONE; cells], places: Vec::new(), closed: vec![false; cells] }
+    }
+
+    fn is_closed(&self, at: DVec2) -> bool {
+        let [x, y] = self.cell_of(at);
+        self.closed[x + y * self.dims[0]]
+    }
+
+    fn close(&mut self, at: DVec2) {
+        let [x, y] = self.cell_of(at);
+        for j in about(y, 1, self.dims[1]) {
+            for i in about(x, 1, self.dims[0]) {
+                self.closed[i + j * self.dims[0]] = true;
+            }
+        }
     }
 
     fn cell_of(&self, at: DVec2) -> [usize; 2] {
@@ -109,35 +147,41 @@ impl Paper {
     fn is_free(&self, at: DVec2, d: f64) -> bool {
         let [x, y] = self.cell_of(at);
         // The nearest of a cell's middle need not be that of each of its places: its neighbours know others.
-        let about = |i: usize, n: usize| i.saturating_sub(1)..(i + 2).min(n);
-        about(y, self.dims[1]).flat_map(|j| about(x, self.dims[0]).map(move |i| (i, j))).all(|(i, j)| {
+        about(y, 1, self.dims[1]).flat_map(|j| about(x, 1, self.dims[0]).map(move |i| (i, j))).all(|(i, j)| {
             let near = self.near[i + j * self.dims[0]];
             near == NONE || self.places[near as usize].distance_squared(at) >= d * d
         })
     }
 
-    /// The parts of a line that are free, where it has a distance at all.
+    /// The parts of a line that go on, where it has a distance at all, and in which it could begin.
     fn free(&self, line: &Polyline, apart: impl Fn(f64) -> Option<f64>) -> Vec<Vec<Vertex>> {
         let mut parts = Vec::new();
-        let mut part: Vec<Vertex> = Vec::new();
+        let (mut part, mut begins) = (Vec::<Vertex>::new(), false);
         let joined = line.closed.then(|| line.vertices.first().map(|v| Vertex { t: 1.0, ..*v })).flatten();
         let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(joined).collect();
         for (k, pair) in vertices.windows(2).enumerate() {
             let steps = self.steps(pair[0].at, pair[1].at);
             for step in usize::from(k > 0)..=steps {
                 let place = between(&pair[0], &pair[1], step as f64 / steps as f64);
-                if apart(place.opacity).is_some_and(|d| self.is_free(place.at, d)) {
+                let wanted = apart(place.opacity);
+                if wanted.is_some_and(|d| self.is_free(place.at, GOES_ON * d)) {
+                    begins = begins || wanted.is_some_and(|d| self.is_free(place.at, d));
                     // Places in the middle of a straight piece are not kept, but its ends are.
                     if part.len() > 1 && step > 1 {
                         part.pop();
                     }
                     part.push(place);
-                } else if !part.is_empty() {
-                    parts.push(std::mem::take(&mut part));
+                } else {
+                    let ended = std::mem::take(&mut part);
+                    if std::mem::take(&mut begins) {
+                        parts.push(ended);
+                    }
                 }
             }
         }
-        parts.push(part);
+        if begins {
+            parts.push(part);
+        }
         parts.retain(|part| part.len() > 1);
         parts
     }
@@ -162,9 +206,8 @@ impl Paper {
         self.places.push(at);
         let cells = (self.reach / self.cell).ceil() as usize + 1;
         let [x, y] = self.cell_of(at);
-        let about = |i: usize, n: usize| i.saturating_sub(cells)..(i + cells + 1).min(n);
-        for j in about(y, self.dims[1]) {
-            for i in about(x, self.dims[0]) {
+        for j in about(y, cells, self.dims[1]) {
+            for i in about(x, cells, self.dims[0]) {
                 let middle = self.first + DVec2::new(i as f64 + 0.5, j as f64 + 0.5) * self.cell;
                 let near = &mut self.near[i + j * self.dims[0]];
                 let nearer = |other: u32| self.places[other as usize].distance_squared(middle);
@@ -174,6 +217,11 @@ impl Paper {
             }
         }
     }
+}
+
+/// The cells of a row around one, so many to both sides.
+fn about(i: usize, cells: usize, n: usize) -> std::ops::Range<usize> {
+    i.saturating_sub(cells)..(i + cells + 1).min(n)
 }
 
 /// A place on a straight piece.
@@ -195,6 +243,11 @@ mod tests {
     use drypoint_scene::philox::uniforms;
 
     const NIB: f64 = 0.3;
+
+    /// Of all lines at once.
+    fn spread(lines: &[Polyline], apart: Apart, shortest: f64) -> Vec<Polyline> {
+        Spread::new([DVec2::splat(-10.0), DVec2::splat(90.0)], NIB, apart, shortest).add(lines)
+    }
 
     fn line(from: DVec2, to: DVec2, tone: impl Fn(DVec2) -> f64) -> Polyline {
         let vertex = |k: usize| {
@@ -251,7 +304,7 @@ mod tests {
     fn flat_tones_print_as_they_are_wanted() {
         for tone in [0.1, 0.2, 0.35, 0.5, 0.65, 0.8] {
             let all = lines(12_000, |_| tone);
-            let kept = spread(all, NIB, Apart::Tone { least: 0.05 }, 1.0);
+            let kept = spread(&all, Apart::Tone { least: 0.05 }, 1.0);
             let found = ink(&kept, [10.0, 50.0]);
             assert!((found - tone).abs() <= 0.05, "{tone}: {found}");
         }
@@ -260,7 +313,7 @@ mod tests {
     #[test]
     fn a_ramp_prints_as_it_is_wanted() {
         let tone = |at: DVec2| (0.8 * at.x / 60.0).clamp(0.0, 1.0);
-        let kept = spread(lines(30_000, tone), NIB, Apart::Tone { least: 0.05 }, 0.6);
+        let kept = spread(&lines(30_000, tone), Apart::Tone { least: 0.05 }, 0.6);
         for k in 1..8 {
             let range = [60.0 / 8.0 * f64::from(k), 60.0 / 8.0 * f64::from(k + 1)];
             let wanted = tone(DVec2::new(0.5 * (range[0] + range[1]), 0.0));
@@ -269,8 +322,8 @@ mod tests {
         }
     }
 
-    /// No two parts of different lines come nearer than d, less what lies between the places of a line: half a nib along
-    /// it, √(d² − (nib/4)²) across at the least.
+    /// No two parts of different lines come nearer than 0.6 d, less what lies between the places of a line: half a nib along
+    /// it, √((0.6 d)² − (nib/4)²) across at the least.
     #[test]
     fn lines_keep_their_distance() {
         let slanted = |k: u32| {
@@ -278,9 +331,9 @@ mod tests {
             let from = DVec2::new(20.0 * x, 20.0 * y);
             line(from, from + 8.0 * DVec2::new(a - 0.5, 1.0 - a), |_| 0.3)
         };
-        let kept = spread((0..800).map(slanted).collect(), NIB, Apart::Tone { least: 0.05 }, 0.5);
+        let kept = spread(&(0..800).map(slanted).collect::<Vec<_>>(), Apart::Tone { least: 0.05 }, 0.5);
         assert!(kept.len() > 20, "{}", kept.len());
-        let d = RENYI * NIB / 0.3;
+        let d = GOES_ON * RENYI * NIB / 0.3;
         let bound = (d * d - NIB * NIB / 16.0).sqrt() - 1e-9;
         for (i, a) in kept.iter().enumerate() {
             for b in &kept[..i] {
@@ -299,7 +352,7 @@ mod tests {
 
     #[test]
     fn a_length_is_a_distance_everywhere_and_white_is_white() {
-        let kept = spread(lines(12_000, |at| if at.x < 30.0 { 0.9 } else { 0.0 }), NIB, Apart::Everywhere(1.5), 1.0);
+        let kept = spread(&lines(12_000, |at| if at.x < 30.0 { 0.9 } else { 0.0 }), Apart::Everywhere(1.5), 1.0);
         assert!((ink(&kept, [5.0, 25.0]) - NIB / 1.5).abs() < 0.02);
         assert_eq!(ink(&kept, [33.0, 60.0]), 0.0);
         assert!(kept.iter().flat_map(|l| &l.vertices).all(|v| v.opacity == 1.0 && v.radius == NIB / 2.0));
@@ -307,17 +360,23 @@ mod tests {
 
     #[test]
     fn nothing_and_one() {
-        assert!(spread(Vec::new(), NIB, Apart::Everywhere(1.0), 0.0).is_empty());
+        assert!(spread(&[], Apart::Everywhere(1.0), 0.0).is_empty());
         let alone = line(DVec2::ZERO, DVec2::new(5.0, 2.0), |_| 0.5);
-        let kept = spread(vec![alone.clone()], NIB, Apart::Tone { least: 0.05 }, 1.0);
+        let kept = spread(std::slice::from_ref(&alone), Apart::Tone { least: 0.05 }, 1.0);
         assert_eq!(kept.len(), 1);
         assert!((kept[0].length() - alone.length()).abs() < 1e-12);
         // A dash that is too short is none, and neither is one without tone.
-        assert!(spread(vec![alone.clone()], NIB, Apart::Everywhere(1.0), 6.0).is_empty());
+        assert!(spread(std::slice::from_ref(&alone), Apart::Everywhere(1.0), 6.0).is_empty());
+        let mut page = Spread::new([DVec2::ZERO, DVec2::splat(9.0)], NIB, Apart::Tone { least: 0.05 }, 1.0);
+        assert!(page.is_open(alone.vertices[3].at, 0.5) && !page.is_open(alone.vertices[3].at, 0.01));
+        page.add(std::slice::from_ref(&alone));
+        assert!(!page.is_open(alone.vertices[3].at, 0.5) && page.is_open(DVec2::new(1.0, 5.0), 0.5));
+        page.close(DVec2::new(1.0, 5.0));
+        assert!(!page.is_open(DVec2::new(1.1, 5.0), 0.5) && page.is_open(DVec2::new(1.6, 5.0), 0.5));
         let faint = line(DVec2::ZERO, DVec2::new(5.0, 2.0), |_| 0.04);
-        assert!(spread(vec![faint], NIB, Apart::Tone { least: 0.05 }, 1.0).is_empty());
+        assert!(spread(&[faint], Apart::Tone { least: 0.05 }, 1.0).is_empty());
         let closed = Polyline { closed: true, ..alone };
-        let kept = spread(vec![closed.clone()], NIB, Apart::Everywhere(1.0), 1.0);
+        let kept = spread(std::slice::from_ref(&closed), Apart::Everywhere(1.0), 1.0);
         assert!((kept[0].length() - closed.length()).abs() < 1e-12);
     }
 }
