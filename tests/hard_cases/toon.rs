@@ -199,8 +199,26 @@ fn without_normal() -> f64 {
     differ
 }
 
-/// Around a rotated camera and a light that turns with it the picture is the same but for the pixels on a step: which side
-/// is lit does not depend on the world's axes.
+/// A light in eye space turns with the camera: a renderer that is turned draws what a new one does.
+#[test]
+fn a_turned_camera_takes_its_light_along() {
+    let function = Shot::regular(ball(16, 6.0), &[(-2.0, COLOR, 0.0), (2.0, COLOR, 0.4)])
+        .with(|s| s.shading = Some(everything(1.0)));
+    let surface = function.with(|s| {
+        s.transfer = None;
+        let Shading { toon, silhouette, .. } = everything(0.0);
+        s.surface =
+            Some(Surface { iso: Iso::Value(0.5), look: SurfaceLook::Toon, toon, silhouette, ..Surface::default() });
+    });
+    for shot in [function, surface] {
+        let turned = shot.seen_along([-0.5, 0.6, 0.3]);
+        let shown = shot.render_turned(&[shot.view(), turned.view()]);
+        assert_eq!(shown[0].bits(), shot.render().bits());
+        assert_eq!(shown[1].bits(), turned.render().bits());
+    }
+}
+
+/// Under the mirrored light a ball looks mirrored, and is dark on the other side.
 #[test]
 fn a_mirrored_light_makes_a_mirrored_picture() {
     let lit = |x: f64| {

@@ -3,7 +3,8 @@
 use super::generator::{resized, scene};
 use crate::common::{Shot, Shown};
 use drypoint::scene::tables::{
-    BlendSpace, GradientEstimator, HessianEstimator, Kappa, Kernel, NormalSide, Number, StepAlong, Table, TransferKind,
+    BlendSpace, GradientEstimator, HessianEstimator, Kappa, Kernel, NormalSide, Number, ShadingModel, StepAlong, Table,
+    TransferKind,
 };
 
 /// A random scene made into such as lanes serve, with all else as it came: cameras, steps, spacings, stored types, slopes,
@@ -19,6 +20,10 @@ fn shot(seed: u64) -> Shot {
         s.picture.blend_space = BlendSpace::Linear;
         s.style_mipmaps = None;
         s.surface = None;
+        // Tones, silhouettes and view-dependent opacity are cast ray by ray.
+        if let Some(shading) = &mut s.shading {
+            (shading.model, shading.silhouette, shading.view_opacity) = (ShadingModel::Phong, None, 0.0);
+        }
         match (&mut s.contours, s.transfer.as_ref().map(|t| t.kind)) {
             (Some(contours), Some(TransferKind::Style)) if contours.kappa == Kappa::Exact => {
                 contours.kappa = Kappa::Ray

@@ -148,7 +148,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         asked_by: "`shading.view_opacity`",
         base: REGULAR,
         without: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]")],
-        with: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]"), ("shading.view_opacity", "1")],
+        with: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]"), ("shading.view_opacity", "0.1")],
         only: &["gradients"],
         ..NOTHING
     },
