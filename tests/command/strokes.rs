@@ -129,15 +129,15 @@ fn another_surface_hides() {
     assert_eq!(counts(&folder, "render ball.toml -o a.png -q --stats")["strokes"].as_u64(), Some(1));
 }
 
-/// A bare volume takes the preset, and a line that is too short is left out.
+/// A bare volume in outline; a line that is too short is left out.
 #[test]
 fn a_bare_volume() {
     let folder = Folder::new();
     folder.good("phantom sphere --size 24 --type u8 -o ball.nrrd -q");
-    let stats = counts(&folder, "strokes ball.nrrd -o a.svg -q --stats");
+    let stats = counts(&folder, "strokes ball.nrrd --preset outline -o a.svg -q --stats");
     assert!(stats["strokes"].as_u64().unwrap() > 0, "{stats}");
     assert!(text(&folder, "a.svg").contains("width=\"160mm\""));
-    let told = folder.line("strokes ball.nrrd -o a.svg --set outlines.min_length=\"900mm\"").err;
+    let told = folder.line("strokes ball.nrrd --preset outline -o a.svg --set outlines.min_length=\"900mm\"").err;
     assert!(told.contains("warning: the page is empty"), "{told}");
 }
 

@@ -17,6 +17,7 @@ mod masks;
 mod mirror;
 mod offset;
 mod opacities;
+mod outlines;
 mod phong;
 mod probe;
 mod reconstruction;

@@ -72,11 +72,8 @@ fn shortest([f, q]: [DVec3; 2], values: DVec2) -> Option<DVec3> {
     let (f_length, q_length) = (f.length(), q.length());
     let (f, q) = (f / f_length, q / q_length);
     let across = f.cross(q).length_squared();
-    if across.is_nan() || across <= PARALLEL * PARALLEL {
-        return None;
-    }
     let (a, b, cos) = (-values.x / f_length, -values.y / q_length, f.dot(q));
-    Some((f * (a - b * cos) + q * (b - a * cos)) / across)
+    (across > PARALLEL * PARALLEL).then(|| (f * (a - b * cos) + q * (b - a * cos)) / across)
 }
 
 #[cfg(test)]

@@ -44,10 +44,6 @@ fn places(strokes: &[Stroke]) -> Vec<DVec3> {
     strokes.iter().flat_map(of).collect()
 }
 
-fn voxel_of(grid: &Grid) -> f64 {
-    grid.voxel()
-}
-
 fn sphere(grid: &Grid, radius: f64) -> Box<dyn Phantom> {
     by_name("sphere", grid, &[("R".into(), radius)]).unwrap()
 }
@@ -149,7 +145,7 @@ fn grids_of_any_shape() {
         assert!(found.strokes[0].closed);
         for p in places(&found.strokes) {
             let from = p - grid.centre();
-            let off = OFF * voxel_of(&grid);
+            let off = OFF * grid.voxel();
             assert!(from.dot(view.forward).abs() < off && (from.length() - radius).abs() < off, "{from}");
         }
     }
