@@ -158,7 +158,7 @@ impl Scaled<'_, '_> {
         if difference <= self.thresholds.gap * (c.k1.abs() + c.k2.abs()) {
             return Err(Unsure::Umbilic);
         }
-        if difference * norm <= self.thresholds.noise * one.noise() {
+        if difference * norm <= self.thresholds.noise * one.noise(index) {
             return Err(Unsure::Noise);
         }
         let (other, _) = self.curvature(larger, index)?;
