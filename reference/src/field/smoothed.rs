@@ -104,7 +104,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         along[0].max(along[1]).max(along[2])
     }
 
-    /// The samples that the cells of a brick read, x fastest: sums along x, then y, then z.
+    /// The samples that the cells of a brick read, x fastest: sums along z, then y, whose runs lie side by side, then x.
     fn brick(&self, brick: [usize; 3]) -> Box<[f64]> {
         let of_axis = |a: usize| {
             let rows = &self.rows[a][brick[a] * BRICK..];
@@ -112,25 +112,45 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         };
         let [xs, ys, zs] = [0, 1, 2].map(of_axis);
         let [x_range, y_range, z_range] = [xs, ys, zs].map(reads);
+        let (nx, ny) = (x_range[1] - x_range[0], y_range[1] - y_range[0]);
         let stencils = &self.field.stencils;
         let base: f64 = stencils.lowest();
-        let mut line = vec![0.0; x_range[1] - x_range[0]];
-        let mut plane = vec![0.0; (y_range[1] - y_range[0]) * SIDE];
-        let mut planes = vec![0.0; (z_range[1] - z_range[0]) * SIDE * SIDE];
-        for (z, out) in (z_range[0]..).zip(planes.chunks_mut(SIDE * SIDE)) {
-            for (y, out) in (y_range[0]..).zip(plane.chunks_mut(SIDE)) {
-                stencils.read_run([x_range[0], y, z], &mut line);
+        let mut plane = vec![0.0; ny * nx];
+        let mut along_z = vec![0.0; zs.len() * ny * nx];
+        for z in z_range[0]..z_range[1] {
+            for (y, line) in (y_range[0]..).zip(plane.chunks_mut(nx)) {
+                stencils.read_run([x_range[0], y, z], line);
                 line.iter_mut().for_each(|c| *c -= base);
-                for (out, (first, weights)) in out.iter_mut().zip(xs) {
-                    let samples = &line[first - x_range[0]..][..weights.len()];
-                    *out = samples.iter().zip(weights).map(|(c, w)| c * w).sum();
+            }
+            for (out, (first, weights)) in along_z.chunks_mut(ny * nx).zip(zs) {
+                if let Some(&w) = z.checked_sub(*first).and_then(|i| weights.get(i)) {
+                    add(out, &plane, w);
                 }
             }
-            sums(&plane, SIDE, ys, y_range[0], out);
         }
+        let mut along_y = vec![0.0; SIDE * nx];
         let mut data = vec![0.0; SIDE * SIDE * SIDE];
-        sums(&planes, SIDE * SIDE, zs, z_range[0], &mut data);
+        for (plane, out) in along_z.chunks(ny * nx).zip(data.chunks_mut(SIDE * SIDE)) {
+            along_y.fill(0.0);
+            for (out, (first, weights)) in along_y.chunks_mut(nx).zip(ys) {
+                for (line, &w) in plane[(first - y_range[0]) * nx..].chunks(nx).zip(weights) {
+                    add(out, line, w);
+                }
+            }
+            for (line, out) in along_y.chunks(nx).zip(out.chunks_mut(SIDE)) {
+                for (out, (first, weights)) in out.iter_mut().zip(xs) {
+                    *out = line[first - x_range[0]..].iter().zip(weights).map(|(c, w)| c * w).sum();
+                }
+            }
+        }
         data.into_boxed_slice()
+    }
+}
+
+/// Adds numbers times a weight.
+fn add(sums: &mut [f64], numbers: &[f64], weight: f64) {
+    for (sum, &c) in sums.iter_mut().zip(numbers) {
+        *sum += c * weight;
     }
 }
 
@@ -138,18 +158,6 @@ impl<'f, 'v> Smoothed<'f, 'v> {
 fn reads(rows: &[Row]) -> [usize; 2] {
     let first = rows.iter().map(|(first, _)| *first).min().unwrap_or(0);
     [first, rows.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or(first)]
-}
-
-/// For each row its weighted sum of the runs of `lanes` numbers, of which the first is that of sample `start`.
-fn sums(samples: &[f64], lanes: usize, rows: &[Row], start: usize, out: &mut [f64]) {
-    for (out, (first, weights)) in out.chunks_mut(lanes).zip(rows) {
-        let runs = samples[(first - start) * lanes..].chunks(lanes);
-        for (run, &w) in runs.zip(weights) {
-            for (sum, &c) in out.iter_mut().zip(run) {
-                *sum += c * w;
-            }
-        }
-    }
 }
 
 /// The samples that a cell reads, weighted for values and derivatives between the first two of the cell: those at both are
