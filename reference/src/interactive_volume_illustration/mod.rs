@@ -2,6 +2,7 @@
 //!
 //! [`Strokes`] grows a stroke from each cell that it is given.
 
+mod cone;
 mod counts;
 pub mod directions;
 mod front;
@@ -13,6 +14,7 @@ mod search;
 mod strokes;
 mod umbilics;
 
+pub use cone::NormalCone;
 pub use counts::{HatchCounts, NoDirection, Rejected, Rejections, Scales, Stop, Stops};
 pub use ground::Ground;
 pub use orientation::{Reference, longest_axis};
