@@ -9,6 +9,7 @@
 
 mod cells;
 mod chain;
+mod cone;
 mod counts;
 pub mod directions;
 mod even;
@@ -37,6 +38,7 @@ mod umbilics;
 pub mod view_opacity;
 
 pub use cells::gradient_range;
+pub use cone::NormalCone;
 pub use counts::{HatchCounts, NoDirection, Rejected, Rejections, Scales, Stop, Stops};
 pub use even::{Along, Even};
 pub use ground::Ground;
