@@ -156,17 +156,29 @@ impl Hatched<'_> {
             };
             room::Pen { radius: width / 2.0, opacity: 1.0 }
         };
-        let mut seen = sight.seen(&grown.first, nib);
+        let may_be_seen = |stroke: &&Stroke| !self.turns_away(sight, stroke);
+        let first: Vec<Stroke> = grown.first.iter().filter(may_be_seen).cloned().collect();
+        let mut seen = sight.seen(&first, nib);
         if let Some(angle) = table.cross {
             let limit = math::cos(angle.to_radians());
-            let across = grown.across.iter().filter(|(normal, _)| normal.dot(light) < limit);
-            let across: Vec<Stroke> = across.map(|(_, stroke)| stroke.clone()).collect();
+            let across = grown.across.iter().filter(|(normal, _)| normal.dot(light) < limit).map(|(_, stroke)| stroke);
+            let across: Vec<Stroke> = across.filter(may_be_seen).cloned().collect();
             let more = sight.seen(&across, nib);
             seen.lines.extend(more.lines);
             seen.looks += more.looks;
         }
         *counts.preprocess.entry("looks for what hides".into()).or_default() += seen.looks;
         seen.lines
+    }
+
+    /// Whether all of a stroke turns away from the eye, so that its own surface hides it; unknown where another one hides
+    /// ([HATCH-10]).
+    fn turns_away(&self, sight: &room::Sight<'_>, stroke: &Stroke) -> bool {
+        let view = sight.view;
+        sight.surface.is_some_and(|surface| surface.iso() == self.hatching.iso && surface.front(view) > 0.0) && {
+            let cone = room::NormalCone::new(stroke);
+            if view.perspective { cone.culled(view.eye) } else { cone.culled_from(-view.forward) }
+        }
     }
 
     /// Strokes that keep their distance on the page, those of each direction among themselves.

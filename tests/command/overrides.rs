@@ -61,7 +61,7 @@ fn what_leads_nowhere_is_refused() {
         ),
         (
             "--set conturs=off",
-            "error: a scene has no key \"conturs\"\n  at: --set conturs=off, key conturs\n  try: write \"contours\"; the keys here are drypoint, preset, light, volume, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, stipples, outlines, surface\n",
+            "error: a scene has no key \"conturs\"\n  at: --set conturs=off, key conturs\n  try: write \"contours\"; the keys here are drypoint, preset, light, volume, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, stipples, hatching, outlines, surface\n",
         ),
         (
             "--set camera.fov=x --set a --set b",
@@ -85,7 +85,7 @@ fn what_leads_nowhere_is_refused() {
         ),
         (
             "--preset stlye",
-            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\", \"stipple-fig9\", \"toon\" or \"hatch-fig2\"\n",
+            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\", \"stipple-fig9\", \"hatch\", \"hatch-fig6-left\", \"hatch-fig6-right\", \"outline\", \"toon\" or \"hatch-fig2\"\n",
         ),
     ] {
         assert_eq!(folder.refused(&format!("render scene.toml {line}")), expected, "{line}");

@@ -1,5 +1,5 @@
 //! The papers' figures, remade with our own scenes, and what a paper says without a figure: every `figure_*.toml` and
-//! `two_quantities_*.toml` of `data/scenes` is a picture in `docs/pictures`.
+//! `two_quantities_*.toml` of `data/scenes`, and some others, is a picture in `docs/pictures`.
 
 use crate::files;
 use drypoint::Failures;
@@ -58,7 +58,9 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
         scenes.extend(entries(paper)?.into_iter().filter(|path| {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             path.extension().is_some_and(|e| e == "toml")
-                && (stem.starts_with("figure_") || stem.starts_with("two_quantities_") || stem == "skull-plotter")
+                && (stem.starts_with("figure_")
+                    || stem.starts_with("two_quantities_")
+                    || ["skull-plotter", "outlines-engine", "hatching-engine", "hatching-skull"].contains(&&*stem))
                 && !(stem.ends_with("_regular") || (styles && stem.starts_with("figure_1_")))
         }));
     }

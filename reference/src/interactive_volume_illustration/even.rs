@@ -11,7 +11,7 @@ use super::strokes::Strokes;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::Polyline;
 use drypoint_scene::philox::uniform;
-use drypoint_scene::strokes::Stroke;
+use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use rayon::prelude::*;
 
 /// Strokes that are grown side by side, before any of them takes its place.
@@ -73,8 +73,15 @@ impl Strokes<'_, '_> {
             if group.is_empty() {
                 return even;
             }
-            let grown: Vec<(Option<Stroke>, HatchCounts)> =
-                group.par_iter().map(|candidate| self.stroke_of(candidate.cell, along)).collect();
+            // What hides is asked for only where there is room for a line.
+            let ink = |_: &Stroke, vertex: &StrokeVertex| Pen { radius: 0.0, opacity: tone(vertex.normal).max(0.0) };
+            let bare = Sight { surface: None, ..*sight };
+            let has_room = |stroke: &Stroke| spread.has_room(&bare.seen(std::slice::from_ref(stroke), ink).lines);
+            let grown: Vec<(Option<Stroke>, HatchCounts)> = group
+                .par_iter()
+                .map(|candidate| self.stroke_of(candidate.cell, along))
+                .map(|(stroke, counts)| (stroke.filter(has_room), counts))
+                .collect();
             even.tried += group.len() as u64;
             // Whatever comes of them, it comes of no other that begins there.
             group.iter().for_each(|candidate| spread.close(candidate.at));
@@ -83,7 +90,7 @@ impl Strokes<'_, '_> {
                 strokes.extend(stroke);
                 even.counts += counts;
             }
-            let seen = sight.seen(&strokes, |_, vertex| Pen { radius: 0.0, opacity: tone(vertex.normal).max(0.0) });
+            let seen = sight.seen(&strokes, ink);
             even.looks += seen.looks;
             even.lines.extend(spread.add(&seen.lines));
         }

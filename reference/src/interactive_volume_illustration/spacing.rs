@@ -74,22 +74,32 @@ impl Spread {
         self.apart.at(self.nib, tone).map(|d| RENYI * d)
     }
 
+    /// Whether some part of lines would be taken, if it were alone.
+    pub fn has_room(&self, lines: &[Polyline]) -> bool {
+        lines.iter().any(|line| self.parts(line).next().is_some())
+    }
+
+    /// The parts of a line that are so far from all lines.
+    fn parts(&self, line: &Polyline) -> impl Iterator<Item = Polyline> {
+        let parts =
+            if line.length() < self.shortest { Vec::new() } else { self.paper.free(line, |tone| self.distance(tone)) };
+        let parts = parts.into_iter().map(|vertices| Polyline { vertices, closed: false });
+        parts.filter(|part| part.length() >= self.shortest)
+    }
+
     /// Takes the parts of lines that are so far from all before, longest lines first, as the nib draws them.
     pub fn add(&mut self, lines: &[Polyline]) -> Vec<Polyline> {
         let mut order: Vec<(f64, &Polyline)> = lines.iter().map(|line| (line.length(), line)).collect();
-        order.retain(|(length, _)| *length >= self.shortest);
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut kept = Vec::new();
         for (_, line) in order {
-            for vertices in self.paper.free(line, |tone| self.distance(tone)) {
-                let mut part = Polyline { vertices, closed: false };
-                if part.length() >= self.shortest {
-                    self.paper.take(&part);
-                    for vertex in &mut part.vertices {
-                        (vertex.radius, vertex.opacity) = (self.nib / 2.0, 1.0);
-                    }
-                    kept.push(part);
+            let parts: Vec<Polyline> = self.parts(line).collect();
+            for mut part in parts {
+                self.paper.take(&part);
+                for vertex in &mut part.vertices {
+                    (vertex.radius, vertex.opacity) = (self.nib / 2.0, 1.0);
                 }
+                kept.push(part);
             }
         }
         kept

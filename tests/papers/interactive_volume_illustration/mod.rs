@@ -1,5 +1,24 @@
 //! Nagy, Schneider and Westermann 2002: what the paper and the specification say, in pictures and strokes of phantoms whose
 //! truth is known.
 
+mod hatching;
 mod outlines;
 mod toon;
+
+use drypoint::job::{Job, Wanted};
+use drypoint::marking::Marking;
+use drypoint::scene::counts::Counts;
+use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::marks::Marks;
+use std::path::Path;
+
+/// The points and lines of a scene's first frame.
+fn page(scene: &str, wanted: Wanted) -> (Marks, Counts, Job) {
+    let scene = parse(scene, Path::new("scene.toml"), &Overrides::default()).unwrap();
+    let job = Job::load_for(scene, wanted).unwrap();
+    let mut counts = Counts::default();
+    let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
+    let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts);
+    drop(marking);
+    (marks, counts, job)
+}

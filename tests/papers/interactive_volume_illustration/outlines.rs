@@ -1,5 +1,6 @@
 //! Outlines on the page ([HATCH-18], [HATCH-14]): where they are, what hides them, and what they do not change.
 
+use super::page;
 use drypoint::drawing::Drawing;
 use drypoint::job::{Job, Wanted};
 use drypoint::marking::Marking;
@@ -7,7 +8,7 @@ use drypoint::reference::field::{Field, Reconstruction, Rung};
 use drypoint::reference::interactive_volume_illustration::outlines;
 use drypoint::reference::surface::IsoSurface;
 use drypoint::scene::counts::Counts;
-use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::file::parse;
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Marks, Page, Polyline};
 use std::path::Path;
@@ -25,16 +26,6 @@ dpi = 100
 [outlines]
 iso = 0
 "#;
-
-fn page(scene: &str, wanted: Wanted) -> (Marks, Counts, Job) {
-    let scene = parse(scene, Path::new("scene.toml"), &Overrides::default()).unwrap();
-    let job = Job::load_for(scene, wanted).unwrap();
-    let mut counts = Counts::default();
-    let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
-    let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts);
-    drop(marking);
-    (marks, counts, job)
-}
 
 fn lines(marks: &Marks) -> Vec<&Polyline> {
     marks.layers.iter().flat_map(|layer| &layer.lines).collect()

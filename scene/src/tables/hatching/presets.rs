@@ -22,16 +22,19 @@ impl HatchPreset {
 
     /// The table. The paper gives no numbers but those of the defaults.
     pub(crate) fn table(self) -> Hatching {
+        // As thin as a pixel of the paper's pictures.
+        let stroke = StrokeStyle { min_width: Length::Millimetres(0.02), ..StrokeStyle::default() };
+        let fine = Hatching { width: Length::Millimetres(0.1), stroke, ..Hatching::default() };
         match self {
             Self::Plain => {
                 Hatching { seeds: SeedsBy::Dense, cross: Some(60.0), spacing: Spacing::Tone, ..Hatching::default() }
             }
-            Self::Fig6Left => Hatching { cross: Some(60.0), ..Hatching::default() },
+            Self::Fig6Left => Hatching { cross: Some(60.0), ..fine },
             Self::Fig6Right => Hatching {
                 seeds: SeedsBy::Dense,
                 length: Length::Voxels(10.0),
-                stroke: StrokeStyle { tone: 2.0, ..StrokeStyle::default() },
-                ..Hatching::default()
+                stroke: StrokeStyle { tone: 2.0, ..stroke },
+                ..fine
             },
         }
     }
