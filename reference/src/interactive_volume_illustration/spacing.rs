@@ -13,7 +13,7 @@ const RENYI: f64 = 0.747_597_920_253_411_4;
 
 /// A line begins where it is farther than d from all others, and goes on until it is nearer than this share of d: so lines that
 /// draw together slowly are not cut into pieces.
-const GOES_ON: f64 = 0.6;
+const GOES_ON: f64 = 0.8;
 
 /// How far apart lines are wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -332,8 +332,8 @@ mod tests {
         }
     }
 
-    /// No two parts of different lines come nearer than 0.6 d, less what lies between the places of a line: half a nib along
-    /// it, √((0.6 d)² − (nib/4)²) across at the least.
+    /// No two parts of different lines come nearer than 0.8 d, less what lies between the places of a line: half a nib along
+    /// it, √((0.8 d)² − (nib/4)²) across at the least.
     #[test]
     fn lines_keep_their_distance() {
         let slanted = |k: u32| {
