@@ -55,7 +55,8 @@ fn every_scene_gives_a_picture() {
             continue;
         }
         let text = std::fs::read_to_string(&path).unwrap();
-        let [has_dots, has_lines] = ["\n[stipples]", "\n[outlines]"].map(|table| text.contains(table));
+        let has = |table: &str| text.contains(&format!("\n[{table}]"));
+        let (has_dots, has_lines) = (has("stipples"), has("outlines") || has("hatching"));
         if has_dots || has_lines {
             let ([dots, lines], ink) = drawn(&path);
             // A leg from afar is a few faint dots on so small a page.

@@ -11,10 +11,6 @@ use drypoint_scene::marks::{Polyline, Vertex};
 /// Rényi's constant: how full a street is where cars park at random.
 const RENYI: f64 = 0.747_597_920_253_411_4;
 
-/// A line begins where it is farther than d from all others, and goes on until it is nearer than this share of d: so lines that
-/// draw together slowly are not cut into pieces.
-const GOES_ON: f64 = 0.8;
-
 /// How far apart lines are wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Apart {
@@ -163,35 +159,28 @@ impl Paper {
         })
     }
 
-    /// The parts of a line that go on, where it has a distance at all, and in which it could begin.
+    /// The parts of a line that are free, where it has a distance at all.
     fn free(&self, line: &Polyline, apart: impl Fn(f64) -> Option<f64>) -> Vec<Vec<Vertex>> {
         let mut parts = Vec::new();
-        let (mut part, mut begins) = (Vec::<Vertex>::new(), false);
+        let mut part: Vec<Vertex> = Vec::new();
         let joined = line.closed.then(|| line.vertices.first().map(|v| Vertex { t: 1.0, ..*v })).flatten();
         let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(joined).collect();
         for (k, pair) in vertices.windows(2).enumerate() {
             let steps = self.steps(pair[0].at, pair[1].at);
             for step in usize::from(k > 0)..=steps {
                 let place = between(&pair[0], &pair[1], step as f64 / steps as f64);
-                let wanted = apart(place.opacity);
-                if wanted.is_some_and(|d| self.is_free(place.at, GOES_ON * d)) {
-                    begins = begins || wanted.is_some_and(|d| self.is_free(place.at, d));
+                if apart(place.opacity).is_some_and(|d| self.is_free(place.at, d)) {
                     // Places in the middle of a straight piece are not kept, but its ends are.
                     if part.len() > 1 && step > 1 {
                         part.pop();
                     }
                     part.push(place);
                 } else {
-                    let ended = std::mem::take(&mut part);
-                    if std::mem::take(&mut begins) {
-                        parts.push(ended);
-                    }
+                    parts.push(std::mem::take(&mut part));
                 }
             }
         }
-        if begins {
-            parts.push(part);
-        }
+        parts.push(part);
         parts.retain(|part| part.len() > 1);
         parts
     }
@@ -332,8 +321,8 @@ mod tests {
         }
     }
 
-    /// No two parts of different lines come nearer than 0.8 d, less what lies between the places of a line: half a nib along
-    /// it, √((0.8 d)² − (nib/4)²) across at the least.
+    /// No two parts of different lines come nearer than d, less what lies between the places of a line: half a nib along
+    /// it, √(d² − (nib/4)²) across at the least.
     #[test]
     fn lines_keep_their_distance() {
         let slanted = |k: u32| {
@@ -343,7 +332,7 @@ mod tests {
         };
         let kept = spread(&(0..800).map(slanted).collect::<Vec<_>>(), Apart::Tone { least: 0.05 }, 0.5);
         assert!(kept.len() > 20, "{}", kept.len());
-        let d = GOES_ON * RENYI * NIB / 0.3;
+        let d = RENYI * NIB / 0.3;
         let bound = (d * d - NIB * NIB / 16.0).sqrt() - 1e-9;
         for (i, a) in kept.iter().enumerate() {
             for b in &kept[..i] {
@@ -362,7 +351,7 @@ mod tests {
 
     #[test]
     fn a_length_is_a_distance_everywhere_and_white_is_white() {
-        let kept = spread(&lines(12_000, |at| if at.x < 30.0 { 0.9 } else { 0.0 }), Apart::Everywhere(1.5), 1.0);
+        let kept = spread(&lines(30_000, |at| if at.x < 30.0 { 0.9 } else { 0.0 }), Apart::Everywhere(1.5), 1.0);
         assert!((ink(&kept, [5.0, 25.0]) - NIB / 1.5).abs() < 0.02);
         assert_eq!(ink(&kept, [33.0, 60.0]), 0.0);
         assert!(kept.iter().flat_map(|l| &l.vertices).all(|v| v.opacity == 1.0 && v.radius == NIB / 2.0));
