@@ -121,7 +121,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     /// Visits the samples of a ray. Returns how many were evaluated.
     fn run_in<N: Need>(&mut self, boxes: Option<&mut Boxes>, counts: &mut Counts) -> u64 {
         let mut samples = 0;
-        for visit in self.ray.visits(self.prepared.ends, boxes) {
+        for visit in self.ray.visits(self.prepared.ends, self.ray.intervals(boxes)) {
             let (n, open) = self.run::<N>(visit, counts);
             samples += n;
             if !open {

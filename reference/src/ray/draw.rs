@@ -58,7 +58,7 @@ pub(super) fn draw<R: Real>(
             .collect();
         for tile in &tiles {
             counts.add(&tile.counts);
-            for ([i, j], pixel) in in_blocks(tile.size).zip(tile.pixels.chunks_exact(per_pixel)) {
+            for ([i, j], pixel) in in_blocks(tile.size).into_iter().zip(tile.pixels.chunks_exact(per_pixel)) {
                 let at = (tile.y + j) * width + tile.x + i;
                 for (channel, value) in channels.iter_mut().zip(pixel) {
                     channel[at] = *value;
@@ -96,7 +96,8 @@ fn draw_tile<R: Real>(
         skip.boxes_in(&Beam::new(corners, R::EPSILON.to_f64()))
     });
     let casts = cast_parts(prepared, cast_all, [x, y], size, boxes.as_mut(), &mut tile.counts);
-    for (n, [i, j]) in in_blocks(size).enumerate() {
+    tile.pixels.reserve_exact(size[0] * size[1] * prepared.layers.iter().map(|l| l.channels().len()).sum::<usize>());
+    for (n, [i, j]) in in_blocks(size).into_iter().enumerate() {
         let behind = match background {
             Backdrop::None => [0.0; 4],
             Backdrop::Color(c) => color::premultiply(c),
@@ -108,9 +109,18 @@ fn draw_tile<R: Real>(
 }
 
 /// The pixels of a tile, in blocks of 4 by 2: rays that are cast side by side are close together.
-fn in_blocks([width, height]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
-    let corners = (0..height).step_by(2).flat_map(move |y| (0..width).step_by(4).map(move |x| [x, y]));
-    corners.flat_map(move |[x, y]| (y..height.min(y + 2)).flat_map(move |j| (x..width.min(x + 4)).map(move |i| [i, j])))
+fn in_blocks([width, height]: [usize; 2]) -> Vec<[usize; 2]> {
+    let mut pixels = Vec::with_capacity(width * height);
+    for y in (0..height).step_by(2) {
+        for x in (0..width).step_by(4) {
+            for j in y..height.min(y + 2) {
+                for i in x..width.min(x + 4) {
+                    pixels.push([i, j]);
+                }
+            }
+        }
+    }
+    pixels
 }
 
 /// Casts the n×n rays of each pixel of a tile through the centres of its parts ([RAY-6]): the first parts of all pixels, then
@@ -129,7 +139,7 @@ fn cast_parts<R: Real>(
     for part in 0..n * n {
         let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
         points.clear();
-        points.extend(in_blocks(size).map(|[i, j]| [centre(x + i, part % n), centre(y + j, part / n)]));
+        points.extend(in_blocks(size).into_iter().map(|[i, j]| [centre(x + i, part % n), centre(y + j, part / n)]));
         cast_all(&points, boxes.as_deref_mut(), counts, &mut casts);
     }
     casts
@@ -150,7 +160,9 @@ fn append_pixel<'c, R: Real>(
         for (mean, c) in beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
             *mean += c * share;
         }
-        all.pool(&cast.sums);
+        if prepared.layers != [LayerKind::Beauty] {
+            all.pool(&cast.sums);
+        }
         first.get_or_insert((&cast.sums, cast.samples));
     }
     let none = Sums::new();

@@ -106,7 +106,8 @@ impl<R: Real> IndexRay<R> {
         [first, last]
     }
 
-    /// The samples that can lie in visible bricks, without boxes of them all samples, as closed ranges first..=last in order.
+    /// The samples that can lie in visible bricks, whose depths are [`Boxes::intervals`]; without those all samples. Closed
+    /// ranges first..=last, in order.
     ///
     /// Bounds of neighbouring intervals are rounded outwards to samples and can overlap: no sample is in two ranges, and
     /// none outside the volume.
@@ -114,13 +115,10 @@ impl<R: Real> IndexRay<R> {
     pub(super) fn visits<'b>(
         &self,
         ends: [Vec3<R>; 2],
-        boxes: Option<&'b mut Boxes>,
+        intervals: Option<&'b [[f64; 2]]>,
     ) -> impl Iterator<Item = [i64; 2]> + use<'b, R> {
         let ray = *self;
-        let (whole, intervals) = match boxes {
-            None => (true, &[][..]),
-            Some(boxes) => (false, boxes.intervals(ray.line(), R::EPSILON.to_f64())),
-        };
+        let (whole, intervals) = (intervals.is_none(), intervals.unwrap_or(&[]));
         let [mut next, end] = if whole || !intervals.is_empty() { ray.inside(ends) } else { [1, 0] };
         let parts = intervals.iter().map(move |&depths| {
             let [first, last] = ray.within(depths);
@@ -144,6 +142,12 @@ impl<R: Real> IndexRay<R> {
         // The quotient and the difference are rounded.
         let slack = |k: f64| 2.0 * f64::EPSILON * (k.abs() + 1.0);
         [ceil(near - slack(near)), -ceil(-far - slack(far))]
+    }
+
+    /// The depths at which the ray is in visible bricks.
+    #[inline(always)]
+    pub(super) fn intervals<'b>(&self, boxes: Option<&'b mut Boxes>) -> Option<&'b [[f64; 2]]> {
+        boxes.map(|boxes| boxes.intervals(self.line(), R::EPSILON.to_f64()))
     }
 
     /// Origin and displacement for one unit of depth, in index space.

@@ -50,26 +50,20 @@ impl Skip {
         size_of_val(self.nodes.as_slice())
     }
 
-    /// The boxes of visible bricks that a beam of rays can meet: one walk through the tree serves all of them.
+    /// The boxes of visible bricks that a beam of rays can meet: one walk through the tree serves all of them. Nearer boxes
+    /// mostly come before farther ones.
     pub fn boxes_in(&self, beam: &Beam) -> Boxes {
         let mut boxes = Boxes { reach: self.reach, ..Boxes::default() };
-        let mut open = Vec::new();
-        let mut visit = |node: &Node, open: &mut Vec<u32>| {
-            if beam.can_meet(&node.ends) {
-                if node.children == 0 {
-                    boxes.ends.push(node.ends);
-                } else {
-                    open.push(node.children);
-                }
+        let mut open: Vec<&Node> = self.nodes.first().into_iter().filter(|root| beam.can_meet(&root.ends)).collect();
+        while let Some(node) = open.pop() {
+            if node.children == 0 {
+                boxes.ends.push(node.ends);
+                continue;
             }
-        };
-        if let Some(root) = self.nodes.first() {
-            visit(root, &mut open);
-        }
-        while let Some(children) = open.pop() {
-            let children = children as usize;
-            visit(&self.nodes[children], &mut open);
-            visit(&self.nodes[children + 1], &mut open);
+            let children = node.children as usize;
+            let (a, b) = (&self.nodes[children], &self.nodes[children + 1]);
+            let (near, far) = if beam.is_nearer(&a.ends, &b.ends) { (a, b) } else { (b, a) };
+            open.extend([far, near].into_iter().filter(|child| beam.can_meet(&child.ends)));
         }
         boxes
     }
@@ -84,10 +78,25 @@ pub struct Boxes {
 }
 
 impl Boxes {
+    /// Whether there is none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// Lowest and highest index coordinate of each on each axis.
+    pub(super) fn ends(&self) -> &[[[f64; 2]; 3]] {
+        &self.ends
+    }
+
+    /// The line `origin + along · s`, prepared for positions rounded by `rounding` (relative).
+    pub(super) fn line(&self, [origin, along]: [DVec3; 2], rounding: f64) -> Line {
+        Line::new(origin, along, self.reach, rounding)
+    }
+
     /// The depths at which the line `origin + along · s` can be in one of the boxes, in order and without overlap, each
     /// widened so that no position rounded by `rounding` (relative) is missed.
-    pub fn intervals(&mut self, [origin, along]: [DVec3; 2], rounding: f64) -> &[[f64; 2]] {
-        let line = Line::new(origin, along, self.reach, rounding);
+    pub fn intervals(&mut self, line: [DVec3; 2], rounding: f64) -> &[[f64; 2]] {
+        let line = self.line(line, rounding);
         self.intervals.clear();
         for ends in &self.ends {
             if let Some(range) = line.meets(ends) {
@@ -106,6 +115,8 @@ impl Boxes {
 #[derive(Clone, Copy, Debug)]
 pub struct Beam {
     planes: [Plane; 4],
+    /// Roughly the direction of the rays.
+    along: DVec3,
 }
 
 /// n·p ≥ least holds inside.
@@ -138,7 +149,16 @@ impl Beam {
             let farthest = normal.to_array().map(|n| usize::from(n > 0.0));
             Plane { normal, farthest, least: normal.dot(origin) - 16.0 * rounding * size }
         });
-        Self { planes }
+        Self { planes, along: corners.iter().map(|[_, along]| *along).sum() }
+    }
+
+    /// Whether the centre of a box comes before that of another.
+    #[inline]
+    fn is_nearer(&self, [x, y, z]: &[[f64; 2]; 3], other: &[[f64; 2]; 3]) -> bool {
+        let centre = DVec3::new(x[0] + x[1], y[0] + y[1], z[0] + z[1]);
+        let [x, y, z] = other;
+        let other = DVec3::new(x[0] + x[1], y[0] + y[1], z[0] + z[1]);
+        self.along.dot(centre - other) < 0.0
     }
 
     /// Whether some point of a box can lie inside: for each plane its farthest corner does.
@@ -166,15 +186,16 @@ fn tree(boxes: &[Aabb]) -> Vec<Node> {
 }
 
 /// A line prepared for slab tests.
-struct Line {
+#[derive(Clone, Copy)]
+pub(super) struct Line {
     /// 1/along.
-    inverse: [f64; 3],
+    pub(super) inverse: [f64; 3],
     /// Which end of a box the line meets first.
-    first: [usize; 3],
+    pub(super) first: [usize; 3],
     /// What is taken from an end of a box times `inverse` to give the depth there, (end − origin)/along: too much by the
     /// margin where the line enters, so that it does so earlier, too little where it leaves.
-    enter: [f64; 3],
-    leave: [f64; 3],
+    pub(super) enter: [f64; 3],
+    pub(super) leave: [f64; 3],
 }
 
 impl Line {
@@ -194,7 +215,7 @@ impl Line {
 
     /// Depths at which the line is in a box.
     #[inline(always)]
-    fn meets(&self, ends: &[[f64; 2]; 3]) -> Option<[f64; 2]> {
+    pub(super) fn meets(&self, ends: &[[f64; 2]; 3]) -> Option<[f64; 2]> {
         let enter = |a: usize| ends[a][self.first[a]] * self.inverse[a] - self.enter[a];
         let leave = |a: usize| ends[a][1 - self.first[a]] * self.inverse[a] - self.leave[a];
         let later = |a: f64, b: f64| if b > a { b } else { a };
@@ -204,9 +225,17 @@ impl Line {
     }
 }
 
-/// Sorts intervals and joins those that touch.
-fn merge(intervals: &mut Vec<[f64; 2]>) {
-    intervals.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+/// Sorts intervals and joins those that touch. Boxes come nearly in the order of a ray, and so do these.
+pub(super) fn merge(intervals: &mut Vec<[f64; 2]>) {
+    for i in 1..intervals.len() {
+        let interval = intervals[i];
+        let mut to = i;
+        while to > 0 && intervals[to - 1][0] > interval[0] {
+            intervals[to] = intervals[to - 1];
+            to -= 1;
+        }
+        intervals[to] = interval;
+    }
     let mut kept = 0;
     for i in 1..intervals.len() {
         if intervals[i][0] <= intervals[kept][1] {

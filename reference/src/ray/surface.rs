@@ -152,7 +152,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     ) -> (u64, bool) {
         let end = root.map_or(i64::MAX, |depth| self.ray.last_before(depth));
         let mut samples = 0;
-        for [first, last] in self.ray.visits(self.prepared.ends, boxes) {
+        for [first, last] in self.ray.visits(self.prepared.ends, self.ray.intervals(boxes)) {
             if first < end {
                 let (n, open) = self.run::<N>([first, last.min(end - 1)], counts);
                 samples += n;

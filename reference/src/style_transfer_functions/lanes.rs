@@ -378,7 +378,7 @@ mod tests {
         for transparency in [Transparency::Illustrative, Transparency::Plain].into_iter().cycle().take(2000) {
             let (s, n_dot_v, tau, g) = (column(&mut a), column(&mut b), column(&mut c), column(&mut d));
             let got: Option<(u64, [f64; LANES])> = dispatch!(level, simd => {
-                ramp.locate_lanes(s.simd_into(simd), 0b1111_0111).map(|place| {
+                ramp.locate_lanes(s.simd_into(simd), mask64x8::from_bitmask(simd, 0b1111_0111)).map(|place| {
                     let share = share(
                         transparency, &place, n_dot_v.simd_into(simd), tau.simd_into(simd), g.simd_into(simd),
                     );
@@ -417,7 +417,7 @@ mod tests {
                 let s = column(&mut a).map(|s| start + s * spread);
                 let (x, y) = (column(&mut b).map(|x| 2.0 * x - 1.0), column(&mut c).map(|y| 2.0 * y - 1.0));
                 let got: Option<(u64, u64, [[f64; LANES]; 4])> = dispatch!(level, simd => {
-                    function.locate_lanes(s.simd_into(simd), 0xff).map(|place| {
+                    function.locate_lanes(s.simd_into(simd), mask64x8::splat(simd, true)).map(|place| {
                         let blends = index.blends(&place);
                         let rgba = spheres.lookup_lanes(&blends, &place, x.simd_into(simd), y.simd_into(simd));
                         (place.visible, blends.lookups(place.visible), rgba.map(|c| c.into()))

@@ -1,7 +1,7 @@
 //! A piecewise-linear function at eight values side by side.
 
 use super::Place;
-use super::piecewise::{PARTS, Part, Piecewise, Segment};
+use super::piecewise::{PARTS, Piecewise, SEARCH, Segment};
 use crate::field::lanes::{LANES, whole};
 use crate::number::Arithmetic;
 use fearless_simd::prelude::*;
@@ -29,74 +29,85 @@ pub(crate) enum Nodes {
     Each([u32; LANES]),
 }
 
+/// A one in each byte.
+const ONES: u64 = u64::from_ne_bytes([1; LANES]);
+
+/// A one in each byte that is not 0.
+#[inline(always)]
+fn nonzero(bytes: u64) -> u64 {
+    const LOW: u64 = 0x7f * ONES;
+    ((((bytes & LOW) + LOW) | bytes) >> 7) & ONES
+}
+
 impl Piecewise<f64> {
     /// [`locate`](Self::locate) for the values of the lanes `asked`.
     #[inline(always)]
-    pub(crate) fn locate_lanes<S: Simd>(&self, s: f64x8<S>, asked: u64) -> Option<Places<S>> {
+    pub(crate) fn locate_lanes<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> Option<Places<S>> {
         let simd = s.simd;
-        // As whole numbers from 0 on: what lies before, or is not a number, becomes 0.
+        // As whole numbers from 0 on: what lies before, or is not a number, becomes 0; what is not asked for, beyond all.
         let part = (s - self.first) * self.parts_per_unit + 1.0;
         let part = part.simd_gt(0.0).select(part, f64x8::splat(simd, 0.0));
         let last = (PARTS + 1) as f64;
         let part = part.simd_lt(last).select(part, f64x8::splat(simd, last)).floor();
-        let parts = whole(part);
-        let (mut seen, mut node, mut alike) = (0, None, true);
+        let parts = whole(asked.select(part, f64x8::splat(simd, last + 1.0)));
+        // Without a branch for each lane, which nothing predicts.
+        let mut codes = 0;
         for (lane, part) in parts.into_iter().enumerate() {
-            if asked >> lane & 1 == 0 {
-                continue;
-            }
-            match self.parts[part.min(PARTS + 1)] {
-                Part::Invisible => {}
-                Part::Segment(k) => {
-                    seen |= 1 << lane;
-                    alike &= *node.get_or_insert(k) == k;
-                }
-                Part::Search(_) => {
-                    seen |= 1 << lane;
-                    alike = false;
-                }
-            }
+            codes |= u64::from(self.codes[part % self.codes.len()]) << (8 * lane);
         }
-        match node {
-            _ if seen == 0 => None,
+        if codes == 0 {
+            return None;
+        }
+        let seen = nonzero(codes);
+        let code = (codes >> (codes.trailing_zeros() & !7)) as u8;
+        let (visible, nodes, alpha_u, w) = if code != SEARCH && u64::from(code) * seen == codes {
             // Neighbours mostly lie between the same two nodes.
-            Some(k) if alike => self.between_lanes(s, seen, k as usize),
-            _ => self.one_by_one(s, seen),
-        }
+            let node = usize::from(code) - 1;
+            let Segment { at, width, opacity, next_opacity } = self.segments[node];
+            let w = (s - at) / width;
+            let alpha_u = f64x8::lerp(f64x8::splat(simd, opacity), f64x8::splat(simd, next_opacity), w);
+            // The bytes' ones, side by side.
+            let seen = seen.wrapping_mul(0x0102_0408_1020_4080) >> 56;
+            ((alpha_u.simd_gt(0.0)).to_bitmask() & seen, Nodes::One(node), alpha_u, w)
+        } else {
+            self.between_their_own(s, codes)
+        };
+        (visible != 0).then_some(Places { visible, alpha_u, nodes, w })
     }
 
+    /// The lanes that are visible, with the node before, α_u and w of each.
     #[inline(always)]
-    fn between_lanes<S: Simd>(&self, s: f64x8<S>, seen: u64, node: usize) -> Option<Places<S>> {
+    fn between_their_own<S: Simd>(&self, s: f64x8<S>, codes: u64) -> (u64, Nodes, f64x8<S>, f64x8<S>) {
         let simd = s.simd;
-        let Segment { at, width, opacity, next_opacity } = self.segments[node];
-        let w = (s - at) / width;
-        let alpha_u = f64x8::lerp(f64x8::splat(simd, opacity), f64x8::splat(simd, next_opacity), w);
-        let visible = (alpha_u.simd_gt(0.0) & mask64x8::from_bitmask(simd, seen)).to_bitmask();
-        if visible == 0 {
-            return None;
-        }
-        Some(Places { visible, alpha_u, nodes: Nodes::One(node), w })
-    }
-
-    #[inline(always)]
-    fn one_by_one<S: Simd>(&self, s: f64x8<S>, seen: u64) -> Option<Places<S>> {
-        let simd = s.simd;
-        let s: [f64; LANES] = s.into();
-        let (mut visible, mut alpha_u, mut nodes, mut w) = (0, [0.0; LANES], [0; LANES], [0.0; LANES]);
+        let codes = codes.to_le_bytes();
+        let mut nodes = [0; LANES];
+        let mut columns = [[0.0; LANES]; 4];
+        let mut searched = 0u64;
         for lane in 0..LANES {
-            if seen >> lane & 1 == 1
-                && let Some(place) = self.locate(s[lane])
-            {
-                visible |= 1 << lane;
-                alpha_u[lane] = place.alpha_u;
-                nodes[lane] = place.node as u32;
-                w[lane] = place.w;
+            // Without one the columns' zeros make an α_u that is not above 0.
+            let node = usize::from(codes[lane]).wrapping_sub(1);
+            if codes[lane] == SEARCH {
+                searched |= 1 << lane;
+            } else if let Some(&Segment { at, width, opacity, next_opacity }) = self.segments.get(node) {
+                nodes[lane] = node as u32;
+                (columns[0][lane], columns[1][lane]) = (at, width);
+                (columns[2][lane], columns[3][lane]) = (opacity, next_opacity);
             }
         }
-        if visible == 0 {
-            return None;
+        let [at, width, opacity, next_opacity] = columns;
+        let (at, width): (f64x8<S>, f64x8<S>) = (at.simd_into(simd), width.simd_into(simd));
+        let mut w = (s - at) / width;
+        let mut alpha_u = f64x8::lerp(opacity.simd_into(simd), next_opacity.simd_into(simd), w);
+        let mut visible = alpha_u.simd_gt(0.0).to_bitmask();
+        while searched != 0 {
+            let lane = searched.trailing_zeros() as usize;
+            searched &= searched - 1;
+            if let Some(place) = self.locate(s[lane]) {
+                visible |= 1 << lane;
+                (nodes[lane], alpha_u[lane], w[lane]) = (place.node as u32, place.alpha_u, place.w);
+            }
         }
-        Some(Places { visible, alpha_u: alpha_u.simd_into(simd), nodes: Nodes::Each(nodes), w: w.simd_into(simd) })
+        (visible, Nodes::Each(nodes), alpha_u, w)
     }
 }
 
@@ -114,17 +125,18 @@ impl<S: Simd> Places<S> {
                 }
             }
             Nodes::Each(nodes) => {
-                let mut columns = [[0.0; LANES]; 3];
+                let mut columns = [[[0.0; LANES]; 2]; 3];
                 for lane in 0..LANES {
-                    if self.visible >> lane & 1 == 1 {
-                        let color = self.place(lane, nodes).color(colors);
-                        for (column, c) in columns.iter_mut().zip(color) {
-                            column[lane] = c;
-                        }
+                    // At the last node w is 0; lanes that are not visible have node 0.
+                    let node = nodes[lane] as usize;
+                    let (a, b) = (colors[node], colors[(node + 1).min(colors.len() - 1)]);
+                    for i in 0..3 {
+                        (columns[i][0][lane], columns[i][1][lane]) = (a[i], b[i]);
                     }
                 }
                 for i in 0..3 {
-                    rgb[i] = columns[i].simd_into(simd);
+                    let [a, b] = columns[i];
+                    rgb[i] = f64x8::lerp(a.simd_into(simd), b.simd_into(simd), self.w);
                 }
             }
         }

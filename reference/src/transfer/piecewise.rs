@@ -10,7 +10,9 @@ pub struct Piecewise<R> {
     /// The last of the nodes at the first node's value.
     at_first: usize,
     /// What is known beforehand of each part of the line of values.
-    pub(super) parts: Box<[Part; PARTS + 2]>,
+    parts: Box<[Part; PARTS + 2]>,
+    /// The same for lanes.
+    pub(super) codes: Box<Codes>,
     pub(super) first: R,
     pub(super) parts_per_unit: R,
 }
@@ -27,7 +29,7 @@ pub(super) struct Segment<R> {
 /// One part of the line of values, with its neighbours, so that no rounding of a value's part matters. The range of nodes is
 /// cut into [`PARTS`]; one more part lies before and one after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Part {
+enum Part {
     /// Every value in it has α_u = 0.
     Invisible,
     /// Every value in it lies in the segment that begins at this node, which is not the last.
@@ -36,6 +38,13 @@ pub(super) enum Part {
     /// before them.
     Search(u32),
 }
+
+/// A byte for each part, so that those of eight values are one word: 0 where nothing is seen, one more than the node that a
+/// segment begins at, or [`SEARCH`]. Beyond the parts there are zeros.
+pub(super) type Codes = [u8; (PARTS + 2).next_power_of_two()];
+
+/// What has to be searched for, or is beyond what a byte can say.
+pub(super) const SEARCH: u8 = u8::MAX;
 
 /// Where a value falls between the nodes: i(s) = node + w. The fraction is not added to the node, which would cost it
 /// bits.
@@ -141,6 +150,14 @@ impl<R: Real> Piecewise<R> {
         } else {
             (Box::new([Part::Search(0); PARTS + 2]), R::ZERO)
         };
+        let mut codes = Box::new([0; (PARTS + 2).next_power_of_two()]);
+        for (code, part) in codes.iter_mut().zip(parts.iter()) {
+            *code = match *part {
+                Part::Invisible => 0,
+                Part::Segment(k) if k < u32::from(SEARCH) - 1 => k as u8 + 1,
+                Part::Segment(_) | Part::Search(_) => SEARCH,
+            };
+        }
         let segments = (0..=end).map(|k| {
             let next = (k + 1).min(end);
             Segment { at: at[k], width: at[next] - at[k], opacity: opacity[k], next_opacity: opacity[next] }
@@ -149,6 +166,7 @@ impl<R: Real> Piecewise<R> {
             segments: segments.collect(),
             at_first: at.partition_point(|&a| a <= at[0]) - 1,
             parts,
+            codes,
             first: at[0],
             parts_per_unit,
         })

@@ -138,7 +138,9 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
             }
         }
         let [a, b, c, d] = words;
-        let read = trilinear::value([self.numbers(a), self.numbers(b), self.numbers(c), self.numbers(d)], at.w);
+        let [wx, wy, wz] = at.w;
+        let along_x = [self.between(a, wx), self.between(b, wx), self.between(c, wx), self.between(d, wx)];
+        let read = trilinear::bilinear(along_x, wy, wz);
         read * self.field.slope + self.field.intercept
     }
 
@@ -151,17 +153,16 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         whole(offset)
     }
 
-    /// The first `N` numbers in each word.
+    /// Between the first two numbers in each word.
     #[inline(always)]
-    fn numbers<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
-        let mut numbers = self.raised(words);
-        for number in &mut numbers {
-            *number -= TO_BITS + V::SIGN as f64;
-        }
-        numbers
+    fn between(&self, words: [u64; LANES], w: f64x8<S>) -> f64x8<S> {
+        let [a, b] = self.raised(words);
+        // As `lerp`; whole numbers so small have exact differences.
+        (a - (TO_BITS + V::SIGN as f64)) + w * (b - a)
     }
 
-    /// The same, each more by one and the same whole number: of these the differences are those of the numbers.
+    /// The first `N` numbers in each word, each more by one and the same whole number: their differences are those of the
+    /// numbers.
     ///
     /// No closure here or anywhere in lanes: what is not inlined at once is compiled for the least processor, and each
     /// vector operation in it stays a call.

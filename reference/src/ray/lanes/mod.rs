@@ -5,6 +5,7 @@
 //! only, which are the same in a vector; what branches or looks things up is done lane by lane. Rays visit the samples
 //! that they would visit alone, so the counts are the same too.
 
+mod boxes;
 mod correct;
 mod normal;
 mod phong;
@@ -20,11 +21,12 @@ use super::layers::Sums;
 use super::need::Needs;
 use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::Look;
-use super::skip::Boxes;
+use super::skip::{Boxes, merge};
 use crate::field::lanes::{LANES, Packed};
 use crate::number::Vec3;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
+use drypoint_scene::view::Ray;
 use drypoint_scene::volume::Voxels;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, f64x8};
@@ -74,13 +76,19 @@ fn is_in_style(prepared: &Prepared<'_, f64>) -> bool {
 pub(super) fn cast_all(
     prepared: &Prepared<'_, f64>,
     points: &[[f64; 2]],
-    mut boxes: Option<&mut Boxes>,
+    boxes: Option<&mut Boxes>,
     counts: &mut Counts,
     casts: &mut Vec<Cast>,
 ) {
+    if boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
+        counts.rays += points.len() as u64;
+        counts.rays_skipped += points.len() as u64;
+        casts.extend(points.iter().map(|_| Cast { rgba: [0.0; 4], sums: Sums::new(), samples: 0 }));
+        return;
+    }
     let mut packet = Packet::new(prepared);
     for points in points.chunks(LANES) {
-        packet.aim(points, boxes.as_deref_mut());
+        packet.aim(points, boxes.as_deref());
         match prepared.volume.voxels() {
             Voxels::U8(data) => packet.run(data, counts),
             Voxels::I8(data) => packet.run(data, counts),
@@ -93,7 +101,7 @@ pub(super) fn cast_all(
             counts.rays += 1;
             counts.rays_skipped += u64::from(samples == 0);
             counts.samples += samples;
-            casts.push(Cast { rgba: packet.rgba.map(|c| c[lane]), sums: Sums::new(), samples });
+            casts.push(Cast { rgba: packet.rgba[lane], sums: Sums::new(), samples });
         }
     }
 }
@@ -123,7 +131,9 @@ struct Packet<'p, 'v> {
     together: Vec<[i64; 2]>,
     /// First and last sample of each ray, and after the walk the one where it ended.
     ends: [Column; 2],
-    rgba: [Column; 4],
+    rgba: [[f64; 4]; LANES],
+    /// Depths at which each ray is in a visible brick.
+    intervals: [Vec<[f64; 2]>; LANES],
 }
 
 impl<'p, 'v> Packet<'p, 'v> {
@@ -143,40 +153,76 @@ impl<'p, 'v> Packet<'p, 'v> {
             of_ray: [[0; 2]; LANES],
             together: Vec::new(),
             ends: [none; 2],
-            rgba: [none; 4],
+            rgba: [[0.0; 4]; LANES],
+            intervals: Default::default(),
         }
     }
 
     /// Takes the rays through other points.
-    fn aim(&mut self, points: &[[f64; 2]], mut boxes: Option<&mut Boxes>) {
+    fn aim(&mut self, points: &[[f64; 2]], boxes: Option<&Boxes>) {
         let prepared = self.prepared;
-        let view = &prepared.view;
         self.visits.clear();
         self.of_ray = [[0; 2]; LANES];
         self.ends = [[f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]];
-        self.rgba = [[0.0; LANES]; 4];
-        for (lane, &[i, j]) in points.iter().enumerate() {
-            let pixel = view.ray(i, j);
-            let ray = IndexRay::<f64>::new(&pixel, view, &prepared.lattice, prepared.volume.grid());
-            let first = self.visits.len();
-            self.visits.extend(ray.visits(prepared.ends, boxes.as_deref_mut()));
-            self.of_ray[lane] = [first, self.visits.len()];
-            let (Some([nearest, _]), Some([_, farthest])) = (self.visits.get(first), self.visits.last()) else {
-                continue;
-            };
-            self.ends[0][lane] = *nearest as f64;
-            self.ends[1][lane] = *farthest as f64;
-            let sight =
-                prepared.look.sight(Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
-            put(&mut self.origin, lane, ray.origin);
-            put(&mut self.along, lane, ray.along);
-            put(&mut self.v, lane, sight.v);
-            put(&mut self.v_eye, lane, sight.v_eye);
-            put(&mut self.half, lane, sight.half);
-            self.depth_step[lane] = ray.depth_step;
-            self.step[lane] = ray.step;
-            self.beyond[lane] = ray.first as f64;
+        self.rgba = [[0.0; 4]; LANES];
+        let aimed = |point: &[f64; 2]| {
+            let pixel = prepared.view.ray(point[0], point[1]);
+            (pixel, IndexRay::<f64>::new(&pixel, &prepared.view, &prepared.lattice, prepared.volume.grid()))
+        };
+        let Some(boxes) = boxes else {
+            for (lane, (pixel, ray)) in points.iter().map(aimed).enumerate() {
+                self.visits.extend(ray.visits(prepared.ends, None));
+                self.take(lane, &pixel, &ray);
+            }
+            return self.join();
+        };
+        let mut rays = [None; LANES];
+        let mut lines = [None; LANES];
+        for (lane, (pixel, ray)) in points.iter().map(aimed).enumerate() {
+            rays[lane] = Some((pixel, ray));
+            lines[lane] = Some(boxes.line(ray.line(), f64::EPSILON));
         }
+        let mut intervals = std::mem::take(&mut self.intervals);
+        if let Some(simd) = wide() {
+            simd.vectorize(
+                #[inline(always)]
+                || boxes::intervals(simd, boxes.ends(), &lines, &mut intervals),
+            );
+        }
+        for (lane, (ray, intervals)) in rays.iter().zip(&mut intervals).enumerate() {
+            if let (Some((pixel, ray)), false) = (ray, intervals.is_empty()) {
+                merge(intervals);
+                self.visits.extend(ray.visits(prepared.ends, Some(intervals)));
+                self.take(lane, pixel, ray);
+            }
+        }
+        self.intervals = intervals;
+        self.join();
+    }
+
+    /// Takes a ray, whose visits are the last ones in the list.
+    fn take(&mut self, lane: usize, pixel: &Ray, ray: &IndexRay<f64>) {
+        let first = self.of_ray[..lane].iter().map(|visits| visits[1]).max().unwrap_or(0);
+        self.of_ray[lane] = [first, self.visits.len()];
+        let (Some([nearest, _]), Some([_, farthest])) = (self.visits.get(first), self.visits.last()) else {
+            return;
+        };
+        self.ends[0][lane] = *nearest as f64;
+        self.ends[1][lane] = *farthest as f64;
+        let direction = Vec3::from_glam(self.prepared.view.direction_to_world(pixel.v));
+        let sight = self.prepared.look.sight(direction, Vec3::from_glam(pixel.v));
+        put(&mut self.origin, lane, ray.origin);
+        put(&mut self.along, lane, ray.along);
+        put(&mut self.v, lane, sight.v);
+        put(&mut self.v_eye, lane, sight.v_eye);
+        put(&mut self.half, lane, sight.half);
+        self.depth_step[lane] = ray.depth_step;
+        self.step[lane] = ray.step;
+        self.beyond[lane] = ray.first as f64;
+    }
+
+    /// Joins the visits of all rays.
+    fn join(&mut self) {
         self.together.clear();
         self.together.extend_from_slice(&self.visits);
         join(&mut self.together);

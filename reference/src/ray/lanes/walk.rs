@@ -1,8 +1,8 @@
 //! From sample to sample, front to back, in lanes ([RAY-1], [RAY-2], [VAL-3]).
 
 use super::correct::correct;
-use super::{Packet, vector};
-use crate::field::lanes::{LaneReader, Packed, Places};
+use super::{Column, Packet, vector};
+use crate::field::lanes::{LANES, LaneReader, Packed, Places};
 use crate::number::Vec3;
 use crate::ray::opacity::Correction;
 use crate::ray::prepared::Prepared;
@@ -107,7 +107,10 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
         }
         packet.ends[1] = farthest.into();
         let [r, g, b] = light.rgb;
-        packet.rgba = [r.into(), g.into(), b.into(), light.opacity.into()];
+        let (r, g, b, opacity): (Column, Column, Column, Column) = (r.into(), g.into(), b.into(), light.opacity.into());
+        for lane in 0..LANES {
+            packet.rgba[lane] = [r[lane], g[lane], b[lane], opacity[lane]];
+        }
     }
 
     /// The index positions of sample k.
@@ -129,7 +132,7 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
         let simd = self.simd;
         let at = self.reader.places(self.positions(k), active);
         let values = self.reader.values(&at);
-        let Some(place) = self.prepared.function.locate_lanes(values, active.to_bitmask()) else {
+        let Some(place) = self.prepared.function.locate_lanes(values, active) else {
             return mask64x8::splat(simd, false);
         };
         let seen = mask64x8::from_bitmask(simd, place.visible);
