@@ -20,8 +20,8 @@ use drypoint_scene::counts::Counts;
 pub(super) struct Cast {
     /// Premultiplied colour and opacity in the blend space, without the background.
     pub(super) rgba: [f64; 4],
-    /// Sums for the other layers.
-    pub(super) sums: Sums,
+    /// Sums for the other layers; none where there are none, or nothing was seen.
+    pub(super) sums: Option<Box<Sums>>,
     /// Samples evaluated.
     pub(super) samples: u64,
 }
@@ -114,7 +114,8 @@ fn cast<R: Real, S: Sampler<R>>(
     counts.rays_skipped += u64::from(samples == 0);
     counts.samples += samples;
     let [r, g, b] = walk.light.rgb.map(Real::to_f64);
-    Cast { rgba: [r, g, b, walk.light.opacity.to_f64()], sums: walk.sums, samples }
+    let sums = (!walk.sums.is_empty()).then(|| Box::new(walk.sums));
+    Cast { rgba: [r, g, b, walk.light.opacity.to_f64()], sums, samples }
 }
 
 impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {

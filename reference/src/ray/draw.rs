@@ -160,14 +160,15 @@ fn append_pixel<'c, R: Real>(
         for (mean, c) in beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
             *mean += c * share;
         }
-        if prepared.layers != [LayerKind::Beauty] {
-            all.pool(&cast.sums);
+        if let Some(sums) = &cast.sums {
+            all.pool(sums);
         }
-        first.get_or_insert((&cast.sums, cast.samples));
+        first.get_or_insert((cast.sums.as_deref(), cast.samples));
     }
     let none = Sums::new();
     // A pixel has at least one ray.
-    let (first, samples) = first.unwrap_or((&none, 0));
+    let (first, samples) = first.unwrap_or((None, 0));
+    let first = first.unwrap_or(&none);
     for &kind in &prepared.layers {
         if kind == LayerKind::Beauty {
             pixels.extend(beauty);

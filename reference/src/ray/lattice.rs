@@ -21,6 +21,9 @@ pub struct Lattice {
 /// From here on k + ½ is no number of its own.
 pub const MOST_PLANES: f64 = (1u64 << 52) as f64;
 
+/// From origins so many 1/ε voxels away rounding could move positions by a hundredth of a voxel.
+const FAR: f64 = 1.0 / 1024.0;
+
 impl Lattice {
     /// How many steps the farthest point of a grid's box lies from the eye, before it or behind it.
     pub fn planes(&self, view: &View, grid: &Grid) -> f64 {
@@ -117,16 +120,38 @@ impl<R: Real> IndexRay<R> {
         ends: [Vec3<R>; 2],
         intervals: Option<&'b [[f64; 2]]>,
     ) -> impl Iterator<Item = [i64; 2]> + use<'b, R> {
-        let ray = *self;
         let (whole, intervals) = (intervals.is_none(), intervals.unwrap_or(&[]));
-        let [mut next, end] = if whole || !intervals.is_empty() { ray.inside(ends) } else { [1, 0] };
+        let [first, last] = if whole || !intervals.is_empty() { self.inside(ends) } else { [1, 0] };
+        whole
+            .then_some([first, last])
+            .into_iter()
+            .filter(|[first, last]| first <= last)
+            .chain(self.parts([first, last], intervals))
+    }
+
+    /// The samples at some depths, of a range of them that may be asked for.
+    #[inline(always)]
+    pub(super) fn parts<'b>(
+        &self,
+        [mut next, end]: [i64; 2],
+        intervals: &'b [[f64; 2]],
+    ) -> impl Iterator<Item = [i64; 2]> + use<'b, R> {
+        let ray = *self;
         let parts = intervals.iter().map(move |&depths| {
             let [first, last] = ray.within(depths);
             let part = [first.max(next), last.min(end)];
             next = next.max(part[1] + 1);
             part
         });
-        whole.then_some([next, end]).into_iter().chain(parts).filter(|[first, last]| first <= last)
+        parts.filter(|[first, last]| first <= last)
+    }
+
+    /// The samples of a ray that are inside the box if they are in boxes that are half a voxel inside it; none where rounding
+    /// could move them as far.
+    #[inline(always)]
+    pub(super) fn all_beyond_near(&self) -> Option<[i64; 2]> {
+        let [x, y, z] = self.origin.to_glam().to_array();
+        (x.abs().max(y.abs()).max(z.abs()) < FAR * R::EPSILON.to_f64().recip()).then_some([self.first, i64::MAX])
     }
 
     /// Whether sample k may be asked for: beyond `near` and inside the box.

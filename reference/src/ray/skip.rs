@@ -83,6 +83,12 @@ impl Boxes {
         self.ends.is_empty()
     }
 
+    /// Whether all of them are farther than half a voxel inside a box of index space.
+    pub(super) fn are_inside(&self, [lo, hi]: [DVec3; 2]) -> bool {
+        let is_inside = |axis: usize, [from, to]: [f64; 2]| from > lo[axis] + 0.5 && to < hi[axis] - 0.5;
+        self.ends.iter().all(|ends| (0..3).all(|axis| is_inside(axis, ends[axis])))
+    }
+
     /// Lowest and highest index coordinate of each on each axis.
     pub(super) fn ends(&self) -> &[[[f64; 2]; 3]] {
         &self.ends
@@ -100,7 +106,7 @@ impl Boxes {
         self.intervals.clear();
         for ends in &self.ends {
             if let Some(range) = line.meets(ends) {
-                self.intervals.push(range);
+                add(&mut self.intervals, range);
             }
         }
         merge(&mut self.intervals);
@@ -222,6 +228,15 @@ impl Line {
         let earlier = |a: f64, b: f64| if b < a { b } else { a };
         let range = [later(later(enter(0), enter(1)), enter(2)), earlier(earlier(leave(0), leave(1)), leave(2))];
         (range[0] <= range[1]).then_some(range)
+    }
+}
+
+/// Appends an interval, or joins it to the last one, which the box before mostly left where the next one begins.
+#[inline(always)]
+pub(super) fn add(intervals: &mut Vec<[f64; 2]>, [from, to]: [f64; 2]) {
+    match intervals.last_mut() {
+        Some(last) if last[0] <= from && from <= last[1] => last[1] = last[1].max(to),
+        _ => intervals.push([from, to]),
     }
 }
 

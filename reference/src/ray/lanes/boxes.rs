@@ -2,7 +2,7 @@
 
 use super::Column;
 use crate::field::lanes::LANES;
-use crate::ray::skip::Line;
+use crate::ray::skip::{Line, add};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
@@ -23,7 +23,7 @@ pub(super) fn intervals<S: Simd>(
         // Lines that run towards different octants.
         for (line, intervals) in lines.iter().zip(intervals) {
             if let Some(line) = line {
-                intervals.extend(boxes.iter().filter_map(|ends| line.meets(ends)));
+                boxes.iter().filter_map(|ends| line.meets(ends)).for_each(|range| add(intervals, range));
             }
         }
         return;
@@ -63,7 +63,7 @@ pub(super) fn intervals<S: Simd>(
             while met != 0 {
                 let lane = met.trailing_zeros() as usize;
                 met &= met - 1;
-                intervals[lane].push([from[lane], to[lane]]);
+                add(&mut intervals[lane], [from[lane], to[lane]]);
             }
         }
     }

@@ -17,7 +17,6 @@ use self::style::InStyle;
 use self::walk::Walk;
 use super::cast::Cast;
 use super::lattice::IndexRay;
-use super::layers::Sums;
 use super::need::Needs;
 use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::Look;
@@ -83,10 +82,11 @@ pub(super) fn cast_all(
     if boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
         counts.rays += points.len() as u64;
         counts.rays_skipped += points.len() as u64;
-        casts.extend(points.iter().map(|_| Cast { rgba: [0.0; 4], sums: Sums::new(), samples: 0 }));
+        casts.extend(points.iter().map(|_| Cast { rgba: [0.0; 4], sums: None, samples: 0 }));
         return;
     }
     let mut packet = Packet::new(prepared);
+    packet.inside = boxes.as_ref().is_some_and(|boxes| boxes.are_inside(prepared.ends.map(Vec3::to_glam)));
     for points in points.chunks(LANES) {
         packet.aim(points, boxes.as_deref());
         match prepared.volume.voxels() {
@@ -101,7 +101,7 @@ pub(super) fn cast_all(
             counts.rays += 1;
             counts.rays_skipped += u64::from(samples == 0);
             counts.samples += samples;
-            casts.push(Cast { rgba: packet.rgba[lane], sums: Sums::new(), samples });
+            casts.push(Cast { rgba: packet.rgba[lane], sums: None, samples });
         }
     }
 }
@@ -132,6 +132,8 @@ struct Packet<'p, 'v> {
     /// First and last sample of each ray, and after the walk the one where it ended.
     ends: [Column; 2],
     rgba: [[f64; 4]; LANES],
+    /// Whether visible bricks are all farther than half a voxel from the end of the volume.
+    inside: bool,
     /// Depths at which each ray is in a visible brick.
     intervals: [Vec<[f64; 2]>; LANES],
 }
@@ -154,6 +156,7 @@ impl<'p, 'v> Packet<'p, 'v> {
             together: Vec::new(),
             ends: [none; 2],
             rgba: [[0.0; 4]; LANES],
+            inside: false,
             intervals: Default::default(),
         }
     }
@@ -192,7 +195,9 @@ impl<'p, 'v> Packet<'p, 'v> {
         for (lane, (ray, intervals)) in rays.iter().zip(&mut intervals).enumerate() {
             if let (Some((pixel, ray)), false) = (ray, intervals.is_empty()) {
                 merge(intervals);
-                self.visits.extend(ray.visits(prepared.ends, Some(intervals)));
+                let inside = if self.inside { ray.all_beyond_near() } else { None };
+                let range = inside.unwrap_or_else(|| ray.inside(prepared.ends));
+                self.visits.extend(ray.parts(range, intervals));
                 self.take(lane, pixel, ray);
             }
         }
