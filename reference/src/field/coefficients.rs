@@ -5,6 +5,7 @@ use super::place::Place;
 use super::prefilter::Prefilter;
 use super::stencil::{Stencils, beyond};
 use super::tensor;
+use crate::number::lanes::widely;
 use crate::number::{Real, Sym3, Vec3};
 use rayon::prelude::*;
 
@@ -130,7 +131,10 @@ impl<R: Real> Coefficients<R> {
 
     /// Gradient and Hessian of the cubic spline along the index axes.
     pub(super) fn cubic_derivatives(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
-        tensor::second(self.rows(at.cell), &at.w.map(bspline::taps))
+        widely(
+            #[inline(always)]
+            || tensor::second(self.rows(at.cell), &at.w.map(bspline::taps)),
+        )
     }
 
     /// Lowest and highest number, base included, that the cells from `first` up to, not including, `end` read.

@@ -50,6 +50,12 @@ pub trait Sampler<R: Real>: Sync {
     /// If the field was prepared for a lower rung than `Hessian`.
     fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>);
 
+    /// Whether [`hessian_at`](Self::hessian_at) gives the gradient of [`gradient_at`](Self::gradient_at), bit for bit.
+    #[inline(always)]
+    fn has_one_gradient(&self) -> bool {
+        false
+    }
+
     /// The values at the corners of a cell, as pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1), where the field in
     /// the cell is their trilinear interpolation.
     #[inline(always)]
@@ -178,6 +184,11 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
             Some(index) => self.field.to_world.apply(index),
             None => self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
         }
+    }
+
+    #[inline(always)]
+    fn has_one_gradient(&self) -> bool {
+        self.field.how.gradient == GradientEstimator::Analytic && matches!(self.field.second, Second::Analytic)
     }
 
     #[inline]

@@ -162,6 +162,12 @@ impl<'v> Stencils<'v> {
     /// The voxels from the one before the cell on, continued beyond the border.
     #[inline(never)]
     pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
+        self.block_here(cell)
+    }
+
+    /// The same, compiled into where it is asked for.
+    #[inline(always)]
+    pub(super) fn block_here<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         if !self.inside(cell) {
             return self.read_block(cell);
         }

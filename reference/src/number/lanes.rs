@@ -12,6 +12,28 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Numbers side by side.
 pub(crate) const LANES: usize = 8;
 
+/// The registers that lanes are for; none on processors without them.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+pub(crate) fn wide() -> Option<impl Simd> {
+    fearless_simd::Level::new().as_avx2()
+}
+
+/// The same where there is no such processor.
+#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+pub(crate) fn wide() -> Option<impl Simd> {
+    None::<fearless_simd::Fallback>
+}
+
+/// Runs something compiled for those registers, where there are any: the same operations, so the same bits. What is to gain
+/// from it has to be inlined.
+#[inline(always)]
+pub(crate) fn widely<T>(compute: impl FnOnce() -> T) -> T {
+    match wide() {
+        Some(simd) => simd.vectorize(compute),
+        None => compute(),
+    }
+}
+
 const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 
 /// The rows of a table, turned into lanes; a row beyond the last is the last.

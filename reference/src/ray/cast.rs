@@ -9,7 +9,7 @@ use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::{Facts, Sight};
 use super::skip::Boxes;
 use crate::field::{Place, Sampler, curvature};
-use crate::number::{Real, Vec3};
+use crate::number::{Real, Sym3, Vec3};
 use crate::style_transfer_functions::curvature_along_ray;
 use crate::transfer;
 use crate::transfer::over::Here;
@@ -268,8 +268,10 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         let Sample { k, at, .. } = sample;
         let prepared = self.prepared;
         let mut facts = facts;
+        let together = calls.gradient && calls.hessian && self.sampler.has_one_gradient();
+        let second = if together { Some(self.sampler.hessian_at(at)) } else { None };
         if calls.gradient {
-            let g = self.sampler.gradient_at(at);
+            let g = second.map_or_else(|| self.sampler.gradient_at(at), |(g, _)| g);
             counts.gradients += 1;
             facts.gradient = g;
             facts.depth = self.ray.depth(k);
@@ -280,7 +282,8 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         }
         if let Some(n) = facts.normal {
             if calls.hessian {
-                (facts.kappa, facts.principal) = self.curvatures(at, calls, (facts.kappa, facts.principal), counts);
+                let second = second.unwrap_or_else(|| self.sampler.hessian_at(at));
+                (facts.kappa, facts.principal) = self.curvatures(second, calls, (facts.kappa, facts.principal), counts);
             }
             if calls.kappa == KappaSource::AlongRay {
                 facts.kappa = self.kappa_along_ray(k, n, counts);
@@ -318,14 +321,13 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     #[inline(always)]
     pub(super) fn curvatures(
         &self,
-        at: Place<R>,
+        (g, h): (Vec3<R>, Sym3<R>),
         calls: Calls,
         known: (R, [R; 2]),
         counts: &mut Counts,
     ) -> (R, [R; 2]) {
         let prepared = self.prepared;
         counts.hessians += 1;
-        let (g, h) = self.sampler.hessian_at(at);
         let (mut kappa, mut principal) = known;
         if g.length() > prepared.no_normal_below {
             if calls.kappa == KappaSource::Exact {

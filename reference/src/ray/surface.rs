@@ -205,7 +205,8 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         facts.normal = self.normal(facts.gradient);
         let Some(n) = facts.normal else { return facts };
         if calls.hessian {
-            (facts.kappa, facts.principal) = self.curvatures(at, calls, (facts.kappa, facts.principal), counts);
+            (facts.kappa, facts.principal) =
+                self.curvatures(self.sampler.hessian_at(at), calls, (facts.kappa, facts.principal), counts);
         }
         if calls.kappa == KappaSource::AlongRay {
             let before = depth - self.ray.depth_step.to_f64();

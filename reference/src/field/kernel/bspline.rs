@@ -6,6 +6,7 @@ use crate::field::coefficients::Coefficients;
 use crate::field::place::Place;
 use crate::field::sampler::Interpolant;
 use crate::field::tensor::{self, Taps};
+use crate::number::lanes::widely;
 use crate::number::{Real, Sym3, Vec3};
 
 /// The prefiltered cubic B-spline.
@@ -38,12 +39,18 @@ pub(in crate::field) fn taps<R: Real>(t: R) -> Taps<R, 4> {
 impl<R: Real> Interpolant<R> for Bspline<'_, R> {
     #[inline]
     fn value(&self, _: &Field<'_, R>, at: Place<R>) -> R {
-        self.0.base() + tensor::value(self.0.rows(at.cell), at.w.map(|w| taps(w).value))
+        widely(
+            #[inline(always)]
+            || self.0.base() + tensor::value(self.0.rows(at.cell), at.w.map(|w| taps(w).value)),
+        )
     }
 
     #[inline]
     fn gradient(&self, _: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
-        tensor::gradient(self.0.rows(at.cell), &at.w.map(taps))
+        widely(
+            #[inline(always)]
+            || tensor::gradient(self.0.rows(at.cell), &at.w.map(taps)),
+        )
     }
 
     #[inline]
@@ -55,20 +62,35 @@ impl<R: Real> Interpolant<R> for Bspline<'_, R> {
 impl<R: Real> Interpolant<R> for BsplineSmooth {
     #[inline]
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R {
-        let block = field.stencils.block::<R>(at.cell);
-        tensor::value(|j, k| block[k][j], at.w.map(|w| taps(w).value))
+        widely(
+            #[inline(always)]
+            || {
+                let block = field.stencils.block_here::<R>(at.cell);
+                tensor::value(|j, k| block[k][j], at.w.map(|w| taps(w).value))
+            },
+        )
     }
 
     #[inline]
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
-        let block = field.stencils.block::<R>(at.cell);
-        tensor::gradient(|j, k| block[k][j], &at.w.map(taps))
+        widely(
+            #[inline(always)]
+            || {
+                let block = field.stencils.block_here::<R>(at.cell);
+                tensor::gradient(|j, k| block[k][j], &at.w.map(taps))
+            },
+        )
     }
 
     #[inline]
     fn second(&self, field: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
-        let block = field.stencils.block::<R>(at.cell);
-        tensor::second(|j, k| block[k][j], &at.w.map(taps))
+        widely(
+            #[inline(always)]
+            || {
+                let block = field.stencils.block_here::<R>(at.cell);
+                tensor::second(|j, k| block[k][j], &at.w.map(taps))
+            },
+        )
     }
 }
 

@@ -6,6 +6,7 @@ use crate::field::coefficients::Coefficients;
 use crate::field::place::Place;
 use crate::field::sampler::Interpolant;
 use crate::field::tensor::{self, Taps};
+use crate::number::lanes::widely;
 use crate::number::{Real, Sym3, Vec3};
 
 /// The prefiltered quintic B-spline.
@@ -57,17 +58,26 @@ pub(in crate::field) fn taps<R: Real>(t: R) -> Taps<R, 6> {
 impl<R: Real> Interpolant<R> for Bspline5<'_, R> {
     #[inline]
     fn value(&self, _: &Field<'_, R>, at: Place<R>) -> R {
-        self.0.base() + tensor::value(self.0.rows(at.cell), at.w.map(|w| taps(w).value))
+        widely(
+            #[inline(always)]
+            || self.0.base() + tensor::value(self.0.rows(at.cell), at.w.map(|w| taps(w).value)),
+        )
     }
 
     #[inline]
     fn gradient(&self, _: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
-        tensor::gradient(self.0.rows(at.cell), &at.w.map(taps))
+        widely(
+            #[inline(always)]
+            || tensor::gradient(self.0.rows(at.cell), &at.w.map(taps)),
+        )
     }
 
     #[inline]
     fn second(&self, _: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
-        tensor::second(self.0.rows(at.cell), &at.w.map(taps))
+        widely(
+            #[inline(always)]
+            || tensor::second(self.0.rows(at.cell), &at.w.map(taps)),
+        )
     }
 }
 

@@ -23,24 +23,13 @@ use super::sample::Look;
 use super::skip::{Boxes, merge};
 use crate::field::lanes::{LANES, Packed};
 use crate::number::Vec3;
+use crate::number::lanes::wide;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::view::Ray;
 use drypoint_scene::volume::Voxels;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f64x8};
-
-/// The registers that lanes are for; none on processors without them, which cast rays one by one.
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-fn wide() -> Option<impl Simd> {
-    Level::new().as_avx2()
-}
-
-/// The same where there is no such processor.
-#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-fn wide() -> Option<impl Simd> {
-    None::<fearless_simd::Fallback>
-}
+use fearless_simd::{Simd, f64x8};
 
 /// Whether a scene's rays can be cast in lanes.
 pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
