@@ -70,7 +70,6 @@ fn what_makes_no_page_is_refused() {
         ("points plain.toml -o a.svg", "the scene has no stipples"),
         ("points ball.toml -o a.svg --set stipples.pen=red", "there is no pen \"red\""),
         ("points ball.toml -o a.svg --set stipples.color=transfer", "dots take their colours from [transfer]"),
-        ("cost ball.toml", "what accuracy costs is measured on the volume, which this scene does not draw itself"),
     ] {
         let told = folder.refused(line);
         assert!(told.starts_with(&format!("error: {want}")), "{line}: {told}");
