@@ -25,6 +25,15 @@ pub struct Drawing<'a> {
     marks: Option<MarkFrames<'a>>,
 }
 
+/// What a file has, and how it will be drawn.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Dots, and lines: with a plotter those that it draws, a dot that is larger than the nib among the dots.
+    pub marks: [usize; 2],
+    /// What a plotter will do, a sentence a layer.
+    pub said: Vec<String>,
+}
+
 /// One frame.
 pub struct Frame {
     /// Its number, from 0.
@@ -85,10 +94,7 @@ impl<'a> Drawing<'a> {
 impl Frame {
     /// Dots, and lines.
     pub fn marks(&self) -> [usize; 2] {
-        let sum = |n: fn(&drypoint_scene::marks::Layer) -> usize| {
-            self.marks.iter().flat_map(|marks| &marks.layers).map(n).sum()
-        };
-        [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
+        self.marks.as_ref().map(paper::sums).unwrap_or_default()
     }
 
     /// The frame in pixels, with its points and lines painted over the layer `beauty`: the page with its margin where points
@@ -100,12 +106,11 @@ impl Frame {
         Paper::of(job, self.number).painted(self.picture, self.marks.as_ref())
     }
 
-    /// Writes the frame by the suffix; the file appears whole or not at all. What a plotter will do is returned, a sentence
-    /// a layer. A list has the dots, or where strokes are wanted the lines, as they are, whatever draws them.
+    /// Writes the frame by the suffix; the file appears whole or not at all. A list has the dots, or where strokes are wanted the lines, as they are, whatever draws them.
     ///
     /// # Errors
     /// What the operating system refuses, or a picture of no or too many pixels.
-    pub fn write(self, job: &Job, path: &Path) -> Result<Vec<String>, Failure> {
+    pub fn write(self, job: &Job, path: &Path) -> Result<Written, Failure> {
         Paper::of(job, self.number).write(self, path)
     }
 }
@@ -114,7 +119,7 @@ impl Frame {
 ///
 /// # Errors
 /// As [`Frame::write`].
-pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> Result<Vec<String>, Failure> {
+pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> Result<Written, Failure> {
     let provenance = provenance(scene, &Plan::of_marks(scene));
     let frame = Frame { number: 0, picture: None, marks: Some(marks) };
     Paper { scene, wanted, provenance }.write(frame, path)

@@ -7,6 +7,7 @@ use crate::stippling::{DotFrames, Stippling};
 use crate::stroking::{StrokeFrames, Stroking};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page};
+use drypoint_scene::tables::Scene;
 use drypoint_scene::view::View;
 
 /// What a job wants of its scene's points and lines.
@@ -32,12 +33,26 @@ impl<'a> Marking<'a> {
     pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(f64) + Sync)) -> Result<Self, Failure> {
         let wanted = job.wanted();
         let shown = wanted != Wanted::Picture || job.shows_beauty();
-        let stippled = shown && wanted.has_points() && job.scene.stipples.is_some();
-        let stroked = shown && wanted.has_strokes() && job.scene.has_strokes();
+        let wanted = shown.then_some(wanted);
+        Self::of(job, &job.scene, wanted, (counts, progress))
+    }
+
+    /// The same of a scene that differs from the job's in its knobs alone ([COST-1]), of which something or nothing is wanted.
+    ///
+    /// # Errors
+    /// As [`Stippling::new`] and [`Stroking::new`].
+    pub(crate) fn of(
+        job: &'a Job,
+        scene: &'a Scene,
+        wanted: Option<Wanted>,
+        (counts, progress): (&mut Counts, &(dyn Fn(f64) + Sync)),
+    ) -> Result<Self, Failure> {
+        let stippled = wanted.is_some_and(Wanted::has_points) && scene.stipples.is_some();
+        let stroked = wanted.is_some_and(Wanted::has_strokes) && scene.has_strokes();
         Ok(Self {
-            page: Page::of(&job.scene),
-            stippling: if stippled { Some(Stippling::new(job, counts, progress)?) } else { None },
-            stroking: if stroked { Some(Stroking::new(job, counts)?) } else { None },
+            page: Page::of(scene),
+            stippling: if stippled { Some(Stippling::of(job, scene, counts, progress)?) } else { None },
+            stroking: if stroked { Some(Stroking::of(job, scene, counts)?) } else { None },
         })
     }
 

@@ -15,7 +15,7 @@ use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::plan::PointsPlan;
 use drypoint_scene::points::Points;
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{Even, Ink, Iso, Length, PointsPerPixel, Stipples};
+use drypoint_scene::tables::{Even, Ink, Iso, Length, PointsPerPixel, Scene, Stipples};
 use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
 use pens::Pens;
@@ -58,6 +58,7 @@ pub struct DotFrames<'a> {
 /// What is known before the points are.
 struct Setting<'a> {
     job: &'a Job,
+    scene: &'a Scene,
     /// As they are drawn: for a plotter in opaque ink.
     stipples: Stipples,
     page: Page,
@@ -79,9 +80,22 @@ impl<'a> Stippling<'a> {
     /// No stipples, a pen that there is not, a camera without direction, lengths of the wrong space, more points than there
     /// is memory for.
     pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(f64) + Sync)) -> Result<Self, Failure> {
+        Self::of(job, &job.scene, counts, progress)
+    }
+
+    /// The same of a scene that differs from the job's in its knobs alone ([COST-1]).
+    ///
+    /// # Errors
+    /// As [`Stippling::new`].
+    pub fn of(
+        job: &'a Job,
+        scene: &'a Scene,
+        counts: &mut Counts,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Self, Failure> {
         let start = Instant::now();
-        let setting = Setting::new(job)?;
-        let pens = Pens::new(&job.scene, &setting.stipples, &setting.page)?;
+        let setting = Setting::new(job, scene)?;
+        let pens = Pens::new(scene, &setting.stipples, &setting.page)?;
         let wrong = |error: StippleError| failure(job, &error);
         let preprocess = Preprocess::new(setting.inputs()).map_err(wrong)?;
         memory::room(preprocess.bytes()).map_err(|no_room| {
@@ -95,7 +109,7 @@ impl<'a> Stippling<'a> {
         let grid = points.grid.clone();
         let ink = [preprocess.ink, preprocess.layers];
         let (layers, line_pen) = pens.deal(job, points)?;
-        let hiding = hiding(job, counts)?;
+        let hiding = hiding(job, scene, counts)?;
         counts.seconds.insert("points".into(), start.elapsed().as_secs_f64());
         Ok(Self { setting, layers, line_pen, edges, grid, ink, hiding })
     }
@@ -105,7 +119,7 @@ impl<'a> Stippling<'a> {
     /// # Errors
     /// As [`Stippling::new`].
     pub fn planned(job: &Job) -> Result<PointsPlan, Failure> {
-        let setting = Setting::new(job)?;
+        let setting = Setting::new(job, &job.scene)?;
         let preprocess = Preprocess::new(setting.inputs()).map_err(|error| failure(job, &error))?;
         let each = preprocess.each as u64;
         Ok(PointsPlan { voxels: preprocess.len() / each.max(1), each, bytes: preprocess.bytes() })
@@ -113,8 +127,8 @@ impl<'a> Stippling<'a> {
 
     /// Makes ready what no camera changes.
     pub fn frames(&self) -> DotFrames<'_> {
-        let Setting { job, stipples, first, near, size, .. } = &self.setting;
-        let (near, size, light, grid, reference) = (*near, *size, job.scene.light, job.volume.grid(), first);
+        let Setting { job, scene, stipples, first, near, size, .. } = &self.setting;
+        let (near, size, light, grid, reference) = (*near, *size, scene.light, job.volume.grid(), first);
         let surface = self.hiding.as_ref().map(|(field, iso)| Arc::new(IsoSurface::new(field, *iso)));
         let [ink, layers] = self.ink;
         let measured = self.setting.tone.as_ref().filter(|_| self.setting.pen_tone().is_some());
@@ -168,14 +182,14 @@ impl DotFrames<'_> {
         let mut marks = Marks { page: *page, layers };
         marks.settle();
         counts.points += marks.layers.iter().map(|layer| layer.dots.len() as u64).sum::<u64>();
+        counts.strokes += marks.layers.iter().map(|layer| layer.lines.len() as u64).sum::<u64>();
         *counts.seconds.entry("dots".into()).or_default() += start.elapsed().as_secs_f64();
         marks
     }
 }
 
 impl<'a> Setting<'a> {
-    fn new(job: &'a Job) -> Result<Self, Failure> {
-        let scene = &job.scene;
+    fn new(job: &'a Job, scene: &'a Scene) -> Result<Self, Failure> {
         let at = |key: &str| scene.given.position(key);
         let Some(mut stipples) = scene.stipples.clone() else {
             let remedy = "add a table [stipples], or write preset = \"stipple\"";
@@ -198,7 +212,7 @@ impl<'a> Setting<'a> {
         // A_vol is in pixels, or in squares of side S_max where the picture is in mm ([STIP-3]).
         let in_mm = scene.picture.extent().is_some_and(|e| e.iter().any(|l| matches!(l, Length::Millimetres(_))));
         let square = if in_mm { size * page.pixels_per_mm() } else { 1.0 };
-        let mut setting = Self { job, stipples, page, first, near, size, square, tone: None };
+        let mut setting = Self { job, scene, stipples, page, first, near, size, square, tone: None };
         setting.tone = match setting.pen_tone() {
             Some(path) => Some(tone(path)?),
             None => (setting.stipples.k_max == PointsPerPixel::Auto).then(Tone::ideal),
@@ -208,13 +222,13 @@ impl<'a> Setting<'a> {
 
     /// The table of what the pen prints, where there is one.
     fn pen_tone(&self) -> Option<&'a Path> {
-        let pen = self.job.scene.pens.iter().find(|pen| self.stipples.pen.as_ref() == Some(&pen.name))?;
+        let pen = self.scene.pens.iter().find(|pen| self.stipples.pen.as_ref() == Some(&pen.name))?;
         pen.tone.as_deref()
     }
 
     fn inputs(&self) -> Inputs<'_> {
-        let Self { job, stipples, first, near, square, .. } = self;
-        let (table, volume) = (&job.scene.volume, &job.volume);
+        let Self { job, scene, stipples, first, near, square, .. } = self;
+        let (table, volume) = (&scene.volume, &job.volume);
         // S_max's area, in pixels.
         let diameter = self.size * self.page.pixels_per_mm();
         let dot = 0.25 * std::f64::consts::PI * (diameter * diameter);
@@ -224,8 +238,8 @@ impl<'a> Setting<'a> {
 }
 
 /// What hides points, if something does: the field as the scene samples it, and the value of its surface.
-fn hiding<'a>(job: &'a Job, counts: &mut Counts) -> Result<Option<(Field<'a, f64>, f64)>, Failure> {
-    let Job { scene, volume, .. } = job;
+fn hiding<'a>(job: &'a Job, scene: &Scene, counts: &mut Counts) -> Result<Option<(Field<'a, f64>, f64)>, Failure> {
+    let volume = &job.volume;
     let Some(iso) = scene.stipples.as_ref().and_then(|stipples| stipples.hide_behind) else { return Ok(None) };
     let how = Reconstruction {
         kernel: scene.sampling.kernel,

@@ -58,8 +58,16 @@ impl<'a> Stroking<'a> {
     /// # Errors
     /// No strokes, a pen that there is not, lengths of the wrong space, a reconstruction that does not exist.
     pub fn new(job: &'a Job, counts: &mut Counts) -> Result<Self, Failure> {
+        Self::of(job, &job.scene, counts)
+    }
+
+    /// The same of a scene that differs from the job's in its knobs alone ([COST-1]).
+    ///
+    /// # Errors
+    /// As [`Stroking::new`].
+    pub fn of(job: &'a Job, scene: &'a Scene, counts: &mut Counts) -> Result<Self, Failure> {
         let start = Instant::now();
-        let Job { scene, volume, .. } = job;
+        let volume = &job.volume;
         let at = |key: &str| scene.given.position(key);
         if !scene.has_strokes() {
             return Err(Failure::new(

@@ -162,10 +162,25 @@ mod tests {
     }
 
     #[test]
+    fn points_and_strokes_have_their_own_knobs_and_none_of_rays() {
+        let points = "stipples.gradient stipples.order stipples.snap stipples.thin stipples.even";
+        assert_eq!(keys(&scene("[stipples]\n")).join(" "), points);
+        // A surface that hides them is between the voxels.
+        let hidden = scene("[stipples]\nhide_behind = 1\n");
+        assert_eq!(keys(&hidden).join(" "), format!("sampling.kernel {points}"));
+        let strokes = "hatching.tolerance hatching.chord";
+        assert_eq!(keys(&scene("[hatching]\n")).join(" "), format!("sampling.kernel {strokes}"));
+        assert_eq!(keys(&scene("[outlines]\n")), ["sampling.kernel"]);
+        let all = keys(&scene(&format!("{REGULAR}[stipples]\n[hatching]\n"))).join(" ");
+        assert_eq!(all, format!("{} {points} {strokes}", ALWAYS.join(" ")));
+    }
+
+    #[test]
     fn every_setting_can_be_set_and_is_read_back() {
         let mut set = 0;
         for more in ["", "kernel = \"bspline\"\n", "kernel = \"bspline5\"\nhessian = \"analytic\"\n"] {
-            let scene = scene(&format!("[contours]\nkappa = \"exact\"\n[style_mipmaps]\n[sampling]\n{more}"));
+            let marks = "[stipples]\n[hatching]\n[transfer]\n";
+            let scene = scene(&format!("{marks}[contours]\nkappa = \"exact\"\n[style_mipmaps]\n[sampling]\n{more}"));
             for knob in knobs(&scene, &Plan::new(&scene)) {
                 for setting in knob.settings {
                     let other = knob.set(&scene, setting).unwrap_or_else(|faults| panic!("{faults}"));

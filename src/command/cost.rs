@@ -14,7 +14,8 @@ use std::path::PathBuf;
 ///
 /// A knob is a key that trades accuracy for time: the step, the kernel, early termination and others, as far as the
 /// scene uses them. One is turned at a time. The error is that of the picture in linear light: against the formula of a
-/// phantom, else against the knob's finest setting.
+/// phantom, else against the knob's finest setting. Knobs of stipples are measured on the page of dots, blurred over a few
+/// distances between them; those of hatching on the strokes, as distances in voxels.
 #[derive(Debug, Args)]
 pub(super) struct Cost {
     /// A scene or a volume; without either, the embedded scene

@@ -52,7 +52,13 @@ impl Files {
         let suffix = path.extension().unwrap_or_default().to_string_lossy();
         let example = || format!("write {stem}_{}.{suffix}", "#".repeat(digits.max(3)));
         match runs[..] {
-            [] if Format::of(path) == Some(Format::Svg) && scene.has_marks() => Ok(Self::Animated(path.into())),
+            [] if Format::of(path) == Some(Format::Svg) && scene.has_marks() => {
+                if scene.page.as_ref().is_some_and(|page| page.plotter) {
+                    let what = format!("a plotter draws one frame a page, and [orbit] has {}", orbit.frames);
+                    return refused(what, example());
+                }
+                Ok(Self::Animated(path.into()))
+            }
             [] => {
                 let frames = orbit.frames;
                 refused(format!("[orbit] has {frames} frames, and the name has no ### for their numbers"), example())
@@ -137,20 +143,22 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
             }
             // Without what writing takes.
             cpu = cpu_seconds().zip(before).zip(cpu).map(|((after, before), sum)| sum + after - before);
-            counts.add_frame(&own);
             if i == 0 {
-                marks = frame.marks();
                 warn_of_nothing(job, &frame, talk);
             }
             if matches!(files, Files::Animated(_)) {
+                counts.add_frame(&own);
                 animated.push(frame);
                 continue;
             }
             let start = Instant::now();
-            let of_plotter = frame.write(job, &files.path(i))?;
+            let written = frame.write(job, &files.path(i))?;
             *counts.seconds.entry("write".into()).or_default() += start.elapsed().as_secs_f64();
+            // What a plotter leaves out is drawn by no one.
+            let [points, strokes] = written.marks.map(|n| n as u64);
+            counts.add_frame(&Counts { points, strokes, ..own });
             if i == 0 {
-                said = of_plotter;
+                (marks, said) = (written.marks, written.said);
             }
         }
     }
@@ -205,6 +213,7 @@ mod tests {
             ("a.png", orbit, "[orbit] has 36 frames, and the name has no ###", "write a_###.png"),
             ("a.svg", orbit, "[orbit] has 36 frames", "write a_###.svg"),
             ("a.pdf", "[stipples]\n[orbit]\n", "[orbit] has 36 frames", "write a_###.pdf"),
+            ("a.svg", "[stipples]\n[orbit]\n[page]\nplotter = true\n", "a plotter draws one frame", "write a_###.svg"),
             ("a.png", "[orbit]\nframes = 10001\n", "[orbit] has 10001 frames", "write a_#####.png"),
             ("a_#.png", orbit, "# has 1 of the 2 digits of frame 35", "write more #"),
             ("#_#.png", orbit, "a name has one number", "write #_#_###.png"),

@@ -250,15 +250,21 @@ fn suggested(
     Ok(scene)
 }
 
-/// What makes a page to print on, 160 mm wide, of a bare volume's points, rather than the pixels of a rendered picture; none
-/// where something else says a size.
+/// What makes a page to print on, 160 mm wide and high, of a bare volume's points, rather than the pixels of a rendered
+/// picture; none where something else says a size. Where one length is said, the other is as long.
 pub(super) fn page_flags(set: &Set) -> Vec<Flag> {
-    let sizes = ["picture.size", "picture.width", "picture.height", "picture="];
-    let says_size = |set: &String| sizes.iter().any(|key| set.trim_start().starts_with(key));
-    if set.set.iter().any(says_size) {
+    let said = |key: &str| set.set.iter().find_map(|set| Some(set.trim_start().strip_prefix(key)?.trim_start()));
+    if said("picture.size").or(said("picture=")).is_some() {
         return Vec::new();
     }
-    ["picture.width", "picture.height"].map(|key| Flag::name(key, key, "160 mm")).into()
+    let [width, height] = ["picture.width", "picture.height"].map(|key| said(key)?.strip_prefix('='));
+    let as_long = |other: Option<&str>| other.unwrap_or("160 mm").trim().trim_matches('"').to_owned();
+    let flags = [("picture.width", width, height), ("picture.height", height, width)];
+    flags
+        .into_iter()
+        .filter(|(_, own, _)| own.is_none())
+        .map(|(key, _, other)| Flag::name(key, key, &as_long(other)))
+        .collect()
 }
 
 /// A scene that says nothing: every key has its default.

@@ -5,7 +5,7 @@ use super::input::{self, Flag, Over, Set};
 use super::raw::Raw;
 use super::report::{Progress, note, print};
 use super::{Done, Outcome, Talk, stats, target};
-use drypoint::drawing::write_page;
+use drypoint::drawing::{Written, write_page};
 use drypoint::job::Wanted;
 use drypoint::output::list;
 use drypoint::scene::counts::Counts;
@@ -100,7 +100,7 @@ impl Page {
         let mut marks = Marks { page, layers };
         let read = if strokes { ends(&marks) } else { dots };
         marks.settle();
-        let [dots, lines] = sums(&marks.layers);
+        let [dots, _] = sums(&marks.layers);
         let kept = if strokes { ends(&marks) } else { dots };
         if kept < read {
             let (lost, [width, height]) = (read - kept, page.size.to_array());
@@ -110,7 +110,7 @@ impl Page {
         }
         counts.seconds.insert("load".into(), start.elapsed().as_secs_f64());
         let start = Instant::now();
-        let said = write_page(marks, &scene, self.wanted, &self.output)?;
+        let Written { marks: [dots, lines], said } = write_page(marks, &scene, self.wanted, &self.output)?;
         counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
         (counts.points, counts.strokes) = (dots as u64, lines as u64);
         note(talk, format_args!("{}: {dots} dots, {lines} lines", self.output.display()));

@@ -52,7 +52,7 @@ impl Wedge {
         let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
         let page = wedge(&pen, &tone, &Page::of(&scene), 1)?;
         let [width, height] = page.marks.page.size.to_array();
-        let said = write_page(page.marks, &scene, Wanted::Marks, &self.output)?;
+        let said = write_page(page.marks, &scene, Wanted::Marks, &self.output)?.said;
         note(talk, format_args!("{}: {width:.0} × {height:.0} mm", self.output.display()));
         for line in said {
             note(talk, line);

@@ -10,19 +10,28 @@
 //! termination, biases of mip-maps) are compared with the same scene at the finest setting, and so is every knob where
 //! the field is not known.
 //!
-//! **Error**: of the picture as it is written, with its background, in linear premultiplied light: the RMS and the
-//! largest difference over R, G, B and A, and the mean of FLIP.
+//! **Error** of what a knob changes ([`On`]):
+//! - a picture, as it is written, with its background, in linear premultiplied light: the RMS and the largest difference
+//!   over R, G, B and A, and the mean of FLIP;
+//! - dots, as the page of them alone, painted, and blurred by a Gaussian of σ = 4 S_max, the same three: the tone of a
+//!   place counts, and how even it is, and not where a dot lies. Random dots that cover c leave √(c/256) of noise for each
+//!   list, hence 0.4 % of the light at c = 0.005 and 3 % at c = 0.25; evenly spread ones a fraction of it;
+//! - strokes, as lines in the world, cut into pieces of 0.1 voxel: RMS and largest of the distances of their ends to the
+//!   other list, both ways, in voxels (the largest is Hausdorff's), and FLIP of the painted page.
 //!
-//! **Time** ([COST-3]): of one frame of a prepared scene, as `render --repeat` has it; what is prepared once (coefficients
-//! of a spline, the range of |g|) is not in it, and is seen in the bytes. After a warm-up all settings take turns,
+//! **Time** ([COST-3]): of a picture one frame of a prepared scene, as `render --repeat` has it; what is prepared once
+//! (coefficients of a spline, the range of |g|) is not in it, and is seen in the bytes. Of dots and strokes all of it, from
+//! the voxels to the page, since what their knobs cost is made once. After a warm-up all settings take turns,
 //! forwards and backwards, so that whatever else the machine does falls on each of them; what is told is the median, with
 //! the distance between the quartiles as its spread.
 
+mod error;
 mod form;
 mod front;
 mod plot;
 mod statistics;
 mod table;
+mod variant;
 
 pub use form::Form;
 pub use front::front;
@@ -30,17 +39,16 @@ pub use table::{csv, markdown};
 
 use crate::job::{Job, Turned};
 use crate::{Failure, Failures};
-use drypoint_output::compare::{Options as How, compare};
 use drypoint_output::read::Image;
-use drypoint_reference::ray::Renderer;
-use drypoint_scene::counts::Counts;
 use drypoint_scene::knobs::{Knob, Limit, knobs};
 use drypoint_scene::phantom::{self, Phantom};
 use drypoint_scene::picture::LayerKind;
+use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::tables::{Scene, VolumeSource};
+use error::{Error, error};
 use statistics::{median, quartiles};
 use std::fmt;
-use std::time::Instant;
+use variant::{Made, Variant};
 
 /// How to sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,22 +83,51 @@ impl fmt::Display for Truth {
     }
 }
 
+/// What a knob changes, and its error is measured on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum On {
+    /// The picture of the volume: light.
+    Picture,
+    /// The page of dots, blurred: light.
+    Dots,
+    /// Strokes in the world: voxels.
+    Strokes,
+}
+
+impl On {
+    /// Each of them.
+    pub const ALL: [Self; 3] = [Self::Picture, Self::Dots, Self::Strokes];
+
+    /// What a knob of a scene changes: what its table draws, or the first that reads the field.
+    fn of(knob: &Knob, plan: &Plan) -> Self {
+        match knob.key.split('.').next() {
+            Some("stipples") => Self::Dots,
+            Some("hatching") => Self::Strokes,
+            _ if plan.has_pass(Pass::Rays) => Self::Picture,
+            _ if plan.has_pass(Pass::HiddenPoints) => Self::Dots,
+            _ => Self::Strokes,
+        }
+    }
+}
+
 /// A setting of a knob, and what it costs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// The scene key.
     pub knob: String,
+    /// What the error is of.
+    pub on: On,
     /// What it was set to.
     pub setting: String,
     /// Whether it is what the scene says.
     pub own: bool,
-    /// Root mean square difference.
+    /// Root mean square difference: of light, or of places in voxels ([`On`]).
     pub rms: f64,
     /// Largest difference.
     pub max: f64,
     /// Mean of FLIP.
     pub flip: f64,
-    /// Median seconds of a frame.
+    /// Median seconds of a frame; of dots and strokes with what is made once.
     pub seconds: f64,
     /// Seconds between the quartiles.
     pub spread: f64,
@@ -118,67 +155,16 @@ pub struct Sweep {
     pub size: [usize; 2],
 }
 
-/// Bytes that are kept prepared from turn to turn; what is more is prepared anew each time.
-const KEPT: u64 = 1 << 30;
-
-/// A scene that is rendered, whatever knobs lead to it.
-struct Variant<'a> {
-    job: &'a Job,
-    turned: &'a Turned,
-    /// Ready for the next turn, where it may be kept.
-    renderer: Option<Renderer<'a>>,
-    /// Its picture and its counts, or why there is none.
-    made: Result<(Image, Counts), Failure>,
-    seconds: Vec<f64>,
-}
-
-impl<'a> Variant<'a> {
-    /// Prepares and warms up; `kept` counts what the variants keep.
-    fn new(job: &'a Job, turned: &'a Turned, kept: &mut u64) -> Self {
-        let mut renderer = None;
-        let made = job.renderer_of(turned).map(|ready| {
-            let (picture, counts) = ready.frame(&|_| ());
-            let shared = |name: &str| ["volume", "mask", "labels", "picture"].contains(&name);
-            let own: u64 = counts.bytes.iter().filter(|(name, _)| !shared(name)).map(|(_, bytes)| bytes).sum();
-            if *kept + own <= KEPT {
-                *kept += own;
-                renderer = Some(ready);
-            }
-            (Image::from(&picture), counts)
-        });
-        Self { job, turned, renderer, made, seconds: Vec::new() }
-    }
-
-    /// Times one frame.
-    fn take_turn(&mut self) -> Result<(), Failure> {
-        let anew;
-        let renderer = match &self.renderer {
-            Some(renderer) => renderer,
-            None => {
-                anew = self.job.renderer_of(self.turned)?;
-                &anew
-            }
-        };
-        let start = Instant::now();
-        renderer.frame(&|_| ());
-        self.seconds.push(start.elapsed().as_secs_f64());
-        Ok(())
-    }
-}
-
 /// Turns every knob of a job's scene. `progress` hears the share that is done.
 ///
 /// # Errors
-/// A key among `only` that is no knob of the scene, a scene without a knob, a truth that cannot be rendered.
+/// A key among `only` that is no knob of the scene, a truth that cannot be drawn.
 pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Sweep, Failures> {
-    if !job.draws_volume() {
-        let what = "what accuracy costs is measured on the volume, which this scene does not draw itself";
-        return Err(Failure::new(what, job.scene.given.position("transfer"), "add a [transfer] table").into());
-    }
     // Other layers are no part of the error, and would be part of the time.
     let mut base = job.scene.clone();
     base.picture.layers = vec![LayerKind::Beauty];
-    let all = knobs(&base, &job.turned(base.clone()).plan);
+    let plan = job.turned(base.clone()).plan;
+    let all = knobs(&base, &plan);
     let turned = chosen(&all, &options.only, job)?;
     if let Some((knob, own)) = all.iter().find_map(|knob| Some((knob, knob.of(&base)?))) {
         // Through the text that all settings go through, so that equal scenes are equal.
@@ -188,9 +174,10 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
         VolumeSource::Phantom(source) => phantom::of_source(source).ok().map(|(phantom, _)| phantom),
         VolumeSource::File { .. } => None,
     };
-    let mut different: Vec<Turned> = Vec::new();
+    let mut different: Vec<(On, Turned)> = Vec::new();
     let mut settings: Vec<(&Knob, String, usize)> = Vec::new();
     for knob in &turned {
+        let on = On::of(knob, &plan);
         let mut scenes = Vec::new();
         for setting in knob.settings {
             scenes.push(((*setting).to_owned(), knob.set(&base, setting)?));
@@ -201,18 +188,20 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
             scenes.insert(0, (own, base.clone()));
         }
         for (setting, scene) in scenes {
-            let known = different.iter().position(|other| other.scene == scene);
+            let known = different.iter().position(|other| other.0 == on && other.1.scene == scene);
             let at = known.unwrap_or(different.len());
             if known.is_none() {
-                different.push(job.turned(scene));
+                different.push((on, job.turned(scene)));
             }
             settings.push((knob, setting, at));
         }
     }
-    let of_field = turned.iter().any(|knob| knob.limit == Limit::Field);
+    let is_of_field = |knob: &Knob| knob.limit == Limit::Field && On::of(knob, &plan) == On::Picture;
+    let of_field = turned.iter().any(|knob| is_of_field(knob));
     let analytic = phantom.filter(|_| of_field).map(|phantom| exact(job, &base, &all, &*phantom)).transpose()?;
     let mut kept = 0;
-    let mut variants: Vec<Variant> = different.iter().map(|scene| Variant::new(job, scene, &mut kept)).collect();
+    let mut variants: Vec<Variant> =
+        different.iter().map(|(on, turned)| Variant::new(job, *on, turned, &mut kept)).collect();
     time(&mut variants, options.runs.max(1), progress)?;
 
     let mut found = Sweep {
@@ -225,35 +214,43 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
     for (knob, setting, at) in &settings {
         let variant = &variants[*at];
         let finest = settings.iter().rev().find(|(other, ..)| other.key == knob.key).map_or(*at, |(.., at)| *at);
-        let (truth, image) = match (&analytic, knob.limit) {
-            (Some(image), Limit::Field) => (Truth::Analytic, image),
+        let (truth, of_truth) = match &analytic {
+            Some(image) if is_of_field(knob) => (Truth::Analytic, image),
             _ => match &variants[finest].made {
-                Ok((image, _)) => (Truth::Finest(knob.finest().into()), image),
+                Ok((made, _)) => (Truth::Finest(knob.finest().into()), made),
                 Err(failure) => return Err(failure.clone().into()),
             },
         };
-        match &variant.made {
-            Ok((picture, counts)) => {
-                let error = compare(picture, image, &How::default())
-                    .map_err(|error| Failure::picture(&error, job.scene.given.position("picture.size")))?;
-                let quartiles = quartiles(&variant.seconds);
-                found.rows.push(Row {
-                    knob: knob.key.clone(),
-                    setting: setting.clone(),
-                    own: variant.turned.scene == base,
-                    rms: error.rms,
-                    max: error.max,
-                    // Both pictures have colours.
-                    flip: error.flip.unwrap_or(f64::NAN),
-                    seconds: median(&variant.seconds),
-                    spread: quartiles[1] - quartiles[0],
-                    samples: counts.samples,
-                    bytes: counts.bytes.values().sum(),
-                    truth,
-                });
+        let left_out = |failure: &Failure| (knob.key.clone(), setting.clone(), failure.clone());
+        let (made, counts) = match &variant.made {
+            Ok(made) => made,
+            Err(failure) => {
+                found.left_out.push(left_out(failure));
+                continue;
             }
-            Err(failure) => found.left_out.push((knob.key.clone(), setting.clone(), failure.clone())),
-        }
+        };
+        let Error { rms, max, flip } = match error(job, &base, made, of_truth) {
+            Ok(error) => error,
+            Err(failure) => {
+                found.left_out.push(left_out(&failure));
+                continue;
+            }
+        };
+        let quartiles = quartiles(&variant.seconds);
+        found.rows.push(Row {
+            knob: knob.key.clone(),
+            on: variant.on,
+            setting: setting.clone(),
+            own: variant.turned.scene == base,
+            rms,
+            max,
+            flip,
+            seconds: median(&variant.seconds),
+            spread: quartiles[1] - quartiles[0],
+            samples: counts.samples,
+            bytes: counts.bytes.values().sum(),
+            truth,
+        });
     }
     Ok(found)
 }
@@ -270,7 +267,7 @@ fn chosen<'k>(all: &'k [Knob], only: &[String], job: &Job) -> Result<Vec<&'k Kno
 }
 
 /// The picture of a phantom's formula, every knob of the field at its finest.
-fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result<Image, Failures> {
+fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result<Made, Failures> {
     let mut scene = base.clone();
     for knob in all.iter().filter(|knob| knob.limit == Limit::Field) {
         scene = knob.set(&scene, knob.finest())?;
@@ -278,7 +275,7 @@ fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result
     scene.sampling.stop_below = 0.0;
     let turned = job.turned(scene);
     let (picture, _) = job.exact_renderer_of(&turned, phantom)?.frame(&|_| ());
-    Ok(Image::from(&picture))
+    Ok(Made::Picture(Image::from(&picture)))
 }
 
 /// Times every picture that there is, in turns.

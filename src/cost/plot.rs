@@ -1,7 +1,7 @@
 //! A sweep as a plot: error against time on two logarithmic axes, a colour and a mark for each knob, and the front of
 //! what nothing beats with its settings named ([COST-1]).
 
-use super::{Row, Sweep, Truth, front};
+use super::{On, Row, Sweep, Truth, front};
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::LinePlot;
@@ -69,7 +69,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
             .with_color(color)
             .with_marker(MARKS[i % MARKS.len()])
             .with_size(4.5)
-            .with_legend(format!("{knob}{truth}"));
+            .with_legend(format!("{knob}{truth}{}", of(first.on)));
         plots.push(Plot::Scatter(marks));
     }
     plots.push(names);
@@ -77,6 +77,8 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     let analytic = sweep.rows.iter().any(|row| row.truth == Truth::Analytic);
     let against =
         if analytic { "against the formula; *: against the finest setting" } else { "*: against the finest setting" };
+    let of_picture = sweep.rows.iter().any(|row| row.on == On::Picture);
+    let what = if of_picture { "a frame" } else { "a page, from the voxels on," };
     let [fast, slow] = reach(&shown, |row| row.seconds);
     let [small, large] = reach(&shown, |row| row.rms);
     let mut layout = Layout::auto_from_plots(&plots)
@@ -89,7 +91,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
         .with_y_axis_max(large * 2.0)
         .with_x_tick_format(TickFormat::Custom(Arc::new(time)))
         .with_title(format!("{name}: what accuracy costs"))
-        .with_x_label(format!("time of a frame of {width} × {height} pixels, median of {} runs", sweep.runs))
+        .with_x_label(format!("time of {what} of {width} × {height} pixels, median of {} runs", sweep.runs))
         .with_y_label(format!("RMS error, {against}"))
         .with_legend_position(LegendPosition::OutsideRightTop)
         .with_title_size(18)
@@ -101,6 +103,15 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
         );
     }
     Ok(render_multiple(plots, layout))
+}
+
+/// What the error is of, where it is not the picture's.
+fn of(on: On) -> &'static str {
+    match on {
+        On::Picture => "",
+        On::Dots => ", dots",
+        On::Strokes => ", strokes (voxels)",
+    }
 }
 
 /// Smallest and largest of what is shown.
@@ -122,8 +133,10 @@ fn time(seconds: f64) -> String {
 /// The fronts, wide and grey, which go behind all else, and the names of their settings, which go before it.
 fn fronts(sweep: &Sweep) -> (Vec<Plot>, Plot) {
     let (mut lines, mut places, mut names) = (Vec::new(), Vec::new(), Vec::new());
-    for (analytic, color, legend) in [(true, "#bdbdbd", "Pareto front"), (false, "#e3e3e3", "Pareto front *")] {
-        let rows: Vec<&Row> = front(&sweep.rows, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
+    let looks = [(true, "#bdbdbd", "Pareto front"), (false, "#e3e3e3", "Pareto front *")];
+    for (on, (analytic, color, legend)) in On::ALL.iter().flat_map(|on| looks.map(|look| (*on, look))) {
+        let legend = format!("{legend}{}", of(on));
+        let rows: Vec<&Row> = front(&sweep.rows, on, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
         if rows.is_empty() {
             continue;
         }
@@ -151,6 +164,7 @@ mod tests {
         let (knob, setting) = (knob.into(), setting.into());
         Row {
             knob,
+            on: On::Picture,
             setting,
             own: rms == 0.5,
             rms,

@@ -1,6 +1,6 @@
 //! A sweep as CSV and as Markdown.
 
-use super::{Row, Sweep, front};
+use super::{On, Row, Sweep, front};
 
 /// The columns of the contract.
 const COLUMNS: &str = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth";
@@ -24,13 +24,16 @@ fn quoted(cell: &str) -> String {
 /// A table for people: what the scene itself says in bold, what nothing beats with a dot.
 pub fn markdown(sweep: &Sweep) -> String {
     let Sweep { size: [width, height], runs, threads, .. } = sweep;
+    let of_strokes = sweep.rows.iter().any(|row| row.on == On::Strokes);
+    let voxels = if of_strokes { " RMS and max of strokes are in voxels." } else { "" };
     let mut text = format!(
         "{width} × {height} pixels, {threads} threads, medians of {runs} runs. **Bold**: what the scene says; ●: no other \
-         setting with the same kind of truth has less error in less time.\n\n\
+         setting with the same kind of truth has less error in less time.{voxels}\n\n\
          | knob | setting | RMS | max | FLIP | ms | spread | samples | MB | truth |\n\
          |---|---|--:|--:|--:|--:|--:|--:|--:|---|\n"
     );
-    let best = [front(&sweep.rows, true), front(&sweep.rows, false)].concat();
+    let kinds = On::ALL.iter().flat_map(|on| [(*on, true), (*on, false)]);
+    let best: Vec<&Row> = kinds.flat_map(|(on, analytic)| front(&sweep.rows, on, analytic)).collect();
     let mut last = "";
     for row in &sweep.rows {
         let knob = if row.knob == last { String::new() } else { format!("`{}`", row.knob) };
@@ -70,6 +73,7 @@ mod tests {
     fn sweep() -> Sweep {
         let row = Row {
             knob: "sampling.step".into(),
+            on: On::Picture,
             setting: "2 voxels".into(),
             own: false,
             rms: 0.0123,

@@ -1,12 +1,12 @@
 //! Frames on paper: as pixels, vectors or a list.
 
-use super::Frame;
+use super::{Frame, Written};
 use crate::job::{Job, Wanted};
 use crate::{Failure, Format};
 use drypoint_output::vector::{Sheet, pdf, svg};
 use drypoint_output::{OutputError, exr, list, paint, plotter, png};
 use drypoint_scene::color::Rgba;
-use drypoint_scene::marks::{Marks, Page};
+use drypoint_scene::marks::{Layer, Marks, Page};
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::tables::{Background, Scene};
 use std::borrow::Cow;
@@ -22,10 +22,10 @@ pub(super) struct Paper<'a> {
     pub(super) provenance: Provenance,
 }
 
-/// Marks as they are drawn, and what a plotter does with them, a sentence a layer.
+/// Marks as they are drawn, and what a plotter does with them.
 struct Planned<'a> {
     marks: Cow<'a, Marks>,
-    said: Vec<String>,
+    written: Written,
 }
 
 impl<'a> Paper<'a> {
@@ -34,18 +34,19 @@ impl<'a> Paper<'a> {
     }
 
     /// See [`Frame::write`].
-    pub(super) fn write(&self, frame: Frame, path: &Path) -> Result<Vec<String>, Failure> {
+    pub(super) fn write(&self, frame: Frame, path: &Path) -> Result<Written, Failure> {
         let format = Format::among(path, &Format::ALL)?;
         let wrong = |error: OutputError| Failure::picture(&error, path.display());
+        let whole = frame.marks();
         if let (Some(form), Some(marks)) = (list::Form::of(path), &frame.marks) {
             if self.wanted == Wanted::Strokes {
                 list::write_lines(marks, form, path).map_err(wrong)?;
-                return Ok(Vec::new());
+                return Ok(Written { marks: whole, said: Vec::new() });
             }
             list::write_dots(marks, form, path).map_err(wrong)?;
-            let [_, lines] = frame.marks();
+            let [_, lines] = whole;
             let said = (lines > 0).then(|| format!("{lines} lines are left out: a list has dots alone"));
-            return Ok(said.into_iter().collect());
+            return Ok(Written { marks: whole, said: said.into_iter().collect() });
         }
         let planned = frame.marks.as_ref().map(|marks| self.planned(marks));
         let marks = planned.as_ref().map(|planned| &*planned.marks);
@@ -59,7 +60,7 @@ impl<'a> Paper<'a> {
             }
         }
         .map_err(wrong)?;
-        Ok(planned.map(|planned| planned.said).unwrap_or_default())
+        Ok(planned.map(|planned| planned.written).unwrap_or_default())
     }
 
     /// See [`super::write_animation`].
@@ -113,12 +114,20 @@ impl<'a> Paper<'a> {
 
     fn planned<'m>(&self, marks: &'m Marks) -> Planned<'m> {
         if !self.plotter() {
-            return Planned { marks: Cow::Borrowed(marks), said: Vec::new() };
+            let written = Written { marks: sums(marks), said: Vec::new() };
+            return Planned { marks: Cow::Borrowed(marks), written };
         }
         let plan = plotter::plan(marks, &plotter::Speed::default());
-        let said = travel(&plan);
-        Planned { marks: Cow::Owned(plan.marks), said }
+        let [touches, lines] = sums(&plan.marks);
+        let written = Written { marks: [touches + plan.larger, lines - plan.larger], said: travel(&plan) };
+        Planned { marks: Cow::Owned(plan.marks), written }
     }
+}
+
+/// Dots, and lines.
+pub(super) fn sums(marks: &Marks) -> [usize; 2] {
+    let sum = |n: fn(&Layer) -> usize| marks.layers.iter().map(n).sum();
+    [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
 }
 
 /// What a plotter does, a sentence a layer.

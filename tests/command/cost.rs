@@ -220,6 +220,69 @@ fn what_fine_steps_leave_is_the_voxels() {
     assert!((order - 2.0).abs() <= 0.3, "{order}");
 }
 
+/// A ring with an edge three voxels wide, and no `[transfer]`.
+fn ring(more: &str) -> String {
+    format!(
+        "drypoint = 1\n[volume]\nphantom = {{ name = \"torus\", size = 32, param = {{ w = 3 }} }}\n\
+         [picture]\nsize = [160, 120]\n{more}"
+    )
+}
+
+/// The light of dots, blurred over 4 S_max: where two lists of random dots cover c, they differ by √(2c)/16. Another order
+/// of the points keeps the tone and stays below that; a second and a third layer of voxels change it.
+#[test]
+fn dots_are_compared_by_their_tone() {
+    let folder = Folder::new();
+    folder.write(
+        "scene.toml",
+        ring(
+            "[stipples]\nsize = \"2 px\"\nk_max = 0.5\nthreshold = 0.2\n[stipples.silhouette]\nsc = 0.2\nss = 0.8\nse = 1\n",
+        ),
+    );
+    let rows = rows(&folder, "cost scene.toml --runs 1");
+    let knobs: Vec<&str> = rows.keys().map(String::as_str).collect();
+    assert_eq!(knobs, ["stipples.even", "stipples.gradient", "stipples.order", "stipples.snap", "stipples.thin"]);
+    for (knob, rows) in &rows {
+        let [coarse, fine] = rows.as_slice() else { panic!("{knob}: {rows:?}") };
+        assert_eq!((fine.rms, fine.max, fine.flip), (0.0, 0.0, 0.0), "{knob}: its own truth");
+        assert!(coarse.rms > 0.0 && coarse.rms <= coarse.max && coarse.max <= 1.0 && coarse.flip > 0.0, "{coarse:?}");
+        for row in rows {
+            assert_eq!((row.samples, &row.truth), (0, &format!("finest: {}", fine.setting)), "{knob}");
+            // The volume, 12 bytes a point, and the page.
+            assert!(row.seconds > 0.0 && row.bytes > 32 * 32 * 32 + 12 * 1000, "{row:?}");
+        }
+    }
+    let noise = (2.0_f64).sqrt() / 16.0;
+    let of = |knob: &str| rows[knob][0].rms;
+    assert!(of("stipples.order") < noise, "{}", of("stipples.order"));
+    assert!(of("stipples.thin") > noise, "{}", of("stipples.thin"));
+    let said = folder.line("cost scene.toml --runs 1 --knob stipples.order -o a.svg -o a.md");
+    assert_eq!((said.code, said.err.as_str()), (Some(0), "a.svg\na.md\n"));
+    assert!(String::from_utf8(folder.read("a.svg")).unwrap().contains("stipples.order *, dots"));
+}
+
+/// A chord may leave its stroke by c, and by what hides a stroke that lies a little lower; so each place of most strokes is
+/// nearer than c to the finest, whose own c is 0.01.
+#[test]
+fn strokes_are_compared_by_their_distance() {
+    let folder = Folder::new();
+    folder.write("scene.toml", ring("[hatching]\n"));
+    let line = "cost scene.toml --runs 1 --set volume.phantom.size=20 --set picture.size=[80,60] --knob hatching.chord";
+    let rows = rows(&folder, line);
+    let chords = &rows["hatching.chord"];
+    assert_eq!((rows.len(), chords.len()), (1, 5));
+    for row in chords {
+        let chord: f64 = row.setting.split(' ').next().unwrap().parse().unwrap();
+        assert!(row.rms <= row.max && row.rms <= chord && row.seconds > 0.0 && row.bytes > 20 * 20 * 20, "{row:?}");
+    }
+    let [coarse, .., fine] = chords.as_slice() else { panic!("{chords:?}") };
+    assert!(coarse.rms > 0.05 && coarse.flip > 0.0, "{coarse:?}");
+    assert_eq!((fine.rms, fine.max, fine.flip), (0.0, 0.0, 0.0));
+    let table = folder.good(&format!("{line} -o a.md"));
+    assert_eq!(table, "");
+    assert!(String::from_utf8(folder.read("a.md")).unwrap().contains("RMS and max of strokes are in voxels."));
+}
+
 #[test]
 fn suffixes_choose_and_several_files_are_written() {
     let folder = Folder::new();

@@ -60,6 +60,24 @@ fn the_same_page_twice_and_another_seed() {
     assert_ne!(folder.read("a.csv"), folder.read("c.csv"));
 }
 
+/// A bare volume's page is as high as it is wide where one of the two is said.
+#[test]
+fn one_length_of_a_page_is_enough_for_a_bare_volume() {
+    let folder = Folder::new();
+    folder.good("phantom sphere --size 16 -o ball.nrrd -q");
+    for (set, [width, height]) in [
+        ("", [160, 160]),
+        (" --set picture.width=80mm", [80, 80]),
+        (" --set picture.height=\"60mm\"", [60, 60]),
+        (" --set picture.width=80mm --set picture.height=60mm", [80, 60]),
+    ] {
+        folder.good(&format!("points ball.nrrd -o ball.svg -q{set}"));
+        let svg = text(&folder, "ball.svg");
+        let size = format!("width=\"{width}mm\" height=\"{height}mm\"");
+        assert!(svg.contains(&size), "{set}: {}", &svg[..svg.len().min(400)]);
+    }
+}
+
 #[test]
 fn what_makes_no_page_is_refused() {
     let folder = Folder::new();
@@ -70,7 +88,6 @@ fn what_makes_no_page_is_refused() {
         ("points plain.toml -o a.svg", "the scene has no stipples"),
         ("points ball.toml -o a.svg --set stipples.pen=red", "there is no pen \"red\""),
         ("points ball.toml -o a.svg --set stipples.color=transfer", "dots take their colours from [transfer]"),
-        ("cost ball.toml", "what accuracy costs is measured on the volume, which this scene does not draw itself"),
     ] {
         let told = folder.refused(line);
         assert!(told.starts_with(&format!("error: {want}")), "{line}: {told}");
@@ -96,8 +113,19 @@ fn a_plotter_s_page() {
     let pens =
         "[page]\nmargin = \"5 mm\"\nplotter = true\n[[pen]]\nname = \"red\"\nwidth = \"0.3 mm\"\ncolor = \"red\"\n";
     folder.write("ball.toml", format!("{SCENE}{pens}[stipples]\npen = \"red\"\n[stipples.curves]\n"));
-    let told = folder.line("points ball.toml -o ball.svg").err;
+    let said = folder.line("points ball.toml -o ball.svg --stats");
+    let told = &said.err;
     assert!(told.contains("1-red 0.3: ") && told.contains(" touches, "), "{told}");
+    // What is counted is what the plotter draws: dots that it leaves out, and those that it draws as lines, are told.
+    let stats: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    let number = |before: &str, after: &str| -> u64 {
+        told.split_once(after).unwrap().0.rsplit_once(before).unwrap().1.parse().unwrap()
+    };
+    let larger = stats["preprocess"]["dots larger than the nib"].as_u64().unwrap();
+    let [dots, lines] = [number("ball.svg: ", " dots,"), number(" dots, ", " lines")];
+    assert_eq!([&stats["points"], &stats["strokes"]], [dots, lines], "{told}");
+    assert!(lines > 0 && number("\n", " dots are left out") > 0 && larger > 0, "{told}");
+    assert_eq!(number("0.3: ", " touches"), dots + lines, "{told}");
     let svg = text(&folder, "ball.svg");
     assert!(svg.contains("inkscape:label=\"1-red 0.3\"") && !svg.contains("opacity=\"0."));
     // Nothing but what the pen draws: a background would be a line round the page.

@@ -160,7 +160,6 @@ fn what_makes_no_page_is_refused() {
         ),
         ("strokes dots.csv -o a.svg", "the list has dots and no strokes"),
         ("strokes dots.csv -o a.svg --preset outline", "a list of lines has no use for --preset"),
-        ("cost ball.toml", "what accuracy costs is measured on the volume, which this scene does not draw itself"),
     ] {
         let told = folder.refused(line);
         assert!(told.starts_with(&format!("error: {want}")), "{line}: {told}");

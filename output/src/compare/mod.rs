@@ -1,7 +1,9 @@
 //! How far two pictures are apart ([GPU-1], [GPU-5]).
 
+pub mod blur;
 pub mod difference;
 pub mod flip;
+pub mod lines;
 
 use crate::OutputError;
 use crate::read::{Colors, Image};

@@ -20,6 +20,8 @@ pub struct Plan {
     pub travel: Vec<Travel>,
     /// Dots that were left out for being closer than 0.7 nib to one that is drawn.
     pub dropped: usize,
+    /// Dots larger than their nib, which are among the lines.
+    pub larger: usize,
 }
 
 /// How close dots of one pen may be, in nibs.
@@ -32,7 +34,7 @@ const CLOSEST: f64 = 0.7;
 /// 0.7 nib the first in the list stays. The order is never longer than the list's own; the pen starts at the page's upper
 /// left corner for each layer.
 pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
-    let (mut layers, mut travel, mut dropped) = (Vec::new(), Vec::new(), 0);
+    let (mut layers, mut travel, mut dropped, mut larger) = (Vec::new(), Vec::new(), 0, 0);
     for layer in &marks.layers {
         let nib = layer.pen.width;
         let kept = thin::apart(&layer.dots, CLOSEST * nib);
@@ -40,7 +42,10 @@ pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
         let mut drawn = Layer::new(layer.pen.clone());
         for mut dot in kept {
             match fill::stroke(&dot, nib) {
-                Some(line) => drawn.lines.push(line),
+                Some(line) => {
+                    larger += 1;
+                    drawn.lines.push(line);
+                }
                 None => {
                     (dot.radius, dot.opacity) = (nib / 2.0, 1.0);
                     drawn.dots.push(dot);
@@ -54,7 +59,7 @@ pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
         travel.push(Travel::of(&drawn, speed));
         layers.push(drawn);
     }
-    Plan { marks: Marks { page: marks.page, layers }, travel, dropped }
+    Plan { marks: Marks { page: marks.page, layers }, travel, dropped, larger }
 }
 
 /// The line as the nib draws it.
@@ -101,7 +106,7 @@ mod tests {
             layer.dots.iter().map(|d| (d.at.x, d.radius, d.opacity)).collect::<Vec<_>>(),
             [(10.0, 0.15, 1.0), (20.0, 0.15, 1.0)]
         );
-        assert_eq!((layer.lines.len(), plan.dropped), (1, 0));
+        assert_eq!((layer.lines.len(), plan.larger, plan.dropped), (1, 1, 0));
         // The stroke's rim is the dot's: its middle line ends at 0.5 − 0.15 from the centre, on steps of 0.001 mm.
         let far = layer.lines[0].vertices.iter().map(|v| v.at.distance(DVec2::new(30.0, 10.0))).fold(0.0, f64::max);
         assert!((far - 0.35).abs() < 1e-3, "{far}");

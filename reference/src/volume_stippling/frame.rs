@@ -286,17 +286,31 @@ impl Place {
         self.to_world * index + self.world_origin
     }
 
-    pub(super) fn on_page(&self, at: DVec3, near: f64) -> Option<DVec2> {
+    /// Where on the page a place in eye space is, if the picture holds it.
+    fn on_page(&self, at: DVec3, near: f64) -> Option<DVec2> {
+        let off = self.off(at, near)?;
+        (self.beyond(off) == [0.0; 2]).then(|| self.at(off))
+    }
+
+    /// How far from the picture's middle, in mm, whether or not the picture holds it; none for what is nearer than `near` in
+    /// perspective.
+    pub(super) fn off(&self, at: DVec3, near: f64) -> Option<DVec2> {
         let flat = DVec2::new(at.x, at.y) * self.scale;
-        let off = if self.perspective {
-            if -at.z < near {
-                return None;
-            }
-            flat / -at.z
-        } else {
-            flat
-        };
-        let inside = off.x.abs() <= self.half.x && off.y.abs() <= self.half.y;
-        inside.then_some(self.middle + off)
+        match self.perspective {
+            true if -at.z < near => None,
+            true => Some(flat / -at.z),
+            false => Some(flat),
+        }
+    }
+
+    /// The place on the page that is so far from the picture's middle.
+    pub(super) fn at(&self, off: DVec2) -> DVec2 {
+        self.middle + off
+    }
+
+    /// Beyond which sides of the picture that is: −1, 0 or 1 along each axis.
+    pub(super) fn beyond(&self, off: DVec2) -> [f64; 2] {
+        [(off.x, self.half.x), (off.y, self.half.y)]
+            .map(|(off, half)| if off.abs() <= half { 0.0 } else { off.signum() })
     }
 }

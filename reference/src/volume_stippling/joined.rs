@@ -21,17 +21,21 @@ struct End {
 
 /// Lines of width 2·`radius`, in mm, through segments: two ends closer than half a voxel on the page become one vertex
 /// between them if the line goes straight on, within 30°; each end once, nearest first. Segments of which an end is nearer
-/// than `near` in perspective, or outside the picture, are left out.
+/// than `near` in perspective are left out, and those that lie beyond one side of the picture; what crosses its edge is
+/// whole here, and cut with the page ([`Marks::keep_inside`](drypoint_scene::marks::Marks::keep_inside)).
 pub fn joined(segments: &[Segment], grid: &Grid, view: &View, page: &Page, near: f64, radius: f64) -> Vec<Polyline> {
     let place = Place::new(view, page, grid);
     let half = 0.5 * grid.voxel() / view.pixel * page.picture().x / view.size[0] as f64;
     let end = |world: DVec3| {
         let eye = view.to_eye(world);
         let reach = if view.perspective { half / -eye.z } else { half };
-        place.on_page(eye, near).map(|at| End { at, world, reach })
+        place.off(eye, near).map(|off| (place.beyond(off), End { at: place.at(off), world, reach }))
     };
-    let ends: Vec<End> =
-        segments.iter().filter_map(|segment| Some([end(segment.ends[0])?, end(segment.ends[1])?])).flatten().collect();
+    let both = |segment: &Segment| {
+        let [(a, start), (b, last)] = [end(segment.ends[0])?, end(segment.ends[1])?];
+        (0..2).all(|axis| a[axis] * b[axis] <= 0.0).then_some([start, last])
+    };
+    let ends: Vec<End> = segments.iter().filter_map(both).flatten().collect();
     let partner = partners(&ends);
     lines(&ends, &partner, radius)
 }
@@ -129,6 +133,36 @@ mod tests {
 
     fn xs(line: &Polyline) -> Vec<f64> {
         line.vertices.iter().map(|v| v.at.x).collect()
+    }
+
+    /// A picture of 10 × 10 mm that shows 10 × 10 units: what crosses its edge is there, what lies beyond is not.
+    #[test]
+    fn a_segment_across_the_edge_is_cut_there() {
+        use drypoint_scene::marks::{Layer, Marks, Pen};
+        use drypoint_scene::tables::{Camera, Length, Projection};
+        let grid = Grid::new([3; 3], drypoint_scene::glam::DMat3::IDENTITY, DVec3::splat(-1.0)).unwrap();
+        let camera = Camera {
+            projection: Projection::Orthographic { height: Some(Length::World(10.0)) },
+            direction: DVec3::NEG_Z,
+            up: DVec3::Y,
+            ..Camera::default()
+        };
+        let view = View::new(&camera, &grid, [100, 100]).unwrap();
+        let page = Page::in_millimetres(DVec2::splat(10.0), 0.0, 254.0);
+        let segment = |ax: f64, ay: f64, bx: f64, by: f64| Segment {
+            cell: [0; 3],
+            normal: DVec3::X,
+            ends: [DVec3::new(ax, ay, 0.0), DVec3::new(bx, by, 0.0)],
+        };
+        let all = [segment(4.6, 0.0, 5.6, 0.0), segment(5.1, 2.0, 6.1, 2.0), segment(0.0, 4.9, 0.0, 5.9)];
+        let lines = joined(&all, &grid, &view, &page, 0.0, 0.1);
+        let pen = Pen { number: 1, name: "black".into(), width: 0.2, color: [0.0, 0.0, 0.0, 1.0] };
+        let mut marks = Marks { page, layers: vec![Layer { lines, ..Layer::new(pen) }] };
+        marks.settle();
+        let kept: Vec<Vec<[f64; 2]>> =
+            marks.layers[0].lines.iter().map(|l| l.vertices.iter().map(|v| v.at.to_array()).collect()).collect();
+        // From 9.6 mm to half the pen's width before the edge; the third line's inside is shorter than that.
+        assert_eq!(kept, [[[9.6, 5.0], [9.9, 5.0]]]);
     }
 
     #[test]

@@ -134,9 +134,18 @@ fn is_twice_differentiable(kernel: Kernel) -> bool {
     matches!(kernel, Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5)
 }
 
+/// Settings of what only rays read.
+fn of_rays(plan: &Plan, settings: &'static [&'static str]) -> &'static [&'static str] {
+    if plan.has_pass(Pass::Rays) { settings } else { &[] }
+}
+
+/// What reads the field between voxels: points and lines without a surface lie on the voxels alone.
+const BETWEEN_VOXELS: [Pass; 4] = [Pass::Rays, Pass::HiddenPoints, Pass::Outlines, Pass::Strokes];
+
 /// Settings of `kernel`: where the Hessian is the kernel's own, those that have one.
-fn kernels(scene: &Scene, _: &Plan) -> &'static [&'static str] {
+fn kernels(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
     match scene.sampling.hessian {
+        _ if !BETWEEN_VOXELS.iter().any(|pass| plan.has_pass(*pass)) => &[],
         HessianEstimator::Analytic => &["bspline-smooth", "bspline", "bspline5"],
         _ => &["bspline-smooth", "trilinear", "catmull-rom", "bspline", "bspline5"],
     }
@@ -239,7 +248,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                 "Δ, the distance between sample planes.",
                 &Slot { kind: WORLD_LENGTH, get: |s: &Sampling| Some(s.step), set: |s, v| s.step = v },
             )
-            .knob(Ladder::to_field(|_, _| STEPS)),
+            .knob(Ladder::to_field(|_, plan| of_rays(plan, STEPS))),
             Key::new(
                 "step_along",
                 "RAY-1",
@@ -378,7 +387,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     set: |s, v| s.number = v,
                 },
             )
-            .knob(Ladder::to_finest(|_, _| &["f32", "f64"])),
+            .knob(Ladder::to_finest(|_, plan| of_rays(plan, &["f32", "f64"]))),
             Key::new(
                 "skip_empty",
                 "RAY-2",
@@ -395,7 +404,9 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     set: |s, v| s.stop_below = v,
                 },
             )
-            .knob(Ladder::to_finest(|_, _| &["0.5", "0.2", "0.1", "0.05", "0.02", "0.01", "0.001", "0"])),
+            .knob(Ladder::to_finest(|_, plan| {
+                of_rays(plan, &["0.5", "0.2", "0.1", "0.05", "0.02", "0.01", "0.001", "0"])
+            })),
             Key::new(
                 "reference_length",
                 "VAL-4",

@@ -332,8 +332,8 @@ pub(crate) static TABLE: Description<Transfer> = Description {
 };
 
 /// Sizes that graphics hardware has, where the function is over one quantity.
-fn tables(scene: &Scene, _: &Plan) -> &'static [&'static str] {
-    match &scene.transfer {
+fn tables(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
+    match scene.transfer.as_ref().filter(|_| plan.has_pass(Pass::Rays)) {
         Some(transfer) if transfer.over == Over::Value => &["64", "256", "1024", "4096", "exact"],
         _ => &[],
     }

@@ -63,12 +63,12 @@ fn bell(d: f64, b: f64) -> f64 {
 }
 
 /// f at the whole numbers −radius … radius.
-fn weights(radius: f64, f: impl Fn(f64) -> f64) -> Vec<f64> {
+pub(in crate::compare) fn weights(radius: f64, f: impl Fn(f64) -> f64) -> Vec<f64> {
     let radius = radius as i32;
     (-radius..=radius).map(|i| f(f64::from(i))).collect()
 }
 
-fn unit_sum(kernel: Vec<f64>) -> Vec<f64> {
+pub(in crate::compare) fn unit_sum(kernel: Vec<f64>) -> Vec<f64> {
     let sum: f64 = kernel.iter().sum();
     kernel.into_iter().map(|w| w / sum).collect()
 }
@@ -81,7 +81,13 @@ fn unit_signs(kernel: Vec<f64>) -> Vec<f64> {
 
 /// Correlates a plane with `along_x` in each row and then with `along_y` in each column; beyond the border the outermost
 /// pixels go on.
-pub(super) fn separable(plane: &[f64], width: usize, height: usize, along_x: &[f64], along_y: &[f64]) -> Vec<f64> {
+pub(in crate::compare) fn separable(
+    plane: &[f64],
+    width: usize,
+    height: usize,
+    along_x: &[f64],
+    along_y: &[f64],
+) -> Vec<f64> {
     let inside = |i: usize, k: usize, radius: usize, n: usize| (i + k).saturating_sub(radius).min(n - 1);
     let radius = along_x.len() / 2;
     let mut rows = Vec::with_capacity(plane.len());

@@ -12,7 +12,7 @@
 //! 8 bits. FLIP knows no α: pictures that are not opaque are laid on white.
 
 mod color;
-mod filter;
+pub(super) mod filter;
 
 use crate::OutputError;
 use crate::read::{Colors, Image};

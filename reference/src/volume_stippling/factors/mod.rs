@@ -38,7 +38,7 @@ impl Still {
         let PointVoxel { value, magnitude, .. } = *voxel;
         Self {
             boundary: stipples.boundary.map_or(1.0, |t| boundary::boundary(&t, stipples.factors, value, magnitude)),
-            interior: stipples.interior.map_or(1.0, |t| interior::interior(&t, magnitude)),
+            interior: stipples.interior.filter(|t| t.te != 0.0).map_or(1.0, |t| interior::interior(&t, magnitude)),
         }
     }
 }

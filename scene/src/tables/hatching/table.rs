@@ -11,6 +11,8 @@ use crate::file::kind::{
     Bounds, Choice, ChoiceOption, Colors, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole,
 };
 use crate::file::out::Out;
+use crate::knobs::Ladder;
+use crate::plan::{Pass, Plan};
 use crate::tables::surface::IsoKind;
 use serde_json::{Value as Json, json};
 
@@ -19,6 +21,14 @@ const ANGLE: Number = Number { bounds: Bounds::between(0.0, 180.0), unit: ", in 
 const SHARE: Number = Number { bounds: Bounds::UNIT, unit: "" };
 const PAGE_LENGTH: Lengths = Lengths { on: On::Page, bounds: Bounds::POSITIVE };
 const NOT_NEGATIVE: Lengths = Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE };
+
+/// Settings of `tolerance` and of `chord`.
+const TOLERANCES: &[&str] = &["0.1 voxels", "0.03 voxels", "0.01 voxels", "0.003 voxels", "0.001 voxels"];
+const CHORDS: &[&str] = &["0.4 voxels", "0.2 voxels", "0.1 voxels", "0.05 voxels", "0.01 voxels"];
+
+fn of_strokes(plan: &Plan, settings: &'static [&'static str]) -> &'static [&'static str] {
+    if plan.has_pass(Pass::Strokes) { settings } else { &[] }
+}
 
 /// A length on the page, or what is in place of one.
 struct SpacingKind;
@@ -88,7 +98,8 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 "HATCH-8",
                 "How far a step of the integration may miss.",
                 &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.tolerance), set: |h, v| h.tolerance = v },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, plan| of_strokes(plan, TOLERANCES))),
             Key::new(
                 "seeds",
                 "HATCH-6",
@@ -228,7 +239,8 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 "HATCH-10",
                 "c, the most that straight segments may leave a stroke by.",
                 &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.chord), set: |h, v| h.chord = v },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, plan| of_strokes(plan, CHORDS))),
             Key::new(
                 "spacing",
                 "HATCH-19",

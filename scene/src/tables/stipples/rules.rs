@@ -62,13 +62,14 @@ pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
             asks.pass(Pass::AutomaticTransfer, "colours of dots", "transfer.nodes");
         }
     }
+    // An exponent of 0 turns its factor off.
     for (has, pass, key) in [
         (stipples.boundary.is_some(), Pass::StillFactor, "stipples.boundary"),
-        (stipples.interior.is_some(), Pass::StillFactor, "stipples.interior"),
+        (stipples.interior.is_some_and(|t| t.te != 0.0), Pass::StillFactor, "stipples.interior"),
         (stipples.silhouette.is_some(), Pass::Factor, "stipples.silhouette"),
-        (stipples.resolution.is_some(), Pass::Factor, "stipples.resolution"),
-        (stipples.distance.is_some(), Pass::Factor, "stipples.distance"),
-        (stipples.lighting.is_some(), Pass::Factor, "stipples.lighting"),
+        (stipples.resolution.is_some_and(|t| t.re != 0.0), Pass::Factor, "stipples.resolution"),
+        (stipples.distance.is_some_and(|t| t.de != 0.0), Pass::Factor, "stipples.distance"),
+        (stipples.lighting.is_some_and(|t| t.le != 0.0), Pass::Factor, "stipples.lighting"),
     ] {
         if has {
             asks.pass(pass, key.rsplit('.').next().unwrap_or(key), key);
@@ -86,6 +87,17 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
         idle.key("stipples.ink", "a plotter's nib cannot fade: its ink is opaque");
     } else if stipples.even == Even::Page {
         idle.key("stipples.ink", "dots that are chosen on the page are whole");
+    }
+    let sums = [stipples.boundary.map(|t| t.gc + t.gs), stipples.silhouette.map(|t| t.sc + t.ss)];
+    if sums.into_iter().flatten().all(|sum| sum <= 1.0) {
+        idle.key("stipples.factors", "no factor can be above 1");
+    }
+    const OFF: &str = "an exponent of 0 turns the factor off";
+    if stipples.lighting.is_some_and(|t| t.le == 0.0) {
+        idle.key("stipples.lighting.light", OFF);
+    }
+    if stipples.resolution.is_some_and(|t| t.re == 0.0) {
+        idle.key("stipples.resolution.reference", OFF);
     }
     match stipples.curves.map(|curves| curves.test) {
         Some(CurvesTest::TwoSided) => idle.key("stipples.curves.eye", "it is for test = \"literal\""),
@@ -107,6 +119,38 @@ mod tests {
     fn faults(rest: &str) -> Option<String> {
         let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\nlabels = \"l.nrrd\"\n{rest}");
         parse(&text, Path::new("scene.toml"), &Overrides::default()).err().map(|faults| faults.to_string())
+    }
+
+    #[test]
+    fn a_factor_that_is_off_is_not_asked_for_and_what_it_would_read_is_idle() {
+        use crate::plan::{Pass, Plan};
+        let plan = |rest: &str| {
+            let text =
+                format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n[stipples]\nfactors = \"normalize\"\n{rest}");
+            Plan::new(&parse(&text, Path::new("scene.toml"), &Overrides::default()).unwrap_or_else(|e| panic!("{e}")))
+        };
+        let idle = |plan: &Plan| plan.idle_keys.iter().map(|idle| idle.key.clone()).collect::<Vec<_>>().join(" ");
+        for (table, key) in [
+            ("lighting", "le = 0\nlight = [1, 0, 0]"),
+            ("resolution", "re = 0\nreference = 3"),
+            ("distance", "de = 0"),
+            ("interior", "te = 0"),
+        ] {
+            let [off, on] =
+                ["= 0", "= 1"].map(|value| plan(&format!("[stipples.{table}]\n{}\n", key.replacen("= 0", value, 1))));
+            let asked = |plan: &Plan| plan.has_pass(Pass::Factor) || plan.has_pass(Pass::StillFactor);
+            assert_eq!((asked(&off), asked(&on)), (false, true), "{table}");
+            let read = match table {
+                "lighting" => " stipples.lighting.light",
+                "resolution" => " stipples.resolution.reference",
+                _ => "",
+            };
+            assert_eq!((idle(&off), idle(&on)), (format!("stipples.factors{read}"), "stipples.factors".into()));
+        }
+        // One that can leave [0, 1] is what `factors` is for.
+        for (gs, said) in [("0.6", "stipples.factors"), ("0.7", "")] {
+            assert_eq!(idle(&plan(&format!("[stipples.boundary]\ngc = 0.4\ngs = {gs}\nge = 1\n"))), said, "{gs}");
+        }
     }
 
     #[test]

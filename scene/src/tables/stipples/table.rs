@@ -9,7 +9,14 @@ use super::{
 };
 use crate::file::describe::{Key, Slot, Table};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Flag, Lengths, On, TableOf, Text, Whole};
+use crate::knobs::Ladder;
+use crate::plan::{Pass, Plan};
 use crate::tables::surface::IsoKind;
+
+/// Settings of what points are made by.
+fn of_points(plan: &Plan, settings: &'static [&'static str]) -> &'static [&'static str] {
+    if plan.has_pass(Pass::StipplePoints) { settings } else { &[] }
+}
 
 /// The description of `[stipples]`.
 pub(crate) static TABLE: Table<Stipples> = Table {
@@ -96,7 +103,8 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     get: |s: &Stipples| Some(s.gradient),
                     set: |s, v| s.gradient = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["central", "regression"]))),
             Key::new(
                 "slab",
                 "STIP-4",
@@ -126,7 +134,8 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     get: |s: &Stipples| Some(s.order),
                     set: |s, v| s.order = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["voxel", "neighbours"]))),
             Key::new(
                 "snap",
                 "STIP-4",
@@ -147,13 +156,15 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     get: |s: &Stipples| Some(s.snap),
                     set: |s, v| s.snap = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["none", "edge"]))),
             Key::new(
                 "thin",
                 "STIP-4",
                 "Whether only voxels whose ‖∇V‖ is largest along the normal get points: one layer a face.",
                 &Slot { kind: Flag, get: |s: &Stipples| Some(s.thin), set: |s, v| s.thin = v },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["false", "true"]))),
             Key::new(
                 "factors",
                 "STIP-5",
@@ -225,7 +236,8 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     get: |s: &Stipples| Some(s.even),
                     set: |s, v| s.even = v,
                 },
-            ),
+            )
+            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["none", "page"]))),
             Key::new(
                 "boundary",
                 "STIP-7",

@@ -1,0 +1,177 @@
+//! How far two lists of lines are apart in the world: Hausdorff's distance ([COST-1]).
+
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::marks::Polyline;
+
+/// How far two lists of lines are apart, both ways, in world units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Apart {
+    /// Root mean square of the distances of places on either list to the other.
+    pub rms: f64,
+    /// The largest of them: Hausdorff's distance.
+    pub max: f64,
+}
+
+/// A part of a line.
+type Piece = [DVec3; 2];
+
+/// Cuts all lines into pieces of at most `step` and takes the distance of each of their ends to the other list's pieces,
+/// as segments: so lines that are the same with other vertices are not apart. None where a list has no line.
+pub fn apart<'a>(
+    a: impl Iterator<Item = &'a Polyline>,
+    b: impl Iterator<Item = &'a Polyline>,
+    step: f64,
+) -> Option<Apart> {
+    let (mut a, mut b) = (pieces(a, step), pieces(b, step));
+    if a.is_empty() || b.is_empty() {
+        return None;
+    }
+    sort(&mut a, 0);
+    sort(&mut b, 0);
+    let (mut sum, mut most, mut places) = (0.0, 0.0_f64, 0_u64);
+    for (from, to) in [(&a, &b), (&b, &a)] {
+        for place in from.iter().flatten() {
+            let mut best = f64::INFINITY;
+            nearest(to, 0, *place, step / 2.0, &mut best);
+            (sum, most, places) = (sum + best, most.max(best), places + 1);
+        }
+    }
+    Some(Apart { rms: (sum / places as f64).sqrt(), max: most.sqrt() })
+}
+
+/// Lines in pieces of at most `step`.
+fn pieces<'a>(lines: impl Iterator<Item = &'a Polyline>, step: f64) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for line in lines {
+        let next = line.vertices.iter().skip(1).chain(line.vertices.first().filter(|_| line.closed));
+        for (a, b) in line.vertices.iter().zip(next) {
+            let (a, b) = (a.world, b.world);
+            let n = (a.distance(b) / step).ceil().max(1.0) as usize;
+            let at = |i: usize| if i == n { b } else { a.lerp(b, i as f64 / n as f64) };
+            pieces.extend((0..n).map(|i| [at(i), at(i + 1)]));
+        }
+    }
+    pieces
+}
+
+/// Pieces that are looked at one by one.
+const FEW: usize = 8;
+
+fn middle(piece: &Piece, axis: usize) -> f64 {
+    0.5 * (piece[0][axis] + piece[1][axis])
+}
+
+/// As a tree: the middle piece by one coordinate, before it those with a smaller one, behind it the others, each half by
+/// the next coordinate.
+fn sort(pieces: &mut [Piece], axis: usize) {
+    if pieces.len() <= FEW {
+        return;
+    }
+    let at = pieces.len() / 2;
+    pieces.select_nth_unstable_by(at, |a, b| middle(a, axis).total_cmp(&middle(b, axis)));
+    let (before, rest) = pieces.split_at_mut(at);
+    sort(before, (axis + 1) % 3);
+    sort(&mut rest[1..], (axis + 1) % 3);
+}
+
+/// The square of the distance to the nearest piece, none of which reaches farther than `half` from its middle.
+fn nearest(pieces: &[Piece], axis: usize, place: DVec3, half: f64, best: &mut f64) {
+    if pieces.len() <= FEW {
+        pieces.iter().for_each(|piece| *best = best.min(squared(piece, place)));
+        return;
+    }
+    let at = pieces.len() / 2;
+    *best = best.min(squared(&pieces[at], place));
+    let beyond = place[axis] - middle(&pieces[at], axis);
+    let (before, behind) = (&pieces[..at], &pieces[at + 1..]);
+    let (near, far) = if beyond < 0.0 { (before, behind) } else { (behind, before) };
+    nearest(near, (axis + 1) % 3, place, half, best);
+    let least = (beyond.abs() - half).max(0.0);
+    if least * least < *best {
+        nearest(far, (axis + 1) % 3, place, half, best);
+    }
+}
+
+/// The square of a place's distance to a segment.
+fn squared([a, b]: &Piece, place: DVec3) -> f64 {
+    let (along, from) = (*b - *a, place - *a);
+    let length = along.length_squared();
+    let t = if length > 0.0 { (from.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (from - along * t).length_squared()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::glam::DVec2;
+    use drypoint_scene::marks::Vertex;
+
+    fn line(closed: bool, places: impl IntoIterator<Item = [f64; 3]>) -> Polyline {
+        let vertex = |world: [f64; 3]| Vertex {
+            at: DVec2::ZERO,
+            world: DVec3::from_array(world),
+            radius: 1.0,
+            opacity: 1.0,
+            t: 0.0,
+        };
+        Polyline { vertices: places.into_iter().map(vertex).collect(), closed }
+    }
+
+    fn of(a: &[Polyline], b: &[Polyline], step: f64) -> Option<Apart> {
+        apart(a.iter(), b.iter(), step)
+    }
+
+    #[test]
+    fn the_same_line_with_other_vertices_is_not_apart() {
+        let a = [line(false, [[0.0; 3], [10.0, 0.0, 0.0]])];
+        let b = [line(false, (0..=7).map(|i| [f64::from(i) * 10.0 / 7.0, 0.0, 0.0]))];
+        let found = of(&a, &b, 0.1).unwrap();
+        // A few roundings of numbers up to 10.
+        assert!(found.max < 1e-14, "{found:?}");
+    }
+
+    #[test]
+    fn parallel_lines_and_a_longer_one_by_hand() {
+        let a = [line(false, [[0.0; 3], [10.0, 0.0, 0.0]])];
+        let shifted = [line(false, [[0.0, 0.3, 0.4], [10.0, 0.3, 0.4]])];
+        let found = of(&a, &shifted, 0.1).unwrap();
+        assert!((found.rms - 0.5).abs() < 1e-14 && (found.max - 0.5).abs() < 1e-14, "{found:?}");
+        // The end that only one has is as far away as it is long, whichever list it is in.
+        let longer = [line(false, [[0.0; 3], [12.5, 0.0, 0.0]])];
+        for (a, b) in [(&a, &longer), (&longer, &a)] {
+            let found = of(a, b, 0.1).unwrap();
+            assert!((found.max - 2.5).abs() < 1e-12 && found.rms < 1.0, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_closed_line_goes_back_to_its_first_vertex() {
+        let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let found = of(&[line(true, square)], &[line(false, square)], 0.125).unwrap();
+        // The middle of the fourth side is half a side from the corners.
+        assert!((found.max - 0.5).abs() < 1e-14, "{found:?}");
+    }
+
+    #[test]
+    fn the_tree_finds_what_looking_at_all_finds() {
+        let mut state = 7_u64;
+        let mut random = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / 1e6
+        };
+        let mut list = || -> Vec<Polyline> {
+            (0..40).map(|_| line(false, (0..4).map(|_| [random(), random(), random()]).collect::<Vec<_>>())).collect()
+        };
+        let (a, b) = (list(), list());
+        let (all_a, all_b) = (pieces(a.iter(), 0.5), pieces(b.iter(), 0.5));
+        let least = |place: DVec3, all: &[Piece]| all.iter().map(|p| squared(p, place)).fold(f64::INFINITY, f64::min);
+        let slow = all_a.iter().flatten().map(|&p| least(p, &all_b));
+        let slow = slow.chain(all_b.iter().flatten().map(|&p| least(p, &all_a))).fold(0.0, f64::max);
+        assert_eq!(of(&a, &b, 0.5).unwrap().max, slow.sqrt());
+    }
+
+    #[test]
+    fn nothing_is_no_distance() {
+        assert_eq!(of(&[], &[line(false, [[0.0; 3], [1.0; 3]])], 0.1), None);
+    }
+}
