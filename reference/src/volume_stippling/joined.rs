@@ -154,14 +154,14 @@ mod tests {
             normal: DVec3::X,
             ends: [DVec3::new(ax, ay, 0.0), DVec3::new(bx, by, 0.0)],
         };
-        let all = [segment(4.6, 0.0, 5.6, 0.0), segment(5.1, 2.0, 6.1, 2.0), segment(0.0, 4.9, 0.0, 5.9)];
+        let all = [segment(4.6, 0.0, 5.6, 0.0), segment(5.1, 2.0, 6.1, 2.0), segment(0.0, 4.95, 0.0, 5.95)];
         let lines = joined(&all, &grid, &view, &page, 0.0, 0.1);
         let pen = Pen { number: 1, name: "black".into(), width: 0.2, color: [0.0, 0.0, 0.0, 1.0] };
         let mut marks = Marks { page, layers: vec![Layer { lines, ..Layer::new(pen) }] };
         marks.settle();
         let kept: Vec<Vec<[f64; 2]>> =
             marks.layers[0].lines.iter().map(|l| l.vertices.iter().map(|v| v.at.to_array()).collect()).collect();
-        // From 9.6 mm to half the pen's width before the edge; the third line's inside is shorter than that.
+        // From 9.6 mm to half the pen's width before the edge; the third is nearer to it.
         assert_eq!(kept, [[[9.6, 5.0], [9.9, 5.0]]]);
     }
 

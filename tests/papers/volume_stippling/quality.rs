@@ -86,6 +86,11 @@ fn on_plane(points: impl Iterator<Item = DVec3>, centre: DVec3, n: DVec3) -> Vec
 
 /// A flat face of one layer of voxels, larger than the patch: an edge that is a cubic step, eight voxels wide, thinned.
 fn patch(n: DVec3, order: StippleOrder) -> (Preprocessed, DVec3) {
+    face(n, order, true)
+}
+
+/// The same, or all of the edge whose slope is above half of the largest: 4√2 voxels.
+fn face(n: DVec3, order: StippleOrder, thin: bool) -> (Preprocessed, DVec3) {
     let dims = dims(n);
     let centre = DVec3::from_array(dims.map(|n| (n - 1) as f64 / 2.0));
     // A cubic step is as good: its slope is largest in the middle.
@@ -93,7 +98,7 @@ fn patch(n: DVec3, order: StippleOrder) -> (Preprocessed, DVec3) {
         let t = ((p - centre).dot(n) / 4.0).clamp(-1.0, 1.0);
         t * (3.0 - t * t)
     };
-    let stipples = Stipples { thin: true, threshold: Threshold::Magnitude(0.5), order, ..Stipples::default() };
+    let stipples = Stipples { thin, threshold: Threshold::Magnitude(0.5), order, ..Stipples::default() };
     (points_of(dims, value, &stipples, 25), centre)
 }
 
@@ -135,6 +140,20 @@ fn white_noise_and_a_repeated_tile_are_not() {
             let quality = Quality::new(&on_plane(cells, centre, DVec3::Z));
             assert!(quality.peak > 20.0 && !quality.is_even(k), "a tile, k = {k}: {quality:?}");
         }
+    }
+}
+
+/// A wide edge is several layers: each is even, and what is seen of them together is nearer to white noise (0.5, 0 dB) than to
+/// one layer.
+#[test]
+fn dots_of_a_wide_edge_are_even_where_it_is_thinned() {
+    let [thin, wide] = [true, false].map(|thin| face(OBLIQUE, StippleOrder::Neighbours, thin));
+    for k in [1, 2, 4, 8, 16] {
+        let [thin, wide] =
+            [&thin, &wide].map(|(made, centre)| Quality::new(&on_plane(made.prefix(k), *centre, OBLIQUE)));
+        println!("projected, k = {k}: thin {thin:.3?}, not {wide:.3?}");
+        assert!(thin.is_even(k) && !wide.is_even(k), "k = {k}: {thin:?} {wide:?}");
+        assert!(wide.nearest < 0.5 * (thin.nearest + 0.5) && wide.low > 0.5 * thin.low, "k = {k}: {thin:?} {wide:?}");
     }
 }
 
@@ -203,6 +222,7 @@ fn points_of_a_solid_are_even_in_space() {
         let chosen: Vec<&DVec3> = points.iter().filter(inside).collect();
         let mean = chosen.iter().map(|p| near(p)).sum::<f64>() / chosen.len() as f64;
         let ratio = mean * (k as f64).cbrt();
+        println!("solid, k = {k}: {ratio:.3}");
         assert!(ratio >= 0.75, "k = {k}: {ratio}");
     }
 }

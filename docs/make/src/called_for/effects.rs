@@ -414,7 +414,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         asked_by: "`[stipples.curves]`",
         base: STIPPLES,
         with: &[("stipples.curves.grad", "0.3")],
-        only: &["preprocess.curve Hessians"],
+        only: &["preprocess.curve Hessians", "strokes"],
         more: &["preprocess.stipple gradients"],
         ..NOTHING
     },
