@@ -3,22 +3,29 @@
 //! Of a hundred thousand cells in which a stroke could begin a page has room for some thousand, so strokes are grown only
 //! where one may still begin: in the order of the cells' random numbers, by groups.
 
-use super::counts::HatchCounts;
-use super::ground::{index_inside, normal};
+use super::counts::{HatchCounts, Rejected};
+use super::ground::{inside, normal};
 use super::sight::{Pen, Sight};
 use super::spacing::Spread;
 use super::strokes::Strokes;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::Polyline;
-use drypoint_scene::philox::uniform;
+use drypoint_scene::philox::uniforms;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use rayon::prelude::*;
 
 /// Strokes that are grown side by side, before any of them takes its place.
 const GROUP: usize = 256;
 
-/// How far in front of a cell it is asked whether the cell is seen, in voxels.
+/// How far in front of a place it is asked whether the place is seen, in voxels.
 const BEFORE: f64 = 1.0;
+
+/// Lines begin at places drawn in their cells: so many distances of the densest lines make another one. A line is as long as
+/// many cells, each of which had a place to offer beside it.
+const DISTANCES: f64 = 2.0;
+
+/// The most places in a cell.
+const MOST: f64 = 32.0;
 
 /// Which of the two directions of their cells strokes follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +41,7 @@ pub enum Along {
 pub struct Even {
     /// On the page, in the order in which they took their places.
     pub lines: Vec<Polyline>,
-    /// Cells that the camera sees.
+    /// Places in cells that the camera sees.
     pub seen: u64,
     /// Of those, strokes that were grown, or could not be.
     pub tried: u64,
@@ -44,10 +51,12 @@ pub struct Even {
     pub counts: HatchCounts,
 }
 
-/// A cell that the camera sees.
+/// A place on the surface that the camera sees.
 struct Candidate {
     order: f64,
     cell: [usize; 3],
+    /// In world space, with the value there.
+    place: (DVec3, f64),
     at: DVec2,
     tone: f64,
 }
@@ -64,8 +73,8 @@ impl Strokes<'_, '_> {
         spread: &mut Spread,
     ) -> Even {
         let mut candidates: Vec<Candidate> =
-            cells.par_iter().filter_map(|&cell| self.candidate(sight, cell, seed, &tone)).collect();
-        candidates.par_sort_by(|a, b| a.order.total_cmp(&b.order));
+            cells.par_iter().flat_map_iter(|&cell| self.candidates(sight, cell, seed, spread.least(), &tone)).collect();
+        candidates.par_sort_by(|a, b| a.order.total_cmp(&b.order).then(a.cell.cmp(&b.cell)));
         let mut even = Even { seen: candidates.len() as u64, ..Even::default() };
         let mut left = candidates.iter();
         loop {
@@ -79,15 +88,17 @@ impl Strokes<'_, '_> {
             let has_room = |stroke: &Stroke| spread.has_room(&bare.seen(std::slice::from_ref(stroke), ink).lines);
             let grown: Vec<(Option<Stroke>, HatchCounts)> = group
                 .par_iter()
-                .map(|candidate| self.stroke_of(candidate.cell, along))
+                .map(|candidate| self.stroke_of(candidate, along))
                 .map(|(stroke, counts)| (stroke.filter(has_room), counts))
                 .collect();
             even.tried += group.len() as u64;
-            // Whatever comes of them, it comes of no other that begins there.
-            group.iter().for_each(|candidate| spread.close(candidate.at));
             let mut strokes = Vec::new();
-            for (stroke, counts) in grown {
-                strokes.extend(stroke);
+            for (candidate, (stroke, counts)) in group.iter().zip(grown) {
+                match stroke {
+                    Some(stroke) => strokes.push(stroke),
+                    // Nor does any come of another that begins there.
+                    None => spread.close(candidate.at),
+                }
                 even.counts += counts;
             }
             let seen = sight.seen(&strokes, ink);
@@ -96,32 +107,49 @@ impl Strokes<'_, '_> {
         }
     }
 
-    fn candidate(
+    /// The places of a cell where a line could begin; more than one where a cell is many times as large on the page as lines
+    /// are apart, which is at `least` so much.
+    fn candidates(
         &self,
         sight: &Sight<'_>,
         cell: [usize; 3],
         seed: u64,
-        tone: impl Fn(DVec3) -> f64,
-    ) -> Option<Candidate> {
-        let ground = self.ground();
-        let grid = ground.grid();
-        let dims = grid.dims();
-        let middle = DVec3::from([0, 1, 2].map(|a| if dims[a] == 1 { 0.0 } else { cell[a] as f64 + 0.5 }));
-        let (normal, _) = normal(ground, index_inside(ground, middle)?)?;
-        let front = grid.to_world(middle) + normal * (BEFORE * grid.voxel());
-        let place = sight.place(front)?;
-        let tone = tone(normal);
-        (tone > 0.0 && sight.sees(front)).then(|| Candidate {
-            order: uniform(seed, cell.map(|i| i as u32), 1),
-            cell,
-            at: place,
-            tone,
-        })
+        least: f64,
+        tone: &(impl Fn(DVec3) -> f64 + Sync),
+    ) -> Vec<Candidate> {
+        let grid = self.ground().grid();
+        let middle = grid.to_world(DVec3::from(cell.map(|i| i as f64 + 0.5)));
+        let aside = sight.view.right * grid.voxel();
+        let size = match [sight.place(middle), sight.place(middle + aside)] {
+            [Some(a), Some(b)] => a.distance(b),
+            _ => 0.0,
+        };
+        let places = (size / (DISTANCES * least)).ceil().clamp(1.0, MOST) as u32;
+        (0..places).filter_map(|place| self.candidate(sight, (cell, place), seed, tone)).collect()
     }
 
-    fn stroke_of(&self, cell: [usize; 3], along: Along) -> (Option<Stroke>, HatchCounts) {
+    fn candidate(
+        &self,
+        sight: &Sight<'_>,
+        (cell, number): ([usize; 3], u32),
+        seed: u64,
+        tone: &(impl Fn(DVec3) -> f64 + Sync),
+    ) -> Option<Candidate> {
+        let [order, x, y, z] = uniforms(seed, cell.map(|i| i as u32), 1 + number);
+        let place = self.on_surface(cell, [x, y, z]).ok()?;
+        let ground = self.ground();
+        let (normal, _) = normal(ground, inside(ground, place.0)?)?;
+        let at = sight.place(place.0)?;
+        let tone = tone(normal);
+        let front = place.0 + normal * (BEFORE * ground.grid().voxel());
+        (tone > 0.0 && sight.sees(front)).then(|| Candidate { order, cell, place, at, tone })
+    }
+
+    fn stroke_of(&self, candidate: &Candidate, along: Along) -> (Option<Stroke>, HatchCounts) {
         let mut counts = HatchCounts::default();
-        let grown = self.place(cell, &mut counts).and_then(|seed| match along {
+        let &Candidate { cell, place: (world, target), .. } = candidate;
+        let seed = self.seed(cell, world, target, &mut counts).map_err(Rejected::Direction);
+        let grown = seed.and_then(|seed| match along {
             Along::First => self.grow(&seed, &mut counts).map(Some),
             Along::Across => Ok(self.grow_across(&seed, &mut counts)),
         });

@@ -55,28 +55,33 @@ impl<'f> Strokes<'f, '_> {
     /// # Errors
     /// The cell's line does not meet the surface, or there is no direction where it does.
     pub fn place(&self, cell: [usize; 3], counts: &mut HatchCounts) -> Result<Seed, Rejected> {
+        let (world, target) = self.on_surface(cell, [0.5; 3])?;
+        self.seed(cell, world, target, counts).map_err(Rejected::Direction)
+    }
+
+    /// Where the gradient's line through a place in a cell, each coordinate in [0, 1] of it, meets what strokes lie on, with
+    /// the value there; the place itself where strokes go without a surface.
+    ///
+    /// # Errors
+    /// It does not, or has no gradient.
+    pub(super) fn on_surface(&self, cell: [usize; 3], within: [f64; 3]) -> Result<(DVec3, f64), Rejected> {
         let ground = self.ground();
         let grid = ground.grid();
         let dims = grid.dims();
-        let middle = |a: usize| if dims[a] == 1 { 0.0 } else { cell[a] as f64 + 0.5 };
-        let index = Vec3::new(middle(0), middle(1), middle(2));
+        let along = |a: usize| if dims[a] == 1 { 0.0 } else { cell[a] as f64 + within[a] };
+        let index = Vec3::new(along(0), along(1), along(2));
         if ground.masked(cell) {
             return Err(Rejected::NoSurface);
         }
         let (outward, slope) = normal(ground, index).ok_or(Rejected::Direction(NoDirection::Gradient))?;
-        let centre = grid.to_world(index.to_glam());
-        let (world, target) = match self.iso() {
-            None => (centre, ground.value(index)),
-            Some(iso) => {
-                let slope = scale_by_power_of_two(slope, ground.exponent());
-                let target = self.how().target(ground, iso, slope);
-                // As far as the cell's diagonal is long, in voxels, so that no cell of a long spacing is passed over.
-                let reach = 3f64.sqrt() / (grid.inverse_axes() * outward).length();
-                let s = self.meets(centre, outward, target, reach, PLACES, EVALUATIONS);
-                (centre + outward * s.ok_or(Rejected::NoSurface)?, target)
-            }
-        };
-        self.seed(cell, world, target, counts).map_err(Rejected::Direction)
+        let from = grid.to_world(index.to_glam());
+        let Some(iso) = self.iso() else { return Ok((from, ground.value(index))) };
+        let slope = scale_by_power_of_two(slope, ground.exponent());
+        let target = self.how().target(ground, iso, slope);
+        // As far as the cell's diagonal is long, in voxels, so that no cell of a long spacing is passed over.
+        let reach = 3f64.sqrt() / (grid.inverse_axes() * outward).length();
+        let s = self.meets(from, outward, target, reach, PLACES, EVALUATIONS).ok_or(Rejected::NoSurface)?;
+        Ok((from + outward * s, target))
     }
 
     /// A seed at a place in world space, of the stroke that stays at the value `target`.

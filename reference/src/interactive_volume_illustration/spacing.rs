@@ -11,6 +11,10 @@ use drypoint_scene::marks::{Polyline, Vertex};
 /// Rényi's constant: how full a street is where cars park at random.
 const RENYI: f64 = 0.747_597_920_253_411_4;
 
+/// A line begins where it is farther than d from all others, and goes on until it is nearer than this share of d: what lines
+/// lose before the ends of others, and where their distance changes on their way, they gain here.
+const GOES_ON: f64 = 0.88;
+
 /// How far apart lines are wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Apart {
@@ -54,6 +58,11 @@ impl Spread {
     /// All lengths in mm.
     pub fn new(corners: [DVec2; 2], nib: f64, apart: Apart, shortest: f64) -> Self {
         Self { paper: Paper::new(corners, nib, RENYI * apart.most(nib)), nib, apart, shortest }
+    }
+
+    /// The least distance of lines, where the tone is 1.
+    pub(super) fn least(&self) -> f64 {
+        RENYI * self.apart.at(self.nib, 1.0).unwrap_or(self.nib)
     }
 
     /// Whether a line may begin at a place where the tone is τ.
@@ -159,28 +168,35 @@ impl Paper {
         })
     }
 
-    /// The parts of a line that are free, where it has a distance at all.
+    /// The parts of a line that go on, where it has a distance at all, and in which it could begin.
     fn free(&self, line: &Polyline, apart: impl Fn(f64) -> Option<f64>) -> Vec<Vec<Vertex>> {
         let mut parts = Vec::new();
-        let mut part: Vec<Vertex> = Vec::new();
+        let (mut part, mut begins) = (Vec::<Vertex>::new(), false);
         let joined = line.closed.then(|| line.vertices.first().map(|v| Vertex { t: 1.0, ..*v })).flatten();
         let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(joined).collect();
         for (k, pair) in vertices.windows(2).enumerate() {
             let steps = self.steps(pair[0].at, pair[1].at);
             for step in usize::from(k > 0)..=steps {
                 let place = between(&pair[0], &pair[1], step as f64 / steps as f64);
-                if apart(place.opacity).is_some_and(|d| self.is_free(place.at, d)) {
+                let wanted = apart(place.opacity);
+                if wanted.is_some_and(|d| self.is_free(place.at, GOES_ON * d)) {
+                    begins = begins || wanted.is_some_and(|d| self.is_free(place.at, d));
                     // Places in the middle of a straight piece are not kept, but its ends are.
                     if part.len() > 1 && step > 1 {
                         part.pop();
                     }
                     part.push(place);
                 } else {
-                    parts.push(std::mem::take(&mut part));
+                    let ended = std::mem::take(&mut part);
+                    if std::mem::take(&mut begins) {
+                        parts.push(ended);
+                    }
                 }
             }
         }
-        parts.push(part);
+        if begins {
+            parts.push(part);
+        }
         parts.retain(|part| part.len() > 1);
         parts
     }
@@ -321,8 +337,8 @@ mod tests {
         }
     }
 
-    /// No two parts of different lines come nearer than d, less what lies between the places of a line: half a nib along
-    /// it, √(d² − (nib/4)²) across at the least.
+    /// No two parts of different lines come nearer than 0.88 d, less what lies between the places of a line: half a nib along
+    /// it, √((0.88 d)² − (nib/4)²) across at the least.
     #[test]
     fn lines_keep_their_distance() {
         let slanted = |k: u32| {
@@ -332,7 +348,7 @@ mod tests {
         };
         let kept = spread(&(0..800).map(slanted).collect::<Vec<_>>(), Apart::Tone { least: 0.05 }, 0.5);
         assert!(kept.len() > 20, "{}", kept.len());
-        let d = RENYI * NIB / 0.3;
+        let d = GOES_ON * RENYI * NIB / 0.3;
         let bound = (d * d - NIB * NIB / 16.0).sqrt() - 1e-9;
         for (i, a) in kept.iter().enumerate() {
             for b in &kept[..i] {

@@ -115,3 +115,55 @@ fn threads_do_not_show() {
     assert!(!lines(&one).is_empty());
     assert_eq!(lines(&one), lines(&three));
 }
+
+/// Ink by the page's x of a cylinder along z that is seen from the side, beside τ by its normal: pairs for tones from 0.1 to
+/// 0.8 ([HATCH-19]).
+fn inks_of_a_cylinder(family: &str, millimetres: f64) -> Vec<[f64; 2]> {
+    const RADIUS: f64 = 24.0;
+    const NIB: f64 = 0.25;
+    let side = 64.0 * millimetres;
+    let (marks, ..) = page(
+        &format!(
+            "drypoint = 1\n[volume]\nphantom = {{ name = \"cylinder\", size = 64, type = \"f32\", param = {{ R = {RADIUS} }} }}\n\
+             [camera]\nprojection = \"orthographic\"\ndirection = [-1, 0, 0]\nheight = 64\n\
+             [picture]\nwidth = \"{side} mm\"\nheight = \"{side} mm\"\n[hatching]\niso = 0\nseeds = \"dense\"\n\
+             family = \"{family}\"\nspacing = \"tone\"\nwidth = \"{NIB} mm\"\n[hatching.stroke]\nlight = [1, 0, 0.3]\nambient = 0.1\n"
+        ),
+        Wanted::Strokes,
+    );
+    let pieces: Vec<_> =
+        lines(&marks).iter().flat_map(|line| line.vertices.windows(2)).map(|p| [p[0].at, p[1].at]).collect();
+    // Lines are shorter than wanted near the ends of the cylinder, which the page's upper and lower tenth leave out.
+    let (low, high) = (0.1 * side, 0.9 * side);
+    let tau = |x: f64| 1.0 - (0.1 + (x + 0.3 * (1.0 - x * x).sqrt()) / 1.0f64.hypot(0.3)).clamp(0.0, 1.0);
+    let bins = (0..16).map(|bin| [-0.96 + 0.12 * f64::from(bin), -0.96 + 0.12 * f64::from(bin + 1)]);
+    let inks = bins.map(|[from, to]| {
+        let ink: f64 = pieces
+            .iter()
+            .map(|[a, b]| {
+                let steps = (a.distance(*b) / 0.05).ceil().max(1.0);
+                let step = a.distance(*b) / steps;
+                let places = (0..steps as usize).map(|k| a.lerp(*b, (k as f64 + 0.5) / steps));
+                let x = |at: f64| (at - 0.5 * side) / (RADIUS * millimetres);
+                NIB * step
+                    * places.filter(|p| (low..high).contains(&p.y) && (from..to).contains(&x(p.x))).count() as f64
+            })
+            .sum();
+        let wanted = (0..100).map(|k| tau(from + (to - from) * (f64::from(k) + 0.5) / 100.0)).sum::<f64>() / 100.0;
+        [wanted, ink / ((to - from) * RADIUS * millimetres * (high - low))]
+    });
+    inks.filter(|[wanted, _]| (0.1..0.8).contains(wanted)).collect()
+}
+
+/// Tone is what it should be whether a voxel is as wide as the distance of lines or ten times that, with lines along the
+/// change of tone and across it. Of the latter few lie in a bin, so three bins are one.
+#[test]
+fn spacing_prints_the_tone_at_any_size_of_the_page() {
+    for (family, millimetres) in [("max", 0.5), ("max", 2.0), ("min", 2.0)] {
+        let inks = inks_of_a_cylinder(family, millimetres);
+        let mean = |inks: &[[f64; 2]]| [0, 1].map(|i| inks.iter().map(|ink| ink[i]).sum::<f64>() / inks.len() as f64);
+        let inks: Vec<[f64; 2]> = inks.windows(3).map(mean).collect();
+        let off = inks.iter().map(|[wanted, ink]| (ink - wanted).abs()).fold(0.0, f64::max);
+        assert!(inks.len() >= 5 && off <= 0.05, "{family} {millimetres} mm: {inks:.3?}");
+    }
+}
