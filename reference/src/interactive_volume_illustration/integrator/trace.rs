@@ -10,9 +10,6 @@ use drypoint_scene::glam::DVec3;
 /// cos 60°: a stage that turns by more belongs to no smooth line.
 const SMOOTH: f64 = 0.5;
 
-/// Bisections that find where a piece has turned by the largest angle: to 2⁻³⁰ of it.
-const BISECTIONS: usize = 30;
-
 /// How many times the distance that closes a curve it must have gone before it can come back.
 const OUT: f64 = 4.0;
 
@@ -126,8 +123,10 @@ pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Cont
         match try_step(field, [x, k], step, control.tolerance, &mut half.evaluations) {
             Ok(done) => {
                 if let Some((piece, share, end)) = ends(&done, along, half.length, step, control) {
-                    half.pieces.push(piece);
-                    half.length += share * step;
+                    if share > 0.0 {
+                        half.pieces.push(piece);
+                        half.length += share * step;
+                    }
                     half.end = end;
                     return half;
                 }
@@ -189,31 +188,22 @@ fn try_step<L: Lines>(
 /// Whether a step is the last: what of its piece counts, as a piece and as a share, and why it ends there.
 fn ends<C>(done: &Step, along: DVec3, before: f64, step: f64, control: &Control) -> Option<(Piece, f64, End<C>)> {
     let piece = &done.piece;
+    let any = control.cos_max_angle <= -1.0;
+    let turned = if any { None } else { piece.turned(along, control.cos_max_angle) };
     if let Some(goal) = control.goal
         && before > OUT * goal.within
         && goal.at.distance(piece.ends[1]) <= step + goal.within
     {
         let (s, distance) = piece.nearest(goal.at);
-        if distance <= goal.within && s > 0.0 && piece.tangent(s).dot(goal.along) > SMOOTH * step {
+        let first = turned.is_none_or(|t| s < t);
+        if first && distance <= goal.within && s > 0.0 && piece.tangent(s).dot(goal.along) > SMOOTH * step {
             let mut closed = piece.until(s);
             closed.ends[1] = goal.at;
             closed.tangents[1] = goal.along * (s * step);
             return Some((closed, s, End::Closed));
         }
     }
-    if done.next.dot(along) < control.cos_max_angle {
-        let turned = |s: f64| {
-            let t = piece.tangent(s);
-            t.dot(along) < control.cos_max_angle * t.length()
-        };
-        let (mut lo, mut hi) = (0.0, 1.0);
-        for _ in 0..BISECTIONS {
-            let s = 0.5 * (lo + hi);
-            if turned(s) { hi = s } else { lo = s }
-        }
-        return Some((piece.until(lo), lo, End::Angle));
-    }
-    None
+    turned.map(|s| (piece.until(s), s, End::Angle))
 }
 
 #[cfg(test)]
@@ -335,6 +325,22 @@ mod tests {
         assert_eq!(half.end, End::Angle);
         // The cubic's direction errs by h³/(96·√3·r³) or so, some 10⁻⁵ here.
         assert!((half.length - 5.0 * PI).abs() < 1e-3, "{}", half.length);
+    }
+
+    /// The angle is asked between the steps, too: of a circle that goes round, steps of 32° pass a window of 20°.
+    #[test]
+    fn no_step_jumps_over_the_largest_angle() {
+        for degrees in [150.0f64, 170.0, 179.0, 179.9] {
+            for radius in [2.0, 3.7, 20.0] {
+                let angle = degrees.to_radians();
+                let goal = Some(Goal { at: DVec3::X * radius, along: DVec3::Y, within: 0.15 });
+                let control = Control { cos_max_angle: angle.cos(), max_step: 2.0, goal, ..control(1e-2, 400.0) };
+                let half = trace(&mut Formula(circle), DVec3::X * radius, DVec3::Y, &control);
+                assert_eq!(half.end, End::Angle, "{degrees} {radius}");
+                // An arc of the limit, but for a hundredth, what some steps of 10⁻² turn a direction by.
+                assert!((half.length / radius - angle).abs() < 0.05, "{degrees} {radius}: {}", half.length / radius);
+            }
+        }
     }
 
     /// Where the field ends the curve ends, the smallest step before it.
