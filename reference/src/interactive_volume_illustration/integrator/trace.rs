@@ -165,7 +165,8 @@ fn try_step<L: Lines>(
         *evaluations += 1;
         let v = field.at(at).map_err(Fault::Field)?;
         let v = if v.dot(like) < 0.0 { -v } else { v };
-        if v.dot(like) < SMOOTH { Err(Fault::Turns) } else { Ok(v) }
+        // k₅ has its sign from k₄, and both may have turned away from k₁.
+        if v.dot(like) < SMOOTH || v.dot(k1) < SMOOTH { Err(Fault::Turns) } else { Ok(v) }
     };
     let k2 = stage(field, x + k1 * (0.5 * h), k1)?;
     let k3 = stage(field, x + k2 * (0.5 * h), k1)?;
@@ -339,6 +340,20 @@ mod tests {
                 assert_eq!(half.end, End::Angle, "{degrees} {radius}");
                 // An arc of the limit, but for a hundredth, what some steps of 10⁻² turn a direction by.
                 assert!((half.length / radius - angle).abs() < 0.05, "{degrees} {radius}: {}", half.length / radius);
+            }
+        }
+    }
+
+    /// No step turns by more than 60°, whatever the tolerance: the stages and k₅ are held against k₁.
+    #[test]
+    fn no_step_turns_by_more_than_sixty_degrees() {
+        for first in [0.5, 1.0, 1.5, 2.0, 3.0] {
+            let control = Control { first, ..control(1e9, 40.0) };
+            let half = trace(&mut Formula(circle), DVec3::X, DVec3::Y, &control);
+            assert_eq!(half.end, End::Length);
+            for piece in &half.pieces {
+                let turn = piece.tangents[0].angle_between(piece.tangents[1]).to_degrees();
+                assert!(turn <= 60.0 + 1e-9, "{first}: {turn}");
             }
         }
     }
