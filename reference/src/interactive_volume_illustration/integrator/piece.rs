@@ -67,6 +67,28 @@ impl Piece {
         Self { ends: [self.ends[0], self.point(s)], tangents: [self.tangents[0] * s, self.tangent(s) * s] }
     }
 
+    /// Where between two of its places it first meets one of the planes on which a coordinate is a whole number; none where both
+    /// places lie between the same ones.
+    pub fn face(&self, [from, to]: [f64; 2]) -> Option<f64> {
+        if from >= to {
+            return None;
+        }
+        let [a, b] = [from, to].map(|s| self.point(s));
+        let meets = |axis: usize| {
+            let (lo, hi) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
+            let up = b[axis] > a[axis];
+            let face = if up { lo.floor() + 1.0 } else { hi.ceil() - 1.0 };
+            let beyond = |s: f64| if up { self.point(s)[axis] >= face } else { self.point(s)[axis] <= face };
+            (lo < face && face < hi).then(|| bisect([from, to], beyond))
+        };
+        (0..3).filter_map(meets).reduce(f64::min)
+    }
+
+    /// The same curve in other coordinates, by an affine map of places and what it does to directions.
+    pub fn mapped(&self, place: impl Fn(DVec3) -> DVec3, direction: impl Fn(DVec3) -> DVec3) -> Self {
+        Self { ends: self.ends.map(place), tangents: self.tangents.map(direction) }
+    }
+
     /// The same curve from its end to its beginning.
     pub fn reversed(&self) -> Self {
         let ([p, q], [t, u]) = (self.ends, self.tangents);
@@ -166,6 +188,21 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// p(s) = (1.2 + s, 0.1 + 3s², 2): x = 2 is met at 0.8, y = 1 at √0.3, and it stays on the face z = 2.
+    #[test]
+    fn faces_are_met() {
+        let ends = [DVec3::new(1.2, 0.1, 2.0), DVec3::new(2.2, 3.1, 2.0)];
+        let p = Piece { ends, tangents: [DVec3::X, DVec3::new(1.0, 6.0, 0.0)] };
+        let first = 0.3f64.sqrt();
+        assert!((p.face([0.0, 1.0]).unwrap() - first).abs() < 1e-11);
+        assert!((p.face([first + 1e-6, 1.0]).unwrap() - (1.9f64 / 3.0).sqrt()).abs() < 1e-11);
+        assert_eq!([p.face([0.0, first - 1e-6]), p.face([0.9, 0.97]), p.face([0.6, 0.4])], [None; 3]);
+        let back = p.reversed();
+        assert!((back.face([0.1, 0.9]).unwrap() - 0.2).abs() < 1e-11);
+        let finer = p.mapped(|x| x * 2.0, |t| t * 2.0);
+        assert!((finer.face([0.0, 1.0]).unwrap() - 0.3).abs() < 1e-11);
     }
 
     #[test]

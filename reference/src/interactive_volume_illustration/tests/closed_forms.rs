@@ -15,7 +15,7 @@ fn hatching(grid: &Grid, family: Family) -> Hatching {
 fn half(strokes: &Strokes<'_, '_>, seed: &Seed, control: Control) -> Half<NoDirection> {
     let mut counts = HatchCounts::default();
     let along = if seed.family == Family::Max { seed.curvature.e1 } else { seed.curvature.e2 };
-    let mut lines = OnSurface { strokes, family: seed.family, target: seed.target, counts: &mut counts };
+    let mut lines = OnSurface::new(strokes, seed.family, seed.target, &mut counts);
     trace(&mut lines, seed.world, along.to_glam(), &control)
 }
 
