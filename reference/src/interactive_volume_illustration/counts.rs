@@ -9,7 +9,8 @@ pub enum NoDirection {
     Volume,
     /// The gradient is rounding ([PREC-3]).
     Gradient,
-    /// Within the data's error the surface bends the same way in all directions, or the estimates of the direction disagree.
+    /// Within the data's error the surface bends the same way in all directions, the estimates of the direction disagree, or
+    /// the volume's border is too near to tell.
     Umbilic,
 }
 
@@ -142,7 +143,9 @@ impl AddAssign for Rejections {
 pub struct Scales {
     /// Places that got one, by the scale that counted: σ = 1, 2, 4 voxels.
     pub given: [u64; 3],
-    /// By scale, estimates that were refused because the curvatures are nearly equal.
+    /// By scale, estimates that were refused because the border of the volume is too near.
+    pub border: [u64; 3],
+    /// … because the curvatures are nearly equal.
     pub umbilic: [u64; 3],
     /// … because their difference may be the data's noise.
     pub noise: [u64; 3],
@@ -163,6 +166,7 @@ impl AddAssign for Scales {
     fn add_assign(&mut self, b: Self) {
         for i in 0..3 {
             self.given[i] += b.given[i];
+            self.border[i] += b.border[i];
             self.umbilic[i] += b.umbilic[i];
             self.noise[i] += b.noise[i];
             self.disagree[i] += b.disagree[i];

@@ -17,6 +17,8 @@ const REACH: f64 = 1.0;
 const PLACES: u32 = 8;
 const EVALUATIONS: u32 = 40;
 
+const THIRD: f64 = 1.0 / 3.0;
+
 /// A vertex of the polyline: its place on the curve, and where it is put.
 #[derive(Clone, Copy)]
 struct Vertex {
@@ -111,25 +113,37 @@ impl Strokes<'_, '_> {
         Some(x + n * s)
     }
 
-    /// Whether a segment lies in front of the surface at its middle and where it passes from cell to cell; without a surface
-    /// it always does ([HATCH-16]).
+    /// Whether a segment lies in front of the surface, all of it; without a surface it always does ([HATCH-16]).
+    ///
+    /// Between two faces of cells trilinear values along a line are a cubic, which four of them give, and it is largest or
+    /// smallest at an end or where its derivative is 0. Along a line the values of other kernels are of a higher degree: there
+    /// the four places and the extremes of the cubic through them are looked at.
     fn stays_in_front(&self, [a, b]: [DVec3; 2]) -> bool {
         let Some(iso) = self.iso() else { return true };
         let (ground, grid) = (self.ground(), self.ground().grid());
         let (from, to) = (grid.to_index(a), grid.to_index(b));
-        let in_front = |s: f64| {
-            let value = index_inside(ground, from + (to - from) * s).map(|at| ground.value(at));
-            value.is_some_and(|value| match ground.outside() {
-                Outside::Low => value <= iso,
-                Outside::High => value >= iso,
+        // How far in front; along the border of the volume rounding does not lead out of it.
+        let over = |s: f64| {
+            let at = (from + (to - from) * s).clamp(from.min(to), from.max(to));
+            let value = index_inside(ground, at).map(|at| ground.value(at));
+            value.map_or(f64::NAN, |value| match ground.outside() {
+                Outside::Low => iso - value,
+                Outside::High => value - iso,
             })
         };
-        let faces = (0..3).flat_map(|a| {
-            let (lo, hi) = (from[a].min(to[a]), from[a].max(to[a]));
+        let mut faces = vec![0.0, 1.0];
+        for axis in 0..3 {
+            let (lo, hi) = (from[axis].min(to[axis]), from[axis].max(to[axis]));
             let (first, last) = (lo.floor() as i64 + 1, hi.ceil() as i64 - 1);
-            (first..=last).map(move |face| (face as f64 - from[a]) / (to[a] - from[a]))
-        });
-        in_front(0.5) && faces.map(|s| s.clamp(0.0, 1.0)).all(in_front)
+            let at = |face: i64| ((face as f64 - from[axis]) / (to[axis] - from[axis])).clamp(0.0, 1.0);
+            faces.extend((first..=last).map(at));
+        }
+        faces.sort_by(f64::total_cmp);
+        faces.windows(2).all(|cell| {
+            let at = |u: f64| over(cell[0] + (cell[1] - cell[0]) * u);
+            let values = [at(0.0), at(THIRD), at(2.0 * THIRD), at(1.0)];
+            values.iter().all(|v| *v >= 0.0) && extremes(values).into_iter().flatten().all(|u| at(u) >= 0.0)
+        })
     }
 
     /// The stroke of a polyline, with normals and u; none if it has no two vertices or if one has no normal.
@@ -152,5 +166,42 @@ impl Strokes<'_, '_> {
         let [nx, ny, _] = self.ground().grid().dims();
         let [x, y, z] = seed.cell;
         Some(Stroke { vertices, closed, key: ((z * ny + y) * nx + x) as u64 })
+    }
+}
+
+/// Where within (0, 1) the cubic with these values at 0, ⅓, ⅔ and 1 has its extremes.
+fn extremes([v0, v1, v2, v3]: [f64; 4]) -> [Option<f64>; 2] {
+    // Its derivative is a + 2bu + cu².
+    let a = -5.5 * v0 + 9.0 * v1 - 4.5 * v2 + v3;
+    let b = 9.0 * v0 - 22.5 * v1 + 18.0 * v2 - 4.5 * v3;
+    let c = 13.5 * (v3 - v0 + 3.0 * (v1 - v2));
+    let root = (b * b - a * c).sqrt();
+    // One of the roots by the sum without cancellation, the other by their product; what is no number is not within.
+    let q = -(b + root.copysign(b));
+    [q / c, a / q].map(|u| (u > 0.0 && u < 1.0).then_some(u))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (u − p)(u − q)(u − r) and a quadratic, by their derivatives' roots.
+    #[test]
+    fn extremes_of_cubics() {
+        let of = |f: &dyn Fn(f64) -> f64| extremes([f(0.0), f(THIRD), f(2.0 * THIRD), f(1.0)]);
+        let near = |found: [Option<f64>; 2], want: &[f64]| {
+            let mut found: Vec<f64> = found.into_iter().flatten().collect();
+            found.sort_by(f64::total_cmp);
+            assert_eq!(found.len(), want.len(), "{found:?} {want:?}");
+            assert!(found.iter().zip(want).all(|(f, w)| (f - w).abs() < 1e-12), "{found:?} {want:?}");
+        };
+        // 3u² − 3u + ½ = 0.
+        let half = 3f64.sqrt() / 6.0;
+        near(of(&|u| u * (u - 0.5) * (u - 1.0)), &[0.5 - half, 0.5 + half]);
+        near(of(&|u| u * u * u - 0.75 * u), &[0.5]);
+        near(of(&|u| 5.0 - (u - 0.3) * (u - 0.3)), &[0.3]);
+        near(of(&|u| u * u * u + u), &[]);
+        near(of(&|u| 3.0 * u - 1.0), &[]);
+        near(of(&|_| 7.0), &[]);
     }
 }

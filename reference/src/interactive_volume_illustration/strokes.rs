@@ -20,9 +20,10 @@ const TIE: f64 = 0.01;
 /// The largest step, in voxels: stages are then in neighbouring cells, and nothing is stepped over.
 const LARGEST_STEP: f64 = 2.0;
 
-/// The same times √(voxel/tolerance): an interpolated field has kinks at the faces of cells, and a step across one errs by its
-/// square, which the difference of two stages near its end does not show.
-const LARGEST_STEP_OVER_KINKS: f64 = 20.0;
+/// The tolerance, in voxels, below which steps end at the faces of cells and narrow down to where the scale of the directions
+/// changes. There an interpolated field has kinks and jumps; what a step across one errs by, a few thousandths of a voxel, the
+/// difference of two stages near its end does not show.
+const EXACT_BELOW: f64 = 0.005;
 
 /// How far, in voxels, a step may come off its iso-surface before it is put back.
 const DRIFT: f64 = 0.5;
@@ -217,14 +218,15 @@ impl<'f, 'v> Strokes<'f, 'v> {
 
     fn follow(&self, seed: &Seed, family: Family, length: f64, counts: &mut HatchCounts) -> Option<Stroke> {
         let mut counted = *counts;
-        let mut lines = OnSurface { strokes: self, family, target: seed.target, counts: &mut counted };
+        let mut lines = OnSurface::new(self, family, seed.target, &mut counted);
         let along = self.how.reference.signed(lines.at(seed.world).ok()?, seed.world);
+        let scale = lines.scale;
         let voxel = self.ground.grid().voxel();
         let control = Control {
             tolerance: self.how.tolerance,
             first: voxel,
             min_step: self.how.min_step,
-            max_step: LARGEST_STEP.min(LARGEST_STEP_OVER_KINKS * (self.how.tolerance / voxel).sqrt()) * voxel,
+            max_step: LARGEST_STEP * voxel,
             length: 0.5 * length,
             cos_max_angle: if self.how.max_angle >= 180.0 { -1.0 } else { cos(self.how.max_angle.to_radians()) },
             goal: None,
@@ -240,6 +242,7 @@ impl<'f, 'v> Strokes<'f, 'v> {
             // The other half may come round to where this one ended.
             let far = forward.pieces.last().filter(|_| stop == Stop::Length);
             let far = far.and_then(|piece| goal(piece.ends[1], -piece.tangents[1].normalize_or_zero()));
+            lines.scale = scale;
             let back = trace(&mut lines, seed.world, -along, &Control { goal: far, ..control });
             joined(&back, forward, stop)
         };
@@ -281,11 +284,23 @@ fn stop(end: &End<NoDirection>) -> Stop {
 
 /// The lines of curvature of one family near the surface f = target.
 pub(super) struct OnSurface<'s, 'f, 'v> {
-    pub strokes: &'s Strokes<'f, 'v>,
-    /// `Max` or `Min`.
-    pub family: Family,
-    pub target: f64,
-    pub counts: &'s mut HatchCounts,
+    strokes: &'s Strokes<'f, 'v>,
+    family: Family,
+    target: f64,
+    counts: &'s mut HatchCounts,
+    /// Which σ the last direction is of.
+    scale: usize,
+    /// The tolerance where steps end at faces, in world units.
+    exact: Option<f64>,
+}
+
+impl<'s, 'f, 'v> OnSurface<'s, 'f, 'v> {
+    /// `family` is `Max` or `Min`.
+    pub(super) fn new(strokes: &'s Strokes<'f, 'v>, family: Family, target: f64, counts: &'s mut HatchCounts) -> Self {
+        let tolerance = strokes.how.tolerance;
+        let exact = (tolerance < EXACT_BELOW * strokes.ground.grid().voxel()).then_some(tolerance);
+        Self { strokes, family, target, counts, scale: 0, exact }
+    }
 }
 
 impl Lines for OnSurface<'_, '_, '_> {
@@ -296,11 +311,25 @@ impl Lines for OnSurface<'_, '_, '_> {
         let ground = self.strokes.ground;
         let index = inside(ground, x).ok_or(NoDirection::Volume)?;
         let (n, _) = normal(ground, index).ok_or(NoDirection::Gradient)?;
+        let before = self.counts.scales.given;
         let curvature = self.strokes.directions.at(ground, index, &mut self.counts.scales)?;
+        self.scale = before.iter().zip(self.counts.scales.given).position(|(b, a)| a > *b).unwrap_or(0);
         let e = self.family.direction(&curvature);
         let tangent = e - n * e.dot(n);
         let length = tangent.length();
         if length > TANGENT { Ok(tangent / length) } else { Err(NoDirection::Umbilic) }
+    }
+
+    fn formula(&self) -> usize {
+        if self.exact.is_some() { self.scale } else { 0 }
+    }
+
+    /// Where it leaves its cell, farther from its ends than the tolerance: what is nearer does not count.
+    fn kink(&self, piece: &Piece) -> Option<f64> {
+        let grid = self.strokes.ground.grid();
+        let near = self.exact? / piece.ends[0].distance(piece.ends[1]);
+        let piece = piece.mapped(|x| grid.to_index(x), |t| grid.inverse_axes() * t);
+        piece.face([near, 1.0 - near])
     }
 
     fn put_back(&mut self, x: DVec3) -> Option<DVec3> {

@@ -2,7 +2,8 @@
 //!
 //! On a sampled sphere the two curvatures differ by noise, and a plain formula makes a direction of it everywhere. So a
 //! direction counts only where the curvatures differ by a share of themselves and by more than the rounding of the stored
-//! numbers can make, and where a somewhat larger scale says the same; the finest scale at which all holds is taken.
+//! numbers can make, and where a somewhat larger scale says the same; the finest scale at which all holds is taken. A scale
+//! says nothing where it reaches beyond the volume.
 
 use super::counts::{NoDirection, Scales};
 use super::directions;
@@ -12,13 +13,20 @@ use crate::field::normal::outward;
 use crate::field::smoothed::Smoothed;
 use crate::field::{Field, Outside};
 use crate::number::Vec3;
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
+use drypoint_scene::space::Grid;
 
 /// σ in voxels.
 const SCALES: [f64; 3] = [1.0, 2.0, 4.0];
 
 /// The scale that a direction is compared at, in σ.
 const LARGER: f64 = 1.5;
+
+/// How far, in σ, a place must be from the border along each axis. Samples beyond it are continued by parabolas, which a
+/// smoothed second derivative nearer to it takes for data: of spheres that touch or cross the border, 18 to 90 % of the places
+/// within 2σ of it get a direction by that σ, and none beyond.
+const ROOM: f64 = 2.0;
 
 /// The constants of the rule `scaled`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +65,8 @@ struct Scaled<'f, 'v> {
     thresholds: Thresholds,
     /// At σ and 1.5σ.
     pairs: [[Smoothed<'f, 'v>; 2]; 3],
+    /// For each σ the box of index space that is far enough from the border.
+    inner: [[DVec3; 2]; 3],
     /// cos of twice the angle within which two lines agree.
     cos_double: f64,
     outside: Outside,
@@ -72,6 +82,7 @@ impl<'f, 'v> Directions<'f, 'v> {
                 scaled: Some(Scaled {
                     thresholds,
                     pairs: SCALES.map(|s| [s, LARGER * s].map(|sigma| Smoothed::new(field, sigma))),
+                    inner: SCALES.map(|sigma| inner(field.volume().grid(), ROOM * sigma)),
                     cos_double: math::cos((2.0 * thresholds.agree).to_radians()),
                     outside: field.reconstruction().outside,
                     no_normal_below: field.no_normal_below(),
@@ -123,8 +134,19 @@ impl<'f, 'v> Directions<'f, 'v> {
     }
 }
 
+/// The box in index space of the places that are `room` voxels from the border, along axes of three samples and more: shorter
+/// ones have no curvature that a continuation could make up.
+fn inner(grid: &Grid, room: f64) -> [DVec3; 2] {
+    let (n, spacing) = (grid.dims(), grid.spacing());
+    let along = |a: usize| if n[a] > 2 { room * grid.voxel() / spacing[a] } else { 0.0 };
+    let [lo, hi] = grid.index_box();
+    let room = DVec3::new(along(0), along(1), along(2));
+    [lo.max(room), hi.min(DVec3::from_array(n.map(|n| n as f64 - 1.0)) - room)]
+}
+
 /// Why a scale is not sure.
 enum Unsure {
+    Border,
     Gradient,
     Umbilic,
     Noise,
@@ -135,12 +157,13 @@ impl Scaled<'_, '_> {
     fn at(&self, index: Vec3<f64>, counts: &mut Scales) -> Result<Curvature<f64>, NoDirection> {
         let mut flat = true;
         for (i, pair) in self.pairs.iter().enumerate() {
-            match self.estimate(pair, index) {
+            match self.estimate(pair, &self.inner[i], index) {
                 Ok(curvature) => {
                     counts.given[i] += 1;
                     return Ok(curvature);
                 }
                 Err(Unsure::Gradient) => continue,
+                Err(Unsure::Border) => counts.border[i] += 1,
                 Err(Unsure::Umbilic) => counts.umbilic[i] += 1,
                 Err(Unsure::Noise) => counts.noise[i] += 1,
                 Err(Unsure::Disagree) => counts.disagree[i] += 1,
@@ -151,8 +174,17 @@ impl Scaled<'_, '_> {
         Err(if flat { NoDirection::Gradient } else { NoDirection::Umbilic })
     }
 
-    /// The curvatures at one scale, if all three conditions hold.
-    fn estimate(&self, [one, larger]: &[Smoothed<'_, '_>; 2], index: Vec3<f64>) -> Result<Curvature<f64>, Unsure> {
+    /// The curvatures at one scale, if the border is far enough and all three conditions hold.
+    fn estimate(
+        &self,
+        [one, larger]: &[Smoothed<'_, '_>; 2],
+        [lo, hi]: &[DVec3; 2],
+        index: Vec3<f64>,
+    ) -> Result<Curvature<f64>, Unsure> {
+        let at = index.to_glam();
+        if !(at.cmpge(*lo).all() && at.cmple(*hi).all()) {
+            return Err(Unsure::Border);
+        }
         let (c, norm) = self.curvature(one, index)?;
         let difference = c.k1 - c.k2;
         if difference <= self.thresholds.gap * (c.k1.abs() + c.k2.abs()) {

@@ -5,6 +5,9 @@ use drypoint_scene::glam::DVec3;
 /// Places on a piece among which the start of a search is chosen.
 const STARTS: u32 = 8;
 
+/// Bisections that find a place on a piece: to 2⁻⁴⁰ of it.
+const BISECTIONS: u32 = 40;
+
 /// A cubic Hermite, p(s) for s in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
@@ -29,9 +32,61 @@ impl Piece {
         (q - p) * (6.0 * s * r) + t * (r * (1.0 - 3.0 * s)) - u * (s * (2.0 - 3.0 * s))
     }
 
+    /// p''(s).
+    fn second(&self, s: f64) -> DVec3 {
+        let ([p, q], [t, u]) = (self.ends, self.tangents);
+        (q - p) * (6.0 - 12.0 * s) + t * (6.0 * s - 4.0) + u * (6.0 * s - 2.0)
+    }
+
+    /// Where its direction first is further from a unit vector than an angle with this cosine; none where it nowhere is.
+    ///
+    /// The largest angle may lie between the ends: where (p''·a)(p'·p') − (p'·a)(p'·p''), which has the sign of the cosine's
+    /// derivative, grows through 0. It is a polynomial of degree four, whose roots are looked for in eighths of the piece.
+    pub fn turned(&self, along: DVec3, cos: f64) -> Option<f64> {
+        let beyond = |s: f64| {
+            let t = self.tangent(s);
+            t.dot(along) < cos * t.length()
+        };
+        let falls = |s: f64| {
+            let (t, d) = (self.tangent(s), self.second(s));
+            d.dot(along) * t.length_squared() < t.dot(along) * t.dot(d)
+        };
+        if beyond(0.0) {
+            return Some(0.0);
+        }
+        (0..STARTS).find_map(|i| {
+            let [from, to] = [i, i + 1].map(|i| f64::from(i) / f64::from(STARTS));
+            let furthest =
+                if !beyond(to) && falls(from) && !falls(to) { bisect([from, to], |s| !falls(s)) } else { to };
+            beyond(furthest).then(|| bisect([from, furthest], beyond))
+        })
+    }
+
     /// What of it lies in [0, s], again as a piece: the same cubic.
     pub fn until(&self, s: f64) -> Self {
         Self { ends: [self.ends[0], self.point(s)], tangents: [self.tangents[0] * s, self.tangent(s) * s] }
+    }
+
+    /// Where between two of its places it first meets one of the planes on which a coordinate is a whole number; none where both
+    /// places lie between the same ones.
+    pub fn face(&self, [from, to]: [f64; 2]) -> Option<f64> {
+        if from >= to {
+            return None;
+        }
+        let [a, b] = [from, to].map(|s| self.point(s));
+        let meets = |axis: usize| {
+            let (lo, hi) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
+            let up = b[axis] > a[axis];
+            let face = if up { lo.floor() + 1.0 } else { hi.ceil() - 1.0 };
+            let beyond = |s: f64| if up { self.point(s)[axis] >= face } else { self.point(s)[axis] <= face };
+            (lo < face && face < hi).then(|| bisect([from, to], beyond))
+        };
+        (0..3).filter_map(meets).reduce(f64::min)
+    }
+
+    /// The same curve in other coordinates, by an affine map of places and what it does to directions.
+    pub fn mapped(&self, place: impl Fn(DVec3) -> DVec3, direction: impl Fn(DVec3) -> DVec3) -> Self {
+        Self { ends: self.ends.map(place), tangents: self.tangents.map(direction) }
     }
 
     /// The same curve from its end to its beginning.
@@ -67,6 +122,15 @@ impl Piece {
     }
 }
 
+/// Where a condition begins to hold between one place where it does not and one where it does.
+fn bisect([mut lo, mut hi]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..BISECTIONS {
+        let s = 0.5 * (lo + hi);
+        if holds(s) { hi = s } else { lo = s }
+    }
+    lo
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,6 +158,51 @@ mod tests {
             assert!(back.point(1.0 - s).distance(whole.point(s)) < 1e-15);
             assert!(back.tangent(1.0 - s).distance(-whole.tangent(s)) < 1e-15);
         }
+    }
+
+    /// p(s) = (s, s − s², 0), and with a second bend out of its plane: the largest angle is found where it is, and the first
+    /// place beyond an angle, wherever both ends lie.
+    #[test]
+    fn the_largest_angle_is_found_between_the_ends() {
+        // Directions (1, 1 − 2s): along (1, 0) the angle is 45° at both ends, and its limit is met at s = (1 − tan)/2.
+        let bent =
+            Piece { ends: [DVec3::ZERO, DVec3::X], tangents: [DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)] };
+        let away = DVec3::new(-1.0, 0.0, 0.0);
+        assert_eq!(bent.turned(away, -1.0), None);
+        for degrees in [136.0f64, 150.0, 170.0, 179.0, 179.99] {
+            // Away from −x the angle is largest in the middle, 180°.
+            let s = bent.turned(away, degrees.to_radians().cos()).unwrap();
+            let want = 0.5 * (1.0 - (180.0 - degrees).to_radians().tan());
+            assert!((s - want).abs() < 1e-9, "{degrees}: {s} {want}");
+        }
+        assert_eq!(bent.turned(DVec3::X, 46f64.to_radians().cos()), None);
+        // On any piece as a search in small steps has it.
+        let p = piece();
+        for along in [DVec3::X, DVec3::Y, DVec3::NEG_ONE.normalize(), -p.tangent(0.37).normalize()] {
+            let cosine = |s: f64| p.tangent(s).normalize().dot(along);
+            for cos in [0.9, 0.0, -0.7, -0.98, -0.999_999] {
+                let searched = (0..=100_000).map(|i| f64::from(i) * 1e-5).find(|&s| cosine(s) < cos);
+                match (p.turned(along, cos), searched) {
+                    (Some(s), Some(want)) => assert!((s - want).abs() <= 1.1e-5, "{along} {cos}: {s} {want}"),
+                    (found, searched) => assert_eq!(found, searched, "{along} {cos}"),
+                }
+            }
+        }
+    }
+
+    /// p(s) = (1.2 + s, 0.1 + 3s², 2): x = 2 is met at 0.8, y = 1 at √0.3, and it stays on the face z = 2.
+    #[test]
+    fn faces_are_met() {
+        let ends = [DVec3::new(1.2, 0.1, 2.0), DVec3::new(2.2, 3.1, 2.0)];
+        let p = Piece { ends, tangents: [DVec3::X, DVec3::new(1.0, 6.0, 0.0)] };
+        let first = 0.3f64.sqrt();
+        assert!((p.face([0.0, 1.0]).unwrap() - first).abs() < 1e-11);
+        assert!((p.face([first + 1e-6, 1.0]).unwrap() - (1.9f64 / 3.0).sqrt()).abs() < 1e-11);
+        assert_eq!([p.face([0.0, first - 1e-6]), p.face([0.9, 0.97]), p.face([0.6, 0.4])], [None; 3]);
+        let back = p.reversed();
+        assert!((back.face([0.1, 0.9]).unwrap() - 0.2).abs() < 1e-11);
+        let finer = p.mapped(|x| x * 2.0, |t| t * 2.0);
+        assert!((finer.face([0.0, 1.0]).unwrap() - 0.3).abs() < 1e-11);
     }
 
     #[test]

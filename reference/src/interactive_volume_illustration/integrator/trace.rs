@@ -6,12 +6,13 @@
 
 use super::Piece;
 use drypoint_scene::glam::DVec3;
+use std::cell::Cell;
 
 /// cos 60°: a stage that turns by more belongs to no smooth line.
 const SMOOTH: f64 = 0.5;
 
-/// Bisections that find where a piece has turned by the largest angle: to 2⁻³⁰ of it.
-const BISECTIONS: usize = 30;
+/// How often a step is tried again to end at a kink: each time it is as near as its own error.
+const TRIES_AT_KINK: u32 = 3;
 
 /// How many times the distance that closes a curve it must have gone before it can come back.
 const OUT: f64 = 4.0;
@@ -31,6 +32,16 @@ pub trait Lines {
     fn put_back(&mut self, _x: DVec3) -> Option<DVec3> {
         None
     }
+
+    /// The parameter of a piece, inside it, at which it first comes to where the field has a kink: the step is to end there.
+    fn kink(&self, _piece: &Piece) -> Option<f64> {
+        None
+    }
+
+    /// By which of its formulas the field had its last direction; from one to another it jumps.
+    fn formula(&self) -> usize {
+        0
+    }
 }
 
 /// A place that a curve may come to, to end there.
@@ -47,7 +58,8 @@ pub struct Goal {
 /// How far and how exactly a curve is followed; all lengths in the unit of the places.
 #[derive(Clone, Copy, Debug)]
 pub struct Control {
-    /// The most that a step may err by, as it estimates itself: ‖h/6·(k₄ − k₅)‖.
+    /// The most that a step may err by, as it estimates itself: ‖h/6·(k₄ − k₅)‖, and h/6 times the most that a stage differs
+    /// from k₁ where the field jumps between them.
     pub tolerance: f64,
     /// The first step.
     pub first: f64,
@@ -103,19 +115,32 @@ enum Fault<C> {
     Error(f64),
 }
 
+/// Where a step begins.
+struct State {
+    x: DVec3,
+    /// k₁.
+    k: DVec3,
+    /// By which formula.
+    formula: usize,
+}
+
 /// A step that is fine.
 struct Step {
     piece: Piece,
-    /// k₅, the next k₁.
-    next: DVec3,
+    /// Where the next one begins, with k₅ for its k₁.
+    to: State,
     /// For the next step.
     factor: f64,
 }
 
-/// Follows the line from `start` along `along`, the field's direction there with the sign that is wanted.
+/// Follows the line from `start` along `along`, the field's direction there with the sign that is wanted; the field was asked
+/// for it last.
 pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Control) -> Half<L::Cause> {
     let mut half = Half { pieces: Vec::new(), length: 0.0, end: End::Length, evaluations: 0, rejected: 0 };
-    let (mut x, mut k, mut h) = (start, along, control.first.min(control.max_step));
+    let mut at = State { x: start, k: along, formula: field.formula() };
+    let mut h = control.first.min(control.max_step);
+    // The step that would have been fine but for a kink, and how often it was shortened.
+    let mut kink: Option<(f64, u32)> = None;
     loop {
         let left = control.length - half.length;
         if left <= 0.0 {
@@ -123,18 +148,31 @@ pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Cont
         }
         let last = h >= left;
         let step = if last { left } else { h };
-        match try_step(field, [x, k], step, control.tolerance, &mut half.evaluations) {
+        match try_step(field, &at, step, control, &mut half.evaluations) {
             Ok(done) => {
+                let (whole, tries) = kink.unwrap_or((step, 0));
+                if tries < TRIES_AT_KINK
+                    && let Some(s) = field.kink(&done.piece)
+                {
+                    kink = Some((whole, tries + 1));
+                    half.rejected += 1;
+                    h = s * step;
+                    continue;
+                }
+                kink = None;
                 if let Some((piece, share, end)) = ends(&done, along, half.length, step, control) {
-                    half.pieces.push(piece);
-                    half.length += share * step;
+                    if share > 0.0 {
+                        half.pieces.push(piece);
+                        half.length += share * step;
+                    }
                     half.end = end;
                     return half;
                 }
                 half.pieces.push(done.piece);
                 half.length = if last { control.length } else { half.length + step };
-                (x, k) = (done.piece.ends[1], done.next);
-                h = (step * done.factor).min(control.max_step);
+                at = done.to;
+                // One that was cut short at a kink says nothing about the next.
+                h = (step * done.factor).max(if tries > 0 { whole } else { 0.0 }).min(control.max_step);
             }
             Err(fault) if step <= control.min_step => {
                 half.end = match fault {
@@ -146,6 +184,7 @@ pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Cont
             }
             Err(fault) => {
                 half.rejected += 1;
+                kink = None;
                 let factor = if let Fault::Error(factor) = fault { factor } else { 0.5 };
                 h = (step * factor).max(control.min_step);
             }
@@ -157,16 +196,25 @@ pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Cont
 /// next: clamp(0.9·(tol/err)^¼, 0.2, 4).
 fn try_step<L: Lines>(
     field: &mut L,
-    [x, k1]: [DVec3; 2],
+    from: &State,
     h: f64,
-    tolerance: f64,
+    control: &Control,
     evaluations: &mut u32,
 ) -> Result<Step, Fault<L::Cause>> {
+    let (x, k1, tolerance) = (from.x, from.k, control.tolerance);
+    let jump = Cell::new(0.0f64);
     let mut stage = |field: &mut L, at: DVec3, like: DVec3| {
         *evaluations += 1;
         let v = field.at(at).map_err(Fault::Field)?;
         let v = if v.dot(like) < 0.0 { -v } else { v };
-        if v.dot(like) < SMOOTH { Err(Fault::Turns) } else { Ok(v) }
+        // k₅ has its sign from k₄, and both may have turned away from k₁.
+        if v.dot(like) < SMOOTH || v.dot(k1) < SMOOTH {
+            return Err(Fault::Turns);
+        }
+        if field.formula() != from.formula {
+            jump.set(jump.get().max((v - k1).length()));
+        }
+        Ok(v)
     };
     let k2 = stage(field, x + k1 * (0.5 * h), k1)?;
     let k3 = stage(field, x + k2 * (0.5 * h), k1)?;
@@ -174,6 +222,11 @@ fn try_step<L: Lines>(
     let mut to = x + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0);
     let mut k5 = stage(field, to, k4)?;
     let error = (k4 - k5).length() * (h / 6.0);
+    // k₄ and k₅ may agree beyond a jump. What it does to the smallest step is no reason to end.
+    let across = if h > control.min_step { jump.get() * (h / 6.0) } else { 0.0 };
+    if across > tolerance && across > error {
+        return Err(Fault::Error((0.9 * (tolerance / across)).clamp(0.2, 0.9)));
+    }
     let factor = if error > 0.0 { (0.9 * (tolerance / error).sqrt().sqrt()).clamp(0.2, 4.0) } else { 4.0 };
     if error > tolerance {
         // Another try is a shorter one.
@@ -183,37 +236,29 @@ fn try_step<L: Lines>(
         to = back;
         k5 = stage(field, to, k5)?;
     }
-    Ok(Step { piece: Piece { ends: [x, to], tangents: [k1 * h, k5 * h] }, next: k5, factor })
+    let next = State { x: to, k: k5, formula: field.formula() };
+    Ok(Step { piece: Piece { ends: [x, to], tangents: [k1 * h, k5 * h] }, to: next, factor })
 }
 
 /// Whether a step is the last: what of its piece counts, as a piece and as a share, and why it ends there.
 fn ends<C>(done: &Step, along: DVec3, before: f64, step: f64, control: &Control) -> Option<(Piece, f64, End<C>)> {
     let piece = &done.piece;
+    let any = control.cos_max_angle <= -1.0;
+    let turned = if any { None } else { piece.turned(along, control.cos_max_angle) };
     if let Some(goal) = control.goal
         && before > OUT * goal.within
         && goal.at.distance(piece.ends[1]) <= step + goal.within
     {
         let (s, distance) = piece.nearest(goal.at);
-        if distance <= goal.within && s > 0.0 && piece.tangent(s).dot(goal.along) > SMOOTH * step {
+        let first = turned.is_none_or(|t| s < t);
+        if first && distance <= goal.within && s > 0.0 && piece.tangent(s).dot(goal.along) > SMOOTH * step {
             let mut closed = piece.until(s);
             closed.ends[1] = goal.at;
             closed.tangents[1] = goal.along * (s * step);
             return Some((closed, s, End::Closed));
         }
     }
-    if done.next.dot(along) < control.cos_max_angle {
-        let turned = |s: f64| {
-            let t = piece.tangent(s);
-            t.dot(along) < control.cos_max_angle * t.length()
-        };
-        let (mut lo, mut hi) = (0.0, 1.0);
-        for _ in 0..BISECTIONS {
-            let s = 0.5 * (lo + hi);
-            if turned(s) { hi = s } else { lo = s }
-        }
-        return Some((piece.until(lo), lo, End::Angle));
-    }
-    None
+    turned.map(|s| (piece.until(s), s, End::Angle))
 }
 
 #[cfg(test)]
@@ -335,6 +380,36 @@ mod tests {
         assert_eq!(half.end, End::Angle);
         // The cubic's direction errs by h³/(96·√3·r³) or so, some 10⁻⁵ here.
         assert!((half.length - 5.0 * PI).abs() < 1e-3, "{}", half.length);
+    }
+
+    /// The angle is asked between the steps, too: of a circle that goes round, steps of 32° pass a window of 20°.
+    #[test]
+    fn no_step_jumps_over_the_largest_angle() {
+        for degrees in [150.0f64, 170.0, 179.0, 179.9] {
+            for radius in [2.0, 3.7, 20.0] {
+                let angle = degrees.to_radians();
+                let goal = Some(Goal { at: DVec3::X * radius, along: DVec3::Y, within: 0.15 });
+                let control = Control { cos_max_angle: angle.cos(), max_step: 2.0, goal, ..control(1e-2, 400.0) };
+                let half = trace(&mut Formula(circle), DVec3::X * radius, DVec3::Y, &control);
+                assert_eq!(half.end, End::Angle, "{degrees} {radius}");
+                // An arc of the limit, but for a hundredth, what some steps of 10⁻² turn a direction by.
+                assert!((half.length / radius - angle).abs() < 0.05, "{degrees} {radius}: {}", half.length / radius);
+            }
+        }
+    }
+
+    /// No step turns by more than 60°, whatever the tolerance: the stages and k₅ are held against k₁.
+    #[test]
+    fn no_step_turns_by_more_than_sixty_degrees() {
+        for first in [0.5, 1.0, 1.5, 2.0, 3.0] {
+            let control = Control { first, ..control(1e9, 40.0) };
+            let half = trace(&mut Formula(circle), DVec3::X, DVec3::Y, &control);
+            assert_eq!(half.end, End::Length);
+            for piece in &half.pieces {
+                let turn = piece.tangents[0].angle_between(piece.tangents[1]).to_degrees();
+                assert!(turn <= 60.0 + 1e-9, "{first}: {turn}");
+            }
+        }
     }
 
     /// Where the field ends the curve ends, the smallest step before it.
