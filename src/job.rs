@@ -420,8 +420,9 @@ pub fn bare_for(preset: &Scene, path: PathBuf, volume: &Volume, size: [usize; 2]
 
 /// Puts the value that is found in the volume where a scene leaves it to that and something asks for it.
 fn find_iso_values(scene: &mut Scene, plan: &Plan, volume: &Volume, counts: &mut Counts) {
-    let (drawn, strokes) = (plan.needs(Quantity::Surface), plan.has_pass(Pass::HiddenStrokes));
-    let surface = scene.surface.as_mut().filter(|_| drawn || strokes).map(|surface| &mut surface.iso);
+    let (drawn, hides) = (plan.needs(Quantity::Surface), plan.has_pass(Pass::HiddenStrokes));
+    let strokes = hides || plan.has_pass(Pass::Strokes);
+    let surface = scene.surface.as_mut().filter(|_| drawn || hides).map(|surface| &mut surface.iso);
     let outlines = scene.outlines.as_mut().filter(|_| strokes).map(|outlines| &mut outlines.iso);
     let hatching = scene.hatching.as_mut().filter(|_| strokes).map(|hatching| &mut hatching.iso);
     let asked: Vec<&mut Iso> =

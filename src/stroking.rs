@@ -42,13 +42,14 @@ struct Frame<'a> {
     view: &'a View,
     page: &'a Page,
     near: f64,
-    hides: &'a IsoSurface<'a, 'a>,
+    /// None: nothing hides.
+    hides: Option<&'a IsoSurface<'a, 'a>>,
 }
 
 impl<'a> Frame<'a> {
     /// The camera for strokes that lie in front of the surface themselves, or are asked for at some distance in front of it.
     fn sight(&self, offset: f64) -> Sight<'a> {
-        Sight { view: self.view, page: self.page, near: self.near, surface: Some(self.hides), offset }
+        Sight { view: self.view, page: self.page, near: self.near, surface: self.hides, offset }
     }
 }
 
@@ -104,9 +105,11 @@ impl<'a> Stroking<'a> {
 
     /// Looks at the ranges of the field, once for each value, and grows the strokes of hatching.
     pub fn frames(&self, counts: &mut Counts) -> StrokeFrames<'_> {
-        let own = [self.hatching.as_ref().map(Hatching::iso), self.outlining.as_ref().map(Outlining::iso)];
+        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut()).map(Hatching::iso);
+        let outlined = self.outlining.as_ref().map(Outlining::iso);
+        let hides = self.hides.filter(|_| cut.is_some() || outlined.is_some());
         let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
-        for iso in own.into_iter().chain([self.hides]).flatten() {
+        for iso in [cut, outlined, hides].into_iter().flatten() {
             if !surfaces.iter().any(|surface| surface.iso() == iso) {
                 surfaces.push(IsoSurface::new(&self.field, iso));
             }
@@ -123,15 +126,15 @@ impl StrokeFrames<'_> {
         // Each value has its surface.
         let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
         let mut layers = Vec::new();
-        if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref())
-            && let Some(hides) = surface(hides.unwrap_or(hatching.iso()))
-        {
+        if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref()) {
+            let hides = surface(hides.unwrap_or(hatching.iso())).filter(|_| hatching.is_cut());
             layers.push(hatched.draw(&Frame { view, page, near: *near, hides }, counts));
         }
         if let Some(outlining) = outlining
             && let Some((own, hides)) = surface(outlining.iso()).zip(surface(hides.unwrap_or(outlining.iso())))
         {
             let voxel = field.volume().grid().voxel();
+            let hides = Some(hides);
             layers.push(outlining.draw(&Frame { view, page, near: *near, hides }, own, voxel, counts));
         }
         let bytes: usize = self.surfaces.iter().map(IsoSurface::bytes).sum();

@@ -151,7 +151,7 @@ impl Letters {
 fn line(places: &[DVec2], width: f64, closed: bool) -> Polyline {
     let vertex = |(i, at): (usize, &DVec2)| {
         let t = i as f64 / (places.len() - 1).max(1) as f64;
-        Vertex { at: *at, world: DVec3::ZERO, radius: 0.5 * width, opacity: 1.0, t }
+        Vertex { at: *at, world: DVec3::ZERO, radius: 0.5 * width, opacity: 1.0, t, color: None }
     };
     Polyline { vertices: places.iter().enumerate().map(vertex).collect(), closed }
 }

@@ -1,6 +1,6 @@
 //! Lines to pixels: polylines drawn with a round pen, as the share of each pixel that they cover.
 
-use tiny_skia::{FillRule, LineCap, LineJoin, Mask, PathBuilder, PathStroker, Stroke, Transform};
+use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, PathStroker, Stroke, Transform};
 
 /// What polylines drawn with a round pen of `pen` pixels across cover of each pixel, in [0, 1], row by row from the top.
 ///
@@ -30,25 +30,22 @@ impl Cover {
     /// Draws lines, each with whether it is closed, with a round pen. Lines of one call cover once where they cross; on
     /// what was there before they add as c + d − cd.
     pub(crate) fn draw<L: Iterator<Item = [f64; 2]>>(&mut self, lines: impl Iterator<Item = (L, bool)>, pen: f64) {
-        let mut path = PathBuilder::new();
-        for (mut points, closed) in lines {
-            let Some([x, y]) = points.next() else { continue };
-            path.move_to(x as f32, y as f32);
-            let mut rest = false;
-            for [x, y] in points {
-                path.line_to(x as f32, y as f32);
-                rest = true;
-            }
-            if closed && rest {
-                path.close();
+        // All strokes become one outline, filled by the nonzero rule, so that crossings do not darken.
+        if let Some(outline) = outline(lines, pen) {
+            self.mask.fill_path(&outline, FillRule::Winding, true, Transform::identity());
+        }
+    }
+
+    /// Draws pieces of different widths, each with its pen, as one outline: they cover once where they overlap.
+    pub(crate) fn draw_joined<L: Iterator<Item = [f64; 2]>>(&mut self, pieces: impl Iterator<Item = (L, bool, f64)>) {
+        let mut all = PathBuilder::new();
+        for (points, closed, pen) in pieces {
+            if let Some(outline) = outline(std::iter::once((points, closed)), pen) {
+                all.push_path(&outline);
             }
         }
-        let stroke =
-            Stroke { width: pen as f32, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
-        // All strokes become one outline, filled by the nonzero rule, so that crossings do not darken.
-        let outline = path.finish().and_then(|path| PathStroker::new().stroke(&path, &stroke, 1.0));
-        if let Some(outline) = outline {
-            self.mask.fill_path(&outline, FillRule::Winding, true, Transform::identity());
+        if let Some(path) = all.finish() {
+            self.mask.fill_path(&path, FillRule::Winding, true, Transform::identity());
         }
     }
 
@@ -56,6 +53,26 @@ impl Cover {
     pub(crate) fn bytes(&self) -> &[u8] {
         self.mask.data()
     }
+}
+
+/// The outline of what a round pen draws; none of nothing.
+fn outline<L: Iterator<Item = [f64; 2]>>(lines: impl Iterator<Item = (L, bool)>, pen: f64) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    for (mut points, closed) in lines {
+        let Some([x, y]) = points.next() else { continue };
+        path.move_to(x as f32, y as f32);
+        let mut rest = false;
+        for [x, y] in points {
+            path.line_to(x as f32, y as f32);
+            rest = true;
+        }
+        if closed && rest {
+            path.close();
+        }
+    }
+    let stroke =
+        Stroke { width: pen as f32, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+    PathStroker::new().stroke(&path.finish()?, &stroke, 1.0)
 }
 
 #[cfg(test)]

@@ -5,6 +5,9 @@ use crate::math;
 /// Linear red, green, blue and opacity; straight or premultiplied as the owner says.
 pub type Rgba = [f64; 4];
 
+/// Linear red, green and blue.
+pub type Rgb = [f64; 3];
+
 /// Decodes one sRGB channel in [0, 1] to linear light: c/12.92 for c ≤ 0.04045, else ((c + 0.055)/1.055)^2.4.
 pub fn srgb_to_linear(c: f64) -> f64 {
     if c <= 0.04045 { c / 12.92 } else { math::pow((c + 0.055) / 1.055, 2.4) }

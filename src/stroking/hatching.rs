@@ -10,10 +10,12 @@ use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Page, Pen, Polyline};
 use drypoint_scene::math;
 use drypoint_scene::space::Grid;
-use drypoint_scene::strokes::{Stroke, StrokeVertex};
+use drypoint_scene::strokes::Stroke;
 use drypoint_scene::tables::{
-    DirectionRule, Family, GradientRange, Hatching as Table, LightDirection, Reference, Scene, SeedsBy, Spacing,
+    DirectionRule, Family, GradientRange, Hatching as Table, Hidden, LightDirection, LineLighting, Reference, Scene,
+    SeedsBy, Spacing,
 };
+use rayon::prelude::*;
 use std::time::Instant;
 
 /// τ above which strokes are crossed where the tone is in the spacing ([HATCH-19]).
@@ -36,6 +38,7 @@ pub(super) struct Hatching<'a> {
     spacing: Option<room::Apart>,
     how: room::Hatching,
     gradient_range: GradientRange,
+    lighting: Option<room::LineLight>,
 }
 
 /// The strokes of a surface.
@@ -68,12 +71,18 @@ impl<'a> Hatching<'a> {
             spacing,
             how: how(scene, table, grid)?,
             gradient_range: scene.volume.gradient_range,
+            lighting: table.lighting(scene).map(|lighting| line_light(&lighting)),
         })
     }
 
     /// The value of the surface that strokes lie on.
     pub(super) fn iso(&self) -> f64 {
         self.iso
+    }
+
+    /// Whether what is hidden of strokes is cut off.
+    pub(super) fn is_cut(&self) -> bool {
+        self.table.hidden == Hidden::Cut
     }
 
     /// Finds the seeds, and grows their strokes where no camera has a say in which.
@@ -143,32 +152,49 @@ impl Hatched<'_> {
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
     ) -> Vec<Polyline> {
-        let Hatching { table, pen, min_width, .. } = self.hatching;
-        let style = table.stroke;
-        let one_width = table.has_one_width();
-        let nib = |stroke: &Stroke, vertex: &StrokeVertex| {
-            let width = if one_width {
-                pen.width
-            } else {
-                let taper = taper(stroke, vertex.u, style.taper);
-                let width = pen.width * math::pow(tone(vertex.normal), style.tone) * taper;
-                if width < *min_width { 0.0 } else { width }
-            };
-            room::Pen { radius: width / 2.0, opacity: 1.0 }
-        };
+        let table = self.hatching.table;
         let may_be_seen = |stroke: &&Stroke| !self.turns_away(sight, stroke);
-        let first: Vec<Stroke> = grown.first.iter().filter(may_be_seen).cloned().collect();
-        let mut seen = sight.seen(&first, nib);
+        let mut strokes: Vec<&Stroke> = grown.first.iter().filter(may_be_seen).collect();
         if let Some(angle) = table.cross {
             let limit = math::cos(angle.to_radians());
             let across = grown.across.iter().filter(|(normal, _)| normal.dot(light) < limit).map(|(_, stroke)| stroke);
-            let across: Vec<Stroke> = across.filter(may_be_seen).cloned().collect();
-            let more = sight.seen(&across, nib);
-            seen.lines.extend(more.lines);
-            seen.looks += more.looks;
+            strokes.extend(across.filter(may_be_seen));
+        }
+        let least = if table.has_one_width() { 0.0 } else { 0.5 * self.hatching.min_width };
+        let pen = |stroke: &Stroke, place: &room::Place| self.pen(sight, stroke, place, light, tone);
+        let drawn: Vec<room::Drawn> =
+            strokes.par_iter().flat_map_iter(|stroke| room::drawn(stroke, least, |place| pen(stroke, place))).collect();
+        let mut seen = sight.seen_drawn(&drawn);
+        if self.hatching.lighting.is_some() && !self.hatching.is_cut() {
+            sight.far_to_near(&mut seen.lines);
         }
         *counts.preprocess.entry("looks for what hides".into()).or_default() += seen.looks;
         seen.lines
+    }
+
+    /// What a stroke is drawn with at a place.
+    fn pen(
+        &self,
+        sight: &room::Sight<'_>,
+        stroke: &Stroke,
+        room::Place { vertex, tangent }: &room::Place,
+        light: DVec3,
+        tone: &impl Fn(DVec3) -> f64,
+    ) -> room::Pen {
+        let Hatching { table, pen, lighting, .. } = self.hatching;
+        let width = if table.has_one_width() {
+            pen.width
+        } else {
+            let style = table.stroke;
+            pen.width * math::pow(tone(vertex.normal), style.tone) * taper(stroke, vertex.u, style.taper)
+        };
+        let lit = lighting.as_ref().map(|lighting| {
+            let view = sight.view;
+            let eye = if view.perspective { (view.eye - vertex.world).normalize_or_zero() } else { -view.forward };
+            lighting.color(light, eye, *tangent, vertex.normal)
+        });
+        let (color, opacity) = lit.map_or((None, 1.0), |[r, g, b, opacity]| (Some([r, g, b]), opacity));
+        room::Pen { radius: width / 2.0, opacity, color }
     }
 
     /// Whether all of a stroke turns away from the eye, so that its own surface hides it; unknown where another one hides
@@ -235,6 +261,20 @@ fn add(counts: &mut Counts, grown: &room::HatchCounts) {
         *counts.stops.entry(cause.into()).or_default() += number;
     }
     *counts.preprocess.entry("seeds without a stroke".into()).or_default() += grown.rejected.total();
+}
+
+/// The table's light on lines.
+fn line_light(table: &LineLighting) -> room::LineLight {
+    room::LineLight {
+        diffuse: table.diffuse,
+        p: table.p,
+        specular: table.specular,
+        s: table.s,
+        front: table.front,
+        back: table.back,
+        self_shadow: table.self_shadow,
+        table: table.table.map(|side| room::TermsTable::new(side, table.p, table.s)),
+    }
 }
 
 /// min(1, u/b, (1 − u)/b); 1 on a stroke without ends.

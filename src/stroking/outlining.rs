@@ -51,7 +51,7 @@ impl Outlining {
         *counts.seconds.entry("outlines".into()).or_default() += start.elapsed().as_secs_f64();
 
         let start = Instant::now();
-        let nib = Nib { radius: self.pen.width / 2.0, opacity: 1.0 };
+        let nib = Nib { radius: self.pen.width / 2.0, opacity: 1.0, color: None };
         let seen = frame.sight(OFFSET * voxel).seen(&found.strokes, |_, _| nib);
         let all = seen.lines.len();
         let lines: Vec<Polyline> = seen.lines.into_iter().filter(|line| line.length() >= self.min_length).collect();

@@ -85,7 +85,7 @@ fn what_leads_nowhere_is_refused() {
         ),
         (
             "--preset stlye",
-            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\", \"stipple-fig9\", \"hatch\", \"hatch-fig6-left\", \"hatch-fig6-right\", \"outline\", \"toon\" or \"hatch-fig2\"\n",
+            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\", \"stipple-fig9\", \"hatch\", \"hatch-fig4\", \"hatch-fig5\", \"hatch-fig6-left\", \"hatch-fig6-right\", \"outline\", \"toon\" or \"hatch-fig2\"\n",
         ),
     ] {
         assert_eq!(folder.refused(&format!("render scene.toml {line}")), expected, "{line}");

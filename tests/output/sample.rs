@@ -32,6 +32,7 @@ pub(crate) fn marks(opaque: bool) -> Marks {
                 radius,
                 opacity,
                 t: k as f64 / 5.0,
+                color: None,
             };
             layer.lines.push(Polyline { vertices: (0..6).map(vertex).collect(), closed });
         }

@@ -75,8 +75,10 @@ fn picture(scene: &Path) -> Result<(Picture, bool), String> {
     if is_map {
         scene.picture.background = Background::None;
     }
-    if scene.has_marks() && !scene.draws_volume() || scene.stipples.is_some() {
-        return stipples(scene).map_err(|e| e.to_string()).map(|picture| (picture, true));
+    if scene.has_marks() {
+        let colored = scene.draws_volume() && scene.stipples.is_none()
+            || scene.hatching.as_ref().is_some_and(|hatching| hatching.lighting.is_some());
+        return marks(scene, colored).map_err(|e| e.to_string()).map(|picture| (picture, !colored));
     }
     let job = Job::load(scene).map_err(|e| e.to_string())?;
     let (picture, _) = job.renderer().map_err(|e| e.to_string())?.frame(&|_| ());
@@ -84,8 +86,9 @@ fn picture(scene: &Path) -> Result<(Picture, bool), String> {
     Ok((picture, false))
 }
 
-fn stipples(scene: Scene) -> Result<Picture, Failures> {
-    let job = Job::load_for(scene, Wanted::Marks)?;
+/// Dots and lines, on their page, or where they have colours over the volume.
+fn marks(scene: Scene, colored: bool) -> Result<Picture, Failures> {
+    let job = Job::load_for(scene, if colored { Wanted::Picture } else { Wanted::Marks })?;
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ())?;
     let (frame, _) = Drawing::new(&job, &marking, &mut counts)?.frame(0, &|_| ())?;

@@ -8,6 +8,7 @@
 //! | `wx`, `wy`, `wz` | the point in the world | world |
 //! | `radius` | of the dot, half the line's width | as `x` |
 //! | `opacity` | in (0, 1] | |
+//! | `color` | lines only, where a vertex has one of its own: `#rrggbb` | |
 //! | `pen` | name of the pen, where there are several layers | |
 //!
 //! A closed line ends with its first vertex again. What was written is read back to the same numbers, bit for bit, if
@@ -64,8 +65,14 @@ mod tests {
             radius: 0.0133 * n,
             opacity: n / 60.0,
         };
-        let vertex =
-            |n: f64| Vertex { at: DVec2::new(n, n / 3.0), world: world(n), radius: 0.2, opacity: 1.0, t: n / 7.0 };
+        let vertex = |n: f64| Vertex {
+            at: DVec2::new(n, n / 3.0),
+            world: world(n),
+            radius: 0.2,
+            opacity: 1.0,
+            t: n / 7.0,
+            color: None,
+        };
         let layer = |pen: &Pen| Layer {
             pen: pen.clone(),
             dots: (0..50).map(|n| dot(f64::from(n) + pen.number as f64)).collect(),
@@ -116,6 +123,31 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Colours of vertices are a column of their own, empty where the pen's holds.
+    #[test]
+    fn colors_of_vertices() {
+        for pens in [vec![pen(1, "black")], vec![pen(1, "black"), pen(2, "red")]] {
+            let mut marks = marks(pages()[0], &pens);
+            for (i, vertex) in marks.layers[0].lines[0].vertices.iter_mut().enumerate().take(2) {
+                vertex.color = Some([0.3 * i as f64, 1.0, 0.0]);
+            }
+            marks.round();
+            for (form, name) in FORMS {
+                let text = encode_lines(&marks, form);
+                let (_folder, path) = named(name, &text);
+                let found = read_list(&path, &marks.page, &pens).unwrap();
+                assert!(found.iter().zip(&marks.layers).all(|(a, b)| a.lines == b.lines), "{name}");
+            }
+            let csv = String::from_utf8(encode_lines(&marks, Form::Csv)).unwrap();
+            assert!(csv.starts_with("stroke,t,x,y,wx,wy,wz,radius,opacity,color"), "{csv}");
+            // 0.3 is 1.055·0.3^(1/2.4) − 0.055 = 0.5838 in sRGB: 149 of 255.
+            assert!(csv.contains(",1,#00ff00") && csv.contains(",1,#95ff00"), "{csv}");
+        }
+        let (_folder, path) = file(b"stroke,t,x,y,wx,wy,wz,radius,opacity,color\n0,0,1,2,0,0,0,0.1,1,blue\n");
+        let error = read_list(&path, &pages()[0], &[pen(1, "black")]).unwrap_err();
+        assert!(error.to_string().contains("found \"blue\", expected a colour such as #c04006"), "{error}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::{COLUMNS, Form};
 use crate::{OutputError, atomic};
+use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Marks, Page, PageUnit};
 use std::fmt::Write;
@@ -40,6 +41,11 @@ pub fn encode_dots(marks: &Marks, form: Form) -> Vec<u8> {
 pub fn encode_lines(marks: &Marks, form: Form) -> Vec<u8> {
     let columns: Vec<&'static str> = ["stroke", "t"].into_iter().chain(COLUMNS).collect();
     let mut table = Table::new(marks, form, &columns);
+    let colored = marks.layers.iter().flat_map(|layer| &layer.lines).flat_map(|line| &line.vertices);
+    let colored = colored.into_iter().any(|vertex| vertex.color.is_some());
+    if let (true, Form::Csv) = (colored, form) {
+        table.add_color();
+    }
     let mut number = 0;
     for layer in &marks.layers {
         let end = table.end(layer);
@@ -49,6 +55,9 @@ pub fn encode_lines(marks: &Marks, form: Form) -> Vec<u8> {
                 table.number(f64::from(number));
                 table.number(vertex.t);
                 table.mark(vertex.at, vertex.world, [vertex.radius, vertex.opacity]);
+                if colored {
+                    table.color(vertex.color);
+                }
                 table.out.push_str(&end);
             }
             number += 1;
@@ -102,6 +111,26 @@ impl Table {
         world.to_array().into_iter().for_each(|w| self.number(w));
         self.length(radius);
         self.number(opacity);
+    }
+
+    /// Puts the column of colours into the header, before that of pens.
+    fn add_color(&mut self) {
+        let at = self.out.len() - if self.several { ",pen\n".len() } else { "\n".len() };
+        self.out.insert_str(at, ",color");
+    }
+
+    /// The last column but that of pens; empty, or in JSON absent, where the pen's colour holds.
+    fn color(&mut self, color: Option<Rgb>) {
+        let hex = color.map(|[r, g, b]| crate::vector::svg::hex([r, g, b, 1.0]));
+        match (self.form, hex) {
+            (Form::Csv, hex) => {
+                self.out.push(',');
+                self.out.push_str(&hex.unwrap_or_default());
+            }
+            // A String takes whatever is written to it.
+            (Form::JsonLines, Some(hex)) => drop(write!(self.out, ",\"color\":\"{hex}\"")),
+            (Form::JsonLines, None) => {}
+        }
     }
 
     fn number(&mut self, n: f64) {

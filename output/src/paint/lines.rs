@@ -5,43 +5,114 @@ use super::canvas::{Canvas, Ink};
 use crate::raster::Cover;
 use drypoint_scene::marks::{Piece, Polyline};
 
-/// Draws a layer's lines.
-pub(super) fn paint(lines: &[Polyline], window: &Window, [width, height]: [usize; 2], ink: &Ink, canvas: &mut Canvas) {
+/// Draws a layer's lines: first those of the pen's colour, then those with colours of their own, in their order.
+pub(super) fn paint(lines: &[Polyline], window: &Window, size: [usize; 2], ink: &Ink, canvas: &mut Canvas) {
     let pieces: Vec<Piece> = lines.iter().flat_map(Polyline::pieces).collect();
+    let (colored, pieces): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.color.is_some());
     let (mut whole, faint): (Vec<Piece>, Vec<Piece>) =
         pieces.into_iter().partition(|piece| piece.opacity * ink.opacity == 1.0);
     // One outline of each width; a stable sort keeps the order of the others.
     whole.sort_by(|a, b| a.radius.total_cmp(&b.radius));
+    let [width, height] = size;
     if let Some(mut cover) = Cover::new(width, height).filter(|_| !whole.is_empty()) {
         for same in whole.chunk_by(|a, b| a.radius == b.radius) {
             let lines = same.iter().map(|piece| (piece.points.iter().map(|&p| window.place(p)), piece.closed));
             cover.draw(lines, 2.0 * window.length(same[0].radius));
         }
-        put(&cover, ink, 1.0, canvas, |pixel| pixel);
+        for (pixel, &covered) in cover.bytes().iter().enumerate().filter(|(_, covered)| **covered > 0) {
+            canvas.put(pixel, ink, f64::from(covered) / 255.0);
+        }
     }
-    for piece in faint {
-        let radius = window.length(piece.radius);
-        let points: Vec<[f64; 2]> = piece.points.iter().map(|&p| window.place(p)).collect();
-        // The pixels that it can touch, and one more around.
-        let ends = |axis: usize, cells: usize| {
-            let lo = points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min) - radius - 1.0;
-            let hi = points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max) + radius + 1.0;
-            [(lo.floor() as usize).min(cells), (hi.ceil() as usize).min(cells)]
-        };
-        let ([left, right], [top, bottom]) = (ends(0, width), ends(1, height));
-        let Some(mut cover) = Cover::new(right - left, bottom - top) else { continue };
-        let moved = points.iter().map(|[x, y]| [x - left as f64, y - top as f64]);
-        cover.draw(std::iter::once((moved, piece.closed)), 2.0 * radius);
-        let columns = right - left;
-        put(&cover, ink, piece.opacity, canvas, |pixel| (top + pixel / columns) * width + left + pixel % columns);
+    for piece in &faint {
+        let Some(part) = Part::around(std::slice::from_ref(piece), window, size) else { continue };
+        if let Some(cover) = part.cover(std::slice::from_ref(piece), window) {
+            part.each(&cover, |_, pixel, covered| canvas.put(pixel, ink, covered * piece.opacity));
+        }
+    }
+    // What goes on where the piece before ended is one line, which covers once.
+    let goes_on = |a: &Piece, b: &Piece| a.points.last() == b.points.first() && a.opacity == b.opacity;
+    for line in colored.chunk_by(goes_on) {
+        let Some(part) = Part::around(line, window, size) else { continue };
+        paint_colored(line, &part, window, ink.opacity, canvas);
     }
 }
 
-/// Puts ink where `cover` is covered; `at` says which pixel of the picture one of its own is.
-fn put(cover: &Cover, ink: &Ink, opacity: f64, canvas: &mut Canvas, at: impl Fn(usize) -> usize) {
-    for (pixel, &covered) in cover.bytes().iter().enumerate() {
-        if covered > 0 {
-            canvas.put(at(pixel), ink, f64::from(covered) / 255.0 * opacity);
+/// Draws a line of pieces with colours: each pixel has the mean of those that cover it, by how much of it they do.
+fn paint_colored(line: &[Piece], part: &Part, window: &Window, opacity: f64, canvas: &mut Canvas) {
+    let Some(whole) = part.cover(line, window) else { return };
+    let mut sums = vec![[0.0; 4]; part.columns * part.rows];
+    for piece in line {
+        let piece = std::slice::from_ref(piece);
+        let Some(own) = Part::around(piece, window, part.picture) else { continue };
+        let Some(cover) = own.cover(piece, window) else { continue };
+        let color = piece[0].color.unwrap_or_default();
+        own.each(&cover, |_, pixel, covered| {
+            let sum = &mut sums[part.index(pixel)];
+            color.iter().enumerate().for_each(|(i, c)| sum[i] += covered * c);
+            sum[3] += covered;
+        });
+    }
+    part.each(&whole, |i, pixel, covered| {
+        let [r, g, b, all] = sums[i];
+        // A pixel of which each piece covers less than a step has no colour.
+        if all > 0.0 {
+            let ink = canvas.ink([r / all, g / all, b / all, opacity]);
+            canvas.put(pixel, &ink, covered * line[0].opacity);
         }
+    });
+}
+
+/// The pixels that pieces can touch, and one more around.
+struct Part {
+    left: usize,
+    top: usize,
+    columns: usize,
+    rows: usize,
+    picture: [usize; 2],
+}
+
+impl Part {
+    fn around(pieces: &[Piece], window: &Window, picture: [usize; 2]) -> Option<Self> {
+        let ends = |axis: usize| {
+            let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+            for piece in pieces {
+                let radius = window.length(piece.radius) + 1.0;
+                for at in piece.points.iter().map(|&p| window.place(p)[axis]) {
+                    range = [range[0].min(at - radius), range[1].max(at + radius)];
+                }
+            }
+            [range[0].floor(), range[1].ceil()].map(|end| (end as usize).min(picture[axis]))
+        };
+        let ([left, right], [top, bottom]) = (ends(0), ends(1));
+        let (columns, rows) = (right.saturating_sub(left), bottom.saturating_sub(top));
+        (columns > 0 && rows > 0).then_some(Self { left, top, columns, rows, picture })
+    }
+
+    /// What pieces cover of it, once where they overlap.
+    fn cover(&self, pieces: &[Piece], window: &Window) -> Option<Cover> {
+        let mut cover = Cover::new(self.columns, self.rows)?;
+        let corner = [self.left as f64, self.top as f64];
+        cover.draw_joined(pieces.iter().map(|piece| {
+            let points = piece.points.iter().map(|&p| {
+                let [x, y] = window.place(p);
+                [x - corner[0], y - corner[1]]
+            });
+            (points, piece.closed, 2.0 * window.length(piece.radius))
+        }));
+        Some(cover)
+    }
+
+    /// Each covered pixel: its number here, in the picture, and how much of it is covered.
+    fn each(&self, cover: &Cover, mut put: impl FnMut(usize, usize, f64)) {
+        for (i, &covered) in cover.bytes().iter().enumerate().filter(|(_, covered)| **covered > 0) {
+            let pixel = (self.top + i / self.columns) * self.picture[0] + self.left + i % self.columns;
+            put(i, pixel, f64::from(covered) / 255.0);
+        }
+    }
+
+    /// The number here of a pixel of the picture that lies in it.
+    fn index(&self, pixel: usize) -> usize {
+        let [x, y] = [pixel % self.picture[0], pixel / self.picture[0]];
+        (y - self.top) * self.columns + x - self.left
     }
 }

@@ -117,7 +117,8 @@ mod tests {
     }
 
     fn line(opacity: f64, y: f64) -> Polyline {
-        let vertex = |x: f64| Vertex { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.2, opacity, t: 0.0 };
+        let vertex =
+            |x: f64| Vertex { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.2, opacity, t: 0.0, color: None };
         Polyline { vertices: vec![vertex(0.8), vertex(3.2)], closed: false }
     }
 
@@ -130,6 +131,39 @@ mod tests {
     fn pixel(picture: &Picture, i: usize, j: usize) -> Rgba {
         let channels = &picture.layers[0].channels;
         [0, 1, 2, 3].map(|c| channels[c][j * picture.width + i])
+    }
+
+    /// A line of two colours covers what a line of one does, also where they meet and where it grows wider; each half has
+    /// its own colour, and one that comes later lies over it.
+    #[test]
+    fn lines_with_colours_of_their_own() {
+        let (red, blue) = (Some([1.0, 0.0, 0.0]), Some([0.0, 0.0, 1.0]));
+        let vertex = |x: f64, y: f64, color| Vertex {
+            at: DVec2::new(x, y),
+            world: DVec3::ZERO,
+            radius: 0.06,
+            opacity: 1.0,
+            t: 0.0,
+            color,
+        };
+        let line = |vertices: Vec<Vertex>| Polyline { vertices, closed: false };
+        let xs = [0.8, 1.9, 2.05, 3.2];
+        let with = |colors: [Option<[f64; 3]>; 4]| {
+            let vertices = xs.into_iter().zip(colors).map(|(x, color)| vertex(x, 0.93, color)).collect();
+            painted(&marks(BLACK, vec![], vec![line(vertices)]), None, BlendSpace::Linear)
+        };
+        let (one, two) = (with([red; 4]), with([red, red, blue, blue]));
+        assert_eq!(one.layers[0].channels[3], two.layers[0].channels[3]);
+        let ([r, _, b, a], [r2, _, b2, a2]) = (pixel(&two, 6, 4), pixel(&two, 14, 4));
+        assert!(r == a && b == 0.0 && b2 == a2 && r2 == 0.0 && a > 0.5, "{r} {b} {a} {r2} {b2} {a2}");
+        // The piece between has the mean of both codes, which is darker than the mean of their light.
+        let [r, _, b, a] = pixel(&two, 9, 4);
+        assert!(r > 0.0 && b > 0.0 && r + b < a, "{r} {b} {a}");
+        let over = vec![vertex(2.5, 0.2, blue), vertex(2.5, 1.8, blue)];
+        let crossed =
+            marks(BLACK, vec![], vec![line(vec![vertex(0.8, 0.93, red), vertex(3.2, 0.93, red)]), line(over)]);
+        let crossed = painted(&crossed, Some(WHITE), BlendSpace::Linear);
+        assert!(pixel(&crossed, 12, 4)[2] > pixel(&crossed, 12, 4)[0]);
     }
 
     #[test]

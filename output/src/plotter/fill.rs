@@ -36,6 +36,7 @@ pub(super) fn stroke(dot: &Dot, nib: f64) -> Option<Polyline> {
         radius: nib / 2.0,
         opacity: 1.0,
         t: i as f64 / last,
+        color: None,
     };
     Some(Polyline { vertices: places.into_iter().enumerate().map(vertex).collect(), closed: false })
 }

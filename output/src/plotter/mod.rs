@@ -13,7 +13,7 @@ pub use travel::{Speed, Travel};
 /// Marks that a plotter draws as they stand, and what that takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Every stroke has its nib's width and is opaque; dots and lines stand in the order in which they are drawn: a
+    /// Every stroke has its nib's width, its colour, and is opaque; dots and lines stand in the order in which they are drawn: a
     /// layer's dots, then its lines, each from its first vertex to its last.
     pub marks: Marks,
     /// For each layer, in their order.
@@ -30,7 +30,7 @@ const CLOSEST: f64 = 0.7;
 /// Turns marks into what their pens can draw.
 ///
 /// A dot up to the nib's size becomes one touch of the nib, a larger one a circle or a spiral out to its rim. Pens know no
-/// opacity and no other width: a translucent dot is drawn whole, a line once along its middle. Of two dots closer than
+/// opacity, no other width and no other colour: a translucent dot is drawn whole, a line once along its middle. Of two dots closer than
 /// 0.7 nib the first in the list stays. The order is never longer than the list's own; the pen starts at the page's upper
 /// left corner for each layer.
 pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
@@ -66,7 +66,7 @@ pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
 fn thin_line(line: &Polyline, nib: f64) -> Polyline {
     let mut line = line.clone();
     for vertex in &mut line.vertices {
-        (vertex.radius, vertex.opacity) = (nib / 2.0, 1.0);
+        (vertex.radius, vertex.opacity, vertex.color) = (nib / 2.0, 1.0, None);
     }
     line
 }
@@ -88,6 +88,7 @@ mod tests {
             radius: 0.4,
             opacity: 0.25,
             t: 0.0,
+            color: None,
         };
         Polyline { vertices: places.iter().map(vertex).collect(), closed: false }
     }

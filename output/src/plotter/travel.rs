@@ -67,8 +67,14 @@ mod tests {
 
     #[test]
     fn a_way_by_hand() {
-        let vertex =
-            |x: f64, y: f64| Vertex { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.1, opacity: 1.0, t: 0.0 };
+        let vertex = |x: f64, y: f64| Vertex {
+            at: DVec2::new(x, y),
+            world: DVec3::ZERO,
+            radius: 0.1,
+            opacity: 1.0,
+            t: 0.0,
+            color: None,
+        };
         let layer = Layer {
             pen: Pen { number: 1, name: String::new(), width: 0.2, color: [0.0; 4] },
             dots: vec![Dot { at: DVec2::new(3.0, 4.0), world: DVec3::ZERO, radius: 0.1, opacity: 1.0 }],

@@ -1,19 +1,23 @@
-//! A layer's marks as few paths: what has the same width and opacity stands together.
+//! A layer's marks as few paths: what has the same width and opacity stands together; lines with colours of their own keep
+//! their order.
 
 use super::apart::apart;
 use crate::grid::micrometres;
-use drypoint_scene::marks::{Layer, Polyline};
+use drypoint_scene::color::Rgb;
+use drypoint_scene::marks::{Layer, Piece, Polyline};
 use std::collections::BTreeMap;
 
 /// A place on the page.
 pub(super) type Place = [i64; 2];
 
-/// What is stroked with one width and one opacity, in whole micrometres.
+/// What is stroked with one width, one opacity and one colour, in whole micrometres.
 pub(super) struct Group {
     /// Across the stroke.
     pub(super) width: i64,
     /// In (0, 1], the pen's colour's included.
     pub(super) opacity: f64,
+    /// In place of the pen's; none: the pen's.
+    pub(super) color: Option<Rgb>,
     /// Dots, each inner list for one path.
     pub(super) dots: Vec<Vec<Place>>,
     /// Lines, each for a path of its own.
@@ -30,7 +34,7 @@ pub(super) struct Line {
 /// that an editor stays quick.
 const CHUNK: usize = 256;
 
-/// The groups of a layer, by width, then by opacity.
+/// The groups of a layer, by width, then by opacity; after them lines with colours, in their order.
 ///
 /// A path inks once what it strokes, so that dots of one path must not overlap unless they are opaque. Dots are put into
 /// rows, to and fro, so that the moves between them are short; `keep` keeps the order that they have.
@@ -42,10 +46,20 @@ pub(super) fn groups(layer: &Layer, keep: bool) -> Vec<Group> {
         let at = dot.at.to_array().map(micrometres);
         found.entry(key(dot.radius, dot.opacity)).or_default().0.push(at);
     }
-    for piece in layer.lines.iter().flat_map(Polyline::pieces) {
+    let (colored, plain): (Vec<Piece>, Vec<Piece>) =
+        layer.lines.iter().flat_map(Polyline::pieces).partition(|piece| piece.color.is_some());
+    let line = |piece: &Piece| {
         let points = piece.points.iter().map(|p| p.to_array().map(micrometres)).collect();
-        found.entry(key(piece.radius, piece.opacity)).or_default().1.push(Line { points, closed: piece.closed });
+        Line { points, closed: piece.closed }
+    };
+    for piece in plain {
+        found.entry(key(piece.radius, piece.opacity)).or_default().1.push(line(&piece));
     }
+    let like = |piece: &Piece| (key(piece.radius, piece.opacity), piece.color);
+    let colored = colored.chunk_by(|a, b| like(a) == like(b)).map(|same| {
+        let ((width, bits), color) = like(&same[0]);
+        Group { width, opacity: f64::from_bits(bits), color, dots: Vec::new(), lines: same.iter().map(line).collect() }
+    });
     found
         .into_iter()
         .map(|((width, bits), (mut dots, lines))| {
@@ -55,8 +69,9 @@ pub(super) fn groups(layer: &Layer, keep: bool) -> Vec<Group> {
             }
             let sets = if opacity < 1.0 { apart(&dots, width) } else { vec![dots] };
             let dots = sets.iter().flat_map(|set| set.chunks(CHUNK)).map(<[_]>::to_vec).collect();
-            Group { width, opacity, dots, lines }
+            Group { width, opacity, color: None, dots, lines }
         })
+        .chain(colored)
         .collect()
 }
 
@@ -78,7 +93,7 @@ fn rows(dots: &mut [Place]) {
 mod tests {
     use super::*;
     use drypoint_scene::glam::{DVec2, DVec3};
-    use drypoint_scene::marks::{Dot, Pen};
+    use drypoint_scene::marks::{Dot, Pen, Vertex};
 
     fn layer(dots: &[(f64, f64, f64, f64)]) -> Layer {
         let pen = Pen { number: 1, name: "black".into(), width: 0.3, color: [0.0, 0.0, 0.0, 0.5] };
@@ -106,6 +121,32 @@ mod tests {
                 (400, 0.5, vec![vec![[1000, 1000], [4000, 1000]]]),
             ]
         );
+    }
+
+    /// Black lines by width, then the coloured one, from its first vertex to its last.
+    #[test]
+    fn lines_with_colours_keep_their_order() {
+        let vertex = |x: f64, red: Option<f64>| Vertex {
+            at: DVec2::new(x, 0.0),
+            world: DVec3::ZERO,
+            radius: 0.1,
+            opacity: 1.0,
+            t: 0.0,
+            color: red.map(|red| [red, 0.0, 0.0]),
+        };
+        let line = |vertices: Vec<Vertex>| Polyline { vertices, closed: false };
+        let mut layer = layer(&[]);
+        layer.lines = vec![
+            line(vec![vertex(0.0, Some(0.5)), vertex(1.0, Some(0.5)), vertex(2.0, Some(0.0)), vertex(3.0, Some(0.0))]),
+            line(vec![vertex(5.0, None), vertex(6.0, None)]),
+        ];
+        let found = groups(&layer, false);
+        let starts: Vec<i64> = found.iter().map(|group| group.lines[0].points[0][0]).collect();
+        let reds: Vec<Option<f64>> = found.iter().map(|group| group.color.map(|color| color[0])).collect();
+        assert_eq!(starts, [5000, 0, 1000, 2000]);
+        // 0.5 is 0.7354 in sRGB, 22.8 of 31 steps, and 23 steps are 0.5101; half of it is 11.4, and 11 steps are 0.1034.
+        let near = |red: Option<f64>, wanted: f64| red.is_some_and(|red| (red - wanted).abs() < 1e-4);
+        assert!(reds[0].is_none() && near(reds[1], 0.5101) && near(reds[2], 0.1034) && near(reds[3], 0.0), "{reds:?}");
     }
 
     #[test]

@@ -164,6 +164,9 @@ impl Content {
     fn group(&mut self, group: &Group) {
         self.add("q ");
         self.state(group.opacity);
+        if let Some([r, g, b]) = group.color {
+            self.color([r, g, b, 1.0], "RG");
+        }
         push(&mut self.bytes, group.width);
         self.add(" w\n");
         for chunk in group.dots.iter().filter(|chunk| !chunk.is_empty()) {
@@ -246,8 +249,14 @@ mod tests {
     use drypoint_scene::picture::Provenance;
 
     fn marks() -> Marks {
-        let vertex =
-            |x: f64, y: f64| Vertex { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.15, opacity: 1.0, t: 0.0 };
+        let vertex = |x: f64, y: f64| Vertex {
+            at: DVec2::new(x, y),
+            world: DVec3::ZERO,
+            radius: 0.15,
+            opacity: 1.0,
+            t: 0.0,
+            color: None,
+        };
         let dot = |x: f64, opacity: f64| Dot { at: DVec2::new(x, 2.0), world: DVec3::ZERO, radius: 0.15, opacity };
         let black = Layer {
             pen: Pen { number: 1, name: "schwarz ß".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] },

@@ -156,11 +156,12 @@ fn draw(layer: &Layer, id: &str, plotter: bool, out: &mut Vec<u8>) {
     let pen = micrometres(layer.pen.width);
     for group in groups(layer, plotter) {
         // What the pen draws as it is needs no group.
-        let plain = group.width == pen && group.opacity == 1.0;
+        let plain = group.width == pen && group.opacity == 1.0 && group.color.is_none();
         if !plain {
             out.extend_from_slice(b"<g stroke-width=\"");
             decimals::push(out, group.width);
-            text(out, format_args!("\"{}>\n", opacity("stroke-opacity", group.opacity)));
+            let color = group.color.map(|[r, g, b]| format!(" stroke=\"{}\"", hex([r, g, b, 1.0]))).unwrap_or_default();
+            text(out, format_args!("\"{color}{}>\n", opacity("stroke-opacity", group.opacity)));
         }
         dots(&group, plotter, out);
         group.lines.iter().for_each(|line| path(line, out));
@@ -221,7 +222,8 @@ fn path(line: &Line, out: &mut Vec<u8>) {
     out.extend_from_slice(if line.closed { b"z\"/>\n" } else { b"\"/>\n" });
 }
 
-fn hex(color: [f64; 4]) -> String {
+/// `#rrggbb`.
+pub(crate) fn hex(color: [f64; 4]) -> String {
     let [r, g, b] = bytes(color);
     format!("#{r:02x}{g:02x}{b:02x}")
 }
@@ -266,8 +268,14 @@ mod tests {
     }
 
     fn marks() -> Marks {
-        let vertex =
-            |x: f64, y: f64| Vertex { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.15, opacity: 1.0, t: 0.0 };
+        let vertex = |x: f64, y: f64| Vertex {
+            at: DVec2::new(x, y),
+            world: DVec3::ZERO,
+            radius: 0.15,
+            opacity: 1.0,
+            t: 0.0,
+            color: None,
+        };
         let pen = |number, name: &str, width, color| Pen { number, name: name.into(), width, color };
         let black = Layer {
             pen: pen(1, "black", 0.3, [0.0, 0.0, 0.0, 1.0]),

@@ -83,7 +83,11 @@ impl Strokes<'_, '_> {
                 return even;
             }
             // What hides is asked for only where there is room for a line.
-            let ink = |_: &Stroke, vertex: &StrokeVertex| Pen { radius: 0.0, opacity: tone(vertex.normal).max(0.0) };
+            let ink = |_: &Stroke, vertex: &StrokeVertex| Pen {
+                radius: 0.0,
+                opacity: tone(vertex.normal).max(0.0),
+                color: None,
+            };
             let bare = Sight { surface: None, ..*sight };
             let has_room = |stroke: &Stroke| spread.has_room(&bare.seen(std::slice::from_ref(stroke), ink).lines);
             let grown: Vec<(Option<Stroke>, HatchCounts)> = group

@@ -4,9 +4,11 @@
 //! pixel; where the answer changes, the change is narrowed down to a tenth of one.
 
 use super::project::{Cut, Onto};
+use super::styled::Drawn;
 use crate::surface::IsoSurface;
+use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
-use drypoint_scene::marks::{Page, Polyline, Vertex};
+use drypoint_scene::marks::{Page, Polyline, Vertex, color_between};
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use drypoint_scene::view::View;
 use rayon::prelude::*;
@@ -40,6 +42,8 @@ pub struct Pen {
     pub radius: f64,
     /// In (0, 1].
     pub opacity: f64,
+    /// In place of the layer's.
+    pub color: Option<Rgb>,
 }
 
 /// Strokes as lines on the page.
@@ -64,10 +68,36 @@ impl Sight<'_> {
 
     /// What is seen of strokes, inside the frame, drawn with what `pen` says for each of their vertices.
     pub fn seen(&self, strokes: &[Stroke], pen: impl Fn(&Stroke, &StrokeVertex) -> Pen + Sync) -> Seen {
+        self.each(strokes, |stroke| {
+            let ends = stroke.vertices.iter().map(|vertex| End { vertex: *vertex, pen: pen(stroke, vertex) });
+            (ends.collect(), stroke.closed)
+        })
+    }
+
+    /// The same of strokes with their pens.
+    pub fn seen_drawn(&self, strokes: &[Drawn]) -> Seen {
+        self.each(strokes, |Drawn { stroke, pens }| {
+            let ends = stroke.vertices.iter().zip(pens).map(|(vertex, pen)| End { vertex: *vertex, pen: *pen });
+            (ends.collect(), stroke.closed)
+        })
+    }
+
+    /// Orders lines from the farthest to the nearest, by the depth of their middles: what is drawn later lies over what was
+    /// drawn before.
+    pub fn far_to_near(&self, lines: &mut [Polyline]) {
+        let depth = |line: &Polyline| {
+            let middle = line.vertices.get(line.vertices.len() / 2);
+            middle.map_or(0.0, |vertex| self.view.to_eye(vertex.world).z)
+        };
+        lines.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
+    }
+
+    fn each<S: Sync>(&self, strokes: &[S], ends: impl Fn(&S) -> (Vec<End>, bool) + Sync) -> Seen {
         let front = self.surface.map_or(1.0, |surface| surface.front(self.view));
         let each = strokes.par_iter().map(|stroke| {
             let mut walk = Walk { sight: self, onto: Onto::new(self.view, self.page, self.near), front, looks: 0 };
-            let lines = walk.lines(stroke, &|vertex| pen(stroke, vertex));
+            let (ends, closed) = ends(stroke);
+            let lines = walk.lines(ends, closed);
             (lines, walk.looks)
         });
         let each: Vec<(Vec<Polyline>, u64)> = each.collect();
@@ -92,9 +122,8 @@ struct End {
 }
 
 impl Walk<'_, '_> {
-    fn lines(&mut self, stroke: &Stroke, pen: &dyn Fn(&StrokeVertex) -> Pen) -> Vec<Polyline> {
-        let mut ends: Vec<End> = stroke.vertices.iter().map(|v| End { vertex: *v, pen: pen(v) }).collect();
-        if let (true, Some(first)) = (stroke.closed, ends.first().copied()) {
+    fn lines(&mut self, mut ends: Vec<End>, closed: bool) -> Vec<Polyline> {
+        if let (true, Some(first)) = (closed, ends.first().copied()) {
             ends.push(End { vertex: StrokeVertex { u: 1.0, ..first.vertex }, ..first });
         }
         let mut parts: Vec<Vec<Vertex>> = Vec::new();
@@ -123,7 +152,7 @@ impl Walk<'_, '_> {
             }
             joins = ends_seen;
         }
-        let meets = stroke.closed && begins_seen && joins;
+        let meets = closed && begins_seen && joins;
         if let (true, [whole]) = (meets, parts.as_mut_slice()) {
             whole.pop();
             return vec![Polyline { vertices: parts.pop().unwrap_or_default(), closed: true }];
@@ -190,6 +219,7 @@ fn between([a, b]: &[End; 2], cut: &Cut, s: f64) -> Vertex {
         radius: mix(a.pen.radius, b.pen.radius),
         opacity: mix(a.pen.opacity, b.pen.opacity),
         t: mix(a.vertex.u, b.vertex.u),
+        color: color_between(a.pen.color, b.pen.color, u),
     }
 }
 

@@ -6,7 +6,7 @@
 //! are d/0.7476 wide on the mean (Rényi 1958, the parking problem); so d is 0.7476 times the distance that is wanted.
 
 use drypoint_scene::glam::DVec2;
-use drypoint_scene::marks::{Polyline, Vertex};
+use drypoint_scene::marks::{Polyline, Vertex, color_between};
 
 /// Rényi's constant: how full a street is where cars park at random.
 const RENYI: f64 = 0.747_597_920_253_411_4;
@@ -248,6 +248,7 @@ fn between(a: &Vertex, b: &Vertex, s: f64) -> Vertex {
         radius: mix(a.radius, b.radius),
         opacity: mix(a.opacity, b.opacity),
         t: mix(a.t, b.t),
+        color: color_between(a.color, b.color, s),
     }
 }
 
@@ -268,7 +269,7 @@ mod tests {
         let vertex = |k: usize| {
             let t = k as f64 / 20.0;
             let at = from.lerp(to, t);
-            Vertex { at, world: DVec3::ZERO, radius: 0.0, opacity: tone(at), t }
+            Vertex { at, world: DVec3::ZERO, radius: 0.0, opacity: tone(at), t, color: None }
         };
         Polyline { vertices: (0..=20).map(vertex).collect(), closed: false }
     }

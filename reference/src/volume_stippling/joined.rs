@@ -118,6 +118,7 @@ fn line(vertices: &[(DVec2, DVec3)], closed: bool, radius: f64) -> Polyline {
         radius,
         opacity: 1.0,
         t: if whole > 0.0 { t / whole } else { 0.0 },
+        color: None,
     };
     Polyline { vertices: vertices.iter().zip(along).map(vertex).collect(), closed }
 }

@@ -1,6 +1,6 @@
 //! What lies inside the frame ([STIP-16]): dots whole or not at all, lines cut.
 
-use super::{Marks, Page, Polyline, Vertex};
+use super::{Marks, Page, Polyline, Vertex, color_between};
 use glam::DVec2;
 
 impl Marks {
@@ -87,6 +87,7 @@ fn between(a: &Vertex, b: &Vertex, s: f64) -> Vertex {
         radius: mix(a.radius, b.radius),
         opacity: mix(a.opacity, b.opacity),
         t: mix(a.t, b.t),
+        color: color_between(a.color, b.color, s),
     }
 }
 
@@ -111,6 +112,7 @@ mod tests {
             radius,
             opacity: 1.0,
             t: i as f64 / last,
+            color: None,
         };
         Polyline { vertices: places.iter().enumerate().map(vertex).collect(), closed }
     }

@@ -6,10 +6,10 @@
 //! in which of the two a list is written.
 //!
 //! **Steps.** [`Marks::settle`] puts a list onto steps and into the frame: places 0.001 mm, radii 0.005 mm (0.001 mm where the scene counts
-//! in pixels), opacities 1/16. No writer rounds any further.
+//! in pixels), opacities 1/16, colours of vertices 1/255 of sRGB. No writer rounds any further.
 //!
-//! **Order.** A layer has one pen, hence one colour, so that the order of what is drawn in it cannot be seen; layers are
-//! drawn in their order.
+//! **Order.** A layer has one pen, hence one colour, so that the order of what is drawn in it cannot be seen, but for lines
+//! whose vertices have colours: those are drawn in their order, after the others. Layers are drawn in their order.
 
 mod dot;
 mod frame;
@@ -21,7 +21,7 @@ mod round;
 pub use dot::Dot;
 pub use page::{INCH, Page, PageUnit};
 pub use pen::Pen;
-pub use polyline::{Piece, Polyline, Vertex};
+pub use polyline::{Piece, Polyline, Vertex, color_between};
 pub use round::on_step;
 
 /// All that is drawn on a page.

@@ -1,6 +1,7 @@
 //! Lines.
 
 use super::round::{OPACITY, nearest};
+use crate::color::{Rgb, linear_to_srgb, srgb_to_linear};
 use glam::{DVec2, DVec3};
 
 /// A line drawn with a round pen through its vertices.
@@ -25,9 +26,25 @@ pub struct Vertex {
     pub opacity: f64,
     /// Along the whole line from 0 to 1; a part that was cut out keeps its numbers.
     pub t: f64,
+    /// In place of the pen's; none: the pen's.
+    pub color: Option<Rgb>,
 }
 
-/// A part of a line with one width and one opacity: what every writer draws, with round ends.
+/// The codes of a channel that pieces have: steps of 1/31 of sRGB, so that a piece is off by 4 of 255 at the most.
+const TINTS: f64 = 31.0;
+
+/// What a colour is between two, so far along.
+pub fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
+    a.zip(b).map(|(a, b)| std::array::from_fn(|i| a[i] + (b[i] - a[i]) * s)).or(a).or(b)
+}
+
+/// The mean of two colours in what is seen of them, on a piece's steps.
+fn tint(a: Option<Rgb>, b: Option<Rgb>) -> Option<Rgb> {
+    let [a, b] = [a.or(b)?, b.or(a)?].map(|color| color.map(linear_to_srgb));
+    Some(std::array::from_fn(|i| srgb_to_linear(nearest((a[i] + b[i]) / 2.0, TINTS).clamp(0.0, 1.0))))
+}
+
+/// A part of a line with one width, one opacity and one colour: what every writer draws, with round ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// In order, at least two, in mm on the page.
@@ -36,6 +53,8 @@ pub struct Piece {
     pub radius: f64,
     /// In (0, 1].
     pub opacity: f64,
+    /// In place of the pen's; none: the pen's.
+    pub color: Option<Rgb>,
     /// Whether it goes on from the last point to the first.
     pub closed: bool,
 }
@@ -50,8 +69,9 @@ impl Polyline {
         }
     }
 
-    /// The line cut where its width or its opacity changes: a segment has the mean of its ends', on the steps of
-    /// [`Marks::round`](super::Marks::round), where a radius may lie halfway between two; equal neighbours join. A
+    /// The line cut where its width, its opacity or its colour changes: a segment has the mean of its ends', on the steps of
+    /// [`Marks::round`](super::Marks::round), where a radius may lie halfway between two, its colour on
+    /// steps of 1/31 of sRGB; equal neighbours join. A
     /// segment without opacity or width is left out.
     pub fn pieces(&self) -> Vec<Piece> {
         let n = self.vertices.len();
@@ -68,11 +88,12 @@ impl Polyline {
             let (a, b) = (&self.vertices[i], &self.vertices[(i + 1) % n]);
             let (radius, opacity) = ((a.radius + b.radius) / 2.0, nearest((a.opacity + b.opacity) / 2.0, OPACITY));
             let drawn = radius > 0.0 && opacity > 0.0;
+            let color = tint(a.color, b.color);
             match pieces.last_mut() {
-                Some(last) if drawn && joins && (last.radius, last.opacity) == (radius, opacity) => {
+                Some(last) if drawn && joins && (last.radius, last.opacity, last.color) == (radius, opacity, color) => {
                     last.points.push(b.at)
                 }
-                _ if drawn => pieces.push(Piece { points: vec![a.at, b.at], radius, opacity, closed: false }),
+                _ if drawn => pieces.push(Piece { points: vec![a.at, b.at], radius, opacity, color, closed: false }),
                 _ => {}
             }
             joins = drawn;
@@ -100,6 +121,7 @@ mod tests {
             radius,
             opacity,
             t: 0.0,
+            color: None,
         };
         Polyline { vertices: vertices.iter().map(vertex).collect(), closed }
     }
@@ -134,6 +156,27 @@ mod tests {
         assert_eq!(pieces.iter().map(xs).collect::<Vec<_>>(), [[0.0, 1.0], [1.0, 2.0], [2.0, 3.0], [4.0, 5.0]]);
         assert!((pieces[1].radius - 0.15).abs() < 1e-15);
         assert_eq!(pieces.iter().map(|p| p.opacity).collect::<Vec<_>>(), [1.0, 1.0, 0.5, 0.5]);
+    }
+
+    /// Means of 0.4, 1.8 and 2.1 steps of sRGB; a colour beside none is its own.
+    #[test]
+    fn a_change_of_colour_cuts() {
+        let mut line = line(false, &[0.0, 1.0, 2.0, 3.0, 4.0].map(|x| (x, 0.0, 0.1, 1.0)));
+        let grey = |step: f64| Some([srgb_to_linear(step / 31.0); 3]);
+        for (vertex, step) in line.vertices.iter_mut().zip([0.0, 0.8, 2.8, 1.4]) {
+            vertex.color = grey(step);
+        }
+        let steps = |p: &Piece| p.color.map(|c| (linear_to_srgb(c[1]) * 31.0).round());
+        assert_eq!(
+            line.pieces().iter().map(xs).collect::<Vec<_>>(),
+            [vec![0.0, 1.0], vec![1.0, 2.0, 3.0], vec![3.0, 4.0]]
+        );
+        assert_eq!(line.pieces().iter().map(steps).collect::<Vec<_>>(), [Some(0.0), Some(2.0), Some(1.0)]);
+        for vertex in &mut line.vertices {
+            vertex.color = None;
+        }
+        assert_eq!(line.pieces().iter().map(steps).collect::<Vec<_>>(), [None]);
+        assert_eq!(color_between(Some([0.0, 1.0, 0.5]), Some([1.0, 0.0, 0.5]), 0.25), Some([0.25, 0.75, 0.5]));
     }
 
     #[test]

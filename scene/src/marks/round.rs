@@ -1,6 +1,7 @@
 //! Marks on steps ([STIP-16]), so that every file has the same geometry.
 
 use super::{Marks, PageUnit};
+use crate::color::{Rgb, linear_to_srgb, srgb_to_linear};
 use glam::DVec2;
 
 /// Steps of a millimetre for places: 0.001 mm.
@@ -13,6 +14,11 @@ pub(super) const OPACITY: f64 = 16.0;
 /// that its decimals are read as.
 pub(super) fn nearest(x: f64, steps: f64) -> f64 {
     (x * steps).round_ties_even() / steps
+}
+
+/// A colour on the codes of sRGB's bytes.
+fn on_codes(color: Rgb) -> Rgb {
+    color.map(|c| srgb_to_linear(nearest(linear_to_srgb(c).clamp(0.0, 1.0), 255.0)))
 }
 
 /// A place on the page on its step of 0.001 mm.
@@ -29,8 +35,8 @@ impl Marks {
         self.round();
     }
 
-    /// Puts every mark onto its step: places 0.001 mm, radii 0.005 mm, opacities 1/16. Where the scene counts in pixels,
-    /// radii have 0.001 mm too: a dot there may be a few hundredths of a millimetre.
+    /// Puts every mark onto its step: places 0.001 mm, radii 0.005 mm, opacities 1/16, colours of vertices 1/255 of sRGB.
+    /// Where the scene counts in pixels, radii have 0.001 mm too: a dot there may be a few hundredths of a millimetre.
     ///
     /// A dot that is left without radius or opacity, or whose place is not a number, is no dot any more; a vertex whose
     /// place is not a number is left out, and so is a line of fewer than two. Rounding twice changes nothing.
@@ -51,6 +57,7 @@ impl Marks {
                     vertex.at = on_step(vertex.at);
                     vertex.radius = nearest(vertex.radius, radius_steps);
                     vertex.opacity = nearest(vertex.opacity.clamp(0.0, 1.0), OPACITY);
+                    vertex.color = vertex.color.map(on_codes);
                     vertex.at.is_finite() && vertex.radius.is_finite()
                 });
                 line.vertices.len() > 1
@@ -124,7 +131,8 @@ mod tests {
         let mut dots: Vec<Dot> = bad.iter().map(|&x| dot(x, 1.0, 1.0, 1.0)).collect();
         dots.extend([dot(1.0, 1.0, f64::NAN, 1.0), dot(1.0, 1.0, f64::INFINITY, 1.0), dot(1.0, 1.0, -1.0, 1.0)]);
         let mut list = marks(Page::in_millimetres(DVec2::splat(100.0), 0.0, 300.0), dots);
-        let vertex = |x| Vertex { at: DVec2::new(x, 0.0), world: DVec3::ZERO, radius: 0.1, opacity: 2.0, t: 0.0 };
+        let vertex =
+            |x| Vertex { at: DVec2::new(x, 0.0), world: DVec3::ZERO, radius: 0.1, opacity: 2.0, t: 0.0, color: None };
         let line = |xs: [f64; 3]| Polyline { vertices: xs.map(vertex).to_vec(), closed: false };
         list.layers[0].lines = vec![line([0.0, f64::NAN, 1.0]), line([0.0, f64::NAN, f64::INFINITY])];
         list.round();

@@ -55,6 +55,8 @@ pub enum Pass {
     CrossStrokes,
     /// Which of them are drawn, so that they are apart on the page ([HATCH-19]).
     Spacing,
+    /// The colours of strokes in the light ([HATCH-12]).
+    LitStrokes,
     /// Which parts of strokes an iso-surface hides ([HATCH-14]).
     HiddenStrokes,
 }
@@ -89,6 +91,7 @@ impl Pass {
             Self::Strokes => "strokes",
             Self::CrossStrokes => "crossing strokes",
             Self::Spacing => "spacing of strokes",
+            Self::LitStrokes => "lit strokes",
             Self::HiddenStrokes => "hidden strokes",
         }
     }
@@ -121,6 +124,7 @@ impl Pass {
             Self::Strokes => "some ten to a hundred directions a stroke, smoothed grids where they are asked for",
             Self::CrossStrokes => "as many for each second stroke",
             Self::Spacing => "one look every half pen's width of a stroke",
+            Self::LitStrokes => "two powers a vertex of a stroke, and vertices between them where colours change",
             Self::HiddenStrokes => "one look at each voxel, once; a line towards the eye every half pixel of a stroke",
         }
     }
@@ -140,7 +144,7 @@ impl Pass {
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
             Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes => 0,
             // Of the cells of a surface alone.
-            Self::SeedMeasures | Self::CrossStrokes | Self::Spacing => 0,
+            Self::SeedMeasures | Self::CrossStrokes | Self::Spacing | Self::LitStrokes => 0,
             Self::Pyramid => 1,
             // Three scales of smoothed numbers and as many to compare with, where strokes are.
             Self::Strokes => 48,

@@ -28,7 +28,10 @@ pub mod volume;
 
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
-pub use hatching::{DirectionRule, Directions, Family, Hatching, Measure, Reference, SeedsBy, Spacing, StrokeStyle};
+pub use hatching::{
+    DirectionRule, Directions, Family, Hatching, Hidden, LineLighting, Measure, Reference, SeedsBy, Spacing,
+    StrokeStyle,
+};
 pub use length::Length;
 pub use nodes::{Row, RowAt, Stand};
 pub use orbit::Orbit;

@@ -214,7 +214,8 @@ pub(crate) static TABLE: Table<Sampling> = Table {
         let sampling = &scene.sampling;
         if !plan.has_pass(Pass::Rays) {
             // The step is still the default of camera.near.
-            let hides = plan.has_pass(Pass::HiddenPoints) || plan.has_pass(Pass::HiddenStrokes);
+            let asks = [Pass::HiddenPoints, Pass::HiddenStrokes, Pass::Strokes];
+            let hides = asks.into_iter().any(|pass| plan.has_pass(pass));
             let acts = |name: &str| name == "step" || (hides && matches!(name, "kernel" | "gradient"));
             for key in TABLE.keys.iter().filter(|key| !acts(key.name)) {
                 idle.key(&format!("sampling.{}", key.name), "the volume itself is not drawn");

@@ -197,7 +197,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
             Some(_) if lit => {}
             _ if shading::lit_surface(scene) => {}
             _ if scene.stipples.as_ref().and_then(|s| s.lighting).is_some_and(|lighting| lighting.light.is_none()) => {}
-            _ if scene.hatching.as_ref().is_some_and(|h| h.is_lit() && h.stroke.light.is_none()) => {}
+            _ if scene.hatching.as_ref().is_some_and(|h| h.is_lit(scene) && h.stroke.light.is_none()) => {}
             _ => idle.key("light", "nothing is lit: a light acts on [shading] of a regular function"),
         }
         if !plan.has_pass(Pass::Rays) {
@@ -277,6 +277,16 @@ pub(crate) static ROOT: Table<Scene> = Table {
                                 "Hatching for a pen of one width, crossed in the dark, with outlines.",
                             ),
                             ChoiceOption::new(
+                                "hatch-fig4",
+                                Preset::Hatch(HatchPreset::Fig4),
+                                "Lit strokes over a lit iso-surface, as in Fig. 4 of Nagy et al.",
+                            ),
+                            ChoiceOption::new(
+                                "hatch-fig5",
+                                Preset::Hatch(HatchPreset::Fig5),
+                                "Lit strokes alone, blue in front and yellow behind, Fig. 5.",
+                            ),
+                            ChoiceOption::new(
                                 "hatch-fig6-left",
                                 Preset::Hatch(HatchPreset::Fig6Left),
                                 "Strokes where the surface bends, crossed in the dark, as in Nagy et al., Fig. 6, left.",
@@ -298,7 +308,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
                                 "The same in two tones, with the half-level lighting of Nagy et al., Fig. 2.",
                             ),
                         ],
-                        later: &[("halo", "HALO-1"), ("hatch-fig4", "HATCH-17"), ("hatch-fig5", "HATCH-17")],
+                        later: &[("halo", "HALO-1")],
                     },
                     get: |_| None,
                     // It is read before the tables, of which each that the file has takes the place of the preset's.
@@ -308,6 +318,9 @@ pub(crate) static ROOT: Table<Scene> = Table {
                         Preset::Hatch(preset) => {
                             scene.hatching = Some(preset.table());
                             scene.outlines = preset.outlines();
+                            if let Some((surface, shading)) = preset.surface() {
+                                (scene.surface, scene.shading) = (Some(surface), Some(shading));
+                            }
                         }
                         Preset::Outline => scene.outlines = Some(Outlines::default()),
                         Preset::Toon(preset) => {

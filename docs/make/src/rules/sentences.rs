@@ -194,7 +194,7 @@ pub(super) const FAMILIES: [Family; 17] = [
             (9, "Every stage is projected onto the tangent plane, every segment lies in front of the surface."),
             (10, "A stroke has as few vertices as its chords allow, normals, and a cone to cull it by."),
             (11, "A second, shorter stroke crosses the first where the light falls flatly."),
-            (12, "Lines are lit as infinitely thin cylinders; not built yet."),
+            (12, "Lines are lit as infinitely thin cylinders, in two colours."),
             (13, "Width follows tone, taper and a smallest width."),
             (14, "Strokes can stand on, in or without a rendered surface."),
             (15, "Toon shading, silhouettes and view-dependent opacity."),

@@ -8,7 +8,7 @@ use std::fs::File;
 pub(super) struct CsvRows {
     table: Reader<File>,
     /// Where each of [`Column::ALL`] stands.
-    at: [Option<usize>; 10],
+    at: [Option<usize>; Column::ALL.len()],
     row: ByteRecord,
     line: u64,
 }

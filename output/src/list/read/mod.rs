@@ -6,7 +6,7 @@ mod json_rows;
 use super::Form;
 use crate::OutputError;
 use csv_rows::CsvRows;
-use drypoint_scene::color::srgb_to_linear;
+use drypoint_scene::color::{Rgb, srgb_to_linear};
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Layer, Marks, Page, PageUnit, Pen, Polyline, Vertex};
 use json_rows::JsonRows;
@@ -25,12 +25,24 @@ enum Column {
     Opacity,
     Stroke,
     T,
+    Color,
     Pen,
 }
 
 impl Column {
-    const ALL: [Self; 10] =
-        [Self::X, Self::Y, Self::Wx, Self::Wy, Self::Wz, Self::Radius, Self::Opacity, Self::Stroke, Self::T, Self::Pen];
+    const ALL: [Self; 11] = [
+        Self::X,
+        Self::Y,
+        Self::Wx,
+        Self::Wy,
+        Self::Wz,
+        Self::Radius,
+        Self::Opacity,
+        Self::Stroke,
+        Self::T,
+        Self::Color,
+        Self::Pen,
+    ];
 
     fn name(self) -> &'static str {
         match self {
@@ -43,6 +55,7 @@ impl Column {
             Self::Opacity => "opacity",
             Self::Stroke => "stroke",
             Self::T => "t",
+            Self::Color => "color",
             Self::Pen => "pen",
         }
     }
@@ -113,6 +126,7 @@ impl<R: Rows> List<'_, R> {
                 layer.dots.push(Dot { at, world, radius, opacity });
                 continue;
             }
+            let color = self.color()?;
             let number = self.number(Column::Stroke, |n| n.fract() == 0.0, "a whole number")?;
             let t = self.number(Column::T, |t| (0.0..=1.0).contains(&t), "a number from 0 to 1")?;
             if last != Some(number) {
@@ -120,7 +134,7 @@ impl<R: Rows> List<'_, R> {
                 last = Some(number);
             }
             if let Some(line) = layer.lines.last_mut() {
-                line.vertices.push(Vertex { at, world, radius, opacity, t });
+                line.vertices.push(Vertex { at, world, radius, opacity, t, color });
             }
         }
         let mut marks = Marks { page: *page, layers };
@@ -143,6 +157,13 @@ impl<R: Rows> List<'_, R> {
     fn number(&self, column: Column, may: impl Fn(f64) -> bool, expected: &str) -> Result<f64, OutputError> {
         let number = self.rows.number(column);
         number.filter(|&n| n.is_finite() && may(n)).ok_or_else(|| self.wrong(column, expected))
+    }
+
+    /// The colour that a vertex has of its own.
+    fn color(&self) -> Result<Option<Rgb>, OutputError> {
+        let said = self.rows.has(Column::Color).then(|| self.rows.text(Column::Color)).flatten().map(str::trim);
+        let Some(said) = said.filter(|said| !said.is_empty()) else { return Ok(None) };
+        hex(said).map(Some).ok_or_else(|| self.wrong(Column::Color, "a colour such as #c04006"))
     }
 
     /// The layer of the row's pen.
@@ -169,10 +190,15 @@ impl<R: Rows> List<'_, R> {
 
 /// A pen that is known by its name alone.
 fn found_pen(number: usize, name: &str) -> Pen {
-    let digits = name.strip_prefix('#').filter(|digits| digits.len() == 6);
-    let bytes = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok()).unwrap_or(0).to_be_bytes();
-    let [r, g, b] = [bytes[1], bytes[2], bytes[3]].map(|byte| srgb_to_linear(f64::from(byte) / 255.0));
+    let [r, g, b] = hex(name).unwrap_or_default();
     Pen { number, name: name.into(), width: FOUND_WIDTH, color: [r, g, b, 1.0] }
+}
+
+/// The linear colour that `#rrggbb` says.
+fn hex(name: &str) -> Option<Rgb> {
+    let digits = name.strip_prefix('#').filter(|digits| digits.len() == 6)?;
+    let bytes = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
+    Some([bytes[1], bytes[2], bytes[3]].map(|byte| srgb_to_linear(f64::from(byte) / 255.0)))
 }
 
 /// The nib of such a pen, in mm.

@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn lines_are_turned_where_that_is_shorter() {
-        let vertex = |at| Vertex { at, world: DVec3::ZERO, radius: 0.1, opacity: 1.0, t: 0.0 };
+        let vertex = |at| Vertex { at, world: DVec3::ZERO, radius: 0.1, opacity: 1.0, t: 0.0, color: None };
         // Level strokes of 10 mm, one below the other, all drawn from the left: to and fro, half of them turn.
         let order = (0..100).map(|i| i * 37 % 100);
         let stroke = |i: u32| {
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn random_lines_get_a_shorter_way_and_none_is_lost() {
         let mut draws = Draws(4);
-        let vertex = |at| Vertex { at, world: DVec3::ZERO, radius: 0.1, opacity: 1.0, t: 0.0 };
+        let vertex = |at| Vertex { at, world: DVec3::ZERO, radius: 0.1, opacity: 1.0, t: 0.0, color: None };
         let mut list: Vec<Polyline> = (0..1500)
             .map(|i| {
                 let at = draws.place(100.0);

@@ -6,7 +6,7 @@ use drypoint_scene::tables::{Camera, Projection};
 use drypoint_scene::volume::{Volume, Voxels};
 use std::f64::consts::{PI, TAU};
 
-const INK: Pen = Pen { radius: 0.1, opacity: 1.0 };
+const INK: Pen = Pen { radius: 0.1, opacity: 1.0, color: None };
 
 fn length(lines: &[Polyline]) -> f64 {
     let of = |line: &Polyline| {
@@ -93,6 +93,7 @@ fn what_nothing_hides() {
     let seen = sight.seen(&[stroke.clone(), Stroke { closed: false, ..stroke.clone() }], |_, vertex| Pen {
         radius: 0.1 + vertex.u,
         opacity: 0.5,
+        color: None,
     });
     assert_eq!((seen.lines.len(), seen.looks), (2, 0));
     assert!(seen.lines[0].closed && !seen.lines[1].closed);

@@ -15,6 +15,7 @@ const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.t
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
 const HATCHING: (&str, &str) = ("hatching", "{}");
+const LIT: (&str, &str) = ("hatching", "{ lighting = {} }");
 const OUTLINES: (&str, &str) = ("outlines", "{}");
 const SURFACE: (&str, &str) = ("surface.look", "phong");
 const TOON: (&str, &str) = ("shading.model", "toon");
@@ -194,6 +195,7 @@ const SAMPLES: &[Sample] = &[
     ("hatching.offset", &[HATCHING], "0.3 voxels"),
     ("hatching.chord", &[HATCHING], "0.2 voxels"),
     ("hatching.spacing", &[HATCHING], "tone"),
+    ("hatching.hidden", &[HATCHING], "drawn"),
     ("hatching.stroke", &[HATCHING], "{ tone = 2 }"),
     ("hatching.stroke.tone", &[HATCHING], "2"),
     ("hatching.stroke.taper", &[HATCHING], "0.3"),
@@ -208,6 +210,15 @@ const SAMPLES: &[Sample] = &[
     ("hatching.directions.gap", &[HATCHING], "0.2"),
     ("hatching.directions.noise", &[HATCHING], "3"),
     ("hatching.directions.agree", &[HATCHING], "30"),
+    ("hatching.lighting", &[HATCHING], "{ p = 3 }"),
+    ("hatching.lighting.diffuse", &[LIT], "0.5"),
+    ("hatching.lighting.p", &[LIT], "3"),
+    ("hatching.lighting.specular", &[LIT], "0.5"),
+    ("hatching.lighting.s", &[LIT], "5"),
+    ("hatching.lighting.front", &[LIT], "red"),
+    ("hatching.lighting.back", &[LIT], "red"),
+    ("hatching.lighting.self_shadow", &[LIT], "true"),
+    ("hatching.lighting.table", &[LIT], "64"),
     ("outlines", &[], "{}"),
     ("outlines.iso", &[OUTLINES], "12.5"),
     ("outlines.width", &[OUTLINES], "2 px"),

@@ -38,13 +38,13 @@ fn a_part_that_is_not_built_says_so() {
         assert_eq!(text.lines().count(), 3, "{text}");
     }
     let text = parse(
-        "drypoint = 1\npreset = \"hatch-fig4\"\n[volume]\nfile = \"a\"\n[[halo]]\n",
+        "drypoint = 1\npreset = \"halo\"\n[volume]\nfile = \"a\"\n[[halo]]\n",
         Path::new("s"),
         &Overrides::default(),
     )
     .unwrap_err()
     .to_string();
-    assert!(text.contains("preset = \"hatch-fig4\" is not built yet ([HATCH-17])\n  at s:2:10"), "{text}");
+    assert!(text.contains("preset = \"halo\" is not built yet ([HALO-1])\n  at s:2:10"), "{text}");
     assert!(text.contains("[[halo]] is not built yet ([HALO-1])\n  at s:5:3"), "{text}");
 }
 

@@ -1,12 +1,14 @@
 //! `[hatching]`: strokes along the lines of curvature of an iso-surface ([HATCH-1] … [HATCH-21]).
 
 mod directions;
+mod lighting;
 mod presets;
 mod rules;
 mod stroke;
 mod table;
 
 pub use directions::{DirectionRule, Directions, Reference};
+pub use lighting::LineLighting;
 pub(crate) use presets::HatchPreset;
 pub use stroke::StrokeStyle;
 pub(crate) use table::TABLE;
@@ -56,10 +58,14 @@ pub struct Hatching {
     pub chord: Length,
     /// How far strokes are apart on the page ([HATCH-19]).
     pub spacing: Spacing,
+    /// What becomes of what a surface hides ([HATCH-14]).
+    pub hidden: Hidden,
     /// How a stroke is drawn ([HATCH-13]).
     pub stroke: StrokeStyle,
     /// Where directions come from ([HATCH-3], [HATCH-4]).
     pub directions: Directions,
+    /// Light on the strokes ([HATCH-12]); none: they have one colour.
+    pub lighting: Option<LineLighting>,
 }
 
 /// `seeds` ([HATCH-6]).
@@ -89,6 +95,15 @@ pub enum Family {
     Max,
     /// That of κ₂.
     Min,
+}
+
+/// `hidden` ([HATCH-14]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hidden {
+    /// It is cut off.
+    Cut,
+    /// It is drawn: strokes alone, seen from both sides, the nearer ones over the others.
+    Drawn,
 }
 
 /// `spacing` ([HATCH-19]).
@@ -124,8 +139,10 @@ impl Default for Hatching {
             offset: Length::Voxels(0.15),
             chord: Length::Voxels(0.1),
             spacing: Spacing::Random,
+            hidden: Hidden::Cut,
             stroke: StrokeStyle::default(),
             directions: Directions::default(),
+            lighting: None,
         }
     }
 }

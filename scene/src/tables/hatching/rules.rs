@@ -1,6 +1,6 @@
 //! What `[hatching]` needs of the rest of a scene, and what it makes of other tables.
 
-use super::{DirectionRule, Hatching, SeedsBy, Spacing};
+use super::{DirectionRule, Hatching, Hidden, LineLighting, SeedsBy, Spacing};
 use crate::plan::{Asks, Idle, Pass};
 use crate::tables::{GradientRange, Iso, Scene};
 
@@ -10,10 +10,23 @@ impl Hatching {
         self.pen.is_some() || self.spacing != Spacing::Random
     }
 
-    /// Whether the light shows in the strokes.
-    pub fn is_lit(&self) -> bool {
-        self.spacing == Spacing::Tone || self.cross.is_some() || (!self.has_one_width() && self.stroke.tone > 0.0)
+    /// How strokes are lit: a pen has one colour, and so have strokes whose tone is in their spacing.
+    pub fn lighting(&self, scene: &Scene) -> Option<LineLighting> {
+        self.lighting.filter(|_| !self.has_one_width() && !has_plotter(scene))
     }
+
+    /// Whether the light shows in the strokes of a scene.
+    pub fn is_lit(&self, scene: &Scene) -> bool {
+        self.lighting(scene).is_some()
+            || self.spacing == Spacing::Tone
+            || self.cross.is_some()
+            || (!self.has_one_width() && self.stroke.tone > 0.0)
+    }
+}
+
+/// Whether a plotter draws the page, with one nib and one colour a layer ([HATCH-21]).
+fn has_plotter(scene: &Scene) -> bool {
+    scene.page.as_ref().is_some_and(|page| page.plotter)
 }
 
 /// What is made once, and what a frame does.
@@ -33,7 +46,12 @@ pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
     if hatching.cross.is_some() {
         asks.pass(Pass::CrossStrokes, "cross-hatching", "hatching.cross");
     }
-    asks.pass(Pass::HiddenStrokes, "hidden strokes", if scene.surface.is_some() { "surface" } else { "hatching" });
+    if hatching.lighting(scene).is_some() {
+        asks.pass(Pass::LitStrokes, "lit lines", "hatching.lighting");
+    }
+    if hatching.hidden == Hidden::Cut {
+        asks.pass(Pass::HiddenStrokes, "hidden strokes", if scene.surface.is_some() { "surface" } else { "hatching" });
+    }
     if hatching.spacing != Spacing::Random {
         asks.pass(Pass::Spacing, "strokes apart", "hatching.spacing");
     }
@@ -51,7 +69,17 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
             idle.key(&format!("hatching.stroke.{key}"), "strokes have one width");
         }
     }
-    if !hatching.is_lit() {
+    if hatching.lighting.is_some() {
+        match hatching.lighting(scene) {
+            Some(_) => idle.key("hatching.color", "hatching.lighting says the colours"),
+            None if hatching.pen.is_some() => idle.key("hatching.lighting", "hatching.pen says the colour"),
+            None if hatching.has_one_width() => {
+                idle.key("hatching.lighting", "strokes that keep their distance have one colour");
+            }
+            None => idle.key("hatching.lighting", "a plotter's pen has one colour"),
+        }
+    }
+    if !hatching.is_lit(scene) {
         for key in ["ambient", "light"] {
             idle.key(&format!("hatching.stroke.{key}"), "nothing of the strokes shows the light");
         }

@@ -1,9 +1,10 @@
 //! The description of `[hatching]`.
 
 use super::directions::DIRECTIONS;
+use super::lighting::LIGHTING;
 use super::rules;
 use super::stroke::STROKE;
-use super::{Family, Hatching, Measure, SeedsBy, Spacing};
+use super::{Family, Hatching, Hidden, Measure, SeedsBy, Spacing};
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
 use crate::file::item::Item;
@@ -67,7 +68,6 @@ impl Kind for SpacingKind {
 /// The description of `[hatching]`.
 pub(crate) static TABLE: Table<Hatching> = Table {
     later: &[
-        Later { name: "lighting", tag: "HATCH-12" },
         Later { name: "style", tag: "HATCH-13" },
         Later { name: "gap", tag: "HATCH-20" },
         Later { name: "gap_depth", tag: "HATCH-20" },
@@ -249,6 +249,26 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 &Slot { kind: SpacingKind, get: |h: &Hatching| Some(h.spacing), set: |h, v| h.spacing = v },
             ),
             Key::new(
+                "hidden",
+                "HATCH-14",
+                "What becomes of what a surface hides of strokes.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("cut", Hidden::Cut, "It is cut off."),
+                            ChoiceOption::new(
+                                "drawn",
+                                Hidden::Drawn,
+                                "It is drawn, too: the nearer strokes over the others, as in Fig. 5.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |h: &Hatching| Some(h.hidden),
+                    set: |h, v| h.hidden = v,
+                },
+            ),
+            Key::new(
                 "stroke",
                 "HATCH-13",
                 "How a stroke is drawn.",
@@ -264,6 +284,13 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                     set: |h, v| h.directions = v,
                 },
             ),
+            Key::new(
+                "lighting",
+                "HATCH-12",
+                "Light on the strokes, in two colours.",
+                &Slot { kind: TableOf(&LIGHTING), get: |h: &Hatching| h.lighting, set: |h, v| h.lighting = Some(v) },
+            )
+            .absent("`color` everywhere"),
         ],
     )
 };

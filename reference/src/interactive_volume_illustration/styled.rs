@@ -1,0 +1,223 @@
+//! Strokes as a pen draws them: with vertices where its width or colour changes, and without what is too thin ([HATCH-12],
+//! [HATCH-13]).
+
+use super::sight::Pen;
+use drypoint_scene::color::linear_to_srgb;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::marks::color_between;
+use drypoint_scene::strokes::{Stroke, StrokeVertex};
+
+/// The most that half the width may change by between two vertices, in mm.
+const RADIUS: f64 = 0.01;
+
+/// The most that a channel of the colour may, in sRGB.
+const CHANNEL: f64 = 0.06;
+
+/// How often a segment is halved at the most.
+const HALVINGS: u32 = 5;
+
+/// A place on a stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Where it is.
+    pub vertex: StrokeVertex,
+    /// T, of length 1; 0 where the stroke turns back on itself.
+    pub tangent: DVec3,
+}
+
+/// A stroke, or a part of one, with what each of its vertices is drawn with.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawn {
+    /// The part.
+    pub stroke: Stroke,
+    /// As many as vertices.
+    pub pens: Vec<Pen>,
+}
+
+/// The parts of a stroke that are at least `least` mm wide to either side, drawn with what `pen` says for places on it. Between
+/// two vertices the pen is linear in the arc length; vertices are added where it changes much, and a part ends where it becomes
+/// too thin.
+pub fn drawn(stroke: &Stroke, least: f64, pen: impl Fn(&Place) -> Pen) -> Vec<Drawn> {
+    let mut along = places(stroke).into_iter().map(|place| (place, pen(&place)));
+    let mut all: Vec<(Place, Pen)> = along.next().into_iter().collect();
+    for next in along {
+        if let Some(last) = all.last().copied() {
+            halve([last, next], HALVINGS, &pen, &mut all);
+        }
+        all.push(next);
+    }
+    thick(&all, least, stroke)
+}
+
+/// The vertices with their tangents; of a closed stroke the first comes again at u = 1.
+fn places(stroke: &Stroke) -> Vec<Place> {
+    let vertices = &stroke.vertices;
+    let n = vertices.len();
+    let number = if stroke.closed { n + 1 } else { n };
+    let at = |i: usize| {
+        let vertex = vertices[i % n];
+        StrokeVertex { u: if i == n { 1.0 } else { vertex.u }, ..vertex }
+    };
+    let tangent = |i: usize| {
+        let (before, after) = match stroke.closed {
+            true => ((i + n - 1) % n, (i + 1) % n),
+            false => (i.saturating_sub(1), (i + 1).min(n - 1)),
+        };
+        (vertices[after].world - vertices[before].world).normalize_or_zero()
+    };
+    (0..number).map(|i| Place { vertex: at(i), tangent: tangent(i) }).collect()
+}
+
+/// Adds what lies between two places, where the pen changes much.
+fn halve([a, b]: [(Place, Pen); 2], left: u32, pen: &impl Fn(&Place) -> Pen, all: &mut Vec<(Place, Pen)>) {
+    if left == 0 {
+        return;
+    }
+    let middle = between(&a.0, &b.0, 0.5);
+    let own = pen(&middle);
+    let smooth = |a: &Pen, b: &Pen| {
+        let channels = |pen: &Pen| pen.color.unwrap_or_default().map(|c| linear_to_srgb(c.max(0.0)));
+        let (from, to) = (channels(a), channels(b));
+        (a.radius - b.radius).abs() <= RADIUS && (0..3).all(|i| (from[i] - to[i]).abs() <= CHANNEL)
+    };
+    if smooth(&a.1, &own) && smooth(&own, &b.1) && smooth(&a.1, &b.1) {
+        return;
+    }
+    let middle = (middle, own);
+    halve([a, middle], left - 1, pen, all);
+    all.push(middle);
+    halve([middle, b], left - 1, pen, all);
+}
+
+fn between(a: &Place, b: &Place, s: f64) -> Place {
+    let vertex = StrokeVertex {
+        world: a.vertex.world.lerp(b.vertex.world, s),
+        normal: a.vertex.normal.lerp(b.vertex.normal, s).normalize_or(a.vertex.normal),
+        u: a.vertex.u + (b.vertex.u - a.vertex.u) * s,
+    };
+    Place { vertex, tangent: a.tangent.lerp(b.tangent, s).normalize_or(a.tangent) }
+}
+
+/// Where two neighbours are on either side of the least width, the place where the width is that.
+fn edge([a, b]: [&(Place, Pen); 2], least: f64) -> (Place, Pen) {
+    let s = (a.1.radius - least) / (a.1.radius - b.1.radius);
+    let mix = |x: f64, y: f64| x + (y - x) * s;
+    let color = color_between(a.1.color, b.1.color, s);
+    let pen = Pen { radius: least, opacity: mix(a.1.opacity, b.1.opacity), color };
+    (between(&a.0, &b.0, s), pen)
+}
+
+/// The parts that are wide enough.
+fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke) -> Vec<Drawn> {
+    let is_thick = |at: &(Place, Pen)| at.1.radius >= least;
+    let drawn = |part: Vec<(Place, Pen)>, closed: bool| {
+        let (vertices, pens) = part.into_iter().map(|(place, pen)| (place.vertex, pen)).unzip();
+        Drawn { stroke: Stroke { vertices, closed, key: stroke.key }, pens }
+    };
+    if stroke.closed && all.iter().all(is_thick) {
+        return match all {
+            [whole @ .., _] => vec![drawn(whole.to_vec(), true)],
+            [] => Vec::new(),
+        };
+    }
+    let mut parts: Vec<Vec<(Place, Pen)>> = Vec::new();
+    let mut part: Vec<(Place, Pen)> = all.first().filter(|first| is_thick(first)).copied().into_iter().collect();
+    for pair in all.windows(2) {
+        let [from, to] = [&pair[0], &pair[1]];
+        if is_thick(from) != is_thick(to) {
+            part.push(edge([from, to], least));
+        }
+        if is_thick(to) {
+            part.push(*to);
+        } else {
+            parts.push(std::mem::take(&mut part));
+        }
+    }
+    let ends = [all.first(), all.last()].map(|end| end.is_some_and(is_thick));
+    if let (true, [true, true], Some(first)) = (stroke.closed, ends, parts.first_mut()) {
+        // The last part goes on in the first.
+        part.pop();
+        part.append(first);
+        *first = part;
+    } else {
+        parts.push(part);
+    }
+    parts.retain(|part| part.len() > 1);
+    parts.into_iter().map(|part| drawn(part, false)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Along x from 0 to 10, one vertex a unit.
+    fn line(closed: bool) -> Stroke {
+        let vertex = |i: u32| {
+            let u = f64::from(i) / 10.0;
+            StrokeVertex { world: DVec3::new(10.0 * u, 0.0, 0.0), normal: DVec3::Z, u }
+        };
+        Stroke { vertices: (0..=10).map(vertex).collect(), closed, key: 7 }
+    }
+
+    fn plain(radius: f64) -> Pen {
+        Pen { radius, opacity: 1.0, color: None }
+    }
+
+    #[test]
+    fn one_width_and_colour_add_no_vertex() {
+        for closed in [false, true] {
+            let parts = drawn(&line(closed), 0.1, |_| plain(0.1));
+            assert_eq!(parts.len(), 1);
+            assert_eq!((&parts[0].stroke, parts[0].pens.len()), (&line(closed), 11));
+        }
+        assert!(drawn(&Stroke::default(), 0.0, |_| plain(1.0)).is_empty());
+        assert!(drawn(&Stroke { closed: true, ..Stroke::default() }, 0.0, |_| plain(1.0)).is_empty());
+    }
+
+    /// The tip of a taper 0.5·u/0.3 is 0.05 wide at u = 0.03, to the last bit of what is linear between vertices; the part from
+    /// there on has no vertex that is thinner.
+    #[test]
+    fn ends_are_where_the_width_is_the_least() {
+        let taper = |place: &Place| plain(0.5 * (place.vertex.u / 0.3).min((1.0 - place.vertex.u) / 0.3).min(1.0));
+        let parts = drawn(&line(false), 0.05, taper);
+        let [part] = parts.as_slice() else { panic!("{}", parts.len()) };
+        let (first, last) = (part.stroke.vertices[0], part.stroke.vertices[part.stroke.vertices.len() - 1]);
+        assert!((first.world.x - 0.3).abs() < 1e-12 && (last.world.x - 9.7).abs() < 1e-12);
+        assert!((first.u - 0.03).abs() < 1e-12 && part.stroke.key == 7);
+        assert_eq!((part.pens[0].radius, part.pens[part.pens.len() - 1].radius), (0.05, 0.05));
+        assert!(part.pens.iter().all(|pen| pen.radius >= 0.05));
+        assert!(part.pens.windows(2).all(|pair| (pair[0].radius - pair[1].radius).abs() <= 2.0 * RADIUS));
+        // Nothing is wide enough.
+        assert!(drawn(&line(false), 0.6, taper).is_empty());
+    }
+
+    /// A thin stretch from x = 4.5 to 5.5 leaves two parts of an open stroke and one of a closed one, through its seam.
+    #[test]
+    fn a_thin_stretch_cuts() {
+        let thin = |place: &Place| plain(((place.vertex.world.x - 5.0).abs() * 0.2).min(0.3));
+        let ends = |parts: &[Drawn]| {
+            let x = |part: &Drawn| {
+                let vertices = &part.stroke.vertices;
+                [vertices[0].world.x, vertices[vertices.len() - 1].world.x].map(|x| (x * 1e9).round() / 1e9)
+            };
+            parts.iter().map(x).collect::<Vec<_>>()
+        };
+        assert_eq!(ends(&drawn(&line(false), 0.1, thin)), [[0.0, 4.5], [5.5, 10.0]]);
+        let ring = drawn(&line(true), 0.1, thin);
+        assert_eq!(ends(&ring), [[5.5, 4.5]]);
+        assert!(!ring[0].stroke.closed);
+    }
+
+    /// Red goes from 0 to 1 on the way: neighbours differ by less than two steps of a piece, and T is that of the line.
+    #[test]
+    fn vertices_come_where_colours_change() {
+        let red = |place: &Place| {
+            assert_eq!(place.tangent, DVec3::X);
+            Pen { color: Some([place.vertex.u * place.vertex.u, 0.0, 0.5]), ..plain(0.1) }
+        };
+        let parts = drawn(&line(false), 0.0, red);
+        let codes: Vec<f64> = parts[0].pens.iter().map(|pen| linear_to_srgb(pen.color.unwrap()[0])).collect();
+        assert!(codes.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= CHANNEL), "{codes:?}");
+        assert!(codes.len() > 15 && codes.len() < 60, "{}", codes.len());
+    }
+}
