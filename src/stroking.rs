@@ -12,6 +12,7 @@ use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
+use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{DirectionRule, Iso, Length, Scene};
 use drypoint_scene::view::View;
 use hatching::{Hatched, Hatching};
@@ -51,6 +52,14 @@ impl<'a> Frame<'a> {
     fn sight(&self, offset: f64) -> Sight<'a> {
         Sight { view: self.view, page: self.page, near: self.near, surface: self.hides, offset }
     }
+}
+
+/// The most millimetres of the page that a world unit of a volume takes.
+fn largest_scale(view: &View, page: &Page, near: f64, grid: &Grid) -> f64 {
+    let pixel = (page.size.x - 2.0 * page.margin) / view.size[0] as f64;
+    let depths = grid.world_corners().map(|corner| -view.to_eye(corner).z);
+    let nearest = if view.perspective { depths.into_iter().fold(f64::INFINITY, f64::min).max(near) } else { 1.0 };
+    pixel / (view.pixel * nearest)
 }
 
 impl<'a> Stroking<'a> {
@@ -98,7 +107,12 @@ impl<'a> Stroking<'a> {
         }
         let outlining = scene.outlines.as_ref().map(|table| Outlining::new(scene, table, &page)).transpose()?;
         let grid = volume.grid();
-        let hatching = scene.hatching.as_ref().map(|table| Hatching::new(scene, table, grid, &page)).transpose()?;
+        let hatching = match &scene.hatching {
+            Some(table) => {
+                Some(Hatching::new(scene, table, grid, (&page, largest_scale(&job.view()?, &page, near, grid)))?)
+            }
+            None => None,
+        };
         counts.seconds.insert("strokes".into(), start.elapsed().as_secs_f64());
         Ok(Self { field, page, near, hides, hatching, outlining })
     }

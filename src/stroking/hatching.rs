@@ -21,6 +21,13 @@ use std::time::Instant;
 /// τ above which strokes are crossed where the tone is in the spacing ([HATCH-19]).
 const CROSSED: f64 = 0.6;
 
+/// How far chords may be off on the page, in mm ([HATCH-10]).
+const MOST_OFF: f64 = 0.05;
+
+/// In voxels, what the page's measures leave chords and δ at the least: from an eye inside the volume a voxel is as large as
+/// one likes.
+const FINEST: f64 = 0.01;
+
 /// The faintest tone that spacing gives.
 const LEAST: f64 = 0.08;
 
@@ -56,20 +63,31 @@ struct Grown {
 }
 
 impl<'a> Hatching<'a> {
-    pub(super) fn new(scene: &'a Scene, table: &'a Table, grid: &Grid, page: &Page) -> Result<Self, Failure> {
+    /// `scale` is the most millimetres of the page that a world unit takes.
+    pub(super) fn new(
+        scene: &'a Scene,
+        table: &'a Table,
+        grid: &Grid,
+        (page, scale): (&Page, f64),
+    ) -> Result<Self, Failure> {
         let spacing = match table.spacing {
             Spacing::Random => None,
             Spacing::Tone => Some(room::Apart::Tone { least: LEAST }),
             Spacing::Length(length) => Some(room::Apart::Everywhere(on_page(scene, page, length, "hatching.spacing")?)),
         };
+        let pen = pen(scene, "hatching", page, table.pen.as_deref(), (table.width, table.color))?;
+        let mut how = how(scene, table, grid)?;
+        let finest = FINEST * grid.voxel();
+        how.chord = how.chord.min((MOST_OFF / scale).max(finest));
+        how.offset = how.offset.min((0.5 * pen.width / scale).max(finest));
         Ok(Self {
             table,
             light: table.stroke.light.unwrap_or(scene.light),
             iso: value(scene, table.iso, "hatching.iso")?,
-            pen: pen(scene, "hatching", page, table.pen.as_deref(), (table.width, table.color))?,
+            pen,
             min_width: on_page(scene, page, table.stroke.min_width, "hatching.stroke.min_width")?,
             spacing,
-            how: how(scene, table, grid)?,
+            how,
             gradient_range: scene.volume.gradient_range,
             lighting: table.lighting(scene).map(|lighting| line_light(&lighting)),
         })
@@ -103,7 +121,6 @@ impl<'a> Hatching<'a> {
             }
         };
         let seeds = strokes.seeds(&pyramid, field, self.iso, rule, (table.measure, range));
-        counts.directions += seeds.measured;
         counts.preprocess.insert("measures of seeds".into(), seeds.measured);
         let cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
         counts.preprocess.insert("seeds".into(), cells.len() as u64);
@@ -218,21 +235,15 @@ impl Hatched<'_> {
         let Hatching { table, pen, .. } = self.hatching;
         let crossed = table.cross.is_some();
         let by_tone = table.spacing == Spacing::Tone;
-        let limit = table.cross.map_or(-1.0, |angle| math::cos(angle.to_radians()));
-        let ambient = table.stroke.ambient;
         // Of what both print together 1 − (1 − τ₁)(1 − τ₂) is the tone. Where the distance is the same everywhere the second
-        // begins at its angle.
+        // begins at the same tone.
         let first = |normal: DVec3| match (by_tone, crossed) {
             (true, true) => tone(normal).min(CROSSED),
             (true, false) => tone(normal),
             (false, _) => 1.0,
         };
         let second = |normal: DVec3| {
-            if by_tone {
-                (tone(normal) - CROSSED) / (1.0 - CROSSED)
-            } else {
-                f64::from(1.0 - tone(normal) - ambient < limit)
-            }
+            if by_tone { (tone(normal) - CROSSED) / (1.0 - CROSSED) } else { f64::from(tone(normal) > CROSSED) }
         };
         let mut lines = Vec::new();
         let mut add_lines = |along, tone: &(dyn Fn(DVec3) -> f64 + Sync)| {
@@ -261,6 +272,27 @@ fn add(counts: &mut Counts, grown: &room::HatchCounts) {
         *counts.stops.entry(cause.into()).or_default() += number;
     }
     *counts.preprocess.entry("seeds without a stroke".into()).or_default() += grown.rejected.total();
+    let (scales, rejected) = (&grown.scales, &grown.rejected);
+    let named = [
+        ("seeds beside the surface", rejected.no_surface),
+        ("seeds without a direction", rejected.no_direction),
+        ("seeds of strokes without length", rejected.short),
+        ("crossing strokes", grown.cross),
+        ("steps put back", grown.put_back),
+        ("strokes cut where they dip", grown.cut),
+        ("directions at σ = 1", scales.given[0]),
+        ("directions at σ = 2", scales.given[1]),
+        ("directions at σ = 4", scales.given[2]),
+        ("estimates near the border", scales.border.iter().sum()),
+        ("estimates of umbilics", scales.umbilic.iter().sum()),
+        ("estimates within the noise", scales.noise.iter().sum()),
+        ("estimates that disagree", scales.disagree.iter().sum()),
+    ];
+    for (name, number) in named {
+        if number > 0 {
+            *counts.preprocess.entry(name.into()).or_default() += number;
+        }
+    }
 }
 
 /// The table's light on lines.

@@ -113,6 +113,7 @@ mod tests {
             radius: 1.0,
             opacity: 1.0,
             t: 0.0,
+            color: None,
         };
         Polyline { vertices: places.into_iter().map(vertex).collect(), closed }
     }

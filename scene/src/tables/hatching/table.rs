@@ -9,7 +9,7 @@ use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
 use crate::file::item::Item;
 use crate::file::kind::{
-    Bounds, Choice, ChoiceOption, Colors, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole,
+    Bounds, Choice, ChoiceOption, Colors, End, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole,
 };
 use crate::file::out::Out;
 use crate::knobs::Ladder;
@@ -19,6 +19,7 @@ use serde_json::{Value as Json, json};
 
 /// Degrees of an angle between two directions.
 const ANGLE: Number = Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" };
+const TURN: Number = Number { bounds: Bounds { lo: End::Out(0.0), hi: End::In(180.0) }, unit: ", in degrees" };
 const SHARE: Number = Number { bounds: Bounds::UNIT, unit: "" };
 const PAGE_LENGTH: Lengths = Lengths { on: On::Page, bounds: Bounds::POSITIVE };
 const NOT_NEGATIVE: Lengths = Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE };
@@ -219,8 +220,8 @@ pub(crate) static TABLE: Table<Hatching> = Table {
             Key::new(
                 "max_angle",
                 "HATCH-8",
-                "How far a stroke may turn from its first direction.",
-                &Slot { kind: ANGLE, get: |h: &Hatching| Some(h.max_angle), set: |h, v| h.max_angle = v },
+                "How far a stroke may turn from its first direction; 180 is any way.",
+                &Slot { kind: TURN, get: |h: &Hatching| Some(h.max_angle), set: |h, v| h.max_angle = v },
             ),
             Key::new(
                 "min_step",
