@@ -146,7 +146,7 @@ impl Strokes<'_, '_> {
         let at = sight.place(place.0)?;
         let tone = tone(normal);
         let front = place.0 + normal * (BEFORE * ground.grid().voxel());
-        (tone > 0.0 && sight.sees(front)).then(|| Candidate { order, cell, place, at, tone })
+        (tone > 0.0 && sight.sees(front)).then_some(Candidate { order, cell, place, at, tone })
     }
 
     fn stroke_of(&self, candidate: &Candidate, along: Along) -> (Option<Stroke>, HatchCounts) {

@@ -33,10 +33,10 @@ pub(super) fn intervals<S: Simd>(
     for (lane, line) in lines.iter().enumerate() {
         if let Some(line) = line {
             there |= 1 << lane;
-            for axis in 0..3 {
-                columns[0][axis][lane] = line.inverse[axis];
-                columns[1][axis][lane] = line.enter[axis];
-                columns[2][axis][lane] = line.leave[axis];
+            for (columns, of_axes) in columns.iter_mut().zip([line.inverse, line.enter, line.leave]) {
+                for (column, number) in columns.iter_mut().zip(of_axes) {
+                    column[lane] = number;
+                }
             }
         }
     }
