@@ -151,6 +151,9 @@ impl StrokeFrames<'_> {
             let hides = Some(hides);
             layers.push(outlining.draw(&Frame { view, page, near: *near, hides }, own, voxel, counts));
         }
+        if let (Some(hatching), [layer, others @ ..]) = (hatching, layers.as_mut_slice()) {
+            hatching.cut(layer, others, view, counts);
+        }
         let bytes: usize = self.surfaces.iter().map(IsoSurface::bytes).sum();
         counts.bytes.insert("surface".into(), bytes as u64);
         let mut marks = Marks { page: *page, layers };

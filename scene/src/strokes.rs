@@ -24,3 +24,14 @@ pub struct Stroke {
     /// What its random numbers are drawn by ([RAY-4]): the index of the cell that it grew from.
     pub key: u64,
 }
+
+impl Stroke {
+    /// Its length, in world units.
+    pub fn length(&self) -> f64 {
+        let along = self.vertices.windows(2).map(|pair| pair[0].world.distance(pair[1].world)).sum::<f64>();
+        match self.vertices.as_slice() {
+            [first, .., last] if self.closed => along + last.world.distance(first.world),
+            _ => along,
+        }
+    }
+}

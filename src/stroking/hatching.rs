@@ -9,12 +9,14 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Page, Pen, Polyline};
 use drypoint_scene::math;
+use drypoint_scene::philox::uniform;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
 use drypoint_scene::tables::{
     DirectionRule, Family, GradientRange, Hatching as Table, Hidden, LightDirection, LineLighting, Reference, Scene,
     SeedsBy, Spacing,
 };
+use drypoint_scene::view::View;
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -31,6 +33,9 @@ const FINEST: f64 = 0.01;
 /// The faintest tone that spacing gives.
 const LEAST: f64 = 0.08;
 
+/// A grain of pencil on paper, in voxels.
+const GRAIN: f64 = 0.4;
+
 /// The shortest line on the page, in pen's widths.
 const SHORTEST: f64 = 6.0;
 
@@ -46,6 +51,11 @@ pub(super) struct Hatching<'a> {
     how: room::Hatching,
     gradient_range: GradientRange,
     lighting: Option<room::LineLight>,
+    /// In mm, and how much nearer what cuts is, in world units.
+    gap: Option<[f64; 2]>,
+    /// On and off, in mm.
+    dash: Option<[f64; 2]>,
+    is_pencil: bool,
 }
 
 /// The strokes of a surface.
@@ -80,6 +90,15 @@ impl<'a> Hatching<'a> {
         let finest = FINEST * grid.voxel();
         how.chord = how.chord.min((MOST_OFF / scale).max(finest));
         how.offset = how.offset.min((0.5 * pen.width / scale).max(finest));
+        let deeper = in_world(scene, table.gap_depth, "hatching.gap_depth", grid)?;
+        let gap = table.gap.map(|gap| on_page(scene, page, gap, "hatching.gap")).transpose()?;
+        let dash = match table.stroke.dash {
+            Some([on, off]) => {
+                let length = |length| on_page(scene, page, length, "hatching.stroke.dash");
+                Some([length(on)?, length(off)?])
+            }
+            None => None,
+        };
         Ok(Self {
             table,
             light: table.stroke.light.unwrap_or(scene.light),
@@ -90,12 +109,25 @@ impl<'a> Hatching<'a> {
             how,
             gradient_range: scene.volume.gradient_range,
             lighting: table.lighting(scene).map(|lighting| line_light(&lighting)),
+            gap: gap.map(|gap| [gap, deeper]),
+            dash,
+            is_pencil: table.is_pencil(scene),
         })
     }
 
     /// The value of the surface that strokes lie on.
     pub(super) fn iso(&self) -> f64 {
         self.iso
+    }
+
+    /// The lines of its layer with gaps where nearer ones, of it or of others, cross them ([HATCH-20]), and in dashes.
+    pub(super) fn cut(&self, layer: &mut Layer, others: &[Layer], view: &View, counts: &mut Counts) {
+        if let Some(gap) = self.gap {
+            cut_gaps(gap, layer, others, view, counts);
+        }
+        if let Some(dash) = self.dash {
+            layer.lines = room::dashed(&layer.lines, dash);
+        }
     }
 
     /// Whether what is hidden of strokes is cut off.
@@ -178,9 +210,13 @@ impl Hatched<'_> {
             strokes.extend(across.filter(may_be_seen));
         }
         let least = if table.has_one_width() { 0.0 } else { 0.5 * self.hatching.min_width };
-        let pen = |stroke: &Stroke, place: &room::Place| self.pen(sight, stroke, place, light, tone);
-        let drawn: Vec<room::Drawn> =
-            strokes.par_iter().flat_map_iter(|stroke| room::drawn(stroke, least, |place| pen(stroke, place))).collect();
+        let depths = Depths::new(sight.view, self.strokes.ground().grid());
+        let draw = |stroke: &&Stroke| {
+            let length = if self.hatching.is_pencil { stroke.length() } else { 0.0 };
+            let made = (*stroke, length);
+            room::drawn(stroke, least, |place| self.pen(sight, made, place, (light, depths), tone))
+        };
+        let drawn: Vec<room::Drawn> = strokes.par_iter().flat_map_iter(draw).collect();
         let mut seen = sight.seen_drawn(&drawn);
         if self.hatching.lighting.is_some() && !self.hatching.is_cut() {
             sight.far_to_near(&mut seen.lines);
@@ -193,25 +229,37 @@ impl Hatched<'_> {
     fn pen(
         &self,
         sight: &room::Sight<'_>,
-        stroke: &Stroke,
+        (stroke, length): (&Stroke, f64),
         room::Place { vertex, tangent }: &room::Place,
-        light: DVec3,
+        (light, depths): (DVec3, Depths),
         tone: &impl Fn(DVec3) -> f64,
     ) -> room::Pen {
         let Hatching { table, pen, lighting, .. } = self.hatching;
         let width = if table.has_one_width() {
             pen.width
         } else {
-            let style = table.stroke;
-            pen.width * math::pow(tone(vertex.normal), style.tone) * taper(stroke, vertex.u, style.taper)
+            let tapered =
+                pen.width * math::pow(tone(vertex.normal), table.tone()) * taper(stroke, vertex.u, table.taper());
+            tapered * self.scattered(stroke) * (1.0 - table.stroke.depth * depths.share(sight.view, vertex.world))
         };
         let lit = lighting.as_ref().map(|lighting| {
             let view = sight.view;
             let eye = if view.perspective { (view.eye - vertex.world).normalize_or_zero() } else { -view.forward };
             lighting.color(light, eye, *tangent, vertex.normal)
         });
-        let (color, opacity) = lit.map_or((None, 1.0), |[r, g, b, opacity]| (Some([r, g, b]), opacity));
+        let (color, mut opacity) = lit.map_or((None, 1.0), |[r, g, b, opacity]| (Some([r, g, b]), opacity));
+        if self.hatching.is_pencil {
+            let grains = vertex.u * length / (GRAIN * self.strokes.ground().grid().voxel());
+            opacity *= tone(vertex.normal) * room::grain(table.seed, stroke.key, grains);
+        }
         room::Pen { radius: width / 2.0, opacity, color }
+    }
+
+    /// What the width of a stroke is multiplied by: 1 ± jitter.
+    fn scattered(&self, stroke: &Stroke) -> f64 {
+        let Table { stroke: style, seed, .. } = self.hatching.table;
+        let key = [stroke.key as u32, (stroke.key >> 32) as u32, 0];
+        if style.jitter == 0.0 { 1.0 } else { 1.0 + style.jitter * (2.0 * uniform(*seed, key, 3) - 1.0) }
     }
 
     /// Whether all of a stroke turns away from the eye, so that its own surface hides it; unknown where another one hides
@@ -265,6 +313,26 @@ impl Hatched<'_> {
     }
 }
 
+/// The depths of the nearest and the farthest corner of a volume.
+#[derive(Clone, Copy)]
+struct Depths([f64; 2]);
+
+impl Depths {
+    fn new(view: &View, grid: &Grid) -> Self {
+        let last = grid.dims().map(|n| n as f64 - 1.0);
+        let corner =
+            |i: usize| DVec3::from_array(std::array::from_fn(|axis| if i >> axis & 1 == 1 { last[axis] } else { 0.0 }));
+        let depths = (0..8).map(|i| -view.to_eye(grid.to_world(corner(i))).z);
+        Self(depths.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], depth| [lo.min(depth), hi.max(depth)]))
+    }
+
+    /// 0 at the nearest, 1 at the farthest.
+    fn share(&self, view: &View, world: DVec3) -> f64 {
+        let [near, far] = self.0;
+        if far > near { ((-view.to_eye(world).z - near) / (far - near)).clamp(0.0, 1.0) } else { 0.0 }
+    }
+}
+
 /// Adds what growing did.
 fn add(counts: &mut Counts, grown: &room::HatchCounts) {
     counts.directions += grown.scales.directions();
@@ -295,6 +363,16 @@ fn add(counts: &mut Counts, grown: &room::HatchCounts) {
     }
 }
 
+/// The lines of a layer without what is near a line in front of them.
+fn cut_gaps([gap, deeper]: [f64; 2], layer: &mut Layer, others: &[Layer], view: &View, counts: &mut Counts) {
+    let start = Instant::now();
+    let others: Vec<Polyline> = others.iter().flat_map(|layer| layer.lines.iter().cloned()).collect();
+    let found = room::gapped(&layer.lines, &others, view, gap, deeper);
+    counts.preprocess.insert("segments with gaps".into(), found.cuts);
+    *counts.seconds.entry("gaps of strokes".into()).or_default() += start.elapsed().as_secs_f64();
+    layer.lines = found.lines;
+}
+
 /// The table's light on lines.
 fn line_light(table: &LineLighting) -> room::LineLight {
     room::LineLight {
@@ -323,6 +401,8 @@ fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Fail
     Ok(room::Hatching {
         length: length(table.length, "length")?,
         cross_length: table.cross_length,
+        jitter: table.stroke.jitter,
+        seed: table.seed,
         tolerance: length(table.tolerance, "tolerance")?,
         min_step: length(table.min_step, "min_step")?,
         offset: length(table.offset, "offset")?,

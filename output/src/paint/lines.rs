@@ -23,41 +23,44 @@ pub(super) fn paint(lines: &[Polyline], window: &Window, size: [usize; 2], ink: 
             canvas.put(pixel, ink, f64::from(covered) / 255.0);
         }
     }
-    for piece in &faint {
-        let Some(part) = Part::around(std::slice::from_ref(piece), window, size) else { continue };
-        if let Some(cover) = part.cover(std::slice::from_ref(piece), window) {
-            part.each(&cover, |_, pixel, covered| canvas.put(pixel, ink, covered * piece.opacity));
-        }
-    }
     // What goes on where the piece before ended is one line, which covers once.
-    let goes_on = |a: &Piece, b: &Piece| a.points.last() == b.points.first() && a.opacity == b.opacity;
-    for line in colored.chunk_by(goes_on) {
-        let Some(part) = Part::around(line, window, size) else { continue };
-        paint_colored(line, &part, window, ink.opacity, canvas);
+    let goes_on = |a: &Piece, b: &Piece| a.points.last() == b.points.first();
+    for line in faint.chunk_by(goes_on).chain(colored.chunk_by(goes_on)) {
+        if let Some(part) = Part::around(line, window, size) {
+            paint_joined(line, &part, window, ink, canvas);
+        }
     }
 }
 
-/// Draws a line of pieces with colours: each pixel has the mean of those that cover it, by how much of it they do.
-fn paint_colored(line: &[Piece], part: &Part, window: &Window, opacity: f64, canvas: &mut Canvas) {
+/// Draws a line of pieces of different colours and opacities: each pixel has the mean of those that cover it, by how much of
+/// it they do.
+fn paint_joined(line: &[Piece], part: &Part, window: &Window, pen: &Ink, canvas: &mut Canvas) {
     let Some(whole) = part.cover(line, window) else { return };
-    let mut sums = vec![[0.0; 4]; part.columns * part.rows];
+    if let [only] = line {
+        let own = only.color.map(|[r, g, b]| canvas.ink([r, g, b, pen.opacity]));
+        let ink = own.as_ref().unwrap_or(pen);
+        part.each(&whole, |_, pixel, covered| canvas.put(pixel, ink, covered * only.opacity));
+        return;
+    }
+    let mut sums = vec![[0.0; 5]; part.columns * part.rows];
     for piece in line {
-        let piece = std::slice::from_ref(piece);
-        let Some(own) = Part::around(piece, window, part.picture) else { continue };
-        let Some(cover) = own.cover(piece, window) else { continue };
-        let color = piece[0].color.unwrap_or_default();
+        let color = piece.color.unwrap_or_default();
+        let each = std::slice::from_ref(piece);
+        let Some(own) = Part::around(each, window, part.picture) else { continue };
+        let Some(cover) = own.cover(each, window) else { continue };
         own.each(&cover, |_, pixel, covered| {
             let sum = &mut sums[part.index(pixel)];
             color.iter().enumerate().for_each(|(i, c)| sum[i] += covered * c);
-            sum[3] += covered;
+            sum[3] += covered * piece.opacity;
+            sum[4] += covered;
         });
     }
     part.each(&whole, |i, pixel, covered| {
-        let [r, g, b, all] = sums[i];
+        let [r, g, b, opacity, all] = sums[i];
         // A pixel of which each piece covers less than a step has no colour.
         if all > 0.0 {
-            let ink = canvas.ink([r / all, g / all, b / all, opacity]);
-            canvas.put(pixel, &ink, covered * line[0].opacity);
+            let own = line[0].color.map(|_| canvas.ink([r / all, g / all, b / all, pen.opacity]));
+            canvas.put(pixel, own.as_ref().unwrap_or(pen), covered * opacity / all);
         }
     });
 }

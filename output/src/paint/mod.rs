@@ -64,7 +64,7 @@ pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputErr
 /// Draws marks over the layer `beauty`, layer by layer: first a layer's lines, then its dots.
 ///
 /// A dot covers the exact share of a pixel; two dots that share a pixel add as c + d − cd, as if independent. What has
-/// the whole opacity of lines is drawn as one outline of each width; a translucent line is composited by itself. In
+/// the whole opacity of lines is drawn as one outline of each width; a translucent line, or one with colours, is composited by itself. In
 /// `srgb` the encoded colours are composited, as viewers of SVG and PDF do.
 ///
 /// # Errors
@@ -159,6 +159,17 @@ mod tests {
         // The piece between has the mean of both codes, which is darker than the mean of their light.
         let [r, _, b, a] = pixel(&two, 9, 4);
         assert!(r > 0.0 && b > 0.0 && r + b < a, "{r} {b} {a}");
+        // Half of it faint: the joint is no darker than the whole.
+        let faint = |opacities: [f64; 4]| {
+            let vertex = |(x, opacity): (f64, f64)| Vertex { opacity, ..vertex(x, 0.93, None) };
+            let line = line(xs.into_iter().zip(opacities).map(vertex).collect());
+            painted(&marks(BLACK, vec![], vec![line]), None, BlendSpace::Linear)
+        };
+        let (half, steps) = (faint([0.5; 4]), faint([0.25, 0.25, 0.5, 0.5]));
+        let alpha = |picture: &Picture, i| pixel(picture, i, 4)[3];
+        assert!(
+            (5..16).all(|i| alpha(&steps, i) <= alpha(&half, i) + 1e-12 && alpha(&steps, i) > 0.4 * alpha(&half, i))
+        );
         let over = vec![vertex(2.5, 0.2, blue), vertex(2.5, 1.8, blue)];
         let crossed =
             marks(BLACK, vec![], vec![line(vec![vertex(0.8, 0.93, red), vertex(3.2, 0.93, red)]), line(over)]);

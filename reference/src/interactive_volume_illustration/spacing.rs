@@ -240,7 +240,7 @@ fn about(i: usize, cells: usize, n: usize) -> std::ops::Range<usize> {
 }
 
 /// A place on a straight piece.
-fn between(a: &Vertex, b: &Vertex, s: f64) -> Vertex {
+pub(super) fn between(a: &Vertex, b: &Vertex, s: f64) -> Vertex {
     let mix = |a: f64, b: f64| a + s * (b - a);
     Vertex {
         at: a.at.lerp(b.at, s),

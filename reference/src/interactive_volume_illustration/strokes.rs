@@ -10,6 +10,7 @@ use crate::field::Field;
 use crate::field::curvature::Curvature;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::{cos, scale_by_power_of_two};
+use drypoint_scene::philox::uniform;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
 use rayon::prelude::*;
@@ -95,6 +96,10 @@ pub struct Hatching {
     pub rule: Rule,
     /// Which way they run.
     pub reference: Reference,
+    /// The share of `length` by which strokes are longer or shorter, at random.
+    pub jitter: f64,
+    /// Key of those random numbers ([RAY-4]).
+    pub seed: u64,
 }
 
 impl Hatching {
@@ -112,7 +117,17 @@ impl Hatching {
             family: Family::Larger,
             rule: Rule::Scaled(Default::default()),
             reference: Reference::cylindrical(grid),
+            jitter: 0.0,
+            seed: 1,
         }
+    }
+
+    /// What the length of a cell's stroke is multiplied by: 1 ± `jitter`.
+    fn scattered(&self, cell: [usize; 3]) -> f64 {
+        if self.jitter == 0.0 {
+            return 1.0;
+        }
+        1.0 + self.jitter * (2.0 * uniform(self.seed, cell.map(|i| i as u32), 4) - 1.0)
     }
 
     /// δ, but no less than the chords and 0.05 voxel.
@@ -218,6 +233,7 @@ impl<'f, 'v> Strokes<'f, 'v> {
 
     fn follow(&self, seed: &Seed, family: Family, length: f64, counts: &mut HatchCounts) -> Option<Stroke> {
         let mut counted = *counts;
+        let length = length * self.how.scattered(seed.cell);
         let mut lines = OnSurface::new(self, family, seed.target, &mut counted);
         let along = self.how.reference.signed(lines.at(seed.world).ok()?, seed.world);
         let scale = lines.scale;

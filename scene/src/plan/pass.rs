@@ -59,6 +59,8 @@ pub enum Pass {
     LitStrokes,
     /// Which parts of strokes an iso-surface hides ([HATCH-14]).
     HiddenStrokes,
+    /// What is cut out of strokes where nearer lines cross them ([HATCH-20]).
+    Gaps,
 }
 
 impl Pass {
@@ -93,6 +95,7 @@ impl Pass {
             Self::Spacing => "spacing of strokes",
             Self::LitStrokes => "lit strokes",
             Self::HiddenStrokes => "hidden strokes",
+            Self::Gaps => "gaps of strokes",
         }
     }
 
@@ -126,6 +129,7 @@ impl Pass {
             Self::Spacing => "one look every half pen's width of a stroke",
             Self::LitStrokes => "two powers a vertex of a stroke, and vertices between them where colours change",
             Self::HiddenStrokes => "one look at each voxel, once; a line towards the eye every half pixel of a stroke",
+            Self::Gaps => "one look at its neighbours on the page a segment of a line",
         }
     }
 
@@ -142,7 +146,7 @@ impl Pass {
             // Made of few voxels, or known once those are ([`PointsPlan`](super::PointsPlan)).
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
-            Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes => 0,
+            Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes | Self::Gaps => 0,
             // Of the cells of a surface alone.
             Self::SeedMeasures | Self::CrossStrokes | Self::Spacing | Self::LitStrokes => 0,
             Self::Pyramid => 1,

@@ -241,3 +241,52 @@ fn strokes_alone_are_seen_from_both_sides() {
     // A line that the frame cuts, or that rounding shortens, may have another middle: none here.
     assert!(depths.windows(2).all(|pair| pair[0] <= pair[1]));
 }
+
+/// Where one end of the ring lies over the other: gaps only cut what is farther, and only where a scene asks for them.
+#[test]
+fn gaps_where_a_nearer_line_crosses() {
+    let scene = |more: &str| {
+        torus(&format!(
+            "hidden = \"drawn\"\nseeds = \"dense\"\nwidth = \"0.2 mm\"\n{more}[hatching.stroke]\ntone = 0\n[outlines]\niso = 0\n"
+        ))
+    };
+    let (plain, counts, _) = page(&scene(""), Wanted::Strokes);
+    assert!(!counts.preprocess.contains_key("segments with gaps"));
+    let (gapped, counts, _) = page(&scene("gap = \"0.6 mm\"\ngap_depth = \"4 voxels\"\n"), Wanted::Strokes);
+    assert!(counts.preprocess["segments with gaps"] > 100);
+    let length = |marks: &Marks, layer: usize| marks.layers[layer].lines.iter().map(|line| line.length()).sum::<f64>();
+    // Most of what lies behind the tube goes, and none of what is in front; outlines stay as they are.
+    let left = length(&gapped, 0) / length(&plain, 0);
+    assert!((0.3..0.75).contains(&left), "{left}");
+    assert_eq!(plain.layers[1].lines, gapped.layers[1].lines);
+    // Nothing is 100 voxels nearer.
+    let (none, ..) = page(&scene("gap = \"0.6 mm\"\ngap_depth = \"100 voxels\"\n"), Wanted::Strokes);
+    assert_eq!(none.layers[0].lines, plain.layers[0].lines);
+}
+
+/// Pencil is as faint as the light falls, engraving has blunt ends, dashes have their lengths, and a stroke at random is wider
+/// and longer than another.
+#[test]
+fn styles_of_strokes() {
+    let with = |key: &str, stroke: &str| {
+        let scene =
+            format!("{key}width = \"0.5 mm\"\nmax_angle = 180\n[hatching.stroke]\nlight = [-1, 1, 1]\n{stroke}");
+        page(&torus(&format!("seeds = \"dense\"\n{scene}")), Wanted::Strokes).0
+    };
+    let vertices = |marks: &Marks| lines(marks).iter().flat_map(|line| line.vertices.clone()).collect::<Vec<_>>();
+    let pencil = vertices(&with("style = \"pencil\"\n", ""));
+    let opacities: Vec<f64> = pencil.iter().map(|v| v.opacity).collect();
+    assert!(opacities.iter().any(|&o| o < 0.2) && opacities.iter().any(|&o| o > 0.8));
+    // The taper alone changes its width; the tone has none of it.
+    assert!(pencil.iter().filter(|v| v.radius == 0.25).count() > pencil.len() / 2);
+    let engraving = with("style = \"engraving\"\n", "min_width = \"0.01 mm\"\ntone = 0\n");
+    assert!(vertices(&engraving).iter().all(|v| v.radius == 0.25 && v.opacity == 1.0));
+    let dashes = with("", "tone = 0\ntaper = 0\ndash = [\"1 mm\", \"0.5 mm\"]\n");
+    assert!(lines(&dashes).iter().all(|line| line.length() < 1.01) && lines(&dashes).len() > lines(&engraving).len());
+    let jitter = vertices(&with("", "tone = 0\ntaper = 0\njitter = 0.5\n"));
+    let (lo, hi) = jitter.iter().fold((1.0f64, 0.0f64), |(lo, hi), v| (lo.min(v.radius), hi.max(v.radius)));
+    assert!((0.125..0.15).contains(&lo) && hi > 0.35 && hi <= 0.375, "{lo} {hi}");
+    let depth = vertices(&with("", "tone = 0\ntaper = 0\ndepth = 0.8\n"));
+    let (lo, hi) = depth.iter().fold((1.0f64, 0.0f64), |(lo, hi), v| (lo.min(v.radius), hi.max(v.radius)));
+    assert!(lo >= 0.05 && lo < hi && hi < 0.25, "{lo} {hi}");
+}

@@ -202,7 +202,7 @@ pub(super) const FAMILIES: [Family; 17] = [
             (17, "The paper's figures are presets."),
             (18, "Outlines are strokes where a surface turns away."),
             (19, "Lines of one width are as far apart as the tone asks."),
-            (20, "Lines have gaps where nearer ones cross; not built yet."),
+            (20, "Lines have gaps where nearer ones cross."),
             (21, "What a pen cannot draw is dropped in plotter mode, and the plan says so."),
         ],
     },

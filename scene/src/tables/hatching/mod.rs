@@ -58,8 +58,14 @@ pub struct Hatching {
     pub chord: Length,
     /// How far strokes are apart on the page ([HATCH-19]).
     pub spacing: Spacing,
+    /// How far on the page strokes stay from a nearer line that crosses them ([HATCH-20]); none: they do not.
+    pub gap: Option<Length>,
+    /// How much nearer it has to be, in the world.
+    pub gap_depth: Length,
     /// What becomes of what a surface hides ([HATCH-14]).
     pub hidden: Hidden,
+    /// What it looks like ([HATCH-13]); `stroke` goes over it.
+    pub style: HatchStyle,
     /// How a stroke is drawn ([HATCH-13]).
     pub stroke: StrokeStyle,
     /// Where directions come from ([HATCH-3], [HATCH-4]).
@@ -106,6 +112,17 @@ pub enum Hidden {
     Drawn,
 }
 
+/// `style` ([HATCH-13]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HatchStyle {
+    /// As wide as the shade is dark, with thin ends.
+    Ink,
+    /// As dense as the shade is dark, on grainy paper.
+    Pencil,
+    /// As wide as the shade is dark, with blunt ends.
+    Engraving,
+}
+
 /// `spacing` ([HATCH-19]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spacing {
@@ -139,7 +156,10 @@ impl Default for Hatching {
             offset: Length::Voxels(0.15),
             chord: Length::Voxels(0.1),
             spacing: Spacing::Random,
+            gap: None,
+            gap_depth: Length::Voxels(2.0),
             hidden: Hidden::Cut,
+            style: HatchStyle::Ink,
             stroke: StrokeStyle::default(),
             directions: Directions::default(),
             lighting: None,

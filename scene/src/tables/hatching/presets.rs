@@ -39,7 +39,7 @@ impl HatchPreset {
         let stroke = StrokeStyle { min_width: Length::Millimetres(0.02), ..StrokeStyle::default() };
         let fine = Hatching { width: Length::Millimetres(0.1), stroke, ..Hatching::default() };
         // The tone is in their colour.
-        let even = StrokeStyle { tone: 0.0, ..stroke };
+        let even = StrokeStyle { tone: Some(0.0), ..stroke };
         // Seen on a white page.
         let bright = LineLighting {
             diffuse: 1.0,
@@ -64,7 +64,7 @@ impl HatchPreset {
             Self::Fig6Right => Hatching {
                 seeds: SeedsBy::Dense,
                 length: Length::Voxels(10.0),
-                stroke: StrokeStyle { tone: 2.0, ..stroke },
+                stroke: StrokeStyle { tone: Some(2.0), ..stroke },
                 ..fine
             },
         }

@@ -1,6 +1,6 @@
 //! What `[hatching]` needs of the rest of a scene, and what it makes of other tables.
 
-use super::{DirectionRule, Hatching, Hidden, LineLighting, SeedsBy, Spacing};
+use super::{DirectionRule, HatchStyle, Hatching, Hidden, LineLighting, SeedsBy, Spacing};
 use crate::plan::{Asks, Idle, Pass};
 use crate::tables::{GradientRange, Iso, Scene};
 
@@ -15,12 +15,27 @@ impl Hatching {
         self.lighting.filter(|_| !self.has_one_width() && !has_plotter(scene))
     }
 
+    /// a of [HATCH-13].
+    pub fn tone(&self) -> f64 {
+        self.stroke.tone.unwrap_or(if self.style == HatchStyle::Pencil { 0.0 } else { 1.0 })
+    }
+
+    /// b of [HATCH-13].
+    pub fn taper(&self) -> f64 {
+        self.stroke.taper.unwrap_or(if self.style == HatchStyle::Engraving { 0.0 } else { 0.15 })
+    }
+
+    /// Whether opacity is the tone's: that of a pen's ink is 1.
+    pub fn is_pencil(&self, scene: &Scene) -> bool {
+        self.style == HatchStyle::Pencil && !self.has_one_width() && !has_plotter(scene)
+    }
+
     /// Whether the light shows in the strokes of a scene.
     pub fn is_lit(&self, scene: &Scene) -> bool {
         self.lighting(scene).is_some()
             || self.spacing == Spacing::Tone
             || self.cross.is_some()
-            || (!self.has_one_width() && self.stroke.tone > 0.0)
+            || (!self.has_one_width() && (self.tone() > 0.0 || self.is_pencil(scene)))
     }
 }
 
@@ -52,6 +67,9 @@ pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
     if hatching.hidden == Hidden::Cut {
         asks.pass(Pass::HiddenStrokes, "hidden strokes", if scene.surface.is_some() { "surface" } else { "hatching" });
     }
+    if hatching.gap.is_some() {
+        asks.pass(Pass::Gaps, "gaps where lines cross", "hatching.gap");
+    }
     if hatching.spacing != Spacing::Random {
         asks.pass(Pass::Spacing, "strokes apart", "hatching.spacing");
     }
@@ -65,7 +83,8 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
         idle.key("hatching.width", "the nib of hatching.pen is the width");
     }
     if hatching.has_one_width() {
-        for key in ["tone", "taper", "min_width"] {
+        idle.key("hatching.style", "strokes have one width and are opaque");
+        for key in ["tone", "taper", "min_width", "depth"] {
             idle.key(&format!("hatching.stroke.{key}"), "strokes have one width");
         }
     }
@@ -83,6 +102,9 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
         for key in ["ambient", "light"] {
             idle.key(&format!("hatching.stroke.{key}"), "nothing of the strokes shows the light");
         }
+    }
+    if hatching.gap.is_none() {
+        idle.key("hatching.gap_depth", "no stroke has gaps");
     }
     if hatching.cross.is_none() {
         idle.key("hatching.cross_length", "no stroke is crossed");

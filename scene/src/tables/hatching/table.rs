@@ -4,7 +4,7 @@ use super::directions::DIRECTIONS;
 use super::lighting::LIGHTING;
 use super::rules;
 use super::stroke::STROKE;
-use super::{Family, Hatching, Hidden, Measure, SeedsBy, Spacing};
+use super::{Family, HatchStyle, Hatching, Hidden, Measure, SeedsBy, Spacing};
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
 use crate::file::item::Item;
@@ -69,9 +69,6 @@ impl Kind for SpacingKind {
 /// The description of `[hatching]`.
 pub(crate) static TABLE: Table<Hatching> = Table {
     later: &[
-        Later { name: "style", tag: "HATCH-13" },
-        Later { name: "gap", tag: "HATCH-20" },
-        Later { name: "gap_depth", tag: "HATCH-20" },
         Later { name: "beziers", tag: "HATCH-10" },
     ],
     asks: rules::asks,
@@ -250,6 +247,20 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 &Slot { kind: SpacingKind, get: |h: &Hatching| Some(h.spacing), set: |h, v| h.spacing = v },
             ),
             Key::new(
+                "gap",
+                "HATCH-20",
+                "How far strokes end before a nearer line that crosses them, from middle to middle; outlines of the same page \
+                 count, and are not cut themselves.",
+                &Slot { kind: PAGE_LENGTH, get: |h: &Hatching| h.gap, set: |h, v| h.gap = Some(v) },
+            )
+            .absent("no gaps"),
+            Key::new(
+                "gap_depth",
+                "HATCH-20",
+                "How much nearer to the eye that line has to be.",
+                &Slot { kind: NOT_NEGATIVE, get: |h: &Hatching| Some(h.gap_depth), set: |h, v| h.gap_depth = v },
+            ),
+            Key::new(
                 "hidden",
                 "HATCH-14",
                 "What becomes of what a surface hides of strokes.",
@@ -267,6 +278,31 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                     },
                     get: |h: &Hatching| Some(h.hidden),
                     set: |h, v| h.hidden = v,
+                },
+            ),
+            Key::new(
+                "style",
+                "HATCH-13",
+                "What strokes look like; the keys of [hatching.stroke] go over it.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("ink", HatchStyle::Ink, "As wide as the shade is dark, with thin ends."),
+                            ChoiceOption::new(
+                                "pencil",
+                                HatchStyle::Pencil,
+                                "As dense as the shade is dark, on grainy paper: opacity τ times a random grain.",
+                            ),
+                            ChoiceOption::new(
+                                "engraving",
+                                HatchStyle::Engraving,
+                                "As wide as the shade is dark, with blunt ends.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |h: &Hatching| Some(h.style),
+                    set: |h, v| h.style = v,
                 },
             ),
             Key::new(
