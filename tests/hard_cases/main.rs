@@ -27,6 +27,7 @@ mod small;
 mod stability;
 mod steps;
 mod stipples;
+mod strokes;
 mod styles;
 mod surfaces;
 mod symmetry;

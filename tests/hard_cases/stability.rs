@@ -52,6 +52,7 @@ static THEMES: &[&Theme] = &[
     &crate::surfaces::THEME,
     &crate::stipples::THEME,
     &crate::toon::THEME,
+    &crate::strokes::THEME,
 ];
 
 /// What makes the page be written.
