@@ -270,7 +270,7 @@ fn gaps_where_a_nearer_line_crosses() {
 fn styles_of_strokes() {
     let with = |key: &str, stroke: &str| {
         let scene =
-            format!("{key}width = \"0.5 mm\"\nmax_angle = 180\n[hatching.stroke]\nlight = [-1, 1, 1]\n{stroke}");
+            format!("{key}width = \"0.5 mm\"\nmax_angle = 179\n[hatching.stroke]\nlight = [-1, 1, 1]\n{stroke}");
         page(&torus(&format!("seeds = \"dense\"\n{scene}")), Wanted::Strokes).0
     };
     let vertices = |marks: &Marks| lines(marks).iter().flat_map(|line| line.vertices.clone()).collect::<Vec<_>>();
