@@ -60,7 +60,7 @@ fn paint_joined(line: &[Piece], part: &Part, window: &Window, pen: &Ink, canvas:
         // A pixel of which each piece covers less than a step has no colour.
         if all > 0.0 {
             let own = line[0].color.map(|_| canvas.ink([r / all, g / all, b / all, pen.opacity]));
-            canvas.put(pixel, own.as_ref().unwrap_or(pen), covered * opacity / all);
+            canvas.put(pixel, own.as_ref().unwrap_or(pen), covered * (opacity / all));
         }
     });
 }
