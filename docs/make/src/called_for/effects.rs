@@ -17,6 +17,8 @@ pub(super) struct Effect {
     pub(super) with: Settings,
     /// Counts that are 0 without it.
     pub(super) only: &'static [&'static str],
+    /// The same of those that the data decide on.
+    pub(super) perhaps: &'static [&'static str],
     /// Counts that grow with it.
     pub(super) more: &'static [&'static str],
     /// Counts that it is there to make smaller.
@@ -76,6 +78,20 @@ size = "1.5 px"
 threshold = 0.3
 "#;
 
+/// Strokes alone, one in every cell of the surface.
+const STROKES: &str = r#"
+drypoint = 1
+[volume]
+phantom = { name = "specimen", size = 96 }
+[camera]
+direction = [0.3, 1, -0.6]
+[picture]
+size = [256, 256]
+[hatching]
+iso = 120
+seeds = "dense"
+"#;
+
 /// Rows of [`REGULAR`]'s nodes, all alike: what the second quantity measures changes the work and not the picture.
 const ROWS: &str = r#"[
   { at = -1e9, nodes = [
@@ -101,8 +117,17 @@ const LABEL_ROWS: &str = r#"[
 ]"#;
 
 /// An effect over [`STYLE`] that adds nothing which is counted.
-const NOTHING: Effect =
-    Effect { name: "", asked_by: "", base: STYLE, without: &[], with: &[], only: &[], more: &[], fewer: &[] };
+const NOTHING: Effect = Effect {
+    name: "",
+    asked_by: "",
+    base: STYLE,
+    without: &[],
+    with: &[],
+    only: &[],
+    perhaps: &[],
+    more: &[],
+    fewer: &[],
+};
 
 /// Every effect that exists.
 pub(super) const EFFECTS: &[Effect] = &[
@@ -425,6 +450,68 @@ pub(super) const EFFECTS: &[Effect] = &[
         with: &[("stipples.hide_behind", "120")],
         only: &["bytes.surface", "preprocess.hidden points"],
         fewer: &["points"],
+        ..NOTHING
+    },
+    Effect {
+        name: "outlines over the volume",
+        asked_by: "`[outlines]`",
+        base: REGULAR,
+        with: &[("outlines.iso", "120"), ("outlines.min_length", "2 px")],
+        only: &["strokes", "bytes.surface", "preprocess.looks for what hides", "preprocess.outline places"],
+        perhaps: &["preprocess.outline places without a root", "preprocess.short strokes"],
+        ..NOTHING
+    },
+    Effect {
+        name: "strokes over the volume",
+        asked_by: "`[hatching]`",
+        base: REGULAR,
+        with: &[("hatching.iso", "120"), ("hatching.seeds", "dense")],
+        only: &[
+            "strokes",
+            "directions",
+            "bytes.pyramid",
+            "bytes.smoothed bricks",
+            "bytes.surface",
+            "preprocess.looks for what hides",
+            "preprocess.pyramid",
+            "preprocess.seeds",
+        ],
+        perhaps: &[
+            "preprocess.directions at σ = 1",
+            "preprocess.directions at σ = 2",
+            "preprocess.directions at σ = 4",
+            "preprocess.estimates near the border",
+            "preprocess.estimates of umbilics",
+            "preprocess.estimates that disagree",
+            "preprocess.estimates within the noise",
+            "preprocess.seeds beside the surface",
+            "preprocess.seeds of strokes without length",
+            "preprocess.seeds without a direction",
+            "preprocess.seeds without a stroke",
+            "preprocess.steps put back",
+            "preprocess.strokes cut where they dip",
+            "stops.angle",
+            "stops.direction",
+            "stops.turns",
+        ],
+        ..NOTHING
+    },
+    Effect {
+        name: "strokes that nothing hides",
+        asked_by: "`hatching.hidden = \"drawn\"`",
+        base: STROKES,
+        with: &[("hatching.hidden", "drawn")],
+        more: &["strokes"],
+        fewer: &["bytes.surface", "preprocess.looks for what hides"],
+        ..NOTHING
+    },
+    Effect {
+        name: "gaps where strokes cross",
+        asked_by: "`hatching.gap`",
+        base: STROKES,
+        with: &[("hatching.gap", "2 px")],
+        only: &["preprocess.segments with gaps"],
+        fewer: &["strokes"],
         ..NOTHING
     },
 ];

@@ -64,6 +64,8 @@ fn fault(effect: &Effect, without: &Named, with: &Named) -> Option<String> {
         let (a, b) = (count(without, name), count(with, name));
         let right = if effect.only.contains(&name) {
             a == 0 && b > 0
+        } else if effect.perhaps.contains(&name) {
+            a == 0
         } else if effect.more.contains(&name) {
             b > a
         } else if effect.fewer.contains(&name) {
