@@ -64,8 +64,8 @@ pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputErr
 /// Draws marks over the layer `beauty`, layer by layer: first a layer's lines, then its dots.
 ///
 /// A dot covers the exact share of a pixel; two dots that share a pixel add as c + d − cd, as if independent. What has
-/// the whole opacity of lines is drawn as one outline of each width; a translucent line, or one with colours, is composited by itself. In
-/// `srgb` the encoded colours are composited, as viewers of SVG and PDF do.
+/// the whole opacity of lines is drawn as one outline of each width; a translucent line, or one with colours, is
+/// composited by itself. In `srgb` the encoded colours are composited, as viewers of SVG and PDF do.
 ///
 /// # Errors
 /// [`OutputError::Layer`] when there is no beauty or it does not fit the picture's size.

@@ -1,6 +1,5 @@
 //! Lines in dashes ([HATCH-13]).
 
-use super::spacing::between;
 use drypoint_scene::marks::{Polyline, Vertex};
 
 /// What is drawn of lines: `on` mm, then `off` mm left out, from the beginning of each. Both are above 0.
@@ -20,7 +19,7 @@ fn dashes(line: &Polyline, on: f64, off: f64) -> Vec<Polyline> {
         let mut from = 0.0;
         while length - from > left {
             from += left;
-            let place = between(&pair[0], &pair[1], from / length);
+            let place = pair[0].between(&pair[1], from / length);
             if drawn {
                 part.push(place);
                 parts.push(std::mem::take(&mut part));

@@ -1,6 +1,5 @@
 //! Gaps where a nearer line crosses (Appel, Rohlf and Stein 1979; [HATCH-20]).
 
-use super::spacing::between;
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Polyline, Vertex};
 use drypoint_scene::view::View;
@@ -144,7 +143,7 @@ fn left(segments: &[Segment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Polyli
         let mut from = 0.0;
         for [start, end] in out.into_iter().chain([[1.0, 1.0]]) {
             if start > from {
-                let ends = [from, start].map(|s| between(&segment.ends[0], &segment.ends[1], s));
+                let ends = [from, start].map(|s| segment.ends[0].between(&segment.ends[1], s));
                 match parts.last_mut() {
                     Some(part) if from == 0.0 && !part.is_empty() => part.push(ends[1]),
                     _ => parts.push(ends.to_vec()),

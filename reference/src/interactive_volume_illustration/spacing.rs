@@ -6,7 +6,7 @@
 //! are d/0.7476 wide on the mean (Rényi 1958, the parking problem); so d is 0.7476 times the distance that is wanted.
 
 use drypoint_scene::glam::DVec2;
-use drypoint_scene::marks::{Polyline, Vertex, color_between};
+use drypoint_scene::marks::{Polyline, Vertex};
 
 /// Rényi's constant: how full a street is where cars park at random.
 const RENYI: f64 = 0.747_597_920_253_411_4;
@@ -177,7 +177,7 @@ impl Paper {
         for (k, pair) in vertices.windows(2).enumerate() {
             let steps = self.steps(pair[0].at, pair[1].at);
             for step in usize::from(k > 0)..=steps {
-                let place = between(&pair[0], &pair[1], step as f64 / steps as f64);
+                let place = pair[0].between(&pair[1], step as f64 / steps as f64);
                 let wanted = apart(place.opacity);
                 if wanted.is_some_and(|d| self.is_free(place.at, GOES_ON * d)) {
                     begins = begins || wanted.is_some_and(|d| self.is_free(place.at, d));
@@ -237,19 +237,6 @@ impl Paper {
 /// The cells of a row around one, so many to both sides.
 fn about(i: usize, cells: usize, n: usize) -> std::ops::Range<usize> {
     i.saturating_sub(cells)..(i + cells + 1).min(n)
-}
-
-/// A place on a straight piece.
-pub(super) fn between(a: &Vertex, b: &Vertex, s: f64) -> Vertex {
-    let mix = |a: f64, b: f64| a + s * (b - a);
-    Vertex {
-        at: a.at.lerp(b.at, s),
-        world: a.world.lerp(b.world, s),
-        radius: mix(a.radius, b.radius),
-        opacity: mix(a.opacity, b.opacity),
-        t: mix(a.t, b.t),
-        color: color_between(a.color, b.color, s),
-    }
 }
 
 #[cfg(test)]

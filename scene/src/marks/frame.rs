@@ -1,6 +1,6 @@
 //! What lies inside the frame ([STIP-16]): dots whole or not at all, lines cut.
 
-use super::{Marks, Page, Polyline, Vertex, color_between};
+use super::{Marks, Page, Polyline, Vertex};
 use glam::DVec2;
 
 impl Marks {
@@ -42,10 +42,10 @@ fn cut(page: &Page, line: Polyline) -> Vec<Polyline> {
             joins = false;
             continue;
         };
-        let end = between(&pair[0], &pair[1], to);
+        let end = pair[0].between(&pair[1], to);
         match parts.last_mut() {
             Some(part) if joins && from == 0.0 => part.push(end),
-            _ => parts.push(vec![between(&pair[0], &pair[1], from), end]),
+            _ => parts.push(vec![pair[0].between(&pair[1], from), end]),
         }
         joins = to == 1.0;
     }
@@ -71,24 +71,6 @@ fn range(page: &Page, a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
         }
     }
     (from < to).then_some([from, to])
-}
-
-fn between(a: &Vertex, b: &Vertex, s: f64) -> Vertex {
-    if s == 0.0 {
-        return *a;
-    }
-    if s == 1.0 {
-        return *b;
-    }
-    let mix = |x: f64, y: f64| x + (y - x) * s;
-    Vertex {
-        at: a.at.lerp(b.at, s),
-        world: a.world.lerp(b.world, s),
-        radius: mix(a.radius, b.radius),
-        opacity: mix(a.opacity, b.opacity),
-        t: mix(a.t, b.t),
-        color: color_between(a.color, b.color, s),
-    }
 }
 
 #[cfg(test)]

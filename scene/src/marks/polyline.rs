@@ -30,6 +30,27 @@ pub struct Vertex {
     pub color: Option<Rgb>,
 }
 
+impl Vertex {
+    /// What a straight line to another vertex has so far along, s from 0 to 1; at its ends the vertices themselves.
+    pub fn between(&self, b: &Self, s: f64) -> Self {
+        if s == 0.0 {
+            return *self;
+        }
+        if s == 1.0 {
+            return *b;
+        }
+        let mix = |x: f64, y: f64| x + (y - x) * s;
+        Self {
+            at: self.at.lerp(b.at, s),
+            world: self.world.lerp(b.world, s),
+            radius: mix(self.radius, b.radius),
+            opacity: mix(self.opacity, b.opacity),
+            t: mix(self.t, b.t),
+            color: color_between(self.color, b.color, s),
+        }
+    }
+}
+
 /// The codes of a channel that pieces have: steps of 1/31 of sRGB, so that a piece is off by 4 of 255 at the most.
 const TINTS: f64 = 31.0;
 

@@ -1,5 +1,7 @@
 //! The effects, each with the counts that it alone makes. A paper adds its own lines.
 
+use super::scenes::{LABEL_ROWS, REGULAR, ROWS, STIPPLES, STROKES, STYLE};
+
 /// Keys of a scene and their values, as `--set` takes them; `{folder}` is where `labels.nrrd` is.
 pub(super) type Settings = &'static [(&'static str, &'static str)];
 
@@ -24,97 +26,6 @@ pub(super) struct Effect {
     /// Counts that it is there to make smaller.
     pub(super) fewer: &'static [&'static str],
 }
-
-/// A regular function, unshaded, over a phantom of bytes. Nothing is opaque, so no ray ends early, and no effect changes
-/// the number of samples by how it looks.
-const REGULAR: &str = r#"
-drypoint = 1
-[volume]
-phantom = { name = "specimen", size = 96 }
-[camera]
-direction = [0.3, 1, -0.6]
-[picture]
-size = [256, 256]
-[sampling]
-stop_below = 0
-[transfer]
-kind = "regular"
-nodes = [
-  { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
-  { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
-]
-"#;
-
-/// The same opacities with styles, plain transparency and no contours: the least that a style needs.
-const STYLE: &str = r#"
-drypoint = 1
-[volume]
-phantom = { name = "specimen", size = 96 }
-[camera]
-direction = [0.3, 1, -0.6]
-[picture]
-size = [256, 256]
-[sampling]
-stop_below = 0
-[transfer]
-transparency = "plain"
-nodes = [
-  { at = 94, style = "vessel", opacity = 0 }, { at = 110, style = "vessel", opacity = 0.1 },
-  { at = 150, style = "bone", opacity = 0 }, { at = 200, style = "bone", opacity = 0.3 },
-]
-"#;
-
-/// Dots alone, all factors 1.
-const STIPPLES: &str = r#"
-drypoint = 1
-[volume]
-phantom = { name = "specimen", size = 96 }
-[camera]
-direction = [0.3, 1, -0.6]
-[picture]
-size = [256, 256]
-[stipples]
-size = "1.5 px"
-threshold = 0.3
-"#;
-
-/// Strokes alone, one in every cell of the surface.
-const STROKES: &str = r#"
-drypoint = 1
-[volume]
-phantom = { name = "specimen", size = 96 }
-[camera]
-direction = [0.3, 1, -0.6]
-[picture]
-size = [256, 256]
-[hatching]
-iso = 120
-seeds = "dense"
-"#;
-
-/// Rows of [`REGULAR`]'s nodes, all alike: what the second quantity measures changes the work and not the picture.
-const ROWS: &str = r#"[
-  { at = -1e9, nodes = [
-    { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
-    { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
-  ] },
-  { at = 1e9, nodes = [
-    { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
-    { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
-  ] },
-]"#;
-
-/// The same rows, for the labels 0 and 1.
-const LABEL_ROWS: &str = r#"[
-  { at = 0, nodes = [
-    { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
-    { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
-  ] },
-  { at = 1, nodes = [
-    { at = 94, color = "firebrick", opacity = 0 }, { at = 110, color = "firebrick", opacity = 0.1 },
-    { at = 150, color = "wheat", opacity = 0 }, { at = 200, color = "wheat", opacity = 0.3 },
-  ] },
-]"#;
 
 /// An effect over [`STYLE`] that adds nothing which is counted.
 const NOTHING: Effect = Effect {

@@ -2,6 +2,7 @@
 
 mod effects;
 mod measure;
+mod scenes;
 
 use crate::files;
 use effects::{EFFECTS, Effect};
