@@ -6,7 +6,7 @@ use drypoint_scene::math::angle::{ANGLES, FRAC_PI_2_LO, STEPS as ANGLE_STEPS};
 use drypoint_scene::math::power::{LEAST, TO_12_BITS, TO_28_BITS};
 use drypoint_scene::math::transmittance::{LN_2_HI, LN_2_LO, LOGARITHMS, POWERS, STEPS, STEPS_BITS, TO_WHOLE};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::{Simd, f64x4, f64x8};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Numbers side by side.
@@ -141,6 +141,31 @@ pub(crate) fn select<S: Simd>(
     b: Vec3<f64x8<S>>,
 ) -> Vec3<f64x8<S>> {
     Vec3::new(lanes.select(a.x, b.x), lanes.select(a.y, b.y), lanes.select(a.z, b.z))
+}
+
+/// From rows of four numbers, one a lane, to columns.
+#[inline(always)]
+pub(crate) fn columns<S: Simd>(rows: [f64x4<S>; LANES]) -> [f64x8<S>; 4] {
+    let low = turned([rows[0], rows[1], rows[2], rows[3]]);
+    let high = turned([rows[4], rows[5], rows[6], rows[7]]);
+    [low[0].combine(high[0]), low[1].combine(high[1]), low[2].combine(high[2]), low[3].combine(high[3])]
+}
+
+/// From four columns to rows, one a lane.
+#[inline(always)]
+pub(crate) fn rows<S: Simd>([a, b, c, d]: [f64x8<S>; 4]) -> [f64x4<S>; LANES] {
+    let ((a, a_high), (b, b_high), (c, c_high), (d, d_high)) = (a.split(), b.split(), c.split(), d.split());
+    let [r0, r1, r2, r3] = turned([a, b, c, d]);
+    let [r4, r5, r6, r7] = turned([a_high, b_high, c_high, d_high]);
+    [r0, r1, r2, r3, r4, r5, r6, r7]
+}
+
+/// Rows for columns, columns for rows.
+#[inline(always)]
+fn turned<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
+    let (ac, bd) = (a.zip_low(c), b.zip_low(d));
+    let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));
+    [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high), ac_high.zip_high(bd_high)]
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use super::curvature_along_ray::Turn;
 use super::{Contour, SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
+use crate::number::lanes::columns;
 use crate::number::{Arithmetic, Vec3, lanes};
-use crate::transfer::lanes::{Nodes, Places};
+use crate::transfer::lanes::Places;
 use drypoint_scene::tables::{Mix, Transparency};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
@@ -113,40 +114,26 @@ impl Blends {
     /// How many style pictures a lookup of the lanes reads.
     #[inline(always)]
     pub(crate) fn lookups(&self, lanes: u64) -> u64 {
-        u64::from(lanes.count_ones() + self.mixed.count_ones())
+        u64::from(lanes.count_ones() + (lanes & self.mixed).count_ones())
     }
 }
 
 impl StyleIndex {
-    /// [`blend`](Self::blend) of the visible lanes.
+    /// [`blend`](Self::blend) of the visible lanes; of a function whose last node this is.
     #[inline(always)]
-    pub(crate) fn blends<S: Simd>(&self, place: &Places<S>) -> Blends {
-        let (mut first, mut second, mut mixed) = ([0; LANES], [0; LANES], 0);
-        match place.nodes {
-            Nodes::One(node) => {
-                let (j0, j1) = (self.style(node) as u32, self.style(node + 1) as u32);
-                (first, second) = ([j0; LANES], [j1; LANES]);
-                if j0 != j1 {
-                    let all = place.w.simd_ge(1.0).to_bitmask();
-                    mixed = place.visible & place.w.simd_ne(0.0).to_bitmask() & !all;
-                    for (lane, j) in first.iter_mut().enumerate() {
-                        if all >> lane & 1 == 1 {
-                            *j = j1;
-                        }
-                    }
-                }
-            }
-            Nodes::Each(nodes) => {
-                let mut left = place.visible;
-                while left != 0 {
-                    let lane = left.trailing_zeros() as usize;
-                    left &= left - 1;
-                    let blend = self.blend(&place.place(lane, nodes));
-                    (first[lane], second[lane]) = (blend.j0 as u32, blend.j1 as u32);
-                    mixed |= u64::from(!blend.is_pure()) << lane;
-                }
-            }
+    pub(crate) fn blends<S: Simd>(&self, place: &Places<S>, last: usize) -> Blends {
+        let nodes = place.nodes.each();
+        let all = place.w.simd_ge(1.0).to_bitmask();
+        let (mut first, mut second, mut differ) = ([0; LANES], [0; LANES], 0);
+        for lane in 0..LANES {
+            let node = nodes[lane] as usize;
+            // At the last node w is 0.
+            let (j0, j1) = (self.style(node) as u32, self.style(last.min(node + 1)) as u32);
+            first[lane] = if all >> lane & 1 == 1 { j1 } else { j0 };
+            second[lane] = j1;
+            differ |= u64::from(j0 != j1) << lane;
         }
+        let mixed = place.visible & place.w.simd_ne(0.0).to_bitmask() & !all & differ;
         Blends { first, second, mixed }
     }
 }
@@ -182,35 +169,26 @@ impl Spheres<f64> {
                 }
             }
         }
-        turned(texels)
+        columns(texels)
     }
 
-    /// Reads a style in each of some lanes, at one normal; perhaps in others too.
+    /// Reads a style in each of some lanes, at one normal; in the others its first texel.
     #[inline(always)]
-    fn read<S: Simd>(&self, styles: &[u32; LANES], lanes: u64, n: [f64x8<S>; 2], texels: &mut [f64x4<S>; LANES]) {
-        let mut left = lanes;
-        while left != 0 {
-            // Neighbours mostly show the same style.
-            let style = styles[left.trailing_zeros() as usize];
-            let mut alike = 0;
-            for (lane, &other) in styles.iter().enumerate() {
-                alike |= u64::from(other == style) << lane;
-            }
-            let map = self.map(style as usize);
-            let (start, w) = map.cells(n, left & alike);
-            if left & !alike == 0 && left == lanes {
-                // Without a branch for each lane, which nothing predicts.
-                for (lane, texel) in texels.iter_mut().enumerate() {
-                    *texel = map.filtered(n[0].simd, start[lane], [w[0][lane], w[1][lane]]);
-                }
-                return;
-            }
-            for (lane, texel) in texels.iter_mut().enumerate() {
-                if (left & alike) >> lane & 1 == 1 {
-                    *texel = map.filtered(n[0].simd, start[lane], [w[0][lane], w[1][lane]]);
-                }
-            }
-            left &= !alike;
+    fn read<S: Simd>(&self, styles: &[u32; LANES], lanes: u64, [x, y]: [f64x8<S>; 2], texels: &mut [f64x4<S>; LANES]) {
+        let simd = x.simd;
+        let mut sides = [0.0; LANES];
+        for (side, &j) in sides.iter_mut().zip(styles) {
+            *side = self.map(j as usize).side as f64;
+        }
+        let side = f64x8::simd_from(simd, sides);
+        let half_side = side * 0.5;
+        let (i, wx) = cell((x + 1.0) * half_side - 0.5, side);
+        let (j, wy) = cell((1.0 - y) * half_side - 0.5, side);
+        let asked = mask64x8::from_bitmask(simd, lanes);
+        let start = whole(asked.select(j * side + i, f64x8::splat(simd, 0.0)));
+        // Without a branch for each lane, which nothing predicts.
+        for (lane, texel) in texels.iter_mut().enumerate() {
+            *texel = self.map(styles[lane] as usize).filtered(simd, start[lane], [wx[lane], wy[lane]]);
         }
     }
 }
@@ -228,17 +206,6 @@ fn straight<S: Simd>(texel: f64x4<S>) -> f64x4<S> {
 }
 
 impl SphereMap {
-    /// The first texel of the cell of each normal, and the place in it; the first cell in lanes that are not asked for.
-    #[inline(always)]
-    fn cells<S: Simd>(&self, [x, y]: [f64x8<S>; 2], asked: u64) -> ([usize; LANES], [f64x8<S>; 2]) {
-        let side = self.side as f64;
-        let half_side = side * 0.5;
-        let (i, wx) = cell((x + 1.0) * half_side - 0.5, side);
-        let (j, wy) = cell((1.0 - y) * half_side - 0.5, side);
-        let start = mask64x8::from_bitmask(x.simd, asked).select(j * side + i, f64x8::splat(x.simd, 0.0));
-        (whole(start), [wx, wy])
-    }
-
     /// Bilinear in the cell whose first texel this is: x, then y.
     #[inline(always)]
     fn filtered<S: Simd>(&self, simd: S, start: usize, [wx, wy]: [f64; 2]) -> f64x4<S> {
@@ -256,30 +223,15 @@ impl SphereMap {
 
 /// The cell of a coordinate and the place in it, as that of one normal.
 #[inline(always)]
-fn cell<S: Simd>(x: f64x8<S>, side: f64) -> (f64x8<S>, f64x8<S>) {
+fn cell<S: Simd>(x: f64x8<S>, side: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
     let simd = x.simd;
-    let (zero, one, end) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0), f64x8::splat(simd, side - 1.0));
+    let (zero, one, end) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0), side - 1.0);
     let x = x.simd_lt(zero).select(zero, x);
     let x = x.simd_gt(end).select(end, x);
     let i = x.floor();
     let w = x - i;
     let last = i.simd_ge(end) & i.simd_gt(zero);
     (last.select(i - one, i), last.select(w + one, w))
-}
-
-/// From rows, one a lane, to columns.
-#[inline(always)]
-fn turned<S: Simd>(rows: [f64x4<S>; LANES]) -> [f64x8<S>; 4] {
-    let low = turned_half([rows[0], rows[1], rows[2], rows[3]]);
-    let high = turned_half([rows[4], rows[5], rows[6], rows[7]]);
-    [low[0].combine(high[0]), low[1].combine(high[1]), low[2].combine(high[2]), low[3].combine(high[3])]
-}
-
-#[inline(always)]
-fn turned_half<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
-    let (ac, bd) = (a.zip_low(c), b.zip_low(d));
-    let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));
-    [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high), ac_high.zip_high(bd_high)]
 }
 
 #[cfg(test)]
@@ -418,7 +370,7 @@ mod tests {
                 let (x, y) = (column(&mut b).map(|x| 2.0 * x - 1.0), column(&mut c).map(|y| 2.0 * y - 1.0));
                 let got: Option<(u64, u64, [[f64; LANES]; 4])> = dispatch!(level, simd => {
                     function.locate_lanes(s.simd_into(simd), mask64x8::splat(simd, true)).map(|place| {
-                        let blends = index.blends(&place);
+                        let blends = index.blends(&place, function.last());
                         let rgba = spheres.lookup_lanes(&blends, &place, x.simd_into(simd), y.simd_into(simd));
                         (place.visible, blends.lookups(place.visible), rgba.map(|c| c.into()))
                     })

@@ -1,6 +1,5 @@
 //! A piecewise-linear function at eight values side by side.
 
-use super::Place;
 use super::piecewise::{PARTS, Piecewise, SEARCH, Segment};
 use crate::field::lanes::{LANES, whole};
 use crate::number::Arithmetic;
@@ -27,6 +26,17 @@ pub(crate) enum Nodes {
     One(usize),
     /// Each its own.
     Each([u32; LANES]),
+}
+
+impl Nodes {
+    /// That of each lane.
+    #[inline(always)]
+    pub(crate) fn each(self) -> [u32; LANES] {
+        match self {
+            Self::One(node) => [node as u32; LANES],
+            Self::Each(nodes) => nodes,
+        }
+    }
 }
 
 /// A one in each byte.
@@ -141,11 +151,5 @@ impl<S: Simd> Places<S> {
             }
         }
         rgb
-    }
-
-    /// One lane's.
-    #[inline(always)]
-    pub(crate) fn place(&self, lane: usize, nodes: [u32; LANES]) -> Place<f64> {
-        Place { node: nodes[lane] as usize, w: self.w[lane], alpha_u: self.alpha_u[lane] }
     }
 }

@@ -172,6 +172,12 @@ impl<R: Real> Piecewise<R> {
         })
     }
 
+    /// The last node's index.
+    #[inline(always)]
+    pub(crate) fn last(&self) -> usize {
+        self.segments.len() - 1
+    }
+
     /// Where a value falls, or nothing where its α_u is 0.
     ///
     /// Values beyond the nodes take the end nodes; of nodes at one value the last one holds at the value itself. What
@@ -199,7 +205,7 @@ impl<R: Real> Piecewise<R> {
     /// The place of any value; one between the nodes is not before this one.
     #[inline(never)]
     fn search(&self, s: R, mut k: usize) -> Option<Place<R>> {
-        let last = self.segments.len() - 1;
+        let last = self.last();
         let node = if s >= self.segments[last].at {
             last
         } else if s > self.first {

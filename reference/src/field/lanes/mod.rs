@@ -68,6 +68,21 @@ pub(crate) struct Places<S: Simd> {
     w: [f64x8<S>; 3],
 }
 
+impl<S: Simd> Places<S> {
+    /// Cells, then ways.
+    #[inline(always)]
+    pub(crate) fn to_columns(self) -> [[f64; LANES]; 6] {
+        let Self { cell, w: [wx, wy, wz] } = self;
+        [cell.x.into(), cell.y.into(), cell.z.into(), wx.into(), wy.into(), wz.into()]
+    }
+
+    /// From [`to_columns`](Self::to_columns).
+    #[inline(always)]
+    pub(crate) fn from_columns([x, y, z, wx, wy, wz]: [f64x8<S>; 6]) -> Self {
+        Self { cell: Vec3::new(x, y, z), w: [wx, wy, wz] }
+    }
+}
+
 /// Whole numbers in [0, 2⁵²) as indices.
 #[inline(always)]
 pub(crate) fn whole<S: Simd>(x: f64x8<S>) -> [usize; LANES] {

@@ -10,10 +10,12 @@ mod correct;
 mod normal;
 mod phong;
 mod style;
+mod waiting;
 mod walk;
 
 use self::phong::{Shaded, Unshaded};
 use self::style::InStyle;
+use self::waiting::Waiting;
 use self::walk::Walk;
 use super::cast::Cast;
 use super::lattice::IndexRay;
@@ -125,6 +127,7 @@ struct Packet<'p, 'v> {
     inside: bool,
     /// Depths at which each ray is in a visible brick.
     intervals: [Vec<[f64; 2]>; LANES],
+    waiting: Waiting,
 }
 
 impl<'p, 'v> Packet<'p, 'v> {
@@ -147,6 +150,7 @@ impl<'p, 'v> Packet<'p, 'v> {
             rgba: [[0.0; 4]; LANES],
             inside: false,
             intervals: Default::default(),
+            waiting: Waiting::new(),
         }
     }
 
@@ -247,7 +251,7 @@ impl<'p, 'v> Packet<'p, 'v> {
             }
             Look::Regular { colors, .. } => walk.run(self, &mut Unshaded { colors }, counts),
             Look::Illustrated(_) => unreachable!("its needs are anything, which lanes serve for styles alone"),
-            Look::Style(styled) => walk.run(self, &mut InStyle::new(simd, self, styled), counts),
+            Look::Style(styled) => walk.run_waiting(self, &mut InStyle::new(simd, self, styled), counts),
         }
     }
 }

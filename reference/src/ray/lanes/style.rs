@@ -1,61 +1,88 @@
 //! Styles in lanes (Bruckner and Gröller 2007), with what a sample has to know of the one before it on its ray.
 
 use super::normal::Normals;
-use super::walk::{Sample, Show, Walk};
-use super::{Packet, vector};
+use super::waiting::Batch;
+use super::walk::Walk;
+use super::{Column, Packet};
 use crate::field::lanes::{LANES, Packed};
 use crate::number::Vec3;
-use crate::number::lanes::select;
+use crate::number::lanes::{columns, rows, select};
 use crate::ray::prepared::KappaSource;
 use crate::ray::sample::Styled;
 use crate::style_transfer_functions::{frame, lanes};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::SphereFrame;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::{Simd, f64x4, f64x8, mask64x8};
 
 /// The styles of a function.
 pub(super) struct InStyle<'p, S: Simd> {
     simd: S,
     styled: &'p Styled<f64>,
-    v: Vec3<f64x8<S>>,
-    v_eye: Vec3<f64x8<S>>,
-    /// From the eye's frame to that of the sphere; none where they are one.
-    turn: Option<(Vec3<f64x8<S>>, f64x8<S>)>,
+    /// v and Δ_ray of each ray.
+    sights: [[f64; 4]; LANES],
+    /// v in eye space.
+    v_eye: [[f64; 3]; LANES],
+    /// From the eye's frame to that of the sphere: w and the scale of each ray; none where they are one.
+    turns: Option<[[f64; 4]; LANES]>,
     /// From world to eye space.
     axes: [Vec3<f64x8<S>>; 3],
-    /// Δ_ray.
-    step: f64x8<S>,
     /// The smallest sample beyond `near`.
-    beyond: f64x8<S>,
-    previous: Previous<S>,
+    beyond: Column,
+    previous: Previous,
 }
 
-/// The last samples that were asked for a normal.
-struct Previous<S: Simd> {
-    /// Which ones; NaN where there was none.
-    k: f64x8<S>,
-    n: Vec3<f64x8<S>>,
-    /// Lanes whose sample has a normal.
-    has: mask64x8<S>,
+/// The last sample of each ray that was asked for a normal.
+struct Previous {
+    /// Which one; NaN where there was none.
+    k: Column,
+    /// N, and 1 where there is one, else 0.
+    n: [[f64; 4]; LANES],
+}
+
+/// What samples look like.
+pub(super) struct Looks<S: Simd> {
+    /// Straight colours.
+    pub(super) rgb: [f64x8<S>; 3],
+    /// Opacities per reference length.
+    pub(super) alpha: f64x8<S>,
+    /// Δ/Δ₀.
+    pub(super) ratio: f64x8<S>,
+    pub(super) counted: Counted,
+}
+
+/// What a batch has done, by lanes.
+pub(super) struct Counted {
+    without_normal: u64,
+    /// Lanes that had to have the gradient of the sample before too.
+    before: u64,
+    blends: lanes::Blends,
+}
+
+impl Counted {
+    /// Counts it for the lanes that are shown.
+    #[inline(always)]
+    pub(super) fn add(&self, shown: u64, counts: &mut Counts) {
+        counts.gradients += u64::from(shown.count_ones() + (shown & self.before).count_ones());
+        counts.without_normal += u64::from((shown & self.without_normal).count_ones());
+        counts.style_lookups += self.blends.lookups(shown);
+    }
 }
 
 impl<'p, S: Simd> InStyle<'p, S> {
     #[inline(always)]
     pub(super) fn new(simd: S, packet: &Packet<'_, '_>, styled: &'p Styled<f64>) -> Self {
-        let zero = f64x8::splat(simd, 0.0);
-        let turn = match styled.frame {
-            SphereFrame::Eye => None,
-            SphereFrame::View => {
-                let (mut w, mut scale) = ([[0.0; LANES]; 3], [0.0; LANES]);
-                let [x, y, z] = packet.v_eye;
-                for lane in 0..LANES {
-                    let (axis, s) = frame::rotation(Vec3::new(x[lane], y[lane], z[lane]));
-                    (w[0][lane], w[1][lane], w[2][lane], scale[lane]) = (axis.x, axis.y, axis.z, s);
-                }
-                Some((vector(simd, w), scale.simd_into(simd)))
+        let (mut sights, mut v_eye, mut turns) = ([[0.0; 4]; LANES], [[0.0; 3]; LANES], [[0.0; 4]; LANES]);
+        for lane in 0..LANES {
+            let ([x, y, z], [ex, ey, ez]) = (packet.v, packet.v_eye);
+            sights[lane] = [x[lane], y[lane], z[lane], packet.step[lane]];
+            v_eye[lane] = [ex[lane], ey[lane], ez[lane]];
+            if styled.frame == SphereFrame::View {
+                let (w, scale) = frame::rotation(Vec3::new(ex[lane], ey[lane], ez[lane]));
+                turns[lane] = [w.x, w.y, w.z, scale];
             }
-        };
+        }
+        let zero = f64x8::splat(simd, 0.0);
         let mut axes = [Vec3::new(zero, zero, zero); 3];
         for (axis, row) in axes.iter_mut().zip(styled.eye_axes.0) {
             *axis = Vec3::new(f64x8::splat(simd, row.x), f64x8::splat(simd, row.y), f64x8::splat(simd, row.z));
@@ -63,69 +90,144 @@ impl<'p, S: Simd> InStyle<'p, S> {
         Self {
             simd,
             styled,
-            v: vector(simd, packet.v),
-            v_eye: vector(simd, packet.v_eye),
-            turn,
+            sights,
+            v_eye,
+            turns: (styled.frame == SphereFrame::View).then_some(turns),
             axes,
-            step: packet.step.simd_into(simd),
-            beyond: packet.beyond.simd_into(simd),
-            previous: Previous {
-                k: f64x8::splat(simd, f64::NAN),
-                n: Vec3::new(zero, zero, zero),
-                has: mask64x8::splat(simd, false),
-            },
+            beyond: packet.beyond,
+            previous: Previous { k: [f64::NAN; LANES], n: [[0.0; 4]; LANES] },
         }
     }
 
-    /// κ_v from the normals of the samples before ([STF-5]), and remembers these.
+    /// κ_v from the normals of the samples before ([STF-5]), and remembers these. With the lanes that lacked one.
     #[inline(always)]
     fn kappa<V: Packed>(
         &mut self,
         walk: &Walk<'_, '_, S, V>,
-        sample: &Sample<S>,
+        batch: &Batch<S>,
+        v: Vec3<f64x8<S>>,
+        step: f64x8<S>,
         n: Vec3<f64x8<S>>,
         has: mask64x8<S>,
-        counts: &mut Counts,
-    ) -> f64x8<S> {
-        let before = sample.k - 1.0;
-        let known = self.previous.k.simd_eq(before);
-        let (mut n_before, mut has_before) = (self.previous.n, known & self.previous.has);
-        let unknown = sample.seen & has & !known;
+    ) -> (f64x8<S>, u64) {
+        let simd = self.simd;
+        let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
+        let asked = mask64x8::from_bitmask(simd, batch.asked);
+        let before = batch.k - 1.0;
+        let k: Column = batch.k.into();
+        let own = rows([n.x, n.y, n.z, has.select(one, zero)]);
+        let mut of_before = [f64x4::splat(simd, 0.0); LANES];
+        let mut k_before = [f64::NAN; LANES];
+        // In their order: the sample before may be one of the batch.
+        for lane in 0..batch.asked.count_ones() as usize {
+            let ray = usize::from(batch.rays[lane]) % LANES;
+            k_before[lane] = self.previous.k[ray];
+            of_before[lane] = f64x4::simd_from(simd, self.previous.n[ray]);
+            self.previous.k[ray] = k[lane];
+            self.previous.n[ray] = own[lane].into();
+        }
+        let known = f64x8::simd_from(simd, k_before).simd_eq(before);
+        let [x, y, z, has_before] = columns(of_before);
+        let (mut n_before, mut has_before) = (Vec3::new(x, y, z), known & has_before.simd_eq(1.0));
+        let unknown = asked & has & !known;
+        let mut fetched = 0;
         if !unknown.all_false() {
-            let p = walk.positions(before);
-            let asked = unknown & inside(p, walk.prepared.ends) & self.beyond.simd_le(before);
-            let number = asked.to_bitmask().count_ones();
-            if number > 0 {
+            let p = walk.positions_of(&batch.rays, before, unknown.to_bitmask());
+            let beyond = of_rays(simd, &self.beyond, &batch.rays);
+            let asked = unknown & inside(p, walk.prepared.ends) & beyond.simd_le(before);
+            fetched = asked.to_bitmask();
+            if fetched != 0 {
                 let g = walk.reader.gradients(&walk.reader.places(p, asked), asked);
-                counts.gradients += u64::from(number);
-                let fetched = Normals::new(walk.prepared, self.v, g);
+                let fetched = Normals::new(walk.prepared, v, g);
                 n_before = select(asked, fetched.n, n_before);
                 has_before |= asked & fetched.has;
             }
         }
-        let both = (sample.seen & has & has_before).to_bitmask();
-        let kappa = lanes::kappa(walk.prepared.turn, n, n_before, both, self.step);
-        let seen = sample.seen;
-        self.previous.k = seen.select(f64x8::splat(self.simd, sample.k), self.previous.k);
-        self.previous.n = select(seen, n, self.previous.n);
-        self.previous.has = (seen & has) | (!seen & self.previous.has);
-        kappa
+        let both = (asked & has & has_before).to_bitmask();
+        (lanes::kappa(walk.prepared.turn, n, n_before, both, step), fetched)
     }
 
     /// N in the frame of the sphere, of which two coordinates are looked up; N = v where there is none ([PREC-3]).
     #[inline(always)]
-    fn on_sphere(&self, n: Vec3<f64x8<S>>, has: mask64x8<S>) -> [f64x8<S>; 2] {
-        let x = has.select(n.dot(self.axes[0]), self.v_eye.x);
-        let y = has.select(n.dot(self.axes[1]), self.v_eye.y);
-        match self.turn {
+    fn on_sphere(&self, rays: &[u8; LANES], n: Vec3<f64x8<S>>, has: mask64x8<S>) -> [f64x8<S>; 2] {
+        let (mut x, mut y, mut z) = (n.dot(self.axes[0]), n.dot(self.axes[1]), n.dot(self.axes[2]));
+        let mut without = !has.to_bitmask() & u64::from(u8::MAX);
+        while without != 0 {
+            let lane = without.trailing_zeros() as usize;
+            without &= without - 1;
+            [x[lane], y[lane], z[lane]] = self.v_eye[usize::from(rays[lane]) % LANES];
+        }
+        match &self.turns {
             None => [x, y],
-            Some((w, scale)) => {
-                let z = has.select(n.dot(self.axes[2]), self.v_eye.z);
-                let turned = frame::turned(Vec3::new(x, y, z), w, scale);
+            Some(turns) => {
+                let [wx, wy, wz, scale] = columns_of_rays(self.simd, turns, rays);
+                let turned = frame::turned(Vec3::new(x, y, z), Vec3::new(wx, wy, wz), scale);
                 [turned.x, turned.y]
             }
         }
     }
+
+    /// What the samples of a batch look like; whatever in the other lanes.
+    #[inline(always)]
+    pub(super) fn show<V: Packed>(&mut self, walk: &Walk<'_, '_, S, V>, batch: &Batch<S>) -> Looks<S> {
+        let (prepared, styled, place) = (walk.prepared, self.styled, &batch.place);
+        let (zero, one) = (f64x8::splat(self.simd, 0.0), f64x8::splat(self.simd, 1.0));
+        let asked = mask64x8::from_bitmask(self.simd, batch.asked);
+        let [x, y, z, step] = columns_of_rays(self.simd, &self.sights, &batch.rays);
+        let v = Vec3::new(x, y, z);
+        let g = walk.reader.gradients(&batch.at, asked);
+        let Normals { n, has, length } = Normals::new(prepared, v, g);
+        let magnitude = match prepared.gradient_range {
+            Some((lo, width)) if width > 0.0 => lanes::clamp_01((length - lo) / width),
+            _ => zero,
+        };
+        let [mut x, mut y] = self.on_sphere(&batch.rays, n, has);
+        let n_dot_v = has.select(n.dot(v).abs(), one);
+        let (mut tau, mut before) = (zero, 0);
+        if let Some(contour) = &styled.contour {
+            let mut kappa = zero;
+            if prepared.calls.kappa == KappaSource::AlongRay {
+                (kappa, before) = self.kappa(walk, batch, v, step, n, has);
+            }
+            tau = contour.tau_lanes(kappa, magnitude);
+            [x, y] = lanes::push([x, y], n_dot_v, tau, asked & has);
+        }
+        let blends = styled.index.blends(place, prepared.function.last());
+        let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
+        let share = lanes::share(styled.transparency, place, n_dot_v, tau, magnitude);
+        let counted = Counted { without_normal: !has.to_bitmask(), before, blends };
+        let ratio = step / prepared.reference_length;
+        let opaque = alpha_d.simd_eq(1.0) | !asked;
+        if opaque.all_true() {
+            return Looks { rgb: [r, g, b], alpha: share, ratio, counted };
+        }
+        let clear = alpha_d.simd_eq(0.0);
+        let mut rgb = [r, g, b];
+        for c in &mut rgb {
+            *c = clear.select(zero, *c / alpha_d);
+        }
+        Looks { rgb, alpha: clear.select(zero, alpha_d * share), ratio, counted }
+    }
+}
+
+/// A number of each sample's ray.
+#[inline(always)]
+fn of_rays<S: Simd>(simd: S, of_ray: &Column, rays: &[u8; LANES]) -> f64x8<S> {
+    let mut column = [0.0; LANES];
+    for lane in 0..LANES {
+        column[lane] = of_ray[usize::from(rays[lane]) % LANES];
+    }
+    column.simd_into(simd)
+}
+
+/// Four numbers of each sample's ray.
+#[inline(always)]
+fn columns_of_rays<S: Simd>(simd: S, of_ray: &[[f64; 4]; LANES], rays: &[u8; LANES]) -> [f64x8<S>; 4] {
+    let mut rows = [f64x4::splat(simd, 0.0); LANES];
+    for lane in 0..LANES {
+        rows[lane] = f64x4::simd_from(simd, of_ray[usize::from(rays[lane]) % LANES]);
+    }
+    columns(rows)
 }
 
 /// Whether positions lie in a closed box.
@@ -137,50 +239,4 @@ fn inside<S: Simd>(p: Vec3<f64x8<S>>, [lo, hi]: [Vec3<f64>; 2]) -> mask64x8<S> {
         & p.y.simd_le(hi.y)
         & p.z.simd_ge(lo.z)
         & p.z.simd_le(hi.z)
-}
-
-impl<S: Simd> Show<S> for InStyle<'_, S> {
-    #[inline(always)]
-    fn show<V: Packed>(
-        &mut self,
-        walk: &Walk<'_, '_, S, V>,
-        sample: &Sample<S>,
-        counts: &mut Counts,
-    ) -> ([f64x8<S>; 3], f64x8<S>) {
-        let (prepared, styled, place) = (walk.prepared, self.styled, &sample.place);
-        let (zero, one) = (f64x8::splat(self.simd, 0.0), f64x8::splat(self.simd, 1.0));
-        let g = walk.reader.gradients(&sample.at, sample.seen);
-        counts.gradients += u64::from(place.visible.count_ones());
-        let Normals { n, has, length } = Normals::new(prepared, self.v, g);
-        counts.without_normal += u64::from((place.visible & !has.to_bitmask()).count_ones());
-        let magnitude = match prepared.gradient_range {
-            Some((lo, width)) if width > 0.0 => lanes::clamp_01((length - lo) / width),
-            _ => zero,
-        };
-        let [mut x, mut y] = self.on_sphere(n, has);
-        let n_dot_v = has.select(n.dot(self.v).abs(), one);
-        let mut tau = zero;
-        if let Some(contour) = &styled.contour {
-            let kappa = match prepared.calls.kappa {
-                KappaSource::AlongRay => self.kappa(walk, sample, n, has, counts),
-                _ => zero,
-            };
-            tau = contour.tau_lanes(kappa, magnitude);
-            [x, y] = lanes::push([x, y], n_dot_v, tau, sample.seen & has);
-        }
-        let blends = styled.index.blends(place);
-        counts.style_lookups += blends.lookups(place.visible);
-        let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
-        let share = lanes::share(styled.transparency, place, n_dot_v, tau, magnitude);
-        let opaque = alpha_d.simd_eq(1.0) | !sample.seen;
-        if opaque.all_true() {
-            return ([r, g, b], share);
-        }
-        let clear = alpha_d.simd_eq(0.0);
-        let mut rgb = [r, g, b];
-        for c in &mut rgb {
-            *c = clear.select(zero, *c / alpha_d);
-        }
-        (rgb, clear.select(zero, alpha_d * share))
-    }
 }

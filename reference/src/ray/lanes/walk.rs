@@ -25,7 +25,6 @@ pub(super) struct Walk<'p, 'v, S: Simd, V> {
 
 /// Samples of one plane that can be seen.
 pub(super) struct Sample<S: Simd> {
-    pub(super) k: f64,
     pub(super) at: Places<S>,
     /// Between which nodes their values lie; its lanes are the ones that count.
     pub(super) place: transfer::lanes::Places<S>,
@@ -119,6 +118,23 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
         self.origin + self.along * (self.depth_step * (k + 0.5))
     }
 
+    /// The index positions of samples of any rays, in the lanes `asked`; the origin in the others.
+    #[inline(always)]
+    pub(super) fn positions_of(&self, rays: &[u8; LANES], k: f64x8<S>, asked: u64) -> Vec3<f64x8<S>> {
+        let mut p = [[0.0; LANES]; 3];
+        let mut left = asked;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let ray = usize::from(rays[lane]) % LANES;
+            let t = self.depth_step[ray] * (k[lane] + 0.5);
+            p[0][lane] = self.origin.x[ray] + self.along.x[ray] * t;
+            p[1][lane] = self.origin.y[ray] + self.along.y[ray] * t;
+            p[2][lane] = self.origin.z[ray] + self.along.z[ray] * t;
+        }
+        vector(self.simd, p)
+    }
+
     /// Visits sample k of the active lanes. Returns the lanes whose ray ends there.
     #[inline(always)]
     fn visit(
@@ -136,7 +152,7 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
             return mask64x8::splat(simd, false);
         };
         let seen = mask64x8::from_bitmask(simd, place.visible);
-        let sample = Sample { k, at, place, seen };
+        let sample = Sample { at, place, seen };
         let (rgb, alpha) = look.show(self, &sample, counts);
         let fresh = (seen & alpha.simd_ne(light.corrected[0])).to_bitmask();
         if fresh != 0 {
