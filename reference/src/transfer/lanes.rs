@@ -22,7 +22,7 @@ pub(crate) struct Places<S: Simd> {
 /// The node before each value.
 #[derive(Clone, Copy)]
 pub(crate) enum Nodes {
-    /// One for all, which is not the last.
+    /// One for all.
     One(usize),
     /// Each its own.
     Each([u32; LANES]),
@@ -54,10 +54,11 @@ impl Piecewise<f64> {
     #[inline(always)]
     pub(crate) fn locate_lanes<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> Option<Places<S>> {
         let simd = s.simd;
+        let end = f64x8::splat(simd, self.segments[self.last()].at);
         // As whole numbers from 0 on: what lies before, or is not a number, becomes 0; what is not asked for, beyond all.
         let part = (s - self.first) * self.parts_per_unit + 1.0;
         let part = part.simd_gt(0.0).select(part, f64x8::splat(simd, 0.0));
-        let last = (PARTS + 1) as f64;
+        let last = (PARTS + 2) as f64;
         let part = part.simd_lt(last).select(part, f64x8::splat(simd, last)).floor();
         let parts = whole(asked.select(part, f64x8::splat(simd, last + 1.0)));
         // Without a branch for each lane, which nothing predicts.
@@ -69,6 +70,8 @@ impl Piecewise<f64> {
             return None;
         }
         let seen = nonzero(codes);
+        // What lies beyond the last node takes its place; searches do not mind.
+        let s = s.simd_gt(end).select(end, s);
         let code = (codes >> (codes.trailing_zeros() & !7)) as u8;
         let (visible, nodes, alpha_u, w) = if code != SEARCH && u64::from(code) * seen == codes {
             // Neighbours mostly lie between the same two nodes.
@@ -129,7 +132,7 @@ impl<S: Simd> Places<S> {
         let mut rgb = [self.w; 3];
         match self.nodes {
             Nodes::One(node) => {
-                let (a, b) = (colors[node], colors[node + 1]);
+                let (a, b) = (colors[node], colors[(node + 1).min(colors.len() - 1)]);
                 for i in 0..3 {
                     rgb[i] = f64x8::lerp(f64x8::splat(simd, a[i]), f64x8::splat(simd, b[i]), self.w);
                 }

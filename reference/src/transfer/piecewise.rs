@@ -17,7 +17,7 @@ pub struct Piecewise<R> {
     pub(super) parts_per_unit: R,
 }
 
-/// From a node to the next one. The last node's has width 0.
+/// From a node to the next one. The last node's holds beyond it; its width is 1, so that it can be divided by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Segment<R> {
     pub(super) at: R,
@@ -40,8 +40,9 @@ enum Part {
 }
 
 /// A byte for each part, so that those of eight values are one word: 0 where nothing is seen, one more than the node that a
-/// segment begins at, or [`SEARCH`]. Beyond the parts there are zeros.
-pub(super) type Codes = [u8; (PARTS + 2).next_power_of_two()];
+/// segment begins at, or [`SEARCH`]. One more part, farther away than any rounding, holds what lies beyond the last node;
+/// beyond the parts there are zeros.
+pub(super) type Codes = [u8; (PARTS + 3).next_power_of_two()];
 
 /// What has to be searched for, or is beyond what a byte can say.
 pub(super) const SEARCH: u8 = u8::MAX;
@@ -150,8 +151,9 @@ impl<R: Real> Piecewise<R> {
         } else {
             (Box::new([Part::Search(0); PARTS + 2]), R::ZERO)
         };
-        let mut codes = Box::new([0; (PARTS + 2).next_power_of_two()]);
-        for (code, part) in codes.iter_mut().zip(parts.iter()) {
+        let mut codes = Box::new([0; (PARTS + 3).next_power_of_two()]);
+        let beyond = if opacity[end] == R::ZERO { Part::Invisible } else { Part::Segment(end as u32) };
+        for (code, part) in codes.iter_mut().zip(parts.iter().chain([&beyond])) {
             *code = match *part {
                 Part::Invisible => 0,
                 Part::Segment(k) if k < u32::from(SEARCH) - 1 => k as u8 + 1,
@@ -160,7 +162,8 @@ impl<R: Real> Piecewise<R> {
         }
         let segments = (0..=end).map(|k| {
             let next = (k + 1).min(end);
-            Segment { at: at[k], width: at[next] - at[k], opacity: opacity[k], next_opacity: opacity[next] }
+            let width = if k < end { at[next] - at[k] } else { R::ONE };
+            Segment { at: at[k], width, opacity: opacity[k], next_opacity: opacity[next] }
         });
         Ok(Self {
             segments: segments.collect(),

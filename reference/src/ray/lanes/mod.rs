@@ -21,17 +21,17 @@ use super::cast::Cast;
 use super::lattice::IndexRay;
 use super::need::Needs;
 use super::prepared::{Calls, KappaSource, Prepared};
-use super::sample::Look;
+use super::sample::{Look, Sight};
 use super::skip::{Boxes, merge};
 use crate::field::lanes::{LANES, Packed};
 use crate::number::Vec3;
-use crate::number::lanes::wide;
+use crate::number::lanes::{columns, wide};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::view::Ray;
 use drypoint_scene::volume::Voxels;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::{Simd, f64x4, f64x8};
 
 /// Whether a scene's rays can be cast in lanes.
 pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
@@ -99,6 +99,8 @@ pub(super) fn cast_all(
 
 /// Numbers of eight rays.
 type Column = [f64; LANES];
+/// Four numbers of one ray.
+type Row = [f64; 4];
 
 /// Rays side by side and what comes out of them. Lanes without a ray visit nothing.
 struct Packet<'p, 'v> {
@@ -106,12 +108,10 @@ struct Packet<'p, 'v> {
     origin: [Column; 3],
     along: [Column; 3],
     depth_step: Column,
-    /// Δ_ray.
-    step: Column,
-    /// The smallest sample beyond `near`.
-    beyond: Column,
-    v: [Column; 3],
-    v_eye: [Column; 3],
+    /// v and Δ_ray of each ray.
+    sights: [Row; LANES],
+    /// v in eye space, and the smallest sample beyond `near`.
+    eyes: [Row; LANES],
     half: [Column; 3],
     /// What the rays have to visit, one ray after the other: first and last sample of each interval.
     visits: Vec<[i64; 2]>,
@@ -138,10 +138,8 @@ impl<'p, 'v> Packet<'p, 'v> {
             origin: [none; 3],
             along: [none; 3],
             depth_step: none,
-            step: none,
-            beyond: none,
-            v: [none; 3],
-            v_eye: [none; 3],
+            sights: [[0.0; 4]; LANES],
+            eyes: [[0.0; 4]; LANES],
             half: [none; 3],
             visits: Vec::new(),
             of_ray: [[0; 2]; LANES],
@@ -208,15 +206,13 @@ impl<'p, 'v> Packet<'p, 'v> {
         self.ends[0][lane] = *nearest as f64;
         self.ends[1][lane] = *farthest as f64;
         let direction = Vec3::from_glam(self.prepared.view.direction_to_world(pixel.v));
-        let sight = self.prepared.look.sight(direction, Vec3::from_glam(pixel.v));
+        let Sight { v, v_eye, half } = self.prepared.look.sight(direction, Vec3::from_glam(pixel.v));
         put(&mut self.origin, lane, ray.origin);
         put(&mut self.along, lane, ray.along);
-        put(&mut self.v, lane, sight.v);
-        put(&mut self.v_eye, lane, sight.v_eye);
-        put(&mut self.half, lane, sight.half);
+        self.sights[lane] = [v.x, v.y, v.z, ray.step];
+        self.eyes[lane] = [v_eye.x, v_eye.y, v_eye.z, ray.first as f64];
+        put(&mut self.half, lane, half);
         self.depth_step[lane] = ray.depth_step;
-        self.step[lane] = ray.step;
-        self.beyond[lane] = ray.first as f64;
     }
 
     /// Joins the visits of all rays.
@@ -276,6 +272,19 @@ fn put(columns: &mut [Column; 3], lane: usize, v: Vec3<f64>) {
     columns[1][lane] = v.y;
     columns[2][lane] = v.z;
 }
+
+/// Rows as columns, from the row of each lane.
+#[inline(always)]
+fn of_rays<S: Simd>(simd: S, of_ray: &[Row; LANES], rays: &[u8; LANES]) -> [f64x8<S>; 4] {
+    let mut rows = [f64x4::splat(simd, 0.0); LANES];
+    for lane in 0..LANES {
+        rows[lane] = f64x4::simd_from(simd, of_ray[usize::from(rays[lane]) % LANES]);
+    }
+    columns(rows)
+}
+
+/// The rays in their order.
+const IN_ORDER: [u8; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 #[inline(always)]
 fn vector<S: Simd>(simd: S, [x, y, z]: [Column; 3]) -> Vec3<f64x8<S>> {

@@ -2,7 +2,7 @@
 
 use super::normal::Normals;
 use super::walk::{Sample, Show, Walk};
-use super::{Packet, vector};
+use super::{IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::Packed;
 use crate::number::{Arithmetic, Vec3};
 use crate::shading::{Exponent, Phong};
@@ -42,7 +42,8 @@ impl<'p, S: Simd> Shaded<'p, S> {
     pub(super) fn new(simd: S, packet: &Packet<'_, '_>, colors: &'p [[f64; 3]], phong: &'p Phong<f64>) -> Self {
         let Vec3 { x, y, z } = phong.light;
         let light = Vec3::new(f64x8::splat(simd, x), f64x8::splat(simd, y), f64x8::splat(simd, z));
-        Self { simd, colors, phong, v: vector(simd, packet.v), half: vector(simd, packet.half), light }
+        let [v_x, v_y, v_z, _] = of_rays(simd, &packet.sights, &IN_ORDER);
+        Self { simd, colors, phong, v: Vec3::new(v_x, v_y, v_z), half: vector(simd, packet.half), light }
     }
 
     /// [`Phong::shade`] where there is a normal.

@@ -3,7 +3,7 @@
 use super::normal::Normals;
 use super::waiting::Batch;
 use super::walk::Walk;
-use super::{Column, Packet};
+use super::{Column, Packet, Row, of_rays};
 use crate::field::lanes::{LANES, Packed};
 use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, select};
@@ -20,15 +20,13 @@ pub(super) struct InStyle<'p, S: Simd> {
     simd: S,
     styled: &'p Styled<f64>,
     /// v and Δ_ray of each ray.
-    sights: [[f64; 4]; LANES],
-    /// v in eye space.
-    v_eye: [[f64; 3]; LANES],
+    sights: [Row; LANES],
+    /// v in eye space, and the smallest sample beyond `near`.
+    eyes: [Row; LANES],
     /// From the eye's frame to that of the sphere: w and the scale of each ray; none where they are one.
-    turns: Option<[[f64; 4]; LANES]>,
+    turns: Option<[Row; LANES]>,
     /// From world to eye space.
     axes: [Vec3<f64x8<S>>; 3],
-    /// The smallest sample beyond `near`.
-    beyond: Column,
     previous: Previous,
 }
 
@@ -37,7 +35,7 @@ struct Previous {
     /// Which one; NaN where there was none.
     k: Column,
     /// N, and 1 where there is one, else 0.
-    n: [[f64; 4]; LANES],
+    n: [Row; LANES],
 }
 
 /// What samples look like.
@@ -72,16 +70,12 @@ impl Counted {
 impl<'p, S: Simd> InStyle<'p, S> {
     #[inline(always)]
     pub(super) fn new(simd: S, packet: &Packet<'_, '_>, styled: &'p Styled<f64>) -> Self {
-        let (mut sights, mut v_eye, mut turns) = ([[0.0; 4]; LANES], [[0.0; 3]; LANES], [[0.0; 4]; LANES]);
-        for lane in 0..LANES {
-            let ([x, y, z], [ex, ey, ez]) = (packet.v, packet.v_eye);
-            sights[lane] = [x[lane], y[lane], z[lane], packet.step[lane]];
-            v_eye[lane] = [ex[lane], ey[lane], ez[lane]];
-            if styled.frame == SphereFrame::View {
-                let (w, scale) = frame::rotation(Vec3::new(ex[lane], ey[lane], ez[lane]));
-                turns[lane] = [w.x, w.y, w.z, scale];
-            }
-        }
+        let turns = (styled.frame == SphereFrame::View).then(|| {
+            packet.eyes.map(|[x, y, z, _]| {
+                let (w, scale) = frame::rotation(Vec3::new(x, y, z));
+                [w.x, w.y, w.z, scale]
+            })
+        });
         let zero = f64x8::splat(simd, 0.0);
         let mut axes = [Vec3::new(zero, zero, zero); 3];
         for (axis, row) in axes.iter_mut().zip(styled.eye_axes.0) {
@@ -90,11 +84,10 @@ impl<'p, S: Simd> InStyle<'p, S> {
         Self {
             simd,
             styled,
-            sights,
-            v_eye,
-            turns: (styled.frame == SphereFrame::View).then_some(turns),
+            sights: packet.sights,
+            eyes: packet.eyes,
+            turns,
             axes,
-            beyond: packet.beyond,
             previous: Previous { k: [f64::NAN; LANES], n: [[0.0; 4]; LANES] },
         }
     }
@@ -133,7 +126,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
         let mut fetched = 0;
         if !unknown.all_false() {
             let p = walk.positions_of(&batch.rays, before, unknown.to_bitmask());
-            let beyond = of_rays(simd, &self.beyond, &batch.rays);
+            let [_, _, _, beyond] = of_rays(simd, &self.eyes, &batch.rays);
             let asked = unknown & inside(p, walk.prepared.ends) & beyond.simd_le(before);
             fetched = asked.to_bitmask();
             if fetched != 0 {
@@ -155,12 +148,12 @@ impl<'p, S: Simd> InStyle<'p, S> {
         while without != 0 {
             let lane = without.trailing_zeros() as usize;
             without &= without - 1;
-            [x[lane], y[lane], z[lane]] = self.v_eye[usize::from(rays[lane]) % LANES];
+            [x[lane], y[lane], z[lane], _] = self.eyes[usize::from(rays[lane]) % LANES];
         }
         match &self.turns {
             None => [x, y],
             Some(turns) => {
-                let [wx, wy, wz, scale] = columns_of_rays(self.simd, turns, rays);
+                let [wx, wy, wz, scale] = of_rays(self.simd, turns, rays);
                 let turned = frame::turned(Vec3::new(x, y, z), Vec3::new(wx, wy, wz), scale);
                 [turned.x, turned.y]
             }
@@ -173,7 +166,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
         let (prepared, styled, place) = (walk.prepared, self.styled, &batch.place);
         let (zero, one) = (f64x8::splat(self.simd, 0.0), f64x8::splat(self.simd, 1.0));
         let asked = mask64x8::from_bitmask(self.simd, batch.asked);
-        let [x, y, z, step] = columns_of_rays(self.simd, &self.sights, &batch.rays);
+        let [x, y, z, step] = of_rays(self.simd, &self.sights, &batch.rays);
         let v = Vec3::new(x, y, z);
         let g = walk.reader.gradients(&batch.at, asked);
         let Normals { n, has, length } = Normals::new(prepared, v, g);
@@ -208,26 +201,6 @@ impl<'p, S: Simd> InStyle<'p, S> {
         }
         Looks { rgb, alpha: clear.select(zero, alpha_d * share), ratio, counted }
     }
-}
-
-/// A number of each sample's ray.
-#[inline(always)]
-fn of_rays<S: Simd>(simd: S, of_ray: &Column, rays: &[u8; LANES]) -> f64x8<S> {
-    let mut column = [0.0; LANES];
-    for lane in 0..LANES {
-        column[lane] = of_ray[usize::from(rays[lane]) % LANES];
-    }
-    column.simd_into(simd)
-}
-
-/// Four numbers of each sample's ray.
-#[inline(always)]
-fn columns_of_rays<S: Simd>(simd: S, of_ray: &[[f64; 4]; LANES], rays: &[u8; LANES]) -> [f64x8<S>; 4] {
-    let mut rows = [f64x4::splat(simd, 0.0); LANES];
-    for lane in 0..LANES {
-        rows[lane] = f64x4::simd_from(simd, of_ray[usize::from(rays[lane]) % LANES]);
-    }
-    columns(rows)
 }
 
 /// Whether positions lie in a closed box.

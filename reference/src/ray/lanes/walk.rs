@@ -1,7 +1,7 @@
 //! From sample to sample, front to back, in lanes ([RAY-1], [RAY-2], [VAL-3]).
 
 use super::correct::correct;
-use super::{Column, Packet, vector};
+use super::{Column, IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::{LANES, LaneReader, Packed, Places};
 use crate::number::Vec3;
 use crate::ray::opacity::Correction;
@@ -74,7 +74,7 @@ impl<S: Simd> Light<S> {
 impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
     #[inline(always)]
     pub(super) fn new(simd: S, packet: &Packet<'p, 'v>, data: &'p [V]) -> Self {
-        let step: f64x8<S> = packet.step.simd_into(simd);
+        let [_, _, _, step] = of_rays(simd, &packet.sights, &IN_ORDER);
         Self {
             simd,
             prepared: packet.prepared,
