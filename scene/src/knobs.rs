@@ -16,6 +16,7 @@
 //! # Ok::<(), drypoint_scene::file::Faults>(())
 //! ```
 
+use crate::file::describe::Section;
 use crate::file::out::Out;
 use crate::file::{Faults, Overrides, parse, write_full};
 use crate::plan::Plan;
@@ -71,11 +72,14 @@ impl Knob {
 
     /// What a scene has, as `--set` takes it; none where it has no such table.
     pub fn of(&self, scene: &Scene) -> Option<String> {
-        let (table, name) = self.key.split_once('.')?;
-        let Some(Out::Table(entries)) = ROOT.keys.iter().find(|key| key.name == table)?.field.write(scene) else {
-            return None;
-        };
-        entries.into_iter().find(|(key, _)| key == name).map(|(_, value)| match value {
+        let mut names = self.key.split('.');
+        let table = names.next()?;
+        let mut value = ROOT.keys.iter().find(|key| key.name == table)?.field.write(scene)?;
+        for name in names {
+            let Out::Table(entries) = value else { return None };
+            value = entries.into_iter().find(|(key, _)| key == name)?.1;
+        }
+        Some(match value {
             Out::Text(text) => text,
             other => other.toml(),
         })
@@ -97,15 +101,21 @@ impl Knob {
 pub fn knobs(scene: &Scene, plan: &Plan) -> Vec<Knob> {
     let mut knobs = Vec::new();
     for table in ROOT.section().keys {
-        for key in table.shape.section().into_iter().flat_map(|section| section.keys) {
-            let Some(ladder) = key.ladder else { continue };
-            let settings = (ladder.settings)(scene, plan);
-            if settings.len() > 1 {
-                knobs.push(Knob { key: format!("{}.{}", table.name, key.name), settings, limit: ladder.limit });
-            }
-        }
+        add(&mut knobs, table.name, table.shape.section(), (scene, plan));
     }
     knobs
+}
+
+/// Those of a table and of the tables in it.
+fn add(knobs: &mut Vec<Knob>, table: &str, section: Option<Section>, (scene, plan): (&Scene, &Plan)) {
+    for key in section.into_iter().flat_map(|section| section.keys) {
+        let name = format!("{table}.{}", key.name);
+        let settings = key.ladder.map_or(&[][..], |ladder| (ladder.settings)(scene, plan));
+        add(knobs, &name, key.shape.section(), (scene, plan));
+        if let Some(ladder) = key.ladder.filter(|_| settings.len() > 1) {
+            knobs.push(Knob { key: name, settings, limit: ladder.limit });
+        }
+    }
 }
 
 #[cfg(test)]
@@ -168,7 +178,7 @@ mod tests {
         // A surface that hides them is between the voxels.
         let hidden = scene("[stipples]\nhide_behind = 1\n");
         assert_eq!(keys(&hidden).join(" "), format!("sampling.kernel {points}"));
-        let strokes = "hatching.tolerance hatching.chord";
+        let strokes = "hatching.tolerance hatching.chord hatching.directions.rule hatching.directions.from";
         assert_eq!(keys(&scene("[hatching]\n")).join(" "), format!("sampling.kernel {strokes}"));
         assert_eq!(keys(&scene("[outlines]\n")), ["sampling.kernel"]);
         let all = keys(&scene(&format!("{REGULAR}[stipples]\n[hatching]\n"))).join(" ");

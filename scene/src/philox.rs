@@ -9,25 +9,45 @@ const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 
 /// The four words of a counter under a key.
-pub fn philox4x32_10(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
-    let product = |i: usize, x: u32| {
-        let p = u64::from(MULTIPLIERS[i]) * u64::from(x);
-        [(p >> 32) as u32, p as u32]
-    };
+pub fn philox4x32_10(counter: [u32; 4], key: [u32; 2]) -> [u32; 4] {
+    words(counter.map(|word| [word]), key).map(|[word]| word)
+}
+
+/// The words of counters side by side.
+#[inline(always)]
+fn words<const N: usize>(mut counter: [[u32; N]; 4], mut key: [u32; 2]) -> [[u32; N]; 4] {
     for _ in 0..10 {
-        let [hi0, lo0] = product(0, counter[0]);
-        let [hi1, lo1] = product(1, counter[2]);
-        counter = [hi1 ^ counter[1] ^ key[0], lo1, hi0 ^ counter[3] ^ key[1], lo0];
-        key = std::array::from_fn(|i| key[i].wrapping_add(WEYL[i]));
+        let [a, b, c, d] = counter;
+        for l in 0..N {
+            let (p, q) = (u64::from(MULTIPLIERS[0]) * u64::from(a[l]), u64::from(MULTIPLIERS[1]) * u64::from(c[l]));
+            counter[0][l] = (q >> 32) as u32 ^ b[l] ^ key[0];
+            counter[1][l] = q as u32;
+            counter[2][l] = (p >> 32) as u32 ^ d[l] ^ key[1];
+            counter[3][l] = p as u32;
+        }
+        key = [key[0].wrapping_add(WEYL[0]), key[1].wrapping_add(WEYL[1])];
     }
     counter
 }
 
 /// Four independent numbers in [0, 1) for draw `draw` at the cell (x, y, z) of a grid: u = (word >> 8) · 2⁻²⁴, exact
 /// in f32 and f64 ([RAY-4]). The key is the seed, low word first.
-pub fn uniforms(seed: u64, [x, y, z]: [u32; 3], draw: u32) -> [f64; 4] {
-    philox4x32_10([x, y, z, draw], [seed as u32, (seed >> 32) as u32])
-        .map(|word| f64::from(word >> 8) * (1.0 / 16_777_216.0))
+pub fn uniforms(seed: u64, cell: [u32; 3], draw: u32) -> [f64; 4] {
+    uniforms_of(seed, cell, [draw]).map(|[u]| u)
+}
+
+/// [`uniforms`] of several draws side by side, first those of each draw's first word.
+#[inline(always)]
+pub fn uniforms_of<const N: usize>(seed: u64, [x, y, z]: [u32; 3], draws: [u32; N]) -> [[f64; N]; 4] {
+    let words = words([[x; N], [y; N], [z; N], draws], [seed as u32, (seed >> 32) as u32]);
+    let mut uniforms = [[0.0; N]; 4];
+    for (uniforms, words) in uniforms.iter_mut().zip(words) {
+        for l in 0..N {
+            // 24 bits have no sign: processors turn signed numbers into f64 at once.
+            uniforms[l] = f64::from((words[l] >> 8) as i32) * (1.0 / 16_777_216.0);
+        }
+    }
+    uniforms
 }
 
 /// The first of [`uniforms`].
@@ -58,6 +78,15 @@ mod tests {
         // The seed's upper word is the key's second.
         let [word, ..] = philox4x32_10([1, 2, 3, 4], [5, 6]);
         assert_eq!(uniform(5 | 6 << 32, [1, 2, 3], 4), f64::from(word >> 8) / 16_777_216.0);
+    }
+
+    #[test]
+    fn side_by_side_or_one_by_one() {
+        let draws = [0, 1, 64, u32::MAX, 7, 6, 5, 4];
+        let all = uniforms_of(3 | 9 << 40, [1, 2, 3], draws);
+        for (l, draw) in draws.into_iter().enumerate() {
+            assert_eq!(all.map(|word| word[l]), uniforms(3 | 9 << 40, [1, 2, 3], draw));
+        }
     }
 
     #[test]

@@ -13,8 +13,8 @@ use drypoint_scene::philox::uniform;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
 use drypoint_scene::tables::{
-    DirectionRule, Family, GradientRange, Hatching as Table, Hidden, LightDirection, LineLighting, Reference, Scene,
-    SeedsBy, Spacing,
+    DirectionRule, DirectionSource, Family, GradientRange, Hatching as Table, Hidden, Interpolate, LightDirection,
+    LineLighting, Reference, Scene, SeedsBy, Spacing, StoredAt,
 };
 use drypoint_scene::view::View;
 use rayon::prelude::*;
@@ -143,6 +143,7 @@ impl<'a> Hatching<'a> {
         counts.bytes.insert("pyramid".into(), pyramid.bytes());
         counts.preprocess.insert("pyramid".into(), pyramid.entries());
         let strokes = room::Strokes::new(field, Some(self.iso), self.how);
+        strokes.prepare();
         let (rule, range) = match table.seeds {
             SeedsBy::Dense => (room::SeedRule::Dense, [0.0; 2]),
             SeedsBy::Curvature => {
@@ -168,7 +169,7 @@ impl<'a> Hatching<'a> {
                 across: grown.cross.into_iter().map(|(seed, stroke)| (seed.normal, stroke)).collect(),
             }
         });
-        counts.bytes.insert("smoothed bricks".into(), strokes.directions().bytes());
+        count_kept(counts, &strokes);
         counts.seconds.insert("grown strokes".into(), start.elapsed().as_secs_f64());
         Hatched { hatching: self, strokes, cells, grown }
     }
@@ -308,7 +309,7 @@ impl Hatched<'_> {
         if crossed {
             add_lines(room::Along::Across, &second);
         }
-        counts.bytes.insert("smoothed bricks".into(), self.strokes.directions().bytes());
+        count_kept(counts, &self.strokes);
         lines
     }
 }
@@ -333,6 +334,14 @@ impl Depths {
     }
 }
 
+/// What strokes keep of the directions that they asked for.
+fn count_kept(counts: &mut Counts, strokes: &room::Strokes<'_, '_>) {
+    let [made, bytes] = strokes.stored();
+    counts.preprocess.insert("stored directions".into(), made);
+    counts.bytes.insert("stored directions".into(), bytes);
+    counts.bytes.insert("smoothed bricks".into(), strokes.directions().bytes());
+}
+
 /// Adds what growing did.
 fn add(counts: &mut Counts, grown: &room::HatchCounts) {
     counts.directions += grown.scales.directions();
@@ -348,6 +357,8 @@ fn add(counts: &mut Counts, grown: &room::HatchCounts) {
         ("crossing strokes", grown.cross),
         ("steps put back", grown.put_back),
         ("strokes cut where they dip", grown.cut),
+        ("directions between stored ones", scales.between),
+        ("places without stored directions", scales.missing),
         ("directions at σ = 1", scales.given[0]),
         ("directions at σ = 2", scales.given[1]),
         ("directions at σ = 4", scales.given[2]),
@@ -421,6 +432,13 @@ fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Fail
                 agree: directions.agree,
             }),
         },
+        stored: (directions.from == DirectionSource::Stored).then_some(room::Storing {
+            between: match directions.interpolate {
+                Interpolate::Tensor => room::Between::Tensor,
+                Interpolate::Flipped => room::Between::Flipped,
+            },
+            all: directions.grid == StoredAt::All,
+        }),
         reference: match directions.reference {
             Reference::Cylindrical => room::Reference::Cylindrical { axis, center },
             Reference::Axial => room::Reference::Axial { axis },

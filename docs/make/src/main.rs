@@ -6,6 +6,7 @@ mod called_for;
 mod cost;
 mod figures;
 mod files;
+mod integrator;
 #[cfg(test)]
 mod pages;
 mod painting;
@@ -28,6 +29,7 @@ const PAGES: &[Page] = &[
     ("cost", cost::write),
     ("figure-1", painting::figure::write),
     ("figures", figures::write),
+    ("integrator", integrator::write),
     ("painting", painting::write),
     ("reference", reference::write),
     ("rings", rings::write),

@@ -5,6 +5,7 @@ use super::place::Place;
 use super::prefilter::Prefilter;
 use super::stencil::{Stencils, beyond};
 use super::tensor;
+use super::voxel_hessian::of_spline;
 use crate::number::lanes::widely;
 use crate::number::{Real, Sym3, Vec3};
 use rayon::prelude::*;
@@ -135,6 +136,20 @@ impl<R: Real> Coefficients<R> {
             #[inline(always)]
             || tensor::second(self.rows(at.cell), &at.w.map(bspline::taps)),
         )
+    }
+
+    /// The same at a voxel, of a border of one coefficient at least.
+    pub(super) fn derivatives_at(&self, [x, y, z]: [usize; 3]) -> (Vec3<f64>, Sym3<f64>)
+    where
+        R: Into<f64>,
+    {
+        let [px, py, _] = self.dims;
+        let before = self.pad - 1;
+        let from = ((z + before) * py + y + before) * px + x + before;
+        let window = &self.data[from..from + 2 * (px * py + px + 1) + 1];
+        let number = |i: usize, j: usize, k: usize| window[(k * py + j) * px + i].into();
+        let first: f64 = number(1, 1, 1);
+        of_spline(|i, j, k| number(i, j, k) - first)
     }
 
     /// Lowest and highest number, base included, that the cells from `first` up to, not including, `end` read.

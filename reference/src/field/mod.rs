@@ -20,6 +20,7 @@ mod sampler;
 pub mod smoothed;
 mod stencil;
 mod tensor;
+mod voxel_hessian;
 
 #[cfg(test)]
 mod tests;

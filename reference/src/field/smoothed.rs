@@ -9,7 +9,9 @@
 use super::coefficients::continue_lanes;
 use super::hessian::gaussian;
 use super::tensor::Taps;
+use super::voxel_hessian::differences;
 use super::{Field, tensor};
+use crate::number::lanes::widely;
 use crate::number::{Sym3, Vec3};
 use std::sync::OnceLock;
 
@@ -22,8 +24,8 @@ const PAD: usize = 2;
 /// Samples that a cell reads along an axis.
 const TAPS: usize = 2 + 2 * PAD;
 
-/// Samples along the side of a brick.
-const SIDE: usize = BRICK - 1 + TAPS;
+/// Sums that are had side by side.
+const SUMS: usize = 16;
 
 /// The weights of one smoothed sample: the first stored one that has one, and its weight and those of the ones after it.
 type Row = (usize, Vec<f64>);
@@ -36,11 +38,32 @@ pub struct Smoothed<'f, 'v> {
     rows: [Vec<Row>; 3],
     /// Bricks along x, y, z.
     dims: [usize; 3],
-    bricks: Vec<OnceLock<Box<[f64]>>>,
+    bricks: Vec<OnceLock<Region>>,
     /// For each voxel along each axis the root sums of squares of the weights of a value and of a second derivative.
     responses: [Vec<[f64; 2]>; 3],
+    /// The lowest number, as numbers are read: sums are of what is more.
+    base: f64,
     /// The standard deviation of one rounding, as numbers are read, to the unit of the derivatives; 0 without rounding.
     rounding: f64,
+}
+
+/// Smoothed samples of a box, x fastest: those that its cells read.
+#[derive(Debug)]
+pub struct Region {
+    /// The first cell; two samples before it is the first.
+    first: [usize; 3],
+    /// Samples along each axis.
+    sides: [usize; 3],
+    data: Box<[f64]>,
+}
+
+impl Region {
+    /// Where a sample is; each axis counts from two before the grid.
+    #[inline(always)]
+    fn place(&self, sample: [usize; 3]) -> usize {
+        let [x, y, z] = [0, 1, 2].map(|a| sample[a] - self.first[a]);
+        (z * self.sides[1] + y) * self.sides[0] + x
+    }
 }
 
 impl<'f, 'v> Smoothed<'f, 'v> {
@@ -55,36 +78,65 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         let responses = [0, 1, 2].map(|a| responses(&rows[a], n[a]));
         let integers = field.volume().voxels().voxel_type().is_integer();
         let rounding = if integers { field.derivative.abs() / 12f64.sqrt() } else { 0.0 };
-        Self { field, rows, dims, bricks, responses, rounding }
+        Self { field, rows, dims, bricks, responses, base: field.stencils.lowest(), rounding }
     }
 
     /// Gradient and Hessian at a position in index space inside the box of [SPACE-1], in world space, times 2^−e as those of a
     /// [`Sampler`](super::Sampler).
     pub fn derivatives(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>) {
         let at = self.field.cells.locate(index);
-        let brick = at.cell.map(|c| c / BRICK);
-        let [nx, ny, _] = self.dims;
-        let i = (brick[2] * ny + brick[1]) * nx + brick[0];
-        let data = self.bricks[i].get_or_init(|| self.brick(brick));
-        let [x, y, z] = at.cell.map(|c| c % BRICK);
+        let region = self.brick_of(at.cell);
+        let [from, plane] = [region.place(at.cell), region.sides[0] * region.sides[1]];
         let row = |j: usize, k: usize| -> [f64; TAPS] {
-            let from = ((z + k) * SIDE + y + j) * SIDE + x;
-            std::array::from_fn(|i| data[from + i])
+            let from = from + k * plane + j * region.sides[0];
+            std::array::from_fn(|i| region.data[from + i])
         };
         let (gradient, hessian) = tensor::second(row, &at.w.map(taps));
         (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
+    }
+
+    /// The same at a voxel, to rounding, sooner: of the 216 samples around a cell 19 count there. `region` holds the voxel's
+    /// samples; none: that of its brick.
+    #[inline]
+    pub fn at_voxel(&self, voxel: [usize; 3], region: Option<&Region>) -> (Vec3<f64>, Sym3<f64>) {
+        let region = region.unwrap_or_else(|| self.brick_of(self.cell_of(voxel)));
+        let [y, z] = [region.sides[0], region.sides[0] * region.sides[1]];
+        let from = region.place(voxel);
+        let window = &region.data[from..from + 4 * (1 + y + z) + 1];
+        let first = window[2 * (1 + y + z)];
+        let (gradient, hessian) = differences(|i, j, k| window[i + j * y + k * z] - first);
+        (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
+    }
+
+    /// The cell of a voxel.
+    pub fn cell_of(&self, voxel: [usize; 3]) -> [usize; 3] {
+        let dims = self.field.volume.dims();
+        [0, 1, 2].map(|a| voxel[a].min(dims[a].max(2) - 2))
+    }
+
+    /// The samples that the cell's brick reads, made now if need be.
+    fn brick_of(&self, cell: [usize; 3]) -> &Region {
+        let brick = cell.map(|c| c / BRICK);
+        let [nx, ny, _] = self.dims;
+        let i = (brick[2] * ny + brick[1]) * nx + brick[0];
+        self.bricks[i].get_or_init(|| self.region(brick.map(|b| b * BRICK), [BRICK; 3]))
     }
 
     /// q·w_σ of [HATCH-3]: the standard deviation of a second derivative in a cell, in the unit of
     /// [`derivatives`](Self::derivatives), where each stored number is off by one rounding to an integer; 0 for floating-point
     /// voxels. Near the border, where samples are continued, it is larger.
     pub fn noise(&self, index: Vec3<f64>) -> f64 {
-        if self.rounding == 0.0 { 0.0 } else { self.rounding * self.response(self.field.cells.locate(index).cell) }
+        self.noise_in(self.field.cells.locate(index).cell)
+    }
+
+    /// The same of a cell.
+    pub fn noise_in(&self, cell: [usize; 3]) -> f64 {
+        if self.rounding == 0.0 { 0.0 } else { self.rounding * self.response(cell) }
     }
 
     /// Bytes of the bricks that were made.
     pub fn bytes(&self) -> u64 {
-        self.bricks.iter().filter_map(OnceLock::get).map(|brick| size_of_val(&**brick) as u64).sum()
+        self.bricks.iter().filter_map(OnceLock::get).map(|brick| size_of_val(&*brick.data) as u64).sum()
     }
 
     /// w_σ in a cell: the root sum of squares of the weights of a second derivative along an axis, to the world's unit, the
@@ -104,53 +156,115 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         along[0].max(along[1]).max(along[2])
     }
 
-    /// The samples that the cells of a brick read, x fastest: sums along z, then y, whose runs lie side by side, then x.
-    fn brick(&self, brick: [usize; 3]) -> Box<[f64]> {
+    /// The samples that some cells read, or as many of them as there are, by themselves: nothing is kept. Sums along z, then
+    /// y, then x, each of all samples that one stored number goes into, in their order.
+    pub fn region(&self, first: [usize; 3], cells: [usize; 3]) -> Region {
         let of_axis = |a: usize| {
-            let rows = &self.rows[a][brick[a] * BRICK..];
-            &rows[..rows.len().min(SIDE)]
+            let rows = &self.rows[a][first[a]..];
+            &rows[..rows.len().min(cells[a] - 1 + TAPS)]
         };
-        let [xs, ys, zs] = [0, 1, 2].map(of_axis);
-        let [x_range, y_range, z_range] = [xs, ys, zs].map(reads);
-        let (nx, ny) = (x_range[1] - x_range[0], y_range[1] - y_range[0]);
-        let stencils = &self.field.stencils;
-        let base: f64 = stencils.lowest();
-        let mut plane = vec![0.0; ny * nx];
-        let mut along_z = vec![0.0; zs.len() * ny * nx];
-        for z in z_range[0]..z_range[1] {
-            for (y, line) in (y_range[0]..).zip(plane.chunks_mut(nx)) {
-                stencils.read_run([x_range[0], y, z], line);
-                line.iter_mut().for_each(|c| *c -= base);
-            }
-            for (out, (first, weights)) in along_z.chunks_mut(ny * nx).zip(zs) {
-                if let Some(&w) = z.checked_sub(*first).and_then(|i| weights.get(i)) {
-                    add(out, &plane, w);
-                }
-            }
+        let axes = [0, 1, 2].map(of_axis);
+        let sides = axes.map(<[Row]>::len);
+        let read = axes.map(reads);
+        let mut data = vec![0.0; sides.iter().product()];
+        let sums = Sums { axes, sides, read, lines: read.map(|[from, to]| to - from) };
+        let along_z = sums.along_z(|at, line| {
+            self.field.stencils.read_run(at, line);
+            line.iter_mut().for_each(|c| *c -= self.base);
+        });
+        if let Some(along_z) = along_z {
+            sums.across(&along_z, &mut data);
         }
-        let mut along_y = vec![0.0; SIDE * nx];
-        let mut data = vec![0.0; SIDE * SIDE * SIDE];
-        for (plane, out) in along_z.chunks(ny * nx).zip(data.chunks_mut(SIDE * SIDE)) {
-            along_y.fill(0.0);
-            for (out, (first, weights)) in along_y.chunks_mut(nx).zip(ys) {
-                for (line, &w) in plane[(first - y_range[0]) * nx..].chunks(nx).zip(weights) {
-                    add(out, line, w);
-                }
-            }
-            for (line, out) in along_y.chunks(nx).zip(out.chunks_mut(SIDE)) {
-                for (out, (first, weights)) in out.iter_mut().zip(xs) {
-                    *out = line[first - x_range[0]..].iter().zip(weights).map(|(c, w)| c * w).sum();
-                }
-            }
-        }
-        data.into_boxed_slice()
+        Region { first, sides, data: data.into_boxed_slice() }
     }
 }
 
-/// Adds numbers times a weight.
-fn add(sums: &mut [f64], numbers: &[f64], weight: f64) {
-    for (sum, &c) in sums.iter_mut().zip(numbers) {
-        *sum += c * weight;
+/// The sums of a region.
+struct Sums<'r> {
+    /// The rows of each axis.
+    axes: [&'r [Row]; 3],
+    sides: [usize; 3],
+    /// The stored numbers that rows read along each axis, from one up to another, and how many.
+    read: [[usize; 2]; 3],
+    lines: [usize; 3],
+}
+
+impl Sums<'_> {
+    /// Sums along z at every stored x and y: a plane for each. None where all numbers are 0.
+    fn along_z(&self, read: impl Fn([usize; 3], &mut [f64])) -> Option<Vec<f64>> {
+        let [nx, ny, nz] = self.lines;
+        let [x, y, z] = self.read.map(|[from, _]| from);
+        let mut sums = vec![0.0; self.sides[2] * ny * nx];
+        let mut lines = vec![0.0; nz * nx];
+        let mut is_empty = true;
+        for j in 0..ny {
+            for (k, line) in lines.chunks_mut(nx).enumerate() {
+                read([x, y + j, z + k], line);
+            }
+            // Around scans there is much of nothing.
+            if lines.iter().all(|c| *c == 0.0) {
+                continue;
+            }
+            is_empty = false;
+            widely(
+                #[inline(always)]
+                || {
+                    for (k, (first, weights)) in self.axes[2].iter().enumerate() {
+                        let to = &mut sums[(k * ny + j) * nx..][..nx];
+                        weighted(to, &lines[(first - z) * nx..], nx, weights);
+                    }
+                },
+            );
+        }
+        (!is_empty).then_some(sums)
+    }
+
+    /// Sums of planes along y, and of what that gives along x, turned so that sums lie side by side.
+    fn across(&self, along_z: &[f64], data: &mut [f64]) {
+        let [nx, ny, _] = self.lines;
+        let [sx, sy, _] = self.sides;
+        let [x, y, _] = self.read.map(|[from, _]| from);
+        let (mut line, mut turned, mut along_x) = (vec![0.0; nx], vec![0.0; nx * sy], vec![0.0; sy]);
+        for (plane, out) in along_z.chunks(ny * nx).zip(data.chunks_mut(sx * sy)) {
+            widely(
+                #[inline(always)]
+                || {
+                    for (j, (first, weights)) in self.axes[1].iter().enumerate() {
+                        weighted(&mut line, &plane[(first - y) * nx..], nx, weights);
+                        for (i, &sum) in line.iter().enumerate() {
+                            turned[i * sy + j] = sum;
+                        }
+                    }
+                    for (i, (first, weights)) in self.axes[0].iter().enumerate() {
+                        weighted(&mut along_x, &turned[(first - x) * sy..], sy, weights);
+                        for (j, &sum) in along_x.iter().enumerate() {
+                            out[j * sx + i] = sum;
+                        }
+                    }
+                },
+            );
+        }
+    }
+}
+
+/// Weighted sums of lines that lie `stride` apart, place by place.
+#[inline(always)]
+fn weighted(sums: &mut [f64], lines: &[f64], stride: usize, weights: &[f64]) {
+    let mut chunks = sums.chunks_exact_mut(SUMS);
+    let mut from = 0;
+    for sums in &mut chunks {
+        let mut sum = [0.0; SUMS];
+        for (k, &w) in weights.iter().enumerate() {
+            let line = &lines[k * stride + from..][..SUMS];
+            for i in 0..SUMS {
+                sum[i] += line[i] * w;
+            }
+        }
+        sums.copy_from_slice(&sum);
+        from += SUMS;
+    }
+    for (i, sum) in chunks.into_remainder().iter_mut().enumerate() {
+        *sum = weights.iter().enumerate().map(|(k, &w)| lines[k * stride + from + i] * w).fold(0.0, |a, b| a + b);
     }
 }
 
@@ -322,6 +436,30 @@ mod tests {
         }
     }
 
+    /// At voxels, from bricks and from a region by itself, up to the border: the same to some roundings of 128 over a spacing
+    /// squared, and the same bits from both.
+    #[test]
+    fn at_voxels_nineteen_samples_are_enough() {
+        for (dims, spacing) in [([35, 18, 17], [1.0, 0.5, 2.0]), ([6, 2, 1], [1.0; 3])] {
+            let volume = noise(dims, spacing);
+            let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+            let smoothed = Smoothed::new(&field, 1.5);
+            let whole = smoothed.region([0; 3], dims);
+            let scale = scale_by_power_of_two(128.0 * 4.0, -field.scale_exponent());
+            for i in 0..dims.iter().product() {
+                let voxel = [i % dims[0], i / dims[0] % dims[1], i / dims[0] / dims[1]];
+                let at = smoothed.at_voxel(voxel, None);
+                assert_eq!(at, smoothed.at_voxel(voxel, Some(&whole)));
+                let [x, y, z] = voxel.map(|i| i as f64);
+                let (g, h) = smoothed.derivatives(Vec3::new(x, y, z));
+                let entries = |h: Sym3<f64>| [h.xx, h.xy, h.xz, h.yy, h.yz, h.zz];
+                let pairs = entries(h).into_iter().zip(entries(at.1));
+                let worst = pairs.fold((g - at.0).length(), |m, (a, b)| m.max((a - b).abs()));
+                assert!(worst <= 300.0 * f64::EPSILON * scale, "{voxel:?}: {worst:e}");
+            }
+        }
+    }
+
     /// Nothing is made before it is asked for, and then one brick of 21³ numbers.
     #[test]
     fn only_what_is_asked_for_is_made() {
@@ -333,7 +471,8 @@ mod tests {
             smoothed.derivatives(Vec3::new(x, 20.0, 3.0));
             assert_eq!(smoothed.bytes(), 21 * 21 * 21 * 8);
         }
+        // Up to the border there are twelve along x.
         smoothed.derivatives(Vec3::new(32.0, 20.0, 3.0));
-        assert_eq!(smoothed.bytes(), 2 * 21 * 21 * 21 * 8);
+        assert_eq!(smoothed.bytes(), (21 + 12) * 21 * 21 * 8);
     }
 }

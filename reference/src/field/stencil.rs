@@ -141,6 +141,13 @@ impl<'v> Stencils<'v> {
         !self.careful && (0..3).all(|a| voxel[a].wrapping_sub(1) < dims[a].saturating_sub(2))
     }
 
+    /// Whether the two voxels to each side of a voxel are in the grid and can simply be read.
+    #[inline(always)]
+    pub(super) fn surrounds_twice(&self, voxel: [usize; 3]) -> bool {
+        let dims = self.dims();
+        !self.careful && (0..3).all(|a| voxel[a] >= 2 && voxel[a] + 2 < dims[a])
+    }
+
     /// Whether no stencil can simply be read: on axes of length 1 and where numbers are scaled.
     #[inline(always)]
     pub(super) fn careful(&self) -> bool {

@@ -1,6 +1,5 @@
 //! From a field to the seeds of its strokes ([HATCH-5], [HATCH-6]).
 
-use super::counts::Scales;
 use super::measures::Measure;
 use super::pyramid::Pyramid;
 use super::seeds::{SeedRule, Seeds};
@@ -32,7 +31,7 @@ impl Strokes<'_, '_> {
         let at = Vec3::new(x, y, z);
         let norm = ground.gradient(at).length();
         let gradient = if hi > lo { ((norm - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
-        let curvature = self.directions().at(ground, at, &mut Scales::default()).map_or(0.0, |c| match kind {
+        let curvature = self.at_voxel(voxel).map_or(0.0, |c| match kind {
             Kind::Mean => (0.5 * (c.k1 + c.k2)).abs(),
             Kind::Curvedness => (0.5 * (c.k1 * c.k1 + c.k2 * c.k2)).sqrt(),
         });

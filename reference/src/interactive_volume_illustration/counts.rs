@@ -153,12 +153,16 @@ pub struct Scales {
     pub disagree: [u64; 3],
     /// Places where the gradient is rounding.
     pub gradient: u64,
+    /// Places that got one between stored ones.
+    pub between: u64,
+    /// Places between voxels that have none, or none that agree.
+    pub missing: u64,
 }
 
 impl Scales {
     /// Principal directions that were given.
     pub fn directions(&self) -> u64 {
-        self.given.iter().sum()
+        self.given.iter().sum::<u64>() + self.between
     }
 }
 
@@ -172,6 +176,8 @@ impl AddAssign for Scales {
             self.disagree[i] += b.disagree[i];
         }
         self.gradient += b.gradient;
+        self.between += b.between;
+        self.missing += b.missing;
     }
 }
 

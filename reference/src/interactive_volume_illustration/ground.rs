@@ -39,6 +39,12 @@ pub trait Ground: Sync {
 
     /// The Hessian by the field's estimator, after the gradient that it belongs to.
     fn second(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>);
+
+    /// The same at a voxel, to rounding.
+    fn second_at_voxel(&self, voxel: [usize; 3]) -> (Vec3<f64>, Sym3<f64>) {
+        let [x, y, z] = voxel.map(|i| i as f64);
+        self.second(Vec3::new(x, y, z))
+    }
 }
 
 impl Ground for Field<'_, f64> {
@@ -80,6 +86,10 @@ impl Ground for Field<'_, f64> {
 
     fn second(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>) {
         with_sampler!(self, |s| s.hessian(index))
+    }
+
+    fn second_at_voxel(&self, voxel: [usize; 3]) -> (Vec3<f64>, Sym3<f64>) {
+        self.voxel_hessian(voxel)
     }
 }
 

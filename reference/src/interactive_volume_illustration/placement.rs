@@ -97,7 +97,7 @@ impl<'f> Strokes<'f, '_> {
     ) -> Result<Seed, NoDirection> {
         let at = inside(self.ground(), world).ok_or(NoDirection::Volume)?;
         let (normal, _) = normal(self.ground(), at).ok_or(NoDirection::Gradient)?;
-        let curvature = self.directions().at(self.ground(), at, &mut counts.scales)?;
+        let curvature = self.curvature(at, &mut counts.scales)?;
         let family = self.how().family.of(&curvature);
         Ok(Seed { cell, world, normal, target, curvature, family })
     }

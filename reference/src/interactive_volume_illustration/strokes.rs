@@ -1,13 +1,15 @@
 //! Strokes along the lines of curvature, traced both ways from their seeds ([HATCH-4], [HATCH-8], [HATCH-9], [HATCH-11]).
 
-use super::counts::{HatchCounts, NoDirection, Rejected, Stop};
+use super::counts::{HatchCounts, NoDirection, Rejected, Scales, Stop};
 use super::ground::{Ground, inside, normal};
 use super::integrator::{Control, End, Goal, Half, Lines, Piece, trace};
 use super::orientation::Reference;
 use super::placement::Seed;
+use super::stored::{Source, Stored, Storing};
 use super::umbilics::{Directions, Rule};
 use crate::field::Field;
 use crate::field::curvature::Curvature;
+use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::{cos, scale_by_power_of_two};
 use drypoint_scene::philox::uniform;
@@ -94,6 +96,8 @@ pub struct Hatching {
     pub family: Family,
     /// How directions are found.
     pub rule: Rule,
+    /// How they are stored; none: they are computed wherever they are asked for.
+    pub stored: Option<Storing>,
     /// Which way they run.
     pub reference: Reference,
     /// The share of `length` by which strokes are longer or shorter, at random.
@@ -116,6 +120,7 @@ impl Hatching {
             max_angle: 90.0,
             family: Family::Larger,
             rule: Rule::Scaled(Default::default()),
+            stored: None,
             reference: Reference::cylindrical(grid),
             jitter: 0.0,
             seed: 1,
@@ -151,6 +156,7 @@ pub struct Grown {
 pub struct Strokes<'f, 'v> {
     ground: &'f dyn Ground,
     directions: Directions<'f, 'v>,
+    stored: Option<Stored>,
     iso: Option<f64>,
     how: Hatching,
 }
@@ -159,12 +165,60 @@ impl<'f, 'v> Strokes<'f, 'v> {
     /// On the surface f = iso of a field; without a value each stroke stays at the value of its cell's centre ([HATCH-16]). The
     /// field has to be prepared for gradients, with the rule `raw` for Hessians. Nothing is computed yet.
     pub fn new(field: &'f Field<'v, f64>, iso: Option<f64>, how: Hatching) -> Self {
-        Self { ground: field, directions: Directions::new(field, how.rule), iso, how }
+        Self::with(field, Directions::new(field, how.rule), iso, how)
     }
 
     /// On whatever ground, by the ground's own Hessians.
     pub fn on(ground: &'f dyn Ground, iso: Option<f64>, how: Hatching) -> Self {
-        Self { ground, directions: Directions::raw(), iso, how }
+        Self::with(ground, Directions::raw(), iso, how)
+    }
+
+    fn with(ground: &'f dyn Ground, directions: Directions<'f, 'v>, iso: Option<f64>, how: Hatching) -> Self {
+        let stored = how.stored.map(|storing| Stored::new(ground, storing.between));
+        Self { ground, directions, stored, iso, how }
+    }
+
+    /// Makes the directions of all voxels, in parallel, where that was asked for.
+    pub fn prepare(&self) {
+        if let Some(stored) = self.stored.as_ref().filter(|_| self.how.stored.is_some_and(|storing| storing.all)) {
+            stored.fill(&self.source());
+        }
+    }
+
+    fn source(&self) -> Source<'_, 'f, 'v> {
+        Source { ground: self.ground, directions: &self.directions }
+    }
+
+    /// Makes the directions of all voxels, each with signs at random.
+    #[cfg(test)]
+    pub(super) fn turn_signs(&self) {
+        if let Some(stored) = &self.stored {
+            stored.turn_signs(&self.source());
+        }
+    }
+
+    /// Voxels with a stored direction, and the bytes that they take.
+    pub fn stored(&self) -> [u64; 2] {
+        self.stored.as_ref().map_or([0; 2], |stored| [stored.made(), stored.bytes()])
+    }
+
+    /// Curvatures and directions at a voxel.
+    pub(super) fn at_voxel(&self, voxel: [usize; 3]) -> Option<Curvature<f64>> {
+        match &self.stored {
+            Some(stored) => stored.voxel(&self.source(), voxel),
+            None => {
+                let [x, y, z] = voxel.map(|i| i as f64);
+                self.directions.at(self.ground, Vec3::new(x, y, z), &mut Scales::default()).ok()
+            }
+        }
+    }
+
+    /// Curvatures and directions at a place in index space.
+    pub(super) fn curvature(&self, index: Vec3<f64>, counts: &mut Scales) -> Result<Curvature<f64>, NoDirection> {
+        match &self.stored {
+            Some(stored) => stored.curvature(&self.source(), index, counts),
+            None => self.directions.at(self.ground, index, counts),
+        }
     }
 
     /// What they grow on.
@@ -319,23 +373,38 @@ impl<'s, 'f, 'v> OnSurface<'s, 'f, 'v> {
     }
 }
 
-impl Lines for OnSurface<'_, '_, '_> {
-    type Cause = NoDirection;
-
-    /// The principal direction, projected onto the tangent plane of ∇f there ([HATCH-9]).
-    fn at(&mut self, x: DVec3) -> Result<DVec3, NoDirection> {
-        let ground = self.strokes.ground;
+impl OnSurface<'_, '_, '_> {
+    /// The principal direction, projected onto the tangent plane of ∇f there ([HATCH-9]). `like` is the current one.
+    fn tangent(&mut self, x: DVec3, like: Option<DVec3>) -> Result<DVec3, NoDirection> {
+        let (strokes, ground) = (self.strokes, self.strokes.ground);
         let index = inside(ground, x).ok_or(NoDirection::Volume)?;
         let (n, _) = normal(ground, index).ok_or(NoDirection::Gradient)?;
-        let before = self.counts.scales.given;
-        let curvature = self.strokes.directions.at(ground, index, &mut self.counts.scales)?;
-        self.scale = before.iter().zip(self.counts.scales.given).position(|(b, a)| a > *b).unwrap_or(0);
-        let e = self.family.direction(&curvature);
+        let counts = &mut self.counts.scales;
+        let e = match &strokes.stored {
+            Some(stored) => stored.line(&strokes.source(), index, self.family, like, counts)?,
+            None => {
+                let before = counts.given;
+                let curvature = strokes.directions.at(ground, index, counts)?;
+                self.scale = before.iter().zip(counts.given).position(|(b, a)| a > *b).unwrap_or(0);
+                self.family.direction(&curvature)
+            }
+        };
         let tangent = e - n * e.dot(n);
         let length = tangent.length();
         if length > TANGENT { Ok(tangent / length) } else { Err(NoDirection::Umbilic) }
     }
+}
 
+impl Lines for OnSurface<'_, '_, '_> {
+    type Cause = NoDirection;
+
+    fn at(&mut self, x: DVec3) -> Result<DVec3, NoDirection> {
+        self.tangent(x, None)
+    }
+
+    fn at_along(&mut self, x: DVec3, like: DVec3) -> Result<DVec3, NoDirection> {
+        self.tangent(x, Some(like))
+    }
     fn formula(&self) -> usize {
         if self.exact.is_some() { self.scale } else { 0 }
     }

@@ -8,14 +8,16 @@
 use super::counts::{NoDirection, Scales};
 use super::directions;
 use super::ground::Ground;
+use super::stored::Voxels;
 use crate::field::curvature::Curvature;
 use crate::field::normal::outward;
-use crate::field::smoothed::Smoothed;
+use crate::field::smoothed::{Region, Smoothed};
 use crate::field::{Field, Outside};
-use crate::number::Vec3;
+use crate::number::{Sym3, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::space::Grid;
+use std::cell::OnceCell;
 
 /// σ in voxels.
 const SCALES: [f64; 3] = [1.0, 2.0, 4.0];
@@ -115,23 +117,82 @@ impl<'f, 'v> Directions<'f, 'v> {
         counts: &mut Scales,
     ) -> Result<Curvature<f64>, NoDirection> {
         match &self.scaled {
-            Some(scaled) => scaled.at(index, counts),
-            None => {
-                let (gradient, hessian) = ground.second(index);
-                if outward(gradient, ground.outside(), ground.no_normal_below()).is_none() {
-                    counts.gradient += 1;
-                    return Err(NoDirection::Gradient);
-                }
-                let c = directions::principal(gradient, hessian, ground.outside());
-                if c.k1 == c.k2 {
-                    counts.umbilic[0] += 1;
-                    return Err(NoDirection::Umbilic);
-                }
-                counts.given[0] += 1;
-                Ok(c)
-            }
+            Some(scaled) => scaled.at(index.to_glam(), Place::Between(index), &Regions::default(), counts),
+            None => plain(ground, ground.second(index), counts),
         }
     }
+
+    /// Those at a voxel, as they are stored: to rounding what [`at`](Self::at) gives there, sooner.
+    ///
+    /// # Errors
+    /// There is none.
+    ///
+    /// # Panics
+    /// As [`at`](Self::at).
+    pub fn at_voxel(
+        &self,
+        ground: &dyn Ground,
+        voxel: [usize; 3],
+        counts: &mut Scales,
+    ) -> Result<Curvature<f64>, NoDirection> {
+        self.with_regions(ground, voxel, &Regions::default(), counts)
+    }
+
+    /// Those of all voxels of a box in their order. What is smoothed for them is not kept.
+    pub(super) fn of_voxels(&self, ground: &dyn Ground, voxels: Voxels) -> Vec<Option<Curvature<f64>>> {
+        let regions = Regions { voxels: Some(voxels), ..Regions::default() };
+        let mut counts = Scales::default();
+        voxels.each().map(|voxel| self.with_regions(ground, voxel, &regions, &mut counts).ok()).collect()
+    }
+
+    fn with_regions(
+        &self,
+        ground: &dyn Ground,
+        voxel: [usize; 3],
+        regions: &Regions,
+        counts: &mut Scales,
+    ) -> Result<Curvature<f64>, NoDirection> {
+        match &self.scaled {
+            Some(scaled) => {
+                let at = DVec3::from_array(voxel.map(|i| i as f64));
+                scaled.at(at, Place::Voxel(voxel), regions, counts)
+            }
+            None => plain(ground, ground.second_at_voxel(voxel), counts),
+        }
+    }
+}
+
+/// The paper's plain formula.
+fn plain(
+    ground: &dyn Ground,
+    (gradient, hessian): (Vec3<f64>, Sym3<f64>),
+    counts: &mut Scales,
+) -> Result<Curvature<f64>, NoDirection> {
+    if outward(gradient, ground.outside(), ground.no_normal_below()).is_none() {
+        counts.gradient += 1;
+        return Err(NoDirection::Gradient);
+    }
+    let c = directions::principal(gradient, hessian, ground.outside());
+    if c.k1 == c.k2 {
+        counts.umbilic[0] += 1;
+        return Err(NoDirection::Umbilic);
+    }
+    counts.given[0] += 1;
+    Ok(c)
+}
+
+/// Where derivatives are asked for.
+#[derive(Clone, Copy)]
+enum Place {
+    Voxel([usize; 3]),
+    Between(Vec3<f64>),
+}
+
+/// Smoothed samples of a box of voxels, made where they are asked for; of no box those of the bricks.
+#[derive(Default)]
+struct Regions {
+    voxels: Option<Voxels>,
+    made: [[OnceCell<Region>; 2]; 3],
 }
 
 /// The box in index space of the places that are `room` voxels from the border, along axes of three samples and more: shorter
@@ -154,10 +215,16 @@ enum Unsure {
 }
 
 impl Scaled<'_, '_> {
-    fn at(&self, index: Vec3<f64>, counts: &mut Scales) -> Result<Curvature<f64>, NoDirection> {
+    fn at(
+        &self,
+        at: DVec3,
+        place: Place,
+        regions: &Regions,
+        counts: &mut Scales,
+    ) -> Result<Curvature<f64>, NoDirection> {
         let mut flat = true;
-        for (i, pair) in self.pairs.iter().enumerate() {
-            match self.estimate(pair, &self.inner[i], index) {
+        for i in 0..SCALES.len() {
+            match self.estimate(i, at, place, regions) {
                 Ok(curvature) => {
                     counts.given[i] += 1;
                     return Ok(curvature);
@@ -175,25 +242,26 @@ impl Scaled<'_, '_> {
     }
 
     /// The curvatures at one scale, if the border is far enough and all three conditions hold.
-    fn estimate(
-        &self,
-        [one, larger]: &[Smoothed<'_, '_>; 2],
-        [lo, hi]: &[DVec3; 2],
-        index: Vec3<f64>,
-    ) -> Result<Curvature<f64>, Unsure> {
-        let at = index.to_glam();
-        if !(at.cmpge(*lo).all() && at.cmple(*hi).all()) {
+    #[inline]
+    fn estimate(&self, i: usize, at: DVec3, place: Place, regions: &Regions) -> Result<Curvature<f64>, Unsure> {
+        let [lo, hi] = self.inner[i];
+        if !(at.cmpge(lo).all() && at.cmple(hi).all()) {
             return Err(Unsure::Border);
         }
-        let (c, norm) = self.curvature(one, index)?;
+        let (c, norm) = self.curvature([i, 0], place, regions)?;
         let difference = c.k1 - c.k2;
         if difference <= self.thresholds.gap * (c.k1.abs() + c.k2.abs()) {
             return Err(Unsure::Umbilic);
         }
-        if difference * norm <= self.thresholds.noise * one.noise(index) {
+        let one = &self.pairs[i][0];
+        let noise = match place {
+            Place::Voxel(voxel) => one.noise_in(one.cell_of(voxel)),
+            Place::Between(index) => one.noise(index),
+        };
+        if difference * norm <= self.thresholds.noise * noise {
             return Err(Unsure::Noise);
         }
-        let (other, _) = self.curvature(larger, index)?;
+        let (other, _) = self.curvature([i, 1], place, regions)?;
         if other.k1 == other.k2 || cos_double(&c, &other) <= self.cos_double {
             return Err(Unsure::Disagree);
         }
@@ -201,8 +269,24 @@ impl Scaled<'_, '_> {
     }
 
     /// The curvatures at one scale, and ‖g‖ there.
-    fn curvature(&self, scale: &Smoothed<'_, '_>, index: Vec3<f64>) -> Result<(Curvature<f64>, f64), Unsure> {
-        let (gradient, hessian) = scale.derivatives(index);
+    #[inline]
+    fn curvature(
+        &self,
+        [i, larger]: [usize; 2],
+        place: Place,
+        regions: &Regions,
+    ) -> Result<(Curvature<f64>, f64), Unsure> {
+        let scale = &self.pairs[i][larger];
+        let (gradient, hessian) = match place {
+            Place::Between(index) => scale.derivatives(index),
+            Place::Voxel(voxel) => {
+                let region = regions.voxels.map(|Voxels { first, end }| {
+                    let sides = [0, 1, 2].map(|a| end[a] - first[a]);
+                    regions.made[i][larger].get_or_init(|| scale.region(first, sides))
+                });
+                scale.at_voxel(voxel, region)
+            }
+        };
         let norm = gradient.length();
         if norm <= self.no_normal_below {
             return Err(Unsure::Gradient);

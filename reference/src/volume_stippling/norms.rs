@@ -1,8 +1,7 @@
 //! ‖g‖ at every voxel, and what |g| = 1 stands for, by the estimator that stippling uses ([STIP-1], [VAL-2]).
 
-use crate::field::{GradientEstimator, Sampler};
+use crate::field::{Field, GradientEstimator, Sampler};
 use crate::ray::touches_mask;
-use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::histogram::rank;
 use rayon::prelude::*;
 
@@ -10,14 +9,21 @@ use rayon::prelude::*;
 pub(super) const INVALID: f64 = -1.0;
 
 /// ‖g‖ of each voxel, x fastest, times the power of two of [SPACE-4].
-pub(super) fn norms<S: Sampler<f64>>(sampler: &S, volume: &Volume, estimator: GradientEstimator) -> Vec<f64> {
+pub(super) fn norms<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, estimator: GradientEstimator) -> Vec<f64> {
+    let volume = field.volume();
     let [nx, ny, _] = volume.dims();
     let mut norms = vec![0.0; volume.grid().len()];
-    norms.par_chunks_mut(nx).enumerate().for_each(|(row, norms)| {
+    norms.par_chunks_mut(nx).enumerate().with_min_len(16).for_each_init(Vec::new, |rows, (row, norms)| {
         let (y, z) = (row % ny, row / ny);
-        for (x, norm) in norms.iter_mut().enumerate() {
-            let masked = volume.mask().is_some_and(|mask| touches_mask(mask, volume.dims(), [x, y, z], estimator));
-            *norm = if masked { INVALID } else { sampler.voxel_gradient([x, y, z]).length() };
+        let norm = |x| sampler.voxel_gradient([x, y, z]).length();
+        if field.regression_norms([y, z], rows, norms) {
+            (norms[0], norms[nx - 1]) = (norm(0), norm(nx - 1));
+        } else {
+            norms.iter_mut().enumerate().for_each(|(x, at)| *at = norm(x));
+        }
+        if let Some(mask) = volume.mask() {
+            let touches = |x| touches_mask(mask, volume.dims(), [x, y, z], estimator);
+            norms.iter_mut().enumerate().filter(|(x, _)| touches(*x)).for_each(|(_, norm)| *norm = INVALID);
         }
     });
     norms

@@ -34,26 +34,44 @@ impl Slab {
     }
 
     /// The point of one draw, uniform in the slab; none if it falls outside.
+    #[inline]
+    pub(super) fn point(&self, seed: u64, cell: [u32; 3], draw: u32) -> Option<[f32; 3]> {
+        let ([o], [is_inside]) = self.points(seed, cell, [draw]);
+        is_inside.then_some(o)
+    }
+
+    /// The points of several draws side by side, and which of them count.
     ///
     /// Two coordinates are uniform over the voxel's face, the third over the slab's width there, or over the voxel's where
     /// that is smaller; what then lies outside the other of the two is rejected.
-    #[inline]
-    pub(super) fn point(&self, seed: u64, cell: [u32; 3], draw: u32) -> Option<[f32; 3]> {
-        let [u, v, w, _] = philox::uniforms(seed, cell, draw);
+    #[inline(always)]
+    pub(super) fn points<const N: usize>(
+        &self,
+        seed: u64,
+        cell: [u32; 3],
+        draws: [u32; N],
+    ) -> ([[f32; 3]; N], [bool; N]) {
+        let [u, v, w, _] = philox::uniforms_of(seed, cell, draws);
         let (b, c) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
-        let mut o = [0.0; 3];
-        // In f32, as they are stored: rounded to nearest they stay inside.
-        (o[b], o[c]) = ((u - 0.5) as f32, (v - 0.5) as f32);
-        let plane = -(self.slope[b] * f64::from(o[b]) + self.slope[c] * f64::from(o[c]));
-        let inside = if self.half < 0.5 {
-            let along = plane + (2.0 * w - 1.0) * self.half;
-            o[self.axis] = along as f32;
-            along.abs() <= 0.5
-        } else {
-            o[self.axis] = (w - 0.5) as f32;
-            (f64::from(o[self.axis]) - plane).abs() <= self.half
-        };
-        inside.then_some(o)
+        let (slope_b, slope_c) = (self.slope[b], self.slope[c]);
+        let (mut points, mut is_inside) = ([[0.0; 3]; N], [false; N]);
+        for l in 0..N {
+            // In f32, as they are stored: rounded to nearest they stay inside.
+            let (across, up) = ((u[l] - 0.5) as f32, (v[l] - 0.5) as f32);
+            let plane = -(slope_b * f64::from(across) + slope_c * f64::from(up));
+            let along;
+            (along, is_inside[l]) = if self.half < 0.5 {
+                let along = plane + (2.0 * w[l] - 1.0) * self.half;
+                (along as f32, along.abs() <= 0.5)
+            } else {
+                let along = (w[l] - 0.5) as f32;
+                (along, (f64::from(along) - plane).abs() <= self.half)
+            };
+            points[l][b] = across;
+            points[l][c] = up;
+            points[l][self.axis] = along;
+        }
+        (points, is_inside)
     }
 }
 

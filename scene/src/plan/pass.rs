@@ -49,6 +49,10 @@ pub enum Pass {
     Pyramid,
     /// Gradient and curvature about them, which seeds are drawn by ([HATCH-6]).
     SeedMeasures,
+    /// Principal directions at voxels, where strokes ask for them ([HATCH-4], [HATCH-5]).
+    StoredDirections,
+    /// Principal directions at all voxels.
+    AllDirections,
     /// The strokes of hatching ([HATCH-8]).
     Strokes,
     /// Those that cross them ([HATCH-11]).
@@ -90,6 +94,8 @@ impl Pass {
             Self::Outlines => "outlines",
             Self::Pyramid => "pyramid",
             Self::SeedMeasures => "measures of seeds",
+            Self::StoredDirections => "stored directions",
+            Self::AllDirections => "directions at all voxels",
             Self::Strokes => "strokes",
             Self::CrossStrokes => "crossing strokes",
             Self::Spacing => "spacing of strokes",
@@ -124,6 +130,8 @@ impl Pass {
             Self::Outlines => "a value and a gradient a voxel of the surface, a search a place of an outline",
             Self::Pyramid => "one look at each voxel, two bytes every eight",
             Self::SeedMeasures => "one gradient and one direction a voxel of the surface",
+            Self::StoredDirections => "one direction a voxel of the cells that strokes enter",
+            Self::AllDirections => "one direction a voxel",
             Self::Strokes => "some ten to a hundred directions a stroke, smoothed grids where they are asked for",
             Self::CrossStrokes => "as many for each second stroke",
             Self::Spacing => "one look every half pen's width of a stroke",
@@ -150,6 +158,8 @@ impl Pass {
             // Of the cells of a surface alone.
             Self::SeedMeasures | Self::CrossStrokes | Self::Spacing | Self::LitStrokes => 0,
             Self::Pyramid => 1,
+            // Two directions and two curvatures, in blocks where there are any.
+            Self::StoredDirections | Self::AllDirections => 64,
             // Three scales of smoothed numbers and as many to compare with, where strokes are.
             Self::Strokes => 48,
             Self::CurveVoxels => 16,

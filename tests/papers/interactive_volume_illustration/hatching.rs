@@ -56,6 +56,26 @@ fn lines_of_the_larger_curvature_are_meridians() {
     assert!(counts.directions > strokes);
 }
 
+/// Stored directions are made where strokes come, or everywhere, which draws the same page; without them there are none.
+#[test]
+fn directions_are_stored_where_the_scene_says_so() {
+    let drawn = |directions: &str| {
+        let (marks, counts, _) =
+            page(&torus(&format!("seeds = \"dense\"\n[hatching.directions]\n{directions}")), Wanted::Strokes);
+        (marks, counts.preprocess["stored directions"], counts.bytes["stored directions"], counts.directions)
+    };
+    let (direct, none, no_bytes, asked) = drawn("");
+    let (stored, visited, bytes, between) = drawn("from = \"stored\"\n");
+    let (whole, all, more_bytes, as_often) = drawn("from = \"stored\"\ngrid = \"all\"\n");
+    assert_eq!((none, no_bytes), (0, 0));
+    assert!(visited > 1000 && 2 * visited < all && all < 49 * 49 * 49, "{visited} {all}");
+    assert!(bytes > 64 * visited && bytes < more_bytes);
+    assert!(asked > between / 2 && between == as_often);
+    assert!(stored == whole && stored != direct);
+    let counted = lines(&stored).len() as f64 / lines(&direct).len() as f64;
+    assert!((counted - 1.0).abs() < 0.05, "{counted}");
+}
+
 /// The other family are the circles about z.
 #[test]
 fn lines_of_the_smaller_curvature_go_round_the_axis() {

@@ -3,6 +3,7 @@
 //! the derivative that each kernel has in its own file.
 
 pub(super) mod central;
+mod norms;
 pub(super) mod regression;
 pub(super) mod sobel;
 

@@ -20,11 +20,16 @@ use drypoint_scene::volume::Access;
 /// Weights of the 3³ voxels around one, x fastest: for the derivative along each index axis, and for d.
 type Weights<R> = [[R; 27]; 4];
 
+/// For each index axis the voxels that have a weight, x fastest, and it.
+pub(super) type Taps = [Vec<(usize, f64)>; 3];
+
 /// The fit for each of the cases that a grid has.
 #[derive(Clone, Debug)]
 pub(in crate::field) struct Regression<R> {
     /// By the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
     cases: Vec<Option<Box<Weights<R>>>>,
+    /// Those of the gradient of a voxel that has all neighbours.
+    taps: Taps,
 }
 
 /// 1 if a voxel of a line of n has one before it, plus 2 if it has one after it.
@@ -39,18 +44,25 @@ impl<R: Real> Regression<R> {
             let n = grid.dims()[axis];
             [0, n / 2, n - 1].into_iter().any(|i| sides(i, n) == s)
         };
+        let taps = fit(grid, [3; 3]).map(|row| row.into_iter().enumerate().filter(|(_, w)| *w != 0.0).collect());
+        let [x, y, z, _] = taps;
         let cases = (0..64)
             .map(|case| {
                 let s = [case % 4, case / 4 % 4, case / 16];
                 (0..3).all(|a| occurs(a, s[a])).then(|| Box::new(fit(grid, s).map(|row| row.map(R::from_f64))))
             })
             .collect();
-        Self { cases }
+        Self { cases, taps: [x, y, z] }
     }
 
     /// Bytes in memory.
     pub(in crate::field) fn bytes(&self) -> u64 {
         (self.cases.iter().flatten().count() * size_of::<Weights<R>>()) as u64
+    }
+
+    /// The weights at a voxel that has neighbours on all sides, without zeros.
+    pub(super) fn taps_inside(&self) -> &Taps {
+        &self.taps
     }
 
     fn case(&self, s: [usize; 3]) -> Option<&Weights<R>> {

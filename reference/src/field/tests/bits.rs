@@ -242,3 +242,32 @@ fn gradients_at_voxels_are_the_interpolated_ones() {
         }
     }
 }
+
+/// A row's norms side by side are those of one voxel after the other: where values change, where they do not, and where the
+/// last eight overlap those before; rows at a border and short ones are left to others.
+#[test]
+fn norms_of_a_row_are_those_of_its_voxels() {
+    for (dims, can) in [([21, 4, 5], true), ([10, 3, 3], true), ([9, 3, 3], false), ([12, 1, 4], false)] {
+        let noise = scatter(dims.iter().product());
+        let value = |(i, v): (usize, f64)| if i % dims[0] < dims[0] / 2 { 3.0 } else { v / 3.0 - 17.7 };
+        let values: Vec<f64> = noise.into_iter().enumerate().map(value).collect();
+        let grid = Grid::new(dims, frames()[2], DVec3::ZERO).unwrap();
+        for to in [VoxelType::F64, VoxelType::U8] {
+            let v = Volume::new(grid.clone(), Voxels::from_f64(&values, to), 0.7, 0.1).unwrap();
+            for gradient in [GradientEstimator::Regression, GradientEstimator::Central] {
+                let how = Reconstruction { gradient, ..Reconstruction::default() };
+                let field = Field::<f64>::new(&v, how, Rung::Gradient).unwrap();
+                for (y, z) in (0..dims[1] * dims[2]).map(|row| (row % dims[1], row / dims[1])) {
+                    let mut norms = vec![0.0; dims[0]];
+                    let is_inside = y > 0 && y + 1 < dims[1] && z > 0 && z + 1 < dims[2];
+                    let done = field.regression_norms([y, z], &mut Vec::new(), &mut norms);
+                    assert_eq!(done, can && is_inside && gradient == GradientEstimator::Regression, "{dims:?} {y} {z}");
+                    for x in (1..dims[0] - 1).filter(|_| done) {
+                        let want = with_sampler!(field, |s| s.voxel_gradient([x, y, z])).length();
+                        assert_eq!(norms[x].to_bits(), want.to_bits(), "{to:?} at {x} {y} {z}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -28,6 +28,14 @@ pub trait Lines {
     /// There is none here.
     fn at(&mut self, x: DVec3) -> Result<DVec3, Self::Cause>;
 
+    /// The same where a curve comes along `like`, for fields whose lines depend on it.
+    ///
+    /// # Errors
+    /// There is none here.
+    fn at_along(&mut self, x: DVec3, _like: DVec3) -> Result<DVec3, Self::Cause> {
+        self.at(x)
+    }
+
     /// Where a step ends instead that has come off what the curve is to stay on; none where it is fine.
     fn put_back(&mut self, _x: DVec3) -> Option<DVec3> {
         None
@@ -205,7 +213,7 @@ fn try_step<L: Lines>(
     let jump = Cell::new(0.0f64);
     let mut stage = |field: &mut L, at: DVec3, like: DVec3| {
         *evaluations += 1;
-        let v = field.at(at).map_err(Fault::Field)?;
+        let v = field.at_along(at, like).map_err(Fault::Field)?;
         let v = if v.dot(like) < 0.0 { -v } else { v };
         // k₅ has its sign from k₄, and both may have turned away from k₁.
         if v.dot(like) < SMOOTH || v.dot(k1) < SMOOTH {

@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod sampled;
+mod stored;
 mod umbilics;
 
 use super::{Ground, HatchCounts, Seed, Strokes};

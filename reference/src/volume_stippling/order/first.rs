@@ -7,10 +7,11 @@
 //! early keep away from each other farther than from those that join them late, and every tone is even.
 
 use super::class::class_of;
-use super::groups::{LANES, Lane, REACH as GROUP_REACH};
+use super::groups::{Group, LANES, Lane, REACH as GROUP_REACH, Row, squared_distances, take_largest};
 use super::links::Rows;
-use super::pool::Class;
+use super::pool::{Class, Site};
 use super::{Sites, flattened, scaled};
+use crate::number::lanes::widely;
 use drypoint_scene::blue_noise;
 use drypoint_scene::philox;
 use rayon::prelude::*;
@@ -29,7 +30,7 @@ const CLASSES: usize = (REACH as usize + 1).pow(3);
 
 /// Bytes a voxel of what is allocated meanwhile.
 pub(super) const BYTES_A_VOXEL: usize =
-    (SIDE * SIDE * SIDE - 1) * size_of::<Seen>() + size_of::<Vec<Seen>>() + 2 * size_of::<Taken>();
+    (SIDE * SIDE * SIDE - 1) * size_of::<Seen>() + size_of::<u32>() + 2 * size_of::<Taken>();
 
 /// A voxel that another one sees.
 #[derive(Clone, Copy)]
@@ -40,66 +41,97 @@ struct Seen {
     offset: u32,
 }
 
-/// A point that was taken, in voxels from its voxel's centre, and its place in the pool.
+/// A point that was taken, in voxels from its voxel's centre, the voxel's tone, and the point's place in the pool.
 #[derive(Clone, Copy)]
 struct Taken {
     at: [f32; 3],
-    slot: usize,
+    tone: f32,
+    slot: u32,
+}
+
+/// A point that comes near a pool.
+struct Near {
+    at: [f32; 3],
+    /// From which both points are seen.
+    tone: f32,
+    /// No point of the pool is nearer: the distance squared times the tone.
+    least: f32,
+}
+
+/// Memory to work in.
+#[derive(Default)]
+struct Work {
+    near: Vec<Near>,
+    bounds: Vec<Lane>,
 }
 
 /// For each voxel, in the order of the list, the place in its pool of its first point. `ids` are the voxels' places in the
 /// order of the classes.
 pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) -> Vec<usize> {
     let cells = sites.cells;
-    let tones: Vec<f32> = cells.iter().map(|&cell| (1.0 - blue_noise::at(cell)) as f32).collect();
-    let seen = seen(sites);
+    let seen = AllSeen::new(sites);
     let offsets: Vec<[f32; 3]> = (0..SIDE.pow(3)).map(|k| scaled(sites, step(k))).collect();
     let mut members = vec![Vec::new(); CLASSES];
     for (i, cell) in cells.iter().enumerate() {
         members[class(*cell)].push(i);
     }
     // Nothing is nearer to a point than what is no number: what is not placed yet is not seen.
-    let mut taken = vec![Taken { at: [f32::NAN; 3], slot: 0 }; cells.len()];
+    let not_placed = |&cell: &[u32; 3]| Taken { at: [f32::NAN; 3], tone: (1.0 - blue_noise::at(cell)) as f32, slot: 0 };
+    let mut taken: Vec<Taken> = cells.iter().map(not_placed).collect();
     for sweep in 0..SWEEPS {
         for class in order(sites.seed, sweep) {
-            let take = |near: &mut Vec<([f32; 3], f32)>, &i: &usize| {
+            let take = |work: &mut Work, &i: &usize| {
                 let home = &classes[class_of(cells[i])];
                 let index = ids[i] as usize - home.start;
-                near.clear();
-                near.extend(seen[i].iter().map(|other| {
-                    let (voxel, o) = (other.voxel as usize, offsets[other.offset as usize]);
-                    let p = taken[voxel].at;
-                    let p = [p[0] + o[0], p[1] + o[1], p[2] + o[2]];
-                    (flattened(home.sites[index].flat, p), tones[i].max(tones[voxel]))
-                }));
-                let slot = farthest(home.pool(index), home.groups(index), near);
-                Taken { at: scaled(sites, home.point(sites, index, slot)), slot }
+                let slot = widely(
+                    #[inline(always)]
+                    || {
+                        work.gather(&home.sites[index], taken[i].tone, seen.of(i), &taken, &offsets);
+                        farthest(home.pool(index), home.rows(index), work)
+                    },
+                );
+                Taken { at: scaled(sites, home.point(sites, index, slot)), tone: taken[i].tone, slot: slot as u32 }
             };
-            let found: Vec<Taken> = members[class].par_iter().with_min_len(64).map_init(Vec::new, take).collect();
+            let found: Vec<Taken> = members[class].par_iter().with_min_len(64).map_init(Work::default, take).collect();
             for (&i, found) in members[class].iter().zip(found) {
                 taken[i] = found;
             }
         }
     }
-    taken.into_iter().map(|taken| taken.slot).collect()
+    taken.into_iter().map(|taken| taken.slot as usize).collect()
 }
 
-/// The place in a pool of the point farthest from some points, each squared distance times the tone beside it. A group is
-/// looked into only if it can have it, that of the largest bound first.
-fn farthest(pool: &[[Lane; 4]], groups: &[[Lane; 6]], near: &[([f32; 3], f32)]) -> usize {
-    let bound = |row: &[Lane; 6]| {
-        let mut least = [f32::MAX; LANES];
-        for (p, tone) in near {
-            for l in 0..LANES {
-                let (dx, dy, dz) = (row[0][l] - p[0], row[1][l] - p[1], row[2][l] - p[2]);
-                let far = (dx * dx + dy * dy + dz * dz).sqrt() + row[GROUP_REACH][l];
-                let to = far * far * tone;
-                least[l] = if to < least[l] { to } else { least[l] };
+impl Work {
+    /// What a voxel sees, but for what is nowhere nearest to its pool.
+    #[inline(always)]
+    fn gather(&mut self, site: &Site, tone: f32, seen: &[Seen], taken: &[Taken], offsets: &[[f32; 3]]) {
+        self.near.clear();
+        let mut most = f32::INFINITY;
+        for other in seen {
+            let (other, o) = (&taken[other.voxel as usize], offsets[other.offset as usize]);
+            let p = [other.at[0] + o[0], other.at[1] + o[1], other.at[2] + o[2]];
+            let (at, tone) = (flattened(site.flat, p), if other.tone > tone { other.tone } else { tone });
+            let length = (at[0] * at[0] + at[1] * at[1] + at[2] * at[2]).sqrt();
+            let (near, far) = (length - site.reach, length + site.reach);
+            let (least, largest) = (if near <= 0.0 { 0.0 } else { near * near * tone }, far * far * tone);
+            most = if largest < most { largest } else { most };
+            // Rounding must not leave out what is nearest: a thousandth is far more.
+            if least <= most * 1.001 {
+                self.near.push(Near { at, tone, least });
             }
         }
-        least
-    };
-    let bounds: Vec<Lane> = groups.iter().map(bound).collect();
+        self.near.retain(|near| near.least <= most * 1.001);
+    }
+}
+
+/// The place in a pool of the point farthest from what is near, each squared distance times the tone. A group is looked into
+/// only if it can have it, that of the largest bound first.
+#[inline(always)]
+fn farthest(pool: &[Group], groups: &[Row], Work { near, bounds }: &mut Work) -> usize {
+    bounds.clear();
+    for row in groups {
+        bounds.push(bound(row, near));
+    }
     let bound = |group: usize| bounds[group / LANES][group % LANES];
     let mut first = 0;
     for group in 1..pool.len() {
@@ -112,39 +144,73 @@ fn farthest(pool: &[[Lane; 4]], groups: &[[Lane; 6]], near: &[([f32; 3], f32)]) 
         if bound(group) <= best {
             continue;
         }
-        let [x, y, z, d] = &pool[group];
-        let mut least = *d;
-        for (p, tone) in near {
+        let [x, y, z] = &pool[group].at;
+        let mut least = pool[group].far;
+        for Near { at: p, tone, .. } in near.iter() {
             for l in 0..LANES {
                 let (dx, dy, dz) = (x[l] - p[0], y[l] - p[1], z[l] - p[2]);
                 let to = (dx * dx + dy * dy + dz * dz) * tone;
                 least[l] = if to < least[l] { to } else { least[l] };
             }
         }
-        for (l, &d) in least.iter().enumerate() {
-            if d > best {
-                (best, at) = (d, group * LANES + l);
-            }
-        }
+        take_largest(&least, group, &mut best, &mut at);
     }
     at
 }
 
-/// Which voxels each voxel sees, in the order of the list.
-fn seen(sites: &Sites<'_>) -> Vec<Vec<Seen>> {
-    let cells = sites.cells;
-    if !sites.neighbours {
-        return vec![Vec::new(); cells.len()];
+/// What no point of eight groups can be farther from some points than, squared and times the tone.
+#[inline(always)]
+fn bound(row: &Row, near: &[Near]) -> Lane {
+    let mut least = [f32::MAX; LANES];
+    for Near { at, tone, .. } in near {
+        let to = squared_distances(row, at);
+        for l in 0..LANES {
+            let far = to[l].sqrt() + row[GROUP_REACH][l];
+            let to = far * far * tone;
+            least[l] = if to < least[l] { to } else { least[l] };
+        }
     }
-    let rows = Rows::new(cells);
-    let around = |&cell: &[u32; 3]| {
-        let mut found = Vec::new();
-        rows.around(cells, cell, REACH, |voxel, offset| {
-            found.push(Seen { voxel: voxel as u32, offset: offset as u32 });
-        });
-        found
-    };
-    cells.par_iter().map(around).collect()
+    least
+}
+
+/// Which voxels each voxel sees, in the order of the list, in parts.
+struct AllSeen {
+    parts: Vec<PartSeen>,
+}
+
+/// Those of [`PART`] voxels, one after the other, and where they end.
+struct PartSeen {
+    all: Vec<Seen>,
+    ends: Vec<u32>,
+}
+
+/// Voxels of a part.
+const PART: usize = 4096;
+
+impl AllSeen {
+    fn new(sites: &Sites<'_>) -> Self {
+        let rows = Rows::new(sites.cells);
+        let part = |cells: &[[u32; 3]]| {
+            let (mut all, mut ends) = (Vec::new(), Vec::with_capacity(cells.len()));
+            for &cell in cells {
+                if sites.neighbours {
+                    rows.around(sites.cells, cell, REACH, |voxel, offset| {
+                        all.push(Seen { voxel: voxel as u32, offset: offset as u32 });
+                    });
+                }
+                ends.push(all.len() as u32);
+            }
+            PartSeen { all, ends }
+        };
+        Self { parts: sites.cells.par_chunks(PART).map(part).collect() }
+    }
+
+    #[inline(always)]
+    fn of(&self, i: usize) -> &[Seen] {
+        let (PartSeen { all, ends }, i) = (&self.parts[i / PART], i % PART);
+        let start = if i == 0 { 0 } else { ends[i - 1] };
+        &all[start as usize..ends[i] as usize]
+    }
 }
 
 /// The step from a voxel to another of its neighbourhood.
@@ -179,7 +245,9 @@ mod tests {
         assert_eq!(members, [27; CLASSES]);
         let normals = vec![drypoint_scene::glam::DVec3::Z; cells.len()];
         let sites = crate::volume_stippling::order::tests::sites(&cells, &normals, true);
-        for (i, seen) in seen(&sites).iter().enumerate() {
+        let all = AllSeen::new(&sites);
+        for i in 0..cells.len() {
+            let seen = all.of(i);
             assert!(seen.iter().all(|other| class(cells[other.voxel as usize]) != class(cells[i])));
             for other in seen {
                 let to = step(other.offset as usize);
@@ -192,6 +260,7 @@ mod tests {
         sorted.sort_unstable();
         assert_eq!(sorted, std::array::from_fn(|i| i));
     }
+
     /// What is not looked into does not matter: the point is that of looking at every pair.
     #[test]
     fn bounds_hide_no_point() {
@@ -206,15 +275,19 @@ mod tests {
         for i in 0..200u32 {
             let point = |k: u32| {
                 let [x, y, z, tone] = philox::uniforms(2, [i, k, 0], 0);
-                ([x, y, z].map(|x| 5.0 * x as f32 - 2.5), tone as f32)
+                Taken { at: [x, y, z].map(|x| 5.0 * x as f32 - 2.5), tone: tone as f32, slot: 0 }
             };
-            let near: Vec<([f32; 3], f32)> = (0..i % 20).map(point).collect();
+            let taken: Vec<Taken> = (0..i % 20).map(point).collect();
+            let seen: Vec<Seen> = (0..i % 20).map(|voxel| Seen { voxel, offset: 0 }).collect();
+            let mut work = Work::default();
+            work.gather(&class.sites[0], 0.0, &seen, &taken, &[[0.0; 3]]);
+            let found = farthest(class.pool(0), class.rows(0), &mut work);
             let least = |at: usize| {
-                let lanes = &class.pool(0)[at / LANES];
-                let squared = |p: &[f32; 3]| (0..3).map(|c| lanes[c][at % LANES] - p[c]).map(|x| x * x).sum::<f32>();
-                near.iter().map(|(p, tone)| squared(p) * tone).fold(lanes[3][at % LANES], f32::min)
+                let group = &class.pool(0)[at / LANES];
+                let squared = |p: [f32; 3]| (0..3).map(|c| group.at[c][at % LANES] - p[c]).map(|x| x * x).sum::<f32>();
+                let scaled = |n: &Taken| squared(flattened(class.sites[0].flat, n.at)) * n.tone;
+                taken.iter().map(scaled).fold(group.far[at % LANES], f32::min)
             };
-            let found = farthest(class.pool(0), class.groups(0), &near);
             let most = (0..class.pool(0).len() * LANES).map(least).fold(-1.0, f32::max);
             assert_eq!(least(found), most, "{i}");
         }

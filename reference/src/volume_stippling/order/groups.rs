@@ -7,6 +7,20 @@ pub(super) const LANES: usize = 8;
 /// A coordinate or a distance of each.
 pub(super) type Lane = [f32; LANES];
 
+/// Points of a pool that lie together.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Group {
+    /// x, y and z of each, in voxels from the voxel's centre.
+    pub(super) at: [Lane; 3],
+    /// The squared distance of each to what is taken; below 0: it is no longer in the pool.
+    pub(super) far: Lane,
+    /// The draw that made each.
+    pub(super) draws: [u32; LANES],
+}
+
+/// What tells of eight groups from afar whether they matter.
+pub(super) type Row = [Lane; 6];
+
 /// Rows of a group's numbers: the middle, no point is farther from it, the largest distance squared to what is taken, and
 /// the distance squared up to which a point can lower one.
 pub(super) const FAR: usize = 4;
@@ -14,66 +28,96 @@ pub(super) const REACH: usize = 3;
 pub(super) const LIMIT: usize = 5;
 
 /// Lowers the distances of a pool to those to some points, and gives the largest.
-pub(super) fn lower(pool: &mut [[Lane; 4]], groups: &mut [[Lane; 6]], points: &[[f32; 3]]) -> f32 {
-    for p in points {
-        for row in 0..groups.len() {
+#[inline(always)]
+pub(super) fn lower(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) -> f32 {
+    // As many at once as there are bits to say which of them matter.
+    for points in points.chunks(32) {
+        lower_by(pool, groups, points);
+    }
+    farthest_of(groups)
+}
+
+/// The largest of all groups' largest distances.
+#[inline(always)]
+fn farthest_of(groups: &[Row]) -> f32 {
+    let mut most = [-1f32; LANES];
+    for row in groups {
+        most = larger(most, row[FAR]);
+    }
+    largest(most)
+}
+
+#[inline(always)]
+fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
+    for row in 0..groups.len() {
+        // For each group the points, as bits, that may be nearer to one of its own than what is taken.
+        let mut near = [0u32; LANES];
+        for (i, p) in points.iter().enumerate() {
             let to = squared_distances(&groups[row], p);
             for l in 0..LANES {
-                if to[l] < groups[row][LIMIT][l] {
-                    let group = row * LANES + l;
-                    let [x, y, z, d] = &mut pool[group];
-                    nearer(x, y, z, d, p);
-                    settle(&pool[group], groups, group);
-                }
+                near[l] |= u32::from(to[l] < groups[row][LIMIT][l]) << i;
             }
         }
+        for l in 0..LANES {
+            let mut left = near[l];
+            if left == 0 {
+                continue;
+            }
+            let group = row * LANES + l;
+            let Group { at, far, .. } = &mut pool[group];
+            while left != 0 {
+                nearer(at, far, &points[left.trailing_zeros() as usize]);
+                left &= left - 1;
+            }
+            settle(*far, groups, group);
+        }
     }
-    groups.iter().flat_map(|row| row[FAR]).fold(-1.0, f32::max)
 }
 
 /// What a group's numbers are after its distances have changed.
-#[inline]
-pub(super) fn settle(points: &[Lane; 4], groups: &mut [[Lane; 6]], group: usize) {
-    let far = points[3].into_iter().fold(-1.0, f32::max);
+#[inline(always)]
+pub(super) fn settle(far: Lane, groups: &mut [Row], group: usize) {
+    let far = largest(far);
     let (row, l) = (&mut groups[group / LANES], group % LANES);
     row[FAR][l] = far;
-    row[LIMIT][l] = if far < 0.0 { -1.0 } else { (far.sqrt() + row[REACH][l]) * (far.sqrt() + row[REACH][l]) };
+    let limit = far.sqrt() + row[REACH][l];
+    row[LIMIT][l] = if far < 0.0 { -1.0 } else { limit * limit };
 }
 
 /// The place in a pool of the point farthest from what is taken and from some further points. A group is looked into only
 /// if its farthest could be it, that of the largest distance first.
-pub(super) fn farthest(pool: &[[Lane; 4]], groups: &[[Lane; 6]], points: &[[f32; 3]]) -> usize {
+#[inline(always)]
+pub(super) fn farthest(pool: &[Group], groups: &[Row], points: &[[f32; 3]]) -> usize {
     let far = |group: usize| groups[group / LANES][FAR][group % LANES];
-    let mut first = 0;
-    for group in 1..pool.len() {
-        if far(group) > far(first) {
-            first = group;
-        }
-    }
+    let most = farthest_of(groups);
+    let first = (0..pool.len()).find(|&group| far(group) == most).unwrap_or(0);
     let (mut best, mut at) = (-1f32, first * LANES);
-    for group in std::iter::once(first).chain(0..pool.len()) {
+    let others = if points.is_empty() { 0..0 } else { 0..pool.len() };
+    for group in std::iter::once(first).chain(others) {
         if far(group) <= best {
             continue;
         }
-        let ([x, y, z, d], row, l) = (&pool[group], &groups[group / LANES], group % LANES);
-        let mut d = *d;
+        let mut d = pool[group].far;
         for p in points {
-            let (dx, dy, dz) = (row[0][l] - p[0], row[1][l] - p[1], row[2][l] - p[2]);
-            if dx * dx + dy * dy + dz * dz < row[LIMIT][l] {
-                nearer(x, y, z, &mut d, p);
-            }
+            nearer(&pool[group].at, &mut d, p);
         }
-        for (l, &d) in d.iter().enumerate() {
-            if d > best {
-                (best, at) = (d, group * LANES + l);
-            }
-        }
+        take_largest(&d, group, &mut best, &mut at);
     }
     at
 }
 
+/// Of distances of a group the first of the largest, if it is beyond the best so far.
 #[inline(always)]
-fn squared_distances(row: &[Lane; 6], p: &[f32; 3]) -> Lane {
+pub(super) fn take_largest(d: &Lane, group: usize, best: &mut f32, at: &mut usize) {
+    let most = largest(*d);
+    if most > *best {
+        let lane = d.iter().position(|&d| d == most).unwrap_or(0);
+        (*best, *at) = (most, group * LANES + lane);
+    }
+}
+
+#[inline(always)]
+pub(super) fn squared_distances(row: &Row, p: &[f32; 3]) -> Lane {
     let mut to = [0.0; LANES];
     for l in 0..LANES {
         let (dx, dy, dz) = (row[0][l] - p[0], row[1][l] - p[1], row[2][l] - p[2]);
@@ -83,12 +127,30 @@ fn squared_distances(row: &[Lane; 6], p: &[f32; 3]) -> Lane {
 }
 
 #[inline(always)]
-fn nearer(x: &Lane, y: &Lane, z: &Lane, d: &mut Lane, p: &[f32; 3]) {
+fn nearer([x, y, z]: &[Lane; 3], d: &mut Lane, p: &[f32; 3]) {
     for l in 0..LANES {
         let (dx, dy, dz) = (x[l] - p[0], y[l] - p[1], z[l] - p[2]);
         let to = dx * dx + dy * dy + dz * dz;
         d[l] = if to < d[l] { to } else { d[l] };
     }
+}
+
+/// The larger of each two, neither of which is NaN.
+#[inline(always)]
+fn larger(a: Lane, b: Lane) -> Lane {
+    let mut larger = a;
+    for l in 0..LANES {
+        larger[l] = if a[l] > b[l] { a[l] } else { b[l] };
+    }
+    larger
+}
+
+/// The largest of all, none of which is NaN: halves against halves, which waits less than one after the other.
+#[inline(always)]
+pub(super) fn largest(d: Lane) -> f32 {
+    let larger = |a: f32, b: f32| if a > b { a } else { b };
+    let four = [larger(d[0], d[4]), larger(d[1], d[5]), larger(d[2], d[6]), larger(d[3], d[7])];
+    larger(larger(four[0], four[2]), larger(four[1], four[3]))
 }
 
 #[cfg(test)]
@@ -110,20 +172,20 @@ mod tests {
         let size = pool_size(25);
         let mut class = Class::new(&sites, &links, &ids, &starts, 1 + 4, size);
         let all: Vec<[f32; 3]> =
-            class.pools.iter().flat_map(|[x, y, z, _]| (0..LANES).map(|l| [x[l], y[l], z[l]])).collect();
+            class.pools.iter().flat_map(|group| (0..LANES).map(|l| group.at.map(|x| x[l]))).collect();
         let squared = |a: [f32; 3], b: [f32; 3]| (0..3).map(|c| a[c] - b[c]).map(|x| x * x).sum::<f32>();
-        let mut wanted: Vec<f32> = class.pools.iter().flat_map(|lanes| lanes[3]).collect();
+        let mut wanted: Vec<f32> = class.pools.iter().flat_map(|group| group.far).collect();
         for i in 0..60 {
             let p = philox::uniforms(2, [i, 0, 0], 0);
             let p = [0, 1, 2].map(|c| (1.5 * p[c] - 0.75) as f32);
             let q = [p[1], p[2], -p[0]];
             let nearest: Vec<f32> =
                 wanted.iter().zip(&all).map(|(d, a)| d.min(squared(*a, p)).min(squared(*a, q))).collect();
-            let slot = farthest(&class.pools, &class.groups, &[p, q]);
+            let slot = farthest(&class.pools, &class.rows, &[p, q]);
             assert_eq!(nearest[slot], nearest.iter().copied().fold(-1.0, f32::max));
-            let largest = lower(&mut class.pools, &mut class.groups, &[p]);
+            let largest = lower(&mut class.pools, &mut class.rows, &[p]);
             wanted.iter_mut().zip(&all).for_each(|(d, a)| *d = d.min(squared(*a, p)));
-            let kept: Vec<f32> = class.pools.iter().flat_map(|lanes| lanes[3]).collect();
+            let kept: Vec<f32> = class.pools.iter().flat_map(|group| group.far).collect();
             assert_eq!(kept, wanted);
             assert_eq!(largest, wanted.iter().copied().fold(-1.0, f32::max));
         }

@@ -22,9 +22,9 @@ use super::slab::Slab;
 use choice::{Seen, Step, take};
 use class::{by_class, class_of, class_order};
 use drypoint_scene::glam::{DMat3, DVec3};
-use groups::LANES;
+use groups::{Group, LANES, Row};
 use links::Links;
-use pool::{Class, Site, point_of, pool_size};
+use pool::{Class, Site, point_of, pool_size, rows_of_groups};
 use rayon::prelude::*;
 
 pub(super) use links::MOST_VOXELS;
@@ -57,7 +57,8 @@ fn sweeps(rank: usize) -> usize {
 
 /// Bytes a voxel of what is allocated to order the points, beside the points.
 pub(super) fn bytes_a_voxel(each: usize) -> u64 {
-    (pool_size(each) * (4 * size_of::<f32>() + size_of::<u32>() + 6 * size_of::<f32>() / LANES)
+    (pool_size(each) / LANES * size_of::<Group>()
+        + rows_of_groups(pool_size(each)) * size_of::<Row>()
         + 26 * size_of::<u32>()
         + first::BYTES_A_VOXEL
         + size_of::<Site>()) as u64
@@ -73,31 +74,38 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     let around: Vec<[f32; 3]> = (0..27).map(|k| scaled(sites, delta(k))).collect();
     let mut classes: Vec<Class> = (0..8).map(|class| Class::new(sites, &links, &ids, &starts, class, size)).collect();
     let mut taken = [vec![[0f32; 3]; n], vec![[0f32; 3]; n]];
+    // Rank after rank, so that a visit writes what lies together.
     let mut chosen = vec![0u32; n * each];
     for (i, slot) in first::first_points(sites, &classes, &ids).into_iter().enumerate() {
         let id = ids[i] as usize;
         let class = &mut classes[class_of(sites.cells[i])];
         let index = id - class.start;
         class.sites[index].slot = slot;
-        chosen[id * each] = class.draw(index, slot);
+        chosen[id] = class.draw(index, slot);
         taken[1][id] = scaled(sites, class.point(sites, index, slot));
     }
     done(1);
     for rank in 1..each {
         let order = class_order(sites.seed, rank);
+        let order_before = class_order(sites.seed, rank - 1);
         let [before, now] = &mut taken;
         std::mem::swap(before, now);
         for sweep in 0..sweeps(rank) {
             for (place, &class) in order.iter().enumerate() {
                 let earlier = if sweep == 0 { &order[..place] } else { &order[..] };
-                let earlier = earlier.iter().fold(0u8, |set, &c| set | 1 << c);
-                let step = Step { rank, sweep, links: &links, around: &around, earlier };
+                let earlier = set(earlier);
+                let missed = match order_before.iter().position(|&c| c == class) {
+                    Some(place) if rank > 1 && sweeps(rank - 1) == 1 => set(&order_before[place..]),
+                    _ => set(&order),
+                };
+                let is_last = sweeps(rank) == 1;
+                let step = Step { sweep, links: &links, around: &around, earlier, missed, is_last };
                 let class = &mut classes[class];
                 let (start, end) = (class.start, class.start + class.sites.len());
                 let (left, rest) = now.split_at_mut(start);
                 let (own, right) = rest.split_at_mut(end - start);
                 let seen = Seen { before, left, right, start, end };
-                take(sites, class, own, &mut chosen[start * each..end * each], each, &seen, &step);
+                take(sites, class, own, &mut chosen[rank * n..][start..end], size, &seen, &step);
             }
         }
         done(rank + 1);
@@ -107,11 +115,16 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     points.par_chunks_mut(each.max(1)).enumerate().for_each(|(i, points)| {
         let id = ids[i] as usize;
         let slab = Slab::new(sites.axes, sites.normals[i], sites.slab);
-        for (point, &draw) in points.iter_mut().zip(&chosen[id * each..][..each]) {
-            *point = point_of(&slab, sites.seed, sites.cells[i], draw);
+        for (rank, point) in points.iter_mut().enumerate() {
+            *point = point_of(&slab, sites.seed, sites.cells[i], chosen[rank * n + id]);
         }
     });
     points
+}
+
+/// Classes as bits.
+fn set(classes: &[usize]) -> u8 {
+    classes.iter().fold(0, |set, &class| set | 1 << class)
 }
 
 /// From index to world space, in voxels.
@@ -120,6 +133,7 @@ fn scaled(sites: &Sites<'_>, o: [f32; 3]) -> [f32; 3] {
     p.to_array().map(|x| x as f32)
 }
 
+#[inline(always)]
 fn flattened(f: [f32; 3], p: [f32; 3]) -> [f32; 3] {
     let along = p[0] * f[0] + p[1] * f[1] + p[2] * f[2];
     [p[0] - along * f[0], p[1] - along * f[1], p[2] - along * f[2]]

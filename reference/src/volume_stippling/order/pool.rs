@@ -1,8 +1,9 @@
 //! The pools of random points that voxels take theirs from.
 
-use super::groups::{LANES, Lane, REACH, settle};
+use super::groups::{Group, LANES, REACH, Row, settle};
 use super::links::{Links, offset_of, towards};
 use super::{Sites, flattened, scaled};
+use crate::number::lanes::widely;
 use crate::volume_stippling::slab::{Slab, TRIES};
 use drypoint_scene::glam::DVec3;
 use rayon::prelude::*;
@@ -47,13 +48,10 @@ pub(super) struct Class {
     /// Of the first in the order of all.
     pub(super) start: usize,
     pub(super) sites: Vec<Site>,
-    /// For each site x, y, z and the squared distance to what is taken, of every point of its pool. What is no longer in
-    /// the pool has a distance below 0.
-    pub(super) pools: Vec<[Lane; 4]>,
-    /// For each eight points of a pool, which lie together, what tells from afar whether they matter.
-    pub(super) groups: Vec<[Lane; 6]>,
-    /// The draw that made each point of a pool.
-    pub(super) draws: Vec<u32>,
+    /// The groups of each site's pool.
+    pub(super) pools: Vec<Group>,
+    /// The rows of each site's groups.
+    pub(super) rows: Vec<Row>,
 }
 
 impl Class {
@@ -72,38 +70,40 @@ impl Class {
                 members[id as usize - start] = i;
             }
         }
-        let mut pools = vec![[[0.0; LANES]; 4]; members.len() * size / LANES];
-        let mut groups = vec![[[-1.0; LANES]; 6]; members.len() * rows_of_groups(size)];
-        let mut draws = vec![0; members.len() * size];
-        let parts = pools.par_chunks_mut(size / LANES).zip(groups.par_chunks_mut(rows_of_groups(size)));
-        let parts = parts.zip(draws.par_chunks_mut(size));
+        let group = Group { at: [[0.0; LANES]; 3], far: [0.0; LANES], draws: [0; LANES] };
+        let mut pools = vec![group; members.len() * size / LANES];
+        let mut rows = vec![[[-1.0; LANES]; 6]; members.len() * rows_of_groups(size)];
+        let parts = pools.par_chunks_mut(size / LANES).zip(rows.par_chunks_mut(rows_of_groups(size)));
         let sites = members
             .par_iter()
             .zip(parts)
-            .map_init(Vec::new, |scratch, (&i, ((pool, groups), draws))| {
-                let site = Site::new(sites, i, links.range(ids[i] as usize), links, draws, scratch);
-                site.fill(pool, groups, scratch);
+            .map_init(Vec::new, |scratch, (&i, (pool, rows))| {
+                let site = widely(
+                    #[inline(always)]
+                    || Site::new(sites, i, links.range(ids[i] as usize), links, size, scratch),
+                );
+                site.fill(pool, rows, scratch);
                 site
             })
             .collect();
-        Self { number: class, start, sites, pools, groups, draws }
+        Self { number: class, start, sites, pools, rows }
     }
 
     /// The pool of a voxel of the class.
-    pub(super) fn pool(&self, index: usize) -> &[[Lane; 4]] {
+    pub(super) fn pool(&self, index: usize) -> &[Group] {
         let groups = self.pools.len() / self.sites.len();
         &self.pools[index * groups..][..groups]
     }
 
     /// What is known of the groups of that pool.
-    pub(super) fn groups(&self, index: usize) -> &[[Lane; 6]] {
-        let rows = self.groups.len() / self.sites.len();
-        &self.groups[index * rows..][..rows]
+    pub(super) fn rows(&self, index: usize) -> &[Row] {
+        let rows = self.rows.len() / self.sites.len();
+        &self.rows[index * rows..][..rows]
     }
 
     /// The draw that made a point of a pool.
     pub(super) fn draw(&self, index: usize, slot: usize) -> u32 {
-        self.draws[index * (self.draws.len() / self.sites.len()) + slot]
+        self.pool(index)[slot / LANES].draws[slot % LANES]
     }
 
     /// Where a point of a pool lies, from the voxel's centre in index space.
@@ -114,14 +114,15 @@ impl Class {
 }
 
 impl Site {
-    /// The voxel with the draws of its pool, and in `scratch` where they lie, in the same order.
+    /// The voxel, and in `points` those of its pool, `size` of them: what lies together stands together.
+    #[inline(always)]
     fn new(
         sites: &Sites<'_>,
         i: usize,
         [first, end]: [u32; 2],
         links: &Links,
-        draws: &mut [u32],
-        scratch: &mut Vec<Drawn>,
+        size: usize,
+        points: &mut Vec<Drawn>,
     ) -> Self {
         let (cell, n) = (sites.cells[i], sites.normals[i]);
         let slab = Slab::new(sites.axes, n, sites.slab);
@@ -132,65 +133,81 @@ impl Site {
         let flat = if has(1.0) && has(-1.0) { DVec3::ZERO } else { n };
         let flat = flat.to_array().map(|x| x as f32);
         let mut reach = 0f32;
-        scratch.clear();
-        for slot in 0..draws.len() as u32 {
-            let mut tries = slot * TRIES..(slot + 1) * TRIES;
-            let found = tries.find_map(|draw| slab.point(sites.seed, cell, draw).map(|o| (draw, o)));
-            let (draw, o) = found.unwrap_or((CENTRE, [0.0; 3]));
-            let at = flattened(flat, scaled(sites, o));
-            reach = reach.max(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-            scratch.push(Drawn { key: 0, draw, at });
+        points.clear();
+        for group in 0..(size / LANES) as u32 {
+            let mut draws = [0; LANES];
+            for l in 0..LANES {
+                draws[l] = (group * LANES as u32 + l as u32) * TRIES;
+            }
+            let (offsets, is_inside) = slab.points(sites.seed, cell, draws);
+            for l in 0..LANES {
+                let (draw, o) =
+                    if is_inside[l] { (draws[l], offsets[l]) } else { next_inside(&slab, sites.seed, cell, draws[l]) };
+                let at = flattened(flat, scaled(sites, o));
+                reach = reach.max(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+                points.push(Drawn { key: 0, draw, at });
+            }
         }
         let reach = reach.sqrt();
-        // Points that lie together stand together.
-        for drawn in scratch.iter_mut() {
-            drawn.key = morton(drawn.at.map(|x| 0.5 + 0.5 * x / reach.max(f32::MIN_POSITIVE)));
+        let scale = 0.5 / reach.max(f32::MIN_POSITIVE);
+        for point in points.iter_mut() {
+            point.key = u64::from(morton(point.at.map(|x| 0.5 + scale * x))) << 32 | u64::from(point.draw);
         }
-        scratch.sort_unstable_by_key(|drawn| (drawn.key, drawn.draw));
-        draws.iter_mut().zip(scratch.iter()).for_each(|(draw, drawn)| *draw = drawn.draw);
+        points.sort_unstable_by_key(|point| point.key);
         Self { cell, slab, flat, reach, farthest: f32::MAX, slot: 0, first, end }
     }
 
     /// Puts the points into the pool, and what is known of its groups.
-    fn fill(&self, pool: &mut [[Lane; 4]], groups: &mut [[Lane; 6]], points: &[Drawn]) {
-        for (group, (lanes, points)) in pool.iter_mut().zip(points.chunks_exact(LANES)).enumerate() {
-            let row = &mut groups[group / LANES];
+    fn fill(&self, pool: &mut [Group], rows: &mut [Row], points: &[Drawn]) {
+        for (number, (group, points)) in pool.iter_mut().zip(points.chunks_exact(LANES)).enumerate() {
+            let row = &mut rows[number / LANES];
             let mut reach = 0f32;
             for c in 0..3 {
                 for (l, point) in points.iter().enumerate() {
-                    lanes[c][l] = point.at[c];
+                    group.at[c][l] = point.at[c];
                 }
-                row[c][group % LANES] = lanes[c].iter().sum::<f32>() / LANES as f32;
+                row[c][number % LANES] = group.at[c].iter().sum::<f32>() / LANES as f32;
             }
-            // Before anything is taken the first draw counts as the farthest: a random one, wherever it stands here.
-            for (d, point) in lanes[3].iter_mut().zip(points) {
-                *d = f32::MAX / (1.0 + point.draw as f32);
-            }
-            for point in points {
-                let off: f32 = (0..3).map(|c| point.at[c] - row[c][group % LANES]).map(|x| x * x).sum();
+            for (l, point) in points.iter().enumerate() {
+                group.draws[l] = point.draw;
+                // Before anything is taken the first draw counts as the farthest: a random one, wherever it stands here.
+                group.far[l] = f32::MAX / (1.0 + point.draw as f32);
+                let off: f32 = (0..3).map(|c| point.at[c] - row[c][number % LANES]).map(|x| x * x).sum();
                 reach = reach.max(off);
             }
             // Rounding of the middle and of distances must not hide a point: a thousandth is far more than both.
-            row[REACH][group % LANES] = reach.sqrt() * 1.001 + f32::MIN_POSITIVE;
-            settle(lanes, groups, group);
+            row[REACH][number % LANES] = reach.sqrt() * 1.001 + f32::MIN_POSITIVE;
+            settle(group.far, rows, number);
         }
     }
 }
 
+/// The first draw after one that falls inside, and its point.
+#[cold]
+fn next_inside(slab: &Slab, seed: u64, cell: [u32; 3], draw: u32) -> (u32, [f32; 3]) {
+    let found = (draw + 1..draw + TRIES).find_map(|draw| slab.point(seed, cell, draw).map(|o| (draw, o)));
+    found.unwrap_or((CENTRE, [0.0; 3]))
+}
+
 /// A random point of a pool.
 struct Drawn {
-    /// Its place along a curve that keeps together what lies together.
-    key: u32,
+    /// Its place along a curve that keeps together what lies together, then the draw.
+    key: u64,
     draw: u32,
     at: [f32; 3],
 }
 
 /// Bits of three numbers from 0 to 1, ten of each, in turn: Morton's order.
+#[inline(always)]
 fn morton(at: [f32; 3]) -> u32 {
     let spread = |x: f32| {
         // `as` clamps at 0.
-        let x = ((x * 1024.0) as u32).min(1023);
-        (0..10).fold(0, |bits, i| bits | (x >> i & 1) << (3 * i))
+        let x = ((x * 1024.0) as i32).clamp(0, 1023) as u32;
+        // Halves apart, again and again, until two places are free after each bit.
+        let x = (x | x << 16) & 0x0300_00ff;
+        let x = (x | x << 8) & 0x0300_f00f;
+        let x = (x | x << 4) & 0x030c_30c3;
+        (x | x << 2) & 0x0924_9249
     };
     spread(at[0]) | spread(at[1]) << 1 | spread(at[2]) << 2
 }

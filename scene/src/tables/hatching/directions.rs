@@ -2,13 +2,25 @@
 
 use crate::file::describe::{Key, Slot, Table};
 use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule};
+use crate::knobs::Ladder;
+use crate::plan::Pass;
 use glam::DVec3;
+
+/// Settings of `rule` and of `from`.
+const RULES: &[&str] = &["raw", "scaled"];
+const SOURCES: &[&str] = &["stored", "hessian"];
 
 /// The table `[hatching.directions]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Directions {
     /// Where there is one ([HATCH-3]).
     pub rule: DirectionRule,
+    /// Where a stroke has its direction from ([HATCH-4]).
+    pub from: DirectionSource,
+    /// What becomes of stored directions between voxels ([HATCH-4]).
+    pub interpolate: Interpolate,
+    /// At which voxels they are stored ([HATCH-5]).
+    pub grid: StoredAt,
     /// What a stroke's first sign follows ([HATCH-4]).
     pub reference: Reference,
     /// a, in world space; none: the volume's longest axis.
@@ -32,6 +44,33 @@ pub enum DirectionRule {
     Raw,
 }
 
+/// `from` ([HATCH-4]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DirectionSource {
+    /// Computed at every place that is asked for.
+    Hessian,
+    /// Interpolated between those of voxels, which are computed once: the paper's.
+    Stored,
+}
+
+/// `interpolate` ([HATCH-4]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolate {
+    /// The mean of e eᵀ, which has no signs.
+    Tensor,
+    /// The mean of the directions, each turned to the stroke's own.
+    Flipped,
+}
+
+/// `grid` ([HATCH-5]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StoredAt {
+    /// At the corners of cells that a stroke enters.
+    Visited,
+    /// At all.
+    All,
+}
+
 /// `reference` ([HATCH-4]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reference {
@@ -47,6 +86,9 @@ impl Default for Directions {
     fn default() -> Self {
         Self {
             rule: DirectionRule::Scaled,
+            from: DirectionSource::Hessian,
+            interpolate: Interpolate::Tensor,
+            grid: StoredAt::Visited,
             reference: Reference::Cylindrical,
             axis: None,
             center: None,
@@ -83,6 +125,76 @@ pub(super) static DIRECTIONS: Table<Directions> = Table::new(
                 },
                 get: |d: &Directions| Some(d.rule),
                 set: |d, v| d.rule = v,
+            },
+        )
+        .knob(Ladder::to_finest(|_, plan| if plan.has_pass(Pass::Strokes) { RULES } else { &[] })),
+        Key::new(
+            "from",
+            "HATCH-4",
+            "Where a stroke has its direction from.",
+            &Slot {
+                kind: Choice {
+                    options: &[
+                        ChoiceOption::new(
+                            "hessian",
+                            DirectionSource::Hessian,
+                            "The derivatives at every place of it: as exact as they are.",
+                        ),
+                        ChoiceOption::new(
+                            "stored",
+                            DirectionSource::Stored,
+                            "Between those of voxels, which are made once: the paper's, and faster where strokes are many.",
+                        ),
+                    ],
+                    later: &[],
+                },
+                get: |d: &Directions| Some(d.from),
+                set: |d, v| d.from = v,
+            },
+        )
+        .knob(Ladder::to_finest(|_, plan| if plan.has_pass(Pass::Strokes) { SOURCES } else { &[] })),
+        Key::new(
+            "interpolate",
+            "HATCH-4",
+            "What stored directions make between voxels.",
+            &Slot {
+                kind: Choice {
+                    options: &[
+                        ChoiceOption::new(
+                            "tensor",
+                            Interpolate::Tensor,
+                            "The dominant eigenvector of the mean of e eᵀ, which knows no signs; none where the mean has none.",
+                        ),
+                        ChoiceOption::new(
+                            "flipped",
+                            Interpolate::Flipped,
+                            "The mean of the directions, each with the sign that is nearer to the stroke's own: the paper's.",
+                        ),
+                    ],
+                    later: &[],
+                },
+                get: |d: &Directions| Some(d.interpolate),
+                set: |d, v| d.interpolate = v,
+            },
+        ),
+        Key::new(
+            "grid",
+            "HATCH-5",
+            "At which voxels directions are stored.",
+            &Slot {
+                kind: Choice {
+                    options: &[
+                        ChoiceOption::new(
+                            "visited",
+                            StoredAt::Visited,
+                            "At the corners of the cells that strokes enter, when they do, and where seeds are measured.",
+                        ),
+                        ChoiceOption::new("all", StoredAt::All, "At all, before the first stroke; the strokes are the same."),
+                    ],
+                    later: &[],
+                },
+                get: |d: &Directions| Some(d.grid),
+                set: |d, v| d.grid = v,
             },
         ),
         Key::new(

@@ -7,7 +7,7 @@ mod rules;
 mod stroke;
 mod table;
 
-pub use directions::{DirectionRule, Directions, Reference};
+pub use directions::{DirectionRule, DirectionSource, Directions, Interpolate, Reference, StoredAt};
 pub use lighting::LineLighting;
 pub(crate) use presets::HatchPreset;
 pub use stroke::StrokeStyle;

@@ -1,6 +1,6 @@
 //! What `[hatching]` needs of the rest of a scene, and what it makes of other tables.
 
-use super::{DirectionRule, HatchStyle, Hatching, Hidden, LineLighting, SeedsBy, Spacing};
+use super::{DirectionRule, DirectionSource, HatchStyle, Hatching, Hidden, LineLighting, SeedsBy, Spacing, StoredAt};
 use crate::plan::{Asks, Idle, Pass};
 use crate::tables::{GradientRange, Iso, Scene};
 
@@ -55,6 +55,15 @@ pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
         asks.pass(Pass::SeedMeasures, "seeds by curvature", "hatching.seeds");
         if matches!(scene.volume.gradient_range, GradientRange::Quantile(_)) {
             asks.pass(Pass::GradientRange, "seeds by curvature", "hatching.seeds");
+        }
+    }
+    match (hatching.directions.from, hatching.directions.grid) {
+        (DirectionSource::Hessian, _) => {}
+        (DirectionSource::Stored, StoredAt::Visited) => {
+            asks.pass(Pass::StoredDirections, "stored directions", "hatching.directions.from");
+        }
+        (DirectionSource::Stored, StoredAt::All) => {
+            asks.pass(Pass::AllDirections, "stored directions", "hatching.directions.grid");
         }
     }
     asks.pass(Pass::Strokes, "hatching", "hatching.length");
@@ -112,6 +121,11 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
     if hatching.seeds == SeedsBy::Dense {
         for key in ["measure", "min_curvature", "min_gradient", "seed"] {
             idle.key(&format!("hatching.{key}"), "every cell has a seed");
+        }
+    }
+    if hatching.directions.from == DirectionSource::Hessian {
+        for key in ["interpolate", "grid"] {
+            idle.key(&format!("hatching.directions.{key}"), "no direction is stored");
         }
     }
     if hatching.directions.rule == DirectionRule::Raw {

@@ -1,0 +1,257 @@
+//! Hatching in one run ([HATCH-5], [HATCH-8], [HATCH-10]): directions of a whole volume and of what is visible of it; strokes a
+//! second with stored directions and with computed ones; what packed strokes take; how far strokes of stored directions are
+//! from those of computed ones.
+//!
+//! `cargo bench --bench stroke`, with the scans in `DRYPOINT_DATA` or `../shared/data`
+
+use drypoint::job::Job;
+use drypoint::output::compare::lines::apart;
+use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
+use drypoint::reference::interactive_volume_illustration::{
+    Between, Grown, Hatching, Packed, Pyramid, Rule, Seed, SeedRule, Storing, Strokes, gradient_range,
+};
+use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::glam::DVec2;
+use drypoint::scene::marks::{Polyline, Vertex};
+use drypoint::scene::space::Grid;
+use drypoint::scene::strokes::Stroke;
+use drypoint::scene::tables::{GradientRange, Measure};
+use drypoint::scene::volume::{Volume, Voxels};
+use std::path::Path;
+use std::time::Instant;
+
+/// The scans, a value of each, and how often its cells have a stroke: about 50 000.
+const SCANS: [(&str, f64); 2] = [("engine.nhdr", 80.0), ("hydrogen_atom.nhdr", 30.0)];
+
+/// Strokes of a scan.
+const STROKES: usize = 50_000;
+
+/// Pairs of strokes that are compared.
+const PAIRS: usize = 2000;
+
+/// Times of each; the median counts.
+const ROUNDS: usize = 3;
+
+fn main() -> Result<(), String> {
+    let folder = std::env::var("DRYPOINT_DATA").unwrap_or_else(|_| "../shared/data".into());
+    if !Path::new(&folder).join(SCANS[0].0).exists() {
+        println!("skipped: no data");
+        return Ok(());
+    }
+    println!("{} threads\n", rayon::current_num_threads());
+    let engine = load(&folder, SCANS[0].0)?;
+    preprocessing(&doubled(&engine)?, SCANS[0].1)?;
+    for (name, iso) in SCANS {
+        strokes(name, &load(&folder, name)?, iso)?;
+    }
+    Ok(())
+}
+
+fn load(folder: &str, name: &str) -> Result<Volume, String> {
+    let text = format!("drypoint = 1\n[volume]\nfile = \"{name}\"\n");
+    let place = Path::new(folder).join("bench.toml");
+    let scene = parse(&text, &place, &Overrides::default()).map_err(|e| e.to_string())?;
+    Ok(Job::load(scene).map_err(|e| e.to_string())?.volume)
+}
+
+/// A volume and its mirror image behind it: the engine's 128 slices make 256³ voxels.
+fn doubled(volume: &Volume) -> Result<Volume, String> {
+    let [nx, ny, nz] = volume.dims();
+    let Voxels::U8(voxels) = volume.voxels() else { return Err("the volume is not of bytes".into()) };
+    let slices = (0..nz).chain((0..nz).rev());
+    let both = slices.flat_map(|z| voxels[z * ny * nx..(z + 1) * ny * nx].iter().copied()).collect();
+    let grid = Grid::with_spacing([nx, ny, 2 * nz], volume.grid().spacing()).map_err(|e| e.to_string())?;
+    Volume::new(grid, Voxels::U8(both), 1.0, 0.0).map_err(|e| e.to_string())
+}
+
+fn field(volume: &Volume, hessian: HessianEstimator) -> Result<Field<'_, f64>, String> {
+    let rung = if hessian == HessianEstimator::Auto { Rung::Gradient } else { Rung::Hessian };
+    Field::new(volume, Reconstruction { hessian, ..Default::default() }, rung).map_err(|e| e.to_string())
+}
+
+fn hatching(grid: &Grid, rule: Rule, stored: Option<Storing>) -> Hatching {
+    Hatching { rule, stored, ..Hatching::new(grid) }
+}
+
+const ALL: Option<Storing> = Some(Storing { between: Between::Tensor, all: true });
+const VISITED: Option<Storing> = Some(Storing { between: Between::Tensor, all: false });
+const FLIPPED: Option<Storing> = Some(Storing { between: Between::Flipped, all: false });
+
+fn preprocessing(volume: &Volume, iso: f64) -> Result<(), String> {
+    let dims = volume.dims();
+    println!("| preprocessing of {dims:?} | seconds | directions | bytes |\n|---|--:|--:|--:|");
+    let scaled = Rule::Scaled(Default::default());
+    let cases = [
+        ("raw, central differences", Rule::Raw, HessianEstimator::Central),
+        ("raw, Gaussian", Rule::Raw, HessianEstimator::Gaussian),
+        ("scaled, the default", scaled, HessianEstimator::Auto),
+    ];
+    for (name, rule, hessian) in cases {
+        let made = timed(|| {
+            let field = field(volume, hessian)?;
+            let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), rule, ALL));
+            strokes.prepare();
+            Ok(strokes.stored())
+        })?;
+        row(name, made);
+    }
+    for (name, rule, hessian) in cases {
+        let made = timed(|| {
+            let field = field(volume, hessian)?;
+            let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), rule, VISITED));
+            seeds(&strokes, &field, iso);
+            Ok(strokes.stored())
+        })?;
+        row(&format!("visible only, with pyramid and seeds: {name}"), made);
+    }
+    println!();
+    Ok(())
+}
+
+fn row(name: &str, (seconds, [made, bytes]): (f64, [u64; 2])) {
+    println!("| {name} | {seconds:.2} | {made} | {bytes} |");
+}
+
+/// The cells of the surface that have a seed.
+fn seeds(strokes: &Strokes<'_, '_>, field: &Field<'_, f64>, iso: f64) -> Vec<[usize; 3]> {
+    let rule = SeedRule::Curvature { min_curvature: 0.02, min_gradient: 0.05 };
+    let (range, _) = gradient_range(field, GradientRange::Fixed([0.0, 60.0]));
+    let pyramid = Pyramid::new(field.volume());
+    strokes.seeds(&pyramid, field, iso, rule, (Measure::Mean, range)).draw(1).collect()
+}
+
+/// The median of the seconds that something takes, and what it gives.
+fn timed<T>(run: impl Fn() -> Result<T, String>) -> Result<(f64, T), String> {
+    let mut seconds = Vec::new();
+    loop {
+        let start = Instant::now();
+        let made = run()?;
+        seconds.push(start.elapsed().as_secs_f64());
+        if seconds.len() == ROUNDS {
+            return Ok((median(&mut seconds, 0.5), made));
+        }
+    }
+}
+
+/// The number below which a share of others lies.
+fn median(numbers: &mut [f64], share: f64) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers[((numbers.len() - 1) as f64 * share).round() as usize]
+}
+
+fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
+    let field = field(volume, HessianEstimator::Gaussian)?;
+    let all: Vec<[usize; 3]> = {
+        let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), Rule::Raw, None));
+        let pyramid = Pyramid::new(volume);
+        let seeds = strokes.seeds(&pyramid, &field, iso, SeedRule::Dense, (Measure::Mean, [0.0; 2]));
+        seeds.cells.into_iter().map(|(cell, _)| cell).collect()
+    };
+    let share = (STROKES as f64 / all.len() as f64).min(1.0);
+    let kept = |i: &usize| (*i as f64 * share).floor() != ((i + 1) as f64 * share).floor();
+    let cells: Vec<_> = (0..all.len()).filter(kept).map(|i| all[i]).collect();
+    println!("| {name}, {} seeds | seconds | the second time | strokes a second | directions | stored |", cells.len());
+    println!("|---|--:|--:|--:|--:|--:|");
+    let mut grown: Vec<(&str, Grown)> = Vec::new();
+    for (how, rule) in [("scaled", Rule::Scaled(Default::default())), ("raw", Rule::Raw)] {
+        for (from, storing) in [("hessian", None), ("stored", VISITED), ("stored, flipped", FLIPPED)] {
+            let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), rule, storing));
+            let once = || {
+                let start = Instant::now();
+                let grown = strokes.grow_all(&cells, |_| false);
+                (start.elapsed().as_secs_f64(), grown)
+            };
+            let ((first, made), (again, _)) = (once(), once());
+            println!(
+                "| {how}, {from} | {first:.2} | {again:.2} | {:.0} | {} | {} |",
+                made.strokes.len() as f64 / again,
+                made.counts.scales.directions(),
+                strokes.stored()[0],
+            );
+            if how == "scaled" {
+                grown.push((from, made));
+            }
+        }
+    }
+    println!();
+    if let Some((_, direct)) = grown.first() {
+        let packed = Packed::new(direct.strokes.iter().map(|(_, stroke)| stroke), volume.grid());
+        let (bytes, normals) = (packed.bytes(), 4 * volume.grid().len() as u64);
+        println!(
+            "{} strokes, {} vertices: {bytes} bytes packed, 1/{:.1} of value and normal, 4 B a voxel\n",
+            direct.strokes.len(),
+            packed.vertices(),
+            normals as f64 / bytes as f64,
+        );
+        println!(
+            "| {name}: distance to computed directions | strokes of one alone | Hausdorff, voxels: median | 95 % | angle: median \
+             | 95 % |\n|---|--:|--:|--:|--:|--:|"
+        );
+        for (from, other) in &grown[1..] {
+            compared(from, direct, other, volume.grid());
+        }
+        println!();
+    }
+    Ok(())
+}
+
+/// Strokes of the same seeds: how far they are apart, and the angle between them at equal arc lengths from the seed's end.
+fn compared(from: &str, direct: &Grown, other: &Grown, grid: &Grid) {
+    let voxel = grid.voxel();
+    let find = |seed: &Seed| other.strokes.iter().position(|(s, _)| s.cell == seed.cell);
+    let step = direct.strokes.len().div_ceil(PAIRS);
+    let (mut far, mut angles, mut alone) = (Vec::new(), Vec::new(), 0);
+    for (seed, a) in direct.strokes.iter().step_by(step) {
+        let Some(at) = find(seed) else {
+            alone += 1;
+            continue;
+        };
+        let (_, b) = &other.strokes[at];
+        let [p, q] = [a, b].map(line);
+        if let Some(found) = apart([&p].into_iter(), [&q].into_iter(), 0.1 * voxel) {
+            far.push(found.max / voxel);
+        }
+        if !a.closed && !b.closed && seed.family == other.strokes[at].0.family {
+            angles.extend(turned(a, b, voxel));
+        }
+    }
+    println!(
+        "| {from} | {:.1} % | {:.3} | {:.2} | {:.2}° | {:.1}° |",
+        100.0 * f64::from(alone) / (far.len() as f64 + f64::from(alone)),
+        median(&mut far, 0.5),
+        median(&mut far, 0.95),
+        median(&mut angles, 0.5),
+        median(&mut angles, 0.95),
+    );
+}
+
+fn line(stroke: &Stroke) -> Polyline {
+    let vertex = |v: &drypoint::scene::strokes::StrokeVertex| Vertex {
+        at: DVec2::ZERO,
+        world: v.world,
+        radius: 0.0,
+        opacity: 1.0,
+        t: v.u,
+        color: None,
+    };
+    Polyline { vertices: stroke.vertices.iter().map(vertex).collect(), closed: stroke.closed }
+}
+
+/// Degrees between the lines of two strokes at equal arc lengths from their tails, a voxel apart.
+fn turned(a: &Stroke, b: &Stroke, voxel: f64) -> Vec<f64> {
+    let along = |stroke: &Stroke, arc: f64| {
+        let mut left = arc;
+        stroke.vertices.windows(2).find_map(|pair| {
+            let way = pair[1].world - pair[0].world;
+            let length = way.length();
+            left -= length;
+            (left <= 0.0 && length > 0.0).then(|| way / length)
+        })
+    };
+    let places = (a.length().min(b.length()) / voxel) as usize;
+    let angle = |i: usize| {
+        let (p, q) = (along(a, i as f64 * voxel)?, along(b, i as f64 * voxel)?);
+        Some(p.cross(q).length().atan2(p.dot(q).abs()).to_degrees())
+    };
+    (1..places).filter_map(angle).collect()
+}

@@ -1,0 +1,228 @@
+//! Directions of voxels in memory: made when they are asked for, by whichever thread asks first.
+
+use crate::field::curvature::Curvature;
+use crate::number::Vec3;
+use drypoint_scene::glam::DVec3;
+use rayon::prelude::*;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Voxels along the side of a block.
+const SIDE: usize = 8;
+
+/// Blocks along the side of what is made at once for the whole grid: large enough that what neighbours share is little.
+const AT_ONCE: usize = 4;
+
+/// Numbers of a voxel: e₁, e₂, κ₁, κ₂, one line of a cache.
+const NUMBERS: usize = 8;
+
+/// The first number's bits are kept inverted, so that 0, what memory begins with, is none of them.
+const UNKNOWN: u64 = 0;
+
+/// There is no direction: inverted bits of something that is no number.
+const NONE: u64 = !0x7ff8_0000_0000_0000;
+
+/// A voxel. All that write to it write the same, the first number last.
+#[derive(Debug, Default)]
+#[repr(align(64))]
+struct Slot([AtomicU64; NUMBERS]);
+
+impl Slot {
+    fn get(&self, number: usize) -> f64 {
+        f64::from_bits(self.0[number].load(Ordering::Relaxed))
+    }
+
+    fn set(&self, made: Option<Curvature<f64>>) {
+        let first = made.map_or(NONE, |c| {
+            let numbers = [c.e1.y, c.e1.z, c.e2.x, c.e2.y, c.e2.z, c.k1, c.k2];
+            for (to, number) in self.0[1..].iter().zip(numbers) {
+                to.store(number.to_bits(), Ordering::Relaxed);
+            }
+            !c.e1.x.to_bits()
+        });
+        self.0[0].store(first, Ordering::Release);
+    }
+
+    /// The first number, made now if need be; none where there is no direction.
+    #[inline]
+    fn first(&self, make: impl FnOnce() -> Option<Curvature<f64>>) -> Option<f64> {
+        let mut first = self.0[0].load(Ordering::Acquire);
+        if first == UNKNOWN {
+            self.set(make());
+            first = self.0[0].load(Ordering::Acquire);
+        }
+        (first != NONE).then(|| f64::from_bits(!first))
+    }
+}
+
+/// The voxels of a grid in blocks, each made when the first of its voxels is asked for.
+#[derive(Debug)]
+pub(super) struct Blocks {
+    /// Voxels along each axis.
+    voxels: [usize; 3],
+    /// Blocks along each axis.
+    dims: [usize; 3],
+    /// One without slots has no direction anywhere.
+    blocks: Vec<OnceLock<Box<[Slot]>>>,
+}
+
+/// Voxels of a box, x fastest: from the first up to, not including, the end.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) struct Voxels {
+    pub(in super::super) first: [usize; 3],
+    pub(in super::super) end: [usize; 3],
+}
+
+impl Voxels {
+    /// Along each axis.
+    pub(in super::super) fn sides(&self) -> [usize; 3] {
+        [0, 1, 2].map(|a| self.end[a] - self.first[a])
+    }
+
+    /// Each of them.
+    pub(in super::super) fn each(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
+        let Self { first, end } = *self;
+        let row = move |z, y| (first[0]..end[0]).map(move |x| [x, y, z]);
+        (first[2]..end[2]).flat_map(move |z| (first[1]..end[1]).flat_map(move |y| row(z, y)))
+    }
+
+    /// Where one of them is in the list.
+    fn place(&self, voxel: [usize; 3]) -> usize {
+        let [nx, ny, _] = self.sides();
+        let [x, y, z] = [0, 1, 2].map(|a| voxel[a] - self.first[a]);
+        (z * ny + y) * nx + x
+    }
+}
+
+fn slots() -> Box<[Slot]> {
+    (0..SIDE * SIDE * SIDE).map(|_| Slot::default()).collect()
+}
+
+impl Blocks {
+    pub(super) fn new(voxels: [usize; 3]) -> Self {
+        let dims = voxels.map(|n| n.div_ceil(SIDE));
+        Self { voxels, dims, blocks: (0..dims.iter().product()).map(|_| OnceLock::new()).collect() }
+    }
+
+    #[inline]
+    fn slot(&self, [x, y, z]: [usize; 3]) -> Option<&Slot> {
+        let [nx, ny, _] = self.dims;
+        let block = &self.blocks[(z / SIDE * ny + y / SIDE) * nx + x / SIDE];
+        block.get_or_init(slots).get((z % SIDE * SIDE + y % SIDE) * SIDE + x % SIDE)
+    }
+
+    /// All of a voxel.
+    pub(super) fn get(
+        &self,
+        voxel: [usize; 3],
+        make: impl FnOnce() -> Option<Curvature<f64>>,
+    ) -> Option<Curvature<f64>> {
+        let slot = self.slot(voxel)?;
+        let x = slot.first(make)?;
+        let [y, z, fx, fy, fz, k1, k2] = [1, 2, 3, 4, 5, 6, 7].map(|i| slot.get(i));
+        Some(Curvature { k1, k2, e1: Vec3::new(x, y, z), e2: Vec3::new(fx, fy, fz) })
+    }
+
+    /// One of the directions of a voxel: e₂, or e₁.
+    #[inline]
+    pub(super) fn line(
+        &self,
+        voxel: [usize; 3],
+        second: bool,
+        make: impl FnOnce() -> Option<Curvature<f64>>,
+    ) -> Option<DVec3> {
+        let slot = self.slot(voxel)?;
+        let x = slot.first(make)?;
+        Some(if second {
+            DVec3::new(slot.get(3), slot.get(4), slot.get(5))
+        } else {
+            DVec3::new(x, slot.get(1), slot.get(2))
+        })
+    }
+
+    /// Makes every voxel, some blocks at once: `make` is given a box, and has its voxels' directions in their order.
+    pub(super) fn fill(&self, make: impl Fn(Voxels) -> Vec<Option<Curvature<f64>>> + Sync) {
+        let groups = self.dims.map(|n| n.div_ceil(AT_ONCE));
+        (0..groups.iter().product::<usize>()).into_par_iter().for_each(|i| {
+            let group = [i % groups[0], i / groups[0] % groups[1], i / (groups[0] * groups[1])];
+            let first = group.map(|g| g * AT_ONCE * SIDE);
+            let end = [0, 1, 2].map(|a| (first[a] + AT_ONCE * SIDE).min(self.voxels[a]));
+            let group = Voxels { first, end };
+            let made = make(group);
+            let blocks = Voxels { first: first.map(|i| i / SIDE), end: end.map(|i| i.div_ceil(SIDE)) };
+            for block in blocks.each() {
+                self.keep(block, &group, &made);
+            }
+        });
+    }
+
+    /// Keeps a block's part of what was made of a box.
+    fn keep(&self, block: [usize; 3], group: &Voxels, made: &[Option<Curvature<f64>>]) {
+        let first = block.map(|i| i * SIDE);
+        let voxels = Voxels { first, end: [0, 1, 2].map(|a| (first[a] + SIDE).min(self.voxels[a])) };
+        let [nx, ny, _] = self.dims;
+        let place = &self.blocks[(block[2] * ny + block[1]) * nx + block[0]];
+        let is_empty = voxels.each().all(|voxel| made[group.place(voxel)].is_none());
+        let slots = place.get_or_init(|| if is_empty { Box::default() } else { slots() });
+        for voxel in voxels.each().filter(|_| !slots.is_empty()) {
+            if let Some(slot) = self.slot(voxel) {
+                slot.set(made[group.place(voxel)]);
+            }
+        }
+    }
+
+    /// Voxels with a direction.
+    pub(super) fn made(&self) -> u64 {
+        let has = |slot: &&Slot| ![UNKNOWN, NONE].contains(&slot.0[0].load(Ordering::Acquire));
+        self.kept().map(|block| block.iter().filter(has).count() as u64).sum()
+    }
+
+    /// Bytes of the blocks that were made.
+    pub(super) fn bytes(&self) -> u64 {
+        self.kept().map(|block| size_of_val(block) as u64).sum()
+    }
+
+    fn kept(&self) -> impl Iterator<Item = &[Slot]> {
+        self.blocks.iter().filter_map(OnceLock::get).map(|block| &**block)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    fn of(voxel: [usize; 3]) -> Option<Curvature<f64>> {
+        let [x, y, z] = voxel.map(|i| i as f64);
+        let c = Curvature { k1: x, k2: -y, e1: Vec3::new(z, 0.0, -0.0), e2: Vec3::new(-x, y, z) };
+        (voxel[0] % 3 != 1 && voxel[2] < 12).then_some(c)
+    }
+
+    #[test]
+    fn each_voxel_is_made_once_and_is_its_own() {
+        let dims = [17, 9, 26];
+        let all = Voxels { first: [0; 3], end: dims };
+        let lazy = Blocks::new(dims);
+        let asked = Cell::new(0);
+        let make = |voxel| {
+            asked.set(asked.get() + 1);
+            of(voxel)
+        };
+        assert_eq!((lazy.bytes(), lazy.made()), (0, 0));
+        for _ in 0..2 {
+            for voxel in all.each().step_by(5) {
+                assert_eq!(lazy.get(voxel, || make(voxel)), of(voxel));
+                assert_eq!(lazy.line(voxel, false, || None), of(voxel).map(|c| c.e1.to_glam()));
+                assert_eq!(lazy.line(voxel, true, || None), of(voxel).map(|c| c.e2.to_glam()));
+            }
+        }
+        assert_eq!(asked.get(), all.each().step_by(5).count());
+        assert_eq!(lazy.made(), all.each().step_by(5).filter_map(of).count() as u64);
+        let whole = Blocks::new(dims);
+        whole.fill(|voxels| voxels.each().map(of).collect());
+        assert_eq!(whole.made(), all.each().filter_map(of).count() as u64);
+        // 3 × 2 × 4 blocks, of which those at x = 16 and from z = 16 on are empty.
+        assert_eq!(whole.bytes(), 2 * 2 * 2 * 512 * 64);
+        assert!(all.each().all(|voxel| whole.get(voxel, || panic!("{voxel:?} is not there")) == of(voxel)));
+    }
+}

@@ -1,0 +1,208 @@
+//! Stored directions against those that are computed everywhere, and what must not show in them ([HATCH-4], [HATCH-5]).
+
+use super::super::stored::{Between, Storing};
+use super::super::{Family, Hatching, NoDirection, Rule, Scales, Strokes};
+use super::*;
+use crate::field::{Field, Reconstruction, Rung};
+use drypoint_scene::math::scale_by_power_of_two;
+use drypoint_scene::philox::uniform;
+use drypoint_scene::volume::Voxels;
+
+const TENSOR: Option<Storing> = Some(Storing { between: Between::Tensor, all: false });
+const FLIPPED: Option<Storing> = Some(Storing { between: Between::Flipped, all: false });
+const ALL: Option<Storing> = Some(Storing { between: Between::Tensor, all: true });
+
+fn raw(grid: &Grid, stored: Option<Storing>) -> Hatching {
+    Hatching { rule: Rule::Raw, stored, ..Hatching::new(grid) }
+}
+
+/// The root mean square angle between stored and computed directions of both families, at places on a torus, with voxels of an
+/// edge of 1/`n`.
+fn off_on_torus(n: usize) -> f64 {
+    let grid = Grid::with_spacing([40 * n, 40 * n, 24 * n], [1.0 / n as f64; 3]).unwrap();
+    let ground = exact("torus", grid, &[("R", 11.0), ("r", 6.0)]);
+    let [direct, stored] = [None, TENSOR].map(|stored| Strokes::on(&ground, Some(0.0), raw(&ground.grid, stored)));
+    let centre = ground.grid.centre();
+    let (mut sum, mut places) = (0.0, 0);
+    for i in 0..300u32 {
+        let [u, v] = [0, 1].map(|a| std::f64::consts::TAU * uniform(5, [i, a, 0], 0));
+        let ring = 11.0 + 6.0 * v.cos();
+        let world = centre + DVec3::new(ring * u.cos(), ring * u.sin(), 6.0 * v.sin());
+        let index = Vec3::from_glam(ground.grid.to_index(world));
+        let mut counts = Scales::default();
+        let [a, b] = [&direct, &stored].map(|s| s.curvature(index, &mut counts).unwrap());
+        assert_eq!((counts.given[0], counts.between, counts.missing), (1, 1, 0));
+        for (e, f) in [(a.e1, b.e1), (a.e2, b.e2)] {
+            sum += e.cross(f).dot(e.cross(f));
+            places += 1;
+        }
+    }
+    (sum / f64::from(places)).sqrt()
+}
+
+/// Linear interpolation: halving the voxels' edge leaves a quarter of the error, within a tenth.
+#[test]
+fn between_voxels_the_error_is_of_second_order() {
+    let off = [1, 2, 4].map(off_on_torus);
+    for pair in off.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 2.0).abs() < 0.1, "{off:?}: {order}");
+    }
+    // h²/8 of the second derivatives along three axes, some 1/R² with R = 5 … 17.
+    assert!(off[0] < 3.0 / 8.0 / 25.0, "{off:?}");
+}
+
+/// Around a cylinder directions turn by 1/R: e eᵀ at an angle ±φ/2 to either side has its dominant eigenvector between them,
+/// at the middle exactly; along it all corners agree.
+#[test]
+fn rulings_of_a_cylinder_are_exact() {
+    let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
+    let ground = exact("cylinder", cube(48), &[("R", 14.0), ("ax", axis.x), ("ay", axis.y), ("az", axis.z)]);
+    let centre = ground.grid.centre();
+    let out = axis.any_orthonormal_vector();
+    for storing in [TENSOR, FLIPPED] {
+        let strokes = Strokes::on(&ground, Some(0.0), raw(&ground.grid, storing));
+        for i in 0..200u32 {
+            let turn = drypoint_scene::glam::DQuat::from_axis_angle(axis, f64::from(i));
+            let index = Vec3::from_glam(ground.grid.to_index(centre + turn * out * 14.0 + axis * f64::from(i % 7)));
+            let c = strokes.curvature(index, &mut Scales::default()).unwrap();
+            assert!(c.e2.to_glam().cross(axis).length() <= 64.0 * f64::EPSILON);
+            assert!(c.k2.abs() <= 1e-15 && (c.k1 * 14.0 - 1.0).abs() < 0.01, "{c:?}");
+        }
+    }
+}
+
+fn torus(voxels: VoxelType) -> Volume {
+    sampled("torus", cube(40), voxels, &[("R", 11.0), ("r", 6.0), ("w", 1.5), ("high", 255.0)])
+}
+
+/// Strokes and their counts do not depend on when directions are made, nor on the threads that make them; how many are made
+/// does, and it is the same whatever the threads.
+#[test]
+fn when_directions_are_made_does_not_show() {
+    for (voxels, rule) in [(VoxelType::U8, Rule::Scaled(Default::default())), (VoxelType::F64, Rule::Raw)] {
+        let volume = torus(voxels);
+        let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Hessian).unwrap();
+        let cells: Vec<_> = active(&volume, 127.5).into_iter().step_by(13).collect();
+        let grow = |threads: usize, stored: Option<Storing>| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let how = Hatching { rule, stored, length: 15.0, ..Hatching::new(volume.grid()) };
+            let strokes = Strokes::new(&field, Some(127.5), how);
+            let grown = pool.install(|| {
+                strokes.prepare();
+                strokes.grow_all(&cells, |_| true)
+            });
+            (grown, strokes.stored())
+        };
+        let (one, made) = grow(1, TENSOR);
+        assert!(one.strokes.len() > cells.len() / 2 && one.counts.scales.given == [0; 3]);
+        assert!(made[0] > 1000 && made[1] < 64 * volume.grid().len() as u64);
+        let (direct, none) = grow(2, None);
+        assert_eq!((none, direct.counts.scales.between), ([0, 0], 0));
+        assert!(direct != one);
+        for threads in [2, 7] {
+            assert_eq!(grow(threads, TENSOR), (one.clone(), made));
+        }
+        let (all, whole) = grow(2, ALL);
+        assert_eq!(all, one);
+        assert!(whole[0] > 2 * made[0]);
+        assert_eq!(grow(7, ALL).1, whole);
+        let (flipped, _) = grow(1, FLIPPED);
+        assert_eq!(flipped, grow(7, FLIPPED).0);
+        assert!(flipped != one && flipped.strokes.len() > cells.len() / 2);
+    }
+}
+
+/// A ground whose Hessian is the other's, and whose directions therefore are: but each voxel's own sign is turned at random.
+#[test]
+fn signs_of_stored_directions_do_not_show() {
+    let ground = exact("torus", cube(40), &[("R", 11.0), ("r", 6.0)]);
+    let grown = |storing: Option<Storing>, signs: bool| {
+        let strokes = Strokes::on(&ground, Some(0.0), Hatching { length: 15.0, ..raw(&ground.grid, storing) });
+        if signs {
+            strokes.turn_signs();
+        }
+        let cells: Vec<_> =
+            (0..300u32).map(|i| [0, 1, 2].map(|a| (40.0 * uniform(9, [i, a, 0], 0)) as usize)).collect();
+        strokes.grow_all(&cells, |_| false)
+    };
+    let one = grown(TENSOR, false);
+    assert!(one.strokes.len() > 5);
+    for ((seed, stroke), (other, turned)) in one.strokes.iter().zip(&grown(TENSOR, true).strokes) {
+        assert_eq!((seed, stroke), (other, turned));
+    }
+    assert_eq!(one.counts, grown(TENSOR, true).counts);
+    // The paper's corners have a sign again that is theirs.
+    assert_eq!(grown(FLIPPED, false), grown(FLIPPED, true));
+}
+
+/// 2ᵏ times the values: the same bits.
+#[test]
+fn powers_of_two_do_not_show() {
+    let volume = torus(VoxelType::F64);
+    let cells: Vec<_> = active(&volume, 127.5).into_iter().step_by(41).collect();
+    let grown = |factor: f64, rule: Rule| {
+        let voxels = (0..volume.grid().len()).map(|i| volume.voxels().get(i) * factor).collect();
+        let volume = Volume::new(volume.grid().clone(), Voxels::F64(voxels), 1.0, 0.0).unwrap();
+        let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Hessian).unwrap();
+        let how = Hatching { rule, stored: TENSOR, ..Hatching::new(volume.grid()) };
+        let grown = Strokes::new(&field, Some(127.5 * factor), how).grow_all(&cells, |_| true);
+        let strokes: Vec<_> = grown.strokes.into_iter().chain(grown.cross).map(|(_, stroke)| stroke).collect();
+        (strokes, grown.counts)
+    };
+    for rule in [Rule::Raw, Rule::Scaled(Default::default())] {
+        let one = grown(1.0, rule);
+        for k in [-300, -1, 300] {
+            assert_eq!(grown(scale_by_power_of_two(1.0, k), rule), one);
+        }
+    }
+}
+
+/// Of a sphere there is nothing to store, and no stroke; half the corners without a direction are too many.
+#[test]
+fn where_no_voxel_has_a_direction_there_is_none() {
+    let volume = sampled("sphere", cube(40), VoxelType::U8, &[("R", 12.3), ("w", 2.0), ("high", 255.0)]);
+    let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+    let how = Hatching { stored: TENSOR, ..Hatching::new(volume.grid()) };
+    let strokes = Strokes::new(&field, Some(127.5), how);
+    let cells: Vec<_> = active(&volume, 127.5).into_iter().step_by(11).collect();
+    let grown = strokes.grow_all(&cells, |_| false);
+    assert!(grown.strokes.len() * 50 <= cells.len());
+    assert!(grown.counts.rejected.no_direction * 100 >= cells.len() as u64 * 98);
+    assert!(grown.counts.scales.missing >= grown.counts.rejected.no_direction);
+}
+
+/// Away from umbilics strokes of stored directions are those of computed ones to the error of interpolation: on a torus of
+/// radii 11 and 6, after an arc of 15, some hundredths of a voxel.
+#[test]
+fn strokes_are_near_those_of_computed_directions() {
+    let ground = exact("torus", cube(40), &[("R", 11.0), ("r", 6.0)]);
+    let centre = ground.grid.centre();
+    for storing in [TENSOR, FLIPPED] {
+        for i in 0..40 {
+            let [u, v] = [0.1 + f64::from(i), 0.7 * f64::from(i)];
+            let ring = 11.0 + 6.0 * v.cos();
+            let world = centre + DVec3::new(ring * u.cos(), ring * u.sin(), 6.0 * v.sin());
+            let ends = [None, storing].map(|stored| {
+                let how = Hatching { length: 15.0, family: Family::Max, tolerance: 1e-4, ..raw(&ground.grid, stored) };
+                let strokes = Strokes::on(&ground, Some(0.5), how);
+                let stroke = strokes.grow(&seed_at(&strokes, world), &mut HatchCounts::default()).unwrap();
+                [stroke.vertices[0].world, stroke.vertices[stroke.vertices.len() - 1].world]
+            });
+            let [[a, b], [c, d]] = ends;
+            let apart = (a.distance(c).max(b.distance(d))).min(a.distance(d).max(b.distance(c)));
+            assert!(apart < 0.1, "{u} {v}: {apart}");
+        }
+    }
+}
+
+/// Without voxels with a direction around it a place has none, and says so.
+#[test]
+fn a_plane_has_no_direction_between_its_voxels() {
+    let ground = exact("plane", cube(16), &[("nx", 1.0), ("ny", 2.0), ("nz", 3.0)]);
+    let strokes = Strokes::on(&ground, Some(0.0), raw(&ground.grid, TENSOR));
+    let mut counts = Scales::default();
+    let index = Vec3::new(7.3, 7.1, 7.9);
+    assert_eq!(strokes.curvature(index, &mut counts), Err(NoDirection::Umbilic));
+    assert_eq!((counts.missing, counts.between, strokes.stored()[0]), (1, 0, 0));
+}
