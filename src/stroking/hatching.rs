@@ -135,6 +135,15 @@ impl<'a> Hatching<'a> {
         self.table.hidden == Hidden::Cut
     }
 
+    /// How strokes are grown where the data's noise is measured on their surface ([HATCH-3]).
+    fn measured(&self, field: &Field<'_, f64>, pyramid: &room::Pyramid) -> room::Hatching {
+        let mut how = self.how;
+        if let (room::Rule::Scaled(thresholds), None) = (&mut how.rule, self.table.directions.deviation) {
+            thresholds.deviation = room::deviation(field.volume(), pyramid, self.iso, field.reconstruction().outside);
+        }
+        how
+    }
+
     /// Finds the seeds, and grows their strokes where no camera has a say in which.
     pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> Hatched<'a> {
         let start = Instant::now();
@@ -142,7 +151,7 @@ impl<'a> Hatching<'a> {
         let pyramid = room::Pyramid::new(field.volume());
         counts.bytes.insert("pyramid".into(), pyramid.bytes());
         counts.preprocess.insert("pyramid".into(), pyramid.entries());
-        let strokes = room::Strokes::new(field, Some(self.iso), self.how);
+        let strokes = room::Strokes::new(field, Some(self.iso), self.measured(field, &pyramid));
         strokes.prepare();
         let (rule, range) = match table.seeds {
             SeedsBy::Dense => (room::SeedRule::Dense, [0.0; 2]),
@@ -429,6 +438,7 @@ fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Fail
             DirectionRule::Scaled => room::Rule::Scaled(room::Thresholds {
                 gap: directions.gap,
                 noise: directions.noise,
+                deviation: directions.deviation.unwrap_or(0.0),
                 agree: directions.agree,
             }),
         },

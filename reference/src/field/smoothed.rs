@@ -123,15 +123,16 @@ impl<'f, 'v> Smoothed<'f, 'v> {
     }
 
     /// q·w_σ of [HATCH-3]: the standard deviation of a second derivative in a cell, in the unit of
-    /// [`derivatives`](Self::derivatives), where each stored number is off by one rounding to an integer; 0 for floating-point
-    /// voxels. Near the border, where samples are continued, it is larger.
-    pub fn noise(&self, index: Vec3<f64>) -> f64 {
-        self.noise_in(self.field.cells.locate(index).cell)
+    /// [`derivatives`](Self::derivatives), where each value times 2^−e is off by this, and by one rounding to an integer at
+    /// least; floating-point voxels have no rounding. Near the border, where samples are continued, it is larger.
+    pub fn noise(&self, index: Vec3<f64>, deviation: f64) -> f64 {
+        self.noise_in(self.field.cells.locate(index).cell, deviation)
     }
 
     /// The same of a cell.
-    pub fn noise_in(&self, cell: [usize; 3]) -> f64 {
-        if self.rounding == 0.0 { 0.0 } else { self.rounding * self.response(cell) }
+    pub fn noise_in(&self, cell: [usize; 3], deviation: f64) -> f64 {
+        let q = self.rounding.max(deviation);
+        if q == 0.0 { 0.0 } else { q * self.response(cell) }
     }
 
     /// Bytes of the bricks that were made.
@@ -429,7 +430,7 @@ mod tests {
             let smoothed = Smoothed::new(&field, sigma);
             assert!((smoothed.response([32; 3]) / want - 1.0).abs() < 1e-6, "{sigma}: {}", smoothed.response([32; 3]));
             let unit = scale_by_power_of_two(0.5, -field.scale_exponent());
-            let noise = |x: f64| smoothed.noise(Vec3::new(x, 32.0, 32.0)) / (want / 12f64.sqrt() * unit);
+            let noise = |x: f64| smoothed.noise(Vec3::new(x, 32.0, 32.0), 0.0) / (want / 12f64.sqrt() * unit);
             assert!((noise(32.5) - 1.0).abs() < 1e-6);
             // A parabola through three noisy samples goes on up to eight voxels beyond them and more.
             assert!(noise(0.0) > 2.0, "{}", noise(0.0));

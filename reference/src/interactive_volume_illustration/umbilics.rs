@@ -37,13 +37,15 @@ pub struct Thresholds {
     pub gap: f64,
     /// How many standard deviations of the noise |κ₁ − κ₂|·‖g‖ must be above.
     pub noise: f64,
+    /// The standard deviation of the values, where it is more than that of their rounding.
+    pub deviation: f64,
     /// The angle, in degrees, below which the lines at σ and 1.5σ are to differ.
     pub agree: f64,
 }
 
 impl Default for Thresholds {
     fn default() -> Self {
-        Self { gap: 0.1, noise: 8.0, agree: 20.0 }
+        Self { gap: 0.1, noise: 8.0, deviation: 0.0, agree: 20.0 }
     }
 }
 
@@ -69,6 +71,8 @@ struct Scaled<'f, 'v> {
     pairs: [[Smoothed<'f, 'v>; 2]; 3],
     /// For each σ the box of index space that is far enough from the border.
     inner: [[DVec3; 2]; 3],
+    /// The values' standard deviation, times 2^−e.
+    deviation: f64,
     /// cos of twice the angle within which two lines agree.
     cos_double: f64,
     outside: Outside,
@@ -85,6 +89,7 @@ impl<'f, 'v> Directions<'f, 'v> {
                     thresholds,
                     pairs: SCALES.map(|s| [s, LARGER * s].map(|sigma| Smoothed::new(field, sigma))),
                     inner: SCALES.map(|sigma| inner(field.volume().grid(), ROOM * sigma)),
+                    deviation: math::scale_by_power_of_two(thresholds.deviation, -field.scale_exponent()),
                     cos_double: math::cos((2.0 * thresholds.agree).to_radians()),
                     outside: field.reconstruction().outside,
                     no_normal_below: field.no_normal_below(),
@@ -255,8 +260,8 @@ impl Scaled<'_, '_> {
         }
         let one = &self.pairs[i][0];
         let noise = match place {
-            Place::Voxel(voxel) => one.noise_in(one.cell_of(voxel)),
-            Place::Between(index) => one.noise(index),
+            Place::Voxel(voxel) => one.noise_in(one.cell_of(voxel), self.deviation),
+            Place::Between(index) => one.noise(index, self.deviation),
         };
         if difference * norm <= self.thresholds.noise * noise {
             return Err(Unsure::Noise);

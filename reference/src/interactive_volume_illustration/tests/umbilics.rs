@@ -1,9 +1,11 @@
 //! Where sampled surfaces have directions, and how good they are ([HATCH-3]).
 
-use super::super::{Directions, Rule, Scales, Thresholds};
+use super::super::{Directions, Pyramid, Rule, Scales, Thresholds, deviation};
 use super::*;
-use crate::field::{Field, Reconstruction, Rung};
+use crate::field::{Field, Outside, Reconstruction, Rung};
 use crate::number::Vec3;
+use drypoint_scene::philox::uniforms;
+use drypoint_scene::volume::Voxels;
 
 /// Voxels with a neighbour along an axis on the other side of a value, up to the border.
 fn iso_voxels(volume: &Volume, iso: f64) -> Vec<[usize; 3]> {
@@ -23,10 +25,21 @@ fn iso_voxels(volume: &Volume, iso: f64) -> Vec<[usize; 3]> {
     all.filter(crosses).collect()
 }
 
+/// The constants with the noise of the values as it is measured on the surface, which is how scenes have them.
+fn measured(volume: &Volume) -> Thresholds {
+    let deviation = deviation(volume, &Pyramid::new(volume), 127.5, Outside::Low);
+    Thresholds { deviation, ..Thresholds::default() }
+}
+
 /// The share of the iso-voxels so many voxels from the border with a direction that `right` accepts.
 fn share(volume: &Volume, margin: usize, right: impl Fn(DVec3) -> bool) -> f64 {
+    share_by(measured(volume), volume, margin, right)
+}
+
+/// The same with other constants.
+fn share_by(thresholds: Thresholds, volume: &Volume, margin: usize, right: impl Fn(DVec3) -> bool) -> f64 {
     let field = Field::<f64>::new(volume, Reconstruction::default(), Rung::Gradient).unwrap();
-    let directions = Directions::new(&field, Rule::Scaled(Thresholds::default()));
+    let directions = Directions::new(&field, Rule::Scaled(thresholds));
     let dims = volume.dims();
     let inner = |v: &[usize; 3]| (0..3).all(|a| v[a] >= margin && v[a] + margin < dims[a]);
     let voxels: Vec<_> = iso_voxels(volume, 127.5).into_iter().filter(inner).collect();
@@ -105,4 +118,44 @@ fn oblique_cylinders_have_their_rulings() {
             assert!(share >= 0.99, "{voxels:?} {radius} {edge}: {share}");
         }
     }
+}
+
+/// A volume with the noise of a scanner, of a standard deviation of 8, as bytes: twenty-eight times their rounding.
+fn noisy(phantom: &Volume) -> Volume {
+    let [nx, ny, _] = phantom.dims();
+    let voxels = (0..phantom.grid().len()).map(|i| {
+        let [a, b, ..] = uniforms(11, [i as u32, 0, 0], 0);
+        let normal = (-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos();
+        // Far from both ends, so that nothing is cut off.
+        (64.0 + 0.5 * phantom.value([i % nx, i / nx % ny, i / nx / ny]) + 4.0 * normal).round() as u8
+    });
+    Volume::new(phantom.grid().clone(), Voxels::U8(voxels.collect()), 2.0, -128.0).unwrap()
+}
+
+/// Where the rule knows rounding alone, noise draws on spheres.
+#[test]
+fn noise_makes_no_directions_where_it_is_measured() {
+    for radius in [14.3_f64, 30.3] {
+        let n = (2.0 * (radius + 6.0) + 1.0).round() as usize;
+        let phantom = sampled("sphere", cube(n), VoxelType::F64, &[("R", radius), ("w", 2.0), ("high", 255.0)]);
+        let volume = noisy(&phantom);
+        let (with, without) = (share(&volume, 0, |_| true), share_by(Thresholds::default(), &volume, 0, |_| true));
+        println!("a noisy sphere of {radius}: {with} with, {without} without");
+        assert!(with <= 0.01 && without > 0.1, "{radius}: {with} {without}");
+    }
+}
+
+/// On a noisy cylinder directions are those of a larger scale: three quarters of the surface have one at least, and it is
+/// right.
+#[test]
+fn noise_leaves_what_is_sure() {
+    let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
+    let params = [("R", 10.0), ("ax", axis.x), ("ay", axis.y), ("az", axis.z), ("w", 2.0), ("high", 255.0)];
+    let volume = noisy(&sampled("cylinder", cube(54), VoxelType::F64, &params));
+    let (any, right) = (
+        share(&volume, DECIDED, |_| true),
+        share(&volume, DECIDED, |e| e.cross(axis).length() <= f64::to_radians(15.0).sin()),
+    );
+    println!("a noisy cylinder: {any} have a direction, {right} a right one");
+    assert!(any > 0.75 && right > 0.99 * any, "{any} {right}");
 }

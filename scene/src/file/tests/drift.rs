@@ -218,6 +218,7 @@ const SAMPLES: &[Sample] = &[
     ("hatching.directions.center", &[HATCHING], "[1, 2, 3]"),
     ("hatching.directions.gap", &[HATCHING], "0.2"),
     ("hatching.directions.noise", &[HATCHING], "3"),
+    ("hatching.directions.deviation", &[HATCHING], "3"),
     ("hatching.directions.agree", &[HATCHING], "30"),
     ("hatching.lighting", &[HATCHING], "{ p = 3 }"),
     ("hatching.lighting.diffuse", &[LIT], "0.5"),

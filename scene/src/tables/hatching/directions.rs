@@ -31,6 +31,8 @@ pub struct Directions {
     pub gap: f64,
     /// |κ₁ − κ₂|·‖g‖ > noise·q·w.
     pub noise: f64,
+    /// The values' standard deviation; none: as it is measured.
+    pub deviation: Option<f64>,
     /// The largest angle between the lines at σ and 1.5σ, in degrees.
     pub agree: f64,
 }
@@ -94,6 +96,7 @@ impl Default for Directions {
             center: None,
             gap: 0.1,
             noise: 8.0,
+            deviation: None,
             agree: 20.0,
         }
     }
@@ -249,13 +252,24 @@ pub(super) static DIRECTIONS: Table<Directions> = Table::new(
         Key::new(
             "noise",
             "HATCH-3",
-            "How many times the data's rounding error |κ₁ − κ₂|·‖g‖ has to be.",
+            "How many standard deviations of the data's error |κ₁ − κ₂|·‖g‖ has to be.",
             &Slot {
                 kind: Number { bounds: Bounds::NOT_NEGATIVE, unit: "" },
                 get: |d: &Directions| Some(d.noise),
                 set: |d, v| d.noise = v,
             },
         ),
+        Key::new(
+            "deviation",
+            "HATCH-3",
+            "The standard deviation of a value's error. That of rounding to the stored type is the least; with 0 it is all.",
+            &Slot {
+                kind: Number { bounds: Bounds::NOT_NEGATIVE, unit: ", in the volume's unit" },
+                get: |d: &Directions| d.deviation,
+                set: |d, v| d.deviation = Some(v),
+            },
+        )
+        .absent("measured on the surface"),
         Key::new(
             "agree",
             "HATCH-3",
