@@ -1,10 +1,10 @@
 //! Curves whose formulas are known: how far a traced one is from its own.
 
+use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint_reference::field::Outside;
 use drypoint_reference::interactive_volume_illustration::directions::principal;
 use drypoint_reference::interactive_volume_illustration::integrator::{Control, Half, Lines, trace};
 use drypoint_reference::number::{Sym3, Vec3};
-use drypoint::scene::glam::{DMat3, DVec3};
 
 /// A field of lines with a curve of it, and the error of what was traced of that.
 pub(super) struct Curve {
@@ -48,8 +48,15 @@ impl Curve {
     }
 
     fn trace(&self, tolerance: f64, first: f64, max_step: f64) -> Traced {
-        let control =
-            Control { tolerance, first, min_step: 1e-9, max_step, length: self.length, cos_max_angle: -1.0, goal: None };
+        let control = Control {
+            tolerance,
+            first,
+            min_step: 1e-9,
+            max_step,
+            length: self.length,
+            cos_max_angle: -1.0,
+            goal: None,
+        };
         let mut lines = Formula(&self.field);
         let along = (self.field)(self.start).normalize();
         let half = trace(&mut lines, self.start, along, &control);
@@ -70,14 +77,8 @@ fn largest(half: &Half<()>, off: impl Fn(DVec3) -> f64) -> f64 {
 fn curvature(jet: impl Fn(DVec3) -> (DVec3, DMat3), first: bool) -> impl Fn(DVec3) -> DVec3 {
     move |x| {
         let (g, h) = jet(x);
-        let hessian = Sym3 {
-            xx: h.x_axis.x,
-            xy: h.x_axis.y,
-            xz: h.x_axis.z,
-            yy: h.y_axis.y,
-            yz: h.y_axis.z,
-            zz: h.z_axis.z,
-        };
+        let hessian =
+            Sym3 { xx: h.x_axis.x, xy: h.x_axis.y, xz: h.x_axis.z, yy: h.y_axis.y, yz: h.y_axis.z, zz: h.z_axis.z };
         let c = principal(Vec3::from_glam(g), hessian, Outside::Low);
         if first { c.e1 } else { c.e2 }.to_glam()
     }
