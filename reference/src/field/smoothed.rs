@@ -9,14 +9,17 @@
 use super::coefficients::continue_lanes;
 use super::hessian::gaussian;
 use super::tensor::Taps;
-use super::voxel_hessian::differences;
+use super::voxel_hessian::{bends, slopes};
 use super::{Field, tensor};
 use crate::number::lanes::widely;
 use crate::number::{Sym3, Vec3};
 use std::sync::OnceLock;
 
-/// Cells along the side of a brick.
+/// Cells along the side of a brick, and of one of a σ beyond [`WIDE`]: there neighbouring bricks have more sums in common, which
+/// each makes by itself.
 const BRICK: usize = 16;
+const WIDE_BRICK: usize = 32;
+const WIDE: f64 = 1.5;
 
 /// Samples before the first of a cell that its second derivatives read.
 const PAD: usize = 2;
@@ -36,6 +39,8 @@ pub struct Smoothed<'f, 'v> {
     field: &'f Field<'v, f64>,
     /// For each axis the rows of its samples, from two before the first on.
     rows: [Vec<Row>; 3],
+    /// Cells along the side of a brick.
+    side: usize,
     /// Bricks along x, y, z.
     dims: [usize; 3],
     bricks: Vec<OnceLock<Region>>,
@@ -73,12 +78,13 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         let (n, spacing) = (grid.dims(), grid.spacing());
         let along = |a: usize| if n[a] > 1 { sigma * grid.voxel() / spacing[a] } else { 0.0 };
         let rows = [0, 1, 2].map(|a| rows(n[a], &gaussian::half_taps(along(a))));
-        let dims = n.map(|n| (n.max(2) - 1).div_ceil(BRICK));
+        let side = if sigma > WIDE { WIDE_BRICK } else { BRICK };
+        let dims = n.map(|n| (n.max(2) - 1).div_ceil(side));
         let bricks = (0..dims.iter().product()).map(|_| OnceLock::new()).collect();
         let responses = [0, 1, 2].map(|a| responses(&rows[a], n[a]));
         let integers = field.volume().voxels().voxel_type().is_integer();
         let rounding = if integers { field.derivative.abs() / 12f64.sqrt() } else { 0.0 };
-        Self { field, rows, dims, bricks, responses, base: field.stencils.lowest(), rounding }
+        Self { field, rows, side, dims, bricks, responses, base: field.stencils.lowest(), rounding }
     }
 
     /// Gradient and Hessian at a position in index space inside the box of [SPACE-1], in world space, times 2^−e as those of a
@@ -95,17 +101,19 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
     }
 
-    /// The same at a voxel, to rounding, sooner: of the 216 samples around a cell 19 count there. `region` holds the voxel's
-    /// samples; none: that of its brick.
+    /// The same at a voxel, to rounding, sooner: of the 216 samples around a cell 19 count there. None where the gradient is no
+    /// longer than `bound`. `region` holds the voxel's samples; without one they are those of its brick.
     #[inline]
-    pub fn at_voxel(&self, voxel: [usize; 3], region: Option<&Region>) -> (Vec3<f64>, Sym3<f64>) {
+    pub fn at_voxel(&self, voxel: [usize; 3], bound: f64, region: Option<&Region>) -> Option<(Vec3<f64>, Sym3<f64>)> {
         let region = region.unwrap_or_else(|| self.brick_of(self.cell_of(voxel)));
         let [y, z] = [region.sides[0], region.sides[0] * region.sides[1]];
         let from = region.place(voxel);
         let window = &region.data[from..from + 4 * (1 + y + z) + 1];
         let first = window[2 * (1 + y + z)];
-        let (gradient, hessian) = differences(|i, j, k| window[i + j * y + k * z] - first);
-        (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
+        let d = |i: usize, j: usize, k: usize| window[i + j * y + k * z] - first;
+        let gradient = self.field.to_world.apply(slopes(d));
+        // Around scans there is much of nothing.
+        (gradient.length() > bound).then(|| (gradient, self.field.to_world_hessian(bends(d))))
     }
 
     /// The cell of a voxel.
@@ -116,10 +124,10 @@ impl<'f, 'v> Smoothed<'f, 'v> {
 
     /// The samples that the cell's brick reads, made now if need be.
     fn brick_of(&self, cell: [usize; 3]) -> &Region {
-        let brick = cell.map(|c| c / BRICK);
+        let brick = cell.map(|c| c / self.side);
         let [nx, ny, _] = self.dims;
         let i = (brick[2] * ny + brick[1]) * nx + brick[0];
-        self.bricks[i].get_or_init(|| self.region(brick.map(|b| b * BRICK), [BRICK; 3]))
+        self.bricks[i].get_or_init(|| self.region(brick.map(|b| b * self.side), [self.side; 3]))
     }
 
     /// q·w_σ of [HATCH-3]: the standard deviation of a second derivative in a cell, in the unit of
@@ -449,8 +457,10 @@ mod tests {
             let scale = scale_by_power_of_two(128.0 * 4.0, -field.scale_exponent());
             for i in 0..dims.iter().product() {
                 let voxel = [i % dims[0], i / dims[0] % dims[1], i / dims[0] / dims[1]];
-                let at = smoothed.at_voxel(voxel, None);
-                assert_eq!(at, smoothed.at_voxel(voxel, Some(&whole)));
+                let at = smoothed.at_voxel(voxel, -1.0, None);
+                assert_eq!(at, smoothed.at_voxel(voxel, -1.0, Some(&whole)));
+                let at = at.unwrap();
+                assert_eq!(smoothed.at_voxel(voxel, at.0.length(), None), None);
                 let [x, y, z] = voxel.map(|i| i as f64);
                 let (g, h) = smoothed.derivatives(Vec3::new(x, y, z));
                 let entries = |h: Sym3<f64>| [h.xx, h.xy, h.xz, h.yy, h.yz, h.zz];
@@ -461,12 +471,12 @@ mod tests {
         }
     }
 
-    /// Nothing is made before it is asked for, and then one brick of 21³ numbers.
+    /// Nothing is made before it is asked for, and then one brick of 21³ numbers, or of 37³ for a wide Gaussian.
     #[test]
     fn only_what_is_asked_for_is_made() {
         let volume = noise([40; 3], [1.0; 3]);
         let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
-        let smoothed = Smoothed::new(&field, 2.0);
+        let smoothed = Smoothed::new(&field, 1.0);
         assert_eq!(smoothed.bytes(), 0);
         for x in [17.0, 31.9, 16.0] {
             smoothed.derivatives(Vec3::new(x, 20.0, 3.0));
@@ -475,5 +485,8 @@ mod tests {
         // Up to the border there are twelve along x.
         smoothed.derivatives(Vec3::new(32.0, 20.0, 3.0));
         assert_eq!(smoothed.bytes(), (21 + 12) * 21 * 21 * 8);
+        let wide = Smoothed::new(&field, 2.0);
+        wide.derivatives(Vec3::new(17.0, 20.0, 3.0));
+        assert_eq!(wide.bytes(), 37 * 37 * 37 * 8);
     }
 }

@@ -35,28 +35,33 @@ impl Field<'_, f64> {
             let a = a.window::<5>(x - 2, y - 2, z - 2);
             let read = |i, j, k| f64::from_voxel(a.at(i, j, k));
             let first = read(2, 2, 2);
-            differences(|i, j, k| read(i, j, k) - first)
+            let d = |i, j, k| read(i, j, k) - first;
+            (slopes(d), bends(d))
         })
     }
 }
 
-/// Central differences and those of central differences, along the index axes: `d(i, j, k)` is what lies i, j, k voxels beyond
-/// the second one before the voxel, less the voxel's own.
+/// Central differences along the index axes: `d(i, j, k)` is what lies i, j, k voxels beyond the second one before the voxel, less
+/// the voxel's own.
 #[inline(always)]
-pub(super) fn differences(d: impl Fn(usize, usize, usize) -> f64) -> (Vec3<f64>, Sym3<f64>) {
-    let gradient = Vec3::new(d(3, 2, 2) - d(1, 2, 2), d(2, 3, 2) - d(2, 1, 2), d(2, 2, 3) - d(2, 2, 1)) * 0.5;
-    let hessian = Sym3 {
+pub(super) fn slopes(d: impl Fn(usize, usize, usize) -> f64) -> Vec3<f64> {
+    Vec3::new(d(3, 2, 2) - d(1, 2, 2), d(2, 3, 2) - d(2, 1, 2), d(2, 2, 3) - d(2, 2, 1)) * 0.5
+}
+
+/// Central differences of central differences.
+#[inline(always)]
+pub(super) fn bends(d: impl Fn(usize, usize, usize) -> f64) -> Sym3<f64> {
+    Sym3 {
         xx: 0.25 * (d(0, 2, 2) + d(4, 2, 2)),
         xy: 0.25 * ((d(3, 3, 2) - d(1, 3, 2)) - (d(3, 1, 2) - d(1, 1, 2))),
         xz: 0.25 * ((d(3, 2, 3) - d(1, 2, 3)) - (d(3, 2, 1) - d(1, 2, 1))),
         yy: 0.25 * (d(2, 0, 2) + d(2, 4, 2)),
         yz: 0.25 * ((d(2, 3, 3) - d(2, 1, 3)) - (d(2, 3, 1) - d(2, 1, 1))),
         zz: 0.25 * (d(2, 2, 0) + d(2, 2, 4)),
-    };
-    (gradient, hessian)
+    }
 }
 
-/// The same of a cubic B-spline at one of its coefficients, (1, 4, 1)/6 along each axis and its derivatives: `d` counts from
+/// Gradient and Hessian of a cubic B-spline at one of its coefficients, (1, 4, 1)/6 along each axis and its derivatives: `d` counts from
 /// the one before.
 #[inline(always)]
 pub(super) fn of_spline(d: impl Fn(usize, usize, usize) -> f64) -> (Vec3<f64>, Sym3<f64>) {

@@ -282,20 +282,18 @@ impl Scaled<'_, '_> {
         regions: &Regions,
     ) -> Result<(Curvature<f64>, f64), Unsure> {
         let scale = &self.pairs[i][larger];
+        let bound = self.no_normal_below;
         let (gradient, hessian) = match place {
-            Place::Between(index) => scale.derivatives(index),
+            Place::Between(index) => Some(scale.derivatives(index)).filter(|(gradient, _)| gradient.length() > bound),
             Place::Voxel(voxel) => {
-                let region = regions.voxels.map(|Voxels { first, end }| {
-                    let sides = [0, 1, 2].map(|a| end[a] - first[a]);
-                    regions.made[i][larger].get_or_init(|| scale.region(first, sides))
-                });
-                scale.at_voxel(voxel, region)
+                let region = regions
+                    .voxels
+                    .map(|voxels| regions.made[i][larger].get_or_init(|| scale.region(voxels.first, voxels.sides())));
+                scale.at_voxel(voxel, bound, region)
             }
-        };
-        let norm = gradient.length();
-        if norm <= self.no_normal_below {
-            return Err(Unsure::Gradient);
         }
+        .ok_or(Unsure::Gradient)?;
+        let norm = gradient.length();
         Ok((directions::principal(gradient, hessian, self.outside), norm))
     }
 }
