@@ -29,8 +29,8 @@ pub mod volume;
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use hatching::{
-    DirectionRule, Directions, Family, HatchStyle, Hatching, Hidden, LineLighting, Measure, Reference, SeedsBy,
-    Spacing, StrokeStyle,
+    DirectionRule, Directions, Family, HatchIso, HatchStyle, Hatching, Hidden, LineLighting, Measure, Reference,
+    SeedsBy, Spacing, StrokeStyle,
 };
 pub use length::Length;
 pub use nodes::{Row, RowAt, Stand};
