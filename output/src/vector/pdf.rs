@@ -1,6 +1,6 @@
 //! Writing PDF ([IO-2], [IO-7]): the groups of the SVG with the same numbers, each layer an optional-content group.
 
-use super::decimals::{number, push, push_pair};
+use super::decimals::{number, push};
 use super::groups::{Group, groups};
 use super::{Sheet, bytes};
 use crate::encode::{quantize, straight_srgb};
@@ -198,7 +198,10 @@ impl Content {
     }
 
     fn step(&mut self, at: [i64; 2], operator: &[u8]) {
-        push_pair(&mut self.bytes, at);
+        // An outline may reach over the page's edge, and here a sign parts no numbers.
+        push(&mut self.bytes, at[0]);
+        self.bytes.push(b' ');
+        push(&mut self.bytes, at[1]);
         self.bytes.extend_from_slice(operator);
     }
 
