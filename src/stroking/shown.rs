@@ -29,9 +29,11 @@ impl<'a> Shown<'a> {
         Ok(Self { function, opacity })
     }
 
-    /// Whether it shows something of a closed range of values.
-    pub(super) fn has(&self, range: [f64; 2]) -> bool {
-        self.function.can_be_visible(range, None, |x| x)
+    /// Whether it shows something of a closed range of values: at a node in it, or else at one of its ends.
+    pub(super) fn has(&self, [lo, hi]: [f64; 2]) -> bool {
+        let (at, opacity, _) = self.function.nodes();
+        let within = at.partition_point(|&a| a < lo)..at.partition_point(|&a| a <= hi);
+        opacity[within].iter().any(|&a| a > 0.0) || [lo, hi].into_iter().any(|value| self.opacity(value) > 0.0)
     }
 
     /// α of a value.

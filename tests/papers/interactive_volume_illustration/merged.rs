@@ -221,7 +221,7 @@ fn nothing_shows_how_it_was_drawn() {
     }
 }
 
-/// A scene: black strokes on a torus in white fog. A pixel that one stroke covers whole, and no other, shows 1 − T of white, and T
+/// A scene: black strokes on a torus in white fog. A pixel whose nearest stroke covers it whole shows 1 − T of white, and T
 /// is that of the way to the stroke, which lies as deep as the torus there: within a chord, the distance before the surface, and
 /// the slope over half the stroke's width.
 #[test]
@@ -260,7 +260,7 @@ fn strokes_of_a_scene_lie_where_their_surface_does() {
     for (n, (&white, &alpha)) in red.iter().zip(alpha).enumerate() {
         let at = [(n % 240) as f64 + 0.5, (n / 240) as f64 + 0.5];
         let ray = view.ray(at[0], at[1]);
-        let &[Fragment { depth, opacity: 1.0, .. }] = found.at(at) else { continue };
+        let [Fragment { depth, opacity: 1.0, .. }, ..] = *found.at(at) else { continue };
         let place = |s: f64| ray.origin + ray.along * s - centre;
         // Where the ray enters the box of half 24 voxels, and where the way of its first sample begins.
         let enters = (0..3).map(|i| (-24.0 * ray.along[i].signum() - (ray.origin - centre)[i]) / ray.along[i]);
