@@ -5,6 +5,7 @@ mod paper;
 use crate::Failure;
 use crate::job::{Job, Wanted, provenance, render_failure, room};
 use crate::marking::{MarkFrames, Marking};
+use drypoint_output::paint::fragments;
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
@@ -42,6 +43,8 @@ pub struct Frame {
     pub picture: Option<Picture>,
     /// What is drawn over it.
     pub marks: Option<Marks>,
+    /// How many lines are inside the picture.
+    pub inside: usize,
 }
 
 impl<'a> Drawing<'a> {
@@ -75,6 +78,24 @@ impl<'a> Drawing<'a> {
             Some(orbit) => orbit.view(&self.first, &scene.camera, self.job.volume.grid(), frame),
             None => self.first.clone(),
         };
+        let (mut marks, mut inside) = (None, 0);
+        match (&mut self.marks, &mut self.renderer) {
+            (Some(frames), Some(renderer)) => {
+                let [over, merged] = frames.draw_apart(&view, &mut counts);
+                inside = paper::sums(&merged)[1];
+                if inside > 0 {
+                    let lines = fragments(&merged, &view, scene.picture.samples);
+                    counts.preprocess.insert("places of lines on rays".into(), lines.len() as u64);
+                    counts.bytes.insert("lines on rays".into(), lines.bytes() as u64);
+                    renderer.merge(Some(lines));
+                } else {
+                    renderer.merge(None);
+                }
+                marks = Some(over);
+            }
+            (Some(frames), None) => marks = Some(frames.draw(&view, &mut counts)),
+            (None, _) => {}
+        }
         let picture = match &mut self.renderer {
             Some(renderer) => {
                 if self.orbit.is_some() {
@@ -86,15 +107,15 @@ impl<'a> Drawing<'a> {
             }
             None => self.job.background().map(|pixels| of_pixels(pixels, scene.picture.size)),
         };
-        let marks = self.marks.as_mut().map(|marks| marks.draw(&view, &mut counts));
-        Ok((Frame { number: frame, picture, marks }, counts))
+        Ok((Frame { number: frame, picture, marks, inside }, counts))
     }
 }
 
 impl Frame {
     /// Dots, and lines.
     pub fn marks(&self) -> [usize; 2] {
-        self.marks.as_ref().map(paper::sums).unwrap_or_default()
+        let [dots, lines] = self.marks.as_ref().map(paper::sums).unwrap_or_default();
+        [dots, lines + self.inside]
     }
 
     /// The frame in pixels, with its points and lines painted over the layer `beauty`: the page with its margin where points
@@ -121,7 +142,7 @@ impl Frame {
 /// As [`Frame::write`].
 pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> Result<Written, Failure> {
     let provenance = provenance(scene, &Plan::of_marks(scene));
-    let frame = Frame { number: 0, picture: None, marks: Some(marks) };
+    let frame = Frame { number: 0, picture: None, marks: Some(marks), inside: 0 };
     Paper { scene, wanted, provenance }.write(frame, path)
 }
 

@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod iso;
 mod load;
 
 use crate::labels::Named;
@@ -38,13 +39,14 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::file::identity;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::plan::{Pass, Plan, Quantity};
+use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::style::Style;
-use drypoint_scene::tables::{Background, Ids, Iso, Scene, StepAlong, VolumeSource};
+use drypoint_scene::tables::{Background, Ids, Scene, StepAlong, VolumeSource};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
+use iso::find_iso_values;
 use load::{background, function_failure, further, load_volume, named, styles};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -418,21 +420,6 @@ pub fn bare_for(preset: &Scene, path: PathBuf, volume: &Volume, size: [usize; 2]
     suggest::fill(Scene { transfer, surface, ..Scene::for_volume(source) }, volume, size, counts)
 }
 
-/// Puts the value that is found in the volume where a scene leaves it to that and something asks for it.
-fn find_iso_values(scene: &mut Scene, plan: &Plan, volume: &Volume, counts: &mut Counts) {
-    let (drawn, hides) = (plan.needs(Quantity::Surface), plan.has_pass(Pass::HiddenStrokes));
-    let strokes = hides || plan.has_pass(Pass::Strokes);
-    let surface = scene.surface.as_mut().filter(|_| drawn || hides).map(|surface| &mut surface.iso);
-    let outlines = scene.outlines.as_mut().filter(|_| strokes).map(|outlines| &mut outlines.iso);
-    let hatching = scene.hatching.as_mut().filter(|_| strokes).map(|hatching| &mut hatching.iso);
-    let asked: Vec<&mut Iso> =
-        surface.into_iter().chain(outlines).chain(hatching).filter(|iso| **iso == Iso::Auto).collect();
-    if !asked.is_empty() {
-        let found = suggest::iso(volume, &scene.volume, counts);
-        asked.into_iter().for_each(|iso| *iso = Iso::Value(found));
-    }
-}
-
 /// What is wanted of a scene calls for this.
 fn plan_for(scene: &Scene, wanted: Wanted) -> Plan {
     match wanted {
@@ -443,9 +430,9 @@ fn plan_for(scene: &Scene, wanted: Wanted) -> Plan {
     }
 }
 
-/// Whether something reads the transfer function: rays, or dots that take their colours from it.
+/// Whether something reads the transfer function: rays, dots that take their colours from it, or strokes in what it shows.
 fn calls_for_function(plan: &Plan) -> bool {
-    plan.has_pass(Pass::Rays) || plan.has_pass(Pass::DotColors)
+    [Pass::Rays, Pass::DotColors, Pass::SeenCells].into_iter().any(|pass| plan.has_pass(pass))
 }
 
 /// Whether the scene draws what is wanted.

@@ -72,12 +72,19 @@ impl<'a> Marking<'a> {
 impl MarkFrames<'_> {
     /// The marks that a camera sees: dots, and over them strokes. A pen has one layer.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Marks {
-        let nothing = || Marks { page: self.page, layers: Vec::new() };
+        let [mut over, inside] = self.draw_apart(view, counts);
+        inside.layers.into_iter().for_each(|layer| add(&mut over.layers, layer));
+        over
+    }
+
+    /// The same apart: what is drawn over a picture of the volume, and strokes that are inside it ([HATCH-14] d).
+    pub fn draw_apart(&mut self, view: &View, counts: &mut Counts) -> [Marks; 2] {
+        let page = self.page;
+        let nothing = || Marks { page, layers: Vec::new() };
         let mut marks = self.dots.as_mut().map_or_else(nothing, |dots| dots.draw(view, counts));
-        for layer in self.strokes.iter_mut().flat_map(|strokes| strokes.draw(view, counts)) {
-            add(&mut marks.layers, layer);
-        }
-        marks
+        let [over, inside] = self.strokes.as_mut().map(|strokes| strokes.draw(view, counts)).unwrap_or_default();
+        over.into_iter().for_each(|layer| add(&mut marks.layers, layer));
+        [marks, Marks { page, layers: inside }]
     }
 }
 

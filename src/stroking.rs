@@ -3,6 +3,8 @@
 
 mod hatching;
 mod outlining;
+mod seeding;
+mod shown;
 
 use crate::Failure;
 use crate::job::Job;
@@ -18,6 +20,8 @@ use drypoint_scene::view::View;
 use hatching::{Hatched, Hatching};
 use outlining::Outlining;
 use std::time::Instant;
+
+pub use seeding::SeedMap;
 
 /// What strokes are made of, whatever the camera.
 pub struct Stroking<'a> {
@@ -94,8 +98,8 @@ impl<'a> Stroking<'a> {
             kernel: scene.sampling.kernel,
             gradient: scene.sampling.gradient,
             hessian: scene.sampling.hessian,
+            scale: in_world(scene, scene.sampling.scale, "sampling.scale", volume.grid())?,
             outside: scene.volume.outside,
-            ..Reconstruction::default()
         };
         // Hessians of their own scales are those of the rule, not of the field.
         let raw = scene.hatching.as_ref().is_some_and(|h| h.directions.rule == DirectionRule::Raw);
@@ -109,7 +113,8 @@ impl<'a> Stroking<'a> {
         let grid = volume.grid();
         let hatching = match &scene.hatching {
             Some(table) => {
-                Some(Hatching::new(scene, table, grid, (&page, largest_scale(&job.view()?, &page, near, grid)))?)
+                let scale = largest_scale(&job.view()?, &page, near, grid);
+                Some(Hatching::new((scene, job.function()), table, grid, (&page, scale))?)
             }
             None => None,
         };
@@ -119,31 +124,39 @@ impl<'a> Stroking<'a> {
 
     /// Looks at the ranges of the field, once for each value, and grows the strokes of hatching.
     pub fn frames(&self, counts: &mut Counts) -> StrokeFrames<'_> {
-        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut()).map(Hatching::iso);
+        let surfaces = self.surfaces();
+        let hatched = self.hatching.as_ref().map(|hatching| hatching.grow(&self.field, counts));
+        StrokeFrames { stroking: self, surfaces, hatched }
+    }
+
+    /// The surfaces that strokes lie on and that hide them.
+    fn surfaces(&self) -> Vec<IsoSurface<'_, '_>> {
+        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut()).and_then(Hatching::iso);
         let outlined = self.outlining.as_ref().map(Outlining::iso);
-        let hides = self.hides.filter(|_| cut.is_some() || outlined.is_some());
+        let is_cut = self.hatching.as_ref().is_some_and(Hatching::is_cut);
+        let hides = self.hides.filter(|_| is_cut || outlined.is_some());
         let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
         for iso in [cut, outlined, hides].into_iter().flatten() {
             if !surfaces.iter().any(|surface| surface.iso() == iso) {
                 surfaces.push(IsoSurface::new(&self.field, iso));
             }
         }
-        let hatched = self.hatching.as_ref().map(|hatching| hatching.grow(&self.field, counts));
-        StrokeFrames { stroking: self, surfaces, hatched }
+        surfaces
     }
 }
 
 impl StrokeFrames<'_> {
-    /// The strokes that a camera sees, a layer a pen.
-    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Vec<Layer> {
+    /// The strokes that a camera sees, a layer a pen: those that are drawn over a picture, and those that are inside one.
+    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> [Vec<Layer>; 2] {
         let Stroking { field, page, near, hides, hatching, outlining } = self.stroking;
         // Each value has its surface.
         let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
         let mut layers = Vec::new();
         if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref()) {
-            let hides = surface(hides.unwrap_or(hatching.iso())).filter(|_| hatching.is_cut());
-            layers.push(hatched.draw(&Frame { view, page, near: *near, hides }, counts));
+            let hides = hides.or(hatching.iso()).and_then(surface).filter(|_| hatching.is_cut());
+            layers = hatched.draw(&Frame { view, page, near: *near, hides }, counts);
         }
+        let hatched = layers.len();
         if let Some(outlining) = outlining
             && let Some((own, hides)) = surface(outlining.iso()).zip(surface(hides.unwrap_or(outlining.iso())))
         {
@@ -151,15 +164,18 @@ impl StrokeFrames<'_> {
             let hides = Some(hides);
             layers.push(outlining.draw(&Frame { view, page, near: *near, hides }, own, voxel, counts));
         }
-        if let (Some(hatching), [layer, others @ ..]) = (hatching, layers.as_mut_slice()) {
-            hatching.cut(layer, others, view, counts);
+        if let Some(hatching) = hatching {
+            hatching.cut(&mut layers, hatched, view, counts);
         }
         let bytes: usize = self.surfaces.iter().map(IsoSurface::bytes).sum();
         counts.bytes.insert("surface".into(), bytes as u64);
         let mut marks = Marks { page: *page, layers };
         marks.settle();
         counts.strokes += marks.layers.iter().map(|layer| layer.lines.len() as u64).sum::<u64>();
-        marks.layers
+        // The first layers are those of hatching.
+        let merged = if hatching.as_ref().is_some_and(Hatching::is_merged) { hatched } else { 0 };
+        let over = marks.layers.split_off(merged);
+        [over, marks.layers]
     }
 }
 
@@ -196,13 +212,15 @@ fn pen(
     (width, color): (Length, Rgba),
 ) -> Result<Pen, Failure> {
     if let Some(name) = named {
+        // The table's `pen`, or a key that names another one.
+        let key = if table.contains('.') { table.into() } else { format!("{table}.pen") };
         return Pen::of(&scene.pens, page).into_iter().find(|pen| pen.name == name).ok_or_else(|| {
             let names: Vec<&str> = scene.pens.iter().map(|pen| pen.name.as_str()).collect();
             let remedy = match names.as_slice() {
                 [] => "add a table [[pen]] with that name".into(),
                 names => format!("write one of {}", names.join(", ")),
             };
-            Failure::new(format!("there is no pen {name:?}"), scene.given.position(&format!("{table}.pen")), remedy)
+            Failure::new(format!("there is no pen {name:?}"), scene.given.position(&key), remedy)
         });
     }
     let width = on_page(scene, page, width, &format!("{table}.width"))?;

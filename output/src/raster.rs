@@ -36,13 +36,14 @@ impl Cover {
         }
     }
 
-    /// Draws pieces of different widths, each with its pen, as one outline: they cover once where they overlap.
-    pub(crate) fn draw_joined<L: Iterator<Item = [f64; 2]>>(&mut self, pieces: impl Iterator<Item = (L, bool, f64)>) {
+    /// Fills outlines by the nonzero rule: those that turn the same way cover once where they overlap.
+    pub(crate) fn fill<L: Iterator<Item = [f64; 2]>>(&mut self, outlines: impl Iterator<Item = L>) {
         let mut all = PathBuilder::new();
-        for (points, closed, pen) in pieces {
-            if let Some(outline) = outline(std::iter::once((points, closed)), pen) {
-                all.push_path(&outline);
-            }
+        for mut points in outlines {
+            let Some([x, y]) = points.next() else { continue };
+            all.move_to(x as f32, y as f32);
+            points.for_each(|[x, y]| all.line_to(x as f32, y as f32));
+            all.close();
         }
         if let Some(path) = all.finish() {
             self.mask.fill_path(&path, FillRule::Winding, true, Transform::identity());

@@ -9,6 +9,7 @@ pub mod blue_noise;
 pub mod color;
 pub mod counts;
 pub mod file;
+pub mod fragments;
 pub mod knobs;
 pub mod marks;
 pub mod math;

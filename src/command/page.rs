@@ -10,11 +10,13 @@ use drypoint::job::Wanted;
 use drypoint::output::list;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::marks::{Layer, Marks, Page as Paper, Pen};
-use drypoint::{Failure, Format};
+use drypoint::stroking::Stroking;
+use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// What is to be written.
+#[derive(Clone)]
 pub(super) struct Page {
     /// A scene, a volume or a list.
     pub input: PathBuf,
@@ -40,18 +42,7 @@ impl Page {
             return self.list(talk);
         }
         target::format(&self.output, &Format::ALL)?;
-        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
-        let is_bare = !input::is_scene(&self.input);
-        if let Some(preset) = &self.preset {
-            flags.push(Flag::name("preset", "--preset", preset));
-        } else if is_bare {
-            flags.push(Flag::name("preset", "--preset", self.default_preset));
-        }
-        if is_bare {
-            flags.extend(input::page_flags(&self.set));
-        }
-        let mut over = Over::new(&self.set, flags)?;
-        over.wanted = self.wanted;
+        let over = self.over()?;
         let start = Instant::now();
         let (job, files) = {
             let _loading = Progress::new(talk, "loading");
@@ -64,6 +55,51 @@ impl Page {
         let Drawn { mut counts, .. } = frames::draw(&job, &files, 1, talk)?;
         counts.seconds.insert("load".into(), loaded);
         self.done(counts)
+    }
+
+    /// The cells that strokes can begin in, as a table or as a picture ([HATCH-17]).
+    pub(super) fn seeds(&self, path: &Path, talk: Talk) -> Outcome {
+        const FORMATS: [Format; 5] = [Format::Csv, Format::Svg, Format::Pdf, Format::Png, Format::Exr];
+        let format = target::picture(path, &FORMATS)?;
+        let over = self.over()?;
+        let job = {
+            let _loading = Progress::new(talk, "loading");
+            input::load(Some(&self.input), &over)?
+        };
+        let mut counts = job.counts.clone();
+        let stroking = Stroking::new(&job, &mut counts)?;
+        let Some(map) = stroking.seeds(&mut counts) else {
+            let place = job.scene.given.position("hatching");
+            return Err(
+                Failure::new("the scene has no hatching, and no cells of it", place, "add a table [hatching]").into()
+            );
+        };
+        if format == Format::Csv {
+            map.write(path)?;
+        } else {
+            let marks = stroking.seed_page(&map, &job.view()?, &mut counts);
+            write_page(marks, &job.scene, self.wanted, path)?;
+        }
+        let (cells, expected) = map.sums();
+        note(talk, format_args!("{}: {cells} cells, {expected:.0} strokes to be expected", path.display()));
+        self.done(counts)
+    }
+
+    /// What is said of the scene on the command line.
+    fn over(&self) -> Result<Over, Failures> {
+        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
+        let is_bare = !input::is_scene(&self.input);
+        if let Some(preset) = &self.preset {
+            flags.push(Flag::name("preset", "--preset", preset));
+        } else if is_bare {
+            flags.push(Flag::name("preset", "--preset", self.default_preset));
+        }
+        if is_bare {
+            flags.extend(input::page_flags(&self.set));
+        }
+        let mut over = Over::new(&self.set, flags)?;
+        over.wanted = self.wanted;
+        Ok(over)
     }
 
     fn done(&self, counts: Counts) -> Outcome {

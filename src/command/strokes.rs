@@ -3,7 +3,7 @@
 use super::input::Set;
 use super::page::Page;
 use super::raw::Raw;
-use super::{Outcome, Talk};
+use super::{Done, Outcome, Talk};
 use clap::Args;
 use drypoint::job::Wanted;
 use std::path::PathBuf;
@@ -16,11 +16,15 @@ pub(super) struct Strokes {
     input: PathBuf,
     /// Where to write; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit],
     /// all of which an SVG without it shows in turn
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "FILE", required_unless_present = "seeds")]
+    output: Option<PathBuf>,
     /// The preset of a bare volume: hatch, outline, or one of the figures' [default: hatch]
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
+    /// Write the cells that strokes can begin in, each with its probability p: rows x,y,z,p to CSV, or a picture, the darker the
+    /// more probable, to SVG, PDF, PNG or EXR
+    #[arg(long, value_name = "FILE")]
+    seeds: Option<PathBuf>,
     #[command(flatten)]
     raw: Raw,
     #[command(flatten)]
@@ -32,8 +36,14 @@ pub(super) struct Strokes {
 
 impl Strokes {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let Self { input, output, preset, raw, set, stats } = self;
+        let Self { input, output, preset, seeds, raw, set, stats } = self;
         let (default_preset, wanted) = ("hatch", Wanted::Strokes);
-        Page { input, output, preset, default_preset, raw, set, stats, wanted }.run(talk)
+        let draws = output.is_some();
+        let output = output.unwrap_or_default();
+        let page = Page { input, output, preset, default_preset, raw, set, stats: stats && draws, wanted };
+        if let Some(path) = &seeds {
+            Page { stats: stats && !draws, ..page.clone() }.seeds(path, talk)?;
+        }
+        if draws { page.run(talk) } else { Ok(Done::Yes) }
     }
 }

@@ -62,6 +62,6 @@ fn lines(marks: &Marks) -> impl Iterator<Item = &Polyline> {
 
 /// Marks on their background, in pixels.
 fn painted(job: &Job, marks: &Marks) -> Result<Image, Failure> {
-    let frame = Frame { number: 0, picture: None, marks: Some(marks.clone()) };
+    let frame = Frame { number: 0, picture: None, marks: Some(marks.clone()), inside: 0 };
     Ok(Image::from(&frame.painted(job)?))
 }

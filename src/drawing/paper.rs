@@ -60,7 +60,9 @@ impl<'a> Paper<'a> {
             }
         }
         .map_err(wrong)?;
-        Ok(planned.map(|planned| planned.written).unwrap_or_default())
+        let mut written = planned.map(|planned| planned.written).unwrap_or_default();
+        written.marks[1] += frame.inside;
+        Ok(written)
     }
 
     /// See [`super::write_animation`].
@@ -142,6 +144,9 @@ fn travel(plan: &plotter::Plan) -> Vec<String> {
         .collect();
     if plan.dropped > 0 {
         said.push(format!("{} dots are left out: they are closer than 0.7 nib to another", plan.dropped));
+    }
+    if plan.plain > 0 {
+        said.push(format!("{} lines lose taper, colour or faintness: the nib draws one width in one ink", plan.plain));
     }
     said
 }

@@ -1,5 +1,6 @@
 //! Hatching on the page: grown once ([HATCH-6] … [HATCH-11]), drawn for each camera ([HATCH-13], [HATCH-19]).
 
+use super::shown::Shown;
 use super::{Frame, in_world, on_page, pen, value};
 use crate::Failure;
 use drypoint_reference::field::Field;
@@ -13,9 +14,10 @@ use drypoint_scene::philox::uniform;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
 use drypoint_scene::tables::{
-    DirectionRule, DirectionSource, Family, GradientRange, Hatching as Table, Hidden, Interpolate, LightDirection,
-    LineLighting, Reference, Scene, SeedsBy, Spacing, StoredAt,
+    DirectionRule, DirectionSource, Family, GradientRange, HatchIso, Hatching as Table, Hidden, Interpolate,
+    LightDirection, LineLighting, Reference, Scene, SeedsBy, Spacing, StoredAt,
 };
+use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -30,6 +32,9 @@ const MOST_OFF: f64 = 0.05;
 /// one likes.
 const FINEST: f64 = 0.01;
 
+/// The least `chord`, in voxels: the vertices of a stroke grow with 1/√c, and a default one has some 600 there.
+const LEAST_CHORD: f64 = 1e-4;
+
 /// The faintest tone that spacing gives.
 const LEAST: f64 = 0.08;
 
@@ -43,8 +48,11 @@ const SHORTEST: f64 = 6.0;
 pub(super) struct Hatching<'a> {
     table: &'a Table,
     light: LightDirection,
-    iso: f64,
+    /// Of the surface that strokes lie on; none: they are where the function shows something.
+    iso: Option<f64>,
+    seen: Option<Shown<'a>>,
     pen: Pen,
+    cross_pen: Pen,
     /// In mm.
     min_width: f64,
     spacing: Option<room::Apart>,
@@ -56,6 +64,7 @@ pub(super) struct Hatching<'a> {
     /// On and off, in mm.
     dash: Option<[f64; 2]>,
     is_pencil: bool,
+    is_merged: bool,
 }
 
 /// The strokes of a surface.
@@ -75,7 +84,7 @@ struct Grown {
 impl<'a> Hatching<'a> {
     /// `scale` is the most millimetres of the page that a world unit takes.
     pub(super) fn new(
-        scene: &'a Scene,
+        (scene, function): (&'a Scene, Option<&'a Function>),
         table: &'a Table,
         grid: &Grid,
         (page, scale): (&Page, f64),
@@ -85,7 +94,17 @@ impl<'a> Hatching<'a> {
             Spacing::Tone => Some(room::Apart::Tone { least: LEAST }),
             Spacing::Length(length) => Some(room::Apart::Everywhere(on_page(scene, page, length, "hatching.spacing")?)),
         };
-        let pen = pen(scene, "hatching", page, table.pen.as_deref(), (table.width, table.color))?;
+        let ink = (table.width, table.color);
+        let cross_pen = match (&table.cross_pen, &table.pen) {
+            (Some(named), _) => pen(scene, "hatching.cross_pen", page, Some(named), ink)?,
+            (None, Some(named)) => pen(scene, "hatching.pen", page, Some(named), ink)?,
+            (None, None) => Pen { name: "cross".into(), ..pen(scene, "hatching", page, None, ink)? },
+        };
+        let pen = pen(scene, "hatching", page, table.pen.as_deref(), ink)?;
+        let (iso, seen) = match table.iso {
+            HatchIso::Surface(iso) => (Some(value(scene, iso, "hatching.iso")?), None),
+            HatchIso::Transfer => (None, Some(Shown::new(scene, function)?)),
+        };
         let mut how = how(scene, table, grid)?;
         let finest = FINEST * grid.voxel();
         how.chord = how.chord.min((MOST_OFF / scale).max(finest));
@@ -102,8 +121,10 @@ impl<'a> Hatching<'a> {
         Ok(Self {
             table,
             light: table.stroke.light.unwrap_or(scene.light),
-            iso: value(scene, table.iso, "hatching.iso")?,
+            iso,
+            seen,
             pen,
+            cross_pen,
             min_width: on_page(scene, page, table.stroke.min_width, "hatching.stroke.min_width")?,
             spacing,
             how,
@@ -112,21 +133,22 @@ impl<'a> Hatching<'a> {
             gap: gap.map(|gap| [gap, deeper]),
             dash,
             is_pencil: table.is_pencil(scene),
+            is_merged: table.is_merged(scene),
         })
     }
 
-    /// The value of the surface that strokes lie on.
-    pub(super) fn iso(&self) -> f64 {
+    /// The value of the surface that strokes lie on, where they lie on one.
+    pub(super) fn iso(&self) -> Option<f64> {
         self.iso
     }
 
-    /// The lines of its layer with gaps where nearer ones, of it or of others, cross them ([HATCH-20]), and in dashes.
-    pub(super) fn cut(&self, layer: &mut Layer, others: &[Layer], view: &View, counts: &mut Counts) {
+    /// The lines of its `own` first layers with gaps where nearer ones of any layer cross them ([HATCH-20]), and in dashes.
+    pub(super) fn cut(&self, layers: &mut [Layer], own: usize, view: &View, counts: &mut Counts) {
         if let Some(gap) = self.gap {
-            cut_gaps(gap, layer, others, view, counts);
+            cut_gaps(gap, layers, own, view, counts);
         }
         if let Some(dash) = self.dash {
-            layer.lines = room::dashed(&layer.lines, dash);
+            layers.iter_mut().take(own).for_each(|layer| layer.lines = room::dashed(&layer.lines, dash));
         }
     }
 
@@ -135,38 +157,19 @@ impl<'a> Hatching<'a> {
         self.table.hidden == Hidden::Cut
     }
 
-    /// How strokes are grown where the data's noise is measured on their surface ([HATCH-3]).
-    fn measured(&self, field: &Field<'_, f64>, pyramid: &room::Pyramid) -> room::Hatching {
-        let mut how = self.how;
-        if let (room::Rule::Scaled(thresholds), None) = (&mut how.rule, self.table.directions.deviation) {
-            thresholds.deviation = room::deviation(field.volume(), pyramid, self.iso, field.reconstruction().outside);
-        }
-        how
+    /// Whether strokes are inside the picture of the volume, where there is one.
+    pub(super) fn is_merged(&self) -> bool {
+        self.is_merged
     }
 
     /// Finds the seeds, and grows their strokes where no camera has a say in which.
     pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> Hatched<'a> {
-        let start = Instant::now();
-        let table = self.table;
-        let pyramid = room::Pyramid::new(field.volume());
-        counts.bytes.insert("pyramid".into(), pyramid.bytes());
-        counts.preprocess.insert("pyramid".into(), pyramid.entries());
-        let strokes = room::Strokes::new(field, Some(self.iso), self.measured(field, &pyramid));
+        let (pyramid, strokes) = self.strokes(field, counts);
         strokes.prepare();
-        let (rule, range) = match table.seeds {
-            SeedsBy::Dense => (room::SeedRule::Dense, [0.0; 2]),
-            SeedsBy::Curvature => {
-                let (range, voxels) = room::gradient_range(field, self.gradient_range);
-                *counts.preprocess.entry("gradients".into()).or_default() += voxels;
-                let (min_curvature, min_gradient) = (table.min_curvature, table.min_gradient);
-                (room::SeedRule::Curvature { min_curvature, min_gradient }, range)
-            }
-        };
-        let seeds = strokes.seeds(&pyramid, field, self.iso, rule, (table.measure, range));
-        counts.preprocess.insert("measures of seeds".into(), seeds.measured);
+        let seeds = self.seeds_of(&pyramid, &strokes, field, counts);
+        let table = self.table;
         let cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
         counts.preprocess.insert("seeds".into(), cells.len() as u64);
-        counts.seconds.insert("seeds".into(), start.elapsed().as_secs_f64());
 
         let start = Instant::now();
         let grown = self.spacing.is_none().then(|| {
@@ -182,27 +185,82 @@ impl<'a> Hatching<'a> {
         counts.seconds.insert("grown strokes".into(), start.elapsed().as_secs_f64());
         Hatched { hatching: self, strokes, cells, grown }
     }
+
+    /// The cells that strokes can begin in.
+    pub(super) fn seeds(&self, field: &Field<'_, f64>, counts: &mut Counts) -> room::Seeds {
+        let (pyramid, strokes) = self.strokes(field, counts);
+        self.seeds_of(&pyramid, &strokes, field, counts)
+    }
+
+    /// The way to the cells of the surface, and what grows there, with the noise of the data as it is there ([HATCH-3]).
+    fn strokes<'f, 'v>(
+        &self,
+        field: &'f Field<'v, f64>,
+        counts: &mut Counts,
+    ) -> (room::Pyramid, room::Strokes<'f, 'v>) {
+        let pyramid = room::Pyramid::new(field.volume());
+        counts.bytes.insert("pyramid".into(), pyramid.bytes());
+        counts.preprocess.insert("pyramid".into(), pyramid.entries());
+        let mut how = self.how;
+        if let (room::Rule::Scaled(thresholds), None, Some(iso)) =
+            (&mut how.rule, self.table.directions.deviation, self.iso)
+        {
+            thresholds.deviation = room::deviation(field.volume(), &pyramid, iso, field.reconstruction().outside);
+        }
+        (pyramid, room::Strokes::new(field, self.iso, how))
+    }
+
+    fn seeds_of(
+        &self,
+        pyramid: &room::Pyramid,
+        strokes: &room::Strokes<'_, '_>,
+        field: &Field<'_, f64>,
+        counts: &mut Counts,
+    ) -> room::Seeds {
+        let start = Instant::now();
+        let table = self.table;
+        let (rule, range) = match table.seeds {
+            SeedsBy::Dense => (room::SeedRule::Dense, [0.0; 2]),
+            SeedsBy::Curvature => {
+                let (range, voxels) = room::gradient_range(field, self.gradient_range);
+                *counts.preprocess.entry("gradients".into()).or_default() += voxels;
+                let (min_curvature, min_gradient) = (table.min_curvature, table.min_gradient);
+                (room::SeedRule::Curvature { min_curvature, min_gradient }, range)
+            }
+        };
+        let by = (table.measure, range);
+        let seeds = match (self.iso, &self.seen) {
+            (Some(iso), _) => strokes.seeds(pyramid, field, iso, rule, by),
+            (None, Some(shown)) => strokes.seeds_among(pyramid, field, |range| shown.has(range), rule, by),
+            (None, None) => room::Seeds::default(),
+        };
+        counts.preprocess.insert("measures of seeds".into(), seeds.measured);
+        counts.seconds.insert("seeds".into(), start.elapsed().as_secs_f64());
+        seeds
+    }
 }
 
 impl Hatched<'_> {
-    /// Those that a camera sees.
-    pub(super) fn draw(&self, frame: &Frame<'_>, counts: &mut Counts) -> Layer {
-        let Hatching { table, pen, spacing, .. } = self.hatching;
+    /// Those that a camera sees, and where some cross the others those as a layer of their own.
+    pub(super) fn draw(&self, frame: &Frame<'_>, counts: &mut Counts) -> Vec<Layer> {
+        let Hatching { table, pen, cross_pen, spacing, .. } = self.hatching;
         let start = Instant::now();
         let light = towards(self.hatching.light, frame.view);
         let tone = |normal: DVec3| 1.0 - (table.stroke.ambient + normal.dot(light)).clamp(0.0, 1.0);
         // They lie in front of the surface themselves.
         let sight = frame.sight(0.0);
-        let lines = match (&self.grown, *spacing) {
+        let [lines, across] = match (&self.grown, *spacing) {
             (Some(grown), _) => self.as_they_fall(&sight, grown, light, &tone, counts),
             (None, Some(apart)) => self.evenly(&sight, apart, &tone, counts),
-            (None, None) => Vec::new(),
+            (None, None) => Default::default(),
         };
         *counts.seconds.entry("hatching".into()).or_default() += start.elapsed().as_secs_f64();
-        Layer { lines, ..Layer::new(pen.clone()) }
+        let crossed = table.cross.map(|_| Layer { lines: across, ..Layer::new(cross_pen.clone()) });
+        std::iter::once(Layer { lines, ..Layer::new(pen.clone()) }).chain(crossed).collect()
     }
 
-    /// All strokes, drawn as `[hatching.stroke]` says; those that cross, where the light falls flatly enough.
+    /// All strokes, drawn as `[hatching.stroke]` says, and those that cross, where the light falls flatly enough; where all
+    /// are seen and their colours tell near from far, together.
     fn as_they_fall(
         &self,
         sight: &room::Sight<'_>,
@@ -210,46 +268,55 @@ impl Hatched<'_> {
         light: DVec3,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
-    ) -> Vec<Polyline> {
-        let table = self.hatching.table;
+    ) -> [Vec<Polyline>; 2] {
+        let Hatching { table, pen, cross_pen, .. } = self.hatching;
         let may_be_seen = |stroke: &&Stroke| !self.turns_away(sight, stroke);
-        let mut strokes: Vec<&Stroke> = grown.first.iter().filter(may_be_seen).collect();
-        if let Some(angle) = table.cross {
+        let mut first: Vec<&Stroke> = grown.first.iter().filter(may_be_seen).collect();
+        let mut across: Vec<&Stroke> = table.cross.map_or_else(Vec::new, |angle| {
             let limit = math::cos(angle.to_radians());
-            let across = grown.across.iter().filter(|(normal, _)| normal.dot(light) < limit).map(|(_, stroke)| stroke);
-            strokes.extend(across.filter(may_be_seen));
+            let flat = grown.across.iter().filter(|(normal, _)| normal.dot(light) < limit).map(|(_, stroke)| stroke);
+            flat.filter(may_be_seen).collect()
+        });
+        let by_depth = self.hatching.lighting.is_some() && !self.hatching.is_cut();
+        if by_depth {
+            first.append(&mut across);
         }
-        let least = if table.has_one_width() { 0.0 } else { 0.5 * self.hatching.min_width };
         let depths = Depths::new(sight.view, self.strokes.ground().grid());
-        let draw = |stroke: &&Stroke| {
-            let length = if self.hatching.is_pencil { stroke.length() } else { 0.0 };
-            let made = (*stroke, length);
-            room::drawn(stroke, least, |place| self.pen(sight, made, place, (light, depths), tone))
-        };
-        let drawn: Vec<room::Drawn> = strokes.par_iter().flat_map_iter(draw).collect();
-        let mut seen = sight.seen_drawn(&drawn);
-        if self.hatching.lighting.is_some() && !self.hatching.is_cut() {
-            sight.far_to_near(&mut seen.lines);
-        }
-        *counts.preprocess.entry("looks for what hides".into()).or_default() += seen.looks;
-        seen.lines
+        let one_width = [table.has_one_width(), table.has_one_width() || table.cross_pen.is_some()];
+        let inks = [pen, cross_pen].into_iter().zip(one_width).map(|(pen, one)| (pen.width, one));
+        let mut lines = inks.zip([first, across]).map(|(ink, strokes)| {
+            let least = if ink.1 { 0.0 } else { 0.5 * self.hatching.min_width };
+            let draw = |stroke: &&Stroke| {
+                let length = if self.hatching.is_pencil { stroke.length() } else { 0.0 };
+                let made = (*stroke, length, ink);
+                room::drawn(stroke, least, |place| self.pen(sight, made, place, (light, depths), tone))
+            };
+            let drawn: Vec<room::Drawn> = strokes.par_iter().flat_map_iter(draw).collect();
+            let mut seen = sight.seen_drawn(&drawn);
+            if by_depth {
+                sight.far_to_near(&mut seen.lines);
+            }
+            *counts.preprocess.entry("looks for what hides".into()).or_default() += seen.looks;
+            seen.lines
+        });
+        [lines.next().unwrap_or_default(), lines.next().unwrap_or_default()]
     }
 
     /// What a stroke is drawn with at a place.
     fn pen(
         &self,
         sight: &room::Sight<'_>,
-        (stroke, length): (&Stroke, f64),
+        (stroke, length, (widest, one_width)): (&Stroke, f64, (f64, bool)),
         room::Place { vertex, tangent }: &room::Place,
         (light, depths): (DVec3, Depths),
         tone: &impl Fn(DVec3) -> f64,
     ) -> room::Pen {
-        let Hatching { table, pen, lighting, .. } = self.hatching;
-        let width = if table.has_one_width() {
-            pen.width
+        let Hatching { table, lighting, .. } = self.hatching;
+        let width = if one_width {
+            widest
         } else {
             let tapered =
-                pen.width * math::pow(tone(vertex.normal), table.tone()) * taper(stroke, vertex.u, table.taper());
+                widest * math::pow(tone(vertex.normal), table.tone()) * taper(stroke, vertex.u, table.taper());
             tapered * self.scattered(stroke) * (1.0 - table.stroke.depth * depths.share(sight.view, vertex.world))
         };
         let lit = lighting.as_ref().map(|lighting| {
@@ -261,6 +328,9 @@ impl Hatched<'_> {
         if self.hatching.is_pencil {
             let grains = vertex.u * length / (GRAIN * self.strokes.ground().grid().voxel());
             opacity *= tone(vertex.normal) * room::grain(table.seed, stroke.key, grains);
+        }
+        if let Some(shown) = &self.hatching.seen {
+            opacity *= self.strokes.value(vertex.world).map_or(0.0, |value| shown.opacity(value));
         }
         room::Pen { radius: width / 2.0, opacity, color }
     }
@@ -276,7 +346,7 @@ impl Hatched<'_> {
     /// ([HATCH-10]).
     fn turns_away(&self, sight: &room::Sight<'_>, stroke: &Stroke) -> bool {
         let view = sight.view;
-        sight.surface.is_some_and(|surface| surface.iso() == self.hatching.iso && surface.front(view) > 0.0) && {
+        sight.surface.is_some_and(|surface| Some(surface.iso()) == self.hatching.iso && surface.front(view) > 0.0) && {
             let cone = room::NormalCone::new(stroke);
             if view.perspective { cone.culled(view.eye) } else { cone.culled_from(-view.forward) }
         }
@@ -289,8 +359,8 @@ impl Hatched<'_> {
         apart: room::Apart,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
-    ) -> Vec<Polyline> {
-        let Hatching { table, pen, .. } = self.hatching;
+    ) -> [Vec<Polyline>; 2] {
+        let Hatching { table, pen, cross_pen, .. } = self.hatching;
         let crossed = table.cross.is_some();
         let by_tone = table.spacing == Spacing::Tone;
         // Of what both print together 1 − (1 − τ₁)(1 − τ₂) is the tone. Where the distance is the same everywhere the second
@@ -303,8 +373,7 @@ impl Hatched<'_> {
         let second = |normal: DVec3| {
             if by_tone { (tone(normal) - CROSSED) / (1.0 - CROSSED) } else { f64::from(tone(normal) > CROSSED) }
         };
-        let mut lines = Vec::new();
-        let mut add_lines = |along, tone: &(dyn Fn(DVec3) -> f64 + Sync)| {
+        let mut even_lines = |along, pen: &Pen, tone: &(dyn Fn(DVec3) -> f64 + Sync)| {
             let margin = DVec2::splat(sight.page.margin);
             let corners = [margin, sight.page.size - margin];
             let mut spread = room::Spread::new(corners, pen.width, apart, SHORTEST * pen.width);
@@ -312,14 +381,12 @@ impl Hatched<'_> {
             add(counts, &even.counts);
             *counts.preprocess.entry("looks for what hides".into()).or_default() += even.looks + even.seen;
             *counts.preprocess.entry("strokes tried".into()).or_default() += even.tried;
-            lines.extend(even.lines);
+            even.lines
         };
-        add_lines(room::Along::First, &first);
-        if crossed {
-            add_lines(room::Along::Across, &second);
-        }
+        let lines = even_lines(room::Along::First, pen, &first);
+        let across = if crossed { even_lines(room::Along::Across, cross_pen, &second) } else { Vec::new() };
         count_kept(counts, &self.strokes);
-        lines
+        [lines, across]
     }
 }
 
@@ -383,14 +450,18 @@ fn add(counts: &mut Counts, grown: &room::HatchCounts) {
     }
 }
 
-/// The lines of a layer without what is near a line in front of them.
-fn cut_gaps([gap, deeper]: [f64; 2], layer: &mut Layer, others: &[Layer], view: &View, counts: &mut Counts) {
+/// The lines of the `own` first layers without what is near a line in front of them, all as they were before any was cut.
+fn cut_gaps([gap, deeper]: [f64; 2], layers: &mut [Layer], own: usize, view: &View, counts: &mut Counts) {
     let start = Instant::now();
-    let others: Vec<Polyline> = others.iter().flat_map(|layer| layer.lines.iter().cloned()).collect();
-    let found = room::gapped(&layer.lines, &others, view, gap, deeper);
-    counts.preprocess.insert("segments with gaps".into(), found.cuts);
+    let before: Vec<Vec<Polyline>> = layers.iter().map(|layer| layer.lines.clone()).collect();
+    for (i, layer) in layers.iter_mut().take(own).enumerate() {
+        let others = before.iter().enumerate().filter(|(other, _)| *other != i);
+        let others: Vec<Polyline> = others.flat_map(|(_, lines)| lines.iter().cloned()).collect();
+        let found = room::gapped(&layer.lines, &others, view, gap, deeper);
+        *counts.preprocess.entry("segments with gaps".into()).or_default() += found.cuts;
+        layer.lines = found.lines;
+    }
     *counts.seconds.entry("gaps of strokes".into()).or_default() += start.elapsed().as_secs_f64();
-    layer.lines = found.lines;
 }
 
 /// The table's light on lines.
@@ -416,6 +487,12 @@ fn taper(stroke: &Stroke, u: f64, b: f64) -> f64 {
 fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
     let length = |length, key: &str| in_world(scene, length, &format!("hatching.{key}"), grid);
     let directions = &table.directions;
+    let chord = length(table.chord, "chord")?;
+    if chord < LEAST_CHORD * grid.voxel() {
+        let what = format!("hatching.chord is below {LEAST_CHORD} voxels, where strokes have no end of vertices");
+        let place = scene.given.position("hatching.chord");
+        return Err(Failure::new(what, place, format!("write \"{LEAST_CHORD} voxels\" or more")));
+    }
     let axis = directions.axis.unwrap_or_else(|| room::longest_axis(grid));
     let center = directions.center.unwrap_or_else(|| grid.centre());
     Ok(room::Hatching {
@@ -426,7 +503,7 @@ fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Fail
         tolerance: length(table.tolerance, "tolerance")?,
         min_step: length(table.min_step, "min_step")?,
         offset: length(table.offset, "offset")?,
-        chord: length(table.chord, "chord")?,
+        chord,
         max_angle: table.max_angle,
         family: match table.family {
             Family::Larger => room::Family::Larger,

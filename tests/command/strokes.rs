@@ -138,7 +138,83 @@ fn a_bare_volume() {
     assert!(stats["strokes"].as_u64().unwrap() > 0, "{stats}");
     assert!(text(&folder, "a.svg").contains("width=\"160mm\""));
     let told = folder.line("strokes ball.nrrd --preset outline -o a.svg --set outlines.min_length=\"900mm\"").err;
-    assert!(told.contains("warning: the page is empty"), "{told}");
+    assert!(told.contains("warning: the page is empty\n"), "{told}");
+    // A value that the volume does not have is named, with those that it has.
+    let told = folder.line("strokes ball.nrrd --preset outline -o a.svg --set outlines.iso=999").err;
+    let why = "the page is empty: outlines.iso = 999 is none of the volume's values, which go from 0 to 254";
+    assert!(told.contains(why), "{told}");
+}
+
+/// Every cell of the surface with its p, as a table and as a picture, with or without the strokes.
+#[test]
+fn the_cells_that_strokes_begin_in() {
+    let folder = Folder::new();
+    let torus = SCENE.replace("sphere\"", "torus\"").replace("[outlines]", "[hatching]");
+    folder.write("ring.toml", torus);
+    let stats = counts(&folder, "strokes ring.toml --seeds p.csv -q --stats --set hatching.min_curvature=0");
+    let csv = text(&folder, "p.csv");
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("x,y,z,p"));
+    let rows: Vec<Vec<f64>> = lines.map(|line| line.split(',').map(|n| n.parse().unwrap()).collect()).collect();
+    assert!(rows.len() > 1000 && rows.iter().all(|row| (0.0..=1.0).contains(&row[3])));
+    assert!(rows.iter().any(|row| row[3] > 0.3) && stats["preprocess"]["measures of seeds"].as_u64() > Some(1000));
+    assert!(rows.windows(2).all(|w| [w[0][2], w[0][1], w[0][0]] < [w[1][2], w[1][1], w[1][0]]));
+    // Nothing is grown for it.
+    assert_eq!((stats["strokes"].as_u64(), stats["directions"].as_u64()), (Some(0), Some(0)));
+    for name in ["p.svg", "p.pdf", "p.png", "p.exr"] {
+        folder.good(&format!("strokes ring.toml --seeds {name} -q"));
+    }
+    assert!(text(&folder, "p.svg").contains("-p 0."));
+    let told = folder.line("strokes ring.toml --seeds again.csv -o a.svg --set hatching.seeds=dense").err;
+    assert!(told.contains(&format!("again.csv: {0} cells, {0} strokes to be expected", rows.len())), "{told}");
+    assert!(folder.read("a.svg").len() > 1000);
+    folder.write("ball.toml", SCENE);
+    assert!(folder.line("strokes ball.toml --seeds p.csv").err.contains("the scene has no hatching"));
+}
+
+/// What has one width is stroked; what is tapered is an outline, filled ([HATCH-21]).
+#[test]
+fn tapered_strokes_are_outlines() {
+    let folder = Folder::new();
+    let torus = SCENE.replace("sphere\"", "torus\"").replace("[outlines]", "[hatching]\nseeds = \"dense\"");
+    folder.write("ring.toml", torus);
+    let svg = |more: &str| {
+        folder.good(&format!("strokes ring.toml -o a.svg -q {more}"));
+        text(&folder, "a.svg")
+    };
+    let outlines = |svg: &str| svg.split("<path ").filter(|path| path.contains("z\"/>")).count();
+    let tapered = svg("");
+    assert!(tapered.contains("<g fill=\"#000000\" stroke=\"none\">") && outlines(&tapered) > 500);
+    let even = svg("--set hatching.spacing=tone");
+    assert!(!even.contains("stroke=\"none\"") && outlines(&even) == 0);
+    let told = folder.line("strokes ring.toml -o a.svg --set page.plotter=true").err;
+    assert!(told.contains("lines lose taper, colour or faintness"), "{told}");
+    assert!(!text(&folder, "a.svg").contains("stroke=\"none\""));
+}
+
+/// Crossing strokes are a layer of their own, drawn by another pen where one is named.
+#[test]
+fn crossing_strokes_have_a_layer() {
+    let folder = Folder::new();
+    let torus = SCENE.replace("sphere\"", "torus\"").replace("[outlines]", "[hatching]\nseeds = \"dense\"\ncross = 30");
+    let pens =
+        "[[pen]]\nname = \"black\"\nwidth = \"0.2 mm\"\n[[pen]]\nname = \"red\"\nwidth = \"0.4 mm\"\ncolor = \"red\"\n";
+    folder.write("ring.toml", format!("{torus}{pens}"));
+    let labels = |more: &str| {
+        folder.good(&format!("strokes ring.toml -o a.svg -q {more}"));
+        let svg = text(&folder, "a.svg");
+        let labels = svg.split("inkscape:label=\"").skip(1).map(|rest| rest.split('"').next().unwrap().to_owned());
+        labels.collect::<Vec<_>>()
+    };
+    assert_eq!(labels("")[1..], ["1-hatching 0.25", "2-cross 0.25"]);
+    assert_eq!(labels("--set hatching.pen=black")[1..], ["1-black 0.2"]);
+    assert_eq!(labels("--set hatching.pen=black --set hatching.cross_pen=red")[1..], ["1-black 0.2", "2-red 0.4"]);
+    assert_eq!(
+        labels("--set hatching.cross_pen=red --set hatching.spacing=tone")[1..],
+        ["1-hatching 0.25", "2-red 0.4"]
+    );
+    let refused = folder.line("strokes ring.toml -o a.svg --set hatching.cross_pen=blue").err;
+    assert!(refused.contains("there is no pen \"blue\"") && refused.contains("hatching.cross_pen"), "{refused}");
 }
 
 #[test]
@@ -154,6 +230,12 @@ fn what_makes_no_page_is_refused() {
         ("strokes ball.toml -o a.svg --set outlines.pen=red", "there is no pen \"red\""),
         ("strokes ball.toml -o a.svg --set outlines.iso=high", "outlines.iso cannot be \"high\""),
         ("strokes ball.toml -o a.svg --set outlines.width=3", "outlines.width cannot be 3"),
+        ("strokes ball.toml -o a.svg --set hatching.chord=1e-9", "hatching.chord is below 0.0001 voxels"),
+        ("strokes ball.toml -o a.svg --set hatching.spacing=\"3voxels\"", "\"random\", \"tone\""),
+        (
+            "strokes ball.toml -o a.svg --set hatching.iso=transfer",
+            "there is no transfer function that shows where strokes are",
+        ),
         (
             "strokes ball.toml -o a.svg --set outlines.min_length=\"2voxels\"",
             "outlines.min_length cannot be \"2voxels\"",

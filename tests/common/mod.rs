@@ -10,6 +10,7 @@ pub(crate) mod strip;
 use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
 use drypoint::scene::color::Rgba;
 use drypoint::scene::counts::Counts;
+use drypoint::scene::fragments::Fragments;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::{LayerKind, Picture};
 use drypoint::scene::plan::Plan;
@@ -164,6 +165,14 @@ impl Shot {
         self.render_by(|renderer| renderer.with_tiles(side))
     }
 
+    /// The picture with lines inside it.
+    pub(crate) fn render_among(&self, lines: &Fragments) -> Shown {
+        self.render_by(|mut renderer| {
+            renderer.merge(Some(lines.clone()));
+            renderer
+        })
+    }
+
     /// The picture with each ray cast alone, and whether rays would have been cast in lanes.
     pub(crate) fn render_ray_by_ray(&self) -> (Shown, bool) {
         let mut in_lanes = false;
@@ -188,7 +197,7 @@ impl Shot {
         all
     }
 
-    fn render_by(&self, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
+    pub(crate) fn render_by(&self, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
         let function = self.function();
         let named: Vec<Style> = match &function {
             Function::Regular(_) => Vec::new(),

@@ -15,6 +15,9 @@ use std::io::Read;
 /// A dot in micrometres: x, y, diameter, and opacity in thousandths.
 type Found = [i64; 4];
 
+/// The width of an outline that is filled.
+const FILLED: i64 = -1;
+
 /// Dots and lines of a layer, in any order.
 #[derive(Debug, Default, PartialEq)]
 struct Drawn {
@@ -53,9 +56,16 @@ fn of_marks(layer: &Layer) -> Drawn {
     let dot = |d: &Dot| [step(d.at.x), step(d.at.y), step(2.0 * d.radius), step(d.opacity)];
     let mut drawn = Drawn { dots: layer.dots.iter().map(dot).collect(), lines: Vec::new() };
     for piece in layer.lines.iter().flat_map(Polyline::pieces) {
+        let Some(radius) = piece.stroke(layer.pen.color[3]) else {
+            for outline in piece.outlines(layer.pen.color[3]) {
+                let places = outline.iter().chain(outline.first()).map(|&p| steps(p)).collect();
+                drawn.stroke(places, [FILLED, step(piece.opacity)]);
+            }
+            continue;
+        };
         let close = piece.points.first().filter(|_| piece.closed);
         let places = piece.points.iter().chain(close).map(|&p| steps(p)).collect();
-        drawn.stroke(places, [step(2.0 * piece.radius), step(piece.opacity)]);
+        drawn.stroke(places, [step(2.0 * radius), step(piece.opacity)]);
     }
     drawn.sorted()
 }
@@ -78,7 +88,10 @@ fn of_svg(svg: &str) -> Vec<Drawn> {
             }
             assert!(!tag.contains("transform"));
             let [width, opacity] = open.last().copied().unwrap_or([0, 1000]);
-            open.push([number("stroke-width").unwrap_or(width), number("stroke-opacity").unwrap_or(opacity)]);
+            let filled = attribute(tag, "stroke") == Some("none");
+            let width = if filled { FILLED } else { number("stroke-width").unwrap_or(width) };
+            let opacity = number(if filled { "fill-opacity" } else { "stroke-opacity" }).unwrap_or(opacity);
+            open.push([width, opacity]);
         } else if tag == "/g" {
             open.pop();
         } else if let Some(d) = attribute(tag, "d") {
@@ -164,15 +177,17 @@ fn of_pdf(pdf: &[u8]) -> Vec<Drawn> {
             "w" => pens.last_mut().unwrap()[0] = numbers[0],
             "m" => path.push(vec![[numbers[0], numbers[1]]]),
             "l" => path.last_mut().unwrap().push([numbers[0], numbers[1]]),
-            "S" | "s" => {
+            "S" | "s" | "f" => {
                 for mut stroke in path.drain(..) {
-                    if word == "s" {
+                    if word != "S" {
                         stroke.push(stroke[0]);
                     }
-                    layers.last_mut().unwrap().stroke(stroke, *pens.last().unwrap());
+                    let [width, opacity] = *pens.last().unwrap();
+                    let width = if word == "f" { FILLED } else { width };
+                    layers.last_mut().unwrap().stroke(stroke, [width, opacity]);
                 }
             }
-            "cm" | "J" | "j" | "RG" | "EMC" => {}
+            "cm" | "J" | "j" | "RG" | "rg" | "EMC" => {}
             name => {
                 assert!(name.starts_with('/'), "{name}");
                 names.push(name.into());

@@ -24,12 +24,15 @@ pub(crate) fn marks(opaque: bool) -> Marks {
             let (at, radius, opacity) = (place(r), r.between(0.05, 0.4), opacity(r));
             layer.dots.push(Dot { at, world: DVec3::new(r.unit(), 1.0, 2.0), radius, opacity });
         }
-        for closed in [false, true].repeat(30) {
+        for i in 0..60 {
+            let closed = i % 2 == 1;
+            // Of every three lines one is tapered.
+            let taper = if i % 3 == 0 { 0.2 } else { 1.0 };
             let (at, radius, opacity) = (place(r), r.between(0.05, 0.25), opacity(r));
             let vertex = |k: usize| Vertex {
                 at: at + DVec2::new(2.0 * k as f64, r.between(0.0, 3.0)),
                 world: DVec3::ZERO,
-                radius,
+                radius: if k == 0 || k == 5 { taper * radius } else { radius },
                 opacity,
                 t: k as f64 / 5.0,
                 color: None,

@@ -2,6 +2,7 @@
 //! of [`raster`](crate::raster), in steps of 1/255.
 
 mod canvas;
+mod fragments;
 mod lines;
 
 use crate::OutputError;
@@ -13,6 +14,8 @@ use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Marks, Page};
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::tables::BlendSpace;
+
+pub use fragments::fragments;
 
 /// Which part of a page a picture shows, and how large.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -22,6 +22,8 @@ pub struct Plan {
     pub dropped: usize,
     /// Dots larger than their nib, which are among the lines.
     pub larger: usize,
+    /// Lines that lose a taper, a colour or faintness to the nib ([HATCH-21]).
+    pub plain: usize,
 }
 
 /// How close dots of one pen may be, in nibs.
@@ -34,7 +36,7 @@ const CLOSEST: f64 = 0.7;
 /// 0.7 nib the first in the list stays. The order is never longer than the list's own; the pen starts at the page's upper
 /// left corner for each layer.
 pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
-    let (mut layers, mut travel, mut dropped, mut larger) = (Vec::new(), Vec::new(), 0, 0);
+    let (mut layers, mut travel, mut dropped, mut larger, mut plain) = (Vec::new(), Vec::new(), 0, 0, 0);
     for layer in &marks.layers {
         let nib = layer.pen.width;
         let kept = thin::apart(&layer.dots, CLOSEST * nib);
@@ -52,14 +54,22 @@ pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
                 }
             }
         }
-        drawn.lines.extend(layer.lines.iter().filter(|line| line.vertices.len() > 1).map(|line| thin_line(line, nib)));
+        let lines = || layer.lines.iter().filter(|line| line.vertices.len() > 1);
+        plain += lines().filter(|line| !has_one_ink(line)).count();
+        drawn.lines.extend(lines().map(|line| thin_line(line, nib)));
         order::dots(&mut drawn.dots);
         let from = drawn.dots.last().map(|dot| dot.at).unwrap_or_default();
         order::lines(&mut drawn.lines, from);
         travel.push(Travel::of(&drawn, speed));
         layers.push(drawn);
     }
-    Plan { marks: Marks { page: marks.page, layers }, travel, dropped, larger }
+    Plan { marks: Marks { page: marks.page, layers }, travel, dropped, larger, plain }
+}
+
+/// Whether a line has one width, is opaque and has no colour of its own.
+fn has_one_ink(line: &Polyline) -> bool {
+    let first = line.vertices.first().map(|vertex| vertex.radius);
+    line.vertices.iter().all(|v| Some(v.radius) == first && v.opacity == 1.0 && v.color.is_none())
 }
 
 /// The line as the nib draws it.
@@ -143,10 +153,21 @@ mod tests {
         let plan = planned(vec![], lines);
         let layer = &plan.marks.layers[0];
         assert!(layer.lines.iter().flat_map(|l| &l.vertices).all(|v| (v.radius, v.opacity) == (0.15, 1.0)));
+        // They were faint.
+        assert_eq!(plan.plain, 3);
         // From the corner: the second, the third backwards, the first. Ways: √2, 1, 1.
         let starts: Vec<f64> = layer.lines.iter().map(|l| l.vertices[0].at.x).collect();
         assert_eq!(starts, [1.0, 3.0, 50.0]);
         assert!((plan.travel[0].pen_up - (2f64.sqrt() + 2.0)).abs() < 1e-12, "{:?}", plan.travel);
+    }
+
+    #[test]
+    fn what_the_nib_drops_is_counted() {
+        let mut lines = vec![line(&[(1.0, 1.0), (2.0, 1.0), (3.0, 1.0)]); 4];
+        lines.iter_mut().flat_map(|line| &mut line.vertices).for_each(|vertex| vertex.opacity = 1.0);
+        lines[1].vertices[2].radius = 0.1;
+        lines[2].vertices[0].color = Some([1.0, 0.0, 0.0]);
+        assert_eq!(planned(vec![], lines).plain, 2);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Writing PDF ([IO-2], [IO-7]): the groups of the SVG with the same numbers, each layer an optional-content group.
 
-use super::decimals::{number, push, push_pair};
+use super::decimals::{number, push};
 use super::groups::{Group, groups};
 use super::{Sheet, bytes};
 use crate::encode::{quantize, straight_srgb};
@@ -156,19 +156,25 @@ impl Content {
         self.within(layer.pen.label(), |content| {
             content.color(layer.pen.color, "RG");
             for group in groups(layer, plotter) {
-                content.group(&group);
+                content.group(&group, layer.pen.color);
             }
         });
     }
 
-    fn group(&mut self, group: &Group) {
+    fn group(&mut self, group: &Group, pen: Rgba) {
         self.add("q ");
         self.state(group.opacity);
-        if let Some([r, g, b]) = group.color {
-            self.color([r, g, b, 1.0], "RG");
+        let [r, g, b] = group.color.unwrap_or([pen[0], pen[1], pen[2]]);
+        match group.width {
+            Some(width) => {
+                if group.color.is_some() {
+                    self.color([r, g, b, 1.0], "RG");
+                }
+                push(&mut self.bytes, width);
+                self.add(" w\n");
+            }
+            None => self.color([r, g, b, 1.0], "rg"),
         }
-        push(&mut self.bytes, group.width);
-        self.add(" w\n");
         for chunk in group.dots.iter().filter(|chunk| !chunk.is_empty()) {
             for &at in chunk {
                 self.step(at, b" m ");
@@ -177,16 +183,25 @@ impl Content {
             self.add("S\n");
         }
         for line in &group.lines {
-            for (i, &at) in line.points.iter().enumerate() {
-                self.step(at, if i == 0 { b" m\n" } else { b" l\n" });
+            for points in &line.paths {
+                for (i, &at) in points.iter().enumerate() {
+                    self.step(at, if i == 0 { b" m\n" } else { b" l\n" });
+                }
             }
-            self.add(if line.closed { "s\n" } else { "S\n" });
+            self.add(match (group.width, line.closed) {
+                (None, _) => "f\n",
+                (Some(_), true) => "s\n",
+                (Some(_), false) => "S\n",
+            });
         }
         self.add("Q\n");
     }
 
     fn step(&mut self, at: [i64; 2], operator: &[u8]) {
-        push_pair(&mut self.bytes, at);
+        // An outline may reach over the page's edge, and here a sign parts no numbers.
+        push(&mut self.bytes, at[0]);
+        self.bytes.push(b' ');
+        push(&mut self.bytes, at[1]);
         self.bytes.extend_from_slice(operator);
     }
 

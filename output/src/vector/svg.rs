@@ -156,12 +156,21 @@ fn draw(layer: &Layer, id: &str, plotter: bool, out: &mut Vec<u8>) {
     let pen = micrometres(layer.pen.width);
     for group in groups(layer, plotter) {
         // What the pen draws as it is needs no group.
-        let plain = group.width == pen && group.opacity == 1.0 && group.color.is_none();
+        let plain = group.width == Some(pen) && group.opacity == 1.0 && group.color.is_none();
         if !plain {
-            out.extend_from_slice(b"<g stroke-width=\"");
-            decimals::push(out, group.width);
-            let color = group.color.map(|[r, g, b]| format!(" stroke=\"{}\"", hex([r, g, b, 1.0]))).unwrap_or_default();
-            text(out, format_args!("\"{color}{}>\n", opacity("stroke-opacity", group.opacity)));
+            let own = group.color.map(|[r, g, b]| hex([r, g, b, 1.0]));
+            match group.width {
+                Some(width) => {
+                    out.extend_from_slice(b"<g stroke-width=\"");
+                    decimals::push(out, width);
+                    let color = own.map(|own| format!(" stroke=\"{own}\"")).unwrap_or_default();
+                    text(out, format_args!("\"{color}{}>\n", opacity("stroke-opacity", group.opacity)));
+                }
+                None => {
+                    let (own, faint) = (own.unwrap_or_else(|| color.clone()), opacity("fill-opacity", group.opacity));
+                    text(out, format_args!("<g fill=\"{own}\" stroke=\"none\"{faint}>\n"));
+                }
+            }
         }
         dots(&group, plotter, out);
         group.lines.iter().for_each(|line| path(line, out));
@@ -206,20 +215,29 @@ fn push_pair_apart(out: &mut Vec<u8>, [x, y]: [i64; 2]) {
 }
 
 fn path(line: &Line, out: &mut Vec<u8>) {
-    let [first, rest @ ..] = line.points.as_slice() else { return };
-    out.extend_from_slice(b"<path d=\"M");
-    push_pair(out, *first);
-    out.push(b'l');
-    let mut last = *first;
-    for (i, &at) in rest.iter().enumerate() {
-        let [dx, dy] = [at[0] - last[0], at[1] - last[1]];
-        if i > 0 && dx >= 0 {
-            out.push(b' ');
-        }
-        push_pair(out, [dx, dy]);
-        last = at;
+    if line.paths.iter().all(Vec::is_empty) {
+        return;
     }
-    out.extend_from_slice(if line.closed { b"z\"/>\n" } else { b"\"/>\n" });
+    out.extend_from_slice(b"<path d=\"");
+    for points in &line.paths {
+        let [first, rest @ ..] = points.as_slice() else { continue };
+        out.push(b'M');
+        push_pair(out, *first);
+        out.push(b'l');
+        let mut last = *first;
+        for (i, &at) in rest.iter().enumerate() {
+            let [dx, dy] = [at[0] - last[0], at[1] - last[1]];
+            if i > 0 && dx >= 0 {
+                out.push(b' ');
+            }
+            push_pair(out, [dx, dy]);
+            last = at;
+        }
+        if line.closed {
+            out.push(b'z');
+        }
+    }
+    out.extend_from_slice(b"\"/>\n");
 }
 
 /// `#rrggbb`.

@@ -25,7 +25,7 @@ pub fn gradient_range(field: &Field<'_, f64>, range: GradientRange) -> ([f64; 2]
 
 impl Strokes<'_, '_> {
     /// |∇| and κ at a voxel: 0 where it has no direction, as on flat and on round surfaces.
-    fn measure(&self, voxel: [usize; 3], kind: Kind, [lo, hi]: [f64; 2]) -> Measure {
+    pub(super) fn measure(&self, voxel: [usize; 3], kind: Kind, [lo, hi]: [f64; 2]) -> Measure {
         let ground = self.ground();
         let [x, y, z] = voxel.map(|i| i as f64);
         let at = Vec3::new(x, y, z);

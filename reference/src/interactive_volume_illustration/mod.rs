@@ -43,6 +43,7 @@ mod thin;
 pub mod toon;
 mod umbilics;
 pub mod view_opacity;
+mod without_iso;
 
 pub use cells::gradient_range;
 pub use cone::NormalCone;

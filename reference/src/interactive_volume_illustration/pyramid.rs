@@ -106,20 +106,39 @@ impl Pyramid {
     pub fn blocks(&self, value: f64) -> Vec<[usize; 3]> {
         let b = byte(self.range, value);
         let mut found = Vec::new();
-        self.descend(self.levels.len() - 1, [0; 3], [b.floor(), b.ceil()], &mut found);
+        self.descend(self.levels.len() - 1, [0; 3], &|[lo, hi]| lo <= b.ceil() && b.floor() <= hi, &mut found);
         found
     }
 
-    fn descend(&self, level: usize, entry: [usize; 3], wanted: [f64; 2], found: &mut Vec<[usize; 3]>) {
-        let [lo, hi] = self.levels[level].at(entry).map(f64::from);
-        if lo > wanted[1] || hi < wanted[0] {
+    /// The blocks in whose closed range of values one may lie that counts, depth first ([HATCH-16]): of ranges that are wider by a
+    /// step of a byte to either side.
+    pub fn blocks_among(&self, counts: &impl Fn([f64; 2]) -> bool) -> Vec<[usize; 3]> {
+        let [lo, hi] = self.range;
+        let value = |byte: f64| {
+            let t = (byte / 255.0).clamp(0.0, 1.0);
+            lo * (1.0 - t) + hi * t
+        };
+        let mut found = Vec::new();
+        let wider = |[lo, hi]: [f64; 2]| counts([value(lo - 1.0), value(hi + 1.0)]);
+        self.descend(self.levels.len() - 1, [0; 3], &wider, &mut found);
+        found
+    }
+
+    fn descend(
+        &self,
+        level: usize,
+        entry: [usize; 3],
+        counts: &impl Fn([f64; 2]) -> bool,
+        found: &mut Vec<[usize; 3]>,
+    ) {
+        if !counts(self.levels[level].at(entry).map(f64::from)) {
             return;
         }
         match level.checked_sub(1) {
             None => found.push(entry),
             Some(below) => {
                 for child in children(entry, self.levels[below].dims) {
-                    self.descend(below, child, wanted, found);
+                    self.descend(below, child, counts, found);
                 }
             }
         }

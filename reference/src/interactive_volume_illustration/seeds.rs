@@ -34,7 +34,7 @@ impl SeedRule {
 }
 
 /// The cells of an iso-surface and which of them strokes begin in.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seeds {
     /// Each cell that holds the value, with its p; z slowest.
     pub cells: Vec<([usize; 3], f64)>,
@@ -52,15 +52,36 @@ impl Seeds {
         rule: SeedRule,
         measure: impl Fn([usize; 3]) -> Measure + Sync,
     ) -> Self {
-        let mut blocks = pyramid.blocks(iso);
-        blocks.retain(|&block| pyramid.cells_of_block(block).any(|cell| holds(volume, cell, iso)));
+        let counts = |[least, largest]: [f64; 2]| least <= iso && iso <= largest;
+        Self::of_blocks(pyramid, volume, (pyramid.blocks(iso), counts), rule, measure)
+    }
+
+    /// The same of the cells in whose closed range of values one counts ([HATCH-16]).
+    pub fn among(
+        pyramid: &Pyramid,
+        volume: &Volume,
+        counts: impl Fn([f64; 2]) -> bool + Sync,
+        rule: SeedRule,
+        measure: impl Fn([usize; 3]) -> Measure + Sync,
+    ) -> Self {
+        Self::of_blocks(pyramid, volume, (pyramid.blocks_among(&counts), counts), rule, measure)
+    }
+
+    fn of_blocks(
+        pyramid: &Pyramid,
+        volume: &Volume,
+        (mut blocks, counts): (Vec<[usize; 3]>, impl Fn([f64; 2]) -> bool + Sync),
+        rule: SeedRule,
+        measure: impl Fn([usize; 3]) -> Measure + Sync,
+    ) -> Self {
+        blocks.retain(|&block| pyramid.cells_of_block(block).any(|cell| holds(volume, cell, &counts)));
         let (largest, measured) = match rule {
             SeedRule::Dense => (vec![Largest::default(); blocks.len()], 0),
             SeedRule::Curvature { .. } => of_blocks(&blocks, volume.dims(), measure),
         };
         let of_block = |(&block, &largest): (&[usize; 3], &Largest)| {
             let p = rule.probability(largest);
-            pyramid.cells_of_block(block).filter(|&cell| holds(volume, cell, iso)).map(move |cell| (cell, p))
+            pyramid.cells_of_block(block).filter(|&cell| holds(volume, cell, &counts)).map(move |cell| (cell, p))
         };
         let mut cells: Vec<([usize; 3], f64)> =
             blocks.par_iter().zip(&largest).flat_map_iter(|(block, largest)| of_block((block, largest))).collect();
@@ -80,8 +101,8 @@ impl Seeds {
     }
 }
 
-/// Whether the closed range of a cell's voxels has the value, and none of them is masked.
-fn holds(volume: &Volume, [x, y, z]: [usize; 3], iso: f64) -> bool {
+/// Whether the closed range of a cell's voxels counts, and none of them is masked.
+fn holds(volume: &Volume, [x, y, z]: [usize; 3], counts: impl Fn([f64; 2]) -> bool) -> bool {
     if volume.mask().is_some_and(|mask| mask.touches_cell([x, y, z])) {
         return false;
     }
@@ -92,7 +113,7 @@ fn holds(volume: &Volume, [x, y, z]: [usize; 3], iso: f64) -> bool {
         let value = volume.value([0, 1, 2].map(|axis| at[axis].min(dims[axis] - 1)));
         (least, largest) = (least.min(value), largest.max(value));
     }
-    least <= iso && iso <= largest
+    counts([least, largest])
 }
 
 #[cfg(test)]
@@ -127,7 +148,7 @@ mod tests {
         let dims = volume.dims();
         let [nx, ny, nz] = cells_of(dims);
         let all = (0..nz).flat_map(|z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])));
-        all.filter(|&cell| holds(volume, cell, iso))
+        all.filter(|&cell| holds(volume, cell, |[least, largest]| least <= iso && iso <= largest))
             .map(|cell| {
                 let first = cell.map(|i| i / 2 * 2);
                 let mut largest = Largest::default();
@@ -171,6 +192,21 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// Values in two ranges count: the cells are those of all, whatever the way down.
+    #[test]
+    fn cells_whose_values_count() {
+        let counts = |[least, largest]: [f64; 2]| (least < 0.06 && largest > 0.05) || (least < 0.9 && largest > 0.88);
+        for dims in [[8, 9, 10], [33, 17, 5]] {
+            let volume = volume(dims, |[x, y, z]| uniform(3, [x as u32 / 4, y as u32 / 4, z as u32 / 4], 0));
+            let found = Seeds::among(&Pyramid::new(&volume), &volume, counts, SeedRule::Dense, measure);
+            let [nx, ny, nz] = cells_of(dims);
+            let all = (0..nz).flat_map(|z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])));
+            let wanted: Vec<_> = all.filter(|&cell| holds(&volume, cell, counts)).map(|cell| (cell, 1.0)).collect();
+            assert!(!wanted.is_empty() && wanted.len() < nx * ny * nz);
+            assert_eq!(found.cells, wanted);
         }
     }
 

@@ -39,7 +39,7 @@ struct Sample<R> {
 
 /// The last sample on a ray that was asked for a normal.
 #[derive(Clone, Copy)]
-enum Previous<R> {
+pub(super) enum Previous<R> {
     /// There was none.
     None,
     /// The sample has no normal ([PREC-3]).
@@ -56,7 +56,7 @@ pub(super) struct Walk<'p, 'v, R: Real, S> {
     pub(super) sight: Sight<R>,
     /// To the opacity of one step on this ray.
     correction: Correction,
-    previous: Previous<R>,
+    pub(super) previous: Previous<R>,
     light: Light<R>,
     pub(super) sums: Sums,
 }
@@ -104,8 +104,10 @@ fn cast<R: Real, S: Sampler<R>>(
         light: Light { rgb: [R::ZERO; 3], opacity: R::ZERO, corrected: [R::ZERO; 2] },
         sums: Sums::new(),
     };
+    let lines = prepared.lines_at([i, j]);
     let samples = match (&prepared.surface, prepared.needs) {
-        (Some(surface), _) => walk.run_to(surface, boxes, counts),
+        (Some(surface), _) => walk.run_to(surface, lines, boxes, counts),
+        _ if !lines.is_empty() => walk.run_among(lines, None, boxes, counts).0,
         (None, Needs::Value) => walk.run_in::<need::Value>(boxes, counts),
         (None, Needs::Normal) => walk.run_in::<need::Normal>(boxes, counts),
         (None, Needs::Anything) => walk.run_in::<need::Anything>(boxes, counts),
@@ -136,6 +138,20 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     pub(super) fn correct_for(&mut self, correction: Correction) {
         self.correction = correction;
         self.light.corrected = [R::ZERO; 2];
+    }
+
+    /// Composites something of a linear colour that is no sample, and returns whether the ray is still open.
+    pub(super) fn put(&mut self, rgb: [R; 3], alpha: R) -> bool {
+        if alpha >= R::ONE {
+            self.end_at(rgb);
+            return false;
+        }
+        let rgb = if self.prepared.encode { rgb.map(encoded) } else { rgb };
+        let Light { rgb: before, opacity, .. } = self.light;
+        let w = (R::ONE - opacity) * alpha;
+        self.light.rgb = [before[0] + w * rgb[0], before[1] + w * rgb[1], before[2] + w * rgb[2]];
+        self.light.opacity += w;
+        self.light.opacity < self.prepared.stop_at
     }
 
     /// Ends the ray at something opaque of a linear colour, and returns its w = 1 − A.

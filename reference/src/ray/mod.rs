@@ -7,6 +7,7 @@ mod lanes;
 pub mod lattice;
 mod layers;
 mod lit;
+mod merged;
 mod need;
 pub mod opacity;
 mod over_two;

@@ -114,6 +114,7 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
         lattice,
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
+        lines: None,
         surface,
         function: over_value,
         table,

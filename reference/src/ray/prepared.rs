@@ -10,6 +10,7 @@ use crate::field::Field;
 use crate::number::{Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray::Turn;
 use crate::transfer::{Piecewise, Table};
+use drypoint_scene::fragments::{Fragment, Fragments};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::tables::{NormalSide, Outside};
 use drypoint_scene::view::View;
@@ -89,6 +90,8 @@ pub(super) struct Prepared<'v, R> {
     /// Lowest and highest index position ([SPACE-1]).
     pub(super) ends: [Vec3<R>; 2],
     pub(super) skip: Option<Skip>,
+    /// Lines on the rays, at their depths; none: none.
+    pub(super) lines: Option<Fragments>,
     /// An opaque iso-surface; none: none.
     pub(super) surface: Option<Surface<R>>,
     /// α_u over the value; with two quantities, the values at which it can be above 0.
@@ -122,6 +125,14 @@ pub(super) struct Prepared<'v, R> {
     pub(super) eye_axes: EyeAxes<R>,
     /// n of the n×n rays of a pixel.
     pub(super) samples: usize,
+}
+
+impl<R> Prepared<'_, R> {
+    /// The lines on the ray through a point of the picture, in pixels from the top left corner.
+    #[inline]
+    pub(super) fn lines_at(&self, point: [f64; 2]) -> &[Fragment] {
+        self.lines.as_ref().map_or(&[], |lines| lines.at(point))
+    }
 }
 
 impl<R: Real> Prepared<'_, R> {

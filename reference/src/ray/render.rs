@@ -3,6 +3,7 @@
 use super::cast::{self, Cast};
 use super::draw::{CastAll, draw};
 use super::lanes;
+use super::merged;
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
 use super::skip::Boxes;
@@ -12,6 +13,7 @@ use crate::transfer::NodesError;
 use crate::with_sampler;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
+use drypoint_scene::fragments::Fragments;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::plan::Plan;
@@ -196,6 +198,14 @@ impl<'a> Renderer<'a> {
         }
     }
 
+    /// Puts lines inside the frames that follow, or takes them out: those of the camera that is there ([HATCH-14] d).
+    pub fn merge(&mut self, lines: Option<Fragments>) {
+        match &mut self.ready {
+            Ready::F64(p) | Ready::Exact(p, _) => p.lines = lines,
+            Ready::F32(p) => p.lines = lines,
+        }
+    }
+
     /// What preparing took and keeps; it is in the counts of each [`frame`](Self::frame).
     pub fn prepared(&self) -> &Counts {
         &self.counts
@@ -213,10 +223,21 @@ impl<'a> Renderer<'a> {
         let start = Instant::now();
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) if self.lanes => {
-                let cast = |points: &[_], boxes: Option<&mut Boxes>, counts: &mut Counts, casts: &mut Vec<Cast>| {
+                let together = |points: &[_], boxes: Option<&mut Boxes>, counts: &mut Counts, casts: &mut Vec<Cast>| {
                     lanes::cast_all(p, points, boxes, counts, casts);
                 };
-                draw(p, cast, self.background, self.tile, progress)
+                if p.lines.is_none() {
+                    draw(p, together, self.background, self.tile, progress)
+                } else {
+                    with_sampler!(p.field, |s| {
+                        let alone = one_by_one(p, s);
+                        let apart =
+                            |points: &[_], boxes: Option<&mut Boxes>, counts: &mut Counts, casts: &mut Vec<_>| {
+                                merged::cast_apart(p, [&alone, &together], points, boxes, counts, casts);
+                            };
+                        draw(p, apart, self.background, self.tile, progress)
+                    })
+                }
             }
             Ready::F64(p) => {
                 with_sampler!(p.field, |s| draw(p, one_by_one(p, s), self.background, self.tile, progress))

@@ -15,6 +15,7 @@ use crate::style_transfer_functions::curvature_along_ray;
 use crate::suggest;
 use crate::surface::Roots;
 use drypoint_scene::counts::Counts;
+use drypoint_scene::fragments::Fragment;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::plan::Quantity;
 use drypoint_scene::tables::contours::{Measured, measured_curvature};
@@ -122,7 +123,13 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     /// A sample counts if its plane lies before the root. Of those the last one stands for all the way from where its own
     /// share of the ray begins to the root, from half a step to one and a half: so the way through a volume that is
     /// translucent before a surface grows evenly with the surface's depth, and there are no terraces on it.
-    pub(super) fn run_to(&mut self, surface: &Surface<R>, boxes: Option<&mut Boxes>, counts: &mut Counts) -> u64 {
+    pub(super) fn run_to(
+        &mut self,
+        surface: &Surface<R>,
+        lines: &[Fragment],
+        boxes: Option<&mut Boxes>,
+        counts: &mut Counts,
+    ) -> u64 {
         let prepared = self.prepared;
         let near = match prepared.view.perspective {
             // Of shells near is the radius.
@@ -132,7 +139,8 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         let range = [near, f64::INFINITY];
         let root = surface.roots.first(self.sampler, prepared.volume.mask(), self.ray.line(), range);
         let (samples, open) = match prepared.needs {
-            _ if surface.alone => (0, true),
+            _ if surface.alone => (0, self.put_all(lines, root)),
+            _ if !lines.is_empty() => self.run_among(lines, root, boxes, counts),
             Needs::Value => self.run_before::<need::Value>(root, boxes, counts),
             Needs::Normal => self.run_before::<need::Normal>(root, boxes, counts),
             Needs::Anything => self.run_before::<need::Anything>(root, boxes, counts),

@@ -13,6 +13,7 @@
 
 mod dot;
 mod frame;
+mod outline;
 mod page;
 mod pen;
 mod polyline;

@@ -1,5 +1,6 @@
 //! Lines.
 
+use super::outline::outlines;
 use super::round::{OPACITY, nearest};
 use crate::color::{Rgb, linear_to_srgb, srgb_to_linear};
 use glam::{DVec2, DVec3};
@@ -51,33 +52,97 @@ impl Vertex {
     }
 }
 
-/// The codes of a channel that pieces have: steps of 1/31 of sRGB, so that a piece is off by 4 of 255 at the most.
-const TINTS: f64 = 31.0;
+/// How far the codes of a piece's colour may be from those of the line, in sRGB.
+const CODES: f64 = 8.0 / 255.0;
+
+/// How far the opacity of a piece may be from that of the line, before it goes onto a step.
+const FAINTER: f64 = 1.0 / 16.0;
 
 /// What a colour is between two, so far along.
 pub fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
     a.zip(b).map(|(a, b)| std::array::from_fn(|i| a[i] + (b[i] - a[i]) * s)).or(a).or(b)
 }
 
-/// The mean of two colours in what is seen of them, on a piece's steps.
-fn tint(a: Option<Rgb>, b: Option<Rgb>) -> Option<Rgb> {
-    let [a, b] = [a.or(b)?, b.or(a)?].map(|color| color.map(linear_to_srgb));
-    Some(std::array::from_fn(|i| srgb_to_linear(nearest((a[i] + b[i]) / 2.0, TINTS).clamp(0.0, 1.0))))
-}
-
-/// A part of a line with one width, one opacity and one colour: what every writer draws, with round ends.
+/// A part of a line with one opacity and one colour: what every writer draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// In order, at least two, in mm on the page.
     pub points: Vec<DVec2>,
-    /// Half the width, in mm.
-    pub radius: f64,
+    /// Half the width at each point, in mm; linear between them.
+    pub radii: Vec<f64>,
     /// In (0, 1].
     pub opacity: f64,
     /// In place of the pen's; none: the pen's.
     pub color: Option<Rgb>,
     /// Whether it goes on from the last point to the first.
     pub closed: bool,
+    /// Whether the line begins with its first point, and ends with its last.
+    pub ends: [bool; 2],
+}
+
+impl Piece {
+    /// Whether it begins and ends with half a disc, drawn in ink of that opacity. Opaque pieces lie over each other's ends, so
+    /// that nothing shows between them; a translucent line that goes on is cut straight across, so that it covers once.
+    pub fn round(&self, ink: f64) -> [bool; 2] {
+        if self.opacity * ink == 1.0 { [true; 2] } else { self.ends }
+    }
+
+    /// Half its width, where that is the same all along and its ends are round: what a pen draws in one stroke.
+    pub fn stroke(&self, ink: f64) -> Option<f64> {
+        let first = *self.radii.first()?;
+        (self.round(ink) == [true; 2] && self.radii.iter().all(|&radius| radius == first)).then_some(first)
+    }
+
+    /// The widest half of it.
+    pub fn largest_radius(&self) -> f64 {
+        self.radii.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Its outlines, to be filled by the nonzero rule: of a closed line an outer and an inner one. All of them turn the same way,
+    /// whichever way the line goes.
+    pub fn outlines(&self, ink: f64) -> Vec<Vec<DVec2>> {
+        outlines(&self.points, &self.radii, self.closed, self.round(ink))
+    }
+}
+
+/// The range of the numbers that a piece stands for: the opacity and the codes of its colour.
+#[derive(Clone, Copy)]
+struct Range {
+    opacity: [f64; 2],
+    codes: Option<[[f64; 2]; 3]>,
+}
+
+impl Range {
+    fn of(a: &Vertex, b: &Vertex) -> Self {
+        let range = |a: f64, b: f64| [a.min(b), a.max(b)];
+        let codes = a.color.or(b.color).zip(b.color.or(a.color)).map(|(a, b)| {
+            let [a, b] = [a, b].map(|color| color.map(linear_to_srgb));
+            std::array::from_fn(|i| range(a[i], b[i]))
+        });
+        Self { opacity: range(a.opacity, b.opacity), codes }
+    }
+
+    /// The range of both, if one number stands for all of it.
+    fn with(&self, other: &Self) -> Option<Self> {
+        let join = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let fits = |range: [f64; 2], off: f64| range[1] - range[0] <= 2.0 * off;
+        let codes = match (self.codes, other.codes) {
+            (Some(a), Some(b)) => Some(std::array::from_fn(|i| join(a[i], b[i]))),
+            (None, None) => None,
+            _ => return None,
+        };
+        let opacity = join(self.opacity, other.opacity);
+        let fit = fits(opacity, FAINTER) && codes.is_none_or(|codes: [_; 3]| codes.iter().all(|&c| fits(c, CODES)));
+        fit.then_some(Self { opacity, codes })
+    }
+
+    fn opacity(&self) -> f64 {
+        nearest((self.opacity[0] + self.opacity[1]) / 2.0, OPACITY)
+    }
+
+    fn color(&self) -> Option<Rgb> {
+        self.codes.map(|codes| codes.map(|[lo, hi]| srgb_to_linear(nearest((lo + hi) / 2.0, 255.0).clamp(0.0, 1.0))))
+    }
 }
 
 impl Polyline {
@@ -90,10 +155,9 @@ impl Polyline {
         }
     }
 
-    /// The line cut where its width, its opacity or its colour changes: a segment has the mean of its ends', on the steps of
-    /// [`Marks::round`](super::Marks::round), where a radius may lie halfway between two, its colour on
-    /// steps of 1/31 of sRGB; equal neighbours join. A
-    /// segment without opacity or width is left out.
+    /// The line in as few pieces as its opacity and its colour allow ([HATCH-21]): all along a piece its colour is within 8 of
+    /// 255 of the line's in sRGB, and its opacity within 1/16 and what a step of sixteenths rounds; only a segment that changes
+    /// by more between its two ends has the mean of them. Segments without opacity or width are left out.
     pub fn pieces(&self) -> Vec<Piece> {
         let n = self.vertices.len();
         let segments = match n {
@@ -102,30 +166,51 @@ impl Polyline {
             _ if self.closed => n,
             _ => n - 1,
         };
-        let mut pieces: Vec<Piece> = Vec::new();
+        let mut pieces: Vec<(Piece, Range)> = Vec::new();
         // Whether the last piece ends where the next segment begins.
         let mut joins = false;
         for i in 0..segments {
             let (a, b) = (&self.vertices[i], &self.vertices[(i + 1) % n]);
-            let (radius, opacity) = ((a.radius + b.radius) / 2.0, nearest((a.opacity + b.opacity) / 2.0, OPACITY));
-            let drawn = radius > 0.0 && opacity > 0.0;
-            let color = tint(a.color, b.color);
-            match pieces.last_mut() {
-                Some(last) if drawn && joins && (last.radius, last.opacity, last.color) == (radius, opacity, color) => {
-                    last.points.push(b.at)
+            let own = Range::of(a, b);
+            let drawn = a.radius.max(b.radius) > 0.0 && own.opacity() > 0.0;
+            let both = pieces.last().filter(|_| joins).and_then(|(_, range)| range.with(&own));
+            match (drawn, both, pieces.last_mut()) {
+                (true, Some(both), Some((piece, range))) => {
+                    piece.points.push(b.at);
+                    piece.radii.push(b.radius);
+                    *range = both;
                 }
-                _ if drawn => pieces.push(Piece { points: vec![a.at, b.at], radius, opacity, color, closed: false }),
-                _ => {}
+                (true, ..) => {
+                    let (points, radii) = (vec![a.at, b.at], vec![a.radius, b.radius]);
+                    // Whether it ends the line follows from the next one.
+                    let ends = [!joins, true];
+                    pieces.push((Piece { points, radii, opacity: 1.0, color: None, closed: false, ends }, own));
+                }
+                (false, ..) => {}
             }
             joins = drawn;
         }
+        let mut pieces: Vec<Piece> = pieces
+            .into_iter()
+            .map(|(piece, range)| Piece { opacity: range.opacity(), color: range.color(), ..piece })
+            .collect();
         if let [only] = pieces.as_mut_slice()
             && segments == n
             && only.points.len() == n + 1
         {
             // The first point came again at the end.
             only.points.pop();
+            only.radii.pop();
             only.closed = true;
+            return pieces;
+        }
+        for i in 1..pieces.len() {
+            pieces[i - 1].ends[1] = pieces[i].ends[0];
+        }
+        if let (true, true, [first, .., last]) = (segments == n, joins, pieces.as_mut_slice())
+            && first.points[0] == self.vertices[0].at
+        {
+            (first.ends[0], last.ends[1]) = (false, false);
         }
         pieces
     }
@@ -160,8 +245,8 @@ mod tests {
     }
 
     #[test]
-    fn a_change_of_width_or_opacity_cuts() {
-        // Means: radius 0.1, 0.15, 0.2; the fourth segment has no opacity, the fifth stands apart from the third.
+    fn a_change_of_opacity_cuts_and_one_of_width_does_not() {
+        // The third segment goes from 1 to 0; the fourth has no opacity, the fifth stands apart from the third.
         let line = line(
             false,
             &[
@@ -174,30 +259,61 @@ mod tests {
             ],
         );
         let pieces = line.pieces();
-        assert_eq!(pieces.iter().map(xs).collect::<Vec<_>>(), [[0.0, 1.0], [1.0, 2.0], [2.0, 3.0], [4.0, 5.0]]);
-        assert!((pieces[1].radius - 0.15).abs() < 1e-15);
-        assert_eq!(pieces.iter().map(|p| p.opacity).collect::<Vec<_>>(), [1.0, 1.0, 0.5, 0.5]);
+        assert_eq!(pieces.iter().map(xs).collect::<Vec<_>>(), [vec![0.0, 1.0, 2.0], vec![2.0, 3.0], vec![4.0, 5.0]]);
+        assert_eq!(pieces[0].radii, [0.1, 0.1, 0.2]);
+        assert_eq!(pieces.iter().map(|p| p.opacity).collect::<Vec<_>>(), [1.0, 0.5, 0.5]);
+        assert_eq!(pieces.iter().map(|p| p.ends).collect::<Vec<_>>(), [[true, false], [false, true], [true; 2]]);
+        // One width and round ends are a stroke; opaque ink is round where it goes on.
+        assert_eq!(pieces.iter().map(|p| p.stroke(1.0)).collect::<Vec<_>>(), [None, None, Some(0.2)]);
+        assert_eq!(
+            (pieces[0].round(1.0), pieces[0].round(0.5), pieces[1].round(1.0)),
+            ([true; 2], [true, false], [false, true])
+        );
     }
 
-    /// Means of 0.4, 1.8 and 2.1 steps of sRGB; a colour beside none is its own.
+    /// Codes of 0, 10, 16, 17, 9 of 255: up to 16 from the first on are one piece of 8, what follows spans 8 and is one of 13.
     #[test]
     fn a_change_of_colour_cuts() {
         let mut line = line(false, &[0.0, 1.0, 2.0, 3.0, 4.0].map(|x| (x, 0.0, 0.1, 1.0)));
-        let grey = |step: f64| Some([srgb_to_linear(step / 31.0); 3]);
-        for (vertex, step) in line.vertices.iter_mut().zip([0.0, 0.8, 2.8, 1.4]) {
-            vertex.color = grey(step);
+        let grey = |code: f64| Some([srgb_to_linear(code / 255.0); 3]);
+        for (vertex, code) in line.vertices.iter_mut().zip([0.0, 10.0, 15.9, 17.0, 9.0]) {
+            vertex.color = grey(code);
         }
-        let steps = |p: &Piece| p.color.map(|c| (linear_to_srgb(c[1]) * 31.0).round());
-        assert_eq!(
-            line.pieces().iter().map(xs).collect::<Vec<_>>(),
-            [vec![0.0, 1.0], vec![1.0, 2.0, 3.0], vec![3.0, 4.0]]
-        );
-        assert_eq!(line.pieces().iter().map(steps).collect::<Vec<_>>(), [Some(0.0), Some(2.0), Some(1.0)]);
+        let codes = |p: &Piece| p.color.map(|c| (linear_to_srgb(c[1]) * 255.0).round());
+        let pieces = line.pieces();
+        assert_eq!(pieces.iter().map(xs).collect::<Vec<_>>(), [[0.0, 1.0, 2.0], [2.0, 3.0, 4.0]]);
+        assert_eq!(pieces.iter().map(codes).collect::<Vec<_>>(), [Some(8.0), Some(13.0)]);
+        // A colour beside none is its own.
+        line.vertices[0].color = None;
+        assert_eq!(line.pieces().iter().map(codes).collect::<Vec<_>>(), [Some(13.0)]);
         for vertex in &mut line.vertices {
             vertex.color = None;
         }
-        assert_eq!(line.pieces().iter().map(steps).collect::<Vec<_>>(), [None]);
+        assert_eq!(line.pieces().iter().map(codes).collect::<Vec<_>>(), [None]);
         assert_eq!(color_between(Some([0.0, 1.0, 0.5]), Some([1.0, 0.0, 0.5]), 0.25), Some([0.25, 0.75, 0.5]));
+    }
+
+    /// Of any line each place has a piece whose colour is within 8 of 255, where no segment changes by more than 16, and joints
+    /// of a ring are no ends.
+    #[test]
+    fn pieces_are_as_near_as_they_say() {
+        let n = 200;
+        let code = |i: usize, k: f64| 128.0 + 100.0 * crate::math::sin(std::f64::consts::TAU * k * i as f64 / n as f64);
+        let mut ring = line(true, &vec![(0.0, 0.0, 0.1, 1.0); n]);
+        for (i, vertex) in ring.vertices.iter_mut().enumerate() {
+            vertex.at.x = i as f64;
+            vertex.color = Some([1.0, 2.0, 3.0].map(|k| srgb_to_linear(code(i, k) / 255.0)));
+        }
+        let pieces = ring.pieces();
+        assert!(pieces.len() > 20 && pieces.len() < n * 3 / 4, "{}", pieces.len());
+        assert!(pieces.iter().all(|piece| piece.ends == [false; 2]));
+        for piece in &pieces {
+            let own = piece.color.unwrap().map(|c| linear_to_srgb(c) * 255.0);
+            for at in &piece.points {
+                let i = at.x as usize;
+                assert!((0..3).all(|k| (own[k] - code(i, (k + 1) as f64)).abs() < 8.51), "{i}");
+            }
+        }
     }
 
     #[test]

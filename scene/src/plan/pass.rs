@@ -47,6 +47,8 @@ pub enum Pass {
     Outlines,
     /// The ranges that lead to the cells of an iso-surface ([HATCH-5]).
     Pyramid,
+    /// The cells in which the transfer function shows something ([HATCH-16]).
+    SeenCells,
     /// Gradient and curvature about them, which seeds are drawn by ([HATCH-6]).
     SeedMeasures,
     /// Principal directions at voxels, where strokes ask for them ([HATCH-4], [HATCH-5]).
@@ -63,6 +65,8 @@ pub enum Pass {
     LitStrokes,
     /// Which parts of strokes an iso-surface hides ([HATCH-14]).
     HiddenStrokes,
+    /// Strokes inside the picture of the volume ([HATCH-14]).
+    MergedStrokes,
     /// What is cut out of strokes where nearer lines cross them ([HATCH-20]).
     Gaps,
 }
@@ -93,6 +97,7 @@ impl Pass {
             Self::Curves => "curves",
             Self::Outlines => "outlines",
             Self::Pyramid => "pyramid",
+            Self::SeenCells => "cells that are seen",
             Self::SeedMeasures => "measures of seeds",
             Self::StoredDirections => "stored directions",
             Self::AllDirections => "directions at all voxels",
@@ -101,6 +106,7 @@ impl Pass {
             Self::Spacing => "spacing of strokes",
             Self::LitStrokes => "lit strokes",
             Self::HiddenStrokes => "hidden strokes",
+            Self::MergedStrokes => "merged strokes",
             Self::Gaps => "gaps of strokes",
         }
     }
@@ -129,6 +135,7 @@ impl Pass {
             Self::Curves => "one test a voxel of curves",
             Self::Outlines => "a value and a gradient a voxel of the surface, a search a place of an outline",
             Self::Pyramid => "one look at each voxel, two bytes every eight",
+            Self::SeenCells => "one look at the function a cell of the blocks that may be seen",
             Self::SeedMeasures => "one gradient and one direction a voxel of the surface",
             Self::StoredDirections => "one direction a voxel of the cells that strokes enter",
             Self::AllDirections => "one direction a voxel",
@@ -137,6 +144,7 @@ impl Pass {
             Self::Spacing => "one look every half pen's width of a stroke",
             Self::LitStrokes => "two powers a vertex of a stroke, and vertices between them where colours change",
             Self::HiddenStrokes => "one look at each voxel, once; a line towards the eye every half pixel of a stroke",
+            Self::MergedStrokes => "40 bytes a ray that a stroke is on, and one more sample where it is in the volume",
             Self::Gaps => "one look at its neighbours on the page a segment of a line",
         }
     }
@@ -156,7 +164,12 @@ impl Pass {
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
             Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes | Self::Gaps => 0,
             // Of the cells of a surface alone.
-            Self::SeedMeasures | Self::CrossStrokes | Self::Spacing | Self::LitStrokes => 0,
+            Self::SeenCells
+            | Self::SeedMeasures
+            | Self::CrossStrokes
+            | Self::Spacing
+            | Self::LitStrokes
+            | Self::MergedStrokes => 0,
             Self::Pyramid => 1,
             // Two directions and two curvatures, in blocks where there are any.
             Self::StoredDirections | Self::AllDirections => 64,

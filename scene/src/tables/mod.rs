@@ -29,8 +29,8 @@ pub mod volume;
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use hatching::{
-    DirectionRule, DirectionSource, Directions, Family, HatchStyle, Hatching, Hidden, Interpolate, LineLighting,
-    Measure, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,
+    DirectionRule, DirectionSource, Directions, Family, HatchIso, HatchStyle, Hatching, Hidden, Interpolate,
+    LineLighting, Measure, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,
 };
 pub use length::Length;
 pub use nodes::{Row, RowAt, Stand};

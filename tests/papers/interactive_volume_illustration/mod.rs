@@ -2,8 +2,10 @@
 //! truth is known.
 
 mod hatching;
+mod merged;
 mod outlines;
 mod toon;
+mod without_iso;
 
 use drypoint::job::{Job, Wanted};
 use drypoint::marking::Marking;

@@ -425,4 +425,15 @@ pub(super) const EFFECTS: &[Effect] = &[
         fewer: &["strokes"],
         ..NOTHING
     },
+    Effect {
+        name: "strokes inside a translucent volume",
+        asked_by: "`hatching.hidden = \"merged\"`",
+        base: REGULAR,
+        without: &[("hatching.iso", "120"), ("hatching.seeds", "dense"), ("hatching.hidden", "drawn")],
+        with: &[("hatching.iso", "120"), ("hatching.seeds", "dense"), ("hatching.hidden", "merged")],
+        only: &["bytes.lines on rays", "preprocess.places of lines on rays"],
+        // A ray ends at an opaque stroke.
+        fewer: &["samples"],
+        ..NOTHING
+    },
 ];

@@ -6,13 +6,16 @@ use drypoint_reference::interactive_volume_illustration::directions::principal;
 use drypoint_reference::interactive_volume_illustration::integrator::{Control, Half, Lines, trace};
 use drypoint_reference::number::{Sym3, Vec3};
 
+/// How far a traced half is from the formula.
+type Distance = dyn Fn(&Half<()>) -> f64;
+
 /// A field of lines with a curve of it, and the error of what was traced of that.
 pub(super) struct Curve {
     pub(super) name: &'static str,
     field: Box<dyn Fn(DVec3) -> DVec3>,
     start: DVec3,
     length: f64,
-    error: Box<dyn Fn(&Half<()>) -> f64>,
+    error: Box<Distance>,
 }
 
 struct Formula<'a>(&'a dyn Fn(DVec3) -> DVec3);

@@ -313,6 +313,47 @@ mod tests {
         half.pieces[half.pieces.len() - 1].ends[1]
     }
 
+    /// Along x up to 7.3, then aslant; it says which of both it was asked for last, or keeps it to itself.
+    struct Bent {
+        beyond: bool,
+        says: bool,
+    }
+
+    const ASLANT: DVec3 = DVec3::new(0.8, 0.6, 0.0);
+
+    impl Lines for Bent {
+        type Cause = ();
+        fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
+            self.beyond = x.x > 7.3;
+            Ok(if self.beyond { ASLANT } else { DVec3::X })
+        }
+        fn formula(&self) -> usize {
+            usize::from(self.beyond && self.says)
+        }
+    }
+
+    /// A step of h across a jump of size j errs by hj/3 at the most, as k₁ … k₄ weigh ⅙, ⅓, ⅓, ⅙; it is taken where hj/6 is within
+    /// the tolerance. Where k₄ and k₅ agree beyond the jump, nothing else would show it.
+    #[test]
+    fn steps_narrow_down_to_where_the_formula_changes() {
+        let end_of = |says: bool, tolerance: f64, first: f64| {
+            let control = Control { first, max_step: 2.0, ..control(tolerance, 20.0) };
+            let half = trace(&mut Bent { beyond: false, says }, DVec3::ZERO, DVec3::X, &control);
+            assert_eq!((half.end, half.length), (End::Length, 20.0));
+            end(&half).distance(DVec3::X * 7.3 + ASLANT * 12.7)
+        };
+        let mut missed = 0;
+        for power in 1..=8 {
+            for first in [0.9, 1.0, 1.7, 2.0] {
+                let tolerance = 10f64.powi(-power);
+                let error = end_of(true, tolerance, first);
+                assert!(error <= 2.0 * tolerance + 1e-12, "{error:e} at {tolerance:e}");
+                missed += u32::from(end_of(false, tolerance, first) > 10.0 * tolerance);
+            }
+        }
+        assert!(missed > 4, "{missed}");
+    }
+
     /// The global error after an arc of 40 on a circle of radius 20 and a helix of radius 10 is at most twice the tolerance,
     /// from 10⁻¹ to 10⁻¹⁰, and falls with the fourth power of the number of steps: slope −3.8 or steeper.
     #[test]

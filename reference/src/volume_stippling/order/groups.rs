@@ -58,8 +58,7 @@ fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
                 near[l] |= u32::from(to[l] < groups[row][LIMIT][l]) << i;
             }
         }
-        for l in 0..LANES {
-            let mut left = near[l];
+        for (l, mut left) in near.into_iter().enumerate() {
             if left == 0 {
                 continue;
             }

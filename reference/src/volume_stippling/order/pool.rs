@@ -136,8 +136,8 @@ impl Site {
         points.clear();
         for group in 0..(size / LANES) as u32 {
             let mut draws = [0; LANES];
-            for l in 0..LANES {
-                draws[l] = (group * LANES as u32 + l as u32) * TRIES;
+            for (l, draw) in (0..).zip(&mut draws) {
+                *draw = (group * LANES as u32 + l) * TRIES;
             }
             let (offsets, is_inside) = slab.points(sites.seed, cell, draws);
             for l in 0..LANES {
@@ -162,11 +162,11 @@ impl Site {
         for (number, (group, points)) in pool.iter_mut().zip(points.chunks_exact(LANES)).enumerate() {
             let row = &mut rows[number / LANES];
             let mut reach = 0f32;
-            for c in 0..3 {
-                for (l, point) in points.iter().enumerate() {
-                    group.at[c][l] = point.at[c];
+            for (c, (at, means)) in group.at.iter_mut().zip(row.iter_mut()).enumerate() {
+                for (at, point) in at.iter_mut().zip(points) {
+                    *at = point.at[c];
                 }
-                row[c][number % LANES] = group.at[c].iter().sum::<f32>() / LANES as f32;
+                means[number % LANES] = at.iter().sum::<f32>() / LANES as f32;
             }
             for (l, point) in points.iter().enumerate() {
                 group.draws[l] = point.draw;

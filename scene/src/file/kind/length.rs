@@ -89,23 +89,28 @@ impl Shape for Lengths {
     }
 }
 
-impl Kind for Lengths {
-    type Of = Length;
-
-    fn read(&self, item: &Item, check: &mut Check) -> Option<Length> {
+impl Lengths {
+    /// Reads a length where something else may stand, too: `expected` says what.
+    pub(crate) fn read_as(&self, item: &Item, check: &mut Check, expected: String) -> Option<Length> {
         let length = match &item.value {
             Value::Text(text) => match parse(text) {
                 Ok(length) => Some(length),
-                Err(nearest) => {
-                    return check.wrong_name(item, self.expected(), nearest.filter(|_| self.on == On::World));
-                }
+                Err(nearest) => return check.wrong_name(item, expected, nearest.filter(|_| self.on == On::World)),
             },
             _ => item.number().map(Length::World),
         };
         match length {
             Some(length) if self.allows(length) && self.bounds.contain(amount(length)) => Some(length),
-            _ => check.wrong(item, self.expected()),
+            _ => check.wrong(item, expected),
         }
+    }
+}
+
+impl Kind for Lengths {
+    type Of = Length;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Length> {
+        self.read_as(item, check, self.expected())
     }
 
     fn write(&self, value: &Length) -> Out {

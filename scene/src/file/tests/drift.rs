@@ -183,6 +183,7 @@ const SAMPLES: &[Sample] = &[
     ("hatching.seed", &[HATCHING], "9"),
     ("hatching.cross", &[HATCHING], "45"),
     ("hatching.cross_length", &[HATCHING], "0.25"),
+    ("hatching.cross_pen", &[HATCHING], "red"),
     ("hatching.width", &[HATCHING], "2 px"),
     ("hatching.color", &[HATCHING], "red"),
     ("hatching.pen", &[HATCHING], "red"),

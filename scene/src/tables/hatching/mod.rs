@@ -20,7 +20,7 @@ use crate::tables::{Iso, Length};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hatching {
     /// Of which surface.
-    pub iso: Iso,
+    pub iso: HatchIso,
     /// Of a stroke, in the world ([HATCH-8]).
     pub length: Length,
     /// The most that a step may err by, in the world ([HATCH-8]).
@@ -40,6 +40,8 @@ pub struct Hatching {
     pub color: Rgba,
     /// A pen of `[[pen]]`, which draws in place of `width` and `color`.
     pub pen: Option<String>,
+    /// The pen that draws what crosses.
+    pub cross_pen: Option<String>,
     /// What a seed's κ is ([HATCH-5], [HATCH-6]).
     pub measure: Measure,
     /// C₀ ([HATCH-6]).
@@ -72,6 +74,15 @@ pub struct Hatching {
     pub directions: Directions,
     /// Light on the strokes ([HATCH-12]); none: they have one colour.
     pub lighting: Option<LineLighting>,
+}
+
+/// `iso` ([HATCH-16]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HatchIso {
+    /// Strokes lie on one surface.
+    Surface(Iso),
+    /// They lie wherever the transfer function shows something, each on the surface through its seed.
+    Transfer,
 }
 
 /// `seeds` ([HATCH-6]).
@@ -110,6 +121,8 @@ pub enum Hidden {
     Cut,
     /// It is drawn: strokes alone, seen from both sides, the nearer ones over the others.
     Drawn,
+    /// It is seen through what lies before it: strokes are inside the picture of the volume, at their depths.
+    Merged,
 }
 
 /// `style` ([HATCH-13]).
@@ -137,7 +150,7 @@ pub enum Spacing {
 impl Default for Hatching {
     fn default() -> Self {
         Self {
-            iso: Iso::Auto,
+            iso: HatchIso::Surface(Iso::Auto),
             length: Length::Voxels(40.0),
             tolerance: Length::Voxels(0.01),
             seeds: SeedsBy::Curvature,
@@ -147,6 +160,7 @@ impl Default for Hatching {
             width: Length::Millimetres(0.25),
             color: [0.0, 0.0, 0.0, 1.0],
             pen: None,
+            cross_pen: None,
             measure: Measure::Mean,
             min_curvature: 0.02,
             min_gradient: 0.05,

@@ -1,6 +1,8 @@
 //! What `[hatching]` needs of the rest of a scene, and what it makes of other tables.
 
-use super::{DirectionRule, DirectionSource, HatchStyle, Hatching, Hidden, LineLighting, SeedsBy, Spacing, StoredAt};
+use super::{
+    DirectionRule, DirectionSource, HatchIso, HatchStyle, Hatching, Hidden, LineLighting, SeedsBy, Spacing, StoredAt,
+};
 use crate::plan::{Asks, Idle, Pass};
 use crate::tables::{GradientRange, Iso, Scene};
 
@@ -30,6 +32,11 @@ impl Hatching {
         self.style == HatchStyle::Pencil && !self.has_one_width() && !has_plotter(scene)
     }
 
+    /// Whether strokes are inside the picture of the volume, where it is drawn: a plotter draws no picture.
+    pub fn is_merged(&self, scene: &Scene) -> bool {
+        self.hidden == Hidden::Merged && scene.draws_volume() && !has_plotter(scene)
+    }
+
     /// Whether the light shows in the strokes of a scene.
     pub fn is_lit(&self, scene: &Scene) -> bool {
         self.lighting(scene).is_some()
@@ -47,7 +54,10 @@ fn has_plotter(scene: &Scene) -> bool {
 /// What is made once, and what a frame does.
 pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
     let Some(hatching) = scene.hatching.as_ref().filter(|_| asks.draws_strokes()) else { return };
-    if hatching.iso == Iso::Auto {
+    if hatching.iso == HatchIso::Transfer {
+        asks.pass(Pass::SeenCells, "strokes in what is seen", "hatching.iso");
+    }
+    if hatching.iso == HatchIso::Surface(Iso::Auto) {
         asks.pass(Pass::AutomaticIso, "hatching", "hatching.iso");
     }
     asks.pass(Pass::Pyramid, "hatching", "hatching");
@@ -73,8 +83,11 @@ pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
     if hatching.lighting(scene).is_some() {
         asks.pass(Pass::LitStrokes, "lit lines", "hatching.lighting");
     }
-    if hatching.hidden == Hidden::Cut {
+    if hatching.hidden == Hidden::Cut && (scene.surface.is_some() || hatching.iso != HatchIso::Transfer) {
         asks.pass(Pass::HiddenStrokes, "hidden strokes", if scene.surface.is_some() { "surface" } else { "hatching" });
+    }
+    if hatching.is_merged(scene) && asks.casts_rays() {
+        asks.pass(Pass::MergedStrokes, "strokes inside the volume", "hatching.hidden");
     }
     if hatching.gap.is_some() {
         asks.pass(Pass::Gaps, "gaps where lines cross", "hatching.gap");
@@ -112,10 +125,17 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
             idle.key(&format!("hatching.stroke.{key}"), "nothing of the strokes shows the light");
         }
     }
+    if hatching.hidden == Hidden::Merged && !hatching.is_merged(scene) {
+        idle.key("hatching.hidden", "there is no picture of the volume that strokes could be inside");
+    }
     if hatching.gap.is_none() {
         idle.key("hatching.gap_depth", "no stroke has gaps");
     }
+    if hatching.iso == HatchIso::Transfer {
+        idle.key("hatching.offset", "strokes lie on the surfaces through their seeds");
+    }
     if hatching.cross.is_none() {
+        idle.key("hatching.cross_pen", "no stroke is crossed");
         idle.key("hatching.cross_length", "no stroke is crossed");
     }
     if hatching.seeds == SeedsBy::Dense {

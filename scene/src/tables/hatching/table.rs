@@ -4,7 +4,7 @@ use super::directions::DIRECTIONS;
 use super::lighting::LIGHTING;
 use super::rules;
 use super::stroke::STROKE;
-use super::{Family, HatchStyle, Hatching, Hidden, Measure, SeedsBy, Spacing};
+use super::{Family, HatchIso, HatchStyle, Hatching, Hidden, Measure, SeedsBy, Spacing};
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
 use crate::file::item::Item;
@@ -32,6 +32,40 @@ fn of_strokes(plan: &Plan, settings: &'static [&'static str]) -> &'static [&'sta
     if plan.has_pass(Pass::Strokes) { settings } else { &[] }
 }
 
+/// A value of the volume, or what is in place of one.
+struct HatchIsoKind;
+
+const TRANSFER: &str = "transfer";
+
+impl Shape for HatchIsoKind {
+    fn expected(&self) -> String {
+        format!("{}, or \"{TRANSFER}\"", IsoKind.expected().replace(", or", ","))
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [IsoKind.schema(), { "const": TRANSFER }] })
+    }
+}
+
+impl Kind for HatchIsoKind {
+    type Of = HatchIso;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<HatchIso> {
+        match (item.text(), item.number()) {
+            (Some(TRANSFER), _) => Some(HatchIso::Transfer),
+            (Some("auto"), _) | (_, Some(_)) => IsoKind.read(item, check).map(HatchIso::Surface),
+            _ => check.wrong(item, self.expected()),
+        }
+    }
+
+    fn write(&self, value: &HatchIso) -> Out {
+        match value {
+            HatchIso::Surface(iso) => IsoKind.write(iso),
+            HatchIso::Transfer => Out::Text(TRANSFER.into()),
+        }
+    }
+}
+
 /// A length on the page, or what is in place of one.
 struct SpacingKind;
 
@@ -54,7 +88,7 @@ impl Kind for SpacingKind {
         let text = item.text();
         match WORDS.iter().find(|(word, _)| text == Some(word)) {
             Some((_, spacing)) => Some(*spacing),
-            None => PAGE_LENGTH.read(item, check).map(Spacing::Length),
+            None => PAGE_LENGTH.read_as(item, check, self.expected()).map(Spacing::Length),
         }
     }
 
@@ -82,8 +116,9 @@ pub(crate) static TABLE: Table<Hatching> = Table {
             Key::new(
                 "iso",
                 "HATCH-6",
-                "The value of the surface; by itself that which an automatic transfer function makes opaque.",
-                &Slot { kind: IsoKind, get: |h: &Hatching| Some(h.iso), set: |h, v| h.iso = v },
+                "The value of the surface; by itself that which an automatic transfer function makes opaque. \"transfer\": \
+                 strokes wherever [transfer] shows something, as opaque as that, each on the surface through its seed.",
+                &Slot { kind: HatchIsoKind, get: |h: &Hatching| Some(h.iso), set: |h, v| h.iso = v },
             ),
             Key::new(
                 "length",
@@ -165,6 +200,17 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 },
             )
             .absent("`color`, in strokes of any width"),
+            Key::new(
+                "cross_pen",
+                "HATCH-11",
+                "The pen of `[[pen]]` that draws what crosses.",
+                &Slot {
+                    kind: Text { what: "the name of a pen" },
+                    get: |h: &Hatching| h.cross_pen.clone(),
+                    set: |h, v| h.cross_pen = Some(v),
+                },
+            )
+            .absent("what draws the others; without a `pen` a layer of its own, `cross`"),
             Key::new(
                 "measure",
                 "HATCH-6",
@@ -272,6 +318,12 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                                 "drawn",
                                 Hidden::Drawn,
                                 "It is drawn, too: the nearer strokes over the others, as in Fig. 5.",
+                            ),
+                            ChoiceOption::new(
+                                "merged",
+                                Hidden::Merged,
+                                "It is seen as far as what lies before it lets light through: strokes are inside the \
+                                 picture of the volume, each at its depth.",
                             ),
                         ],
                         later: &[],

@@ -1,0 +1,28 @@
+//! Strokes without an iso-value, wherever values count ([HATCH-16]).
+
+use super::ground::inside;
+use super::pyramid::Pyramid;
+use super::seeds::{SeedRule, Seeds};
+use super::strokes::Strokes;
+use crate::field::Field;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::tables::Measure as Kind;
+
+impl Strokes<'_, '_> {
+    /// As [`seeds`](Self::seeds), of the cells in whose closed range of values one counts.
+    pub fn seeds_among(
+        &self,
+        pyramid: &Pyramid,
+        field: &Field<'_, f64>,
+        counts: impl Fn([f64; 2]) -> bool + Sync,
+        rule: SeedRule,
+        (kind, range): (Kind, [f64; 2]),
+    ) -> Seeds {
+        Seeds::among(pyramid, field.volume(), counts, rule, |voxel| self.measure(voxel, kind, range))
+    }
+
+    /// The value at a place of the world; none outside the volume.
+    pub fn value(&self, world: DVec3) -> Option<f64> {
+        inside(self.ground(), world).map(|index| self.ground().value(index))
+    }
+}

@@ -1,0 +1,216 @@
+//! The outline of a line whose width changes along it ([HATCH-21]): two curves beside it, joined at its ends.
+
+use crate::math;
+use glam::DVec2;
+use std::f64::consts::PI;
+
+/// How far the corners of an outline may leave an arc inside, in mm: a step of places.
+const OFF: f64 = 0.001;
+
+/// The outlines of a line of that half width at each point, linear between them, for the nonzero rule.
+///
+/// On either side the outline is as far from each segment as its half widths are, at right angles to it. Outside a bend it goes
+/// round the point, inside it is cut where both sides meet, or goes through the point where they do not.
+pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bool; 2]) -> Vec<Vec<DVec2>> {
+    let mut line: Vec<(DVec2, f64)> = Vec::with_capacity(points.len());
+    for (&at, &radius) in points.iter().zip(radii) {
+        match line.last_mut() {
+            Some(last) if last.0 == at => last.1 = last.1.max(radius),
+            _ => line.push((at, radius)),
+        }
+    }
+    let closed = closed && line.first().zip(line.last()).is_some_and(|(a, b)| a.0 != b.0) && line.len() > 2;
+    let back: Vec<(DVec2, f64)> = line.iter().rev().copied().collect();
+    match line.as_slice() {
+        [] => Vec::new(),
+        [(at, radius)] => {
+            let mut disc = vec![*at + *radius * DVec2::X];
+            arc(*at, *radius, DVec2::X, -2.0 * PI, &mut disc);
+            vec![disc]
+        }
+        _ if closed => vec![side(&line, true), side(&back, true)],
+        _ => {
+            let mut outline = side(&line, false);
+            cap(&line, round[1], &mut outline);
+            outline.extend(side(&back, false));
+            cap(&back, round[0], &mut outline);
+            vec![outline]
+        }
+    }
+}
+
+/// The unit vector from one point to the next.
+fn towards(a: (DVec2, f64), b: (DVec2, f64)) -> DVec2 {
+    (b.0 - a.0).normalize_or(DVec2::X)
+}
+
+/// What lies beside a line, to the side that x lies to of y.
+fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
+    let n = line.len();
+    let mut out = Vec::with_capacity(n + 8);
+    for (i, &(at, radius)) in line.iter().enumerate() {
+        let before = (closed || i > 0).then(|| line[(i + n - 1) % n]);
+        let after = (closed || i + 1 < n).then(|| line[(i + 1) % n]);
+        match (before, after) {
+            (Some(a), Some(b)) => {
+                let shorter = at.distance(a.0).min(at.distance(b.0));
+                bend((at, radius), [towards(a, line[i]), towards(line[i], b)], shorter, &mut out);
+            }
+            (Some(a), None) => out.push(at + radius * beside(towards(a, line[i]))),
+            (None, Some(b)) => out.push(at + radius * beside(towards(line[i], b))),
+            (None, None) => {}
+        }
+    }
+    out
+}
+
+/// To the side of a direction.
+fn beside(along: DVec2) -> DVec2 {
+    DVec2::new(-along.y, along.x)
+}
+
+/// Round a point at which a line changes its direction; `shorter` is the length of the shorter segment there.
+fn bend((at, radius): (DVec2, f64), [from, to]: [DVec2; 2], shorter: f64, out: &mut Vec<DVec2>) {
+    let [first, last] = [from, to].map(beside);
+    let (sine, cosine) = (from.perp_dot(to), from.dot(to));
+    // Where both sides meet, measured along them from the point: radius times the tangent of half the angle.
+    let meets = radius * sine.abs() / (1.0 + cosine);
+    let corner = || at + radius * (first + last) / (1.0 + cosine);
+    let beyond = radius * ((2.0 / (1.0 + cosine)).sqrt() - 1.0);
+    if sine > 0.0 {
+        if meets <= shorter {
+            out.push(corner());
+        } else {
+            out.extend([at + radius * first, at, at + radius * last]);
+        }
+    } else if beyond <= OFF {
+        out.push(corner());
+    } else {
+        out.push(at + radius * first);
+        arc(at, radius, first, -math::atan2(sine.abs(), cosine), out);
+        out.push(at + radius * last);
+    }
+}
+
+/// Half a disc round the end of a line, from one side to the other.
+fn cap(line: &[(DVec2, f64)], round: bool, out: &mut Vec<DVec2>) {
+    if let (true, [.., before, end]) = (round, line) {
+        arc(end.0, end.1, beside(towards(*before, *end)), -PI, out);
+    }
+}
+
+/// The corners of an arc between its ends, from a direction on, by an angle.
+fn arc(at: DVec2, radius: f64, from: DVec2, angle: f64, out: &mut Vec<DVec2>) {
+    // Half a chord over an angle φ leaves the arc by r(1 − cos ½φ) ≤ rφ²/8.
+    let steps = (angle.abs() / (8.0 * OFF / radius).sqrt()).ceil().clamp(1.0, 1000.0) as u32;
+    for k in 1..steps {
+        let turned = angle * f64::from(k) / f64::from(steps);
+        out.push(at + radius * DVec2::new(math::cos(turned), math::sin(turned)).rotate(from));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Half the sum of cross products: below 0 for what turns the way of these outlines.
+    fn area(outlines: &[Vec<DVec2>]) -> f64 {
+        let of = |outline: &Vec<DVec2>| {
+            let next = outline.iter().cycle().skip(1);
+            outline.iter().zip(next).map(|(a, b)| a.perp_dot(*b) / 2.0).sum::<f64>()
+        };
+        outlines.iter().map(of).sum()
+    }
+
+    fn straight(radii: &[f64]) -> Vec<DVec2> {
+        (0..radii.len()).map(|i| DVec2::new(3.0, 1.0) + DVec2::new(0.8, 0.6) * i as f64).collect()
+    }
+
+    /// What chords leave of arcs of so many radii: ⅔ of OFF over their length.
+    fn missing(arcs: f64) -> f64 {
+        arcs * OFF * 2.0 / 3.0
+    }
+
+    /// ∫ width of straight segments is exact; half discs miss what their chords do.
+    #[test]
+    fn a_straight_taper_has_the_area_of_its_widths() {
+        let radii = [0.0, 0.1, 0.25, 0.25, 0.05];
+        let widths: f64 = radii.windows(2).map(|r| r[0] + r[1]).sum();
+        let flat = outlines(&straight(&radii), &radii, false, [false; 2]);
+        assert!((-area(&flat) - widths).abs() < 1e-12);
+        let round = outlines(&straight(&radii), &radii, false, [true; 2]);
+        let caps = PI / 2.0 * 0.05 * 0.05;
+        let found = -area(&round) - widths;
+        assert!(found <= caps && found >= caps - missing(PI * 0.05), "{found} {caps}");
+        // Turned round it is the same outline, turning the same way.
+        let (points, back): (Vec<_>, Vec<_>) =
+            (straight(&radii).into_iter().rev().collect(), radii.into_iter().rev().collect());
+        assert!((area(&outlines(&points, &back, false, [true; 2])) - area(&round)).abs() < 1e-12);
+    }
+
+    /// Round an arc of radius R the area is ∫ width ds, either way round: both sides lose and gain the same. Chords of the middle
+    /// line have it as 1 − φ²/24.
+    #[test]
+    fn an_arc_has_the_area_of_its_widths() {
+        for turn in [1.0, -1.0] {
+            let n = 60;
+            let radius = |i: usize| 0.05 + 0.2 * i as f64 / f64::from(n);
+            let at = |i: usize| {
+                let angle = turn * 1.5 * PI * i as f64 / f64::from(n);
+                2.0 * DVec2::new(math::cos(angle), math::sin(angle))
+            };
+            let all = 0..=n as usize;
+            let (points, radii): (Vec<_>, Vec<_>) = all.map(|i| (at(i), radius(i))).unzip();
+            let found = -area(&outlines(&points, &radii, false, [false; 2]));
+            let widths = 1.5 * PI * 2.0 * (2.0 * 0.15);
+            // φ is 0.079, and corners outside lie up to OFF beyond the arc.
+            assert!((found / widths - 1.0).abs() < 0.079f64.powi(2) / 24.0 + OFF / 0.3, "{found} {widths}");
+        }
+    }
+
+    /// A ring of width w has 2πRw, whichever way it goes: its outer outline turns the other way than its inner one.
+    #[test]
+    fn a_ring() {
+        for turn in [1.0, -1.0] {
+            let at = |i: u32| {
+                let angle = turn * PI * f64::from(i) / 180.0;
+                DVec2::new(5.0 + 3.0 * math::cos(angle), 3.0 * math::sin(angle))
+            };
+            let points: Vec<DVec2> = (0..360).map(at).collect();
+            let found = outlines(&points, &[0.2; 360], true, [true; 2]);
+            assert_eq!(found.len(), 2);
+            // The polygon's area is r²·n·sin(2π/n)/2: 1 − φ²/6 of the ring's.
+            assert!((-area(&found) / (PI * (3.2 * 3.2 - 2.8 * 2.8)) - 1.0).abs() < 1e-3, "{}", area(&found));
+        }
+    }
+
+    /// At a sharp bend, and where a line turns back, nothing reaches farther than its width, and the point itself is inside.
+    #[test]
+    fn sharp_bends_stay_round() {
+        for end in [DVec2::new(0.0, 1.0), DVec2::new(-1.0, 0.001), DVec2::new(-1.0, 0.0), DVec2::new(0.3, -0.2)] {
+            let points = [DVec2::new(-1.0, 0.0), DVec2::ZERO, end];
+            let outline = &outlines(&points, &[0.1, 0.2, 0.1], false, [true; 2])[0];
+            let near = |at: DVec2| points.iter().zip([0.1, 0.2, 0.1]).any(|(p, r)| p.distance(at) < r + 1e-9);
+            let along = |at: DVec2| {
+                points.windows(2).any(|pair| {
+                    let way = pair[1] - pair[0];
+                    let s = ((at - pair[0]).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+                    (pair[0] + way * s).distance(at) < 0.2 + 1e-9
+                })
+            };
+            assert!(outline.iter().all(|&at| near(at) || along(at)), "{end}: {outline:?}");
+            let farthest = outline.iter().map(|at| at.x).fold(f64::MIN, f64::max);
+            assert!(farthest > 0.19 && farthest < 0.21 + end.x.max(0.0), "{end}: {farthest}");
+        }
+    }
+
+    /// A point twice is one; a line of one place is a disc.
+    #[test]
+    fn what_has_no_length() {
+        let disc = outlines(&[DVec2::ONE; 3], &[0.1, 0.3, 0.2], false, [true; 2]);
+        assert_eq!(disc.len(), 1);
+        let found = -area(&disc);
+        assert!(found < PI * 0.09 && found > PI * 0.09 - missing(2.0 * PI * 0.3) * 1.5, "{found}");
+        assert!(outlines(&[], &[], true, [true; 2]).is_empty());
+    }
+}
