@@ -168,8 +168,17 @@ impl<'a> Hatching<'a> {
         strokes.prepare();
         let seeds = self.seeds_of(&pyramid, &strokes, field, counts);
         let table = self.table;
-        let cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
+        let mut cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
         counts.preprocess.insert("seeds".into(), cells.len() as u64);
+        if let Some(shown) = &self.seen {
+            // A stroke stays at the value of its seed: from one that is not seen all of it is transparent.
+            let drawn = cells.len();
+            cells.retain(|cell| {
+                let centre = field.volume().grid().to_world(DVec3::from_array(cell.map(|i| i as f64 + 0.5)));
+                strokes.value(centre).is_some_and(|value| shown.opacity(value) > 0.0)
+            });
+            counts.preprocess.insert("seeds at values that nothing shows".into(), (drawn - cells.len()) as u64);
+        }
 
         let start = Instant::now();
         let grown = self.spacing.is_none().then(|| {

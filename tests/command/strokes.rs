@@ -231,7 +231,7 @@ fn what_makes_no_page_is_refused() {
         ("strokes ball.toml -o a.svg --set outlines.iso=high", "outlines.iso cannot be \"high\""),
         ("strokes ball.toml -o a.svg --set outlines.width=3", "outlines.width cannot be 3"),
         ("strokes ball.toml -o a.svg --set hatching.chord=1e-9", "hatching.chord is below 0.0001 voxels"),
-        ("strokes ball.toml -o a.svg --set hatching.spacing=\"3voxels\"", "\"random\", \"tone\""),
+        ("strokes ball.toml -o a.svg --set hatching.spacing=\"3voxels\"", "hatching.spacing cannot be \"3voxels\""),
         (
             "strokes ball.toml -o a.svg --set hatching.iso=transfer",
             "there is no transfer function that shows where strokes are",

@@ -219,7 +219,7 @@ mod tests {
                 let Traced { error, steps } = curve.within(tolerance);
                 assert!(error <= 8.0 * tolerance && steps > 4, "{}: {error:e}", curve.name);
             }
-            let [a, b] = [0.5, 0.25].map(|step| curve.in_steps_of(step).error);
+            let [a, b] = [0.25, 0.125].map(|step| curve.in_steps_of(step).error);
             assert!((a / b).log2() >= 3.8, "{}: {}", curve.name, (a / b).log2());
         }
     }
