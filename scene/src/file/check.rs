@@ -164,19 +164,29 @@ impl Check {
     /// Reads a table as far as it can be read; none if it is no table. Keys at fault have their defaults: a scene with
     /// a fault is never handed out, but what else is wrong with it must be seen.
     pub(crate) fn table<S>(&mut self, table: &Table<S>, item: &Item) -> Option<S> {
+        self.table_over(table, item, None)
+    }
+
+    /// The same, with what a preset supplied where the item has no key.
+    pub(crate) fn table_over<S>(&mut self, table: &Table<S>, item: &Item, supplied: Option<S>) -> Option<S> {
         let Value::Table(entries) = &item.value else {
             return self.wrong(item, table_expected(table));
         };
-        let mut result = (table.empty)();
+        let is_supplied = supplied.is_some();
+        let mut result = supplied.unwrap_or_else(table.empty);
         let dropped = self.alternatives(table, entries);
         self.unknown_keys(table, entries);
         for key in table.keys.iter().filter(|key| !dropped.contains(key.name)) {
             match entries.get(key.name) {
                 Some(entry) => self.within(key.name, |check| {
-                    check.note(&entry.name);
+                    // A preset's table of which a key is overridden is still the preset's.
+                    let is_over = || key.field.write(&result) != key.field.write(&(table.empty)());
+                    if !(entry.item.is_way && is_over()) {
+                        check.note(&entry.name);
+                    }
                     key.field.read(&entry.item, &mut result, check);
                 }),
-                None if key.required => self.missing(key, &item.place),
+                None if key.required && !is_supplied => self.missing(key, &item.place),
                 None => {}
             }
         }

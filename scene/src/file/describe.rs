@@ -150,6 +150,12 @@ pub(crate) trait Kind: Shape {
     /// Reads an item; none where it is at fault, which has then been said.
     fn read(&self, item: &Item, check: &mut Check) -> Option<Self::Of>;
 
+    /// Reads an item that overrides lead into, over what a preset supplied.
+    fn read_over(&self, item: &Item, supplied: Self::Of, check: &mut Check) -> Option<Self::Of> {
+        let _ = supplied;
+        self.read(item, check)
+    }
+
     /// Writes a value so that reading it gives the value again.
     fn write(&self, value: &Self::Of) -> Out;
 }
@@ -173,7 +179,11 @@ pub(crate) struct Slot<S, K: Kind> {
 
 impl<S, K: Kind> Field<S> for Slot<S, K> {
     fn read(&self, item: &Item, into: &mut S, check: &mut Check) {
-        if let Some(value) = self.kind.read(item, check) {
+        let value = match (self.get)(into) {
+            Some(supplied) if item.is_way => self.kind.read_over(item, supplied, check),
+            _ => self.kind.read(item, check),
+        };
+        if let Some(value) = value {
             (self.set)(into, value);
         }
     }

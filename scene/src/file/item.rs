@@ -11,6 +11,8 @@ use toml::de::{DeTable, DeValue};
 pub(crate) struct Item {
     pub(crate) value: Value,
     pub(crate) place: Place,
+    /// Whether it is a table that overrides lead into and the file lacks: what they do not name stays as it is without it.
+    pub(crate) is_way: bool,
 }
 
 /// A TOML value.
@@ -43,7 +45,7 @@ impl Item {
         let (table, errors) = DeTable::parse_recoverable(text);
         if errors.is_empty() {
             let place = |byte: usize| lines.place(byte);
-            Ok(Self { value: Value::Table(entries(table.get_ref(), &place)), place: place(0) })
+            Ok(Self { value: Value::Table(entries(table.get_ref(), &place)), place: place(0), is_way: false })
         } else {
             let fault = |e: toml::de::Error| {
                 let byte = e.span().map_or(0, |span| span.start);
@@ -57,7 +59,7 @@ impl Item {
     pub(crate) fn from_override(text: &str, place: &Place) -> Self {
         match DeValue::parse(text) {
             Ok(value) => item(&value, &|_| place.clone()),
-            Err(_) => Self { value: Value::Text(text.to_owned()), place: place.clone() },
+            Err(_) => Self { value: Value::Text(text.to_owned()), place: place.clone(), is_way: false },
         }
     }
 
@@ -130,7 +132,7 @@ fn item(value: &Spanned<DeValue<'_>>, place: &dyn Fn(usize) -> Place) -> Item {
         DeValue::Array(items) => Value::List(items.iter().map(|i| item(i, place)).collect()),
         DeValue::Table(table) => Value::Table(entries(table, place)),
     };
-    Item { value: converted, place: place(value.span().start) }
+    Item { value: converted, place: place(value.span().start), is_way: false }
 }
 
 #[cfg(test)]
@@ -148,8 +150,11 @@ mod tests {
         let camera = &root["camera"];
         assert_eq!((&camera.name, &camera.item.place), (&at(2, 2), &at(2, 1)));
         let Value::Table(keys) = &camera.item.value else { panic!() };
-        assert_eq!(keys["fov"].item, Item { value: Value::Number(40.5), place: at(3, 7) });
-        assert_eq!(keys["up"].item.list().unwrap()[1], Item { value: Value::Whole(1), place: at(4, 10) });
+        assert_eq!(keys["fov"].item, Item { value: Value::Number(40.5), place: at(3, 7), is_way: false });
+        assert_eq!(
+            keys["up"].item.list().unwrap()[1],
+            Item { value: Value::Whole(1), place: at(4, 10), is_way: false }
+        );
     }
 
     #[test]

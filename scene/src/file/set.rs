@@ -142,7 +142,7 @@ fn put(item: &mut Item, steps: &[String], new: Option<Item>, place: &Place) -> R
         if new.is_none() {
             return Ok(());
         }
-        *item = Item { value: Value::Table(Default::default()), place: place.clone() };
+        *item = Item { value: Value::Table(Default::default()), place: place.clone(), is_way: false };
     }
     let Value::Table(entries) = &mut item.value else { return Ok(()) };
     match (rest, new) {
@@ -158,7 +158,7 @@ fn put(item: &mut Item, steps: &[String], new: Option<Item>, place: &Place) -> R
         (_, new) => {
             let empty = || Entry {
                 name: place.clone(),
-                item: Item { value: Value::Table(Default::default()), place: place.clone() },
+                item: Item { value: Value::Table(Default::default()), place: place.clone(), is_way: true },
             };
             put(&mut entries.entry(step.clone()).or_insert_with(empty).item, rest, new, place)
         }

@@ -31,6 +31,10 @@ impl<S> Kind for TableOf<S> {
         check.table(self.0, item)
     }
 
+    fn read_over(&self, item: &Item, supplied: S, check: &mut Check) -> Option<S> {
+        check.table_over(self.0, item, Some(supplied))
+    }
+
     fn write(&self, value: &S) -> Out {
         let keys = self.0.keys.iter().filter_map(|key| key.field.write(value).map(|out| (key.name.to_owned(), out)));
         let open = self.0.open.map(|open| open.write(value)).unwrap_or_default();

@@ -1,7 +1,7 @@
 //! `--set` and files that are looked for.
 
 use super::*;
-use crate::tables::{GradientRange, Length, NodeColor, Projection, StyleSource, VolumeSource};
+use crate::tables::{GradientRange, Length, NodeColor, Projection, Stipples, StyleSource, VolumeSource};
 use std::path::PathBuf;
 
 const SCENE: &str = "drypoint = 1
@@ -67,6 +67,31 @@ fn an_override_can_make_an_effect() {
     assert_eq!(with(&[]), None);
     assert_eq!(with(&[("contours", "{}")]), Some(crate::tables::Contours::default()));
     assert_eq!(with(&[("contours.thickness", "4")]).unwrap().thickness, Length::World(4.0));
+}
+
+/// A key of a table that the preset supplies is set in that table, however deep; a table that is given whole, by the file or
+/// an override, takes the preset's place ([SCN-3]).
+#[test]
+fn an_override_changes_a_key_of_a_preset_and_leaves_the_others() {
+    let base = "drypoint = 1\npreset = \"stipple-fig1\"\n[volume]\nfile = \"a\"\n";
+    let read = |text: &str, settings: &[(&str, &str)]| {
+        parse(text, Path::new("s"), &settings.iter().copied().collect()).unwrap()
+    };
+    let preset = read(base, &[]).stipples.unwrap();
+    let scene = read(base, &[("stipples.seed", "7"), ("stipples.boundary.gs", "0.25")]);
+    let mut wanted = preset.clone();
+    wanted.seed = 7;
+    wanted.boundary.as_mut().unwrap().gs = 0.25;
+    assert_eq!(scene.stipples, Some(wanted));
+    assert!(!scene.given.contains("stipples") && scene.given.contains("stipples.seed"));
+    let whole = read(base, &[("stipples", "{ seed = 7 }")]).stipples;
+    assert_eq!(whole, Some(Stipples { seed: 7, ..Stipples::default() }));
+    let file = format!("{base}[stipples]\n");
+    assert_eq!(read(&file, &[("stipples.seed", "7")]).stipples, whole);
+    // The preset itself may be an override, before or after.
+    let bare = "drypoint = 1\n[volume]\nfile = \"a\"\n";
+    let both = read(bare, &[("stipples.seed", "7"), ("preset", "stipple-fig1")]).stipples;
+    assert_eq!(both, Some(Stipples { seed: 7, ..preset }));
 }
 
 #[test]
