@@ -53,8 +53,7 @@ fn strokes_fill_what_is_seen() {
     // Some are outside the surface that has the value 1, some inside, and none where nothing is seen.
     let depths: Vec<f64> = lines.iter().map(|line| value(line.vertices[0].world)).collect();
     assert!(depths.iter().any(|d| *d < 0.6) && depths.iter().any(|d| *d > 1.4));
-    let beyond = depths.iter().filter(|d| !(-0.3..2.3).contains(*d)).count();
-    assert!(beyond * 50 < lines.len(), "{beyond}");
+    assert!(depths.iter().all(|d| (-0.1..2.1).contains(d)));
 }
 
 /// A surface beside them hides what lies behind it.
