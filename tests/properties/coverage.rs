@@ -12,9 +12,9 @@ const NOT_DRAWN: [(&str, &str); 9] = [
     ("preset", "it fills in tables that a drawn scene has itself"),
     ("picture.width", "another word for size, which is drawn"),
     ("picture.height", "another word for size, which is drawn"),
-    ("hatching", "it is drawn over a picture, as stipples are"),
-    ("outlines", "they are drawn over a picture, as stipples are"),
-    ("stipples", "they are drawn over a picture, not by its rays, which the properties are about"),
+    ("hatching", "marks/ draws every key of it"),
+    ("outlines", "marks/ draws every key of them"),
+    ("stipples", "marks/ draws every key of them"),
     ("styles.*", "it names a file: styles are handed over decoded, themes are drawn"),
     ("volume.raw", "the layout of a file: voxels are handed over, of every type"),
 ];
@@ -24,7 +24,7 @@ const COLORS: [&str; 2] = [".color = ", ".tones[][] = "];
 
 /// What there is to draw: keys such as `camera.fov`, `transfer.nodes[].at` and `styles.*`, and for keys that are one of
 /// some names `sampling.kernel = bspline`.
-fn described(path: &str, schema: &Json, all: &mut BTreeSet<String>) {
+pub(super) fn described(path: &str, schema: &Json, all: &mut BTreeSet<String>) {
     let below = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
     let list = |key: &str| schema[key].as_array().map(Vec::as_slice).unwrap_or_default();
     for (name, property) in schema["properties"].as_object().into_iter().flatten() {
@@ -45,7 +45,7 @@ fn described(path: &str, schema: &Json, all: &mut BTreeSet<String>) {
 }
 
 /// The keys of a scene with their values, and the names that they are.
-fn drawn(path: &str, value: &Value, described: &BTreeSet<String>, all: &mut Vec<(String, String)>) {
+pub(super) fn drawn(path: &str, value: &Value, described: &BTreeSet<String>, all: &mut Vec<(String, String)>) {
     match value {
         Value::Table(table) => {
             for (name, value) in table {

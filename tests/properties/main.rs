@@ -7,6 +7,7 @@ mod along_ray;
 mod coverage;
 mod generator;
 mod lanes;
+mod marks;
 mod orbit;
 mod order;
 mod over_two;
