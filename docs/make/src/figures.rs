@@ -14,8 +14,15 @@ use drypoint::scene::picture::{Layer, LayerKind, Picture};
 use drypoint::scene::tables::{Background, Scene};
 use std::path::{Path, PathBuf};
 
+/// What makes a file of a picture.
+type Encode = fn(&Picture) -> Result<Vec<u8>, png::EncodingError>;
+
 /// The most bytes of a picture in `docs`.
 const LARGEST: usize = 300_000;
+
+/// Scenes that are shown beside the figures.
+const OTHERS: [&str; 6] =
+    ["skull-plotter", "outlines-engine", "hatching-aneurism", "hatching-engine", "hatching-skull", "plotter-page"];
 
 /// The darkest κ_v of a map of curvature, per world unit.
 const BLACK: f64 = 1.0;
@@ -28,10 +35,7 @@ pub(crate) fn write() -> Result<(), String> {
     for scene in scenes()? {
         let (Some(paper), Some(name)) = (scene.parent().and_then(Path::file_name), scene.file_stem()) else { continue };
         let file = format!("pictures/{}/{}.png", paper.display(), name.display());
-        let bytes = picture(&scene).and_then(|(picture, ink)| {
-            let bytes = if ink { ink_png(&picture) } else { opaque_png(&picture) };
-            bytes.map_err(|e| e.to_string())
-        });
+        let bytes = picture(&scene).and_then(|(picture, encode)| encode(&picture).map_err(|e| e.to_string()));
         let bytes = bytes.map_err(|e| format!("{file}: {e}"))?;
         if bytes.len() > LARGEST {
             return Err(format!(
@@ -44,7 +48,7 @@ pub(crate) fn write() -> Result<(), String> {
     Ok(())
 }
 
-/// The scenes of figures, but not the twins with regular functions, which are there to be timed, and those of Fig. 1 of styles,
+/// The scenes of figures and [`OTHERS`], but not the twins with regular functions, which are there to be timed, and those of Fig. 1 of styles,
 /// which are laid out beside the painting.
 fn scenes() -> Result<Vec<PathBuf>, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes");
@@ -58,9 +62,7 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
         scenes.extend(entries(paper)?.into_iter().filter(|path| {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             path.extension().is_some_and(|e| e == "toml")
-                && (stem.starts_with("figure_")
-                    || stem.starts_with("two_quantities_")
-                    || ["skull-plotter", "outlines-engine", "hatching-engine", "hatching-skull"].contains(&&*stem))
+                && (stem.starts_with("figure_") || stem.starts_with("two_quantities_") || OTHERS.contains(&&*stem))
                 && !(stem.ends_with("_regular") || (styles && stem.starts_with("figure_1_")))
         }));
     }
@@ -68,8 +70,8 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
     Ok(scenes)
 }
 
-/// The picture of a scene, and whether it is dots and lines of black ink.
-fn picture(scene: &Path) -> Result<(Picture, bool), String> {
+/// The picture of a scene, and how it becomes a file.
+fn picture(scene: &Path) -> Result<(Picture, Encode), String> {
     let mut scene = load(scene, &Overrides::default()).map_err(|e| e.to_string())?;
     let is_map = scene.picture.layers.contains(&LayerKind::CurvatureAlongView);
     if is_map {
@@ -78,12 +80,20 @@ fn picture(scene: &Path) -> Result<(Picture, bool), String> {
     if scene.has_marks() {
         let colored = scene.draws_volume() && scene.stipples.is_none()
             || scene.hatching.as_ref().is_some_and(|hatching| hatching.lighting.is_some());
-        return marks(scene, colored).map_err(|e| e.to_string()).map(|picture| (picture, !colored));
+        let black = scene.pens.iter().all(|pen| pen.color[..3].iter().all(|c| *c == pen.color[0]));
+        let encode = if colored {
+            opaque_png
+        } else if black {
+            ink_png
+        } else {
+            inks_png
+        };
+        return marks(scene, colored).map_err(|e| e.to_string()).map(|picture| (picture, encode as Encode));
     }
     let job = Job::load(scene).map_err(|e| e.to_string())?;
     let (picture, _) = job.renderer().map_err(|e| e.to_string())?.frame(&|_| ());
     let picture = if is_map { map(&picture).ok_or("the picture has no curvature")? } else { picture };
-    Ok((picture, false))
+    Ok((picture, opaque_png))
 }
 
 /// Dots and lines, on their page, or where they have colours over the volume.
@@ -116,7 +126,20 @@ fn ink_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
             data.extend(pixels.chunks(2).map(|pair| (pair[0] << 4) | pair.get(1).copied().unwrap_or(0)));
         }
     }
-    encode(picture, png::ColorType::Grayscale, png::BitDepth::Four, &data)
+    encode(picture, (png::ColorType::Grayscale, None), png::BitDepth::Four, &data)
+}
+
+/// Ink of several colours on white, each channel in six steps: a table of 216 colours, a third of the file.
+fn inks_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
+    let mut data = Vec::with_capacity(picture.width * picture.height);
+    if let Some([r, g, b, ..]) = picture.layer(LayerKind::Beauty).map(|layer| layer.channels.as_slice()) {
+        data.extend(r.iter().zip(g).zip(b).map(|((&r, &g), &b)| {
+            let [r, g, b, _] = straight_srgb([r, g, b, 1.0]);
+            [r, g, b].iter().fold(0, |code, c| 6 * code + quantize(*c, 5) as u8)
+        }));
+    }
+    let palette = (0..216u8).flat_map(|code| [code / 36, code / 6 % 6, code % 6]).map(|step| 51 * step).collect();
+    encode(picture, (png::ColorType::Indexed, Some(palette)), png::BitDepth::Eight, &data)
 }
 
 /// An opaque picture as 8 bits of sRGB without alpha, the smallest file.
@@ -128,12 +151,12 @@ fn opaque_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
             data.extend([r, g, b].map(|c| quantize(c, 255) as u8));
         }
     }
-    encode(picture, png::ColorType::Rgb, png::BitDepth::Eight, &data)
+    encode(picture, (png::ColorType::Rgb, None), png::BitDepth::Eight, &data)
 }
 
 fn encode(
     picture: &Picture,
-    color: png::ColorType,
+    (color, palette): (png::ColorType, Option<Vec<u8>>),
     depth: png::BitDepth,
     data: &[u8],
 ) -> Result<Vec<u8>, png::EncodingError> {
@@ -141,6 +164,9 @@ fn encode(
     let mut encoder = png::Encoder::new(&mut file, picture.width as u32, picture.height as u32);
     encoder.set_color(color);
     encoder.set_depth(depth);
+    if let Some(palette) = palette {
+        encoder.set_palette(palette);
+    }
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     encoder.set_compression(png::Compression::High);
     encoder.write_header()?.write_image_data(data)?;

@@ -14,6 +14,7 @@ pub mod over;
 pub mod page;
 pub mod pen;
 pub mod picture;
+mod preset;
 pub mod sampling;
 pub mod scene;
 pub mod shading;

@@ -1,9 +1,7 @@
 //! The scene: the top of a scene file ([SCN-1], [SCN-3]).
 
-use super::hatching::HatchPreset;
-use super::stipples::StipplePreset;
+use super::preset::PRESETS;
 use super::styles::check_styles;
-use super::toon::ToonPreset;
 use super::{
     Camera, Contours, Hatching, LightDirection, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling,
     Shading, Stipples, StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
@@ -16,7 +14,7 @@ use crate::file::Given;
 use crate::file::check::Check;
 use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
 use crate::file::item::{Item, Value};
-use crate::file::kind::{Choice, ChoiceOption, ListOf, TableOf};
+use crate::file::kind::{ListOf, TableOf};
 use crate::file::out::Out;
 use crate::plan::{Pass, Quantity};
 use serde_json::{Value as Json, json};
@@ -108,21 +106,6 @@ impl Scene {
             given: Given::default(),
         }
     }
-}
-
-/// What `preset` names.
-#[derive(Clone, Copy, PartialEq)]
-enum Preset {
-    /// An automatic style transfer function.
-    Style,
-    /// A table `[stipples]`.
-    Stipples(StipplePreset),
-    /// A table `[hatching]`, and what belongs to the picture.
-    Hatch(HatchPreset),
-    /// A table `[outlines]`.
-    Outline,
-    /// Tables `[surface]` and `[shading]`.
-    Toon(ToonPreset),
 }
 
 /// The version of the format.
@@ -228,106 +211,10 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 "SCN-3",
                 "Whole tables for a scene that lacks them.",
                 &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("style", Preset::Style, "An automatic style transfer function."),
-                            ChoiceOption::new(
-                                "stipple",
-                                Preset::Stipples(StipplePreset::Plain),
-                                "Stipples on boundaries and silhouettes, one layer a face.",
-                            ),
-                            ChoiceOption::new(
-                                "stipple-fig1",
-                                Preset::Stipples(StipplePreset::Fig1),
-                                "Boundary, silhouette and curves of Lu et al., Fig. 1: the engine.",
-                            ),
-                            ChoiceOption::new(
-                                "stipple-fig4",
-                                Preset::Stipples(StipplePreset::Fig4),
-                                "Resolution, Fig. 4: the leg.",
-                            ),
-                            ChoiceOption::new(
-                                "stipple-fig5",
-                                Preset::Stipples(StipplePreset::Fig5),
-                                "Distance, Fig. 5: the engine.",
-                            ),
-                            ChoiceOption::new(
-                                "stipple-fig6",
-                                Preset::Stipples(StipplePreset::Fig6),
-                                "Interior, Fig. 6: the bonsai.",
-                            ),
-                            ChoiceOption::new(
-                                "stipple-fig7",
-                                Preset::Stipples(StipplePreset::Fig7),
-                                "Lighting, Fig. 7: the aneurysm.",
-                            ),
-                            ChoiceOption::new(
-                                "stipple-fig8",
-                                Preset::Stipples(StipplePreset::Fig8),
-                                "Curves, Fig. 8: the foot.",
-                            ),
-                            ChoiceOption::new(
-                                "stipple-fig9",
-                                Preset::Stipples(StipplePreset::Fig9),
-                                "Silhouette, boundary, distance and curves, Fig. 9: the head.",
-                            ),
-                            ChoiceOption::new(
-                                "hatch",
-                                Preset::Hatch(HatchPreset::Plain),
-                                "Hatching for a pen of one width, crossed in the dark, with outlines.",
-                            ),
-                            ChoiceOption::new(
-                                "hatch-fig4",
-                                Preset::Hatch(HatchPreset::Fig4),
-                                "Lit strokes over a lit iso-surface, as in Fig. 4 of Nagy et al.",
-                            ),
-                            ChoiceOption::new(
-                                "hatch-fig5",
-                                Preset::Hatch(HatchPreset::Fig5),
-                                "Lit strokes alone, blue in front and yellow behind, Fig. 5.",
-                            ),
-                            ChoiceOption::new(
-                                "hatch-fig6-left",
-                                Preset::Hatch(HatchPreset::Fig6Left),
-                                "Strokes where the surface bends, crossed in the dark, as in Nagy et al., Fig. 6, left.",
-                            ),
-                            ChoiceOption::new(
-                                "hatch-fig6-right",
-                                Preset::Hatch(HatchPreset::Fig6Right),
-                                "A short stroke in every cell, Fig. 6, right.",
-                            ),
-                            ChoiceOption::new("outline", Preset::Outline, "Outlines alone, of what is opaque."),
-                            ChoiceOption::new(
-                                "toon",
-                                Preset::Toon(ToonPreset::Plain),
-                                "An iso-surface in three tones of its colour, with silhouettes.",
-                            ),
-                            ChoiceOption::new(
-                                "hatch-fig2",
-                                Preset::Toon(ToonPreset::Fig2),
-                                "The same in two tones, with the half-level lighting of Nagy et al., Fig. 2.",
-                            ),
-                        ],
-                        later: &[("halo", "HALO-1")],
-                    },
+                    kind: PRESETS,
                     get: |_| None,
                     // It is read before the tables, of which each that the file has takes the place of the preset's.
-                    set: |scene: &mut Scene, preset| match preset {
-                        Preset::Style => scene.transfer = Some(Transfer::automatic(TransferKind::Style)),
-                        Preset::Stipples(preset) => scene.stipples = Some(preset.table()),
-                        Preset::Hatch(preset) => {
-                            scene.hatching = Some(preset.table());
-                            scene.outlines = preset.outlines();
-                            if let Some((surface, shading)) = preset.surface() {
-                                (scene.surface, scene.shading) = (Some(surface), Some(shading));
-                            }
-                        }
-                        Preset::Outline => scene.outlines = Some(Outlines::default()),
-                        Preset::Toon(preset) => {
-                            let (surface, shading) = preset.tables();
-                            (scene.surface, scene.shading) = (Some(surface), Some(shading));
-                        }
-                    },
+                    set: |scene: &mut Scene, preset| preset.supply(scene),
                 },
             )
             .absent("\"style\" where the scene draws nothing else"),

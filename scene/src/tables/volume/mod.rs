@@ -1,0 +1,301 @@
+//! `[volume]`: the data that is seen.
+
+mod gradient_range;
+mod layout;
+mod phantom;
+mod raw;
+
+pub use gradient_range::GradientRange;
+pub(crate) use gradient_range::quantile;
+pub use phantom::PhantomSource;
+pub use raw::RawLayout;
+
+use crate::file::describe::{Instead, Key, Slot, Table};
+use crate::file::fault::Problem;
+use crate::file::kind::{Bounds, Choice, ChoiceOption, Numbers, PathTo, Rule, TableOf};
+use crate::plan::{Pass, Quantity};
+use crate::tables::{NormalSide, Unit};
+use gradient_range::Quantile;
+use phantom::PHANTOM;
+use raw::RAW;
+use std::path::PathBuf;
+
+/// The table `[volume]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VolumeTable {
+    /// Where the voxels come from.
+    pub source: VolumeSource,
+    /// What the values mean.
+    pub ids: Ids,
+    /// The file of the label volume beside the data, resolved as the volume's ([STF-13]).
+    pub labels: Option<PathBuf>,
+    /// The table of its labels' names.
+    pub label_names: Option<PathBuf>,
+    /// Which label lies between voxels.
+    pub label_lookup: LabelLookup,
+    /// The value range of `normalized` ([VAL-1]); none: the volume's own.
+    pub range: Option<[f64; 2]>,
+    /// The range of ‖g‖ that |g| maps to [0, 1] ([VAL-2]).
+    pub gradient_range: GradientRange,
+    /// Which values lie outside a surface ([NORM-1]).
+    pub outside: Outside,
+}
+
+/// Where the voxels come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VolumeSource {
+    /// A volume file, already resolved against the scene's folder.
+    File {
+        /// Path to open.
+        path: PathBuf,
+        /// Layout of a file without header.
+        raw: Option<RawLayout>,
+    },
+    /// A phantom of our own ([IO-4]).
+    Phantom(PhantomSource),
+}
+
+/// What the values of a volume mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ids {
+    /// A quantity: between two values lie all that are between them.
+    Values,
+    /// Ids of parts, between which nothing lies: what has an id above 0 is 1, all else 0.
+    Mask,
+}
+
+/// Which label lies between voxels ([STF-13]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LabelLookup {
+    /// That of the nearest voxel.
+    Nearest,
+    /// That with the highest sum of trilinear weights among the eight voxels around.
+    Smooth,
+}
+
+/// Which values lie outside ([NORM-1]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outside {
+    /// Values fall towards the outside: N = −g/‖g‖.
+    Low,
+    /// Values rise towards the outside: N = +g/‖g‖.
+    High,
+}
+
+impl VolumeTable {
+    /// The table with every default, for a source.
+    pub fn new(source: VolumeSource) -> Self {
+        Self {
+            source,
+            ids: Ids::Values,
+            labels: None,
+            label_names: None,
+            label_lookup: LabelLookup::Nearest,
+            range: None,
+            gradient_range: GradientRange::Quantile(0.999),
+            outside: Outside::Low,
+        }
+    }
+}
+
+/// The description of `[volume]`.
+pub(crate) static TABLE: Table<VolumeTable> = Table {
+    instead: &[Instead { one: "phantom", others: &["file"] }],
+    check: |_, check| {
+        if !check.has("file") && !check.has("phantom") {
+            let expected = "file = \"…\", or phantom = { name = \"…\" }".into();
+            check.fault_in("file", Problem::Missing { expected });
+        }
+    },
+    serves: |scene, asks| {
+        if let (GradientRange::Quantile(_), Some(need)) =
+            (scene.volume.gradient_range, asks.first(Quantity::GradientMagnitudeRange))
+        {
+            let effect = need.effect.clone();
+            asks.pass(Pass::GradientRange, &effect, "volume.gradient_range");
+        }
+    },
+    idle: |scene, plan, idle| {
+        if matches!(scene.volume.source, VolumeSource::Phantom(_)) {
+            idle.key("volume.raw", "a phantom has no file");
+        }
+        let stippled = scene.stipples.is_some();
+        if !stippled && scene.transfer.as_ref().is_some_and(|transfer| transfer.unit != Unit::Normalized) {
+            idle.key("volume.range", "only transfer.unit = \"normalized\" is measured in it");
+        }
+        let why = match scene.volume.labels {
+            Some(_) if plan.reads_labels() => None,
+            Some(_) => Some("nothing reads a label"),
+            None => Some("volume.labels names no label volume"),
+        };
+        if let Some(why) = why {
+            for key in ["volume.labels", "volume.label_names", "volume.label_lookup"] {
+                idle.key(key, why);
+            }
+        }
+        if !stippled && !plan.needs(Quantity::GradientMagnitudeRange) {
+            idle.key("volume.gradient_range", "nothing reads |g|");
+        }
+        let turned = scene.sampling.normal == NormalSide::Outward || plan.needs_at_first(Quantity::Hessian);
+        if !(stippled || scene.has_strokes() || turned && plan.reads_gradients()) {
+            idle.key("volume.outside", "nothing reads an outward normal or a signed curvature");
+        }
+    },
+    ..Table::new(
+        "[volume]",
+        "The data that is seen: a file, or a phantom of our own. A file that is not there is looked for in the folders \
+         that DRYPOINT_DATA lists.",
+        || VolumeTable::new(VolumeSource::File { path: PathBuf::new(), raw: None }),
+        &[
+            Key::new(
+                "file",
+                "IO-1",
+                "A volume file: NRRD, NIfTI, MetaImage or raw voxels.",
+                &Slot {
+                    kind: PathTo { what: "a volume" },
+                    get: |t: &VolumeTable| match &t.source {
+                        VolumeSource::File { path, .. } => Some(path.clone()).filter(|path| path.as_os_str() != ""),
+                        VolumeSource::Phantom(_) => None,
+                    },
+                    set: |t, path| t.source = VolumeSource::File { path, raw: None },
+                },
+            )
+            .absent("`phantom` in its place"),
+            Key::new(
+                "phantom",
+                "IO-4",
+                "A volume with known truth, made by the program.",
+                &Slot {
+                    kind: TableOf(&PHANTOM),
+                    get: |t: &VolumeTable| match &t.source {
+                        VolumeSource::File { .. } => None,
+                        VolumeSource::Phantom(phantom) => Some(phantom.clone()),
+                    },
+                    set: |t, phantom| t.source = VolumeSource::Phantom(phantom),
+                },
+            )
+            .absent("`file` in its place"),
+            Key::new(
+                "raw",
+                "IO-1",
+                "Layout of a file without a header. FILE.toml beside it may hold the same.",
+                &Slot {
+                    kind: TableOf(&RAW),
+                    get: |t: &VolumeTable| match &t.source {
+                        VolumeSource::File { raw, .. } => raw.clone(),
+                        VolumeSource::Phantom(_) => None,
+                    },
+                    set: |t, layout| {
+                        if let VolumeSource::File { raw, .. } = &mut t.source {
+                            *raw = Some(layout);
+                        }
+                    },
+                },
+            )
+            .absent("the file's header, or FILE.toml beside it"),
+            Key::new(
+                "ids",
+                "STF-13",
+                "What the values mean: quantities, or the ids of parts that are shown as one.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("values", Ids::Values, "Each value stands for itself."),
+                            ChoiceOption::new(
+                                "mask",
+                                Ids::Mask,
+                                "Every value above 0 counts as 1, every other as 0; the surface lies at 0.5.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |t: &VolumeTable| Some(t.ids),
+                    set: |t, v| t.ids = v,
+                },
+            ),
+            Key::new(
+                "labels",
+                "STF-13",
+                "A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on \
+                 another grid; outside its box the label is 0.",
+                &Slot {
+                    kind: PathTo { what: "a label volume" },
+                    get: |t: &VolumeTable| t.labels.clone(),
+                    set: |t, path| t.labels = Some(path),
+                },
+            )
+            .absent("no labels"),
+            Key::new(
+                "label_names",
+                "STF-13",
+                "The names of the labels: a CSV file with an id and a name on each line.",
+                &Slot {
+                    kind: PathTo { what: "a table of names" },
+                    get: |t: &VolumeTable| t.label_names.clone(),
+                    set: |t, path| t.label_names = Some(path),
+                },
+            )
+            .absent("labels have no names"),
+            Key::new(
+                "label_lookup",
+                "STF-13",
+                "Which label lies between voxels.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("nearest", LabelLookup::Nearest, "That of the nearest voxel."),
+                            ChoiceOption::new(
+                                "smooth",
+                                LabelLookup::Smooth,
+                                "That with the highest sum of trilinear weights among the eight voxels around: borders \
+                                 are not blocky.",
+                            ),
+                        ],
+                        later: &[],
+                    },
+                    get: |t: &VolumeTable| Some(t.label_lookup),
+                    set: |t, v| t.label_lookup = v,
+                },
+            )
+            .needs(&[Quantity::Label]),
+            Key::new(
+                "range",
+                "VAL-1",
+                "The values that `unit = \"normalized\"` maps to 0 and 1.",
+                &Slot {
+                    kind: Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending },
+                    get: |t: &VolumeTable| t.range,
+                    set: |t, v| t.range = Some(v),
+                },
+            )
+            .absent("the volume's own"),
+            Key::new(
+                "gradient_range",
+                "VAL-2",
+                "What |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per \
+                 world unit.",
+                &Slot {
+                    kind: Quantile,
+                    get: |t: &VolumeTable| Some(t.gradient_range),
+                    set: |t, v| t.gradient_range = v,
+                },
+            ),
+            Key::new(
+                "outside",
+                "NORM-1",
+                "Which values lie outside a surface.",
+                &Slot {
+                    kind: Choice {
+                        options: &[
+                            ChoiceOption::new("low", Outside::Low, "Values fall towards the outside."),
+                            ChoiceOption::new("high", Outside::High, "Values rise towards the outside."),
+                        ],
+                        later: &[],
+                    },
+                    get: |t: &VolumeTable| Some(t.outside),
+                    set: |t, v| t.outside = v,
+                },
+            ),
+        ],
+    )
+};
