@@ -14,8 +14,7 @@ mod waiting;
 mod walk;
 
 use self::phong::{Shaded, Unshaded};
-use self::style::InStyle;
-use self::waiting::Waiting;
+use self::waiting::cast_waiting;
 use self::walk::Walk;
 use super::cast::Cast;
 use super::lattice::IndexRay;
@@ -76,23 +75,65 @@ pub(super) fn cast_all(
         casts.extend(points.iter().map(|_| Cast { rgba: [0.0; 4], sums: None, samples: 0 }));
         return;
     }
-    let mut packet = Packet::new(prepared);
-    packet.inside = boxes.as_ref().is_some_and(|boxes| boxes.are_inside(prepared.ends.map(Vec3::to_glam)));
-    for points in points.chunks(LANES) {
-        packet.aim(points, boxes.as_deref());
+    let inside = boxes.as_ref().is_some_and(|boxes| boxes.are_inside(prepared.ends.map(Vec3::to_glam)));
+    let boxes = boxes.as_deref().map(|boxes| (boxes, inside));
+    let mut intervals = Default::default();
+    let at_once = if matches!(prepared.look, Look::Style(_)) { RAYS } else { LANES };
+    let mut packets = Vec::with_capacity(at_once / LANES);
+    packets.resize_with(at_once.min(points.len()).div_ceil(LANES), || Packet::new(prepared));
+    for points in points.chunks(at_once) {
+        let packets = &mut packets[..points.len().div_ceil(LANES)];
+        for (packet, points) in packets.iter_mut().zip(points.chunks(LANES)) {
+            packet.aim(points, boxes, &mut intervals);
+        }
         match prepared.volume.voxels() {
-            Voxels::U8(data) => packet.run(data, counts),
-            Voxels::I8(data) => packet.run(data, counts),
-            Voxels::U16(data) => packet.run(data, counts),
-            Voxels::I16(data) => packet.run(data, counts),
+            Voxels::U8(data) => run(prepared, packets, data, counts),
+            Voxels::I8(data) => run(prepared, packets, data, counts),
+            Voxels::U16(data) => run(prepared, packets, data, counts),
+            Voxels::I16(data) => run(prepared, packets, data, counts),
             _ => unreachable!("lanes serve 8 and 16 bits alone"),
         }
-        for lane in 0..points.len() {
-            let samples = packet.samples(lane);
-            counts.rays += 1;
-            counts.rays_skipped += u64::from(samples == 0);
-            counts.samples += samples;
-            casts.push(Cast { rgba: packet.rgba[lane], sums: None, samples });
+        for (packet, points) in packets.iter().zip(points.chunks(LANES)) {
+            for lane in 0..points.len() {
+                let samples = packet.samples(lane);
+                counts.rays += 1;
+                counts.rays_skipped += u64::from(samples == 0);
+                counts.samples += samples;
+                casts.push(Cast { rgba: packet.rgba[lane], sums: None, samples });
+            }
+        }
+    }
+}
+
+/// Casts the rays of packets.
+fn run<V: Packed>(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], data: &[V], counts: &mut Counts) {
+    if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
+        simd.vectorize(
+            #[inline(always)]
+            || walk(simd, prepared, packets, data, counts),
+        );
+    }
+}
+
+#[inline(always)]
+fn walk<S: Simd, V: Packed>(
+    simd: S,
+    prepared: &Prepared<'_, f64>,
+    packets: &mut [Packet<'_, '_>],
+    data: &[V],
+    counts: &mut Counts,
+) {
+    if let Look::Style(styled) = &prepared.look {
+        return cast_waiting(simd, packets, styled, data, counts);
+    }
+    for packet in packets {
+        let walk = Walk::new(simd, packet, data);
+        match &prepared.look {
+            Look::Regular { colors, phong: Some(phong) } if prepared.needs == Needs::Normal => {
+                walk.run(packet, &mut Shaded::new(simd, packet, colors, phong), counts);
+            }
+            Look::Regular { colors, .. } => walk.run(packet, &mut Unshaded { colors }, counts),
+            Look::Style(_) | Look::Illustrated(_) => unreachable!("lanes serve regular functions and styles alone"),
         }
     }
 }
@@ -101,6 +142,11 @@ pub(super) fn cast_all(
 type Column = [f64; LANES];
 /// Four numbers of one ray.
 type Row = [f64; 4];
+/// Depths at which each of eight rays is in a visible brick.
+type Intervals = [Vec<[f64; 2]>; LANES];
+
+/// Rays whose samples wait for each other: those of a tile.
+const RAYS: usize = 8 * LANES;
 
 /// Rays side by side and what comes out of them. Lanes without a ray visit nothing.
 struct Packet<'p, 'v> {
@@ -123,11 +169,6 @@ struct Packet<'p, 'v> {
     /// First and last sample of each ray, and after the walk the one where it ended.
     ends: [Column; 2],
     rgba: [[f64; 4]; LANES],
-    /// Whether visible bricks are all farther than half a voxel from the end of the volume.
-    inside: bool,
-    /// Depths at which each ray is in a visible brick.
-    intervals: [Vec<[f64; 2]>; LANES],
-    waiting: Waiting,
 }
 
 impl<'p, 'v> Packet<'p, 'v> {
@@ -141,19 +182,17 @@ impl<'p, 'v> Packet<'p, 'v> {
             sights: [[0.0; 4]; LANES],
             eyes: [[0.0; 4]; LANES],
             half: [none; 3],
-            visits: Vec::new(),
+            visits: Vec::with_capacity(4 * LANES),
             of_ray: [[0; 2]; LANES],
-            together: Vec::new(),
+            together: Vec::with_capacity(4 * LANES),
             ends: [none; 2],
             rgba: [[0.0; 4]; LANES],
-            inside: false,
-            intervals: Default::default(),
-            waiting: Waiting::new(),
         }
     }
 
-    /// Takes the rays through other points.
-    fn aim(&mut self, points: &[[f64; 2]], boxes: Option<&Boxes>) {
+    /// Takes the rays through other points, past the boxes of visible bricks, with whether all of these are farther than half
+    /// a voxel from the end of the volume.
+    fn aim(&mut self, points: &[[f64; 2]], boxes: Option<(&Boxes, bool)>, intervals: &mut Intervals) {
         let prepared = self.prepared;
         self.visits.clear();
         self.of_ray = [[0; 2]; LANES];
@@ -163,7 +202,7 @@ impl<'p, 'v> Packet<'p, 'v> {
             let pixel = prepared.view.ray(point[0], point[1]);
             (pixel, IndexRay::<f64>::new(&pixel, &prepared.view, &prepared.lattice, prepared.volume.grid()))
         };
-        let Some(boxes) = boxes else {
+        let Some((boxes, inside)) = boxes else {
             for (lane, (pixel, ray)) in points.iter().map(aimed).enumerate() {
                 self.visits.extend(ray.visits(prepared.ends, None));
                 self.take(lane, &pixel, &ray);
@@ -176,23 +215,21 @@ impl<'p, 'v> Packet<'p, 'v> {
             rays[lane] = Some((pixel, ray));
             lines[lane] = Some(boxes.line(ray.line(), f64::EPSILON));
         }
-        let mut intervals = std::mem::take(&mut self.intervals);
         if let Some(simd) = wide() {
             simd.vectorize(
                 #[inline(always)]
-                || boxes::intervals(simd, boxes.ends(), &lines, &mut intervals),
+                || boxes::intervals(simd, boxes.ends(), &lines, intervals),
             );
         }
-        for (lane, (ray, intervals)) in rays.iter().zip(&mut intervals).enumerate() {
+        for (lane, (ray, intervals)) in rays.iter().zip(intervals).enumerate() {
             if let (Some((pixel, ray)), false) = (ray, intervals.is_empty()) {
                 merge(intervals);
-                let inside = if self.inside { ray.all_beyond_near() } else { None };
+                let inside = if inside { ray.all_beyond_near() } else { None };
                 let range = inside.unwrap_or_else(|| ray.inside(prepared.ends));
                 self.visits.extend(ray.parts(range, intervals));
                 self.take(lane, pixel, ray);
             }
         }
-        self.intervals = intervals;
         self.join();
     }
 
@@ -228,28 +265,6 @@ impl<'p, 'v> Packet<'p, 'v> {
         let last = self.ends[1][lane] as i64;
         self.visits[first..end].iter().map(|v| (v[1].min(last) + 1 - v[0]).max(0) as u64).sum()
     }
-
-    fn run<V: Packed>(&mut self, data: &[V], counts: &mut Counts) {
-        if let (false, Some(simd)) = (self.visits.is_empty(), wide()) {
-            simd.vectorize(
-                #[inline(always)]
-                || self.walk(simd, data, counts),
-            );
-        }
-    }
-
-    #[inline(always)]
-    fn walk<S: Simd, V: Packed>(&mut self, simd: S, data: &[V], counts: &mut Counts) {
-        let walk = Walk::new(simd, self, data);
-        match &self.prepared.look {
-            Look::Regular { colors, phong: Some(phong) } if self.prepared.needs == Needs::Normal => {
-                walk.run(self, &mut Shaded::new(simd, self, colors, phong), counts);
-            }
-            Look::Regular { colors, .. } => walk.run(self, &mut Unshaded { colors }, counts),
-            Look::Illustrated(_) => unreachable!("its needs are anything, which lanes serve for styles alone"),
-            Look::Style(styled) => walk.run_waiting(self, &mut InStyle::new(simd, self, styled), counts),
-        }
-    }
 }
 
 /// Sorts ranges and joins those that meet.
@@ -275,10 +290,10 @@ fn put(columns: &mut [Column; 3], lane: usize, v: Vec3<f64>) {
 
 /// Rows as columns, from the row of each lane.
 #[inline(always)]
-fn of_rays<S: Simd>(simd: S, of_ray: &[Row; LANES], rays: &[u8; LANES]) -> [f64x8<S>; 4] {
+fn of_rays<S: Simd, const N: usize>(simd: S, of_ray: &[Row; N], rays: &[u8; LANES]) -> [f64x8<S>; 4] {
     let mut rows = [f64x4::splat(simd, 0.0); LANES];
     for lane in 0..LANES {
-        rows[lane] = f64x4::simd_from(simd, of_ray[usize::from(rays[lane]) % LANES]);
+        rows[lane] = f64x4::simd_from(simd, of_ray[usize::from(rays[lane]) % N]);
     }
     columns(rows)
 }

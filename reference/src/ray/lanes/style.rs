@@ -1,9 +1,8 @@
 //! Styles in lanes (Bruckner and Gröller 2007), with what a sample has to know of the one before it on its ray.
 
 use super::normal::Normals;
-use super::waiting::Batch;
-use super::walk::Walk;
-use super::{Column, Packet, Row, of_rays};
+use super::waiting::{Batch, Tile};
+use super::{Packet, RAYS, Row, of_rays};
 use crate::field::lanes::{LANES, Packed};
 use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, select};
@@ -20,11 +19,11 @@ pub(super) struct InStyle<'p, S: Simd> {
     simd: S,
     styled: &'p Styled<f64>,
     /// v and Δ_ray of each ray.
-    sights: [Row; LANES],
+    sights: [Row; RAYS],
     /// v in eye space, and the smallest sample beyond `near`.
-    eyes: [Row; LANES],
+    eyes: [Row; RAYS],
     /// From the eye's frame to that of the sphere: w and the scale of each ray; none where they are one.
-    turns: Option<[Row; LANES]>,
+    turns: Option<[Row; RAYS]>,
     /// From world to eye space.
     axes: [Vec3<f64x8<S>>; 3],
     previous: Previous,
@@ -33,9 +32,9 @@ pub(super) struct InStyle<'p, S: Simd> {
 /// The last sample of each ray that was asked for a normal.
 struct Previous {
     /// Which one; NaN where there was none.
-    k: Column,
+    k: [f64; RAYS],
     /// N, and 1 where there is one, else 0.
-    n: [Row; LANES],
+    n: [Row; RAYS],
 }
 
 /// What samples look like.
@@ -69,9 +68,14 @@ impl Counted {
 
 impl<'p, S: Simd> InStyle<'p, S> {
     #[inline(always)]
-    pub(super) fn new(simd: S, packet: &Packet<'_, '_>, styled: &'p Styled<f64>) -> Self {
+    pub(super) fn new(simd: S, packets: &[Packet<'_, '_>], styled: &'p Styled<f64>) -> Self {
+        let (mut sights, mut eyes) = ([[0.0; 4]; RAYS], [[0.0; 4]; RAYS]);
+        for (i, packet) in packets.iter().enumerate() {
+            sights[LANES * i..][..LANES].copy_from_slice(&packet.sights);
+            eyes[LANES * i..][..LANES].copy_from_slice(&packet.eyes);
+        }
         let turns = (styled.frame == SphereFrame::View).then(|| {
-            packet.eyes.map(|[x, y, z, _]| {
+            eyes.map(|[x, y, z, _]| {
                 let (w, scale) = frame::rotation(Vec3::new(x, y, z));
                 [w.x, w.y, w.z, scale]
             })
@@ -84,11 +88,11 @@ impl<'p, S: Simd> InStyle<'p, S> {
         Self {
             simd,
             styled,
-            sights: packet.sights,
-            eyes: packet.eyes,
+            sights,
+            eyes,
             turns,
             axes,
-            previous: Previous { k: [f64::NAN; LANES], n: [[0.0; 4]; LANES] },
+            previous: Previous { k: [f64::NAN; RAYS], n: [[0.0; 4]; RAYS] },
         }
     }
 
@@ -96,7 +100,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
     #[inline(always)]
     fn kappa<V: Packed>(
         &mut self,
-        walk: &Walk<'_, '_, S, V>,
+        tile: &Tile<'_, '_, S, V>,
         batch: &Batch<S>,
         v: Vec3<f64x8<S>>,
         step: f64x8<S>,
@@ -107,13 +111,13 @@ impl<'p, S: Simd> InStyle<'p, S> {
         let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
         let asked = mask64x8::from_bitmask(simd, batch.asked);
         let before = batch.k - 1.0;
-        let k: Column = batch.k.into();
+        let k: [f64; LANES] = batch.k.into();
         let own = rows([n.x, n.y, n.z, has.select(one, zero)]);
         let mut of_before = [f64x4::splat(simd, 0.0); LANES];
         let mut k_before = [f64::NAN; LANES];
         // In their order: the sample before may be one of the batch.
         for lane in 0..batch.asked.count_ones() as usize {
-            let ray = usize::from(batch.rays[lane]) % LANES;
+            let ray = usize::from(batch.rays[lane]) % RAYS;
             k_before[lane] = self.previous.k[ray];
             of_before[lane] = f64x4::simd_from(simd, self.previous.n[ray]);
             self.previous.k[ray] = k[lane];
@@ -125,19 +129,19 @@ impl<'p, S: Simd> InStyle<'p, S> {
         let unknown = asked & has & !known;
         let mut fetched = 0;
         if !unknown.all_false() {
-            let p = walk.positions_of(&batch.rays, before, unknown.to_bitmask());
+            let p = tile.positions_of(&batch.rays, before, unknown.to_bitmask());
             let [_, _, _, beyond] = of_rays(simd, &self.eyes, &batch.rays);
-            let asked = unknown & inside(p, walk.prepared.ends) & beyond.simd_le(before);
+            let asked = unknown & inside(p, tile.prepared.ends) & beyond.simd_le(before);
             fetched = asked.to_bitmask();
             if fetched != 0 {
-                let g = walk.reader.gradients(&walk.reader.places(p, asked), asked);
-                let fetched = Normals::new(walk.prepared, v, g);
+                let g = tile.reader.gradients(&tile.reader.places(p, asked), asked);
+                let fetched = Normals::new(tile.prepared, v, g);
                 n_before = select(asked, fetched.n, n_before);
                 has_before |= asked & fetched.has;
             }
         }
         let both = (asked & has & has_before).to_bitmask();
-        (lanes::kappa(walk.prepared.turn, n, n_before, both, step), fetched)
+        (lanes::kappa(tile.prepared.turn, n, n_before, both, step), fetched)
     }
 
     /// N in the frame of the sphere, of which two coordinates are looked up; N = v where there is none ([PREC-3]).
@@ -148,7 +152,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
         while without != 0 {
             let lane = without.trailing_zeros() as usize;
             without &= without - 1;
-            [x[lane], y[lane], z[lane], _] = self.eyes[usize::from(rays[lane]) % LANES];
+            [x[lane], y[lane], z[lane], _] = self.eyes[usize::from(rays[lane]) % RAYS];
         }
         match &self.turns {
             None => [x, y],
@@ -162,13 +166,13 @@ impl<'p, S: Simd> InStyle<'p, S> {
 
     /// What the samples of a batch look like; whatever in the other lanes.
     #[inline(always)]
-    pub(super) fn show<V: Packed>(&mut self, walk: &Walk<'_, '_, S, V>, batch: &Batch<S>) -> Looks<S> {
-        let (prepared, styled, place) = (walk.prepared, self.styled, &batch.place);
+    pub(super) fn show<V: Packed>(&mut self, tile: &Tile<'_, '_, S, V>, batch: &Batch<S>) -> Looks<S> {
+        let (prepared, styled, place) = (tile.prepared, self.styled, &batch.place);
         let (zero, one) = (f64x8::splat(self.simd, 0.0), f64x8::splat(self.simd, 1.0));
         let asked = mask64x8::from_bitmask(self.simd, batch.asked);
         let [x, y, z, step] = of_rays(self.simd, &self.sights, &batch.rays);
         let v = Vec3::new(x, y, z);
-        let g = walk.reader.gradients(&batch.at, asked);
+        let g = tile.reader.gradients(&batch.at, asked);
         let Normals { n, has, length } = Normals::new(prepared, v, g);
         let magnitude = match prepared.gradient_range {
             Some((lo, width)) if width > 0.0 => lanes::clamp_01((length - lo) / width),
@@ -180,7 +184,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
         if let Some(contour) = &styled.contour {
             let mut kappa = zero;
             if prepared.calls.kappa == KappaSource::AlongRay {
-                (kappa, before) = self.kappa(walk, batch, v, step, n, has);
+                (kappa, before) = self.kappa(tile, batch, v, step, n, has);
             }
             tau = contour.tau_lanes(kappa, magnitude);
             [x, y] = lanes::push([x, y], n_dot_v, tau, asked & has);

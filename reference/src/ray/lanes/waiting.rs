@@ -1,16 +1,21 @@
 //! Samples that wait until eight of them can be shown together.
 //!
 //! Of eight neighbouring rays often one or two alone see something, and what a style asks of a sample is as dear for one as
-//! for eight. So samples that are seen wait, and are shown eight at a time, whichever rays they lie on. A ray may so be
-//! followed a little beyond the sample where it ends; what was done there is neither shown nor counted.
+//! for eight. So samples that are seen wait, and are shown eight at a time, whichever rays of a tile they lie on. A ray may
+//! so be followed a little beyond the sample where it ends; what was done there is neither shown nor counted. Eight rays
+//! that all seem to have ended are left for the next eight, and followed further only if what waited turns out to let light
+//! through.
 
-use super::Packet;
 use super::correct::correct;
 use super::style::{InStyle, Looks};
 use super::walk::Walk;
-use crate::field::lanes::{LANES, Packed, Places};
+use super::{Packet, RAYS, vector};
+use crate::field::lanes::{LANES, LaneReader, Packed, Places};
+use crate::number::Vec3;
 use crate::number::lanes::rows;
 use crate::ray::opacity::Correction;
+use crate::ray::prepared::Prepared;
+use crate::ray::sample::Styled;
 use crate::transfer;
 use crate::transfer::lanes::Nodes;
 use drypoint_scene::counts::Counts;
@@ -22,8 +27,8 @@ const NUMBERS: usize = 9;
 /// Seven may be left over when eight come.
 const ROOM: usize = 2 * LANES;
 
-/// Samples in the order in which they were found; none are left over from one packet to the next.
-pub(super) struct Waiting {
+/// Samples in the order in which they were found.
+struct Waiting {
     len: usize,
     numbers: [[f64; ROOM]; NUMBERS],
     nodes: [u32; ROOM],
@@ -34,7 +39,7 @@ pub(super) struct Waiting {
 pub(super) struct Batch<S: Simd> {
     /// Lanes with a sample.
     pub(super) asked: u64,
-    /// The ray of each.
+    /// The ray of each: the place of its packet, eight rays a place, and its lane.
     pub(super) rays: [u8; LANES],
     pub(super) k: f64x8<S>,
     pub(super) at: Places<S>,
@@ -42,13 +47,13 @@ pub(super) struct Batch<S: Simd> {
 }
 
 impl Waiting {
-    pub(super) fn new() -> Self {
+    fn new() -> Self {
         Self { len: 0, numbers: [[0.0; ROOM]; NUMBERS], nodes: [0; ROOM], rays: [0; ROOM] }
     }
 
-    /// Takes the visible samples of one plane.
+    /// Takes the visible samples of one plane of the packet at a place.
     #[inline(always)]
-    fn push<S: Simd>(&mut self, k: f64, at: Places<S>, place: &transfer::lanes::Places<S>) {
+    fn push<S: Simd>(&mut self, packet: usize, k: f64, at: Places<S>, place: &transfer::lanes::Places<S>) {
         let [x, y, z, wx, wy, wz] = at.to_columns();
         let columns: [[f64; LANES]; NUMBERS] = [[k; LANES], x, y, z, wx, wy, wz, place.alpha_u.into(), place.w.into()];
         let nodes = place.nodes.each();
@@ -61,7 +66,7 @@ impl Waiting {
             for (numbers, column) in self.numbers.iter_mut().zip(&columns) {
                 numbers[to] = column[lane];
             }
-            (self.nodes[to], self.rays[to]) = (nodes[lane], lane as u8);
+            (self.nodes[to], self.rays[to]) = (nodes[lane], (LANES * packet + lane) as u8);
             self.len += 1;
         }
     }
@@ -96,83 +101,166 @@ impl Waiting {
     }
 }
 
-/// What has come together on the rays: r, g, b and opacity of each, and the sample where it ends.
+/// What has come together on the rays of a tile: r, g, b and opacity of each, and the sample where it ends.
 struct Light {
-    rgba: [[f64; 4]; LANES],
-    farthest: [f64; LANES],
+    rgba: [[f64; 4]; RAYS],
+    farthest: [f64; RAYS],
 }
 
 impl Light {
-    /// Rays that have not ended before sample k.
-    #[inline(always)]
-    fn open<S: Simd>(&self, simd: S, k: f64) -> mask64x8<S> {
-        f64x8::simd_from(simd, self.farthest).simd_ge(k)
+    fn new(packets: &[Packet<'_, '_>]) -> Self {
+        let mut light = Self { rgba: [[0.0; 4]; RAYS], farthest: [f64::NEG_INFINITY; RAYS] };
+        for (packet, farthest) in packets.iter().zip(light.farthest.chunks_exact_mut(LANES)) {
+            farthest.copy_from_slice(&packet.ends[1]);
+        }
+        light
     }
 
-    /// What has come together on each ray.
+    /// Hands the packets what is theirs.
+    fn hand_over(&self, packets: &mut [Packet<'_, '_>]) {
+        let rays = self.rgba.chunks_exact(LANES).zip(self.farthest.chunks_exact(LANES));
+        for (packet, (rgba, farthest)) in packets.iter_mut().zip(rays) {
+            packet.rgba.copy_from_slice(rgba);
+            packet.ends[1].copy_from_slice(farthest);
+        }
+    }
+
+    /// Rays of a packet that have not ended before sample k.
     #[inline(always)]
-    fn opacity<S: Simd>(&self, simd: S) -> f64x8<S> {
+    fn open<S: Simd>(&self, simd: S, packet: usize, k: f64) -> mask64x8<S> {
+        f64x8::from_slice(simd, &self.farthest[LANES * packet..][..LANES]).simd_ge(k)
+    }
+
+    /// What has come together on each ray of a packet.
+    #[inline(always)]
+    fn opacity<S: Simd>(&self, simd: S, packet: usize) -> f64x8<S> {
         let mut opacity = [0.0; LANES];
-        for (opacity, rgba) in opacity.iter_mut().zip(&self.rgba) {
+        for (opacity, rgba) in opacity.iter_mut().zip(&self.rgba[LANES * packet..][..LANES]) {
             *opacity = rgba[3];
         }
         opacity.simd_into(simd)
     }
 }
 
-impl<S: Simd, V: Packed> Walk<'_, '_, S, V> {
-    /// Visits all samples, the nearest plane first, and shows what is seen eight at a time.
+/// Casts packets in styles.
+#[inline(always)]
+pub(super) fn cast_waiting<S: Simd, V: Packed>(
+    simd: S,
+    packets: &mut [Packet<'_, '_>],
+    styled: &Styled<f64>,
+    data: &[V],
+    counts: &mut Counts,
+) {
+    let mut light = Light::new(packets);
+    if let [Packet { prepared, .. }, ..] = &*packets {
+        let reader = LaneReader::new(simd, &prepared.field, data);
+        let mut look = InStyle::new(simd, packets, styled);
+        Tile { simd, prepared, packets, data, reader }.run(&mut light, &mut look, counts);
+    }
+    light.hand_over(packets);
+}
+
+/// Where a packet goes on: in which of the ranges that it visits, and at which sample at the earliest.
+type Next = (usize, i64);
+
+/// Packets whose samples wait for each other.
+pub(super) struct Tile<'p, 'v, S: Simd, V> {
+    simd: S,
+    pub(super) prepared: &'p Prepared<'v, f64>,
+    packets: &'p [Packet<'p, 'v>],
+    data: &'p [V],
+    pub(super) reader: LaneReader<'p, 'v, S, V>,
+}
+
+impl<S: Simd, V: Packed> Tile<'_, '_, S, V> {
+    /// Visits all samples and shows what is seen eight at a time.
     #[inline(always)]
-    pub(super) fn run_waiting(&self, packet: &mut Packet<'_, '_>, look: &mut InStyle<'_, S>, counts: &mut Counts) {
+    fn run(&self, light: &mut Light, look: &mut InStyle<'_, S>, counts: &mut Counts) {
+        let mut waiting = Waiting::new();
+        let mut next = [Some((0, i64::MIN)); RAYS / LANES];
+        let on_their_way = &mut next[..self.packets.len()];
+        while on_their_way.iter().any(Option::is_some) {
+            for (packet, next) in on_their_way.iter_mut().enumerate() {
+                if let Some(from) = *next {
+                    *next = self.follow(packet, from, &mut waiting, light, look, counts);
+                }
+            }
+            while waiting.len > 0 {
+                self.show_batch(&waiting.pop(self.simd), look, light, counts);
+            }
+        }
+    }
+
+    /// Visits samples of a packet, the nearest plane first. Returns where it goes on, if it stops because of rays that seem to
+    /// have ended.
+    #[inline(always)]
+    fn follow(
+        &self,
+        packet: usize,
+        (first_range, earliest): Next,
+        waiting: &mut Waiting,
+        light: &mut Light,
+        look: &mut InStyle<'_, S>,
+        counts: &mut Counts,
+    ) -> Option<Next> {
         let simd = self.simd;
+        if light.open(simd, packet, earliest as f64).all_false() {
+            return None;
+        }
+        let rays = &self.packets[packet];
+        let walk = Walk::new(simd, rays, self.data);
         let one = f64x8::splat(simd, 1.0);
-        let waiting = &mut packet.waiting;
-        let mut light = Light { rgba: [[0.0; 4]; LANES], farthest: packet.ends[1] };
-        let nearest: f64x8<S> = packet.ends[0].simd_into(simd);
+        let nearest: f64x8<S> = rays.ends[0].simd_into(simd);
         // About what a ray lets through when all that waits is shown. Below the limit it may have ended by then.
-        let (mut through, limit) = (one, 1.0 - self.prepared.stop_at);
-        'rays: for &[first, last] in &packet.together {
-            for k in first..=last {
-                let k = k as f64;
-                let open = light.open(simd, k);
+        let (mut through, limit) = (one - light.opacity(simd, packet), 1.0 - self.prepared.stop_at);
+        for (range, &[first, last]) in rays.together.iter().enumerate().skip(first_range) {
+            for plane in first.max(earliest)..=last {
+                let k = plane as f64;
+                let open = light.open(simd, packet, k);
                 if open.all_false() {
-                    break 'rays;
+                    return None;
                 }
                 let active = open & nearest.simd_le(k);
-                let at = self.reader.places(self.positions(k), active);
-                let values = self.reader.values(&at);
-                let Some(mut place) = self.prepared.function.locate_lanes(values, active) else {
+                let at = walk.reader.places(walk.positions(k), active);
+                let values = walk.reader.values(&at);
+                let Some(place) = self.prepared.function.locate_lanes(values, active) else {
                     continue;
                 };
                 let late = place.visible & through.simd_le(limit).to_bitmask();
-                if 2 * late.count_ones() > place.visible.count_ones() {
+                if 2 * late.count_ones() > place.visible.count_ones() && plane > earliest {
                     // Most of what would join those that wait comes after the end of its ray.
-                    self.show_all(waiting, look, &mut light, counts);
-                    place.visible &= light.open(simd, k).to_bitmask();
-                    through = one - light.opacity(simd);
+                    return Some((range, plane));
                 }
-                waiting.push(k, at, &place);
+                waiting.push(packet, k, at, &place);
+                if waiting.len >= LANES {
+                    self.show_batch(&waiting.pop(simd), look, light, counts);
+                }
                 let seen = mask64x8::from_bitmask(simd, place.visible);
                 through = seen.select(through * (one - place.alpha_u), through);
                 if (through.simd_le(limit) | !open).all_true() {
-                    self.show_all(waiting, look, &mut light, counts);
-                    through = one - light.opacity(simd);
-                } else if waiting.len >= LANES {
-                    self.show_batch(&waiting.pop(simd), look, &mut light, counts);
+                    return Some((range, plane + 1));
                 }
             }
         }
-        self.show_all(waiting, look, &mut light, counts);
-        packet.ends[1] = light.farthest;
-        packet.rgba = light.rgba;
+        None
     }
 
-    /// Shows all that wait.
+    /// The index positions of samples of any rays, in the lanes `asked`; the origin in the others.
     #[inline(always)]
-    fn show_all(&self, waiting: &mut Waiting, look: &mut InStyle<'_, S>, light: &mut Light, counts: &mut Counts) {
-        while waiting.len > 0 {
-            self.show_batch(&waiting.pop(self.simd), look, light, counts);
+    pub(super) fn positions_of(&self, rays: &[u8; LANES], k: f64x8<S>, asked: u64) -> Vec3<f64x8<S>> {
+        let mut p = [[0.0; LANES]; 3];
+        let mut left = asked;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let ray = usize::from(rays[lane]);
+            let (packet, ray) = (&self.packets[ray / LANES], ray % LANES);
+            let t = packet.depth_step[ray] * (k[lane] + 0.5);
+            for axis in 0..3 {
+                p[axis][lane] = packet.origin[axis][ray] + packet.along[axis][ray] * t;
+            }
         }
+        vector(self.simd, p)
     }
 
     /// Shows samples and lays them behind what is in front of them.
@@ -193,7 +281,7 @@ impl<S: Simd, V: Packed> Walk<'_, '_, S, V> {
         let rows = rows([r, g, b, f64x8::splat(simd, 1.0)]);
         let mut shown = 0;
         for lane in 0..batch.asked.count_ones() as usize {
-            let ray = usize::from(batch.rays[lane]) % LANES;
+            let ray = usize::from(batch.rays[lane]) % RAYS;
             if k[lane] > light.farthest[ray] {
                 continue;
             }

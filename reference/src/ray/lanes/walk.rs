@@ -118,23 +118,6 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
         self.origin + self.along * (self.depth_step * (k + 0.5))
     }
 
-    /// The index positions of samples of any rays, in the lanes `asked`; the origin in the others.
-    #[inline(always)]
-    pub(super) fn positions_of(&self, rays: &[u8; LANES], k: f64x8<S>, asked: u64) -> Vec3<f64x8<S>> {
-        let mut p = [[0.0; LANES]; 3];
-        let mut left = asked;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let ray = usize::from(rays[lane]) % LANES;
-            let t = self.depth_step[ray] * (k[lane] + 0.5);
-            p[0][lane] = self.origin.x[ray] + self.along.x[ray] * t;
-            p[1][lane] = self.origin.y[ray] + self.along.y[ray] * t;
-            p[2][lane] = self.origin.z[ray] + self.along.z[ray] * t;
-        }
-        vector(self.simd, p)
-    }
-
     /// Visits sample k of the active lanes. Returns the lanes whose ray ends there.
     #[inline(always)]
     fn visit(
