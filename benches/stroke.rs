@@ -2,13 +2,14 @@
 //! second with stored directions and with computed ones; what packed strokes take; how far strokes of stored directions are
 //! from those of computed ones.
 //!
-//! `cargo bench --bench stroke`, with the scans in `DRYPOINT_DATA` or `../shared/data`
+//! `cargo bench --bench stroke`, with the scans in `DRYPOINT_DATA` or `../shared/data`; `-- engine` measures strokes of that
+//! scan alone, `-- directions` the directions of a whole volume alone
 
 use drypoint::job::Job;
 use drypoint::output::compare::lines::apart;
 use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use drypoint::reference::interactive_volume_illustration::{
-    Between, Grown, Hatching, Packed, Pyramid, Rule, Seed, SeedRule, Storing, Strokes, gradient_range,
+    Between, Grown, HatchCounts, Hatching, Packed, Pyramid, Rule, Seed, SeedRule, Storing, Strokes, gradient_range,
 };
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec2;
@@ -17,10 +18,12 @@ use drypoint::scene::space::Grid;
 use drypoint::scene::strokes::Stroke;
 use drypoint::scene::tables::{GradientRange, Measure};
 use drypoint::scene::volume::{Volume, Voxels};
+use rayon::prelude::*;
+use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-/// The scans, a value of each, and how often its cells have a stroke: about 50 000.
+/// The scans, and a value of each.
 const SCANS: [(&str, f64); 2] = [("engine.nhdr", 80.0), ("hydrogen_atom.nhdr", 30.0)];
 
 /// Strokes of a scan.
@@ -38,10 +41,13 @@ fn main() -> Result<(), String> {
         println!("skipped: no data");
         return Ok(());
     }
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    let is_wanted = |part: &str| wanted.is_empty() || wanted.iter().any(|word| part.starts_with(word.as_str()));
     println!("{} threads\n", rayon::current_num_threads());
-    let engine = load(&folder, SCANS[0].0)?;
-    preprocessing(&doubled(&engine)?, SCANS[0].1)?;
-    for (name, iso) in SCANS {
+    if is_wanted("directions") {
+        preprocessing(&doubled(&load(&folder, SCANS[0].0)?)?, SCANS[0].1)?;
+    }
+    for (name, iso) in SCANS.into_iter().filter(|(name, _)| is_wanted(name)) {
         strokes(name, &load(&folder, name)?, iso)?;
     }
     Ok(())
@@ -150,8 +156,11 @@ fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
     let share = (STROKES as f64 / all.len() as f64).min(1.0);
     let kept = |i: &usize| (*i as f64 * share).floor() != ((i + 1) as f64 * share).floor();
     let cells: Vec<_> = (0..all.len()).filter(kept).map(|i| all[i]).collect();
-    println!("| {name}, {} seeds | seconds | the second time | strokes a second | directions | stored |", cells.len());
-    println!("|---|--:|--:|--:|--:|--:|");
+    println!(
+        "| {name}, {} seeds | seconds | the second time | of it placing | strokes a second | directions | stored |",
+        cells.len()
+    );
+    println!("|---|--:|--:|--:|--:|--:|--:|");
     let mut grown: Vec<(&str, Grown)> = Vec::new();
     for (how, rule) in [("scaled", Rule::Scaled(Default::default())), ("raw", Rule::Raw)] {
         for (from, storing) in [("hessian", None), ("stored", VISITED), ("stored, flipped", FLIPPED)] {
@@ -162,8 +171,13 @@ fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
                 (start.elapsed().as_secs_f64(), grown)
             };
             let ((first, made), (again, _)) = (once(), once());
+            let start = Instant::now();
+            cells.par_iter().for_each(|&cell| {
+                black_box(strokes.place(cell, &mut HatchCounts::default())).ok();
+            });
+            let placing = start.elapsed().as_secs_f64();
             println!(
-                "| {how}, {from} | {first:.2} | {again:.2} | {:.0} | {} | {} |",
+                "| {how}, {from} | {first:.2} | {again:.2} | {placing:.2} | {:.0} | {} | {} |",
                 made.strokes.len() as f64 / again,
                 made.counts.scales.directions(),
                 strokes.stored()[0],
@@ -178,10 +192,13 @@ fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
         let packed = Packed::new(direct.strokes.iter().map(|(_, stroke)| stroke), volume.grid());
         let (bytes, normals) = (packed.bytes(), 4 * volume.grid().len() as u64);
         println!(
-            "{} strokes, {} vertices: {bytes} bytes packed, 1/{:.1} of value and normal, 4 B a voxel\n",
+            "{} strokes, {} vertices: {bytes} bytes packed, 1/{:.1} of value and normal, 4 B a voxel; {:.1} segments a stroke, \
+             an eighth takes {:.0} strokes\n",
             direct.strokes.len(),
             packed.vertices(),
             normals as f64 / bytes as f64,
+            packed.vertices() as f64 / direct.strokes.len() as f64 - 1.0,
+            direct.strokes.len() as f64 * normals as f64 / (8.0 * bytes as f64),
         );
         println!(
             "| {name}: distance to computed directions | strokes of one alone | Hausdorff, voxels: median | 95 % | angle: median \

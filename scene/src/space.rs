@@ -87,6 +87,7 @@ impl Grid {
     }
 
     /// D⁻¹.
+    #[inline]
     pub fn inverse_axes(&self) -> DMat3 {
         self.inverse
     }
@@ -97,11 +98,13 @@ impl Grid {
     }
 
     /// `world = D · index + origin` ([SPACE-2]).
+    #[inline]
     pub fn to_world(&self, index: DVec3) -> DVec3 {
         self.axes * index + self.origin
     }
 
     /// `index = D⁻¹ (world − origin)`.
+    #[inline]
     pub fn to_index(&self, world: DVec3) -> DVec3 {
         self.inverse * (world - self.origin)
     }
@@ -132,6 +135,7 @@ impl Grid {
 
     /// Lowest and highest corner, in index space, of the closed box on which the field is defined: [0, N − 1] on
     /// each axis, [−½, ½] on an axis of length 1 ([SPACE-1]).
+    #[inline]
     pub fn index_box(&self) -> [DVec3; 2] {
         let end = |n: usize| if n == 1 { [-0.5, 0.5] } else { [0.0, (n - 1) as f64] };
         let [x, y, z] = self.dims.map(end);

@@ -32,7 +32,7 @@ pub(crate) use place::Cells;
 pub use place::Place;
 pub use sampler::{AnySampler, Sampled, Sampler};
 
-use crate::number::{Mat3, Real, Sym3};
+use crate::number::{Mat3, Real, Sym3, Vec3};
 use coefficients::Coefficients;
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
@@ -262,6 +262,12 @@ impl<'v, R: Real> Field<'v, R> {
             KernelData::Bspline5(c) => AnySampler::Bspline5(Sampled::new(self, Bspline5(c))),
             KernelData::CatmullRom => AnySampler::CatmullRom(Sampled::new(self, CatmullRom)),
         }
+    }
+
+    /// The cell of a position in index space, inside the box of [SPACE-1]: the same for every kernel.
+    #[inline]
+    pub(crate) fn cell_of(&self, index: Vec3<R>) -> [usize; 3] {
+        self.cells.locate(index).cell
     }
 
     #[inline(always)]

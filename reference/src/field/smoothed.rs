@@ -46,6 +46,8 @@ pub struct Smoothed<'f, 'v> {
     bricks: Vec<OnceLock<Region>>,
     /// For each voxel along each axis the root sums of squares of the weights of a value and of a second derivative.
     responses: [Vec<[f64; 2]>; 3],
+    /// For each axis the square of the length of D⁻ᵀ's column, which takes second derivatives to the world's unit.
+    squares: [f64; 3],
     /// The lowest number, as numbers are read: sums are of what is more.
     base: f64,
     /// The standard deviation of one rounding, as numbers are read, to the unit of the derivatives; 0 without rounding.
@@ -82,9 +84,14 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         let dims = n.map(|n| (n.max(2) - 1).div_ceil(side));
         let bricks = (0..dims.iter().product()).map(|_| OnceLock::new()).collect();
         let responses = [0, 1, 2].map(|a| responses(&rows[a], n[a]));
+        let inverse = &field.inverse_transpose;
+        let squares = [0, 1, 2].map(|a| {
+            let column = [0, 1, 2].map(|i| [inverse.rows[i].x, inverse.rows[i].y, inverse.rows[i].z][a]);
+            column.iter().map(|c| c * c).sum::<f64>()
+        });
         let integers = field.volume().voxels().voxel_type().is_integer();
         let rounding = if integers { field.derivative.abs() / 12f64.sqrt() } else { 0.0 };
-        Self { field, rows, side, dims, bricks, responses, base: field.stencils.lowest(), rounding }
+        Self { field, rows, side, dims, bricks, responses, squares, base: field.stencils.lowest(), rounding }
     }
 
     /// Gradient and Hessian at a position in index space inside the box of [SPACE-1], in world space, times 2^−e as those of a
@@ -155,13 +162,8 @@ impl<'f, 'v> Smoothed<'f, 'v> {
             let [p, q] = [0, 1].map(|i| self.responses[a][(cell[a] + i).min(self.responses[a].len() - 1)]);
             [p[0].max(q[0]), p[1].max(q[1])]
         };
-        let [x, y, z] = [at(0), at(1), at(2)];
-        let inverse = &self.field.inverse_transpose;
-        let square = |a: usize| {
-            let column = [0, 1, 2].map(|i| [inverse.rows[i].x, inverse.rows[i].y, inverse.rows[i].z][a]);
-            column.iter().map(|c| c * c).sum::<f64>()
-        };
-        let along = [x[1] * y[0] * z[0] * square(0), y[1] * x[0] * z[0] * square(1), z[1] * x[0] * y[0] * square(2)];
+        let ([x, y, z], s) = ([at(0), at(1), at(2)], self.squares);
+        let along = [x[1] * y[0] * z[0] * s[0], y[1] * x[0] * z[0] * s[1], z[1] * x[0] * y[0] * s[2]];
         along[0].max(along[1]).max(along[2])
     }
 

@@ -31,6 +31,9 @@ pub(super) struct Cross<R> {
     pub z: [[R; 2]; 4],
 }
 
+/// Voxels of a row that are read at once.
+const RUN: usize = 8;
+
 /// The corners of a cell: pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1).
 pub(super) type Corners<R> = [[R; 2]; 4];
 
@@ -116,8 +119,17 @@ impl<'v> Stencils<'v> {
     pub(super) fn read_run<R: Real>(&self, [start, y, z]: [usize; 3], out: &mut [R]) {
         let scale = self.scale;
         with_access!(self.volume, |a| {
-            for (x, out) in out.iter_mut().enumerate() {
-                *out = number(a.at(start + x, y, z), scale);
+            // Whole rows at once: of a single voxel the address takes longer than the number.
+            let (chunks, rest) = out.as_chunks_mut::<RUN>();
+            let read = chunks.len() * RUN;
+            for (i, chunk) in chunks.iter_mut().enumerate() {
+                let voxels = a.row::<RUN>(start + i * RUN, y, z);
+                for k in 0..RUN {
+                    chunk[k] = number(voxels[k], scale);
+                }
+            }
+            for (x, out) in rest.iter_mut().enumerate() {
+                *out = number(a.at(start + read + x, y, z), scale);
             }
         });
     }

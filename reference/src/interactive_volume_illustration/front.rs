@@ -27,18 +27,22 @@ struct Vertex {
 }
 
 /// Vertices in a row; from one run to the next the stroke is broken.
-struct Runs(Vec<Vec<Vertex>>);
+struct Runs {
+    each: Vec<Vec<Vertex>>,
+    /// Where a segment meets faces of cells, kept so that not each has to ask for memory.
+    faces: Vec<f64>,
+}
 
 impl Runs {
     fn push(&mut self, vertex: Vertex) {
-        match self.0.last_mut() {
+        match self.each.last_mut() {
             Some(run) => run.push(vertex),
-            None => self.0.push(vec![vertex]),
+            None => self.each.push(vec![vertex]),
         }
     }
 
     fn cut(&mut self) {
-        self.0.push(Vec::new());
+        self.each.push(Vec::new());
     }
 }
 
@@ -56,7 +60,7 @@ impl Strokes<'_, '_> {
         if pieces.is_empty() {
             return None;
         }
-        let mut runs = Runs(vec![Vec::new()]);
+        let mut runs = Runs { each: vec![Vec::new()], faces: Vec::new() };
         let mut before: Option<Vertex> = None;
         for t in vertices(pieces, self.how().chord) {
             let next = self.put_back(point(pieces, t), seed.target).map(|world| Vertex { t, world });
@@ -67,11 +71,11 @@ impl Strokes<'_, '_> {
             }
             before = next;
         }
-        let broken = runs.0.len() > 1;
+        let broken = runs.each.len() > 1;
         counts.cut += u64::from(broken);
         let at = at_seed as f64;
         let holds = |run: &Vec<Vertex>| run.first().is_some_and(|v| v.t <= at) && run.last().is_some_and(|v| v.t >= at);
-        let mut run = runs.0.into_iter().find(holds)?;
+        let mut run = runs.each.into_iter().find(holds)?;
         let closed = closed && !broken;
         if closed {
             // Its last vertex is its first.
@@ -83,7 +87,7 @@ impl Strokes<'_, '_> {
 
     /// Adds the end of a segment, and what must come between so that none of it lies behind the surface.
     fn segment(&self, pieces: &[Piece], target: f64, [a, b]: [Vertex; 2], halvings: u32, runs: &mut Runs) {
-        if self.stays_in_front([a.world, b.world]) {
+        if self.stays_in_front([a.world, b.world], &mut runs.faces) {
             runs.push(b);
             return;
         }
@@ -118,7 +122,7 @@ impl Strokes<'_, '_> {
     /// Between two faces of cells trilinear values along a line are a cubic, which four of them give, and it is largest or
     /// smallest at an end or where its derivative is 0. Along a line the values of other kernels are of a higher degree: there
     /// the four places and the extremes of the cubic through them are looked at.
-    fn stays_in_front(&self, [a, b]: [DVec3; 2]) -> bool {
+    fn stays_in_front(&self, [a, b]: [DVec3; 2], faces: &mut Vec<f64>) -> bool {
         let Some(iso) = self.iso() else { return true };
         let (ground, grid) = (self.ground(), self.ground().grid());
         let (from, to) = (grid.to_index(a), grid.to_index(b));
@@ -131,17 +135,20 @@ impl Strokes<'_, '_> {
                 Outside::High => value - iso,
             })
         };
-        let mut faces = vec![0.0, 1.0];
+        faces.clear();
+        faces.extend([0.0, 1.0]);
         for axis in 0..3 {
             let (lo, hi) = (from[axis].min(to[axis]), from[axis].max(to[axis]));
             let (first, last) = (lo.floor() as i64 + 1, hi.ceil() as i64 - 1);
             let at = |face: i64| ((face as f64 - from[axis]) / (to[axis] - from[axis])).clamp(0.0, 1.0);
             faces.extend((first..=last).map(at));
         }
-        faces.sort_by(f64::total_cmp);
+        faces.sort_unstable_by(f64::total_cmp);
+        let mut first = over(0.0);
         faces.windows(2).all(|cell| {
             let at = |u: f64| over(cell[0] + (cell[1] - cell[0]) * u);
-            let values = [at(0.0), at(THIRD), at(2.0 * THIRD), at(1.0)];
+            let values = [first, at(THIRD), at(2.0 * THIRD), over(cell[1])];
+            first = values[3];
             values.iter().all(|v| *v >= 0.0) && extremes(values).into_iter().flatten().all(|u| at(u) >= 0.0)
         })
     }

@@ -31,6 +31,11 @@ pub trait Ground: Sync {
     /// The cell of a position.
     fn cell(&self, index: Vec3<f64>) -> [usize; 3];
 
+    /// Whether the cell of a position touches a masked voxel.
+    fn masked_at(&self, index: Vec3<f64>) -> bool {
+        self.masked(self.cell(index))
+    }
+
     /// The value.
     fn value(&self, index: Vec3<f64>) -> f64;
 
@@ -73,7 +78,11 @@ impl Ground for Field<'_, f64> {
     }
 
     fn cell(&self, index: Vec3<f64>) -> [usize; 3] {
-        with_sampler!(self, |s| s.cell(index))
+        self.cell_of(index)
+    }
+
+    fn masked_at(&self, index: Vec3<f64>) -> bool {
+        self.volume().mask().is_some_and(|mask| mask.touches_cell(self.cell_of(index)))
     }
 
     fn value(&self, index: Vec3<f64>) -> f64 {
@@ -105,7 +114,7 @@ pub(super) fn index_inside(ground: &dyn Ground, index: DVec3) -> Option<Vec3<f64
         return None;
     }
     let index = Vec3::from_glam(index);
-    (!ground.masked(ground.cell(index))).then_some(index)
+    (!ground.masked_at(index)).then_some(index)
 }
 
 /// N and ‖g‖, in the value's unit per world unit times 2^−e; none where the gradient is rounding.

@@ -70,11 +70,12 @@ impl Seeds {
     fn of_blocks(
         pyramid: &Pyramid,
         volume: &Volume,
-        (mut blocks, counts): (Vec<[usize; 3]>, impl Fn([f64; 2]) -> bool + Sync),
+        (blocks, counts): (Vec<[usize; 3]>, impl Fn([f64; 2]) -> bool + Sync),
         rule: SeedRule,
         measure: impl Fn([usize; 3]) -> Measure + Sync,
     ) -> Self {
-        blocks.retain(|&block| pyramid.cells_of_block(block).any(|cell| holds(volume, cell, &counts)));
+        let has_one = |&block: &[usize; 3]| pyramid.cells_of_block(block).any(|cell| holds(volume, cell, &counts));
+        let blocks: Vec<[usize; 3]> = blocks.into_par_iter().filter(has_one).collect();
         let (largest, measured) = match rule {
             SeedRule::Dense => (vec![Largest::default(); blocks.len()], 0),
             SeedRule::Curvature { .. } => of_blocks(&blocks, volume.dims(), measure),

@@ -5,7 +5,7 @@ use super::ground::{Ground, inside, normal};
 use super::integrator::{Control, End, Goal, Half, Lines, Piece, trace};
 use super::orientation::Reference;
 use super::placement::Seed;
-use super::stored::{Source, Stored, Storing};
+use super::stored::{Near, Source, Stored, Storing};
 use super::umbilics::{Directions, Rule};
 use crate::field::Field;
 use crate::field::curvature::Curvature;
@@ -362,14 +362,22 @@ pub(super) struct OnSurface<'s, 'f, 'v> {
     scale: usize,
     /// The tolerance where steps end at faces, in world units.
     exact: Option<f64>,
+    /// How far, in world units, a step may come off its surface.
+    drift: f64,
+    /// Stored directions about the last place.
+    near: Near,
+    /// The last place, in the world and in index space, and ‖g‖ there.
+    last: Option<(DVec3, Vec3<f64>, f64)>,
 }
 
 impl<'s, 'f, 'v> OnSurface<'s, 'f, 'v> {
     /// `family` is `Max` or `Min`.
     pub(super) fn new(strokes: &'s Strokes<'f, 'v>, family: Family, target: f64, counts: &'s mut HatchCounts) -> Self {
         let tolerance = strokes.how.tolerance;
-        let exact = (tolerance < EXACT_BELOW * strokes.ground.grid().voxel()).then_some(tolerance);
-        Self { strokes, family, target, counts, scale: 0, exact }
+        let voxel = strokes.ground.grid().voxel();
+        let exact = (tolerance < EXACT_BELOW * voxel).then_some(tolerance);
+        let (near, last) = (Near::default(), None);
+        Self { strokes, family, target, counts, scale: 0, exact, drift: DRIFT * voxel, near, last }
     }
 }
 
@@ -378,10 +386,11 @@ impl OnSurface<'_, '_, '_> {
     fn tangent(&mut self, x: DVec3, like: Option<DVec3>) -> Result<DVec3, NoDirection> {
         let (strokes, ground) = (self.strokes, self.strokes.ground);
         let index = inside(ground, x).ok_or(NoDirection::Volume)?;
-        let (n, _) = normal(ground, index).ok_or(NoDirection::Gradient)?;
+        let (n, slope) = normal(ground, index).ok_or(NoDirection::Gradient)?;
+        self.last = Some((x, index, slope));
         let counts = &mut self.counts.scales;
         let e = match &strokes.stored {
-            Some(stored) => stored.line(&strokes.source(), index, self.family, like, counts)?,
+            Some(stored) => stored.line(&strokes.source(), index, self.family, like, &mut self.near, counts)?,
             None => {
                 let before = counts.given;
                 let curvature = strokes.directions.at(ground, index, counts)?;
@@ -419,12 +428,16 @@ impl Lines for OnSurface<'_, '_, '_> {
 
     fn put_back(&mut self, x: DVec3) -> Option<DVec3> {
         let ground = self.strokes.ground;
-        let index = inside(ground, x)?;
-        let drift = DRIFT * ground.grid().voxel();
+        let (_, index, slope) = match self.last {
+            Some(last) if last.0 == x => last,
+            _ => {
+                let index = inside(ground, x)?;
+                (x, index, normal(ground, index)?.1)
+            }
+        };
         let over = ground.value(index) - self.target;
-        let (_, slope) = normal(ground, index)?;
         // f − target over ‖g‖, without dividing.
-        if scale_by_power_of_two(over.abs(), -ground.exponent()) <= drift * slope {
+        if scale_by_power_of_two(over.abs(), -ground.exponent()) <= self.drift * slope {
             return None;
         }
         let back = self.strokes.put_back(x, self.target)?;

@@ -3,11 +3,16 @@
 use super::Piece;
 use drypoint_scene::glam::DVec3;
 
-/// Places on each piece at which the distance to a chord is taken.
-const PLACES: usize = 8;
+/// Places at which the distance to a chord is taken: on each piece, and on a chord at least.
+const PLACES: usize = 4;
+const LEAST: usize = 8;
 
-/// Halvings that find the end of a chord: to 2⁻²⁴ of a piece.
-const HALVINGS: usize = 24;
+/// A chord is long enough whose distance is at least this share of what it may be: some hundredths of the distance are half as
+/// many of the length.
+const ENOUGH: f64 = 0.96;
+
+/// Trials that find the end of a chord.
+const TRIALS: usize = 24;
 
 /// Where the vertices of a polyline lie on the curve of these pieces: whole parts number the piece, the rest is its
 /// parameter. From each vertex the chord is as long as it can be without leaving the curve by more than `chord`; both ends of
@@ -27,44 +32,74 @@ pub fn vertices(pieces: &[Piece], chord: f64) -> Vec<f64> {
 ///
 /// # Panics
 /// If the curve has no piece.
+#[inline]
 pub fn point(pieces: &[Piece], t: f64) -> DVec3 {
     let i = (t as usize).min(pieces.len() - 1);
     pieces[i].point(t - i as f64)
 }
 
-/// Where the longest chord from a place on the curve ends: whole pieces first, then a part of one.
+/// Where the longest chord from a place on the curve ends: twice as many pieces each time, then back.
 fn chord_end(pieces: &[Piece], from: f64, chord: f64) -> f64 {
     let end = pieces.len() as f64;
-    let mut good = from;
-    while good < end {
-        let next = (good.floor() + 1.0).min(end);
-        if error(pieces, from, next) <= chord {
-            good = next;
-            continue;
+    // Distances grow with the square of the length: their roots, in those of what they may be, are nearly linear.
+    let root = |to: f64| match error(pieces, from, to) {
+        0.0 => 0.0,
+        distance => (distance / chord).sqrt(),
+    };
+    // Places with their roots.
+    let mut good = [from, 0.0];
+    let mut more = 1.0;
+    let mut bad = loop {
+        let next = (good[0].floor() + more).min(end);
+        let found = root(next);
+        if found > 1.0 {
+            break [next, found];
         }
-        let mut bad = next;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (good + bad);
-            if error(pieces, from, middle) <= chord { good = middle } else { bad = middle }
+        if next >= end {
+            return end;
         }
-        // No chord is short enough for a distance of 0: the piece's end has to do.
-        return if good == from { next } else { good };
+        (good, more) = ([next, found], next - from.floor());
+    };
+    let (enough, aim) = (ENOUGH.sqrt(), (0.5 * (1.0 + ENOUGH)).sqrt());
+    for trial in 1..=TRIALS {
+        if good[1] >= enough && good[0] > from {
+            break;
+        }
+        let share = (aim - good[1]) / (bad[1] - good[1]);
+        // What is far from linear is halved now and then.
+        let share = if trial % 4 != 0 && share > 0.0 && share < 1.0 { share } else { 0.5 };
+        let t = good[0] + (bad[0] - good[0]) * share;
+        let found = root(t);
+        *(if found <= 1.0 { &mut good } else { &mut bad }) = [t, found];
     }
-    good
+    // No chord is short enough for a distance of 0: the piece's end has to do.
+    if good[0] == from { (from.floor() + 1.0).min(end) } else { good[0] }
 }
 
-/// The largest distance of the curve from its chord.
+/// The largest distance of the curve from its chord: of parabolas through neighbouring places.
 fn error(pieces: &[Piece], from: f64, to: f64) -> f64 {
     let (a, b) = (point(pieces, from), point(pieces, to));
     let along = b - a;
     let square = along.length_squared();
-    let places = PLACES * (to - from).ceil().max(1.0) as usize;
-    let distance = |i: usize| {
-        let p = point(pieces, from + (to - from) * i as f64 / places as f64);
-        let s = if square > 0.0 { ((p - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
-        p.distance(a + along * s)
-    };
-    (1..places).map(distance).fold(0.0, f64::max)
+    let places = (PLACES * (to - from).ceil() as usize).max(LEAST);
+    let step = (to - from) / places as f64;
+    let (mut before, mut last, mut largest) = (0.0f64, 0.0f64, 0.0f64);
+    for i in 1..=places {
+        let next = if i < places {
+            let way = point(pieces, from + step * i as f64) - a;
+            let s = if square > 0.0 { (way.dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+            (way - along * s).length()
+        } else {
+            0.0
+        };
+        if last >= before.max(next) {
+            let bend = (last - before) + (last - next);
+            let above = if bend > 0.0 { (next - before) * (next - before) / (8.0 * bend) } else { 0.0 };
+            largest = largest.max(last + above);
+        }
+        (before, last) = (last, next);
+    }
+    largest
 }
 
 #[cfg(test)]

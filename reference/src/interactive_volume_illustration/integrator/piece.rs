@@ -8,6 +8,9 @@ const STARTS: u32 = 8;
 /// Bisections that find a place on a piece: to 2⁻⁴⁰ of it.
 const BISECTIONS: u32 = 40;
 
+/// A difference of cosines that is not rounding.
+const CLEAR: f64 = 1e-9;
+
 /// A cubic Hermite, p(s) for s in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
@@ -19,6 +22,7 @@ pub struct Piece {
 
 impl Piece {
     /// p(s) = (1 + 2s)(1 − s)² p₀ + s(1 − s)² p'₀ + s²(3 − 2s) p₁ − s²(1 − s) p'₁.
+    #[inline]
     pub fn point(&self, s: f64) -> DVec3 {
         let r = 1.0 - s;
         let ([p, q], [t, u]) = (self.ends, self.tangents);
@@ -43,6 +47,9 @@ impl Piece {
     /// The largest angle may lie between the ends: where (p''·a)(p'·p') − (p'·a)(p'·p''), which has the sign of the cosine's
     /// derivative, grows through 0. It is a polynomial of degree four, whose roots are looked for in eighths of the piece.
     pub fn turned(&self, along: DVec3, cos: f64) -> Option<f64> {
+        if self.stays_within(along, cos) {
+            return None;
+        }
         let beyond = |s: f64| {
             let t = self.tangent(s);
             t.dot(along) < cos * t.length()
@@ -60,6 +67,14 @@ impl Piece {
                 if !beyond(to) && falls(from) && !falls(to) { bisect([from, to], |s| !falls(s)) } else { to };
             beyond(furthest).then(|| bisect([from, furthest], beyond))
         })
+    }
+
+    /// Whether all its directions are nearer than an angle of 90° at most to a unit vector, because those are that it is the mean
+    /// of: p' = (1 − s)² p'₀ + 2s(1 − s) m + s² p'₁. What is nearer than rounding is not said.
+    fn stays_within(&self, along: DVec3, cos: f64) -> bool {
+        let ([p, q], [t, u]) = (self.ends, self.tangents);
+        let within = |v: DVec3| v.dot(along) > (cos + CLEAR) * v.length();
+        cos >= 0.0 && within(t) && within(u) && within((q - p) * 3.0 - t - u)
     }
 
     /// What of it lies in [0, s], again as a piece: the same cubic.

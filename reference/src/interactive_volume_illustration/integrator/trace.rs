@@ -14,6 +14,9 @@ const SMOOTH: f64 = 0.5;
 /// How often a step is tried again to end at a kink: each time it is as near as its own error.
 const TRIES_AT_KINK: u32 = 3;
 
+/// Pieces that there is room for from the start.
+const PIECES: usize = 16;
+
 /// How many times the distance that closes a curve it must have gone before it can come back.
 const OUT: f64 = 4.0;
 
@@ -144,7 +147,8 @@ struct Step {
 /// Follows the line from `start` along `along`, the field's direction there with the sign that is wanted; the field was asked
 /// for it last.
 pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Control) -> Half<L::Cause> {
-    let mut half = Half { pieces: Vec::new(), length: 0.0, end: End::Length, evaluations: 0, rejected: 0 };
+    let mut half =
+        Half { pieces: Vec::with_capacity(PIECES), length: 0.0, end: End::Length, evaluations: 0, rejected: 0 };
     let mut at = State { x: start, k: along, formula: field.formula() };
     let mut h = control.first.min(control.max_step);
     // The step that would have been fine but for a kink, and how often it was shortened.

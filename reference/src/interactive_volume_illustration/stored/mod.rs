@@ -43,6 +43,19 @@ pub(super) struct Stored {
     blocks: Blocks,
 }
 
+/// What was read of the cell that a stroke was in last: lines at its corners, as far as they were asked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    cell: [usize; 3],
+    corners: [Option<Option<DVec3>>; 8],
+}
+
+impl Default for Near {
+    fn default() -> Self {
+        Self { cell: [usize::MAX; 3], corners: [None; 8] }
+    }
+}
+
 /// What the directions of voxels are made from.
 pub(super) struct Source<'a, 'f, 'v> {
     pub(super) ground: &'a dyn Ground,
@@ -100,35 +113,57 @@ impl Stored {
         self.blocks.get(voxel, || source.at(voxel))
     }
 
+    /// The weights of a cell's two sides along each axis.
+    #[inline]
+    fn weights(&self, cell: [usize; 3], index: Vec3<f64>) -> [[f64; 2]; 3] {
+        let index = [index.x, index.y, index.z];
+        [0, 1, 2].map(|a| {
+            // Along an axis of one voxel nothing changes.
+            let w = if self.dims[a] == 1 { 0.0 } else { index[a] - cell[a] as f64 };
+            [1.0 - w, w]
+        })
+    }
+
     /// The corners of a place's cell that have a weight: their voxels and weights.
     fn corners(&self, ground: &dyn Ground, index: Vec3<f64>) -> impl Iterator<Item = ([usize; 3], f64)> {
         let cell = ground.cell(index);
-        let index = [index.x, index.y, index.z];
-        // Along an axis of one voxel nothing changes.
-        let dims = self.dims;
-        let w = [0, 1, 2].map(|a| if dims[a] == 1 { 0.0 } else { index[a] - cell[a] as f64 });
+        let [x, y, z] = self.weights(cell, index);
         (0..8).filter_map(move |i| {
             let up = [i & 1, i >> 1 & 1, i >> 2];
-            let weight: [f64; 3] = [0, 1, 2].map(|a| if up[a] == 1 { w[a] } else { 1.0 - w[a] });
-            let weight = weight[0] * weight[1] * weight[2];
+            let weight = x[up[0]] * y[up[1]] * z[up[2]];
             (weight > 0.0).then(|| ([0, 1, 2].map(|a| cell[a] + up[a]), weight))
         })
     }
 
-    /// The direction of a family at a place in index space, of length 1 and with either sign. `like` is the current one.
+    /// The direction of a family at a place in index space, of length 1 and with either sign. `like` is the current one, `near`
+    /// has what was read of the cell by whoever asks for this family.
     pub(super) fn line(
         &self,
         source: &Source<'_, '_, '_>,
         index: Vec3<f64>,
         family: Family,
         like: Option<DVec3>,
+        near: &mut Near,
         counts: &mut Scales,
     ) -> Result<DVec3, NoDirection> {
         let like = like.filter(|_| self.between == Between::Flipped);
         let mut mean = Mean::new(like);
-        for (voxel, weight) in self.corners(source.ground, index) {
-            if let Some(e) = self.blocks.line(voxel, family == Family::Min, || source.at(voxel)) {
-                mean.add(e, weight);
+        let cell = source.ground.cell(index);
+        if near.cell != cell {
+            *near = Near { cell, corners: [None; 8] };
+        }
+        let [x, y, z] = self.weights(cell, index);
+        for i in 0..8 {
+            let up = [i & 1, i >> 1 & 1, i >> 2];
+            let weight = x[up[0]] * y[up[1]] * z[up[2]];
+            if weight > 0.0 {
+                let line = *near.corners[i].get_or_insert_with(|| {
+                    let voxel = [0, 1, 2].map(|a| cell[a] + up[a]);
+                    self.blocks.line(voxel, family == Family::Min, || source.at(voxel))
+                });
+                if let Some(e) = line {
+                    mean.add(e, weight);
+                }
             }
         }
         let found = mean.direction();
