@@ -125,6 +125,11 @@ impl<'a> Stippling<'a> {
         Ok(PointsPlan { voxels: preprocess.len() / each.max(1), each, bytes: preprocess.bytes() })
     }
 
+    /// Other dots of the same points, which are the same whatever this says.
+    pub(crate) fn set_even(&mut self, even: Even) {
+        self.setting.stipples.even = even;
+    }
+
     /// Makes ready what no camera changes.
     pub fn frames(&self) -> DotFrames<'_> {
         let Setting { job, scene, stipples, first, near, size, .. } = &self.setting;

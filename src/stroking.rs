@@ -3,6 +3,7 @@
 
 mod hatching;
 mod outlining;
+mod sample;
 mod seeding;
 mod shown;
 
@@ -114,7 +115,7 @@ impl<'a> Stroking<'a> {
         let hatching = match &scene.hatching {
             Some(table) => {
                 let scale = largest_scale(&job.view()?, &page, near, grid);
-                Some(Hatching::new((scene, job.function()), table, grid, (&page, scale))?)
+                Some(Hatching::new((scene, job.function()), table, grid, (&page, scale), job.draws_volume())?)
             }
             None => None,
         };

@@ -32,6 +32,7 @@ mod tests {
             rms,
             max: rms,
             flip: rms,
+            angle: None,
             seconds,
             spread: 0.0,
             samples: 1,

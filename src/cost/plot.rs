@@ -170,6 +170,7 @@ mod tests {
             rms,
             max: rms,
             flip: rms,
+            angle: None,
             seconds,
             spread: 0.1,
             samples: 1,

@@ -1,9 +1,10 @@
 //! A sweep as CSV and as Markdown.
 
+use super::variant::{FEW, LONG};
 use super::{On, Row, Sweep, front};
 
 /// The columns of the contract.
-const COLUMNS: &str = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth";
+const COLUMNS: &str = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth,angle";
 
 /// One line a setting under a line of names. Numbers have all the digits that they need.
 pub fn csv(sweep: &Sweep) -> String {
@@ -11,7 +12,10 @@ pub fn csv(sweep: &Sweep) -> String {
     for row in &sweep.rows {
         let Row { rms, max, flip, seconds, spread, samples, bytes, .. } = row;
         let [knob, setting, truth] = [&row.knob, &row.setting, &row.truth.to_string()].map(|cell| quoted(cell));
-        text += &format!("{knob},{setting},{rms:e},{max:e},{flip:e},{seconds},{spread},{samples},{bytes},{truth}\n");
+        let angle = row.angle.map(|degrees| format!("{degrees:e}")).unwrap_or_default();
+        text += &format!(
+            "{knob},{setting},{rms:e},{max:e},{flip:e},{seconds},{spread},{samples},{bytes},{truth},{angle}\n"
+        );
     }
     text
 }
@@ -26,11 +30,15 @@ pub fn markdown(sweep: &Sweep) -> String {
     let Sweep { size: [width, height], runs, threads, .. } = sweep;
     let of_strokes = sweep.rows.iter().any(|row| row.on == On::Strokes);
     let voxels = if of_strokes { " RMS and max of strokes are in voxels." } else { "" };
+    let has_angles = sweep.rows.iter().any(|row| row.angle.is_some());
+    let [angle, angle_rule] = if has_angles { [" angle |", "--:|"] } else { [""; 2] };
+    let is_long = sweep.rows.iter().any(|row| row.on != On::Picture && row.seconds > LONG) && *runs > FEW;
+    let few = if is_long { format!(", of {FEW} where a page takes more than {LONG} s") } else { String::new() };
     let mut text = format!(
-        "{width} × {height} pixels, {threads} threads, medians of {runs} runs. **Bold**: what the scene says; ●: no other \
-         setting with the same kind of truth has less error in less time.{voxels}\n\n\
-         | knob | setting | RMS | max | FLIP | ms | spread | samples | MB | truth |\n\
-         |---|---|--:|--:|--:|--:|--:|--:|--:|---|\n"
+        "{width} × {height} pixels, {threads} threads, medians of {runs} runs{few}. **Bold**: what the scene says; ●: no \
+         other setting with the same kind of truth has less error in less time.{voxels}\n\n\
+         | knob | setting | RMS | max | FLIP |{angle} ms | spread | samples | MB | truth |\n\
+         |---|---|--:|--:|--:|{angle_rule}--:|--:|--:|--:|---|\n"
     );
     let kinds = On::ALL.iter().flat_map(|on| [(*on, true), (*on, false)]);
     let best: Vec<&Row> = kinds.flat_map(|(on, analytic)| front(&sweep.rows, on, analytic)).collect();
@@ -44,8 +52,13 @@ pub fn markdown(sweep: &Sweep) -> String {
         let [ms, spread] = [row.seconds, row.spread].map(|seconds| format!("{:.1}", seconds * 1e3));
         let (samples, megabytes) = (count(row.samples), row.bytes as f64 / 1e6);
         let truth = row.truth.to_string();
+        let angle = match row.angle {
+            Some(degrees) => format!(" {}° |", error(degrees)),
+            None if has_angles => " |".into(),
+            None => String::new(),
+        };
         text += &format!(
-            "| {knob} | {setting}{dot} | {rms} | {max} | {flip} | {ms} | {spread} | {samples} | {megabytes:.1} | {truth} |\n"
+            "| {knob} | {setting}{dot} | {rms} | {max} | {flip} |{angle} {ms} | {spread} | {samples} | {megabytes:.1} | {truth} |\n"
         );
     }
     text
@@ -79,6 +92,7 @@ mod tests {
             rms: 0.0123,
             max: 0.5,
             flip: 0.001,
+            angle: None,
             seconds: 0.0125,
             spread: 0.0005,
             samples: 123_456,
@@ -92,9 +106,9 @@ mod tests {
 
     #[test]
     fn as_csv() {
-        let expected = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth\n\
-             sampling.step,2 voxels,1.23e-2,5e-1,1e-3,0.0125,0.0005,123456,2600000,analytic\n\
-             sampling.step,1 voxel,0e0,5e-1,1e-3,0.0125,0.0005,123456,2600000,\"finest: a, b\"\n";
+        let expected = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth,angle\n\
+             sampling.step,2 voxels,1.23e-2,5e-1,1e-3,0.0125,0.0005,123456,2600000,analytic,\n\
+             sampling.step,1 voxel,0e0,5e-1,1e-3,0.0125,0.0005,123456,2600000,\"finest: a, b\",\n";
         assert_eq!(csv(&sweep()), expected);
     }
 
@@ -108,6 +122,23 @@ mod tests {
             "| `sampling.step` | 2 voxels ● | 1.2e-2 | 5.0e-1 | 1.0e-3 | 12.5 | 0.5 | 123 k | 2.6 | analytic |"
         );
         assert_eq!(lines[3], "|  | **1 voxel** | 0 | 5.0e-1 | 1.0e-3 | 12.5 | 0.5 | 123 k | 2.6 | finest: a, b |");
+    }
+
+    /// Strokes have an angle, and what takes long fewer runs.
+    #[test]
+    fn strokes_have_a_column_more() {
+        let mut sweep = Sweep { runs: 5, ..sweep() };
+        let stroke = Row { on: On::Strokes, angle: Some(0.25), seconds: 3.0, ..sweep.rows[0].clone() };
+        sweep.rows.push(stroke);
+        assert!(csv(&sweep).ends_with(",analytic,2.5e-1\n"));
+        let text = markdown(&sweep);
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines[0].contains("medians of 5 runs, of 3 where a page takes more than 2 s."), "{text}");
+        assert!(lines[2].contains("| FLIP | angle | ms |") && lines[3].matches('|').count() == 12, "{text}");
+        assert!(
+            lines[4].contains("| 1.0e-3 | | 12.5 |") && lines[6].contains("| 1.0e-3 | 2.5e-1° | 3000.0 |"),
+            "{text}"
+        );
     }
 
     #[test]

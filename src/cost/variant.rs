@@ -1,17 +1,31 @@
 //! What a setting makes, and the time that it takes.
 
 use super::On;
+use super::statistics::median;
+use super::strokes::Drawn;
+use super::tone::tone;
 use crate::Failure;
-use crate::job::{Job, Turned, Wanted};
-use crate::marking::Marking;
+use crate::job::{Job, Turned};
+use crate::stippling::Stippling;
+use crate::stroking::Stroking;
 use drypoint_output::read::Image;
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::Marks;
-use std::time::Instant;
+use drypoint_scene::marks::{Marks, Page};
+use drypoint_scene::tables::{Even, Scene};
+use std::time::{Duration, Instant};
 
 /// Bytes that are kept prepared from turn to turn; what is more is prepared anew each time.
 const KEPT: u64 = 1 << 30;
+
+/// Seconds of a page of dots or strokes beyond which its first turn is no warm-up and [`FEW`] are enough.
+pub(super) const LONG: f64 = 2.0;
+
+/// Turns of what takes longer than [`LONG`].
+pub(super) const FEW: usize = 3;
+
+/// Strokes that are compared, of each setting.
+const STROKES: usize = 2000;
 
 /// A scene that is drawn, whatever knobs lead to it.
 pub(super) struct Variant<'a> {
@@ -20,8 +34,8 @@ pub(super) struct Variant<'a> {
     pub(super) turned: &'a Turned,
     /// Ready for the next turn, where it may be kept.
     renderer: Option<Renderer<'a>>,
-    /// What was made, with its counts, or why there is none.
-    pub(super) made: Result<(Made, Counts), Failure>,
+    /// What was made in the first turn, with its counts, or why there is none.
+    pub(super) made: Option<Result<(Made, Counts), Failure>>,
     pub(super) seconds: Vec<f64>,
 }
 
@@ -29,68 +43,146 @@ pub(super) struct Variant<'a> {
 pub(super) enum Made {
     /// Of [`On::Picture`].
     Picture(Image),
-    /// Of [`On::Dots`].
-    Dots(Marks),
+    /// Of [`On::Dots`]: the tone of the page.
+    Dots(Image),
     /// Of [`On::Strokes`].
-    Strokes(Marks),
+    Strokes(Drawn),
 }
 
 impl<'a> Variant<'a> {
-    /// Prepares and warms up; `kept` counts what the variants keep.
-    pub(super) fn new(job: &'a Job, on: On, turned: &'a Turned, kept: &mut u64) -> Self {
-        let mut renderer = None;
-        let made = match on {
-            On::Picture => job.renderer_of(turned).map(|ready| {
-                let (picture, counts) = ready.frame(&|_| ());
-                let shared = |name: &str| ["volume", "mask", "labels", "picture"].contains(&name);
-                let own: u64 = counts.bytes.iter().filter(|(name, _)| !shared(name)).map(|(_, bytes)| bytes).sum();
-                if *kept + own <= KEPT {
-                    *kept += own;
-                    renderer = Some(ready);
-                }
-                (Made::Picture(Image::from(&picture)), counts)
-            }),
-            On::Dots => marks(job, turned, Wanted::Points).map(|(marks, counts)| (Made::Dots(marks), counts)),
-            On::Strokes => marks(job, turned, Wanted::Strokes).map(|(marks, counts)| (Made::Strokes(marks), counts)),
-        };
-        Self { job, on, turned, renderer, made, seconds: Vec::new() }
+    pub(super) fn new(job: &'a Job, on: On, turned: &'a Turned) -> Self {
+        Self { job, on, turned, renderer: None, made: None, seconds: Vec::new() }
     }
 
-    /// Times one frame of a picture, or all of dots or strokes.
-    pub(super) fn take_turn(&mut self) -> Result<(), Failure> {
-        let (anew, start);
-        match (self.on, &self.renderer) {
-            (On::Picture, Some(renderer)) => {
-                start = Instant::now();
-                renderer.frame(&|_| ());
+    /// Whether it takes no more turns.
+    pub(super) fn is_done(&self, runs: usize) -> bool {
+        let is_long = self.on != On::Picture && median(&self.seconds) > LONG;
+        matches!(self.made, Some(Err(_))) || self.seconds.len() >= if is_long { runs.min(FEW) } else { runs }
+    }
+
+    /// Whether both draw the same points.
+    fn has_points_of(&self, other: &Self) -> bool {
+        let points = |scene: &Scene| {
+            let mut scene = scene.clone();
+            if let Some(stipples) = &mut scene.stipples {
+                stipples.even = Even::None;
             }
-            (On::Picture, None) => {
-                anew = self.job.renderer_of(self.turned)?;
-                start = Instant::now();
-                anew.frame(&|_| ());
-            }
-            (On::Dots | On::Strokes, _) => {
-                let wanted = if self.on == On::Dots { Wanted::Points } else { Wanted::Strokes };
-                start = Instant::now();
-                marks(self.job, self.turned, wanted)?;
-            }
+            scene
+        };
+        [self.on, other.on] == [On::Dots; 2] && points(&self.turned.scene) == points(&other.turned.scene)
+    }
+
+    fn fail(&mut self, failure: Failure) {
+        self.made = Some(Err(failure));
+    }
+
+    /// Times one frame of a picture; the first time prepares it and warms up. `kept` counts what the variants keep.
+    fn take_picture(&mut self, kept: &mut u64) -> Result<(), Failure> {
+        let anew = match &self.renderer {
+            Some(_) => None,
+            None => Some(self.job.renderer_of(self.turned)?),
+        };
+        let Some(ready) = anew.as_ref().or(self.renderer.as_ref()) else { return Ok(()) };
+        let start = Instant::now();
+        let (picture, counts) = ready.frame(&|_| ());
+        if self.made.is_some() {
+            self.seconds.push(start.elapsed().as_secs_f64());
+            return Ok(());
         }
-        self.seconds.push(start.elapsed().as_secs_f64());
+        let shared = |name: &str| ["volume", "mask", "labels", "picture"].contains(&name);
+        let own: u64 = counts.bytes.iter().filter(|(name, _)| !shared(name)).map(|(_, bytes)| bytes).sum();
+        if *kept + own <= KEPT {
+            *kept += own;
+            self.renderer = anew;
+        }
+        self.made = Some(Ok((Made::Picture(Image::from(&picture)), counts)));
+        Ok(())
+    }
+
+    /// Of a page that took so long: what it made the first time, which is a warm-up, and else the time.
+    fn take_page(
+        &mut self,
+        took: Duration,
+        made: impl FnOnce(&Job) -> Result<Made, Failure>,
+        counts: Counts,
+    ) -> Result<(), Failure> {
+        let seconds = took.as_secs_f64();
+        if self.made.is_some() || seconds > LONG {
+            self.seconds.push(seconds);
+        }
+        if self.made.is_none() {
+            self.made = Some(Ok((made(self.job)?, counts)));
+        }
         Ok(())
     }
 }
 
-/// The first frame of a scene's points or strokes, made from its voxels.
-fn marks(job: &Job, turned: &Turned, wanted: Wanted) -> Result<(Marks, Counts), Failure> {
+/// Which variants take their turns together: dots of the same points, which are made once for all of them.
+pub(super) fn together(variants: &[Variant<'_>]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (at, variant) in variants.iter().enumerate() {
+        match groups.iter_mut().find(|group| group.iter().any(|&first| variants[first].has_points_of(variant))) {
+            Some(group) => group.push(at),
+            None => groups.push(vec![at]),
+        }
+    }
+    groups
+}
+
+/// A turn of variants that take theirs together: one frame of a picture, or all of a page of dots or strokes, from the
+/// voxels on. What fails the first time takes no more turns.
+pub(super) fn take_turn(variants: &mut [Variant<'_>], group: &[usize], kept: &mut u64) -> Result<(), Failure> {
+    for (place, &at) in group.iter().enumerate() {
+        let is_first = variants[at].made.is_none();
+        let done = match variants[at].on {
+            On::Picture => variants[at].take_picture(kept),
+            On::Dots if place == 0 => take_dots(variants, group),
+            On::Dots => Ok(()),
+            On::Strokes => take_strokes(&mut variants[at]),
+        };
+        match done {
+            Err(failure) if is_first => group[place..].iter().for_each(|&at| variants[at].fail(failure.clone())),
+            done => done?,
+        }
+    }
+    Ok(())
+}
+
+/// Makes points, and draws them as each of a group says; what they share counts for each.
+fn take_dots(variants: &mut [Variant<'_>], group: &[usize]) -> Result<(), Failure> {
+    let Variant { job, turned, .. } = variants[group[0]];
+    let mut counts = counts_of(job);
+    let start = Instant::now();
+    let mut stippling = Stippling::of(job, &turned.scene, &mut counts, &|_| ())?;
+    let shared = start.elapsed();
+    for &at in group {
+        let (variant, mut counts) = (&mut variants[at], counts.clone());
+        let scene = &variant.turned.scene;
+        let start = Instant::now();
+        if let Some(stipples) = &scene.stipples {
+            stippling.set_even(stipples.even);
+        }
+        let marks = stippling.frames().draw(&job.view()?, &mut counts);
+        let took = shared + start.elapsed();
+        variant.take_page(took, |job| Ok(Made::Dots(tone(job, scene, &marks)?)), counts)?;
+    }
+    Ok(())
+}
+
+fn take_strokes(variant: &mut Variant<'_>) -> Result<(), Failure> {
+    let (job, scene) = (variant.job, &variant.turned.scene);
+    let mut counts = counts_of(job);
+    let start = Instant::now();
+    let stroking = Stroking::of(job, scene, &mut counts)?;
+    let mut frames = stroking.frames(&mut counts);
+    let [over, inside] = frames.draw(&job.view()?, &mut counts);
+    let took = start.elapsed();
+    let marks = || Marks { page: Page::of(scene), layers: over.into_iter().chain(inside).collect() };
+    variant.take_page(took, |_| Ok(Made::Strokes(Drawn { strokes: frames.sample(STROKES), marks: marks() })), counts)
+}
+
+fn counts_of(job: &Job) -> Counts {
     let mut counts = Counts::default();
     counts.bytes.insert("volume".into(), job.volume.voxels().bytes() as u64);
-    let marking = Marking::of(job, &turned.scene, Some(wanted), (&mut counts, &|_| ()))?;
-    let drawn = marking.frames(&mut counts).map(|mut frames| -> Result<Marks, Failure> {
-        let view = job.view()?;
-        Ok(frames.draw(&view, &mut counts))
-    });
-    match drawn {
-        Some(marks) => Ok((marks?, counts)),
-        None => Err(Failure::new("nothing is drawn", job.scene.given.position(""), "add a table [stipples]")),
-    }
+    counts
 }

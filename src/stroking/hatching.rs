@@ -70,8 +70,8 @@ pub(super) struct Hatching<'a> {
 /// The strokes of a surface.
 pub(super) struct Hatched<'a> {
     hatching: &'a Hatching<'a>,
-    strokes: room::Strokes<'a, 'a>,
-    cells: Vec<[usize; 3]>,
+    pub(super) strokes: room::Strokes<'a, 'a>,
+    pub(super) cells: Vec<[usize; 3]>,
     /// Of all cells, where they fall as their seeds do: the first, and those that cross, with N at their seeds.
     grown: Option<Grown>,
 }
@@ -88,6 +88,7 @@ impl<'a> Hatching<'a> {
         table: &'a Table,
         grid: &Grid,
         (page, scale): (&Page, f64),
+        has_picture: bool,
     ) -> Result<Self, Failure> {
         let spacing = match table.spacing {
             Spacing::Random => None,
@@ -133,7 +134,7 @@ impl<'a> Hatching<'a> {
             gap: gap.map(|gap| [gap, deeper]),
             dash,
             is_pencil: table.is_pencil(scene),
-            is_merged: table.is_merged(scene),
+            is_merged: has_picture && table.is_merged(scene),
         })
     }
 
@@ -154,7 +155,11 @@ impl<'a> Hatching<'a> {
 
     /// Whether what is hidden of strokes is cut off.
     pub(super) fn is_cut(&self) -> bool {
-        self.table.hidden == Hidden::Cut
+        match self.table.hidden {
+            Hidden::Cut => true,
+            Hidden::Merged => !self.is_merged,
+            Hidden::Drawn => false,
+        }
     }
 
     /// Whether strokes are inside the picture of the volume, where there is one.

@@ -67,7 +67,8 @@ impl Stroking<'_> {
 impl SeedMap {
     /// How many cells there are, and Σp, the strokes that can be expected.
     pub fn sums(&self) -> (usize, f64) {
-        (self.0.cells.len(), self.0.expected())
+        // The sum of no numbers is −0.
+        (self.0.cells.len(), self.0.expected() + 0.0)
     }
 
     /// Each cell by its lowest voxel, with its p.

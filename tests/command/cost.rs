@@ -15,17 +15,18 @@ struct Row {
     samples: u64,
     bytes: u64,
     truth: String,
+    angle: Option<f64>,
 }
 
 /// Runs a sweep, by knob.
 fn rows(folder: &Folder, line: &str) -> BTreeMap<String, Vec<Row>> {
     let csv = folder.good(line);
     let mut lines = csv.lines();
-    assert_eq!(lines.next(), Some("knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth"));
+    assert_eq!(lines.next(), Some("knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth,angle"));
     let mut rows: BTreeMap<String, Vec<Row>> = BTreeMap::new();
     for line in lines {
         let cells: Vec<&str> = line.split(',').collect();
-        assert_eq!(cells.len(), 10, "{line}");
+        assert_eq!(cells.len(), 11, "{line}");
         let number = |i: usize| cells[i].parse::<f64>().unwrap_or_else(|_| panic!("{line}"));
         rows.entry(cells[0].into()).or_default().push(Row {
             setting: cells[1].into(),
@@ -37,6 +38,7 @@ fn rows(folder: &Folder, line: &str) -> BTreeMap<String, Vec<Row>> {
             samples: cells[7].parse().unwrap(),
             bytes: cells[8].parse().unwrap(),
             truth: cells[9].into(),
+            angle: cells[10].parse().ok(),
         });
     }
     rows
@@ -248,6 +250,7 @@ fn dots_are_compared_by_their_tone() {
         assert!(coarse.rms > 0.0 && coarse.rms <= coarse.max && coarse.max <= 1.0 && coarse.flip > 0.0, "{coarse:?}");
         for row in rows {
             assert_eq!((row.samples, &row.truth), (0, &format!("finest: {}", fine.setting)), "{knob}");
+            assert_eq!(row.angle, None, "{knob}");
             // The volume, 12 bytes a point, and the page.
             assert!(row.seconds > 0.0 && row.bytes > 32 * 32 * 32 + 12 * 1000, "{row:?}");
         }
@@ -276,8 +279,8 @@ fn strokes_are_compared_by_their_distance() {
         assert!(row.rms <= row.max && row.rms <= chord && row.seconds > 0.0 && row.bytes > 20 * 20 * 20, "{row:?}");
     }
     let [coarse, .., fine] = chords.as_slice() else { panic!("{chords:?}") };
-    assert!(coarse.rms > 0.05 && coarse.flip > 0.0, "{coarse:?}");
-    assert_eq!((fine.rms, fine.max, fine.flip), (0.0, 0.0, 0.0));
+    assert!(coarse.rms > 0.05 && coarse.flip > 0.0 && coarse.angle > Some(0.0), "{coarse:?}");
+    assert_eq!((fine.rms, fine.max, fine.flip, fine.angle), (0.0, 0.0, 0.0, Some(0.0)));
     let table = folder.good(&format!("{line} -o a.md"));
     assert_eq!(table, "");
     assert!(String::from_utf8(folder.read("a.md")).unwrap().contains("RMS and max of strokes are in voxels."));

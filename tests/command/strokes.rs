@@ -248,3 +248,31 @@ fn what_makes_no_page_is_refused() {
         assert_eq!(told.lines().count(), 3, "{told}");
     }
 }
+
+/// [HATCH-14]: strokes that were to be inside a picture are cut off where they are hidden, if there is none: on a page of
+/// strokes, for a plotter, and without a volume that is drawn.
+#[test]
+fn without_a_picture_to_be_inside_strokes_are_cut() {
+    let folder = Folder::new();
+    let transfer = "[transfer]\nkind = \"regular\"\nnodes = [{ at = -9, color = \"white\", opacity = 0 }, { at = 9, color = \"white\", opacity = 0.1 }]\n";
+    let scene = "drypoint = 1\n[volume]\nphantom = { name = \"torus\", size = 28, type = \"f64\" }\n[picture]\nsize = [90, 90]\n\
+                 [hatching]\niso = 0\nseeds = \"dense\"\n";
+    folder.write("inside.toml", format!("{scene}{transfer}"));
+    folder.write("alone.toml", scene);
+    for (line, at) in
+        [("strokes inside.toml", "a"), ("render inside.toml --set page.plotter=true", "b"), ("render alone.toml", "c")]
+    {
+        for hidden in ["merged", "cut", "drawn"] {
+            folder.good(&format!("{line} --set hatching.hidden={hidden} -o {at}-{hidden}.svg -q"));
+        }
+        let body = |hidden: &str| {
+            let svg = text(&folder, &format!("{at}-{hidden}.svg"));
+            // What the file says of its scene is another.
+            svg[svg.rfind("<g ").unwrap()..].to_owned()
+        };
+        assert_eq!(body("merged"), body("cut"), "{line}");
+        assert!(body("drawn").len() > body("cut").len() * 5 / 4, "{line}");
+    }
+    let plan = folder.command(["plan", "alone.toml", "--set", "hatching.hidden=merged"]).output().unwrap();
+    assert!(String::from_utf8(plan.stdout).unwrap().contains("what is hidden is cut off"));
+}

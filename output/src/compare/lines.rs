@@ -1,7 +1,30 @@
-//! How far two lists of lines are apart in the world: Hausdorff's distance ([COST-1]).
+//! How far two lists of lines are apart in the world, Hausdorff's distance, and the angle between two lines ([COST-1]).
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::marks::Polyline;
+use drypoint_scene::math::atan2;
+use drypoint_scene::strokes::Stroke;
+
+/// The way that a line takes through the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// Its vertices, in order.
+    pub places: Vec<DVec3>,
+    /// Whether it goes on from the last to the first.
+    pub closed: bool,
+}
+
+impl From<&Polyline> for Course {
+    fn from(line: &Polyline) -> Self {
+        Self { places: line.vertices.iter().map(|vertex| vertex.world).collect(), closed: line.closed }
+    }
+}
+
+impl From<&Stroke> for Course {
+    fn from(stroke: &Stroke) -> Self {
+        Self { places: stroke.vertices.iter().map(|vertex| vertex.world).collect(), closed: stroke.closed }
+    }
+}
 
 /// How far two lists of lines are apart, both ways, in world units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,11 +40,7 @@ type Piece = [DVec3; 2];
 
 /// Cuts all lines into pieces of at most `step` and takes the distance of each of their ends to the other list's pieces,
 /// as segments: so lines that are the same with other vertices are not apart. None where a list has no line.
-pub fn apart<'a>(
-    a: impl Iterator<Item = &'a Polyline>,
-    b: impl Iterator<Item = &'a Polyline>,
-    step: f64,
-) -> Option<Apart> {
+pub fn apart<L: Into<Course>>(a: impl Iterator<Item = L>, b: impl Iterator<Item = L>, step: f64) -> Option<Apart> {
     let (mut a, mut b) = (pieces(a, step), pieces(b, step));
     if a.is_empty() || b.is_empty() {
         return None;
@@ -39,13 +58,33 @@ pub fn apart<'a>(
     Some(Apart { rms: (sum / places as f64).sqrt(), max: most.sqrt() })
 }
 
+/// The angles between two lines, in radians from 0 to π/2, at equal arc lengths from their first places: `step`, 2·`step`
+/// and so on, as far as both go.
+pub fn angles(a: &Course, b: &Course, step: f64) -> Vec<f64> {
+    let [along_a, along_b] = [a, b].map(|line| directions(line, step));
+    along_a.iter().zip(&along_b).map(|(p, q)| atan2(p.cross(*q).length(), p.dot(*q).abs())).collect()
+}
+
+/// The directions of a line at the arc lengths `step`, 2·`step` and so on.
+fn directions(Course { places, closed }: &Course, step: f64) -> Vec<DVec3> {
+    let next = places.iter().skip(1).chain(places.first().filter(|_| *closed));
+    let (mut directions, mut gone) = (Vec::new(), 0.0);
+    for (a, b) in places.iter().zip(next) {
+        gone += a.distance(*b);
+        while (directions.len() + 1) as f64 * step <= gone {
+            directions.push((*b - *a).normalize_or_zero());
+        }
+    }
+    directions
+}
+
 /// Lines in pieces of at most `step`.
-fn pieces<'a>(lines: impl Iterator<Item = &'a Polyline>, step: f64) -> Vec<Piece> {
+fn pieces<L: Into<Course>>(lines: impl Iterator<Item = L>, step: f64) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for line in lines {
-        let next = line.vertices.iter().skip(1).chain(line.vertices.first().filter(|_| line.closed));
-        for (a, b) in line.vertices.iter().zip(next) {
-            let (a, b) = (a.world, b.world);
+        let Course { places, closed } = line.into();
+        let next = places.iter().skip(1).chain(places.first().filter(|_| closed));
+        for (&a, &b) in places.iter().zip(next) {
             let n = (a.distance(b) / step).ceil().max(1.0) as usize;
             let at = |i: usize| if i == n { b } else { a.lerp(b, i as f64 / n as f64) };
             pieces.extend((0..n).map(|i| [at(i), at(i + 1)]));
@@ -169,6 +208,26 @@ mod tests {
         let slow = all_a.iter().flatten().map(|&p| least(p, &all_b));
         let slow = slow.chain(all_b.iter().flatten().map(|&p| least(p, &all_a))).fold(0.0, f64::max);
         assert_eq!(of(&a, &b, 0.5).unwrap().max, slow.sqrt());
+    }
+
+    #[test]
+    fn angles_at_equal_arc_lengths_by_hand() {
+        let course = |closed, places: &[[f64; 3]]| Course {
+            places: places.iter().map(|p| DVec3::from_array(*p)).collect(),
+            closed,
+        };
+        let straight = course(false, &[[0.0; 3], [10.0, 0.0, 0.0]]);
+        // After two units up by 3:4, and back along it: a line has no sense of direction.
+        let bent = course(false, &[[5.0, 5.0, 5.0], [7.0, 5.0, 5.0], [3.0, 8.0, 5.0]]);
+        let found = angles(&straight, &bent, 1.0);
+        let expected = [0.0, 0.0, 0.75_f64.atan(), 0.75_f64.atan(), 0.75_f64.atan(), 0.75_f64.atan(), 0.75_f64.atan()];
+        assert_eq!(found.len(), expected.len());
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}");
+        // The fourth side of a square goes back.
+        let square = course(true, &[[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]);
+        let quarter = std::f64::consts::FRAC_PI_2;
+        assert_eq!(angles(&straight, &square, 1.0), [0.0, quarter, 0.0, quarter]);
+        assert!(angles(&straight, &course(false, &[[1.0; 3]]), 1.0).is_empty());
     }
 
     #[test]

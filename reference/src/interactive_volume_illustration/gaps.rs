@@ -30,7 +30,7 @@ pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, de
                 .iter()
                 .map(|segment| {
                     let near = grid.near(segment, gap).map(|i| &all[i]).filter(|other| other.line != number);
-                    near.filter_map(|other| segment.behind(other, gap, deeper)).collect()
+                    segment.behind_each(near, gap, deeper)
                 })
                 .collect();
             let cuts = out.iter().filter(|out| !out.is_empty()).count() as u64;
@@ -86,6 +86,20 @@ impl Segment {
         let its = [0.0, 1.0].map(|t| [self.nearest(other.at(t)), t]);
         let square = |[s, t]: [f64; 2]| self.at(s).distance_squared(other.at(t));
         own.into_iter().chain(its).min_by(|&p, &q| square(p).total_cmp(&square(q))).unwrap_or_default()
+    }
+
+    /// The parts of this one that lie within `gap` of nearer ones; once it is cut out as a whole the rest is not asked.
+    fn behind_each<'a>(&self, others: impl Iterator<Item = &'a Self>, gap: f64, deeper: f64) -> Vec<[f64; 2]> {
+        let deepest = self.depths[0].max(self.depths[1]);
+        let mut out = Vec::new();
+        // Most of what is near is part of the same surface, and as deep.
+        for other in others.filter(|other| deepest - other.depths[0].min(other.depths[1]) > deeper) {
+            out.extend(self.behind(other, gap, deeper));
+            if out.last() == Some(&[0.0, 1.0]) {
+                break;
+            }
+        }
+        out
     }
 
     /// The part of this one that lies within `gap` of a nearer one.

@@ -2,7 +2,7 @@
 
 use super::describe::{Key, Later, Table};
 use super::fault::{Fault, Problem};
-use super::item::{Entries, Item, Value};
+use super::item::{Entries, Entry, Item, Value};
 use super::out;
 use super::place::{Given, Place};
 use crate::nearest::nearest;
@@ -178,6 +178,15 @@ impl Check {
         self.unknown_keys(table, entries);
         for key in table.keys.iter().filter(|key| !dropped.contains(key.name)) {
             match entries.get(key.name) {
+                Some(entry) if entry.item.value == Value::Off => {
+                    if key.required {
+                        self.missing(key, &item.place);
+                    }
+                    if key.field.write(&result) != key.field.write(&(table.empty)()) {
+                        result = without(table, key, &result);
+                    }
+                }
+                Some(entry) if entry.item.takes_away() && key.field.write(&result).is_none() => {}
                 Some(entry) => self.within(key.name, |check| {
                     // A preset's table of which a key is overridden is still the preset's.
                     let is_over = || key.field.write(&result) != key.field.write(&(table.empty)());
@@ -191,7 +200,7 @@ impl Check {
             }
         }
         if let Some(open) = table.open {
-            for (name, entry) in entries.iter().filter(|(name, _)| table.keys.iter().all(|key| key.name != *name)) {
+            for (name, entry) in others(table, entries) {
                 self.within(name, |check| {
                     check.note(&entry.name);
                     open.read(name, &entry.item, &mut result, check);
@@ -216,7 +225,7 @@ impl Check {
         if table.open.is_some() {
             return;
         }
-        for (name, entry) in entries.iter().filter(|(name, _)| table.keys.iter().all(|key| key.name != *name)) {
+        for (name, entry) in others(table, entries) {
             if let Some(later) = table.later.iter().find(|later| later.name == name) {
                 let what = match (self.path.is_empty(), &entry.item.value) {
                     (true, Value::Table(_)) => format!("[{name}]"),
@@ -236,10 +245,11 @@ impl Check {
     /// The keys that give way to others. Of two that stand in each other's place the command line's stays.
     fn alternatives<S>(&mut self, table: &Table<S>, entries: &Entries) -> BTreeSet<&'static str> {
         let mut dropped = BTreeSet::new();
-        let set = |name: &str| entries.get(name).is_some_and(|entry| entry.name.line().is_none());
+        let get = |name: &str| entries.get(name).filter(|entry| !entry.item.takes_away());
+        let set = |name: &str| get(name).is_some_and(|entry| entry.name.line().is_none());
         for instead in table.instead {
-            let Some(one) = entries.get(instead.one) else { continue };
-            let others: Vec<&str> = instead.others.iter().copied().filter(|o| entries.contains_key(*o)).collect();
+            let Some(one) = get(instead.one) else { continue };
+            let others: Vec<&str> = instead.others.iter().copied().filter(|other| get(other).is_some()).collect();
             if others.is_empty() {
                 continue;
             }
@@ -259,6 +269,23 @@ impl Check {
         }
         dropped
     }
+}
+
+/// What a table has beside its own keys.
+fn others<'a, S>(table: &Table<S>, entries: &'a Entries) -> impl Iterator<Item = (&'a String, &'a Entry)> {
+    entries.iter().filter(|(name, entry)| !entry.item.takes_away() && table.keys.iter().all(|key| key.name != *name))
+}
+
+/// The same with a key as it is where nothing says it.
+fn without<S>(table: &Table<S>, out: &Key<S>, from: &S) -> S {
+    let mut rest = (table.empty)();
+    for key in table.keys.iter().filter(|key| key.name != out.name) {
+        key.field.copy(from, &mut rest);
+    }
+    if let Some(open) = table.open {
+        open.copy(from, &mut rest);
+    }
+    rest
 }
 
 /// What stands where a table is expected.

@@ -166,6 +166,8 @@ pub(crate) trait Field<S>: Sync {
     fn read(&self, item: &Item, into: &mut S, check: &mut Check);
     /// The key's value; none where it has none.
     fn write(&self, from: &S) -> Option<Out>;
+    /// Puts the key's value, where it has one, into another struct.
+    fn copy(&self, from: &S, into: &mut S);
     /// What may stand there.
     fn shape(&self) -> &dyn Shape;
 }
@@ -192,6 +194,12 @@ impl<S, K: Kind> Field<S> for Slot<S, K> {
         (self.get)(from).map(|value| self.kind.write(&value))
     }
 
+    fn copy(&self, from: &S, into: &mut S) {
+        if let Some(value) = (self.get)(from) {
+            (self.set)(into, value);
+        }
+    }
+
     fn shape(&self) -> &dyn Shape {
         &self.kind
     }
@@ -203,6 +211,8 @@ pub(crate) trait Named<S>: Sync {
     fn read(&self, name: &str, item: &Item, into: &mut S, check: &mut Check);
     /// All of them.
     fn write(&self, from: &S) -> Vec<(String, Out)>;
+    /// Adds all of them to another struct.
+    fn copy(&self, from: &S, into: &mut S);
     /// What may stand after each.
     fn shape(&self) -> &dyn Shape;
     /// What such a name is.
@@ -229,6 +239,10 @@ impl<S, K: Kind> Named<S> for Names<S, K> {
 
     fn write(&self, from: &S) -> Vec<(String, Out)> {
         (self.list)(from).into_iter().map(|(name, value)| (name, self.kind.write(&value))).collect()
+    }
+
+    fn copy(&self, from: &S, into: &mut S) {
+        (self.list)(from).into_iter().for_each(|(name, value)| (self.add)(into, name, value));
     }
 
     fn shape(&self) -> &dyn Shape {

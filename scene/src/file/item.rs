@@ -26,6 +26,8 @@ pub(crate) enum Value {
     Date(String),
     List(Vec<Item>),
     Table(Entries),
+    /// That nothing is to be there, whatever a preset supplies.
+    Off,
 }
 
 /// The entries of a table by name.
@@ -39,6 +41,15 @@ pub(crate) struct Entry {
 }
 
 impl Item {
+    /// Whether it says only what is not to be there.
+    pub(crate) fn takes_away(&self) -> bool {
+        match &self.value {
+            Value::Off => true,
+            Value::Table(entries) => self.is_way && entries.values().all(|entry| entry.item.takes_away()),
+            _ => false,
+        }
+    }
+
     /// Reads a whole document. What is no TOML is reported with its place, every fault of it.
     pub(crate) fn document(text: &str) -> Result<Self, Vec<(Place, Problem)>> {
         let lines = Lines::new(text);
@@ -106,6 +117,7 @@ impl Item {
             }
             Value::List(items) => format!("a list of {}", items.len()),
             Value::Table(_) => "a table".into(),
+            Value::Off => "nothing".into(),
         }
     }
 }

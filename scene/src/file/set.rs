@@ -151,10 +151,11 @@ fn put(item: &mut Item, steps: &[String], new: Option<Item>, place: &Place) -> R
             Ok(())
         }
         ([], None) => {
-            entries.remove(step);
+            // What the file does not have may be a preset's.
+            let item = Item { value: Value::Off, place: place.clone(), is_way: false };
+            entries.insert(step.clone(), Entry { name: place.clone(), item });
             Ok(())
         }
-        (_, None) => entries.get_mut(step).map_or(Ok(()), |entry| put(&mut entry.item, rest, None, place)),
         (_, new) => {
             let empty = || Entry {
                 name: place.clone(),

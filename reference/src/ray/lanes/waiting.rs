@@ -256,8 +256,8 @@ impl<S: Simd, V: Packed> Tile<'_, '_, S, V> {
             let ray = usize::from(rays[lane]);
             let (packet, ray) = (&self.packets[ray / LANES], ray % LANES);
             let t = packet.depth_step[ray] * (k[lane] + 0.5);
-            for axis in 0..3 {
-                p[axis][lane] = packet.origin[axis][ray] + packet.along[axis][ray] * t;
+            for ((p, origin), along) in p.iter_mut().zip(&packet.origin).zip(&packet.along) {
+                p[lane] = origin[ray] + along[ray] * t;
             }
         }
         vector(self.simd, p)

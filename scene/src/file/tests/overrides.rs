@@ -216,3 +216,31 @@ fn a_themes_folder_gives_the_names_of_its_styles() {
     assert_eq!(whats, ["there is no style \"wax\"; there is soft"]);
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// What a preset supplies is removed as what the file has: tables, tables in them, keys.
+#[test]
+fn off_removes_what_a_preset_supplies() {
+    let with = |preset: &str, settings: &[(&str, &str)]| {
+        let text = format!("drypoint = 1\npreset = \"{preset}\"\n[volume]\nfile = \"a.nrrd\"\n");
+        parse(&text, Path::new("scene.toml"), &settings.iter().copied().collect()).unwrap()
+    };
+    let hatch = with("hatch", &[]);
+    assert!(hatch.outlines.is_some() && hatch.hatching.as_ref().unwrap().cross.is_some());
+    let scene = with("hatch", &[("outlines", "off")]);
+    assert_eq!((scene.outlines.is_none(), &scene.hatching), (true, &hatch.hatching));
+    let scene = with("hatch", &[("hatching.cross", "off")]);
+    assert_eq!(scene.outlines, hatch.outlines);
+    let (without, table) = (scene.hatching.unwrap(), hatch.hatching.unwrap());
+    assert_eq!(without, crate::tables::Hatching { cross: None, ..table });
+    let lit = with("hatch-fig5", &[("hatching.lighting", "off"), ("hatching.width", "1 mm")]).hatching.unwrap();
+    assert_eq!((lit.lighting.is_none(), lit.width), (true, Length::Millimetres(1.0)));
+    assert_eq!(lit.hidden, crate::tables::Hidden::Drawn);
+    assert!(with("hatch-fig2", &[("surface.silhouette", "off")]).surface.unwrap().silhouette.is_none());
+    // Off, and then on again: the table as the format has it, and not the preset's.
+    let again = with("hatch-fig5", &[("hatching.lighting", "off"), ("hatching.lighting.p", "2")]);
+    assert_eq!(again.hatching.unwrap().lighting, Some(crate::tables::LineLighting { p: 2.0, ..Default::default() }));
+    // Tables that neither has stay away.
+    assert_eq!(with("hatch", &[("shading.toon", "off"), ("stipples.lighting", "off")]), with("hatch", &[]));
+    // The last preset stays off, too: the scene is then what it would be without.
+    assert!(with("hatch", &[("preset", "off")]).hatching.is_none());
+}

@@ -3,7 +3,7 @@
 use super::{
     DirectionRule, DirectionSource, HatchIso, HatchStyle, Hatching, Hidden, LineLighting, SeedsBy, Spacing, StoredAt,
 };
-use crate::plan::{Asks, Idle, Pass};
+use crate::plan::{Asks, Idle, Pass, Plan};
 use crate::tables::{GradientRange, Iso, Scene};
 
 impl Hatching {
@@ -83,10 +83,12 @@ pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
     if hatching.lighting(scene).is_some() {
         asks.pass(Pass::LitStrokes, "lit lines", "hatching.lighting");
     }
-    if hatching.hidden == Hidden::Cut && (scene.surface.is_some() || hatching.iso != HatchIso::Transfer) {
+    let is_merged = hatching.is_merged(scene) && asks.casts_rays();
+    let is_cut = hatching.hidden == Hidden::Cut || (hatching.hidden == Hidden::Merged && !is_merged);
+    if is_cut && (scene.surface.is_some() || hatching.iso != HatchIso::Transfer) {
         asks.pass(Pass::HiddenStrokes, "hidden strokes", if scene.surface.is_some() { "surface" } else { "hatching" });
     }
-    if hatching.is_merged(scene) && asks.casts_rays() {
+    if is_merged {
         asks.pass(Pass::MergedStrokes, "strokes inside the volume", "hatching.hidden");
     }
     if hatching.gap.is_some() {
@@ -98,7 +100,7 @@ pub(super) fn asks(scene: &Scene, asks: &mut Asks) {
 }
 
 /// Keys that its own neighbours make idle.
-pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
+pub(super) fn idle(scene: &Scene, plan: &Plan, idle: &mut Idle) {
     let Some(hatching) = &scene.hatching else { return };
     if hatching.pen.is_some() {
         idle.key("hatching.color", "hatching.pen says the colour");
@@ -125,8 +127,12 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
             idle.key(&format!("hatching.stroke.{key}"), "nothing of the strokes shows the light");
         }
     }
-    if hatching.hidden == Hidden::Merged && !hatching.is_merged(scene) {
-        idle.key("hatching.hidden", "there is no picture of the volume that strokes could be inside");
+    if hatching.hidden == Hidden::Merged && !plan.has_pass(Pass::MergedStrokes) {
+        let why = match hatching.is_merged(scene) {
+            true => "the volume itself is not drawn",
+            false => "there is no picture of the volume that strokes could be inside: what is hidden is cut off",
+        };
+        idle.key("hatching.hidden", why);
     }
     if hatching.gap.is_none() {
         idle.key("hatching.gap_depth", "no stroke has gaps");
@@ -149,7 +155,7 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
         }
     }
     if hatching.directions.rule == DirectionRule::Raw {
-        for key in ["gap", "noise", "agree"] {
+        for key in ["gap", "noise", "agree", "deviation"] {
             idle.key(&format!("hatching.directions.{key}"), "rule = \"raw\" takes every direction");
         }
     }

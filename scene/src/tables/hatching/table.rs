@@ -106,7 +106,7 @@ pub(crate) static TABLE: Table<Hatching> = Table {
         Later { name: "beziers", tag: "HATCH-10" },
     ],
     asks: rules::asks,
-    idle: |scene, _, idle| rules::idle(scene, idle),
+    idle: rules::idle,
     ..Table::new(
         "[hatching]",
         "Strokes along the lines of curvature of an iso-surface. What the surface of [surface], or else their own, hides is \
@@ -289,7 +289,7 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 "spacing",
                 "HATCH-19",
                 "How far strokes are apart on the page: as their seeds fall; so far that their width over it is the tone; or \
-                 the same everywhere.",
+                 the same everywhere. On the mean: two may come as near as 0.6 of it.",
                 &Slot { kind: SpacingKind, get: |h: &Hatching| Some(h.spacing), set: |h, v| h.spacing = v },
             ),
             Key::new(

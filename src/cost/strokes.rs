@@ -1,0 +1,58 @@
+//! How far strokes are from others ([COST-1]).
+
+use super::error::Error;
+use super::statistics::median;
+use drypoint_output::compare::lines::{Apart, Course, angles, apart};
+use drypoint_scene::marks::{Marks, Polyline};
+use drypoint_scene::strokes::Stroke;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// The longest piece of a stroke, in voxels.
+const PIECE: f64 = 0.1;
+
+/// The share of strokes, the nearest, whose distances count. The others part from theirs: they end elsewhere, or take another
+/// way where lines of curvature meet, and are then as far away as they are long, whatever the setting.
+const TOGETHER: f64 = 0.95;
+
+/// What a setting draws.
+pub(super) struct Drawn {
+    /// Some strokes of hatching as they grow, whatever the camera sees of them.
+    pub(super) strokes: Option<Vec<Stroke>>,
+    /// All, on the page.
+    pub(super) marks: Marks,
+}
+
+/// The distances and the angle of strokes to others, in voxels and degrees, without what FLIP says; none where there is
+/// nothing to compare. Hatching is compared stroke by stroke, those of the same seed; other lines as lists.
+pub(super) fn distances(drawn: &Drawn, truth: &Drawn, voxel: f64) -> Option<Error> {
+    let (Some(a), Some(b)) = (&drawn.strokes, &truth.strokes) else {
+        let Apart { rms, max } = apart(lines(&drawn.marks), lines(&truth.marks), PIECE * voxel)?;
+        return Some(Error { rms: rms / voxel, max: max / voxel, flip: f64::NAN, angle: None });
+    };
+    let by_seed: BTreeMap<u64, &Stroke> = b.iter().map(|stroke| (stroke.key, stroke)).collect();
+    let pairs: Vec<(&Stroke, &Stroke)> = a.iter().filter_map(|a| Some((a, *by_seed.get(&a.key)?))).collect();
+    let mut compared: Vec<(Apart, Vec<f64>)> = pairs.par_iter().filter_map(|pair| of_pair(*pair, voxel)).collect();
+    if compared.is_empty() {
+        return None;
+    }
+    compared.sort_by(|a, b| a.0.max.total_cmp(&b.0.max));
+    let together = &compared[..(TOGETHER * compared.len() as f64).ceil() as usize];
+    let squares: f64 = together.iter().map(|(apart, _)| apart.rms * apart.rms).sum();
+    let max = together.iter().map(|(apart, _)| apart.max).fold(0.0, f64::max);
+    let turned: Vec<f64> = compared.iter().flat_map(|(_, angles)| angles.iter().map(|a| a.to_degrees())).collect();
+    let rms = (squares / together.len() as f64).sqrt();
+    let angle = (!turned.is_empty()).then(|| median(&turned));
+    Some(Error { rms: rms / voxel, max: max / voxel, flip: f64::NAN, angle })
+}
+
+/// The distances of two strokes, and the angles between them, a voxel apart; of closed ones, which have no tail, none.
+fn of_pair((a, b): (&Stroke, &Stroke), voxel: f64) -> Option<(Apart, Vec<f64>)> {
+    let found = apart([a].into_iter(), [b].into_iter(), PIECE * voxel)?;
+    let turned = if a.closed || b.closed { Vec::new() } else { angles(&Course::from(a), &Course::from(b), voxel) };
+    Some((found, turned))
+}
+
+fn lines(marks: &Marks) -> impl Iterator<Item = &Polyline> {
+    marks.layers.iter().flat_map(|layer| &layer.lines)
+}
