@@ -32,8 +32,14 @@ fn is_of_a_phantom(path: &Path) -> bool {
 /// Dots and lines of a scene on a small page, and how much of it they cover.
 fn drawn(path: &Path) -> ([usize; 2], f64) {
     let in_mm = std::fs::read_to_string(path).unwrap().contains("\nwidth = ");
-    let small = if in_mm { ("picture.dpi", "30") } else { ("picture.size", "[96, 96]") };
-    let scene = load(path, &[small, ("picture.background", "none")].into_iter().collect()).unwrap();
+    let mut small = vec![("picture.background", "none")];
+    if in_mm {
+        // Fewer lines and dots than on a whole sheet.
+        small.extend([("picture.width", "60 mm"), ("picture.height", "60 mm"), ("picture.dpi", "60")]);
+    } else {
+        small.push(("picture.size", "[96, 96]"));
+    }
+    let scene = load(path, &small.into_iter().collect()).unwrap();
     let job = Job::load_for(scene, Wanted::Marks).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
     // Keys of what is not drawn here have their effect in the whole picture.
     let idle: Vec<_> = job.plan.idle_keys.iter().filter(|idle| idle.why != "the volume itself is not drawn").collect();
