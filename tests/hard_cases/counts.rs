@@ -222,6 +222,9 @@ fn buffers_are_those_that_are_called_for() {
     let unskipped = |shot: &Shot| shot.with(|s| s.sampling.skip_empty = false);
     assert_eq!(names(&unskipped(&regular())), ["picture", "volume"]);
     assert_eq!(names(&regular()), ["bricks", "picture", "skip", "volume"]);
+    // Cell by cell only where values are dear.
+    let smooth = regular().with(|s| s.sampling.kernel = Kernel::BsplineSmooth);
+    assert_eq!(names(&smooth), ["bricks", "cells", "picture", "skip", "volume"]);
     let spline = unskipped(&regular()).with(|s| s.sampling.kernel = Kernel::Bspline);
     assert_eq!(names(&spline), ["coefficients", "picture", "volume"]);
     let gaussian = |shot: &Shot| unskipped(shot).with(|s| s.sampling.hessian = HessianEstimator::Gaussian);

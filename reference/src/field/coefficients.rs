@@ -4,10 +4,12 @@ use super::kernel::bspline;
 use super::place::Place;
 use super::prefilter::Prefilter;
 use super::stencil::{Stencils, beyond};
-use super::tensor;
+use super::tensor::{self, Given, Rows, Sum};
 use super::voxel_hessian::of_spline;
-use crate::number::lanes::widely;
+use crate::number::lanes::wide;
 use crate::number::{Real, Sym3, Vec3};
+use fearless_simd::Simd;
+use fearless_simd::prelude::*;
 use rayon::prelude::*;
 
 /// Coefficients less a constant, x fastest, with as many beyond each border as the spline reaches.
@@ -24,6 +26,28 @@ pub(super) struct Coefficients<R> {
     /// Numbers before the first one of a line.
     pad: usize,
     base: R,
+}
+
+/// Rows of four coefficients.
+struct Fours<'c, S, R> {
+    simd: S,
+    window: &'c [R],
+    /// From a row to the next one along y and along z.
+    strides: [usize; 2],
+}
+
+impl<S: Simd, R: Real> Rows<R::Four<S>> for Fours<'_, S, R> {
+    #[inline(always)]
+    fn row(&self, j: usize, k: usize) -> R::Four<S> {
+        let from = k * self.strides[1] + j * self.strides[0];
+        let row = &self.window[from..from + 4];
+        [row[0], row[1], row[2], row[3]].simd_into(self.simd)
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> R::Four<S> {
+        R::ZERO.simd_into(self.simd)
+    }
 }
 
 /// In 32 bits 2²⁸ numbers a plane.
@@ -130,12 +154,32 @@ impl<R: Real> Coefficients<R> {
         }
     }
 
+    /// A sum over the numbers that a cell's cubic spline reads.
+    #[inline(always)]
+    pub(super) fn sum<T: Sum<R>>(&self, cell: [usize; 3], sum: &T) -> T::Of {
+        match wide() {
+            Some(simd) => simd.vectorize(
+                #[inline(always)]
+                || self.sum_in(simd, cell, sum),
+            ),
+            None => sum.over(&Given(self.rows::<4>(cell))),
+        }
+    }
+
+    #[inline(always)]
+    fn sum_in<S: Simd, T: Sum<R>>(&self, simd: S, [x, y, z]: [usize; 3], sum: &T) -> T::Of {
+        let [px, py, _] = self.dims;
+        let plane = px * py;
+        // As in `rows`.
+        assert!(px <= LONGEST_STRIDE && plane <= LONGEST_STRIDE);
+        let window = &self.data[(z * py + y) * px + x..][..3 * (plane + px) + 4];
+        sum.over(&Fours { simd, window, strides: [px, plane] })
+    }
+
     /// Gradient and Hessian of the cubic spline along the index axes.
+    #[inline]
     pub(super) fn cubic_derivatives(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
-        widely(
-            #[inline(always)]
-            || tensor::second(self.rows(at.cell), &at.w.map(bspline::taps)),
-        )
+        self.sum(at.cell, &tensor::Second { w: at.w, taps: bspline::taps })
     }
 
     /// The same at a voxel, of a border of one coefficient at least.
@@ -167,6 +211,18 @@ impl<R: Real> Coefficients<R> {
             }
         }
         [(lo + self.base).to_f64(), (hi + self.base).to_f64()]
+    }
+
+    /// Hands over the numbers, base included, that the cells from `first` on read, `side` along each axis, with their place
+    /// among them; beyond those that the last cell reads the nearest.
+    pub(super) fn around(&self, first: [usize; 3], side: usize, mut take: impl FnMut([usize; 3], f64)) {
+        let [px, py, pz] = self.dims;
+        for (z, y) in (0..side * side).map(|row| (row / side, row % side)) {
+            let row = ((first[2] + z).min(pz - 1) * py + (first[1] + y).min(py - 1)) * px;
+            for x in 0..side {
+                take([x, y, z], (self.data[row + (first[0] + x).min(px - 1)] + self.base).to_f64());
+            }
+        }
     }
 
     fn lines_along_x(&mut self, solve: impl Fn(&mut [R]) + Sync) {

@@ -3,12 +3,14 @@
 //! A [`Field`] holds what a reconstruction needs; its [`Sampler`] gives value, gradient and Hessian at positions in
 //! index space. [`with_sampler!`](crate::with_sampler) chooses the sampler's type once, outside the loop over samples.
 
+mod cell_ranges;
 mod coefficients;
 pub mod curvature;
 mod error;
 mod exact;
 mod gradient;
 mod hessian;
+mod interpolated;
 pub mod kernel;
 pub(crate) mod lanes;
 pub mod normal;
@@ -25,6 +27,7 @@ mod voxel_hessian;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use cell_ranges::CELLS;
 pub use drypoint_scene::tables::{GradientEstimator, HessianEstimator, Kernel, Outside};
 pub use error::FieldError;
 pub use exact::Exact;

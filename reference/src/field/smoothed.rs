@@ -8,7 +8,7 @@
 
 use super::coefficients::continue_lanes;
 use super::hessian::gaussian;
-use super::tensor::Taps;
+use super::interpolated::{Around, TAPS, taps};
 use super::voxel_hessian::{bends, slopes};
 use super::{Field, tensor};
 use crate::number::lanes::widely;
@@ -23,9 +23,6 @@ const WIDE: f64 = 1.5;
 
 /// Samples before the first of a cell that its second derivatives read.
 const PAD: usize = 2;
-
-/// Samples that a cell reads along an axis.
-const TAPS: usize = 2 + 2 * PAD;
 
 /// Sums that are had side by side.
 const SUMS: usize = 16;
@@ -100,11 +97,8 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         let at = self.field.cells.locate(index);
         let region = self.brick_of(at.cell);
         let [from, plane] = [region.place(at.cell), region.sides[0] * region.sides[1]];
-        let row = |j: usize, k: usize| -> [f64; TAPS] {
-            let from = from + k * plane + j * region.sides[0];
-            std::array::from_fn(|i| region.data[from + i])
-        };
-        let (gradient, hessian) = tensor::second(row, &at.w.map(taps));
+        let around = Around { samples: &region.data[from..], strides: [region.sides[0], plane] };
+        let (gradient, hessian) = around.second(at.w);
         (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
     }
 
@@ -285,17 +279,6 @@ fn reads(rows: &[Row]) -> [usize; 2] {
     [first, rows.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or(first)]
 }
 
-/// The samples that a cell reads, weighted for values and derivatives between the first two of the cell: those at both are
-/// interpolated linearly.
-fn taps(w: f64) -> Taps<f64, TAPS> {
-    let r = 1.0 - w;
-    Taps {
-        value: [0.0, 0.0, r, w, 0.0, 0.0],
-        first: [0.0, -0.5 * r, -0.5 * w, 0.5 * r, 0.5 * w, 0.0],
-        second: [0.25 * r, 0.25 * w, -0.5 * r, -0.5 * w, 0.25 * r, 0.25 * w],
-    }
-}
-
 /// The rows of a line of n samples, smoothed with half taps: the smoothed samples of all lines that have a single 1.
 fn rows(n: usize, half: &[f64]) -> Vec<Row> {
     // Sample i of the line whose stored sample j is 1 stands at i·n + j.
@@ -318,7 +301,7 @@ fn shortened(weights: &[f64]) -> Row {
 /// For each of the n voxels of a line the root sums of squares of the weights that the stored ones have in its smoothed value
 /// and in the second derivative there.
 fn responses(rows: &[Row], n: usize) -> Vec<[f64; 2]> {
-    let Taps { value, second, .. } = taps(0.0);
+    let tensor::Taps { value, second, .. } = taps(0.0);
     let mut sum = vec![0.0; n];
     let mut root_sum = |rows: &[Row], taps: &[f64; TAPS]| {
         sum.fill(0.0);

@@ -3,10 +3,15 @@
 //! A stencil decides once what type is stored, reads all its voxels and hands them on in an array, so that the code
 //! of a sample exists once for each number type and kernel, not once for each of the ten stored types too.
 
+use super::tensor::{Given, Rows, Sum};
 use crate::number::Real;
+use crate::number::lanes::wide;
 use drypoint_scene::math;
 use drypoint_scene::volume::{Access, Volume, Voxel, VoxelType};
 use drypoint_scene::with_access;
+use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+use std::marker::PhantomData;
 
 /// Reads stencils from a volume, in stored units times [`Stencils::scale`].
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +72,25 @@ fn row<R: Real, const N: usize>(access: impl Access, x: usize, y: usize, z: usiz
 
 /// The 4³ voxels around a cell, [z][y][x].
 pub(super) type Block<R> = [[[R; 4]; 4]; 4];
+
+/// The rows of a part of the volume.
+struct Stored<S, A, R> {
+    simd: S,
+    window: A,
+    number: PhantomData<R>,
+}
+
+impl<S: Simd, A: Access, R: Real> Rows<R::Four<S>> for Stored<S, A, R> {
+    #[inline(always)]
+    fn row(&self, j: usize, k: usize) -> R::Four<S> {
+        R::from_voxels(self.window.row::<4>(0, j, k)).simd_into(self.simd)
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> R::Four<S> {
+        R::ZERO.simd_into(self.simd)
+    }
+}
 
 /// A sample beyond the border from the three (two, one) nearest inside: c₋₁ = 3c₀ − 3c₁ + c₂, 2c₀ − c₁, c₀ ([REC-1]).
 #[inline(always)]
@@ -181,12 +205,6 @@ impl<'v> Stencils<'v> {
     /// The voxels from the one before the cell on, continued beyond the border.
     #[inline(never)]
     pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
-        self.block_here(cell)
-    }
-
-    /// The same, compiled into where it is asked for.
-    #[inline(always)]
-    pub(super) fn block_here<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         if !self.inside(cell) {
             return self.read_block(cell);
         }
@@ -200,6 +218,29 @@ impl<'v> Stencils<'v> {
             }
         });
         block
+    }
+
+    /// A sum over the voxels from the one before the cell on, continued beyond the border.
+    #[inline(always)]
+    pub(super) fn sum<R: Real, T: Sum<R>>(&self, cell: [usize; 3], sum: &T) -> T::Of {
+        match wide() {
+            Some(simd) if self.inside(cell) => simd.vectorize(
+                #[inline(always)]
+                || self.sum_inside(simd, cell, sum),
+            ),
+            _ => {
+                let block = self.block::<R>(cell);
+                sum.over(&Given(|j: usize, k: usize| block[k][j]))
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn sum_inside<S: Simd, R: Real, T: Sum<R>>(&self, simd: S, [x, y, z]: [usize; 3], sum: &T) -> T::Of {
+        with_access!(self.volume, |a| {
+            let window = a.window::<4>(x - 1, y - 1, z - 1);
+            sum.over(&Stored { simd, window, number: PhantomData::<R> })
+        })
     }
 
     /// The 6³ voxels from the second one before the cell on, [z][y][x]; beyond the border whatever is nearest.
@@ -233,6 +274,40 @@ impl<'v> Stencils<'v> {
                 std::array::from_fn(|j| std::array::from_fn(|i| read(index(0, i), index(1, j), index(2, k))))
             })
         })
+    }
+
+    /// Hands over the numbers from `before` voxels before the cell `first` on, `side` along each axis, with their place among
+    /// them; beyond the border those that continue them, beyond what the last cell reaches the nearest.
+    pub(super) fn around<R: Real>(
+        &self,
+        first: [usize; 3],
+        before: usize,
+        side: usize,
+        mut take: impl FnMut([usize; 3], f64),
+    ) {
+        let dims = self.dims();
+        let start = first.map(|i| i as isize - before as isize);
+        // A number beyond the border is in the block of the nearest cell.
+        let cell = |a: usize, i: isize| i.clamp(0, dims[a].max(2) as isize - 2) as usize;
+        let beyond = |a: usize, i: isize| i < 0 || i >= dims[a] as isize;
+        let scale = self.scale;
+        with_access!(self.volume, |voxels| {
+            for [z, y, x] in (0..side * side * side).map(|i| [i / side / side, i / side % side, i % side]) {
+                let at = [x, y, z];
+                let place = [0, 1, 2].map(|a| start[a] + at[a] as isize);
+                take(
+                    at,
+                    if (0..3).any(|a| beyond(a, place[a])) {
+                        let cell = [0, 1, 2].map(|a| cell(a, place[a]));
+                        let tap = |a: usize| (place[a] - cell[a] as isize + 1).clamp(0, 3) as usize;
+                        self.block::<R>(cell)[tap(2)][tap(1)][tap(0)].to_f64()
+                    } else {
+                        let [x, y, z] = place.map(|i| i as usize);
+                        number::<R, _>(voxels.at(x, y, z), scale).to_f64()
+                    },
+                );
+            }
+        });
     }
 
     #[cold]

@@ -3,13 +3,17 @@
 use super::Arithmetic;
 use drypoint_scene::math;
 use drypoint_scene::volume::Voxel;
+use fearless_simd::{Simd, SimdBase, SimdElement, f32x4, f64x4};
 use std::fmt::Debug;
 use std::ops::{AddAssign, MulAssign, SubAssign};
 
 /// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `drypoint_scene::math` alone ([PREC-4]).
 pub trait Real:
-    Arithmetic + Debug + Default + PartialOrd + Send + Sync + 'static + AddAssign + SubAssign + MulAssign
+    Arithmetic + Debug + Default + PartialOrd + Send + Sync + 'static + AddAssign + SubAssign + MulAssign + SimdElement
 {
+    /// Four of them in a register.
+    type Four<S: Simd>: SimdBase<S, Element = Self, Array = [Self; 4]> + Into<[Self; 4]>;
+
     /// 0.
     const ZERO: Self;
     /// 1.
@@ -32,6 +36,8 @@ pub trait Real:
     fn to_f64(self) -> f64;
     /// The stored voxel as a number of this type.
     fn from_voxel<V: Voxel>(v: V) -> Self;
+    /// The same of several, side by side.
+    fn from_voxels<V: Voxel, const N: usize>(v: [V; N]) -> [Self; N];
     /// ⌊x⌋ and x − ⌊x⌋ for 0 ≤ x < 2³¹ (f32: 2²²), without the saturation of an `as` cast and without a library call.
     fn split(self) -> (usize, Self);
     /// ⌊x⌋ for 0 ≤ x < 2³² by truncation. Slower than [`split`](Self::split) by itself, sooner done where much waits for
@@ -106,6 +112,8 @@ fn floor_f32(x: f32) -> f32 {
 }
 
 impl Real for f64 {
+    type Four<S: Simd> = f64x4<S>;
+
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
@@ -127,6 +135,11 @@ impl Real for f64 {
     #[inline(always)]
     fn from_voxel<V: Voxel>(v: V) -> Self {
         v.to_f64()
+    }
+
+    #[inline(always)]
+    fn from_voxels<V: Voxel, const N: usize>(v: [V; N]) -> [Self; N] {
+        V::all_to_f64(v)
     }
 
     #[inline(always)]
@@ -173,6 +186,8 @@ impl Real for f64 {
 }
 
 impl Real for f32 {
+    type Four<S: Simd> = f32x4<S>;
+
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const HALF: Self = 0.5;
@@ -194,6 +209,11 @@ impl Real for f32 {
     #[inline(always)]
     fn from_voxel<V: Voxel>(v: V) -> Self {
         v.to_f32()
+    }
+
+    #[inline(always)]
+    fn from_voxels<V: Voxel, const N: usize>(v: [V; N]) -> [Self; N] {
+        V::all_to_f32(v)
     }
 
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! One ray, front to back ([VAL-3], [VAL-4], [RAY-1], [RAY-2]).
 
+use super::cells::Cells;
 use super::lattice::IndexRay;
 use super::layers::{Seen, Sums};
 use super::need::{self, Need, Needs};
@@ -165,12 +166,15 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
     }
 
     /// Visits the samples first..=last. Returns how many were evaluated and whether the ray is still open.
-    ///
-    /// Values are computed a few samples ahead. Where a ray ends early those left over count for nothing.
     #[inline(never)]
-    pub(super) fn run<N: Need>(&mut self, [first, last]: [i64; 2], counts: &mut Counts) -> (u64, bool) {
+    pub(super) fn run<N: Need>(&mut self, visit: [i64; 2], counts: &mut Counts) -> (u64, bool) {
+        if S::AT_ONCE > 1 { self.run_ahead::<N>(visit, counts) } else { self.run_by_cells::<N>(visit, counts) }
+    }
+
+    /// Values are computed a few samples ahead. Where a ray ends early those left over count for nothing.
+    #[inline(always)]
+    fn run_ahead<N: Need>(&mut self, [first, last]: [i64; 2], counts: &mut Counts) -> (u64, bool) {
         let prepared = self.prepared;
-        let mask = prepared.volume.mask();
         let mut samples = 0;
         let mut light = self.light;
         let mut values = [R::ZERO; MOST_AT_ONCE];
@@ -181,10 +185,7 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             self.sampler.values(|i| self.ray.position(k + i as i64), values);
             for (k, &s) in (k..).zip(&*values) {
                 let at = || self.sampler.place(self.ray.position(k));
-                if let Some(mask) = mask
-                    && mask.touches_cell(at().cell)
-                {
-                    counts.masked += 1;
+                if prepared.volume.mask().is_some() && self.is_masked(at(), counts) {
                     continue;
                 }
                 samples += 1;
@@ -200,6 +201,40 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
         }
         self.light = light;
         (samples, true)
+    }
+
+    /// Values are computed only in cells that can show something.
+    #[inline(always)]
+    fn run_by_cells<N: Need>(&mut self, [first, last]: [i64; 2], counts: &mut Counts) -> (u64, bool) {
+        let prepared = self.prepared;
+        let mut samples = 0;
+        let mut light = self.light;
+        for k in first..=last {
+            let at = self.sampler.place(self.ray.position(k));
+            let can_show = |cells: &Cells<'_>| cells.can_show(&prepared.field, at.cell);
+            if !prepared.cells.as_ref().is_none_or(can_show) || self.is_masked(at, counts) {
+                continue;
+            }
+            samples += 1;
+            let s = self.sampler.value_at(at);
+            if let Some(place) = prepared.function.locate(s) {
+                self.show::<N>(Sample { k, at, s }, &place, &mut light, counts);
+                if light.opacity >= prepared.stop_at {
+                    self.light = light;
+                    return (samples, false);
+                }
+            }
+        }
+        self.light = light;
+        (samples, true)
+    }
+
+    /// Whether a voxel of a sample's cell is masked, which is counted.
+    #[inline(always)]
+    fn is_masked(&self, at: Place<R>, counts: &mut Counts) -> bool {
+        let is_masked = self.prepared.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell));
+        counts.masked += u64::from(is_masked);
+        is_masked
     }
 
     /// Shows a sample whose value can be seen.

@@ -1,6 +1,7 @@
 //! Casting rays through the field.
 
 mod cast;
+mod cells;
 mod draw;
 mod gradient_range;
 mod lanes;

@@ -1,5 +1,6 @@
 //! From a scene to what its samples need: everything that is decided once a picture.
 
+use super::cells::Cells;
 use super::gradient_range::quantile_of_norms;
 use super::lattice::{Lattice, MOST_PLANES};
 use super::lit::Lit;
@@ -77,6 +78,10 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
         let can_be = |range, among: Option<&[u32]>| function.can_be_visible(range, among, rounded);
         Skip::new(bricks, |brick, range| can_be(range, None) && can_be(range, occurring(brick).as_deref()))
     });
+    let cells = bricks.as_ref().and_then(|bricks| Cells::new(bricks, sampling.kernel, function));
+    if let Some(cells) = &cells {
+        counts.bytes.insert("cells".into(), cells.bytes() as u64);
+    }
     if let Some(labels) = inputs.labels {
         counts.bytes.insert("labels".into(), labels.bytes() as u64);
     }
@@ -114,6 +119,7 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
         lattice,
         ends: grid.index_box().map(Vec3::from_glam),
         skip,
+        cells,
         lines: None,
         surface,
         function: over_value,

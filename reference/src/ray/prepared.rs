@@ -1,5 +1,6 @@
 //! A scene prepared for casting: everything that is decided once a picture, not at samples.
 
+use super::cells::Cells;
 use super::lattice::Lattice;
 use super::need::Needs;
 use super::over_two::OverTwo;
@@ -90,6 +91,8 @@ pub(super) struct Prepared<'v, R> {
     /// Lowest and highest index position ([SPACE-1]).
     pub(super) ends: [Vec3<R>; 2],
     pub(super) skip: Option<Skip>,
+    /// None: values are so cheap that all in visible bricks are computed, or nothing is skipped.
+    pub(super) cells: Option<Cells<'v>>,
     /// Lines on the rays, at their depths; none: none.
     pub(super) lines: Option<Fragments>,
     /// An opaque iso-surface; none: none.

@@ -150,6 +150,7 @@ impl<'a> Renderer<'a> {
         let mut prepared: Prepared<'a, f64> = prepare(&inputs, &mut counts)?;
         // Ranges of bricks are those of the voxels.
         prepared.skip = None;
+        prepared.cells = None;
         if let Some(surface) = &mut prepared.surface {
             surface.look_everywhere();
         }

@@ -6,6 +6,32 @@ pub trait Voxel: Copy + Send + Sync + PartialOrd + 'static {
     fn to_f64(self) -> f64;
     /// The value in f32, rounded to the nearest.
     fn to_f32(self) -> f32;
+    /// [`to_f64`](Self::to_f64) of several, by instructions that take as many as a register holds.
+    fn all_to_f64<const N: usize>(all: [Self; N]) -> [f64; N];
+    /// [`to_f32`](Self::to_f32) of several.
+    fn all_to_f32<const N: usize>(all: [Self; N]) -> [f32; N];
+}
+
+macro_rules! side_by_side {
+    () => {
+        #[inline(always)]
+        fn all_to_f64<const N: usize>(all: [Self; N]) -> [f64; N] {
+            let mut numbers = [0.0; N];
+            for i in 0..N {
+                numbers[i] = all[i] as f64;
+            }
+            numbers
+        }
+
+        #[inline(always)]
+        fn all_to_f32<const N: usize>(all: [Self; N]) -> [f32; N] {
+            let mut numbers = [0.0; N];
+            for i in 0..N {
+                numbers[i] = all[i] as f32;
+            }
+            numbers
+        }
+    };
 }
 
 macro_rules! voxel_types {
@@ -97,6 +123,7 @@ macro_rules! cast {
         fn to_f64(self) -> f64 { self as f64 }
         #[inline(always)]
         fn to_f32(self) -> f32 { self as f32 }
+        side_by_side!();
     })* };
 }
 cast!(u16 i16 u32 i32 u64 i64 f32 f64);
@@ -130,6 +157,7 @@ macro_rules! look_up {
             fn to_f64(self) -> f64 { $wide[self as u8 as usize] }
             #[inline(always)]
             fn to_f32(self) -> f32 { $narrow[self as u8 as usize] }
+            side_by_side!();
         }
     )* };
 }

@@ -6,7 +6,6 @@ use crate::field::coefficients::Coefficients;
 use crate::field::place::Place;
 use crate::field::sampler::Interpolant;
 use crate::field::tensor::{self, Taps};
-use crate::number::lanes::widely;
 use crate::number::{Real, Sym3, Vec3};
 
 /// The prefiltered cubic B-spline.
@@ -39,18 +38,12 @@ pub(in crate::field) fn taps<R: Real>(t: R) -> Taps<R, 4> {
 impl<R: Real> Interpolant<R> for Bspline<'_, R> {
     #[inline]
     fn value(&self, _: &Field<'_, R>, at: Place<R>) -> R {
-        widely(
-            #[inline(always)]
-            || self.0.base() + tensor::value(self.0.rows(at.cell), at.w.map(|w| taps(w).value)),
-        )
+        self.0.base() + self.0.sum(at.cell, &tensor::Value { w: at.w, taps })
     }
 
     #[inline]
     fn gradient(&self, _: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
-        widely(
-            #[inline(always)]
-            || tensor::gradient(self.0.rows(at.cell), &at.w.map(taps)),
-        )
+        self.0.sum(at.cell, &tensor::Gradient { w: at.w, taps })
     }
 
     #[inline]
@@ -62,35 +55,17 @@ impl<R: Real> Interpolant<R> for Bspline<'_, R> {
 impl<R: Real> Interpolant<R> for BsplineSmooth {
     #[inline]
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R {
-        widely(
-            #[inline(always)]
-            || {
-                let block = field.stencils.block_here::<R>(at.cell);
-                tensor::value(|j, k| block[k][j], at.w.map(|w| taps(w).value))
-            },
-        )
+        field.stencils.sum(at.cell, &tensor::Value { w: at.w, taps })
     }
 
     #[inline]
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
-        widely(
-            #[inline(always)]
-            || {
-                let block = field.stencils.block_here::<R>(at.cell);
-                tensor::gradient(|j, k| block[k][j], &at.w.map(taps))
-            },
-        )
+        field.stencils.sum(at.cell, &tensor::Gradient { w: at.w, taps })
     }
 
     #[inline]
     fn second(&self, field: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
-        widely(
-            #[inline(always)]
-            || {
-                let block = field.stencils.block_here::<R>(at.cell);
-                tensor::second(|j, k| block[k][j], &at.w.map(taps))
-            },
-        )
+        field.stencils.sum(at.cell, &tensor::Second { w: at.w, taps })
     }
 }
 

@@ -30,14 +30,12 @@ fn taps<R: Real>(t: R) -> Taps<R, 4> {
 impl<R: Real> Interpolant<R> for CatmullRom {
     #[inline]
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R {
-        let block = field.stencils.block::<R>(at.cell);
-        tensor::value(|j, k| block[k][j], at.w.map(|w| taps(w).value))
+        field.stencils.sum(at.cell, &tensor::Value { w: at.w, taps })
     }
 
     #[inline]
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
-        let block = field.stencils.block::<R>(at.cell);
-        tensor::gradient(|j, k| block[k][j], &at.w.map(taps))
+        field.stencils.sum(at.cell, &tensor::Gradient { w: at.w, taps })
     }
 }
 

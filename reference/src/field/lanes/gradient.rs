@@ -5,7 +5,7 @@ use crate::field::GradientEstimator;
 use crate::field::gradient::{central, sobel};
 use crate::field::place::Place;
 use crate::field::stencil::Cross;
-use crate::field::tensor::{self, Column};
+use crate::field::tensor::{self, Rows};
 use crate::number::Vec3;
 use crate::number::lanes::select;
 use drypoint_scene::volume::Access;
@@ -99,8 +99,7 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         let first = self.raised_at(words[1][1], 1);
         let mut sums = [[zero; 4]; 3];
         for i in 0..4 {
-            let of_column =
-                tensor::column_sums(&ColumnOfEach { reader: self, words: &words, i }, first, [&y, &z], zero);
+            let of_column = tensor::gradient_sums(&ColumnOfEach { reader: self, words: &words, i }, first, [&y, &z]);
             for (sum, column) in sums.iter_mut().zip(of_column) {
                 sum[i] = column;
             }
@@ -108,10 +107,9 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         tensor::gradient_of_sums(&sums, &x)
     }
 
-    /// Sobel's operator in one cell: its four columns together.
+    /// Sobel's operator in one cell, a row of taps at a time.
     #[inline(always)]
     fn sobel_alone(&self, start: usize, [wx, wy, wz]: [f64; 3]) -> Vec3<f64> {
-        let simd = self.simd;
         let a = self.voxels.window_at::<4>(start);
         let mut words = [[0; 4]; 4];
         for (k, plane) in words.iter_mut().enumerate() {
@@ -119,14 +117,10 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
                 *row = word(a.row::<4>(0, j, k));
             }
         }
-        let columns = ColumnsOfOne { reader: self, words: &words };
-        let (one, zero) = (f64x4::splat(simd, 1.0), f64x4::splat(simd, 0.0));
-        let x = sobel::taps_inside(wx, 1.0, 0.0);
-        let y = sobel::taps_inside(f64x4::splat(simd, wy), one, zero);
-        let z = sobel::taps_inside(f64x4::splat(simd, wz), one, zero);
-        let first = f64x4::splat(simd, columns.number(1, 1)[1]);
-        let [s00, s10, s01] = tensor::column_sums(&columns, first, [&y, &z], zero);
-        tensor::gradient_of_sums(&[s00.into(), s10.into(), s01.into()], &x)
+        let rows = RowsOfOne { reader: self, words: &words };
+        let taps =
+            [sobel::taps_inside(wx, 1.0, 0.0), sobel::taps_inside(wy, 1.0, 0.0), sobel::taps_inside(wz, 1.0, 0.0)];
+        tensor::gradient(&rows, &taps)
     }
 }
 
@@ -137,22 +131,32 @@ struct ColumnOfEach<'r, 'f, 'v, S: Simd, V> {
     i: usize,
 }
 
-impl<S: Simd, V: Packed> Column<f64x8<S>> for ColumnOfEach<'_, '_, '_, S, V> {
+impl<S: Simd, V: Packed> Rows<f64x8<S>> for ColumnOfEach<'_, '_, '_, S, V> {
     #[inline(always)]
-    fn number(&self, j: usize, k: usize) -> f64x8<S> {
+    fn row(&self, j: usize, k: usize) -> f64x8<S> {
         self.reader.raised_at(self.words[k][j], self.i)
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> f64x8<S> {
+        f64x8::splat(self.reader.simd, 0.0)
     }
 }
 
-/// The four columns of the voxels around one cell.
-struct ColumnsOfOne<'r, 'f, 'v, S: Simd, V> {
+/// The rows of the voxels around one cell, as they are stored.
+struct RowsOfOne<'r, 'f, 'v, S: Simd, V> {
     reader: &'r LaneReader<'f, 'v, S, V>,
     words: &'r [[u64; 4]; 4],
 }
 
-impl<S: Simd, V: Packed> Column<f64x4<S>> for ColumnsOfOne<'_, '_, '_, S, V> {
+impl<S: Simd, V: Packed> Rows<f64x4<S>> for RowsOfOne<'_, '_, '_, S, V> {
     #[inline(always)]
-    fn number(&self, j: usize, k: usize) -> f64x4<S> {
+    fn row(&self, j: usize, k: usize) -> f64x4<S> {
         self.reader.raised_row(self.words[k][j])
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> f64x4<S> {
+        f64x4::splat(self.reader.simd, 0.0)
     }
 }

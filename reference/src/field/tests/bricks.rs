@@ -1,4 +1,4 @@
-//! No sample leaves the range of its brick ([RAY-2]).
+//! No sample leaves the range of its brick, nor that of its cell ([RAY-2]).
 
 use super::*;
 use drypoint_scene::volume::BRICK;
@@ -10,7 +10,7 @@ proptest! {
     /// For every kernel, on volumes of few values with jumps between them, where cubic kernels overshoot; positions crowd
     /// at the faces of cells and in their middles, where the overshoot is largest.
     #[test]
-    fn samples_stay_in_their_brick(
+    fn samples_stay_in_their_brick_and_their_cell(
         dims in prop::array::uniform3(prop_oneof![1usize..4, 8usize..20]),
         seed in any::<u64>(),
         levels in 1u64..5,
@@ -49,8 +49,34 @@ fn stays<R: Real>(volume: &Volume, how: Reconstruction, positions: &[DVec3]) -> 
         let (cell, value) = with_sampler!(field, |s| (s.cell(q), s.value(q).to_f64()));
         let [lo, hi] = bricks.ranges[bricks.of_cell(cell)];
         prop_assert!(lo <= value && value <= hi, "{:?} at {p}: {value} outside [{lo}, {hi}]", how.kernel);
+        let [x, y, z] = cell.map(|i| i % BRICK);
+        let [a, b] = field.cell_ranges(cell.map(|i| i / BRICK))[(z * BRICK + y) * BRICK + x];
+        prop_assert!(a <= value && value <= b, "{:?} at {p}: {value} outside [{a}, {b}] of its cell", how.kernel);
+        // In f32 the numbers of cells are rounded before they are compared, those of bricks after.
+        let rounding = if R::EPSILON.to_f64() > f64::EPSILON { 1e-4 } else { 0.0 };
+        let within = lo - rounding <= a && b <= hi + rounding;
+        prop_assert!(within, "{:?}: [{a}, {b}] of cell {cell:?} outside [{lo}, {hi}]", how.kernel);
     }
     Ok(())
+}
+
+/// What a cell reads, and no more: a jump between two planes is in the ranges of the cells whose taps lie on both sides of it.
+#[test]
+fn ranges_of_cells_are_tight() {
+    let grid = Grid::with_spacing([20, 9, 9], [1.0; 3]).unwrap();
+    let voxels: Vec<f64> = indices([20, 9, 9]).map(|i| if i.x < 6.0 { 4.0 } else { 8.0 }).collect();
+    let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
+    for (kernel, before) in [(Kernel::Trilinear, 0), (Kernel::BsplineSmooth, 1), (Kernel::CatmullRom, 1)] {
+        let how = Reconstruction { kernel, ..Default::default() };
+        let field = Field::<f64>::new(&volume, how, Rung::Value).unwrap();
+        let ranges = [[0, 0, 0], [1, 1, 1]].map(|brick| field.cell_ranges(brick));
+        for x in 0..2 * BRICK {
+            let [lo, hi] = ranges[x / BRICK][x % BRICK];
+            // Taps from x − before to x + 1 + before.
+            let jumps = x < 6 + before && x + 1 + before >= 6;
+            assert_eq!(hi - lo > 1.0, jumps, "{kernel:?}, cell {x}: [{lo}, {hi}]");
+        }
+    }
 }
 
 /// Signs that go with the signs of Catmull–Rom's weights: the spline reaches 1.25³ of its samples' half-range.

@@ -1,0 +1,49 @@
+//! Empty-space skipping cell by cell ([RAY-2]), for kernels whose values are dear.
+
+use crate::field::{CELLS, Field, Kernel};
+use crate::number::Real;
+use drypoint_scene::transfer::Function;
+use drypoint_scene::volume::{BRICK, Bricks};
+use std::sync::OnceLock;
+
+/// Which cells a transfer function can see. A brick is looked at when the first ray comes there.
+pub(super) struct Cells<'a> {
+    function: &'a Function,
+    /// Bricks along x, y, z.
+    dims: [usize; 3],
+    /// For each brick a bit a cell, x fastest.
+    seen: Vec<OnceLock<u64>>,
+}
+
+const _: () = assert!(CELLS == u64::BITS as usize);
+
+impl<'a> Cells<'a> {
+    /// Where bricks are skipped and a value is of more than eight voxels; nothing is looked at yet.
+    pub(super) fn new(bricks: &Bricks, kernel: Kernel, function: &'a Function) -> Option<Self> {
+        let seen = || bricks.ranges.iter().map(|_| OnceLock::new()).collect();
+        (kernel != Kernel::Trilinear).then(|| Self { function, dims: bricks.dims, seen: seen() })
+    }
+
+    /// Bytes in memory.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.seen.as_slice())
+    }
+
+    /// Whether a sample in a cell of the field can show something.
+    #[inline(always)]
+    pub(super) fn can_show<R: Real>(&self, field: &Field<'_, R>, cell: [usize; 3]) -> bool {
+        let brick = cell.map(|i| i / BRICK);
+        let at = (brick[2] * self.dims[1] + brick[1]) * self.dims[0] + brick[0];
+        let seen = self.seen[at].get_or_init(|| self.look(field, brick));
+        let [x, y, z] = cell.map(|i| i % BRICK);
+        seen >> ((z * BRICK + y) * BRICK + x) & 1 == 1
+    }
+
+    #[cold]
+    fn look<R: Real>(&self, field: &Field<'_, R>, brick: [usize; 3]) -> u64 {
+        let rounded = |at| R::from_f64(at).to_f64();
+        let ranges = field.cell_ranges(brick);
+        let bit = |(i, &range)| u64::from(self.function.can_be_visible(range, None, rounded)) << i;
+        ranges.iter().enumerate().map(bit).fold(0, |all, bit| all | bit)
+    }
+}
