@@ -1,10 +1,11 @@
-//! Stippling: the preprocess of a 256³ volume and the points of its faces, a frame of them, and dots chosen on the page.
+//! Stippling: the preprocess of a 256³ volume and the points of its faces, with how even they are ([STIP-18]), a frame of
+//! them, and dots chosen on the page.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use drypoint::reference::volume_stippling::{Candidate, Drawn, FrameInputs, Frames, Inputs, Preprocess, eliminate};
 use drypoint::scene::counts::Counts;
-use drypoint::scene::glam::{DVec2, DVec3};
+use drypoint::scene::glam::{DVec2, DVec3, IVec3};
 use drypoint::scene::marks::Page;
 use drypoint::scene::philox;
 use drypoint::scene::points::Points;
@@ -14,15 +15,59 @@ use drypoint::scene::tables::{
 };
 use drypoint::scene::view::View;
 use drypoint::scene::volume::{Volume, Voxels};
+use std::collections::HashMap;
 
 fn main() {
     divan::main();
+    // `cargo test` runs benches without it, to see that they work.
+    if std::env::args().any(|argument| argument == "--bench") {
+        for count in COUNTS {
+            let made = with_inputs(&ball(count), points);
+            let even = [1, 2, 4, 8, 16].map(|k| format!("{:.3}", evenness(&made, k, radius(count))));
+            println!(
+                "{} points, mean nearest distance × √density of the first 1, 2, 4, 8, 16: {}",
+                made.len(),
+                even.join(" ")
+            );
+        }
+    }
+}
+
+/// How many points are made.
+const COUNTS: [f64; 2] = [500_000.0, 2_000_000.0];
+
+/// Of a ball whose face, 25 points a voxel, has about so many points.
+fn radius(points: f64) -> f64 {
+    (points / 25.0 / (4.0 * std::f64::consts::PI)).sqrt()
+}
+
+/// The mean distance of the first `k` points of each voxel to the nearest other, all moved onto the ball's face, times
+/// √density: 0.5 of white noise, 0.87 of a maximal Poisson disc.
+fn evenness(points: &Points, k: usize, radius: f64) -> f64 {
+    let on_face = |at: DVec3| 127.5 + radius * (at - 127.5).normalize();
+    let of = |i: usize| {
+        let centre = points.voxels[i].centre();
+        points.of(i)[..k].iter().map(move |o| on_face(centre + DVec3::from_array(o.map(f64::from))))
+    };
+    let all: Vec<DVec3> = (0..points.voxels.len()).flat_map(of).collect();
+    let density = all.len() as f64 / (4.0 * std::f64::consts::PI * radius * radius);
+    let cell = |p: DVec3| (p * density.sqrt() / 2.0).as_ivec3();
+    let mut cells: HashMap<IVec3, Vec<DVec3>> = HashMap::new();
+    for &p in &all {
+        cells.entry(cell(p)).or_default().push(p);
+    }
+    let around = |p: DVec3| (0..27).map(move |i| cell(p) + IVec3::new(i % 3, i / 3 % 3, i / 9) - 1);
+    let nearest = |&p: &DVec3| {
+        let near = around(p).filter_map(|c| cells.get(&c)).flatten().filter(|q| **q != p);
+        near.map(|q| q.distance(p)).fold(f64::INFINITY, f64::min)
+    };
+    all.iter().map(nearest).sum::<f64>() / all.len() as f64 * density.sqrt()
 }
 
 /// A ball whose face is so large that, 25 points a voxel, it has about this many.
 fn ball(points: f64) -> Volume {
     const SIDE: usize = 256;
-    let radius = (points / 25.0 / (4.0 * std::f64::consts::PI)).sqrt();
+    let radius = radius(points);
     let value = |i: usize| {
         let p = DVec3::new((i % SIDE) as f64, (i / SIDE % SIDE) as f64, (i / SIDE / SIDE) as f64);
         (100.0 + 60.0 * (radius - (p - 127.5).length())).clamp(0.0, 200.0) as u8
@@ -59,7 +104,7 @@ fn points(inputs: Inputs<'_>) -> Points {
     Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
 }
 
-#[divan::bench(args = [500_000.0, 2_000_000.0], sample_count = 3, sample_size = 1)]
+#[divan::bench(args = COUNTS, sample_count = 3, sample_size = 1)]
 fn preprocess_and_points(bencher: Bencher<'_, '_>, count: f64) {
     with_inputs(&ball(count), |inputs| bencher.bench_local(|| black_box(points(inputs)).len()));
 }

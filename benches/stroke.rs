@@ -6,16 +6,13 @@
 //! scan alone, `-- directions` the directions of a whole volume alone
 
 use drypoint::job::Job;
-use drypoint::output::compare::lines::apart;
+use drypoint::output::compare::lines::{Course, angles, apart};
 use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use drypoint::reference::interactive_volume_illustration::{
     Between, Grown, HatchCounts, Hatching, Packed, Pyramid, Rule, Seed, SeedRule, Storing, Strokes, gradient_range,
 };
 use drypoint::scene::file::{Overrides, parse};
-use drypoint::scene::glam::DVec2;
-use drypoint::scene::marks::{Polyline, Vertex};
 use drypoint::scene::space::Grid;
-use drypoint::scene::strokes::Stroke;
 use drypoint::scene::tables::{GradientRange, Measure};
 use drypoint::scene::volume::{Volume, Voxels};
 use rayon::prelude::*;
@@ -217,19 +214,18 @@ fn compared(from: &str, direct: &Grown, other: &Grown, grid: &Grid) {
     let voxel = grid.voxel();
     let find = |seed: &Seed| other.strokes.iter().position(|(s, _)| s.cell == seed.cell);
     let step = direct.strokes.len().div_ceil(PAIRS);
-    let (mut far, mut angles, mut alone) = (Vec::new(), Vec::new(), 0);
+    let (mut far, mut turned, mut alone) = (Vec::new(), Vec::new(), 0);
     for (seed, a) in direct.strokes.iter().step_by(step) {
         let Some(at) = find(seed) else {
             alone += 1;
             continue;
         };
         let (_, b) = &other.strokes[at];
-        let [p, q] = [a, b].map(line);
-        if let Some(found) = apart([&p].into_iter(), [&q].into_iter(), 0.1 * voxel) {
+        if let Some(found) = apart([a].into_iter(), [b].into_iter(), 0.1 * voxel) {
             far.push(found.max / voxel);
         }
         if !a.closed && !b.closed && seed.family == other.strokes[at].0.family {
-            angles.extend(turned(a, b, voxel));
+            turned.extend(angles(&Course::from(a), &Course::from(b), voxel).into_iter().map(f64::to_degrees));
         }
     }
     println!(
@@ -237,38 +233,7 @@ fn compared(from: &str, direct: &Grown, other: &Grown, grid: &Grid) {
         100.0 * f64::from(alone) / (far.len() as f64 + f64::from(alone)),
         median(&mut far, 0.5),
         median(&mut far, 0.95),
-        median(&mut angles, 0.5),
-        median(&mut angles, 0.95),
+        median(&mut turned, 0.5),
+        median(&mut turned, 0.95),
     );
-}
-
-fn line(stroke: &Stroke) -> Polyline {
-    let vertex = |v: &drypoint::scene::strokes::StrokeVertex| Vertex {
-        at: DVec2::ZERO,
-        world: v.world,
-        radius: 0.0,
-        opacity: 1.0,
-        t: v.u,
-        color: None,
-    };
-    Polyline { vertices: stroke.vertices.iter().map(vertex).collect(), closed: stroke.closed }
-}
-
-/// Degrees between the lines of two strokes at equal arc lengths from their tails, a voxel apart.
-fn turned(a: &Stroke, b: &Stroke, voxel: f64) -> Vec<f64> {
-    let along = |stroke: &Stroke, arc: f64| {
-        let mut left = arc;
-        stroke.vertices.windows(2).find_map(|pair| {
-            let way = pair[1].world - pair[0].world;
-            let length = way.length();
-            left -= length;
-            (left <= 0.0 && length > 0.0).then(|| way / length)
-        })
-    };
-    let places = (a.length().min(b.length()) / voxel) as usize;
-    let angle = |i: usize| {
-        let (p, q) = (along(a, i as f64 * voxel)?, along(b, i as f64 * voxel)?);
-        Some(p.cross(q).length().atan2(p.dot(q).abs()).to_degrees())
-    };
-    (1..places).filter_map(angle).collect()
 }
