@@ -1,14 +1,15 @@
 //! Which file each frame of a scene goes to, and the frames drawn into them.
 
+use super::empty::warn_of_nothing;
 use super::report::{Progress, note};
 use super::stats::{Times, cpu_seconds};
 use super::{Talk, target};
-use drypoint::drawing::{Drawing, Frame, room_for_animation, write_animation};
+use drypoint::drawing::{Drawing, room_for_animation, write_animation};
 use drypoint::job::Job;
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::picture::Picture;
-use drypoint::scene::tables::{HatchIso, Iso, Scene};
+use drypoint::scene::tables::Scene;
 use drypoint::{Failure, Format};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -144,7 +145,7 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
             // Without what writing takes.
             cpu = cpu_seconds().zip(before).zip(cpu).map(|((after, before), sum)| sum + after - before);
             if i == 0 {
-                warn_of_nothing(job, &frame, talk);
+                warn_of_nothing(job, &frame, [&counts, &own], talk);
             }
             if matches!(files, Files::Animated(_)) {
                 counts.add_frame(&own);
@@ -176,35 +177,6 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
     }
     said.iter().for_each(|line| note(talk, line));
     Ok(Drawn { counts, times: Times::new(wall, cpu) })
-}
-
-/// Says where the first frame shows nothing.
-fn warn_of_nothing(job: &Job, frame: &Frame, talk: Talk) {
-    let [dots, lines] = frame.marks();
-    if frame.marks.is_some() && !job.draws_volume() && dots + lines == 0 {
-        let why = absent(job).map(|why| format!(": {why}")).unwrap_or_default();
-        note(talk, format_args!("warning: the page is empty{why}"));
-    }
-    if job.draws_volume() && frame.picture.as_ref().is_some_and(|picture| job.shows_nothing(picture)) {
-        let seen = "nothing is seen: no ray meets a value that transfer.nodes show; `drypoint info` tells the range";
-        note(talk, format_args!("warning: {seen} of a volume, `drypoint plan --full` the nodes and the camera"));
-    }
-}
-
-/// Which value of strokes' surfaces the volume does not have.
-fn absent(job: &Job) -> Option<String> {
-    let hatching = job.scene.hatching.as_ref().and_then(|hatching| match hatching.iso {
-        HatchIso::Surface(iso) => Some(("hatching.iso", iso)),
-        HatchIso::Transfer => None,
-    });
-    let outlines = job.scene.outlines.as_ref().map(|outlines| ("outlines.iso", outlines.iso));
-    let [lo, hi] = job.volume.range();
-    hatching.into_iter().chain(outlines).find_map(|(key, iso)| match iso {
-        Iso::Value(value) if value < lo || value > hi => {
-            Some(format!("{key} = {value} is none of the volume's values, which go from {lo} to {hi}"))
-        }
-        _ => None,
-    })
 }
 
 #[cfg(test)]

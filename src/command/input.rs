@@ -250,6 +250,15 @@ fn suggested(
     Ok(scene)
 }
 
+/// The flags that `--preset` of a picture stands for: a bare volume that is drawn as dots or outlines alone is drawn on a page,
+/// unless its size is said.
+pub(super) fn preset_flags(preset: &str, input: Option<&Path>, set: &Set, has_size: bool) -> Vec<Flag> {
+    let is_bare = input.is_some_and(|input| !is_scene(input));
+    let on_a_page = is_bare && !has_size && (preset.starts_with("stipple") || preset == "outline");
+    let page = if on_a_page { page_flags(set) } else { Vec::new() };
+    std::iter::once(Flag::name("preset", "--preset", preset)).chain(page).collect()
+}
+
 /// What makes a page to print on, 160 mm wide and high, of a bare volume's points, rather than the pixels of a rendered
 /// picture; none where something else says a size. Where one length is said, the other is as long.
 pub(super) fn page_flags(set: &Set) -> Vec<Flag> {

@@ -4,6 +4,7 @@ mod arguments;
 mod compare;
 mod completions;
 mod cost;
+mod empty;
 mod frames;
 mod info;
 mod input;
@@ -21,6 +22,7 @@ mod stats;
 mod strokes;
 mod styles;
 mod target;
+mod threads;
 mod wedge;
 
 use arguments::Arguments;

@@ -17,13 +17,18 @@ pub(super) struct Plan {
     /// Print the scene with every default filled in, as a valid scene; its paths are those from the working directory
     #[arg(long)]
     full: bool,
+    /// The preset of a bare volume, as `render` takes it
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
     #[command(flatten)]
     set: Set,
 }
 
 impl Plan {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let over = Over::new(&self.set, Vec::new())?;
+        let flags = |preset: &String| input::preset_flags(preset, self.input.as_deref(), &self.set, false);
+        let flags = self.preset.iter().flat_map(flags).collect();
+        let over = Over::new(&self.set, flags)?;
         let mut job = {
             let _loading = Progress::new(talk, "loading");
             input::load(self.input.as_deref(), &over)?

@@ -6,6 +6,7 @@ use super::raw::Raw;
 use super::report::{Progress, note, print};
 use super::stats;
 use super::target::Target;
+use super::threads::Threads;
 use super::{Done, Outcome, Talk};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
@@ -41,9 +42,8 @@ pub(super) struct Render {
     raw: Raw,
     #[command(flatten)]
     set: Set,
-    /// Threads [default: one a processor]
-    #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// Print the counts of the render as one JSON object, alone on standard output
     #[arg(long)]
     stats: bool,
@@ -70,10 +70,7 @@ impl Render {
         let target = Target::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
         let mut over = Over::new(&self.set, self.flags()?)?;
         over.beauty_only = target.format != Format::Exr;
-        if let Some(threads) = self.threads {
-            let started = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-            started.map_err(|e| Failure::new(e, format!("--threads {threads}"), "ask for fewer"))?;
-        }
+        self.threads.start()?;
         let start = Instant::now();
         let (job, files) = {
             let _loading = Progress::new(talk, "loading");
@@ -110,11 +107,7 @@ impl Render {
             flags.push(Flag { key: "picture.size", value: format!("[{w}, {h}]"), typed });
         }
         if let Some(preset) = &self.preset {
-            flags.push(Flag::name("preset", "--preset", preset));
-            let is_bare = self.input.as_ref().is_some_and(|input| !input::is_scene(input));
-            if is_bare && self.size.is_none() && (preset.starts_with("stipple") || preset == "outline") {
-                flags.extend(input::page_flags(&self.set));
-            }
+            flags.extend(input::preset_flags(preset, self.input.as_deref(), &self.set, self.size.is_some()));
         }
         if !self.layers.is_empty() {
             let typed = format!("--layers {}", self.layers.join(","));

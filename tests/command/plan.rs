@@ -64,3 +64,22 @@ fn the_full_scene_is_a_scene_and_gives_the_same_picture() {
         assert_eq!(folder.good("plan --full full.toml").into_bytes(), folder.read("full.toml"), "{input}");
     }
 }
+
+/// `--preset` is what `render` takes: the scene that it prints is the one that `render` draws.
+#[test]
+fn a_preset_of_a_bare_volume() {
+    let folder = Folder::new();
+    folder.good("phantom torus --size 16 --type u8 -o torus.nrrd -q");
+    for preset in ["toon", "stipple", "outline", "hatch"] {
+        let said = folder.good(&format!("plan torus.nrrd --preset {preset} --full"));
+        folder.write("said.toml", said);
+        folder.good(&format!("render torus.nrrd --preset {preset} -o a.png -q"));
+        folder.good("render said.toml -o b.png -q");
+        let [a, b] = ["a.png", "b.png"].map(|name| folder.read(name));
+        assert!(a.len() > 500, "{preset}");
+        let size = |png: &[u8]| png[16..24].to_vec();
+        assert_eq!(size(&a), size(&b), "{preset}");
+    }
+    let refused = folder.refused("plan torus.nrrd --preset gone");
+    assert!(refused.contains("--preset gone"), "{refused}");
+}

@@ -20,6 +20,20 @@ fn twice_and_with_any_number_of_threads() {
 }
 
 #[test]
+fn pages_do_not_depend_on_threads() {
+    let folder = Folder::new();
+    folder.good("phantom torus --size 20 --type u8 -o ring.nrrd -q");
+    for verb in ["strokes", "points"] {
+        let page = |name: &str, more: &str| {
+            folder.good(&format!("{verb} ring.nrrd -o {name}.csv -q {more}"));
+            folder.read(&format!("{name}.csv"))
+        };
+        let first = page("a", "");
+        assert!(first.len() > 1000 && page("b", "--threads 1") == first && page("b", "--threads 3") == first, "{verb}");
+    }
+}
+
+#[test]
 fn counts_do_not_depend_on_threads() {
     let folder = Folder::new();
     folder.scene("[contours]\n");

@@ -138,11 +138,78 @@ fn a_bare_volume() {
     assert!(stats["strokes"].as_u64().unwrap() > 0, "{stats}");
     assert!(text(&folder, "a.svg").contains("width=\"160mm\""));
     let told = folder.line("strokes ball.nrrd --preset outline -o a.svg --set outlines.min_length=\"900mm\"").err;
-    assert!(told.contains("warning: the page is empty\n"), "{told}");
+    let why =
+        "warning: the page is empty: all that is seen of outlines, 1 lines, is shorter than outlines.min_length\n";
+    assert!(told.contains(why), "{told}");
     // A value that the volume does not have is named, with those that it has.
     let told = folder.line("strokes ball.nrrd --preset outline -o a.svg --set outlines.iso=999").err;
     let why = "the page is empty: outlines.iso = 999 is none of the volume's values, which go from 0 to 254";
     assert!(told.contains(why), "{told}");
+}
+
+/// What leaves a page of strokes empty is named with its key, as far as the counts tell.
+#[test]
+fn empty_pages_name_their_cause() {
+    let folder = Folder::new();
+    let torus = SCENE.replace("sphere", "torus");
+    let hatching = "[hatching]\niso = 127.5\nseeds = \"dense\"\n";
+    folder.write("lines.toml", &torus);
+    folder.write("strokes.toml", torus.replace("[outlines]\niso = 127.5\n", hatching));
+    folder.write("both.toml", format!("{torus}{hatching}"));
+    let why = |words: &[&str]| {
+        let told = folder.run(["strokes", "-o", "a.svg"].iter().chain(words)).err;
+        let why = told.lines().find_map(|line| line.strip_prefix("warning: the page is empty: "));
+        why.unwrap_or_else(|| panic!("{words:?}: {told}")).to_owned()
+    };
+    let cases: [(&str, &[&str], &str); 9] = [
+        (
+            "lines.toml",
+            &["camera.eye=[500, 500, 500]", "camera.direction=[1, 0, 0]"],
+            "all outlines are hidden, or outside of the frame ([camera])",
+        ),
+        ("lines.toml", &["outlines.iso=0"], "the surface of outlines.iso = 0 has no outline from this camera"),
+        (
+            "strokes.toml",
+            &["hatching.iso=254"],
+            "hatching.iso = 254 is none of the volume's values, which go from 0 to ",
+        ),
+        (
+            "strokes.toml",
+            &["hatching.directions.deviation=1e300"],
+            "seeds have no direction of which the data are sure: hatching.directions.deviation says how noisy they are",
+        ),
+        (
+            "strokes.toml",
+            &["hatching.seeds=curvature", "hatching.min_curvature=1", "hatching.min_gradient=1"],
+            "no seed is drawn: hatching.min_curvature and hatching.min_gradient leave cells little chance or none",
+        ),
+        (
+            "strokes.toml",
+            &["camera.eye=[500, 500, 500]", "camera.direction=[1, 0, 0]"],
+            "seeds is seen: all are hidden (hatching.hidden = \"drawn\" draws them), or outside of the frame ([camera]), \
+             or thinner than hatching.stroke.min_width",
+        ),
+        (
+            "strokes.toml",
+            &["hatching.stroke.min_width=\"9mm\"", "hatching.hidden=drawn"],
+            "seeds is seen: all are outside of the frame ([camera]), or thinner than hatching.stroke.min_width",
+        ),
+        (
+            "strokes.toml",
+            &["hatching.spacing=\"900mm\"", "hatching.width=\"30mm\""],
+            "or shorter than six widths of the pen",
+        ),
+        (
+            "both.toml",
+            &["camera.eye=[500, 500, 500]", "camera.direction=[1, 0, 0]"],
+            "thinner than hatching.stroke.min_width; all outlines are hidden, or outside of the frame ([camera])",
+        ),
+    ];
+    for (scene, set, said) in cases {
+        let set = set.iter().flat_map(|set| ["--set", *set]);
+        let found = why(&std::iter::once(scene).chain(set).collect::<Vec<&str>>());
+        assert!(found.contains(said), "{scene}: {found}");
+    }
 }
 
 /// Every cell of the surface with its p, as a table and as a picture, with or without the strokes.

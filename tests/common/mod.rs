@@ -17,7 +17,8 @@ use drypoint::scene::plan::Plan;
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::Style;
 use drypoint::scene::tables::{
-    Background, Camera, GradientRange, Length, Node, NodeColor, Projection, Scene, Transfer, TransferKind, VolumeSource,
+    Background, Camera, GradientRange, Length, Node, NodeColor, Number, Projection, Scene, Transfer, TransferKind,
+    VolumeSource,
 };
 use drypoint::scene::transfer::Function;
 use drypoint::scene::view::View;
@@ -120,6 +121,11 @@ impl Shot {
     /// The same with changes to the transfer function's table.
     pub(crate) fn with_transfer(&self, change: impl FnOnce(&mut Transfer)) -> Self {
         self.with(|s| change(s.transfer.as_mut().unwrap()))
+    }
+
+    /// The same in a number type.
+    pub(crate) fn in_number(&self, number: Number) -> Self {
+        self.with(|s| s.sampling.number = number)
     }
 
     /// The same from another direction.

@@ -4,9 +4,10 @@ use crate::common::{Shot, on, orthographic, perspective};
 use crate::reconstruction::{linear, linear_errors, places, sphere_errors, spheres};
 use crate::slabs::in_steps;
 use crate::stability::{Case, Theme, worst};
+use drypoint::reference::number::Real;
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::Length;
+use drypoint::scene::tables::{Length, Number};
 
 pub(crate) static THEME: Theme = Theme::new(
     "Anisotropy of 1 : 1000",
@@ -18,7 +19,16 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "errors of value, gradient, Hessian in units of c ε M‖D⁻¹‖ⁿ; 52 reconstructions, 4 grids",
             bound: 1.0,
             why: "exact for every estimator but for rounding [REC-4]; ‖D⁻¹‖ = cond(D)/‖D‖",
-            measure: linear_fields,
+            measure: linear_fields::<f64>,
+        },
+        Case {
+            name: "the same in f32",
+            breaks: "as above",
+            done: "as above",
+            of: "errors of value, gradient, Hessian in units of c · 2u · M‖D⁻¹‖ⁿ; 52 reconstructions, 4 grids",
+            bound: 1.0,
+            why: "as above, with the ε of f32",
+            measure: linear_fields::<f32>,
         },
         Case {
             name: "normals and curvatures of spheres",
@@ -36,7 +46,16 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "|α − closed form| in units of one step's opacity; 4 grids, 3 directions",
             bound: 1.0,
             why: "the length of the ray, to one step [RAY-1]",
-            measure: boxes,
+            measure: || boxes(Number::F64),
+        },
+        Case {
+            name: "the same in f32",
+            breaks: "as above",
+            done: "as above",
+            of: "|α − closed form| in units of the opacity of 1.001 steps, after 4 u a sample; 4 grids, 3 directions",
+            bound: 1.0,
+            why: "as above; the ends of a ray move by some u of the way from the eye",
+            measure: || boxes(Number::F32),
         },
     ],
 );
@@ -54,10 +73,10 @@ fn grids(dims: [usize; 3]) -> [Grid; 4] {
         .map(|axes| Grid::new(dims, axes, DVec3::new(-1.0, 2.0, 0.5)).unwrap())
 }
 
-fn linear_fields() -> f64 {
+fn linear_fields<R: Real>() -> f64 {
     worst([[7, 6, 5], [3, 4, 2]].into_iter().flat_map(grids).map(|grid| {
         let places = places(&grid, 30);
-        linear_errors(&on(grid, linear), &places)
+        linear_errors::<R>(&on(grid, linear), &places)
     }))
 }
 
@@ -71,7 +90,7 @@ fn spheres_on_long_voxels() -> f64 {
     }))
 }
 
-fn boxes() -> f64 {
+fn boxes(number: Number) -> f64 {
     let directions = [DVec3::new(0.3, 0.8, -0.4), DVec3::Y, DVec3::new(-0.5, 0.1, 0.7)];
     worst(grids([6, 5, 7]).into_iter().flat_map(|grid| {
         directions.into_iter().flat_map(move |direction| {
@@ -83,6 +102,7 @@ fn boxes() -> f64 {
                     s.camera.direction = direction;
                     s.sampling.step = Length::World(step);
                     s.sampling.reference_length = Length::World(3.0 * step);
+                    s.sampling.number = number;
                 });
                 in_steps(&shot, step, 0.2, 3.0 * step)
             })

@@ -6,7 +6,7 @@ use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Length, Shading,
+    Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Length, Number, Shading,
 };
 
 pub(crate) static THEME: Theme = Theme::new(
@@ -19,7 +19,16 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "samples with a normal on the flatter one, or without on the steeper; central and Sobel",
             bound: 0.0,
             why: "the bound is 125 ulps; differences of dyadic numbers are exact",
-            measure: just_above_rounding,
+            measure: || just_above_rounding(Number::F64),
+        },
+        Case {
+            name: "slopes of 8 and 16 ulps of f32 a voxel at 1000, in f32",
+            breaks: "as above",
+            done: "no normal where ‖g‖ ≤ 2⁻²⁰·max|value|/voxel [PREC-3]",
+            of: "samples with a normal on the flatter one, or without on the steeper; central and Sobel",
+            bound: 0.0,
+            why: "the bound is 15.6 ulps; differences of dyadic numbers are exact",
+            measure: || just_above_rounding(Number::F32),
         },
         Case {
             name: "xy and x⁴ − 6x²y² + y⁴ about their axis",
@@ -65,15 +74,19 @@ fn degenerate_gradients() {
     THEME.hold();
 }
 
-fn just_above_rounding() -> f64 {
+fn just_above_rounding(number: Number) -> f64 {
     let mut wrong = 0;
-    let ulp = 2f64.powi(-43);
-    for (ulps, has_normal) in [(64.0, false), (128.0, true)] {
+    let (ulp, around) = match number {
+        Number::F64 => (2f64.powi(-43), [64.0, 128.0]),
+        Number::F32 => (2f64.powi(-14), [8.0, 16.0]),
+    };
+    for (ulps, has_normal) in [(around[0], false), (around[1], true)] {
         let ramp = on(Grid::with_spacing([9, 9, 9], [1.0; 3]).unwrap(), |p| 1000.0 + ulps * ulp * p.y);
         for gradient in [GradientEstimator::Central, GradientEstimator::Sobel] {
             let shot = Shot::regular(ramp.clone(), &[(0.0, [0.5; 3], 0.1)]).with(|s| {
                 s.shading = Some(Shading::default());
                 s.sampling.gradient = gradient;
+                s.sampling.number = number;
             });
             let counts = shot.render().counts;
             assert!(counts.gradients > 500);

@@ -7,7 +7,7 @@ use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::plan::Plan;
 use drypoint::scene::space::{Grid, SpaceError};
-use drypoint::scene::tables::{Background, Camera, Contours, Kappa, Length, TransferKind, VolumeSource};
+use drypoint::scene::tables::{Background, Camera, Contours, Kappa, Length, Number, TransferKind, VolumeSource};
 use drypoint::scene::tables::{Scene, Transfer};
 use drypoint::scene::transfer::Function;
 use drypoint::scene::volume::Volume;
@@ -22,7 +22,7 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "numbers of picture and layers that are not those of the background or of nothing; 7 scenes",
             bound: 0.0,
             why: "no sample has weight",
-            measure: nothing,
+            measure: || nothing(Number::F64),
         },
         Case {
             name: "the same: work",
@@ -31,7 +31,16 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "samples, gradients, Hessians and lookups, without the scenes whose style alone is clear",
             bound: 0.0,
             why: "no brick is visible, no ray meets the box",
-            measure: work,
+            measure: || work(Number::F64),
+        },
+        Case {
+            name: "both in f32",
+            breaks: "as above",
+            done: "as above",
+            of: "numbers that are not those of the background or of nothing, and work",
+            bound: 0.0,
+            why: "as above",
+            measure: || nothing(Number::F32) + work(Number::F32),
         },
         Case {
             name: "axes without voxels, functions without nodes",
@@ -81,9 +90,10 @@ fn scenes() -> Vec<(Shot, bool)> {
     ]
 }
 
-fn nothing() -> f64 {
+fn nothing(number: Number) -> f64 {
     let mut wrong = 0;
     for (shot, _) in scenes() {
+        let shot = shot.in_number(number);
         for background in [[0.0; 4], [0.2, 0.4, 0.6, 0.5], [1.0; 4]] {
             let [r, g, b, a] = background;
             let shown = shot.with(|s| s.picture.background = Background::Color(background)).render();
@@ -100,9 +110,9 @@ fn nothing() -> f64 {
     wrong as f64
 }
 
-fn work() -> f64 {
+fn work(number: Number) -> f64 {
     let counts = scenes().into_iter().map(|(shot, none)| {
-        let c = shot.render().counts;
+        let c = shot.in_number(number).render().counts;
         if none { c.samples + c.gradients + c.hessians + c.style_lookups } else { 0 }
     });
     counts.sum::<u64>() as f64

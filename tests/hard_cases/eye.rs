@@ -6,7 +6,7 @@ use crate::slabs::in_steps;
 use crate::stability::{Case, Theme, worst};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{Camera, Length, Projection, StepAlong};
+use drypoint::scene::tables::{Camera, Length, Number, Projection, StepAlong};
 use drypoint::scene::view::View;
 
 pub(crate) static THEME: Theme = Theme::new(
@@ -19,7 +19,16 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "|α − closed form| of a homogeneous box in units of one step's opacity; 0.001°, 1°, 60°, 170°",
             bound: 1.0,
             why: "the length of the ray beyond `near`, to one step [RAY-1]",
-            measure: inside,
+            measure: || inside(Number::F64),
+        },
+        Case {
+            name: "the same in f32",
+            breaks: "as above",
+            done: "as above",
+            of: "|α − closed form| in units of the opacity of 1.001 steps, after 4 u a sample",
+            bound: 1.0,
+            why: "as above; positions round by u of a box's size",
+            measure: || inside(Number::F32),
         },
         Case {
             name: "the eye 10⁶ box sizes away",
@@ -81,7 +90,7 @@ fn grid() -> Grid {
     Grid::with_spacing([9, 7, 8], [1.0, 1.25, 0.8]).unwrap()
 }
 
-fn inside() -> f64 {
+fn inside(number: Number) -> f64 {
     let box_of = grid();
     let [first, last] = [box_of.world_corners()[0], box_of.world_corners()[7]];
     let eyes = [box_of.centre(), DVec3::new(4.0, 2.5, 2.4), DVec3::new(4.3, 0.0, 2.2), first, last];
@@ -90,7 +99,7 @@ fn inside() -> f64 {
         directions.into_iter().flat_map(move |direction| {
             [0.001, 1.0, 60.0, 170.0].map(|fov| {
                 let camera = Camera { eye: Some(eye), direction, direction_given: true, ..perspective(fov) };
-                in_steps(&slab(camera), STEP, ALPHA, 1.0)
+                in_steps(&slab(camera).in_number(number), STEP, ALPHA, 1.0)
             })
         })
     }))

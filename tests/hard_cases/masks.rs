@@ -5,10 +5,13 @@ use crate::common::lattice::sighted;
 use crate::common::random::Random;
 use crate::common::{LAYERS, Shot, perspective, plain};
 use crate::stability::{Case, Theme, differing};
+use drypoint::reference::number::Real;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Shading};
+use drypoint::scene::tables::{
+    Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Number, Shading,
+};
 use drypoint::scene::volume::{Volume, VolumeError, Voxels};
 
 pub(crate) static THEME: Theme = Theme::new(
@@ -21,7 +24,7 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "numbers with another bit than in the filled volume, all layers; 5 reconstructions",
             bound: 0.0,
             why: "no filter and no range sees them, and a masked sample is transparent",
-            measure: outside_the_masked_cells,
+            measure: || outside_the_masked_cells::<f64>(Number::F64),
         },
         Case {
             name: "the same, everywhere",
@@ -30,7 +33,16 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "numbers that are NaN, of all layers; every second voxel masked, and all but one",
             bound: 0.0,
             why: "no output is ever NaN",
-            measure: nans,
+            measure: || nans(Number::F64),
+        },
+        Case {
+            name: "both in f32",
+            breaks: "as above",
+            done: "as above",
+            of: "numbers with another bit than in the filled volume, and numbers that are NaN",
+            bound: 0.0,
+            why: "as above",
+            measure: || outside_the_masked_cells::<f32>(Number::F32) + nans(Number::F32),
         },
         Case {
             name: "all of them",
@@ -50,14 +62,14 @@ fn voxels_that_are_not_finite() {
 }
 
 /// NaNs where hardly a voxel is finite.
-fn nans() -> f64 {
+fn nans(number: Number) -> f64 {
     let mut found = 0;
     for whole in [|i: usize| i.is_multiple_of(2), |i: usize| i == 700] {
         let grid = Grid::with_spacing(DIMS, [1.0, 1.2, 0.9]).unwrap();
         let voxels = (0..grid.len()).map(|i| if whole(i) { (i % 17) as f64 } else { f64::NAN }).collect();
         let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
         for shot in shots(volume) {
-            let shown = shot.layers(&LAYERS).render();
+            let shown = shot.layers(&LAYERS).in_number(number).render();
             found +=
                 shown.picture.layers.iter().flat_map(|l| l.channels.iter().flatten()).filter(|v| v.is_nan()).count();
         }
@@ -117,7 +129,7 @@ fn shots(volume: Volume) -> Vec<Shot> {
     ]
 }
 
-fn outside_the_masked_cells() -> f64 {
+fn outside_the_masked_cells<R: Real>(number: Number) -> f64 {
     let mut differ = 0.0;
     for (seed, holes) in [(1, 1), (2, 4), (3, 12)] {
         let masked = holed(seed, holes);
@@ -126,11 +138,12 @@ fn outside_the_masked_cells() -> f64 {
                 let direction = DVec3::new(0.5, 0.7, -0.4);
                 s.camera = perspective(40.0);
                 s.camera.direction = direction;
+                s.sampling.number = number;
             });
             let with = shot.render();
             let without = Shot { volume: filled(&masked), ..shot.clone() }.render();
             let (mut same, mut touched) = (0, 0);
-            for (t, ray) in sighted::<f64>(&shot).iter().enumerate() {
+            for (t, ray) in sighted::<R>(&shot).iter().enumerate() {
                 let channels = |s: &crate::common::Shown| {
                     s.picture.layers.iter().flat_map(|l| l.channels.iter()).map(|c| c[t].to_bits()).collect::<Vec<_>>()
                 };

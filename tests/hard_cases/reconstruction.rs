@@ -10,7 +10,7 @@ use crate::stability::worse;
 use drypoint::reference::field::{
     Field, GradientEstimator, HessianEstimator, Kernel, Reconstruction, Rung, Sampler, curvature,
 };
-use drypoint::reference::number::{Sym3, Vec3};
+use drypoint::reference::number::{Real, Sym3, Vec3};
 use drypoint::reference::with_sampler;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::math::scale_by_power_of_two;
@@ -39,13 +39,13 @@ pub(crate) fn all(scale: f64) -> Vec<Reconstruction> {
 }
 
 /// c ε.
-fn rounding(kernel: Kernel) -> f64 {
+fn rounding<R: Real>(kernel: Kernel) -> f64 {
     let prefilter = match kernel {
         Kernel::Bspline => 27.0,
         Kernel::Bspline5 => 422.0,
         _ => 1.0,
     };
-    48.0 * prefilter * f64::EPSILON
+    48.0 * prefilter * R::EPSILON.to_f64()
 }
 
 /// Places in the box of a grid: its corners, on its faces, on voxels and between them.
@@ -74,10 +74,16 @@ struct Asked {
     exponent: i32,
 }
 
-fn ask(field: &Field<'_, f64>, p: DVec3) -> Asked {
-    let p = Vec3::from_glam(p);
-    let (value, gradient, (own, hessian)) = with_sampler!(field, |s| (s.value(p), s.gradient(p), s.hessian(p)));
-    Asked { value, gradient: gradient.to_glam(), own: own.to_glam(), hessian, exponent: field.scale_exponent() }
+fn ask<R: Real>(field: &Field<'_, R>, p: Vec3<R>) -> Asked {
+    let (value, gradient, (own, h)) = with_sampler!(field, |s| (s.value(p), s.gradient(p), s.hessian(p)));
+    let [xx, xy, xz, yy, yz, zz] = [h.xx, h.xy, h.xz, h.yy, h.yz, h.zz].map(Real::to_f64);
+    Asked {
+        value: value.to_f64(),
+        gradient: gradient.to_glam(),
+        own: own.to_glam(),
+        hessian: Sym3 { xx, xy, xz, yy, yz, zz },
+        exponent: field.scale_exponent(),
+    }
 }
 
 const SLOPE: DVec3 = DVec3::new(3.0, -2.0, 7.0);
@@ -89,23 +95,26 @@ pub(crate) fn linear(p: DVec3) -> f64 {
 
 /// The largest error of value, gradient and Hessian of [`linear`] in units of their bounds, for every reconstruction.
 /// Along axes of length 1 there is no slope; their D must be diagonal.
-pub(crate) fn linear_errors(volume: &Volume, places: &[DVec3]) -> f64 {
+pub(crate) fn linear_errors<R: Real>(volume: &Volume, places: &[DVec3]) -> f64 {
     let grid = volume.grid();
     let (m, inverse) = (volume.largest_magnitude(), 1.0 / grid.smallest_singular_value());
     let slope = DVec3::from_array([0, 1, 2].map(|a| if grid.dims()[a] == 1 { 0.0 } else { SLOPE[a] }));
     let mut worst = 0.0;
     for how in all(grid.voxel()) {
-        let field = Field::<f64>::new(volume, how, Rung::Hessian).unwrap();
+        let field = Field::<R>::new(volume, how, Rung::Hessian).unwrap();
         for &p in places {
+            let at = Vec3::<R>::from_glam(p);
+            // The place that is asked at: a number of this type.
+            let p = at.to_glam();
             let middle = DVec3::from_array([0, 1, 2].map(|a| if grid.dims()[a] == 1 { 0.0 } else { p[a] }));
-            let got = ask(&field, p);
+            let got = ask(&field, at);
             let up = |x: f64| scale_by_power_of_two(x, got.exponent);
-            let bound = rounding(how.kernel) * m;
+            let bound = rounding::<R>(how.kernel) * m;
             worst = worse(worst, (got.value - linear(grid.to_world(middle))).abs() / bound);
             let off = DVec3::from_array(got.gradient.to_array().map(up)) - slope;
             worst = worse(worst, off.length() / (bound * inverse));
             // The field of a Gaussian Hessian is a cubic spline's.
-            let own = rounding(how.kernel).max(rounding(Kernel::Bspline)) * m;
+            let own = rounding::<R>(how.kernel).max(rounding::<R>(Kernel::Bspline)) * m;
             let off = DVec3::from_array(got.own.to_array().map(up)) - slope;
             worst = worse(worst, off.length() / (own * inverse));
             let h = got.hessian;
@@ -140,12 +149,12 @@ pub(crate) fn sphere_errors(volume: &Volume, centre: DVec3, radius: f64, places:
         for &p in places {
             let from = grid.to_world(p) - centre;
             let (rho, steepness) = (from.length(), from.length() / radius);
-            let got = ask(&field, p);
+            let got = ask(&field, Vec3::from_glam(p));
             let turned = (got.gradient.normalize() + from / rho).length();
-            let gradient = rounding(kernel) * m * inverse / steepness;
+            let gradient = rounding::<f64>(kernel) * m * inverse / steepness;
             worst = worse(worst, turned / gradient);
             let c = curvature::principal(Vec3::from_glam(got.own), got.hessian, Outside::Low);
-            let bound = gradient + radius * rounding(kernel) * m * inverse * inverse;
+            let bound = gradient + radius * rounding::<f64>(kernel) * m * inverse * inverse;
             worst = worse(worst, (c.k1 * rho - 1.0).abs().max((c.k2 * rho - 1.0).abs()) / bound);
         }
     }

@@ -7,7 +7,9 @@ use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::math::scale_by_power_of_two;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{Camera, Contours, GradientRange, HessianEstimator, Kappa, Kernel, Length, Shading};
+use drypoint::scene::tables::{
+    Camera, Contours, GradientRange, HessianEstimator, Kappa, Kernel, Length, Number, Shading,
+};
 
 pub(crate) static THEME: Theme = Theme::new(
     "Extreme scales",
@@ -28,7 +30,16 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "numbers with another bit in the picture and its normals; 2 kernels, exact and ray κ",
             bound: 0.0,
             why: "a power of two changes no mantissa",
-            measure: spacings_by_two,
+            measure: || spacings_by_two(Number::F64),
+        },
+        Case {
+            name: "the same in f32",
+            breaks: "as above",
+            done: "as above",
+            of: "numbers with another bit in the picture and its normals; 2 kernels, exact and ray κ",
+            bound: 0.0,
+            why: "as above: 2^±100 is a number of f32 too, its square is not",
+            measure: || spacings_by_two(Number::F32),
         },
         Case {
             name: "spacings of 10^±30, lengths and camera with them",
@@ -107,11 +118,17 @@ fn spacings_by_ten() -> f64 {
     worst([1e30, 1e-30].map(|scale| off(1.0, scale)))
 }
 
-fn spacings_by_two() -> f64 {
+fn spacings_by_two(number: Number) -> f64 {
     let scales = [-100, -37, 1, 100].map(|k| scale_by_power_of_two(1.0, k));
     let differ = scales.map(|scale| {
         let pairs = scenes(1.0, 1.0).into_iter().zip(scenes(1.0, scale));
-        pairs.map(|(one, other)| differing(&one.render().bits(), &other.render().bits())).sum::<f64>()
+        pairs
+            .map(|(one, other)| {
+                let [one, other] = [one, other].map(|shot| shot.in_number(number).render());
+                assert!(one.covered() > 60);
+                differing(&one.bits(), &other.bits())
+            })
+            .sum::<f64>()
     });
     differ.into_iter().sum()
 }

@@ -4,7 +4,7 @@
 //! the camera: |α − (1 − (1 − α₀)^(L/Δ₀))| ≤ 1 − (1 − α₀)^(Δ_ray/Δ₀).
 
 use crate::common::{Shot, on, orthographic, perspective};
-use crate::stability::{Case, Theme, worse};
+use crate::stability::{Case, Theme, U, worse};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Length, Number, StepAlong};
@@ -20,7 +20,7 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "|α − (1 − (1 − α₀)^(L/Δ₀))| in units of one step's opacity; 5 grids, 6 steps, α₀ from 10⁻¹² to 0.999",
             bound: 1.0,
             why: "the lattice belongs to the camera: a ray has L/Δ_ray samples, rounded up or down [RAY-1]",
-            measure: boxes,
+            measure: || boxes(Number::F64),
         },
         Case {
             name: "an orthographic camera moved by Δ, −3Δ, 100Δ along the view",
@@ -31,6 +31,15 @@ pub(crate) static THEME: Theme = Theme::new(
             why: "the same planes: positions round by some ε, colours change by less than 10 a voxel, 40 samples a ray",
             measure: moved_by_steps,
         },
+        Case {
+            name: "the same in f32",
+            breaks: "a sample more at both ends; sums that stand still",
+            done: "positions from k; the correction is computed in f64 and rounded once",
+            of: "|α − (1 − (1 − α₀)^(L/Δ₀))| in units of the opacity of 1.001 steps, after 4 u a sample",
+            bound: 1.0,
+            why: "as above: the ends of a ray move by some u of the way from the eye, less than a thousandth of a step; four roundings a sample",
+            measure: || boxes(Number::F32),
+        },
     ],
 );
 
@@ -39,20 +48,26 @@ fn homogeneous_boxes() {
     THEME.hold();
 }
 
-/// How far the opacities of a homogeneous box of α₀ per Δ₀ are off their closed form, in units of one step's opacity.
+/// How far the opacities of a homogeneous box of α₀ per Δ₀ are off their closed form, in units of one step's opacity; in f32 after what
+/// rounding can do.
 pub(crate) fn in_steps(shot: &Shot, step: f64, alpha: f64, reference: f64) -> f64 {
     let lengths = lengths(shot, step, false);
     let pixels = shot.render().pixels();
     let off = lengths.into_iter().zip(pixels).map(|((length, cos), pixel)| {
         let opacity = |length: f64| -f64::exp_m1(length / reference * f64::ln_1p(-alpha));
         // Sums of opacities round relative to their size.
-        let rounding = 1e-12 * opacity(length).max(alpha);
-        ((pixel[3] - opacity(length)).abs() - rounding).max(0.0) / opacity(step / cos)
+        let (most, steps) = match shot.scene.sampling.number {
+            Number::F64 => (1e-12, 1.0),
+            // The ends of the ray move with its positions.
+            Number::F32 => (4.0 * U * (length * cos / step + 1.0), 1.001),
+        };
+        let rounding = most * opacity(length).max(alpha);
+        ((pixel[3] - opacity(length)).abs() - rounding).max(0.0) / opacity(steps * step / cos)
     });
     off.fold(0.0, worse)
 }
 
-fn boxes() -> f64 {
+fn boxes(number: Number) -> f64 {
     let mut largest = 0.0;
     for i in 0..48 {
         let angle = f64::from(i) * 2.4;
@@ -69,6 +84,7 @@ fn boxes() -> f64 {
             s.sampling.step = Length::World(step);
             s.sampling.reference_length = Length::World(1.3);
             s.picture.size = [11, 7];
+            s.sampling.number = number;
         });
         largest = worse(largest, in_steps(&shot, step, alpha, 1.3));
     }

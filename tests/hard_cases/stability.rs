@@ -1,6 +1,7 @@
 //! Every hard case as a record: what could break, what is done, and how far off it may be and is. The same record is a
 //! test and a row of `docs/stability.md`.
 
+use drypoint::scene::tables::Number;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -28,6 +29,17 @@ pub(crate) struct Theme {
     cases: &'static [Case],
     /// What was measured, so that test and page need it once.
     found: OnceLock<Vec<f64>>,
+}
+
+/// Half of what 1 and the next f32 are apart: what one rounding in f32 takes of a number at most.
+pub(crate) const U: f64 = f32::EPSILON as f64 / 2.0;
+
+/// What one rounding takes of a number of that type at most.
+pub(crate) fn rounding(number: Number) -> f64 {
+    match number {
+        Number::F64 => f64::EPSILON / 2.0,
+        Number::F32 => U,
+    }
 }
 
 /// Every theme, in the order of the page.
@@ -156,7 +168,9 @@ A bound of 0 means that not one number may differ.
 
 `cargo run --release -p drypoint-docs -- stability` measures all of them and writes this page.
 Measured errors are rounded up to two digits; another machine may differ in them where a test itself calls its system's functions, never in a bound.
-ε is 2⁻⁵², α₀ an opacity per reference length Δ₀, Δ the step, L the length of a ray inside the box; *in units of* a bound means that the bound is 1 there.
+ε is 2⁻⁵², u is 2⁻²⁴, half of the ε of f32, α₀ an opacity per reference length Δ₀, Δ the step, L the length of a ray inside the box; *in units of* a bound means that the bound is 1 there.
+
+Rows in f32 have `sampling.number = \"f32\"`, which rays alone know: points, strokes and outlines are computed in f64 whatever it says, so that their themes have no such row.
 ";
 
 /// A page without its last column, which is what was measured.

@@ -1,14 +1,14 @@
 //! Tiny and huge steps ([RAY-1], [VAL-4]).
 
 use crate::common::{Shot, corrected, on, orthographic, perspective};
-use crate::stability::{Case, Theme, worst};
+use crate::stability::{Case, Theme, U, rounding, worst};
 use drypoint::reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::plan::Plan;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{Length, StepAlong};
+use drypoint::scene::tables::{Length, Number, StepAlong};
 use std::path::Path;
 
 pub(crate) static THEME: Theme = Theme::new(
@@ -21,7 +21,7 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "|α − (1 − (1 − α₀)^(L/Δ₀))| in units of one step's opacity and 4 ε a sample",
             bound: 1.0,
             why: "one sample more or less, and up to four roundings of each",
-            measure: tiny,
+            measure: || tiny(Number::F64),
         },
         Case {
             name: "Δ of 10 to 10⁶ box sizes",
@@ -30,7 +30,25 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "|α − (1 − (1 − α₀)^(Δ/Δ₀))| of the one plane that meets the box, and wrong counts of samples",
             bound: 1e-15,
             why: "one correction: four roundings",
-            measure: huge,
+            measure: || huge(Number::F64),
+        },
+        Case {
+            name: "the same two in f32: small steps",
+            breaks: "as above",
+            done: "as above",
+            of: "|α − (1 − (1 − α₀)^(L/Δ₀))| in units of one step's opacity and 8 u a sample",
+            bound: 1.0,
+            why: "one sample more or less, and up to four roundings of each",
+            measure: || tiny(Number::F32),
+        },
+        Case {
+            name: "the same two in f32: huge steps",
+            breaks: "as above",
+            done: "as above",
+            of: "|α − (1 − (1 − α₀)^(Δ/Δ₀))| of the one plane that meets the box, and wrong counts of samples",
+            bound: 2.0 * U,
+            why: "the opacity rounds before its correction and after it",
+            measure: || huge(Number::F32),
         },
         Case {
             name: "Δ of 10³⁰ and 10³⁰⁰ box sizes",
@@ -79,13 +97,13 @@ fn slab(alpha: f64, step: f64) -> Shot {
     })
 }
 
-fn tiny() -> f64 {
+fn tiny(number: Number) -> f64 {
     let steps = [1e-3, 1e-4, 3e-5, 1e-6];
     worst(steps.into_iter().flat_map(|step| {
         [0.7, 1e-9].map(|alpha| {
-            let shown = slab(alpha, step).render();
+            let shown = slab(alpha, step).in_number(number).render();
             let samples = shown.one(LayerKind::Counts)[0];
-            let bound = corrected_exactly(alpha, step) + 4.0 * f64::EPSILON * samples * shown.pixels()[0][3];
+            let bound = corrected_exactly(alpha, step) + 8.0 * rounding(number) * samples * shown.pixels()[0][3];
             assert!(samples > 1.9 / step, "{samples}");
             (shown.pixels()[0][3] - corrected_exactly(alpha, 2.0)).abs() / bound
         })
@@ -97,11 +115,11 @@ fn corrected_exactly(alpha: f64, x: f64) -> f64 {
     -f64::exp_m1(x * f64::ln_1p(-alpha))
 }
 
-fn huge() -> f64 {
+fn huge(number: Number) -> f64 {
     worst([10.0, 1e3, 1e6].into_iter().flat_map(|sizes| {
         [1e-9, 0.3].map(|alpha| {
             let step = sizes * 2.0;
-            let shot = slab(alpha, step).with(|s| {
+            let shot = slab(alpha, step).in_number(number).with(|s| {
                 // The plane at depth Δ/2 goes through the middle.
                 s.camera.eye = Some(DVec3::new(1.0, 1.0 - step / 2.0, 1.0));
                 s.camera.direction_given = true;

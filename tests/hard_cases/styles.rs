@@ -2,12 +2,12 @@
 
 use crate::common::strip::ramp;
 use crate::common::{Shot, corrected, in_a_texture, on, orthographic, perspective, plain, style, volume};
-use crate::stability::{Case, Theme, worse};
+use crate::stability::{Case, Theme, U, rounding, worse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Contours, GradientRange, Kappa, Length, Mix, NormalSide, SphereFrame, Transparency, Unit,
+    Contours, GradientRange, Kappa, Length, Mix, NormalSide, Number, SphereFrame, Transparency, Unit,
 };
 use drypoint::scene::volume::{Volume, Voxels};
 
@@ -21,7 +21,7 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "|α − (1 − (1 − α_u^x)^(L/Δ₀))| in units of one step's opacity",
             bound: 1.0,
             why: "the length of the ray, to one step [RAY-1]",
-            measure: slabs_of_powers,
+            measure: || slabs_of_powers(Number::F64),
         },
         Case {
             name: "a sheet thinner than the step, opposite normals at successive samples",
@@ -39,7 +39,7 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "largest error of a channel against the closed form; every κ, τ from 0 to 1, both ways",
             bound: 1e-14,
             why: "one power, one lookup in the middle of the style",
-            measure: wall,
+            measure: || wall(Number::F64),
         },
         Case {
             name: "values at the exact ends of the range",
@@ -48,7 +48,7 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "largest error of a channel; values, normalized, per cents; 3 slopes",
             bound: 2.0 * f64::EPSILON,
             why: "lo + n(hi − lo) and the fraction round once",
-            measure: exact_ends,
+            measure: || exact_ends(Number::F64),
         },
         Case {
             name: "an eye inside at 120°",
@@ -57,7 +57,43 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "largest error of opacity and looked-up normal against the closed form; both frames",
             bound: 1e-12,
             why: "some hundred samples a ray, a few ε each; a ramp is exact for bilinear filters",
-            measure: wide_picture,
+            measure: || wide_picture(Number::F64),
+        },
+        Case {
+            name: "the same in f32: slabs of powers",
+            breaks: "as for f64",
+            done: "powers and corrections are computed in f64 and rounded once",
+            of: "|α − (1 − (1 − α_u^x)^(L/Δ₀))| in units of one step's opacity, after 4 u a sample",
+            bound: 1.0,
+            why: "the length of the ray, to one step [RAY-1]; four roundings a sample",
+            measure: || slabs_of_powers(Number::F32),
+        },
+        Case {
+            name: "in f32: walls",
+            breaks: "as for f64",
+            done: "as for f64",
+            of: "largest error of a channel against the closed form; every κ, τ from 0 to 1, both ways",
+            bound: 4.0 * U,
+            why: "α_u, ‖g‖, the exponent, the power and its product with the colour round once each, of numbers below ½",
+            measure: || wall(Number::F32),
+        },
+        Case {
+            name: "in f32: ends of the range",
+            breaks: "as for f64",
+            done: "as for f64",
+            of: "largest error of a channel; values, normalized, per cents; 3 slopes",
+            bound: 4.0 * U,
+            why: "lo + n(hi − lo) and the fraction round once",
+            measure: || exact_ends(Number::F32),
+        },
+        Case {
+            name: "in f32: an eye inside at 120°",
+            breaks: "as for f64",
+            done: "as for f64",
+            of: "largest error of opacity and looked-up normal against the closed form; both frames",
+            bound: 500.0 * U,
+            why: "some hundred samples a ray, a few u each",
+            measure: || wide_picture(Number::F32),
         },
     ],
 );
@@ -71,7 +107,7 @@ fn styles_and_illustrative_transparency() {
 /// the opacity of a length is one number however the length is cut. That holds for every exponent of eq. 2 only if the
 /// correction is the last step: corrected first, x < 1 turns the slab opaque and x > 1 makes it vanish. A flat field has
 /// |N·v| = 1, so a constant threshold τ makes x = 3/2 − τ: 3/2, 1 and 1/2.
-fn slabs_of_powers() -> f64 {
+fn slabs_of_powers(number: Number) -> f64 {
     let mut largest = 0.0;
     let (alpha_u, length, reference) = (0.1f64, 16.0, 4.0);
     for tau in [0.0, 0.5, 1.0] {
@@ -84,12 +120,17 @@ fn slabs_of_powers() -> f64 {
             s.sampling.reference_length = Length::World(reference);
             s.camera.projection = orthographic(Some(3.0)).projection;
             s.picture.size = [2, 2];
+            s.sampling.number = number;
         });
         for halvings in 0..4 {
             let step = 1.0 / f64::from(1 << halvings);
             let bound = corrected(alpha, step / reference);
+            let rounding = match number {
+                Number::F64 => 1e-13,
+                Number::F32 => 4.0 * rounding(number) * (length / step + 1.0),
+            };
             for pixel in slab.with(|s| s.sampling.step = Length::World(step)).render().pixels() {
-                largest = worse(largest, ((pixel[3] - whole).abs() - 1e-13).max(0.0) / bound);
+                largest = worse(largest, ((pixel[3] - whole).abs() - rounding).max(0.0) / bound);
             }
             // What the other order makes of it is seen at the smallest step, but where x = 1 and both are one.
             let first = corrected(alpha_u, step / reference).powf(x);
@@ -128,7 +169,7 @@ fn thin_sheet() -> f64 {
 /// n exactly along v: the lookup is the middle of the style, which has no direction to be pushed along (r = 0 stays 0),
 /// the direction of κ_v is lost and the mean curvature stands in, and |N·v| = 1 exactly. A wall seen straight on, in a
 /// style that tells its middle from everything else, under every κ and under a threshold that makes all of it contour.
-fn wall() -> f64 {
+fn wall(number: Number) -> f64 {
     let mut largest = 0.0;
     let (alpha_u, g) = (0.3f64, 0.5);
     let field = || volume([9; 3], |p| g * (p.y - 4.0));
@@ -145,7 +186,7 @@ fn wall() -> f64 {
             let bare = Shot::styled(field(), vec![ramp()], &[(-1.0, "ramp", alpha_u)])
                 .layers(&[LayerKind::Normal, LayerKind::CurvatureAlongView])
                 .seen_along(direction);
-            let shot = one_plane(&bare).with(|s| {
+            let shot = one_plane(&bare).in_number(number).with(|s| {
                 s.contours = kappa.map(|kappa| Contours { kappa, ..Contours::default() });
             });
             let shown = shot.render();
@@ -171,7 +212,7 @@ fn wall() -> f64 {
 
 /// Values at the exact ends: i = 0 and i = N − 1, where i₀ + 1 is no node, w = 0, and no style beyond the last is read. Bytes
 /// from 0 to 255 under nodes over values, normalized values and per cents; 0.1 and 0.7 have no exact halves or thirds.
-fn exact_ends() -> f64 {
+fn exact_ends(number: Number) -> f64 {
     let mut largest = 0.0;
     let styles = || vec![plain("red", [1.0, 0.0, 0.0, 1.0]), plain("blue", [0.0, 0.0, 1.0, 1.0])];
     // Half of the voxels have the least value, half the largest.
@@ -193,7 +234,7 @@ fn exact_ends() -> f64 {
                     (t.unit, t.mix, t.transparency) = (unit, mix, Transparency::Plain);
                 });
                 // Pixels of 1½ voxels, none of which looks between the halves.
-                let row = one_plane(&shot).with(|s| {
+                let row = one_plane(&shot).in_number(number).with(|s| {
                     s.picture.size = [4, 1];
                     s.camera.projection = orthographic(Some(1.5)).projection;
                 });
@@ -212,7 +253,7 @@ fn exact_ends() -> f64 {
 /// ray, one |N·v|, so A = 1 − (1 − α_u^(½ + |N·v|(1 − |g|)))^(nΔ/(Δ₀ cosφ)) of n samples, and the colour is that of the
 /// lookup: N in the eye's frame, N turned by v onto z in the view's. A correction for Δ in place of Δ_ray would be off by the
 /// factor 2.65 in the exponent.
-fn wide_picture() -> f64 {
+fn wide_picture(number: Number) -> f64 {
     let mut largest = 0.0;
     let (alpha_u, step) = (0.02f64, 0.25);
     let gradient = DVec3::new(0.2, 0.5, -0.1);
@@ -228,6 +269,7 @@ fn wide_picture() -> f64 {
             s.sampling.step = Length::World(step);
             s.sampling.reference_length = Length::World(1.0);
             s.picture.size = [17, 17];
+            s.sampling.number = number;
         });
     let view = shot.view();
     let n = view.direction_to_eye(-gradient.normalize());

@@ -2,7 +2,7 @@
 
 use crate::common::random::Random;
 use crate::common::{LAYERS, Shot, ball, on, orthographic, perspective, quadratic_ball, volume};
-use crate::stability::{Case, Theme, worst};
+use crate::stability::{Case, Theme, rounding, worst};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
@@ -21,7 +21,16 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "|Z − closed form| in units of 256 ε times the distance from the eye; missed pixels count 10⁹",
             bound: 1.0,
             why: "values round by some ε, and a plane is met at no less than a tenth of its slope",
-            measure: plane_depths,
+            measure: || plane_depths(Number::F64),
+        },
+        Case {
+            name: "the same in f32",
+            breaks: "as above",
+            done: "as above",
+            of: "|Z − closed form| in units of 512 u times the distance from the eye; missed pixels count 10⁹",
+            bound: 1.0,
+            why: "as above, with the ε of f32",
+            measure: || plane_depths(Number::F32),
         },
         Case {
             name: "a translucent slab before a plane that moves by small parts of a step",
@@ -108,12 +117,10 @@ fn plane(grid: &Grid) -> Volume {
     on(grid.clone(), |p| NORMAL.dot(p - centre))
 }
 
-fn plane_depths() -> f64 {
+fn plane_depths(number: Number) -> f64 {
     let mut all = Vec::new();
     for grid in grids() {
-        for (kernel, number) in
-            [(Kernel::Trilinear, Number::F64), (Kernel::CatmullRom, Number::F64), (Kernel::BsplineSmooth, Number::F64)]
-        {
+        for kernel in [Kernel::Trilinear, Kernel::CatmullRom, Kernel::BsplineSmooth] {
             let shot = alone(plane(&grid), SurfaceLook::White, LEVEL).with(|s| {
                 s.sampling.kernel = kernel;
                 s.sampling.number = number;
@@ -153,7 +160,13 @@ fn off_the_plane(shot: &Shot) -> Vec<f64> {
         let inside = at.cmpgt(lo + 1e-6).all() && at.cmplt(hi - 1e-6).all();
         let met = inside && slope.abs() > 0.1 * ray.along.length() && (!view.perspective || depth > 2e-3);
         let distance = depth.abs() + ray.origin.length() + 10.0;
-        met.then(|| if z.is_finite() { (z - depth).abs() / (256.0 * f64::EPSILON * distance) } else { 1e9 })
+        met.then(|| {
+            if z.is_finite() {
+                (z - depth).abs() / (512.0 * rounding(shot.scene.sampling.number) * distance)
+            } else {
+                1e9
+            }
+        })
     });
     pixels.collect()
 }

@@ -4,12 +4,12 @@
 //! another order. A mirrored scene is a mirrored picture.
 
 use crate::common::{Shot, Shown, on, orthographic, perspective, style};
-use crate::stability::{Case, Theme, differing};
+use crate::stability::{Case, Theme, U, differing, worst};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Length, Shading,
+    Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Length, Number, Shading,
 };
 
 pub(crate) static THEME: Theme = Theme::new(
@@ -23,6 +23,15 @@ pub(crate) static THEME: Theme = Theme::new(
             bound: 0.0,
             why: "whole voxels, dyadic positions and spacings: nothing is rounded before ‖g‖, whose square is exact",
             measure: dyadic,
+        },
+        Case {
+            name: "the same in f32: pictures",
+            breaks: "as above",
+            done: "as above",
+            of: "largest difference of a channel",
+            bound: 64.0 * 8.0 * U,
+            why: "squares of gradients are no longer exact, and their sum depends on the order of the axes: up to 8 u a sample, 64 samples a ray",
+            measure: dyadic_in_f32,
         },
         Case {
             name: "a dyadic phantom in styles, turned by 24 rotations",
@@ -131,14 +140,31 @@ fn phantom() -> Grid {
     centred([11, 15, 8], DVec3::new(1.0, 0.5, 2.0))
 }
 
-fn dyadic() -> f64 {
+/// Shaded, with layers, seen along two axes.
+fn shaded() -> [Shot; 2] {
     let nodes = [(-5.0, [0.9, 0.3, 0.2], 0.0), (10.0, [0.2, 0.9, 0.2], 0.2), (25.0, [0.1, 0.4, 0.9], 0.6)];
     let regular = Shot::regular(on(phantom(), whole), &nodes)
         .layers(&[LayerKind::Depth, LayerKind::Normal, LayerKind::Gradient, LayerKind::First])
         .with(|s| s.shading = Some(Shading::default()));
+    [(DVec3::Y, DVec3::Z), (-DVec3::X, DVec3::Y)].map(|(direction, up)| along_axes(&regular, direction, up))
+}
+
+fn dyadic_in_f32() -> f64 {
+    worst(shaded().into_iter().flat_map(|shot| {
+        let here = shot.in_number(Number::F32);
+        let still = here.render();
+        assert!(still.covered() > 100);
+        symmetries().into_iter().map(move |m| {
+            let a = rows(&still, LayerKind::Beauty, m.determinant() < 0.0).concat();
+            let b = rows(&moved(&here, m, whole).render(), LayerKind::Beauty, false).concat();
+            worst(a.into_iter().zip(b).map(|(a, b)| (a - b).abs()))
+        })
+    }))
+}
+
+fn dyadic() -> f64 {
     let mut differ = 0.0;
-    for (direction, up) in [(DVec3::Y, DVec3::Z), (-DVec3::X, DVec3::Y)] {
-        let here = along_axes(&regular, direction, up);
+    for here in shaded() {
         let still = here.render();
         assert!(still.covered() > 100);
         for m in symmetries() {

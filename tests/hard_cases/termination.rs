@@ -1,9 +1,9 @@
 //! Early termination ([RAY-2]): it costs at most ε·c_max a channel, and ends where the opacity is reached.
 
 use crate::common::{Shot, ball, largest_difference};
-use crate::stability::{Case, Theme, worse};
+use crate::stability::{Case, Theme, U, worse};
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Background, BlendSpace, Shading};
+use drypoint::scene::tables::{Background, BlendSpace, Number, Shading};
 
 pub(crate) static THEME: Theme = Theme::new(
     "Early termination",
@@ -15,7 +15,7 @@ pub(crate) static THEME: Theme = Theme::new(
             of: "largest difference of a channel in units of ε c_max; Phong up to 2.3, bright backgrounds, both blend spaces",
             bound: 1.0,
             why: "what is left out weighs at most ε, in colours of at most c_max",
-            measure: cut_off,
+            measure: || cut_off(Number::F64),
         },
         Case {
             name: "black up to A = 1 − ε, then white, summed in sRGB",
@@ -25,6 +25,15 @@ pub(crate) static THEME: Theme = Theme::new(
             bound: 1.0,
             why: "as above, with c_max = 1",
             measure: steepest,
+        },
+        Case {
+            name: "rays that end at A ≥ 1 − ε in f32, ε from 10⁻³ to 0.99",
+            breaks: "as above; 1 − ε that rounds up",
+            done: "as above",
+            of: "largest difference of a channel in units of 1.001 ε c_max, after 4 u a sample",
+            bound: 1.0,
+            why: "as above; 1 − ε rounds by u, and what is left out by 4 u a sample",
+            measure: || cut_off(Number::F32),
         },
     ],
 );
@@ -44,8 +53,13 @@ fn soft() -> Shot {
 
 /// Where A ≥ 1 − ε what is left out has a weight of at most ε in all, of colours up to c_max; the background, which is
 /// drawn with 1 − A, among them. In linear light also where the sums are encoded.
-fn cut_off() -> f64 {
+fn cut_off(number: Number) -> f64 {
     let mut largest = 0.0;
+    let (rounding, share, epsilons) = match number {
+        Number::F64 => (1e-15, 1.0, &[1e-6, 1e-3, 0.1, 0.5, 0.99][..]),
+        // A ray of the diagonal of 20³ voxels has 66 samples.
+        Number::F32 => (66.0 * 4.0 * U, 1.001, &[1e-3, 0.1, 0.5, 0.99][..]),
+    };
     let bright = Shading { ambient: 0.5, diffuse: 1.0, specular: 0.8, ..Shading::default() };
     for (shading, brightest) in [(None, 1.0), (Some(bright), 2.3)] {
         for (space, background) in [
@@ -57,12 +71,13 @@ fn cut_off() -> f64 {
                 s.shading = shading.clone();
                 s.picture.blend_space = space;
                 s.picture.background = background;
+                s.sampling.number = number;
             });
             let whole = shot.render();
-            for epsilon in [1e-6, 1e-3, 0.1, 0.5, 0.99] {
+            for &epsilon in epsilons {
                 let cut = shot.with(|s| s.sampling.stop_below = epsilon).render();
                 let difference = largest_difference(&whole, &cut);
-                largest = worse(largest, (difference - 1e-15).max(0.0) / (epsilon * brightest));
+                largest = worse(largest, (difference - rounding).max(0.0) / (share * epsilon * brightest));
                 assert!(cut.counts.samples <= whole.counts.samples);
                 if epsilon >= 0.1 {
                     assert!(difference > 0.0 && cut.counts.samples < whole.counts.samples, "{epsilon}");

@@ -8,10 +8,14 @@ use drypoint_scene::marks::color_between;
 use drypoint_scene::philox::uniform;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 
-/// The most that half the width may change by between two vertices, in mm.
-const RADIUS: f64 = 0.01;
+/// How far half the width may be from what is linear between two vertices, in mm: with what steps of 0.005 round, less than
+/// half a dot at 2400 dpi.
+const RADIUS: f64 = 0.002;
 
-/// The most that a channel of the colour may, in sRGB.
+/// A change of half the width over a segment that its middle tells enough of, in mm.
+const SMALL: f64 = 0.01;
+
+/// The most that a channel of the colour may change by between two vertices, in sRGB.
 const CHANNEL: f64 = 0.06;
 
 /// The most that the opacity may.
@@ -51,8 +55,8 @@ pub fn grain(seed: u64, key: u64, along: f64) -> f64 {
 }
 
 /// The parts of a stroke that are at least `least` mm wide to either side, drawn with what `pen` says for places on it. Between
-/// two vertices the pen is linear in the arc length; vertices are added where it changes much, and a part ends where it becomes
-/// too thin.
+/// two vertices the pen is linear in the arc length; vertices are added where its width is not and where its colour changes
+/// much, and a part ends where it becomes too thin.
 pub fn drawn(stroke: &Stroke, least: f64, pen: impl Fn(&Place) -> Pen) -> Vec<Drawn> {
     let mut along = places(stroke).into_iter().map(|place| (place, pen(&place)));
     let mut all: Vec<(Place, Pen)> = along.next().into_iter().collect();
@@ -97,10 +101,15 @@ fn halve([a, b]: [(Place, Pen); 2], left: u32, pen: &impl Fn(&Place) -> Pen, all
     let smooth = |a: &Pen, b: &Pen| {
         let channels = |pen: &Pen| pen.color.unwrap_or_default().map(|c| linear_to_srgb(c.max(0.0)));
         let (from, to) = (channels(a), channels(b));
-        let [radius, opacity] = [a.radius - b.radius, a.opacity - b.opacity].map(f64::abs);
-        radius <= RADIUS && opacity <= OPACITY && (0..3).all(|i| (from[i] - to[i]).abs() <= CHANNEL)
+        (a.opacity - b.opacity).abs() <= OPACITY && (0..3).all(|i| (from[i] - to[i]).abs() <= CHANNEL)
     };
-    if smooth(&a.1, &own) && smooth(&own, &b.1) && smooth(&a.1, &b.1) {
+    // A corner of the width, wherever between the two it is, is off by at most twice of what the middle is; where the width
+    // goes another way before the middle than behind it, the quarters tell.
+    let bent = |s: f64, own: &Pen| (own.radius - (a.1.radius + (b.1.radius - a.1.radius) * s)).abs() > RADIUS / 2.0;
+    let is_small = (a.1.radius - b.1.radius).abs() <= SMALL;
+    let straight =
+        !bent(0.5, &own) && (is_small || [0.25, 0.75].iter().all(|&s| !bent(s, &pen(&between(&a.0, &b.0, s)))));
+    if straight && smooth(&a.1, &own) && smooth(&own, &b.1) && smooth(&a.1, &b.1) {
         return;
     }
     let middle = (middle, own);
@@ -206,9 +215,39 @@ mod tests {
         assert!((first.u - 0.03).abs() < 1e-12 && part.stroke.key == 7);
         assert_eq!((part.pens[0].radius, part.pens[part.pens.len() - 1].radius), (0.05, 0.05));
         assert!(part.pens.iter().all(|pen| pen.radius >= 0.05));
-        assert!(part.pens.windows(2).all(|pair| (pair[0].radius - pair[1].radius).abs() <= 2.0 * RADIUS));
+        // Linear up to u = 0.3 and from 0.7 on, where there are vertices already, so that none is added but the ends.
+        assert_eq!(part.pens.len(), 11);
         // Nothing is wide enough.
         assert!(drawn(&line(false), 0.6, taper).is_empty());
+    }
+
+    /// A parabola of the width, a swing about the middle of a segment, and a corner at any place are linear between two
+    /// vertices within RADIUS.
+    #[test]
+    fn widths_are_linear_between_vertices() {
+        let parabola = |u: f64| 0.3 * u * (1.0 - u) * 4.0;
+        let corners = (0..40).map(|i| 0.3 + 0.01 * f64::from(i));
+        let corner = |at: f64| move |u: f64| 0.5 * (u / at).min((1.0 - u) / (1.0 - at));
+        let swing = |u: f64| {
+            let t = ((u - 0.52) / 0.06).clamp(0.0, 1.0);
+            0.1 + 0.2 * t * t * (3.0 - 2.0 * t)
+        };
+        let all = corners
+            .map(|at| Box::new(corner(at)) as Box<dyn Fn(f64) -> f64>)
+            .chain([Box::new(parabola) as _, Box::new(swing) as _]);
+        for (k, width) in all.enumerate() {
+            let parts = drawn(&line(false), 0.0, |place| plain(width(place.vertex.u)));
+            let [part] = parts.as_slice() else { panic!("{}", parts.len()) };
+            let ends = part.stroke.vertices.windows(2).zip(part.pens.windows(2));
+            for (ends, pens) in ends {
+                for s in (0..=32).map(|i| f64::from(i) / 32.0) {
+                    let u = ends[0].u + (ends[1].u - ends[0].u) * s;
+                    let linear = pens[0].radius + (pens[1].radius - pens[0].radius) * s;
+                    assert!((width(u) - linear).abs() <= RADIUS + 1e-12, "{k} {u}");
+                }
+            }
+            assert!(part.pens.len() < 30, "{k}: {}", part.pens.len());
+        }
     }
 
     /// A thin stretch from x = 4.5 to 5.5 leaves two parts of an open stroke, and two of a closed one, which comes back the same

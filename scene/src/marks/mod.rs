@@ -12,7 +12,9 @@
 //! whose vertices have colours: those are drawn in their order, after the others. Layers are drawn in their order.
 
 mod dot;
+mod fewer;
 mod frame;
+mod loops;
 mod outline;
 mod page;
 mod pen;

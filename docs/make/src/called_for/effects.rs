@@ -25,6 +25,8 @@ pub(super) struct Effect {
     pub(super) more: &'static [&'static str],
     /// Counts that it is there to make smaller.
     pub(super) fewer: &'static [&'static str],
+    /// Counts of what is another one with it, and may have more or less of everything.
+    pub(super) others: &'static [&'static str],
 }
 
 /// An effect over [`STYLE`] that adds nothing which is counted.
@@ -38,6 +40,7 @@ const NOTHING: Effect = Effect {
     perhaps: &[],
     more: &[],
     fewer: &[],
+    others: &[],
 };
 
 /// Every effect that exists.
@@ -396,6 +399,40 @@ pub(super) const EFFECTS: &[Effect] = &[
             "preprocess.estimates that disagree",
             "preprocess.estimates within the noise",
             "preprocess.seeds beside the surface",
+            "preprocess.seeds of strokes without length",
+            "preprocess.seeds without a direction",
+            "preprocess.seeds without a stroke",
+            "preprocess.steps put back",
+            "preprocess.strokes cut where they dip",
+            "stops.angle",
+            "stops.direction",
+            "stops.turns",
+        ],
+        ..NOTHING
+    },
+    Effect {
+        name: "directions stored at voxels",
+        asked_by: "`hatching.directions.from = \"stored\"`",
+        base: STROKES,
+        with: &[("hatching.directions.from", "stored")],
+        only: &[
+            "bytes.stored directions",
+            "preprocess.directions between stored ones",
+            "preprocess.places without stored directions",
+            "preprocess.stored directions",
+        ],
+        // A voxel's is computed once, and not counted among those of places.
+        fewer: &["preprocess.directions at σ = 1", "preprocess.directions at σ = 2", "preprocess.directions at σ = 4"],
+        // Strokes along other directions are other strokes.
+        others: &[
+            "strokes",
+            "directions",
+            "bytes.smoothed bricks",
+            "preprocess.estimates near the border",
+            "preprocess.estimates of umbilics",
+            "preprocess.estimates that disagree",
+            "preprocess.estimates within the noise",
+            "preprocess.looks for what hides",
             "preprocess.seeds of strokes without length",
             "preprocess.seeds without a direction",
             "preprocess.seeds without a stroke",

@@ -72,7 +72,7 @@ fn fault(effect: &Effect, without: &Named, with: &Named) -> Option<String> {
         } else if effect.fewer.contains(&name) {
             b < a
         } else {
-            a == b
+            a == b || effect.others.contains(&name)
         };
         (!right).then(|| format!("{}: {name} goes from {a} to {b}", effect.name))
     })

@@ -124,14 +124,14 @@ impl Stored {
         })
     }
 
-    /// The corners of a place's cell that have a weight: their voxels and weights.
-    fn corners(&self, ground: &dyn Ground, index: Vec3<f64>) -> impl Iterator<Item = ([usize; 3], f64)> {
-        let cell = ground.cell(index);
+    /// The corners of a place's cell that have a weight: their numbers, voxels and weights.
+    #[inline(always)]
+    fn corners(&self, cell: [usize; 3], index: Vec3<f64>) -> impl Iterator<Item = (usize, [usize; 3], f64)> {
         let [x, y, z] = self.weights(cell, index);
         (0..8).filter_map(move |i| {
             let up = [i & 1, i >> 1 & 1, i >> 2];
             let weight = x[up[0]] * y[up[1]] * z[up[2]];
-            (weight > 0.0).then(|| ([0, 1, 2].map(|a| cell[a] + up[a]), weight))
+            (weight > 0.0).then(|| (i, [0, 1, 2].map(|a| cell[a] + up[a]), weight))
         })
     }
 
@@ -152,18 +152,11 @@ impl Stored {
         if near.cell != cell {
             *near = Near { cell, corners: [None; 8] };
         }
-        let [x, y, z] = self.weights(cell, index);
-        for i in 0..8 {
-            let up = [i & 1, i >> 1 & 1, i >> 2];
-            let weight = x[up[0]] * y[up[1]] * z[up[2]];
-            if weight > 0.0 {
-                let line = *near.corners[i].get_or_insert_with(|| {
-                    let voxel = [0, 1, 2].map(|a| cell[a] + up[a]);
-                    self.blocks.line(voxel, family == Family::Min, || source.at(voxel))
-                });
-                if let Some(e) = line {
-                    mean.add(e, weight);
-                }
+        for (i, voxel, weight) in self.corners(cell, index) {
+            let line = near.corners[i]
+                .get_or_insert_with(|| self.blocks.line(voxel, family == Family::Min, || source.at(voxel)));
+            if let Some(e) = *line {
+                mean.add(e, weight);
             }
         }
         let found = mean.direction();
@@ -184,7 +177,7 @@ impl Stored {
     ) -> Result<Curvature<f64>, NoDirection> {
         let mut means = [Mean::new(None), Mean::new(None)];
         let (mut k1, mut k2) = (0.0, 0.0);
-        for (voxel, weight) in self.corners(source.ground, index) {
+        for (_, voxel, weight) in self.corners(source.ground.cell(index), index) {
             if let Some(c) = self.voxel(source, voxel) {
                 means[0].add(c.e1.to_glam(), weight);
                 means[1].add(c.e2.to_glam(), weight);

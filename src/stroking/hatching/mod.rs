@@ -1,0 +1,246 @@
+//! Hatching on the page: grown once ([HATCH-6] … [HATCH-11]), drawn for each camera ([HATCH-13], [HATCH-19]).
+
+mod drawn;
+mod gaps;
+mod kept;
+mod setting;
+
+use super::shown::Shown;
+use super::{in_world, on_page, pen, value};
+use crate::Failure;
+use drypoint_reference::field::Field;
+use drypoint_reference::interactive_volume_illustration as room;
+use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::marks::{Layer, Page, Pen};
+use drypoint_scene::space::Grid;
+use drypoint_scene::strokes::Stroke;
+use drypoint_scene::tables::{
+    GradientRange, HatchIso, Hatching as Table, Hidden, LightDirection, Scene, SeedsBy, Spacing,
+};
+use drypoint_scene::transfer::Function;
+use drypoint_scene::view::View;
+use gaps::cut_gaps;
+use kept::{add, count_kept};
+use setting::{how, line_light};
+use std::time::Instant;
+
+/// How far chords may be off on the page, in mm ([HATCH-10]).
+const MOST_OFF: f64 = 0.05;
+
+/// In voxels, what the page's measures leave chords and δ at the least: from an eye inside the volume a voxel is as large as
+/// one likes.
+const FINEST: f64 = 0.01;
+
+/// The faintest tone that spacing gives.
+const LEAST: f64 = 0.08;
+
+/// What hatching is made by.
+pub(super) struct Hatching<'a> {
+    table: &'a Table,
+    light: LightDirection,
+    /// Of the surface that strokes lie on; none: they are where the function shows something.
+    iso: Option<f64>,
+    seen: Option<Shown<'a>>,
+    pen: Pen,
+    cross_pen: Pen,
+    /// In mm.
+    min_width: f64,
+    spacing: Option<room::Apart>,
+    how: room::Hatching,
+    gradient_range: GradientRange,
+    lighting: Option<room::LineLight>,
+    /// In mm, and how much nearer what cuts is, in world units.
+    gap: Option<[f64; 2]>,
+    /// On and off, in mm.
+    dash: Option<[f64; 2]>,
+    is_pencil: bool,
+    is_merged: bool,
+}
+
+/// The strokes of a surface.
+pub(super) struct Hatched<'a> {
+    hatching: &'a Hatching<'a>,
+    pub(super) strokes: room::Strokes<'a, 'a>,
+    pub(super) cells: Vec<[usize; 3]>,
+    /// Of all cells, where they fall as their seeds do: the first, and those that cross, with N at their seeds.
+    grown: Option<Grown>,
+}
+
+struct Grown {
+    first: Vec<Stroke>,
+    across: Vec<(DVec3, Stroke)>,
+}
+
+impl<'a> Hatching<'a> {
+    /// `scale` is the most millimetres of the page that a world unit takes.
+    pub(super) fn new(
+        (scene, function): (&'a Scene, Option<&'a Function>),
+        table: &'a Table,
+        grid: &Grid,
+        (page, scale): (&Page, f64),
+        has_picture: bool,
+    ) -> Result<Self, Failure> {
+        let spacing = match table.spacing {
+            Spacing::Random => None,
+            Spacing::Tone => Some(room::Apart::Tone { least: LEAST }),
+            Spacing::Length(length) => Some(room::Apart::Everywhere(on_page(scene, page, length, "hatching.spacing")?)),
+        };
+        let ink = (table.width, table.color);
+        let cross_pen = match (&table.cross_pen, &table.pen) {
+            (Some(named), _) => pen(scene, "hatching.cross_pen", page, Some(named), ink)?,
+            (None, Some(named)) => pen(scene, "hatching.pen", page, Some(named), ink)?,
+            (None, None) => Pen { name: "cross".into(), ..pen(scene, "hatching", page, None, ink)? },
+        };
+        let pen = pen(scene, "hatching", page, table.pen.as_deref(), ink)?;
+        let (iso, seen) = match table.iso {
+            HatchIso::Surface(iso) => (Some(value(scene, iso, "hatching.iso")?), None),
+            HatchIso::Transfer => (None, Some(Shown::new(scene, function)?)),
+        };
+        let mut how = how(scene, table, grid)?;
+        let finest = FINEST * grid.voxel();
+        how.chord = how.chord.min((MOST_OFF / scale).max(finest));
+        how.offset = how.offset.min((0.5 * pen.width / scale).max(finest));
+        let deeper = in_world(scene, table.gap_depth, "hatching.gap_depth", grid)?;
+        let gap = table.gap.map(|gap| on_page(scene, page, gap, "hatching.gap")).transpose()?;
+        let dash = match table.stroke.dash {
+            Some([on, off]) => {
+                let length = |length| on_page(scene, page, length, "hatching.stroke.dash");
+                Some([length(on)?, length(off)?])
+            }
+            None => None,
+        };
+        Ok(Self {
+            table,
+            light: table.stroke.light.unwrap_or(scene.light),
+            iso,
+            seen,
+            pen,
+            cross_pen,
+            min_width: on_page(scene, page, table.stroke.min_width, "hatching.stroke.min_width")?,
+            spacing,
+            how,
+            gradient_range: scene.volume.gradient_range,
+            lighting: table.lighting(scene).map(|lighting| line_light(&lighting)),
+            gap: gap.map(|gap| [gap, deeper]),
+            dash,
+            is_pencil: table.is_pencil(scene),
+            is_merged: has_picture && table.is_merged(scene),
+        })
+    }
+
+    /// The value of the surface that strokes lie on, where they lie on one.
+    pub(super) fn iso(&self) -> Option<f64> {
+        self.iso
+    }
+
+    /// The lines of its `own` first layers with gaps where nearer ones of any layer cross them ([HATCH-20]), and in dashes.
+    pub(super) fn cut(&self, layers: &mut [Layer], own: usize, view: &View, counts: &mut Counts) {
+        if let Some(gap) = self.gap {
+            cut_gaps(gap, layers, own, view, counts);
+        }
+        if let Some(dash) = self.dash {
+            layers.iter_mut().take(own).for_each(|layer| layer.lines = room::dashed(&layer.lines, dash));
+        }
+    }
+
+    /// Whether what is hidden of strokes is cut off.
+    pub(super) fn is_cut(&self) -> bool {
+        match self.table.hidden {
+            Hidden::Cut => true,
+            Hidden::Merged => !self.is_merged,
+            Hidden::Drawn => false,
+        }
+    }
+
+    /// Whether strokes are inside the picture of the volume, where there is one.
+    pub(super) fn is_merged(&self) -> bool {
+        self.is_merged
+    }
+
+    /// Finds the seeds, and grows their strokes where no camera has a say in which.
+    pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> Hatched<'a> {
+        let (pyramid, strokes) = self.strokes(field, counts);
+        strokes.prepare();
+        let seeds = self.seeds_of(&pyramid, &strokes, field, counts);
+        let table = self.table;
+        let mut cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
+        counts.preprocess.insert("seeds".into(), cells.len() as u64);
+        if let Some(shown) = &self.seen {
+            // A stroke stays at the value of its seed: from one that is not seen all of it is transparent.
+            let drawn = cells.len();
+            cells.retain(|cell| {
+                let centre = field.volume().grid().to_world(DVec3::from_array(cell.map(|i| i as f64 + 0.5)));
+                strokes.value(centre).is_some_and(|value| shown.opacity(value) > 0.0)
+            });
+            counts.preprocess.insert("seeds at values that nothing shows".into(), (drawn - cells.len()) as u64);
+        }
+
+        let start = Instant::now();
+        let grown = self.spacing.is_none().then(|| {
+            let crossed = table.cross.is_some();
+            let grown = strokes.grow_all(&cells, |_| crossed);
+            add(counts, &grown.counts);
+            Grown {
+                first: grown.strokes.into_iter().map(|(_, stroke)| stroke).collect(),
+                across: grown.cross.into_iter().map(|(seed, stroke)| (seed.normal, stroke)).collect(),
+            }
+        });
+        count_kept(counts, &strokes);
+        counts.seconds.insert("grown strokes".into(), start.elapsed().as_secs_f64());
+        Hatched { hatching: self, strokes, cells, grown }
+    }
+
+    /// The cells that strokes can begin in.
+    pub(super) fn seeds(&self, field: &Field<'_, f64>, counts: &mut Counts) -> room::Seeds {
+        let (pyramid, strokes) = self.strokes(field, counts);
+        self.seeds_of(&pyramid, &strokes, field, counts)
+    }
+
+    /// The way to the cells of the surface, and what grows there, with the noise of the data as it is there ([HATCH-3]).
+    fn strokes<'f, 'v>(
+        &self,
+        field: &'f Field<'v, f64>,
+        counts: &mut Counts,
+    ) -> (room::Pyramid, room::Strokes<'f, 'v>) {
+        let pyramid = room::Pyramid::new(field.volume());
+        counts.bytes.insert("pyramid".into(), pyramid.bytes());
+        counts.preprocess.insert("pyramid".into(), pyramid.entries());
+        let mut how = self.how;
+        if let (room::Rule::Scaled(thresholds), None, Some(iso)) =
+            (&mut how.rule, self.table.directions.deviation, self.iso)
+        {
+            thresholds.deviation = room::deviation(field.volume(), &pyramid, iso, field.reconstruction().outside);
+        }
+        (pyramid, room::Strokes::new(field, self.iso, how))
+    }
+
+    fn seeds_of(
+        &self,
+        pyramid: &room::Pyramid,
+        strokes: &room::Strokes<'_, '_>,
+        field: &Field<'_, f64>,
+        counts: &mut Counts,
+    ) -> room::Seeds {
+        let start = Instant::now();
+        let table = self.table;
+        let (rule, range) = match table.seeds {
+            SeedsBy::Dense => (room::SeedRule::Dense, [0.0; 2]),
+            SeedsBy::Curvature => {
+                let (range, voxels) = room::gradient_range(field, self.gradient_range);
+                *counts.preprocess.entry("gradients".into()).or_default() += voxels;
+                let (min_curvature, min_gradient) = (table.min_curvature, table.min_gradient);
+                (room::SeedRule::Curvature { min_curvature, min_gradient }, range)
+            }
+        };
+        let by = (table.measure, range);
+        let seeds = match (self.iso, &self.seen) {
+            (Some(iso), _) => strokes.seeds(pyramid, field, iso, rule, by),
+            (None, Some(shown)) => strokes.seeds_among(pyramid, field, |range| shown.has(range), rule, by),
+            (None, None) => room::Seeds::default(),
+        };
+        counts.preprocess.insert("measures of seeds".into(), seeds.measured);
+        counts.seconds.insert("seeds".into(), start.elapsed().as_secs_f64());
+        seeds
+    }
+}

@@ -1,0 +1,77 @@
+//! The table of hatching in world units, as growing takes it.
+
+use crate::Failure;
+use crate::stroking::in_world;
+use drypoint_reference::interactive_volume_illustration as room;
+use drypoint_scene::space::Grid;
+use drypoint_scene::tables::{
+    DirectionRule, DirectionSource, Family, Hatching as Table, Interpolate, LineLighting, Reference, Scene, StoredAt,
+};
+
+/// The least `chord`, in voxels: the vertices of a stroke grow with 1/√c, and a default one has some 600 there.
+const LEAST_CHORD: f64 = 1e-4;
+
+/// The table in world units.
+pub(super) fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
+    let length = |length, key: &str| in_world(scene, length, &format!("hatching.{key}"), grid);
+    let directions = &table.directions;
+    let chord = length(table.chord, "chord")?;
+    if chord < LEAST_CHORD * grid.voxel() {
+        let what = format!("hatching.chord is below {LEAST_CHORD} voxels, where strokes have no end of vertices");
+        let place = scene.given.position("hatching.chord");
+        return Err(Failure::new(what, place, format!("write \"{LEAST_CHORD} voxels\" or more")));
+    }
+    let axis = directions.axis.unwrap_or_else(|| room::longest_axis(grid));
+    let center = directions.center.unwrap_or_else(|| grid.centre());
+    Ok(room::Hatching {
+        length: length(table.length, "length")?,
+        cross_length: table.cross_length,
+        jitter: table.stroke.jitter,
+        seed: table.seed,
+        tolerance: length(table.tolerance, "tolerance")?,
+        min_step: length(table.min_step, "min_step")?,
+        offset: length(table.offset, "offset")?,
+        chord,
+        max_angle: table.max_angle,
+        family: match table.family {
+            Family::Larger => room::Family::Larger,
+            Family::Max => room::Family::Max,
+            Family::Min => room::Family::Min,
+        },
+        rule: match directions.rule {
+            DirectionRule::Raw => room::Rule::Raw,
+            DirectionRule::Scaled => room::Rule::Scaled(room::Thresholds {
+                gap: directions.gap,
+                noise: directions.noise,
+                deviation: directions.deviation.unwrap_or(0.0),
+                agree: directions.agree,
+            }),
+        },
+        stored: (directions.from == DirectionSource::Stored).then_some(room::Storing {
+            between: match directions.interpolate {
+                Interpolate::Tensor => room::Between::Tensor,
+                Interpolate::Flipped => room::Between::Flipped,
+            },
+            all: directions.grid == StoredAt::All,
+        }),
+        reference: match directions.reference {
+            Reference::Cylindrical => room::Reference::Cylindrical { axis, center },
+            Reference::Axial => room::Reference::Axial { axis },
+            Reference::Radial => room::Reference::Radial { center },
+        },
+    })
+}
+
+/// The table's light on lines.
+pub(super) fn line_light(table: &LineLighting) -> room::LineLight {
+    room::LineLight {
+        diffuse: table.diffuse,
+        p: table.p,
+        specular: table.specular,
+        s: table.s,
+        front: table.front,
+        back: table.back,
+        self_shadow: table.self_shadow,
+        table: table.table.map(|side| room::TermsTable::new(side, table.p, table.s)),
+    }
+}
