@@ -93,25 +93,25 @@ fn sums<S: Simd>(around: &Around<'_>, rows: &Inner<'_, S>, [x, y, z]: [f64; 3]) 
             }
             let c = rows.row(j, k) - first;
             if inner {
-                p0 = p0 + c * y.value[j];
+                p0 += c * y.value[j];
             }
-            p1 = p1 + c * y.first[j];
+            p1 += c * y.first[j];
             if middle {
-                p2 = p2 + c * y.second[j];
+                p2 += c * y.second[j];
             }
         }
         if middle {
-            s00 = s00 + p0 * z.value[k];
-            s10 = s10 + p1 * z.value[k];
-            s20 = s20 + p2 * z.value[k];
+            s00 += p0 * z.value[k];
+            s10 += p1 * z.value[k];
+            s20 += p2 * z.value[k];
             for (sum, i) in outer.iter_mut().zip([0, TAPS - 1]) {
                 let [a, b] = [2, 3].map(|j| (around.samples[at(i, j, k)] - first) * y.value[j]);
                 *sum += (a + b) * z.value[k];
             }
         }
-        s01 = s01 + p0 * z.first[k];
-        s11 = s11 + p1 * z.first[k];
-        s02 = s02 + p0 * z.second[k];
+        s01 += p0 * z.first[k];
+        s11 += p1 * z.first[k];
+        s02 += p0 * z.second[k];
     }
     let value = |s: [f64; 4]| s[1] * x.value[2] + s[2] * x.value[3];
     let slope = |s: [f64; 4]| (s[1] * x.first[2] + s[3] * x.first[4]) + (s[0] * x.first[1] + s[2] * x.first[3]);
