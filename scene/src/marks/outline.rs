@@ -9,6 +9,9 @@ use std::f64::consts::PI;
 /// How far the corners of an outline may leave an arc inside, in mm: a step of places.
 const OFF: f64 = 0.001;
 
+/// The cosine of a bend by which a line turns back on itself.
+const TURNED_BACK: f64 = -1.0 + 1e-9;
+
 /// The outlines of a line of that half width at each point, linear between them, for the nonzero rule.
 ///
 /// On either side the outline is as far from each segment as its half widths are, at right angles to it. Outside a bend it goes
@@ -96,7 +99,8 @@ fn bend((at, radius): (DVec2, f64), [from, to]: [DVec2; 2], (shorter, ends): (f6
     let [first, last] = [from, to].map(beside);
     let (sine, cosine) = (from.perp_dot(to), from.dot(to));
     // Where both sides meet, measured along them from the point: radius times the tangent of half the angle.
-    let meets = radius * sine.abs() / (1.0 + cosine);
+    // Where the line turns back sides do not meet, whatever rounding leaves of 1 + cos.
+    let meets = if cosine > TURNED_BACK { radius * sine.abs() / (1.0 + cosine) } else { f64::INFINITY };
     let corner = || at + radius * (first + last) / (1.0 + cosine);
     let beyond = radius * ((2.0 / (1.0 + cosine)).sqrt() - 1.0);
     if sine > 0.0 {
@@ -305,6 +309,20 @@ mod tests {
                 let found = outlines(&points, &vec![0.25; points.len()], false, [true; 2]);
                 assert_eq!(crossings(&found[0]), 0, "{turn} {parts}");
             }
+        }
+    }
+
+    /// Where a line turns back on itself, in any direction, rounding throws no corner away from it.
+    #[test]
+    fn turning_back_throws_no_corner_away() {
+        for seed in 0..20_000 {
+            let unit = |draw| crate::philox::uniform(seed, [0; 3], draw);
+            let way = DVec2::new(0.001 * (60.0 * unit(0)).round(), 0.001 * (60.0 * unit(1)).round());
+            let at = DVec2::new(100.0 + 50.0 * unit(2), 100.0 + 50.0 * unit(3));
+            let [at, to] = [at, at + way].map(crate::marks::on_step);
+            let points = [at, to, crate::marks::on_step(at - 2.0 * way)];
+            let all = outlines(&points, &[0.5, 0.4, 0.3], false, [true; 2]);
+            assert!(all.iter().flatten().all(|corner| corner.distance(at) < 0.8), "{seed}: {points:?} {all:?}");
         }
     }
 
