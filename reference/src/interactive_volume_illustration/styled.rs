@@ -4,7 +4,6 @@
 use super::sight::Pen;
 use drypoint_scene::color::linear_to_srgb;
 use drypoint_scene::glam::DVec3;
-use drypoint_scene::marks::color_between;
 use drypoint_scene::philox::uniform;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 
@@ -66,7 +65,7 @@ pub fn drawn(stroke: &Stroke, least: f64, pen: impl Fn(&Place) -> Pen) -> Vec<Dr
         }
         all.push(next);
     }
-    thick(&all, least, stroke)
+    thick(&all, least, stroke, &pen)
 }
 
 /// The vertices with their tangents; of a closed stroke the first comes again at u = 1.
@@ -127,17 +126,17 @@ fn between(a: &Place, b: &Place, s: f64) -> Place {
     Place { vertex, tangent: a.tangent.lerp(b.tangent, s).normalize_or(a.tangent) }
 }
 
-/// Where two neighbours are on either side of the least width, the place where the width is that.
-fn edge([a, b]: [&(Place, Pen); 2], least: f64) -> (Place, Pen) {
+/// Where two neighbours are on either side of the least width, the place where the width is that, with what `pen` says there
+/// of all else.
+fn edge([a, b]: [&(Place, Pen); 2], least: f64, pen: &impl Fn(&Place) -> Pen) -> (Place, Pen) {
     let s = (a.1.radius - least) / (a.1.radius - b.1.radius);
-    let mix = |x: f64, y: f64| x + (y - x) * s;
-    let color = color_between(a.1.color, b.1.color, s);
-    let pen = Pen { radius: least, opacity: mix(a.1.opacity, b.1.opacity), color };
-    (between(&a.0, &b.0, s), pen)
+    let place = between(&a.0, &b.0, s);
+    let own = pen(&place);
+    (place, Pen { radius: least, ..own })
 }
 
 /// The parts that are wide enough.
-fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke) -> Vec<Drawn> {
+fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke, pen: &impl Fn(&Place) -> Pen) -> Vec<Drawn> {
     let is_thick = |at: &(Place, Pen)| at.1.radius >= least;
     let drawn = |part: Vec<(Place, Pen)>, closed: bool| {
         let (vertices, pens) = part.into_iter().map(|(place, pen)| (place.vertex, pen)).unzip();
@@ -154,7 +153,7 @@ fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke) -> Vec<Drawn> {
     for pair in all.windows(2) {
         let [from, to] = [&pair[0], &pair[1]];
         if is_thick(from) != is_thick(to) {
-            part.push(edge([from, to], least));
+            part.push(edge([from, to], least, pen));
         }
         if is_thick(to) {
             part.push(*to);
