@@ -24,7 +24,7 @@ mod round;
 pub use dot::Dot;
 pub use page::{INCH, Page, PageUnit};
 pub use pen::Pen;
-pub use polyline::{Piece, Polyline, Vertex};
+pub use polyline::{Piece, Polyline, Vertex, color_between};
 pub use round::on_step;
 
 /// All that is drawn on a page.

@@ -59,7 +59,7 @@ const CODES: f64 = 8.0 / 255.0;
 const FAINTER: f64 = 1.0 / 16.0;
 
 /// What a colour is between two, so far along.
-fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
+pub fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
     a.zip(b).map(|(a, b)| std::array::from_fn(|i| a[i] + (b[i] - a[i]) * s)).or(a).or(b)
 }
 
