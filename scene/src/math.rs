@@ -11,7 +11,7 @@ pub mod transmittance;
 pub use angle::angle;
 pub use double::compare_products;
 pub use power::power;
-pub use transmittance::{ln_one_minus, one_minus_exp};
+pub use transmittance::{ln_one_minus, one_minus_exp, one_minus_root};
 
 /// e^x.
 pub fn exp(x: f64) -> f64 {

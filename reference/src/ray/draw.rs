@@ -11,6 +11,7 @@ use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// Pixels that are drawn before they are gathered, so that a huge picture is not in memory twice.
 const BATCH: usize = 1 << 20;
@@ -45,12 +46,13 @@ pub(super) fn draw<R: Real>(
     let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();
     let mut counts = Counts::default();
     let mut channels = vec![vec![0.0; width * height]; per_pixel];
+    let whole = in_blocks([tile; 2]);
     for first in (0..across * down).step_by(batch) {
         let tiles: Vec<Tile> = (first..(first + batch).min(across * down))
             .into_par_iter()
             .map(|t| {
                 let at = [t % across * tile, t / across * tile];
-                let drawn = draw_tile(prepared, &cast_all, background, at, tile);
+                let drawn = draw_tile(prepared, &cast_all, background, at, &whole, tile);
                 let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                 progress(n as f64 / (across * down) as f64);
                 drawn
@@ -58,7 +60,8 @@ pub(super) fn draw<R: Real>(
             .collect();
         for tile in &tiles {
             counts.add(&tile.counts);
-            for ([i, j], pixel) in in_blocks(tile.size).into_iter().zip(tile.pixels.chunks_exact(per_pixel)) {
+            let blocks = blocks_of(tile.size, &whole);
+            for ([i, j], pixel) in blocks.iter().zip(tile.pixels.chunks_exact(per_pixel)) {
                 let at = (tile.y + j) * width + tile.x + i;
                 for (channel, value) in channels.iter_mut().zip(pixel) {
                     channel[at] = *value;
@@ -81,6 +84,7 @@ fn draw_tile<R: Real>(
     cast_all: &impl CastAll,
     background: Backdrop<'_>,
     [x, y]: [usize; 2],
+    whole: &[[usize; 2]],
     side: usize,
 ) -> Tile {
     let [width, height] = prepared.view.size;
@@ -95,17 +99,24 @@ fn draw_tile<R: Real>(
         let corners = [corner(x, y), corner(right, y), corner(right, bottom), corner(x, bottom)];
         skip.boxes_in(&Beam::new(corners, R::EPSILON.to_f64()))
     });
-    let casts = cast_parts(prepared, cast_all, [x, y], size, boxes.as_mut(), &mut tile.counts);
-    tile.pixels.reserve_exact(size[0] * size[1] * prepared.layers.iter().map(|l| l.channels().len()).sum::<usize>());
-    for (n, [i, j]) in in_blocks(size).into_iter().enumerate() {
-        let behind = match background {
-            Backdrop::None => [0.0; 4],
-            Backdrop::Color(c) => color::premultiply(c),
-            Backdrop::Pixels(pixels) => pixels[(y + j) * width + x + i],
-        };
-        append_pixel(prepared, casts.iter().skip(n).step_by(size[0] * size[1]), behind, &mut tile.pixels);
+    let blocks = blocks_of(size, whole);
+    let casts = cast_parts(prepared, cast_all, [x, y], &blocks, boxes.as_mut(), &mut tile.counts);
+    tile.pixels.reserve_exact(blocks.len() * prepared.layers.iter().map(|l| l.channels().len()).sum::<usize>());
+    let everywhere = match background {
+        Backdrop::Color(c) => color::premultiply(c),
+        Backdrop::None | Backdrop::Pixels(_) => [0.0; 4],
+    };
+    for (n, [i, j]) in blocks.iter().enumerate() {
+        let behind =
+            if let Backdrop::Pixels(pixels) = background { pixels[(y + j) * width + x + i] } else { everywhere };
+        append_pixel(prepared, casts[n..].iter().step_by(blocks.len()), behind, &mut tile.pixels);
     }
     tile
+}
+
+/// The pixels of a tile as [`in_blocks`] orders them, from those of a whole one.
+fn blocks_of(size: [usize; 2], whole: &[[usize; 2]]) -> Cow<'_, [[usize; 2]]> {
+    if size[0] * size[1] == whole.len() { Cow::Borrowed(whole) } else { Cow::Owned(in_blocks(size)) }
 }
 
 /// The pixels of a tile, in blocks of 4 by 2: rays that are cast side by side are close together.
@@ -129,17 +140,17 @@ fn cast_parts<R: Real>(
     prepared: &Prepared<'_, R>,
     cast_all: &impl CastAll,
     [x, y]: [usize; 2],
-    size: [usize; 2],
+    blocks: &[[usize; 2]],
     mut boxes: Option<&mut Boxes>,
     counts: &mut Counts,
 ) -> Vec<Cast> {
     let n = prepared.samples;
-    let mut casts = Vec::with_capacity(n * n * size[0] * size[1]);
-    let mut points = Vec::with_capacity(size[0] * size[1]);
+    let mut casts = Vec::with_capacity(n * n * blocks.len());
+    let mut points = Vec::with_capacity(blocks.len());
     for part in 0..n * n {
         let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
         points.clear();
-        points.extend(in_blocks(size).into_iter().map(|[i, j]| [centre(x + i, part % n), centre(y + j, part / n)]));
+        points.extend(blocks.iter().map(|[i, j]| [centre(x + i, part % n), centre(y + j, part / n)]));
         cast_all(&points, boxes.as_deref_mut(), counts, &mut casts);
     }
     casts
@@ -149,17 +160,23 @@ fn cast_parts<R: Real>(
 /// themselves the mean over all samples of the pixel; of the others the first ray's.
 fn append_pixel<'c, R: Real>(
     prepared: &Prepared<'_, R>,
-    casts: impl Iterator<Item = &'c Cast>,
+    casts: impl Iterator<Item = &'c Cast> + Clone,
     behind: Rgba,
     pixels: &mut Vec<f64>,
 ) {
     let share = 1.0 / (prepared.samples * prepared.samples) as f64;
     let mut beauty = [0.0; 4];
-    let (mut first, mut all) = (None, Sums::new());
-    for cast in casts {
+    for cast in casts.clone() {
         for (mean, c) in beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
             *mean += c * share;
         }
+    }
+    if prepared.layers == [LayerKind::Beauty] {
+        pixels.extend(beauty);
+        return;
+    }
+    let (mut first, mut all) = (None, Sums::new());
+    for cast in casts {
         if let Some(sums) = &cast.sums {
             all.pool(sums);
         }

@@ -33,6 +33,11 @@ impl Lattice {
         };
         grid.world_corners().into_iter().map(away).fold(0.0, f64::max) / self.step
     }
+
+    /// The smallest k of a sample beyond `near`.
+    pub(super) fn first(&self, view: &View) -> i64 {
+        if view.perspective { first_beyond(self.near, self.step) } else { i64::MIN }
+    }
 }
 
 /// One ray in index space, with its samples at whole numbers.
@@ -55,12 +60,11 @@ impl<R: Real> IndexRay<R> {
     pub fn new(ray: &Ray, view: &View, lattice: &Lattice, grid: &Grid) -> Self {
         let by_ray = lattice.along == StepAlong::Ray;
         let depth_step = if by_ray { lattice.step * ray.cos_phi } else { lattice.step };
-        let first = if view.perspective { first_beyond(lattice.near, lattice.step) } else { i64::MIN };
         Self {
             origin: Vec3::from_glam(grid.to_index(ray.origin)),
             along: Vec3::from_glam(grid.inverse_axes() * ray.along),
             depth_step: R::from_f64(depth_step),
-            first,
+            first: lattice.first(view),
             step: if by_ray { lattice.step } else { lattice.step / ray.cos_phi },
         }
     }

@@ -94,6 +94,11 @@ impl Boxes {
         &self.ends
     }
 
+    /// A bound on the coordinates inside the volume.
+    pub(super) fn reach(&self) -> f64 {
+        self.reach
+    }
+
     /// The line `origin + along · s`, prepared for positions rounded by `rounding` (relative).
     pub(super) fn line(&self, [origin, along]: [DVec3; 2], rounding: f64) -> Line {
         Line::new(origin, along, self.reach, rounding)
@@ -191,23 +196,26 @@ fn tree(boxes: &[Aabb]) -> Vec<Node> {
     built.nodes.iter().map(node).collect()
 }
 
+/// Below this a line runs along the other axes.
+pub(super) const LEAST_ALONG: f64 = 1e-290;
+
 /// A line prepared for slab tests.
 #[derive(Clone, Copy)]
 pub(super) struct Line {
     /// 1/along.
-    pub(super) inverse: [f64; 3],
+    inverse: [f64; 3],
     /// Which end of a box the line meets first.
-    pub(super) first: [usize; 3],
+    first: [usize; 3],
     /// What is taken from an end of a box times `inverse` to give the depth there, (end − origin)/along: too much by the
     /// margin where the line enters, so that it does so earlier, too little where it leaves.
-    pub(super) enter: [f64; 3],
-    pub(super) leave: [f64; 3],
+    enter: [f64; 3],
+    leave: [f64; 3],
 }
 
 impl Line {
     fn new(origin: DVec3, along: DVec3, reach: f64, rounding: f64) -> Self {
         // A line along the other axes meets the ends of this one very far away, or not at all.
-        let inverse = along.to_array().map(|d| if d.abs() < 1e-290 { 1e290 } else { 1.0 / d });
+        let inverse = along.to_array().map(|d| if d.abs() < LEAST_ALONG { 1.0 / LEAST_ALONG } else { 1.0 / d });
         // Positions inside the volume are sums of numbers up to |origin| and the volume's own coordinates.
         let margin = |axis: usize| (origin[axis].abs() + reach) * 8.0 * rounding * inverse[axis].abs();
         let at = |axis: usize| origin[axis] * inverse[axis];

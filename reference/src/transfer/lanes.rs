@@ -50,6 +50,13 @@ fn nonzero(bytes: u64) -> u64 {
 }
 
 impl Piecewise<f64> {
+    /// Whether some value of the lanes `asked` may be seen; where not, none is. Around what is seen most values are not.
+    #[inline(always)]
+    pub(crate) fn may_show<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> bool {
+        let [from, to] = self.seen;
+        !(s.simd_lt(from) | s.simd_gt(to) | !asked).all_true()
+    }
+
     /// [`locate`](Self::locate) for the values of the lanes `asked`.
     #[inline(always)]
     pub(crate) fn locate_lanes<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> Option<Places<S>> {

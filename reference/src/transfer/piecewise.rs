@@ -15,6 +15,8 @@ pub struct Piecewise<R> {
     pub(super) codes: Box<Codes>,
     pub(super) first: R,
     pub(super) parts_per_unit: R,
+    /// Every value that can be seen lies from the first to the second, these two with it.
+    pub(super) seen: [R; 2],
 }
 
 /// From a node to the next one. The last node's holds beyond it; its width is 1, so that it can be divided by.
@@ -172,6 +174,7 @@ impl<R: Real> Piecewise<R> {
             codes,
             first: at[0],
             parts_per_unit,
+            seen: seen(&at, &opacity),
         })
     }
 
@@ -224,6 +227,17 @@ impl<R: Real> Piecewise<R> {
         let alpha_u = self.segments[node].opacity;
         (alpha_u > R::ZERO).then_some(Place { node, w: R::ZERO, alpha_u })
     }
+}
+
+/// The range outside which nothing is seen: from the node before the first that is seen to the one after the last; without
+/// end where that is the end node.
+fn seen<R: Real>(at: &[R], opacity: &[R]) -> [R; 2] {
+    let endless = R::from_f64(f64::INFINITY);
+    let is_seen = |&a: &R| a > R::ZERO;
+    let Some(last) = opacity.iter().rposition(is_seen) else { return [endless, -endless] };
+    let first = opacity.iter().position(is_seen).unwrap_or(0);
+    let from = if first == 0 { -endless } else { at[first - 1] };
+    [from, at.get(last + 1).copied().unwrap_or(endless)]
 }
 
 /// Whether nodes make a function: at least one, an opacity in [0, 1] for each, in non-decreasing order, and positions
@@ -294,6 +308,23 @@ mod tests {
         assert_eq!(f.locate(5.0), None);
         assert_eq!(f.locate(10.0), None);
         assert!(f.locate(10.000_001).is_some());
+    }
+
+    #[test]
+    fn nothing_is_seen_outside_the_range_of_what_is() {
+        let seen = |at: &[f64], opacity: &[f64]| Piecewise::<f64>::new(at, opacity).unwrap().seen;
+        let endless = f64::INFINITY;
+        assert_eq!(seen(&[0.0, 10.0, 20.0, 30.0, 40.0], &[0.0, 0.0, 1.0, 0.0, 0.0]), [10.0, 30.0]);
+        // A step belongs to its later node, and the end nodes hold beyond themselves.
+        assert_eq!(seen(&[0.0, 10.0, 10.0], &[0.0, 0.0, 1.0]), [10.0, endless]);
+        assert_eq!(seen(&[0.0, 10.0, 20.0], &[0.5, 0.0, 0.0]), [-endless, 10.0]);
+        assert_eq!(seen(&[5.0], &[0.5]), [-endless, endless]);
+        let [from, to] = seen(&[0.0, 1.0], &[0.0, 0.0]);
+        assert!(from > to);
+        let f = Piecewise::new(&[0.0, 10.0, 10.0, 20.0, 30.0], &[0.0, 0.0, 0.5, 0.0, 0.0]).unwrap();
+        for s in (-50..400).map(|i| f64::from(i) * 0.1).chain(f.seen) {
+            assert!(f.locate(s).is_none() || f.seen[0] <= s && s <= f.seen[1], "{s}");
+        }
     }
 
     #[test]

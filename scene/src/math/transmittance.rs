@@ -92,6 +92,12 @@ pub fn one_minus_exp(y: f64) -> f64 {
     (1.0 - hi) - (hi * grown + scale * lo)
 }
 
+/// 1 − √(1 − α) for 0 ≤ α ≤ 1, as α/(1 + √(1 − α)): to less than two ulp, without cancellation.
+#[inline]
+pub fn one_minus_root(alpha: f64) -> f64 {
+    alpha / (1.0 + (1.0 - alpha).sqrt())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,6 +162,19 @@ mod tests {
         assert!(worst[0] < 1.0 && worst[1] < 2.0, "{worst:?}");
         // That many are not all right by chance.
         assert!(worst[0] > 0.5 && worst[1] > 0.5, "{worst:?}");
+    }
+
+    #[test]
+    fn roots_against_twice_the_digits() {
+        let mut worst = 0f64;
+        for alpha in opacities(60_000).into_iter().filter(|&a| a > 1e-200) {
+            // y(2 − y) = α; Newton's step from y.
+            let y = one_minus_root(alpha);
+            let rest = Double::new(y).times(Double::sum(2.0, -y)).plus(Double::new(-alpha));
+            worst = worst.max(ulps(y, Double::new(y).plus(rest.over(2.0 * (y - 1.0)))));
+        }
+        assert!(worst > 0.5 && worst < 2.0, "{worst}");
+        assert_eq!([0.0, 0.75, 1.0].map(one_minus_root), [0.0, 0.5, 1.0]);
     }
 
     #[test]

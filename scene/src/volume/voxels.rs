@@ -309,7 +309,7 @@ impl<'a, V: Voxel> Linear<'a, V> {
     pub fn window_at<const S: usize>(&self, start: usize) -> Self {
         // Checked in `new`; said again for the compiler, which does not look that far.
         assert!(self.strides[0] | self.strides[1] <= LONGEST_STRIDE);
-        let data = &self.data[start..][..self.offset(S - 1, S - 1, S - 1) + 1];
+        let data = &self.data[start..start + self.offset(S - 1, S - 1, S - 1) + 1];
         Self { data, dims: [S; 3], strides: self.strides }
     }
 }

@@ -1,6 +1,6 @@
 //! Gradients at eight positions side by side ([REC-2]).
 
-use super::{LANES, LaneReader, Packed, Places, word};
+use super::{LANES, LaneReader, Packed, Places, two_rows, word};
 use crate::field::GradientEstimator;
 use crate::field::gradient::{central, sobel};
 use crate::field::place::Place;
@@ -60,24 +60,24 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
     /// Central differences in cells around which all voxels are in the grid, from the offsets of the first ones.
     #[inline(always)]
     fn central(&self, start: [usize; LANES], w: [f64x8<S>; 3]) -> Vec3<f64x8<S>> {
-        let (mut x, mut y, mut z) = ([[0; LANES]; 4], [[0; LANES]; 4], [[0; LANES]; 4]);
+        let (mut x, mut y, mut z) = ([[0; LANES]; 4], [[0; LANES]; 2], [[0; LANES]; 2]);
         for lane in 0..LANES {
             let a = self.voxels.window_at::<4>(start[lane]);
             for (row, (j, k)) in [(1, 1), (2, 1), (1, 2), (2, 2)].into_iter().enumerate() {
                 x[row][lane] = word(a.row::<4>(0, j, k));
             }
-            for (row, (j, k)) in [(0, 1), (3, 1), (0, 2), (3, 2)].into_iter().enumerate() {
-                y[row][lane] = word(a.row::<2>(1, j, k));
+            for (rows, k) in [1, 2].into_iter().enumerate() {
+                y[rows][lane] = two_rows(a.row::<2>(1, 0, k), a.row::<2>(1, 3, k));
             }
-            for (row, (j, k)) in [(1, 0), (2, 0), (1, 3), (2, 3)].into_iter().enumerate() {
-                z[row][lane] = word(a.row::<2>(1, j, k));
+            for (rows, k) in [0, 3].into_iter().enumerate() {
+                z[rows][lane] = two_rows(a.row::<2>(1, 1, k), a.row::<2>(1, 2, k));
             }
         }
-        let cross = Cross {
-            x: [self.raised(x[0]), self.raised(x[1]), self.raised(x[2]), self.raised(x[3])],
-            y: [self.raised(y[0]), self.raised(y[1]), self.raised(y[2]), self.raised(y[3])],
-            z: [self.raised(z[0]), self.raised(z[1]), self.raised(z[2]), self.raised(z[3])],
-        };
+        let ([a, b, c, d], [e, f, g, h]) = (self.raised(y[0]), self.raised(y[1]));
+        let y = [[a, b], [c, d], [e, f], [g, h]];
+        let ([a, b, c, d], [e, f, g, h]) = (self.raised(z[0]), self.raised(z[1]));
+        let z = [[a, b], [c, d], [e, f], [g, h]];
+        let cross = Cross { x: [self.raised(x[0]), self.raised(x[1]), self.raised(x[2]), self.raised(x[3])], y, z };
         central::interpolated(cross, w)
     }
 

@@ -11,7 +11,7 @@ use super::{Field, GradientEstimator, KernelData};
 use crate::number::{Mat3, Vec3};
 use drypoint_scene::volume::{Access, Linear, Voxel};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4, f64x8, mask64x8, u64x4, u64x8};
+use fearless_simd::{Bytes, Simd, f64x4, f64x8, u64x4, u64x8};
 
 pub(crate) use crate::number::lanes::LANES;
 
@@ -59,6 +59,47 @@ fn word<V: Packed, const N: usize>(row: [V; N]) -> u64 {
         word |= voxel.bits() << (V::BITS * i as u32);
     }
     word
+}
+
+/// Bits of a word below those that 2⁵² has as a double, and below a byte that stays 0.
+const ROOM: u32 = 40;
+/// Which byte that is.
+const NOTHING: u64 = 5;
+
+/// The sign bits of `N` numbers in a word.
+const fn signs<V: Packed, const N: usize>() -> u64 {
+    let (mut signs, mut i) = (0, 0);
+    while i < N {
+        signs |= V::SIGN << (V::BITS as usize * i);
+        i += 1;
+    }
+    signs
+}
+
+/// Which bytes of two words that hold 2⁵²'s bits, too, make number i of each plus 2⁵²; for all words.
+const fn picks<V: Packed>(i: usize) -> [u64; LANES] {
+    let bytes = V::BITS as u64 / 8;
+    let mut picks = 0x0706 << 48;
+    let mut byte = 0;
+    while byte < 6 {
+        let from = if byte < bytes { i as u64 * bytes + byte } else { NOTHING };
+        picks |= from << (8 * byte);
+        byte += 1;
+    }
+    let second = picks + 0x0808_0808_0808_0808;
+    [picks, second, picks, second, picks, second, picks, second]
+}
+
+/// Two rows of two, one after the other.
+#[inline(always)]
+fn two_rows<V: Packed>(first: [V; 2], second: [V; 2]) -> u64 {
+    word(first) | word(second) << (2 * V::BITS)
+}
+
+/// The four numbers of a window of 2³ at one z.
+#[inline(always)]
+fn sheet<V: Packed>(window: &Linear<'_, V>, z: usize) -> u64 {
+    two_rows(window.row::<2>(0, 0, z), window.row::<2>(0, 1, z))
 }
 
 /// Cells and the ways into them, as [`Place`].
@@ -125,19 +166,19 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), to_world }
     }
 
-    /// The places of positions inside the box; the first cell in lanes that are not asked for.
+    /// The places of positions inside the box; of others the nearest cell, and ways that lead out of it.
     #[inline(always)]
-    pub(crate) fn places(&self, p: Vec3<f64x8<S>>, asked: mask64x8<S>) -> Places<S> {
+    pub(crate) fn places(&self, p: Vec3<f64x8<S>>) -> Places<S> {
         let [x, y, z] = self.field.cells.last();
-        let (x, y, z) = (self.along(p.x, x, asked), self.along(p.y, y, asked), self.along(p.z, z, asked));
+        let (x, y, z) = (self.along(p.x, x), self.along(p.y, y), self.along(p.z, z));
         Places { cell: Vec3::new(x.0, y.0, z.0), w: [x.1, y.1, z.1] }
     }
 
     /// The cell of a coordinate and the way into it.
     #[inline(always)]
-    fn along(&self, x: f64x8<S>, last: f64, asked: mask64x8<S>) -> (f64x8<S>, f64x8<S>) {
-        let x = asked.select(x, f64x8::splat(self.simd, 0.0));
-        let cell = x.simd_lt(last).select(x, f64x8::splat(self.simd, last)).floor();
+    fn along(&self, x: f64x8<S>, last: f64) -> (f64x8<S>, f64x8<S>) {
+        let zero = f64x8::splat(self.simd, 0.0);
+        let cell = x.max(zero).min(f64x8::splat(self.simd, last)).floor();
         (cell, x - cell)
     }
 
@@ -145,16 +186,40 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     #[inline(always)]
     pub(crate) fn values(&self, at: &Places<S>) -> f64x8<S> {
         let start = self.offsets(at.cell);
-        let mut words = [[0; LANES]; 4];
-        for lane in 0..LANES {
-            let a = self.voxels.window_at::<2>(start[lane]);
-            for (row, (y, z)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
-                words[row][lane] = word(a.row::<2>(0, y, z));
-            }
-        }
-        let [a, b, c, d] = words;
+        // All of them said, so that eight words become a vector at once instead of being put into one.
+        let v = [
+            self.voxels.window_at::<2>(start[0]),
+            self.voxels.window_at::<2>(start[1]),
+            self.voxels.window_at::<2>(start[2]),
+            self.voxels.window_at::<2>(start[3]),
+            self.voxels.window_at::<2>(start[4]),
+            self.voxels.window_at::<2>(start[5]),
+            self.voxels.window_at::<2>(start[6]),
+            self.voxels.window_at::<2>(start[7]),
+        ];
+        let near = [
+            sheet(&v[0], 0),
+            sheet(&v[1], 0),
+            sheet(&v[2], 0),
+            sheet(&v[3], 0),
+            sheet(&v[4], 0),
+            sheet(&v[5], 0),
+            sheet(&v[6], 0),
+            sheet(&v[7], 0),
+        ];
+        let far = [
+            sheet(&v[0], 1),
+            sheet(&v[1], 1),
+            sheet(&v[2], 1),
+            sheet(&v[3], 1),
+            sheet(&v[4], 1),
+            sheet(&v[5], 1),
+            sheet(&v[6], 1),
+            sheet(&v[7], 1),
+        ];
+        let [[a, b, c, d], [e, f, g, h]] = [self.raised(near), self.raised(far)];
         let [wx, wy, wz] = at.w;
-        let along_x = [self.between(a, wx), self.between(b, wx), self.between(c, wx), self.between(d, wx)];
+        let along_x = [self.between(a, b, wx), self.between(c, d, wx), self.between(e, f, wx), self.between(g, h, wx)];
         let read = trilinear::bilinear(along_x, wy, wz);
         read * self.field.slope + self.field.intercept
     }
@@ -168,10 +233,9 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         whole(offset)
     }
 
-    /// Between the first two numbers in each word.
+    /// Between two numbers, both raised.
     #[inline(always)]
-    fn between(&self, words: [u64; LANES], w: f64x8<S>) -> f64x8<S> {
-        let [a, b] = self.raised(words);
+    fn between(&self, a: f64x8<S>, b: f64x8<S>, w: f64x8<S>) -> f64x8<S> {
         // As `lerp`; whole numbers so small have exact differences.
         (a - (TO_BITS + V::SIGN as f64)) + w * (b - a)
     }
@@ -184,8 +248,17 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     #[inline(always)]
     fn raised<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
         let mut raised = [f64x8::splat(self.simd, 0.0); N];
+        if N as u32 * V::BITS > ROOM {
+            for (i, number) in raised.iter_mut().enumerate() {
+                *number = self.raised_at(words, i);
+            }
+            return raised;
+        }
+        let words: u64x8<S> = words.simd_into(self.simd);
+        let words = words ^ (signs::<V, N>() | TO_BITS.to_bits());
         for (i, number) in raised.iter_mut().enumerate() {
-            *number = self.raised_at(words, i);
+            let picked: u64x8<S> = picks::<V>(i).simd_into(self.simd);
+            *number = f64x8::from_bits(words.swizzle_dyn_within_blocks(Bytes::to_bytes(picked)));
         }
         raised
     }

@@ -14,9 +14,24 @@ pub(super) fn correct<S: Simd>(alpha: f64x8<S>, ratio: f64x8<S>) -> f64x8<S> {
     let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
     let opaque = alpha.simd_ge(1.0);
     let between = opaque.select(zero, alpha);
-    let corrected = one_minus_exp(ratio * ln_one_minus(between));
-    let corrected = ratio.simd_eq(1.0).select(alpha, corrected);
+    let half = ratio.simd_eq(0.5);
+    let corrected = if half.all_true() {
+        half_step(between)
+    } else {
+        let mut corrected = one_minus_exp(ratio * ln_one_minus(between));
+        if half.any_true() {
+            corrected = half.select(half_step(between), corrected);
+        }
+        ratio.simd_eq(1.0).select(alpha, corrected)
+    };
     opaque.select(one, alpha.simd_le(0.0).select(zero, corrected))
+}
+
+/// The steps of [`math::one_minus_root`](drypoint_scene::math::one_minus_root).
+#[inline(always)]
+fn half_step<S: Simd>(alpha: f64x8<S>) -> f64x8<S> {
+    let one = f64x8::splat(alpha.simd, 1.0);
+    alpha / (one + (one - alpha).sqrt())
 }
 
 /// The steps of [`math::ln_one_minus`](drypoint_scene::math::ln_one_minus).

@@ -9,25 +9,26 @@ mod boxes;
 mod correct;
 mod normal;
 mod phong;
+mod rays;
 mod style;
 mod waiting;
 mod walk;
 
 use self::phong::{Shaded, Unshaded};
+use self::rays::Rays;
 use self::waiting::cast_waiting;
 use self::walk::Walk;
 use super::cast::Cast;
 use super::lattice::IndexRay;
 use super::need::Needs;
 use super::prepared::{Calls, KappaSource, Prepared};
-use super::sample::{Look, Sight};
+use super::sample::Look;
 use super::skip::{Boxes, merge};
 use crate::field::lanes::{LANES, Packed};
 use crate::number::Vec3;
-use crate::number::lanes::{columns, wide};
+use crate::number::lanes::{columns, rows, wide};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::view::Ray;
 use drypoint_scene::volume::Voxels;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, f64x8};
@@ -83,8 +84,15 @@ pub(super) fn cast_all(
     packets.resize_with(at_once.min(points.len()).div_ceil(LANES), || Packet::new(prepared));
     for points in points.chunks(at_once) {
         let packets = &mut packets[..points.len().div_ceil(LANES)];
-        for (packet, points) in packets.iter_mut().zip(points.chunks(LANES)) {
-            packet.aim(points, boxes, &mut intervals);
+        if let Some(simd) = wide() {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    for (packet, points) in packets.iter_mut().zip(points.chunks(LANES)) {
+                        packet.aim(simd, points, boxes, &mut intervals);
+                    }
+                },
+            );
         }
         match prepared.volume.voxels() {
             Voxels::U8(data) => run(prepared, packets, data, counts),
@@ -154,6 +162,10 @@ struct Packet<'p, 'v> {
     origin: [Column; 3],
     along: [Column; 3],
     depth_step: Column,
+    /// Δ_ray.
+    step: Column,
+    /// The smallest sample beyond `near`.
+    first: i64,
     /// v and Δ_ray of each ray.
     sights: [Row; LANES],
     /// v in eye space, and the smallest sample beyond `near`.
@@ -179,6 +191,8 @@ impl<'p, 'v> Packet<'p, 'v> {
             origin: [none; 3],
             along: [none; 3],
             depth_step: none,
+            step: none,
+            first: prepared.lattice.first(&prepared.view),
             sights: [[0.0; 4]; LANES],
             eyes: [[0.0; 4]; LANES],
             half: [none; 3],
@@ -192,71 +206,69 @@ impl<'p, 'v> Packet<'p, 'v> {
 
     /// Takes the rays through other points, past the boxes of visible bricks, with whether all of these are farther than half
     /// a voxel from the end of the volume.
-    fn aim(&mut self, points: &[[f64; 2]], boxes: Option<(&Boxes, bool)>, intervals: &mut Intervals) {
+    #[inline(always)]
+    fn aim<S: Simd>(&mut self, simd: S, points: &[[f64; 2]], boxes: Option<(&Boxes, bool)>, intervals: &mut Intervals) {
         let prepared = self.prepared;
         self.visits.clear();
         self.of_ray = [[0; 2]; LANES];
         self.ends = [[f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]];
         self.rgba = [[0.0; 4]; LANES];
-        let aimed = |point: &[f64; 2]| {
-            let pixel = prepared.view.ray(point[0], point[1]);
-            (pixel, IndexRay::<f64>::new(&pixel, &prepared.view, &prepared.lattice, prepared.volume.grid()))
-        };
-        let Some((boxes, inside)) = boxes else {
-            for (lane, (pixel, ray)) in points.iter().map(aimed).enumerate() {
-                self.visits.extend(ray.visits(prepared.ends, None));
-                self.take(lane, &pixel, &ray);
+        let rays = Rays::through(simd, prepared, points);
+        (self.origin, self.along) = (stored(rays.origin), stored(rays.along));
+        (self.depth_step, self.step, self.half) = (rays.depth_step.into(), rays.step.into(), stored(rays.half));
+        let first = f64x8::splat(simd, self.first as f64);
+        let sights = rows([rays.v.x, rays.v.y, rays.v.z, rays.step]);
+        let eyes = rows([rays.v_eye.x, rays.v_eye.y, rays.v_eye.z, first]);
+        for lane in 0..LANES {
+            (self.sights[lane], self.eyes[lane]) = (sights[lane].into(), eyes[lane].into());
+        }
+        if let Some((boxes, _)) = boxes {
+            boxes::intervals(simd, boxes, &rays, points.len(), intervals);
+        }
+        for (lane, intervals) in intervals.iter_mut().enumerate().take(points.len()) {
+            let ray = self.ray(lane);
+            let before = self.visits.len();
+            match boxes {
+                None => self.visits.extend(ray.visits(prepared.ends, None)),
+                Some(_) if intervals.is_empty() => continue,
+                Some((_, inside)) => {
+                    merge(intervals);
+                    let inside = if inside { ray.all_beyond_near() } else { None };
+                    let range = inside.unwrap_or_else(|| ray.inside(prepared.ends));
+                    self.visits.extend(ray.parts(range, intervals));
+                }
             }
-            return self.join();
-        };
-        let mut rays = [None; LANES];
-        let mut lines = [None; LANES];
-        for (lane, (pixel, ray)) in points.iter().map(aimed).enumerate() {
-            rays[lane] = Some((pixel, ray));
-            lines[lane] = Some(boxes.line(ray.line(), f64::EPSILON));
-        }
-        if let Some(simd) = wide() {
-            simd.vectorize(
-                #[inline(always)]
-                || boxes::intervals(simd, boxes.ends(), &lines, intervals),
-            );
-        }
-        for (lane, (ray, intervals)) in rays.iter().zip(intervals).enumerate() {
-            if let (Some((pixel, ray)), false) = (ray, intervals.is_empty()) {
-                merge(intervals);
-                let inside = if inside { ray.all_beyond_near() } else { None };
-                let range = inside.unwrap_or_else(|| ray.inside(prepared.ends));
-                self.visits.extend(ray.parts(range, intervals));
-                self.take(lane, pixel, ray);
+            if let [[nearest, _], ..] = self.visits[before..] {
+                self.of_ray[lane] = [before, self.visits.len()];
+                self.ends[0][lane] = nearest as f64;
+                self.ends[1][lane] = self.visits[self.visits.len() - 1][1] as f64;
             }
         }
         self.join();
     }
 
-    /// Takes a ray, whose visits are the last ones in the list.
-    fn take(&mut self, lane: usize, pixel: &Ray, ray: &IndexRay<f64>) {
-        let first = self.of_ray[..lane].iter().map(|visits| visits[1]).max().unwrap_or(0);
-        self.of_ray[lane] = [first, self.visits.len()];
-        let (Some([nearest, _]), Some([_, farthest])) = (self.visits.get(first), self.visits.last()) else {
-            return;
-        };
-        self.ends[0][lane] = *nearest as f64;
-        self.ends[1][lane] = *farthest as f64;
-        let direction = Vec3::from_glam(self.prepared.view.direction_to_world(pixel.v));
-        let Sight { v, v_eye, half } = self.prepared.look.sight(direction, Vec3::from_glam(pixel.v));
-        put(&mut self.origin, lane, ray.origin);
-        put(&mut self.along, lane, ray.along);
-        self.sights[lane] = [v.x, v.y, v.z, ray.step];
-        self.eyes[lane] = [v_eye.x, v_eye.y, v_eye.z, ray.first as f64];
-        put(&mut self.half, lane, half);
-        self.depth_step[lane] = ray.depth_step;
+    /// One of the rays.
+    #[inline(always)]
+    fn ray(&self, lane: usize) -> IndexRay<f64> {
+        let vector = |[x, y, z]: &[Column; 3]| Vec3::new(x[lane], y[lane], z[lane]);
+        IndexRay {
+            origin: vector(&self.origin),
+            along: vector(&self.along),
+            depth_step: self.depth_step[lane],
+            first: self.first,
+            step: self.step[lane],
+        }
     }
 
     /// Joins the visits of all rays.
     fn join(&mut self) {
         self.together.clear();
-        self.together.extend_from_slice(&self.visits);
-        join(&mut self.together);
+        for [first, end] in self.of_ray {
+            let mut from = 0;
+            for &range in &self.visits[first..end] {
+                from = unite(&mut self.together, range, from);
+            }
+        }
     }
 
     /// The samples that a ray visited.
@@ -267,25 +279,27 @@ impl<'p, 'v> Packet<'p, 'v> {
     }
 }
 
-/// Sorts ranges and joins those that meet.
-fn join(ranges: &mut Vec<[i64; 2]>) {
-    ranges.sort_unstable();
-    let mut kept = 0;
-    for i in 1..ranges.len() {
-        if ranges[i][0] <= ranges[kept][1] + 1 {
-            ranges[kept][1] = ranges[kept][1].max(ranges[i][1]);
-        } else {
-            kept += 1;
-            ranges[kept] = ranges[i];
-        }
+/// Adds a range to ranges in order that do not meet, none of which before `from` lies behind its beginning, and returns where
+/// it went.
+fn unite(ranges: &mut Vec<[i64; 2]>, [first, last]: [i64; 2], mut from: usize) -> usize {
+    while from < ranges.len() && ranges[from][1] + 1 < first {
+        from += 1;
     }
-    ranges.truncate(kept + 1);
+    if from == ranges.len() || last + 1 < ranges[from][0] {
+        ranges.insert(from, [first, last]);
+        return from;
+    }
+    ranges[from] = [ranges[from][0].min(first), ranges[from][1].max(last)];
+    while from + 1 < ranges.len() && ranges[from + 1][0] <= ranges[from][1] + 1 {
+        ranges[from][1] = ranges[from][1].max(ranges[from + 1][1]);
+        ranges.remove(from + 1);
+    }
+    from
 }
 
-fn put(columns: &mut [Column; 3], lane: usize, v: Vec3<f64>) {
-    columns[0][lane] = v.x;
-    columns[1][lane] = v.y;
-    columns[2][lane] = v.z;
+#[inline(always)]
+fn stored<S: Simd>(v: Vec3<f64x8<S>>) -> [Column; 3] {
+    [v.x.into(), v.y.into(), v.z.into()]
 }
 
 /// Rows as columns, from the row of each lane.
@@ -304,4 +318,33 @@ const IN_ORDER: [u8; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
 #[inline(always)]
 fn vector<S: Simd>(simd: S, [x, y, z]: [Column; 3]) -> Vec3<f64x8<S>> {
     Vec3::new(x.simd_into(simd), y.simd_into(simd), z.simd_into(simd))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What is in some range, in whichever order they come, is in one of the ranges, and these neither meet nor hold more.
+        #[test]
+        fn united_ranges_hold_what_they_are_made_of(
+            rays in prop::collection::vec(prop::collection::vec((0i64..9, 0i64..9), 0..6), 0..5),
+        ) {
+            let (mut ranges, mut inside) = (Vec::new(), [false; 128]);
+            for ray in rays {
+                let (mut next, mut from) = (0, 0);
+                for (gap, more) in ray {
+                    let range = [next + gap, next + gap + more];
+                    next = range[1] + 1;
+                    from = unite(&mut ranges, range, from);
+                    inside[range[0] as usize..=range[1] as usize].fill(true);
+                }
+            }
+            prop_assert!(ranges.windows(2).all(|w| w[0][1] + 1 < w[1][0]), "{:?}", ranges);
+            for (k, inside) in inside.into_iter().enumerate() {
+                prop_assert_eq!(ranges.iter().any(|r| r[0] <= k as i64 && k as i64 <= r[1]), inside, "{} {:?}", k, ranges);
+            }
+        }
+    }
 }

@@ -77,7 +77,7 @@ impl<S: Simd> Show<S> for Shaded<'_, S> {
     ) -> ([f64x8<S>; 3], f64x8<S>) {
         let place = &sample.place;
         let rgb = place.color(self.colors);
-        let g = walk.reader.gradients(&sample.at, sample.seen);
+        let g = walk.reader.gradients(&walk.places(sample.k), sample.seen);
         counts.gradients += u64::from(place.visible.count_ones());
         let Normals { n, has, .. } = Normals::new(walk.prepared, self.v, g);
         counts.without_normal += u64::from((place.visible & !has.to_bitmask()).count_ones());

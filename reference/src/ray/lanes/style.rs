@@ -134,7 +134,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
             let asked = unknown & inside(p, tile.prepared.ends) & beyond.simd_le(before);
             fetched = asked.to_bitmask();
             if fetched != 0 {
-                let g = tile.reader.gradients(&tile.reader.places(p, asked), asked);
+                let g = tile.reader.gradients(&tile.reader.places(p), asked);
                 let fetched = Normals::new(tile.prepared, v, g);
                 n_before = select(asked, fetched.n, n_before);
                 has_before |= asked & fetched.has;

@@ -8,7 +8,7 @@
 
 use super::correct::correct;
 use super::style::{InStyle, Looks};
-use super::walk::Walk;
+use super::walk::{AHEAD, Ahead, Walk};
 use super::{Packet, RAYS, vector};
 use crate::field::lanes::{LANES, LaneReader, Packed, Places};
 use crate::number::Vec3;
@@ -213,32 +213,35 @@ impl<S: Simd, V: Packed> Tile<'_, '_, S, V> {
         let nearest: f64x8<S> = rays.ends[0].simd_into(simd);
         // About what a ray lets through when all that waits is shown. Below the limit it may have ended by then.
         let (mut through, limit) = (one - light.opacity(simd, packet), 1.0 - self.prepared.stop_at);
+        let mut ahead = Ahead::new(simd);
         for (range, &[first, last]) in rays.together.iter().enumerate().skip(first_range) {
-            for plane in first.max(earliest)..=last {
-                let k = plane as f64;
-                let open = light.open(simd, packet, k);
+            for group in (first.max(earliest)..=last).step_by(AHEAD) {
+                let open = light.open(simd, packet, group as f64);
                 if open.all_false() {
                     return None;
                 }
-                let active = open & nearest.simd_le(k);
-                let at = walk.reader.places(walk.positions(k), active);
-                let values = walk.reader.values(&at);
-                let Some(place) = self.prepared.function.locate_lanes(values, active) else {
-                    continue;
-                };
-                let late = place.visible & through.simd_le(limit).to_bitmask();
-                if 2 * late.count_ones() > place.visible.count_ones() && plane > earliest {
-                    // Most of what would join those that wait comes after the end of its ray.
-                    return Some((range, plane));
-                }
-                waiting.push(packet, k, at, &place);
-                if waiting.len >= LANES {
-                    self.show_batch(&waiting.pop(simd), look, light, counts);
-                }
-                let seen = mask64x8::from_bitmask(simd, place.visible);
-                through = seen.select(through * (one - place.alpha_u), through);
-                if (through.simd_le(limit) | !open).all_true() {
-                    return Some((range, plane + 1));
+                walk.look_ahead(&mut ahead, [group, last], open, nearest);
+                while let Some((plane, s)) = ahead.next() {
+                    let k = plane as f64;
+                    let open = light.open(simd, packet, k);
+                    let active = open & nearest.simd_le(k);
+                    let Some(place) = self.prepared.function.locate_lanes(s, active) else {
+                        continue;
+                    };
+                    let late = place.visible & through.simd_le(limit).to_bitmask();
+                    if 2 * late.count_ones() > place.visible.count_ones() && plane > earliest {
+                        // Most of what would join those that wait comes after the end of its ray.
+                        return Some((range, plane));
+                    }
+                    waiting.push(packet, k, walk.places(k), &place);
+                    if waiting.len >= LANES {
+                        self.show_batch(&waiting.pop(simd), look, light, counts);
+                    }
+                    let seen = mask64x8::from_bitmask(simd, place.visible);
+                    through = seen.select(through * (one - place.alpha_u), through);
+                    if (through.simd_le(limit) | !open).all_true() {
+                        return Some((range, plane + 1));
+                    }
                 }
             }
         }

@@ -23,9 +23,40 @@ pub(super) struct Walk<'p, 'v, S: Simd, V> {
     ratio: f64x8<S>,
 }
 
+/// Planes whose values are asked for before the first of them is shown: values need not wait for each other, and what
+/// follows a guess of the processor about one sample would be lost with it.
+pub(super) const AHEAD: usize = 4;
+
+/// Values of samples on some planes.
+pub(super) struct Ahead<S: Simd> {
+    first: i64,
+    s: [f64x8<S>; AHEAD],
+    /// The planes on which something may be seen, a bit each.
+    seen: u32,
+}
+
+impl<S: Simd> Ahead<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        Self { first: 0, s: [f64x8::splat(simd, 0.0); AHEAD], seen: 0 }
+    }
+
+    /// The next plane on which something may be seen, and the values there.
+    #[inline(always)]
+    pub(super) fn next(&mut self) -> Option<(i64, f64x8<S>)> {
+        if self.seen == 0 {
+            return None;
+        }
+        let i = self.seen.trailing_zeros() as usize % AHEAD;
+        self.seen &= self.seen - 1;
+        Some((self.first + i as i64, self.s[i]))
+    }
+}
+
 /// Samples of one plane that can be seen.
 pub(super) struct Sample<S: Simd> {
-    pub(super) at: Places<S>,
+    /// k.
+    pub(super) k: f64,
     /// Between which nodes their values lie; its lanes are the ones that count.
     pub(super) place: transfer::lanes::Places<S>,
     /// The same lanes.
@@ -60,12 +91,14 @@ impl<S: Simd> Light<S> {
         if fresh.count_ones() > 2 {
             self.corrected[1] = lanes.select(correct(alpha, ratio), self.corrected[1]);
         } else {
+            let mut corrected: Column = self.corrected[1].into();
             let mut left = fresh;
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
-                self.corrected[1][lane] = Correction::new(ratio[lane]).apply(alpha[lane]);
+                corrected[lane] = Correction::new(ratio[lane]).apply(alpha[lane]);
             }
+            self.corrected[1] = corrected.simd_into(self.opacity.simd);
         }
         self.corrected[0] = lanes.select(alpha, self.corrected[0]);
     }
@@ -93,15 +126,20 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
         let mut light = Light { rgb: [zero; 3], opacity: zero, corrected: [zero; 2] };
         let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
         let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
+        let mut ahead = Ahead::new(self.simd);
         'rays: for &[first, last] in &packet.together {
-            for k in first..=last {
-                let k = k as f64;
-                let open = farthest.simd_ge(k);
+            for group in (first..=last).step_by(AHEAD) {
+                let open = farthest.simd_ge(group as f64);
                 if open.all_false() {
                     break 'rays;
                 }
-                let stopped = self.visit(k, open & nearest.simd_le(k), look, &mut light, counts);
-                farthest = stopped.select(f64x8::splat(self.simd, k), farthest);
+                self.look_ahead(&mut ahead, [group, last], open, nearest);
+                while let Some((plane, s)) = ahead.next() {
+                    let k = plane as f64;
+                    let active = farthest.simd_ge(k) & nearest.simd_le(k);
+                    let stopped = self.visit(k, s, active, look, &mut light, counts);
+                    farthest = stopped.select(f64x8::splat(self.simd, k), farthest);
+                }
             }
         }
         packet.ends[1] = farthest.into();
@@ -112,30 +150,48 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
         }
     }
 
-    /// The index positions of sample k.
+    /// The values of the first planes of a range, where they may be seen on rays that are open and that begin at `nearest`.
     #[inline(always)]
-    pub(super) fn positions(&self, k: f64) -> Vec3<f64x8<S>> {
-        self.origin + self.along * (self.depth_step * (k + 0.5))
+    pub(super) fn look_ahead(
+        &self,
+        ahead: &mut Ahead<S>,
+        [first, last]: [i64; 2],
+        open: mask64x8<S>,
+        nearest: f64x8<S>,
+    ) {
+        (ahead.first, ahead.seen) = (first, 0);
+        let n = (last - first + 1).min(AHEAD as i64) as usize;
+        for (i, s) in ahead.s.iter_mut().take(n).enumerate() {
+            let k = (first + i as i64) as f64;
+            *s = self.reader.values(&self.places(k));
+            let may_be_seen = self.prepared.function.may_show(*s, open & nearest.simd_le(k));
+            ahead.seen |= u32::from(may_be_seen) << i;
+        }
     }
 
-    /// Visits sample k of the active lanes. Returns the lanes whose ray ends there.
+    /// The places of samples k.
+    #[inline(always)]
+    pub(super) fn places(&self, k: f64) -> Places<S> {
+        self.reader.places(self.origin + self.along * (self.depth_step * (k + 0.5)))
+    }
+
+    /// Visits samples k of the active lanes. Returns the lanes whose ray ends there.
     #[inline(always)]
     fn visit(
         &self,
         k: f64,
+        s: f64x8<S>,
         active: mask64x8<S>,
         look: &mut impl Show<S>,
         light: &mut Light<S>,
         counts: &mut Counts,
     ) -> mask64x8<S> {
         let simd = self.simd;
-        let at = self.reader.places(self.positions(k), active);
-        let values = self.reader.values(&at);
-        let Some(place) = self.prepared.function.locate_lanes(values, active) else {
+        let Some(place) = self.prepared.function.locate_lanes(s, active) else {
             return mask64x8::splat(simd, false);
         };
         let seen = mask64x8::from_bitmask(simd, place.visible);
-        let sample = Sample { at, place, seen };
+        let sample = Sample { k, place, seen };
         let (rgb, alpha) = look.show(self, &sample, counts);
         let fresh = (seen & alpha.simd_ne(light.corrected[0])).to_bitmask();
         if fresh != 0 {
