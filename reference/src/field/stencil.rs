@@ -330,22 +330,59 @@ impl<'v> Stencils<'v> {
     /// Reads what is in the grid and continues it outwards along x, then y, then z.
     #[cold]
     fn read_block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
-        let mut b = self.clamped::<R, 4>(cell.map(|i| i as isize - 1));
-        let [nx, ny, nz] = self.dims();
+        let dims = self.dims();
+        let mut b = if dims.iter().all(|&n| n >= 4) {
+            self.pushed_inside(cell)
+        } else {
+            self.clamped::<R, 4>(cell.map(|i| i as isize - 1))
+        };
+        let [nx, ny, nz] = dims;
         for line in b.iter_mut().flatten() {
             *line = continued(*line, cell[0], nx);
         }
-        for plane in &mut b {
-            for i in 0..4 {
-                let line = continued(plane.map(|row| row[i]), cell[1], ny);
-                (0..4).for_each(|j| plane[j][i] = line[j]);
+        if cell[1] == 0 || cell[1] + 2 >= ny {
+            for plane in &mut b {
+                for i in 0..4 {
+                    let line = continued([plane[0][i], plane[1][i], plane[2][i], plane[3][i]], cell[1], ny);
+                    (0..4).for_each(|j| plane[j][i] = line[j]);
+                }
             }
         }
-        for (j, i) in (0..16).map(|line| (line / 4, line % 4)) {
-            let line = continued([0, 1, 2, 3].map(|k: usize| b[k][j][i]), cell[2], nz);
-            (0..4).for_each(|k| b[k][j][i] = line[k]);
+        if cell[2] == 0 || cell[2] + 2 >= nz {
+            for (j, i) in (0..16).map(|line| (line / 4, line % 4)) {
+                let line = continued([b[0][j][i], b[1][j][i], b[2][j][i], b[3][j][i]], cell[2], nz);
+                (0..4).for_each(|k| b[k][j][i] = line[k]);
+            }
         }
         b
+    }
+
+    /// The voxels from the one before the cell on that are in the grid, in their places; anything in those beyond. Axes have
+    /// at least four voxels.
+    fn pushed_inside<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
+        let dims = self.dims();
+        let mut start = [0; 3];
+        // Which of the four that are read is the one before the cell, or nearest to it.
+        let mut places = [[0; 4]; 3];
+        for a in 0..3 {
+            start[a] = cell[a].saturating_sub(1).min(dims[a] - 4);
+            for (i, place) in places[a].iter_mut().enumerate() {
+                *place = (cell[a] + i).saturating_sub(1 + start[a]).min(3);
+            }
+        }
+        let mut block = [[[R::ZERO; 4]; 4]; 4];
+        with_access!(self.volume, |a| {
+            let a = a.window::<4>(start[0], start[1], start[2]);
+            for (plane, &k) in block.iter_mut().zip(&places[2]) {
+                for (line, &j) in plane.iter_mut().zip(&places[1]) {
+                    let row = a.row::<4>(0, j, k);
+                    for (number_at, &i) in line.iter_mut().zip(&places[0]) {
+                        *number_at = number(row[i], self.scale);
+                    }
+                }
+            }
+        });
+        block
     }
 }
 

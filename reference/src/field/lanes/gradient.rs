@@ -1,6 +1,6 @@
 //! Gradients at eight positions side by side ([REC-2]).
 
-use super::{LANES, LaneReader, Packed, Places, two_rows, word};
+use super::{LANES, LaneReader, Packed, Places, word};
 use crate::field::GradientEstimator;
 use crate::field::gradient::{central, sobel};
 use crate::field::place::Place;
@@ -60,37 +60,26 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
     /// Central differences in cells around which all voxels are in the grid, from the offsets of the first ones.
     #[inline(always)]
     fn central(&self, start: [usize; LANES], w: [f64x8<S>; 3]) -> Vec3<f64x8<S>> {
-        let (mut x, mut y, mut z) = ([[0; LANES]; 4], [[0; LANES]; 2], [[0; LANES]; 2]);
-        for lane in 0..LANES {
-            let a = self.voxels.window_at::<4>(start[lane]);
-            for (row, (j, k)) in [(1, 1), (2, 1), (1, 2), (2, 2)].into_iter().enumerate() {
-                x[row][lane] = word(a.row::<4>(0, j, k));
-            }
-            for (rows, k) in [1, 2].into_iter().enumerate() {
-                y[rows][lane] = two_rows(a.row::<2>(1, 0, k), a.row::<2>(1, 3, k));
-            }
-            for (rows, k) in [0, 3].into_iter().enumerate() {
-                z[rows][lane] = two_rows(a.row::<2>(1, 1, k), a.row::<2>(1, 2, k));
-            }
-        }
-        let ([a, b, c, d], [e, f, g, h]) = (self.raised(y[0]), self.raised(y[1]));
-        let y = [[a, b], [c, d], [e, f], [g, h]];
-        let ([a, b, c, d], [e, f, g, h]) = (self.raised(z[0]), self.raised(z[1]));
-        let z = [[a, b], [c, d], [e, f], [g, h]];
-        let cross = Cross { x: [self.raised(x[0]), self.raised(x[1]), self.raised(x[2]), self.raised(x[3])], y, z };
+        let v = self.windows::<4>(start);
+        let x = [v.rows(1, 1), v.rows(2, 1), v.rows(1, 2), v.rows(2, 2)];
+        let y = [self.raised(v.pairs([(0, 1), (3, 1)])), self.raised(v.pairs([(0, 2), (3, 2)]))];
+        let z = [self.raised(v.pairs([(1, 0), (2, 0)])), self.raised(v.pairs([(1, 3), (2, 3)]))];
+        let cross = Cross {
+            x: [self.raised(x[0]), self.raised(x[1]), self.raised(x[2]), self.raised(x[3])],
+            y: in_twos(y),
+            z: in_twos(z),
+        };
         central::interpolated(cross, w)
     }
 
     /// Sobel's operator there: one column of taps of all cells after the other.
     #[inline(always)]
     fn sobel(&self, start: [usize; LANES], [wx, wy, wz]: [f64x8<S>; 3]) -> Vec3<f64x8<S>> {
+        let v = self.windows::<4>(start);
         let mut words = [[[0; LANES]; 4]; 4];
-        for lane in 0..LANES {
-            let a = self.voxels.window_at::<4>(start[lane]);
-            for (k, plane) in words.iter_mut().enumerate() {
-                for (j, row) in plane.iter_mut().enumerate() {
-                    row[lane] = word(a.row::<4>(0, j, k));
-                }
+        for (k, plane) in words.iter_mut().enumerate() {
+            for (j, rows) in plane.iter_mut().enumerate() {
+                *rows = v.rows(j, k);
             }
         }
         let (one, zero) = (f64x8::splat(self.simd, 1.0), f64x8::splat(self.simd, 0.0));
@@ -122,6 +111,11 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
             [sobel::taps_inside(wx, 1.0, 0.0), sobel::taps_inside(wy, 1.0, 0.0), sobel::taps_inside(wz, 1.0, 0.0)];
         tensor::gradient(&rows, &taps)
     }
+}
+
+#[inline(always)]
+fn in_twos<T>([[a, b, c, d], [e, f, g, h]]: [[T; 4]; 2]) -> [[T; 2]; 4] {
+    [[a, b], [c, d], [e, f], [g, h]]
 }
 
 /// Column i of the voxels around eight cells, as they are stored.

@@ -90,16 +90,37 @@ const fn picks<V: Packed>(i: usize) -> [u64; LANES] {
     [picks, second, picks, second, picks, second, picks, second]
 }
 
-/// Two rows of two, one after the other.
-#[inline(always)]
-fn two_rows<V: Packed>(first: [V; 2], second: [V; 2]) -> u64 {
-    word(first) | word(second) << (2 * V::BITS)
+/// What is read around eight cells.
+///
+/// Each of the eight is said: eight words become a vector at once then, instead of being put into one, one after the other.
+struct Windows<'v, V>([Linear<'v, V>; LANES]);
+
+impl<V: Packed> Windows<'_, V> {
+    /// The row of four at (y, z) of each.
+    #[inline(always)]
+    fn rows(&self, y: usize, z: usize) -> [u64; LANES] {
+        let Self([a, b, c, d, e, f, g, h]) = self;
+        [row(a, y, z), row(b, y, z), row(c, y, z), row(d, y, z), row(e, y, z), row(f, y, z), row(g, y, z), row(h, y, z)]
+    }
+
+    /// The two numbers of each of two rows (y, z) on the edges of the cell.
+    #[inline(always)]
+    fn pairs(&self, at: [(usize, usize); 2]) -> [u64; LANES] {
+        let Self([a, b, c, d, e, f, g, h]) = self;
+        [pairs(a, at), pairs(b, at), pairs(c, at), pairs(d, at), pairs(e, at), pairs(f, at), pairs(g, at), pairs(h, at)]
+    }
 }
 
-/// The four numbers of a window of 2³ at one z.
 #[inline(always)]
-fn sheet<V: Packed>(window: &Linear<'_, V>, z: usize) -> u64 {
-    two_rows(window.row::<2>(0, 0, z), window.row::<2>(0, 1, z))
+fn row<V: Packed>(window: &Linear<'_, V>, y: usize, z: usize) -> u64 {
+    word(window.row::<4>(0, y, z))
+}
+
+#[inline(always)]
+fn pairs<V: Packed>(window: &Linear<'_, V>, [(y, z), (next_y, next_z)]: [(usize, usize); 2]) -> u64 {
+    // A window of four begins a voxel before the cell.
+    let x = window.dims()[0] / 2 - 1;
+    word(window.row::<2>(x, y, z)) | word(window.row::<2>(x, next_y, next_z)) << (2 * V::BITS)
 }
 
 /// Cells and the ways into them, as [`Place`].
@@ -186,42 +207,29 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     #[inline(always)]
     pub(crate) fn values(&self, at: &Places<S>) -> f64x8<S> {
         let start = self.offsets(at.cell);
-        // All of them said, so that eight words become a vector at once instead of being put into one.
-        let v = [
-            self.voxels.window_at::<2>(start[0]),
-            self.voxels.window_at::<2>(start[1]),
-            self.voxels.window_at::<2>(start[2]),
-            self.voxels.window_at::<2>(start[3]),
-            self.voxels.window_at::<2>(start[4]),
-            self.voxels.window_at::<2>(start[5]),
-            self.voxels.window_at::<2>(start[6]),
-            self.voxels.window_at::<2>(start[7]),
-        ];
-        let near = [
-            sheet(&v[0], 0),
-            sheet(&v[1], 0),
-            sheet(&v[2], 0),
-            sheet(&v[3], 0),
-            sheet(&v[4], 0),
-            sheet(&v[5], 0),
-            sheet(&v[6], 0),
-            sheet(&v[7], 0),
-        ];
-        let far = [
-            sheet(&v[0], 1),
-            sheet(&v[1], 1),
-            sheet(&v[2], 1),
-            sheet(&v[3], 1),
-            sheet(&v[4], 1),
-            sheet(&v[5], 1),
-            sheet(&v[6], 1),
-            sheet(&v[7], 1),
-        ];
-        let [[a, b, c, d], [e, f, g, h]] = [self.raised(near), self.raised(far)];
+        let v = self.windows::<2>(start);
+        let [[a, b, c, d], [e, f, g, h]] =
+            [self.raised(v.pairs([(0, 0), (1, 0)])), self.raised(v.pairs([(0, 1), (1, 1)]))];
         let [wx, wy, wz] = at.w;
         let along_x = [self.between(a, b, wx), self.between(c, d, wx), self.between(e, f, wx), self.between(g, h, wx)];
         let read = trilinear::bilinear(along_x, wy, wz);
         read * self.field.slope + self.field.intercept
+    }
+
+    /// The windows of side `N` that begin at some places in the order of voxels.
+    #[inline(always)]
+    fn windows<const N: usize>(&self, [a, b, c, d, e, f, g, h]: [usize; LANES]) -> Windows<'f, V> {
+        let v = &self.voxels;
+        Windows([
+            v.window_at::<N>(a),
+            v.window_at::<N>(b),
+            v.window_at::<N>(c),
+            v.window_at::<N>(d),
+            v.window_at::<N>(e),
+            v.window_at::<N>(f),
+            v.window_at::<N>(g),
+            v.window_at::<N>(h),
+        ])
     }
 
     /// Where voxels stand in the order of voxels.
