@@ -143,7 +143,7 @@ impl<'a> Frames<'a> {
         Self {
             stipples,
             points,
-            still: points.voxels.par_iter().map(|voxel| Still::new(stipples, voxel)).collect(),
+            still: points.voxels.par_iter().map(|voxel| Still::new(stipples, voxel, &points.grid)).collect(),
             light,
             centre,
             radius: grid.radius(),
@@ -188,7 +188,7 @@ impl<'a> Frames<'a> {
         // Eq. 4, over S_max.
         let size = voxel.magnitude * factors.size;
         // T = 1 is the whole list, but for the part of a point by which it is too long.
-        let whole_list = self.points.full / each as f64;
+        let whole_list = self.still[i].piece * (self.points.full / each as f64);
         let (share, size, unit) = match self.nib {
             None => (factors.count * whole_list, size, self.size),
             Some(nib) => {

@@ -8,7 +8,7 @@ use super::layers::layers;
 use super::norms::{norms, quantile_above};
 use super::order::{self, Sites};
 use super::resolution::boxes;
-use super::ridge::{Norms, across};
+use super::ridge::{Norms, across, way_to_edge};
 use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
@@ -167,7 +167,8 @@ impl<'a> Preprocess<'a> {
         let each = self.each as u64;
         // A point, the draw that made it, and what its voxel knows.
         let kept = each.saturating_mul(12 + 4).saturating_add(size_of::<PointVoxel>() as u64);
-        let each = kept.saturating_add(order::bytes_a_voxel(self.each));
+        let way = if self.tops.is_empty() { 0 } else { size_of::<DVec3>() as u64 };
+        let each = kept.saturating_add(way).saturating_add(order::bytes_a_voxel(self.each));
         (self.voxels.len() as u64).saturating_mul(each)
     }
 
@@ -180,24 +181,36 @@ impl<'a> Preprocess<'a> {
         let grid = self.volume.grid();
         let cells: Vec<[u32; 3]> = self.voxels.iter().map(|voxel| voxel.cell).collect();
         let normals: Vec<DVec3> = self.voxels.iter().map(|voxel| voxel.normal).collect();
+        let to_edge: Vec<DVec3> =
+            self.voxels.par_iter().zip(&self.tops).map(|(v, top)| self.to_edge(v, *top)).collect();
         let sites = Sites {
             cells: &cells,
             normals: &normals,
             axes: grid.axes(),
             voxel: grid.voxel(),
             slab: self.slab,
+            to_edge: &to_edge,
             seed: stipples.seed,
             neighbours: stipples.order == StippleOrder::Neighbours,
         };
         // N_max is bounded by memory, which a volume without a boundary does not take.
         let offsets = if cells.is_empty() { Vec::new() } else { order::points(&sites, self.each, done) };
         let (each, full) = (self.each, self.full);
-        let mut points = Points { grid: grid.clone(), each, full, voxels: self.voxels.clone(), offsets };
-        onto_edges(&mut points, &self.tops);
+        let points = Points { grid: grid.clone(), each, full, voxels: self.voxels.clone(), offsets };
         counts.preprocess.insert("stipple gradients".into(), self.gradients);
         counts.preprocess.insert("stipple points".into(), points.len() as u64);
         counts.bytes.insert("points".into(), points.bytes());
         Ok(points)
+    }
+
+    /// From a voxel's centre to the edge, in index space: straight where all layers of an edge have points.
+    fn to_edge(&self, voxel: &PointVoxel, top: f64) -> DVec3 {
+        let grid = self.volume.grid();
+        if self.inputs.stipples.thin {
+            way_to_edge(grid, voxel.normal, top)
+        } else {
+            grid.inverse_axes() * voxel.normal * (top * across(grid, voxel.normal))
+        }
     }
 }
 
@@ -273,13 +286,11 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
         v.value = normalized(smoothed_at(field, cell, step), range);
         v.magnitude = magnitude(ridge.at(cell, step));
     });
-    // A thin face has one layer, as thick as its voxels reach along the normal.
+    // A thin face has one layer, whose voxels draw as many points as they have of it.
     let layers = if inputs.tone.is_some() && !stipples.thin {
         let to_step = grid.inverse_axes() * grid.voxel();
         let steps: Vec<([u32; 3], DVec3)> = voxels.iter().map(|v| (v.cell, to_step * v.normal)).collect();
         layers(dims, &norms, |norm| norm > bound && is_above(norm), &steps)
-    } else if inputs.tone.is_some() && !voxels.is_empty() {
-        voxels.iter().map(|v| across(grid, v.normal)).sum::<f64>() / (voxels.len() as f64 * grid.voxel())
     } else {
         1.0
     };
@@ -299,21 +310,6 @@ fn smoothed_at(field: &Field<'_, f64>, cell: [usize; 3], step: DVec3) -> f64 {
     let along = |a: usize, at: f64, to: f64| at + step[a].abs() * (to - at);
     let x = [0, 2, 4, 6].map(|i| along(0, value(i), value(i + 1)));
     along(2, along(1, x[0], x[1]), along(1, x[2], x[3]))
-}
-
-/// Moves each point along n onto the plane on which ‖∇V‖ is largest: within a voxel an edge is flat but for a share of its
-/// curvature.
-fn onto_edges(points: &mut Points, tops: &[f64]) {
-    let grid = &points.grid;
-    let (axes, to_index) = (grid.axes(), grid.inverse_axes());
-    let each = points.offsets.par_chunks_mut(points.each).zip(&points.voxels).zip(tops);
-    each.for_each(|((offsets, v), top)| {
-        for offset in offsets {
-            let o = DVec3::from_array(offset.map(f64::from));
-            let along = top * across(grid, v.normal) - v.normal.dot(axes * o);
-            *offset = (o + to_index * v.normal * along).to_array().map(|x| x as f32);
-        }
-    });
 }
 
 /// V in [0, 1] ([VAL-1]); at a border the fit can leave the range of the values. In a range without length V is 1 above it.

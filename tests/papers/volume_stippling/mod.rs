@@ -6,6 +6,7 @@ mod frames;
 mod hidden;
 mod preprocess;
 mod quality;
+mod rows;
 mod spectrum;
 mod tone;
 

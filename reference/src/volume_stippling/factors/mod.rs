@@ -10,9 +10,11 @@ mod silhouette;
 
 pub use resolution::viewing_distance;
 
+use super::ridge::across;
 use crate::shading::towards;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::points::PointVoxel;
+use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{FactorRange, LightDirection, Stipples};
 use drypoint_scene::view::View;
 
@@ -31,14 +33,18 @@ pub(super) struct Still {
     boundary: f64,
     /// T_t.
     interior: f64,
+    /// How much of a face the voxel stands for, over that of the largest: 1 but for thin layers on grids whose voxels are not
+    /// cubes ([STIP-4]).
+    pub(super) piece: f64,
 }
 
 impl Still {
-    pub(super) fn new(stipples: &Stipples, voxel: &PointVoxel) -> Self {
+    pub(super) fn new(stipples: &Stipples, voxel: &PointVoxel, grid: &Grid) -> Self {
         let PointVoxel { value, magnitude, .. } = *voxel;
         Self {
             boundary: stipples.boundary.map_or(1.0, |t| boundary::boundary(&t, stipples.factors, value, magnitude)),
             interior: stipples.interior.filter(|t| t.te != 0.0).map_or(1.0, |t| interior::interior(&t, magnitude)),
+            piece: if stipples.thin { grid.voxel() / across(grid, voxel.normal) } else { 1.0 },
         }
     }
 }

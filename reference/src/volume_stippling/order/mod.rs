@@ -42,9 +42,21 @@ pub(super) struct Sites<'a> {
     pub(super) voxel: f64,
     /// Half the distance of the two planes, in world units.
     pub(super) slab: f64,
+    /// Of each from its centre to the edge, in index space; empty where points stay about centres.
+    pub(super) to_edge: &'a [DVec3],
     pub(super) seed: u64,
     /// Whether voxels see their neighbours.
     pub(super) neighbours: bool,
+}
+
+impl Sites<'_> {
+    /// Where the points of a voxel lie.
+    fn slab_of(&self, i: usize) -> Slab {
+        match self.to_edge.get(i) {
+            Some(&to_edge) => Slab::on_edge(self.axes, self.normals[i], to_edge),
+            None => Slab::new(self.axes, self.normals[i], self.slab),
+        }
+    }
 }
 
 /// How often each voxel takes its point of a rank after the first.
@@ -114,7 +126,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     let mut points = vec![[0f32; 3]; n * each];
     points.par_chunks_mut(each.max(1)).enumerate().for_each(|(i, points)| {
         let id = ids[i] as usize;
-        let slab = Slab::new(sites.axes, sites.normals[i], sites.slab);
+        let slab = sites.slab_of(i);
         for (rank, point) in points.iter_mut().enumerate() {
             *point = point_of(&slab, sites.seed, sites.cells[i], chosen[rank * n + id]);
         }
@@ -149,6 +161,6 @@ mod tests {
     use super::*;
 
     pub(super) fn sites<'a>(cells: &'a [[u32; 3]], normals: &'a [DVec3], neighbours: bool) -> Sites<'a> {
-        Sites { cells, normals, axes: DMat3::IDENTITY, voxel: 1.0, slab: 0.5, seed: 1, neighbours }
+        Sites { cells, normals, axes: DMat3::IDENTITY, voxel: 1.0, slab: 0.5, to_edge: &[], seed: 1, neighbours }
     }
 }

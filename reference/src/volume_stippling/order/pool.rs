@@ -125,7 +125,7 @@ impl Site {
         points: &mut Vec<Drawn>,
     ) -> Self {
         let (cell, n) = (sites.cells[i], sites.normals[i]);
-        let slab = Slab::new(sites.axes, n, sites.slab);
+        let slab = sites.slab_of(i);
         let has = |side: f64| {
             let to = towards(sites, n * side);
             links.all[first as usize..end as usize].iter().any(|&link| offset_of(link) == to)

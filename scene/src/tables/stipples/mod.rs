@@ -33,7 +33,7 @@ pub struct Stipples {
     pub pen: Option<String>,
     /// Estimator of V and ∇V ([STIP-1]).
     pub gradient: StippleGradient,
-    /// Half the distance of the two planes ([STIP-4]).
+    /// Half the distance of the two planes, where points do not snap ([STIP-4]).
     pub slab: Length,
     /// Which points a voxel's order sees ([STIP-4]).
     pub order: StippleOrder,
@@ -117,7 +117,7 @@ pub enum StippleOrder {
 pub enum Snap {
     /// Points stay about their voxel's centre: the paper's.
     None,
-    /// Points move along the normal to the largest ‖∇V‖ within one voxel.
+    /// Points lie where ‖∇V‖ is largest along the normal within one voxel.
     Edge,
 }
 

@@ -108,7 +108,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
             Key::new(
                 "slab",
                 "STIP-4",
-                "How far from the tangent plane through the voxel's centre points may lie.",
+                "How far from the tangent plane through the voxel's centre points that do not snap may lie.",
                 &Slot {
                     kind: Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
                     get: |s: &Stipples| Some(s.slab),
@@ -147,7 +147,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                             ChoiceOption::new(
                                 "edge",
                                 Snap::Edge,
-                                "They move along the normal to the largest ‖∇V‖ within one voxel: no stairs on \
+                                "They lie where ‖∇V‖ is largest along the normal within one voxel: no stairs on \
                                  oblique faces.",
                             ),
                         ],
