@@ -49,6 +49,9 @@ fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> Sheet<'a> {
 #[divan::bench(sample_count = 10)]
 fn svg(bencher: Bencher) {
     let (marks, provenance) = (marks(), Provenance::default());
+    if let Ok(bytes) = encode_svg(&sheet(marks, &provenance)) {
+        println!("{:.2} MB", bytes.len() as f64 / 1e6);
+    }
     bencher.bench(|| encode_svg(&sheet(marks, &provenance)).map(|bytes| bytes.len()));
 }
 

@@ -342,7 +342,7 @@ impl<'v> Stencils<'v> {
         }
         if cell[1] == 0 || cell[1] + 2 >= ny {
             for plane in &mut b {
-                for i in 0..4 {
+                for i in [0, 1, 2, 3] {
                     let line = continued([plane[0][i], plane[1][i], plane[2][i], plane[3][i]], cell[1], ny);
                     (0..4).for_each(|j| plane[j][i] = line[j]);
                 }

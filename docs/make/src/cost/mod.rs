@@ -1,4 +1,4 @@
-//! `docs/cost.md`: what accuracy costs, measured by `drypoint cost` on two phantoms and three scans.
+//! `docs/cost.md`: what accuracy costs, measured by `drypoint cost` on two phantoms and four data sets.
 
 use crate::files;
 use drypoint::cost::{Form, Options, Sweep, markdown, sweep};
@@ -16,7 +16,7 @@ struct Measured {
     over: &'static [(&'static str, &'static str)],
 }
 
-const SCENES: [Measured; 5] = [
+const SCENES: [Measured; 7] = [
     Measured { name: "torus", file: "cost/torus.toml", over: &[] },
     Measured { name: "marschner-lobb", file: "cost/marschner-lobb.toml", over: &[] },
     Measured { name: "engine", file: "style_transfer_functions/engine.toml", over: &[("picture.size", "[144, 128]")] },
@@ -27,18 +27,33 @@ const SCENES: [Measured; 5] = [
         file: "style_transfer_functions/vessels.toml",
         over: &[("picture.size", "[144, 144]"), ("contours.kappa", "ray")],
     },
+    // A quarter of the points: N_max counts pixels.
+    Measured { name: "dots", file: "volume_stippling/figure_1_b.toml", over: &[("picture.size", "[430, 360]")] },
+    Measured { name: "strokes", file: "cost/strokes.toml", over: &[] },
 ];
 
 /// The most bytes of a picture in `docs`.
 const LARGEST: usize = 300_000;
 
-/// Measures all and writes the page and its plots.
+/// Measures all, or those that are named behind `cost`, and writes the page and its plots; what is not measured stays as the
+/// page has it.
 ///
 /// # Errors
-/// A scan that is not there, what the renderer or the system says, and a plot that is too large for a page.
+/// A name of none, a scan that is not there, what the renderer or the system says, and a plot that is too large for a page.
 pub(crate) fn write() -> Result<(), String> {
+    let only: Vec<String> = std::env::args().skip(2).collect();
+    if let Some(other) = only.iter().find(|only| SCENES.iter().all(|scene| scene.name != **only)) {
+        let names = SCENES.map(|scene| scene.name).join(", ");
+        return Err(format!("{other} is none of {names}"));
+    }
+    let place = files::in_docs("cost.md");
+    let before = std::fs::read_to_string(&place).map_err(|error| format!("{}: {error}", place.display()))?;
     let mut page = PAGE.to_owned();
     for Measured { name, file, over } in SCENES {
+        if !only.is_empty() && !only.iter().any(|only| only == name) {
+            page = page.replace(&format!("{{{name}}}"), table_of(&before, name)?);
+            continue;
+        }
         let found = measured(file, over)?;
         let plot = Form::Png.of_sweep(&found, name)?;
         if plot.len() > LARGEST {
@@ -55,6 +70,13 @@ fn measured(file: &str, over: &[(&str, &str)]) -> Result<Sweep, String> {
     let scene = load(&path, &over.iter().copied().collect::<Overrides>()).map_err(|e| e.to_string())?;
     let job = Job::load(scene).map_err(|e| e.to_string())?;
     sweep(&job, &Options { runs: RUNS, only: Vec::new() }, &|_| ()).map_err(|e| e.to_string())
+}
+
+/// The table under a plot, from its line of runs to its last row.
+fn table_of<'p>(page: &'p str, name: &str) -> Result<&'p str, String> {
+    let plot = format!("(pictures/cost/{name}.png)\n\n");
+    let table = page.split_once(&plot).and_then(|(_, rest)| rest.split_once("\n- **Preview**"));
+    table.map(|(table, _)| table).ok_or_else(|| format!("docs/cost.md has no table of {name}: measure it, too"))
 }
 
 /// How often each setting is timed.
