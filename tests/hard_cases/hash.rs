@@ -51,11 +51,12 @@ fn a_style_picture_with_contours() {
     assert_eq!(fnv(shown.bits()), 0x5447_60a7_de0c_5b82);
 }
 
-/// Parallel rays, whose steps are all half the reference length, in both number types.
+/// Parallel rays, whose steps are all half the reference length, in both number types. The hash of f64 is that of opacities
+/// corrected with a square root (2026-11-23); those of f32, rounded from f64 once, did not move.
 #[test]
 fn a_picture_of_half_steps() {
     let nodes = [(60.0, [0.6, 0.3, 0.1], 0.0), (128.0, [0.8, 0.6, 0.3], 0.4), (255.0, [1.0, 0.9, 0.8], 0.9)];
-    for (number, hash) in [(Number::F64, 0x2dbe_5d72_9499_6445), (Number::F32, 0x3e82_da39_4785_7ea4)] {
+    for (number, hash) in [(Number::F64, 0x88b0_f665_817a_ed6c), (Number::F32, 0x3e82_da39_4785_7ea4)] {
         let shot = Shot::regular(torus(), &nodes).with(|s| {
             s.camera.direction = DVec3::new(-0.6, 0.5, -0.7);
             s.picture.size = [48, 40];
