@@ -136,11 +136,13 @@ impl<R: Real> Piecewise<R> {
         let part = |part: usize| {
             // Part 1 begins at the first node.
             let edge = |n: f64| first + width * ((part as f64 - 1.0 + n) / PARTS as f64);
-            let (from, to) = (segment(edge(-1.0)), segment(edge(2.0).min(last)));
+            // Part 0 is all that lies before, however close its edges are to the first node.
+            let from = if part == 0 { 0 } else { segment(edge(-1.0)) };
+            let to = segment(edge(2.0).min(last));
             let reached = &opacity[from..=(to + 1).min(end)];
             if reached.iter().all(|&a| a == R::ZERO) {
                 Part::Invisible
-            } else if from == to && edge(-1.0) >= first && to < end {
+            } else if part > 0 && from == to && edge(-1.0) >= first && to < end {
                 Part::Segment(from as u32)
             } else {
                 Part::Search(from as u32)
@@ -265,6 +267,9 @@ pub(super) fn check<R: Real>(at: &[f64], opacity: &[f64]) -> Result<(), NodesErr
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::wide;
+    use fearless_simd::prelude::*;
+    use fearless_simd::{f64x8, mask64x8};
     use proptest::prelude::*;
 
     fn opaque(at: &[f64]) -> Piecewise<f64> {
@@ -385,6 +390,30 @@ mod tests {
             for s in [s, s.round()] {
                 let got = f.locate(s).map_or(0.0, |place| place.alpha_u);
                 prop_assert_eq!(got, opacity_of(&at, &opacity, s));
+            }
+        }
+
+        /// Nodes a few last places apart: the edges of parts fall together with the first node, before which the first
+        /// opacity holds all the same, and in lanes as alone.
+        #[test]
+        fn nodes_a_few_last_places_apart(
+            mut at in prop::collection::vec(0..3000u64, 1..5),
+            opacity in prop::collection::vec(prop_oneof![Just(0.0), 0.0..=1.0f64], 5),
+            first in prop_oneof![Just(100.0f64), Just(1e6), 1.0..2.0f64],
+            s in 0..3000u64,
+            below in prop_oneof![Just(f64::NEG_INFINITY), Just(-90.0), Just(0.0)],
+        ) {
+            at.sort_unstable();
+            let up = |ulps: u64| f64::from_bits(first.to_bits() + ulps);
+            let at: Vec<f64> = at.into_iter().map(up).collect();
+            let f = Piecewise::new(&at, &opacity[..at.len()]).unwrap();
+            for s in [up(s), at[0].next_down(), at[0].next_down().next_down(), below, f64::NAN, f64::INFINITY] {
+                let want = opacity_of(&at, &opacity, s);
+                prop_assert_eq!(f.locate(s).map_or(0.0, |place| place.alpha_u), want, "{}", s);
+                if let Some(simd) = wide() {
+                    let lanes = f.locate_lanes(f64x8::splat(simd, s), mask64x8::splat(simd, true));
+                    prop_assert_eq!(lanes.map_or(0.0, |places| places.alpha_u[5]), want, "{} in lanes", s);
+                }
             }
         }
 
