@@ -3,18 +3,25 @@
 use super::generator::{resized, scene};
 use crate::common::{Shot, Shown};
 use drypoint::scene::tables::{
-    BlendSpace, GradientEstimator, HessianEstimator, Kappa, Kernel, NormalSide, Number, ShadingModel, StepAlong, Table,
-    TransferKind,
+    BlendSpace, GradientEstimator, HessianEstimator, Kappa, Kernel, NormalSide, Number, Sampling, ShadingModel,
+    StepAlong, Table, TransferKind,
 };
+use std::collections::BTreeMap;
+
+/// A random scene made into such as lanes serve with the trilinear kernel.
+fn trilinear(seed: u64) -> Shot {
+    shot(seed, |sampling| {
+        sampling.kernel = Kernel::Trilinear;
+        sampling.gradient = if seed.is_multiple_of(3) { GradientEstimator::Sobel } else { GradientEstimator::Central };
+        sampling.hessian = HessianEstimator::Auto;
+    })
+}
 
 /// A random scene made into such as lanes serve, with all else as it came: cameras, steps, spacings, stored types, slopes,
 /// functions with steps and empty stretches, materials, sides of normals, ends of rays. The picture is no multiple of a block.
-fn shot(seed: u64) -> Shot {
+fn shot(seed: u64, sampled: impl Fn(&mut Sampling)) -> Shot {
     let shot = scene(seed).with(|s| {
-        s.sampling.kernel = Kernel::Trilinear;
-        s.sampling.gradient =
-            if seed.is_multiple_of(3) { GradientEstimator::Sobel } else { GradientEstimator::Central };
-        s.sampling.hessian = HessianEstimator::Auto;
+        sampled(&mut s.sampling);
         s.sampling.number = Number::F64;
         s.picture.layers = Vec::new();
         s.picture.blend_space = BlendSpace::Linear;
@@ -25,9 +32,6 @@ fn shot(seed: u64) -> Shot {
             (shading.model, shading.silhouette, shading.view_opacity) = (ShadingModel::Phong, None, 0.0);
         }
         match (&mut s.contours, s.transfer.as_ref().map(|t| t.kind)) {
-            (Some(contours), Some(TransferKind::Style)) if contours.kappa == Kappa::Exact => {
-                contours.kappa = Kappa::Ray
-            }
             (_, Some(TransferKind::Style)) => {}
             (contours, _) => *contours = None,
         }
@@ -48,7 +52,7 @@ fn compared(seed: u64, shot: &Shot) -> Option<Shown> {
     assert_eq!(together.bits(), alone.bits(), "seed {seed}: {:?}", shot.scene);
     let counts = |s: &Shown| {
         let c = &s.counts;
-        (c.samples, c.gradients, c.style_lookups, c.without_normal, c.rays, c.rays_skipped, c.masked)
+        (c.samples, c.gradients, c.hessians, c.style_lookups, c.without_normal, c.rays, c.rays_skipped, c.masked)
     };
     assert_eq!(counts(&together), counts(&alone), "seed {seed}: {:?}", shot.scene);
     Some(together)
@@ -63,7 +67,7 @@ fn narrow() -> bool {
 fn lanes_show_nowhere() {
     let (mut in_lanes, mut shaded, mut ended, mut along_rays) = (0, 0, 0, 0);
     for seed in 5000..6500 {
-        let shot = shot(seed);
+        let shot = trilinear(seed);
         if shot.scene.transfer.as_ref().is_none_or(|t| t.kind != TransferKind::Regular) {
             continue;
         }
@@ -80,9 +84,9 @@ fn lanes_show_nowhere() {
 #[test]
 fn nor_with_styles() {
     let (mut styled, mut in_lanes, mut shown, mut mixed, mut curved, mut constant) = (0, 0, 0, 0, 0, 0);
-    let (mut facing, mut sobel, mut without) = (0, 0, 0);
+    let (mut facing, mut sobel, mut without, mut exact) = (0, 0, 0, 0);
     for seed in 5000..6500 {
-        let shot = shot(seed);
+        let shot = trilinear(seed);
         if shot.scene.transfer.as_ref().is_none_or(|t| t.kind != TransferKind::Style) {
             continue;
         }
@@ -99,16 +103,62 @@ fn nor_with_styles() {
         mixed += usize::from(kappa.is_none() && counts.style_lookups > counts.gradients);
         curved += usize::from(kappa == Some(Kappa::Ray) && counts.gradients > 0);
         constant += usize::from(matches!(kappa, Some(Kappa::None { .. })));
+        exact += usize::from(counts.hessians > 0);
         facing += usize::from(scene.sampling.normal == NormalSide::Facing);
         sobel += usize::from(scene.sampling.gradient == GradientEstimator::Sobel);
         without += usize::from(counts.without_normal > 0);
     }
     println!(
         "{in_lanes} of {styled} scenes of styles in lanes; of {shown} that show something {mixed} mix styles, {curved} have \
-         contours by curvature, {constant} by a threshold, {facing} facing normals, {sobel} Sobel's, {without} samples \
+         contours by curvature, {exact} by Hessians, {constant} by a threshold, {facing} facing normals, {sobel} Sobel's, {without} samples \
          without a normal"
     );
-    let enough =
-        [in_lanes > 100, shown > 60, mixed > 10, curved > 20, constant > 5, facing > 10, sobel > 20, without > 10];
+    let enough = [
+        in_lanes > 100,
+        shown > 60,
+        mixed > 10,
+        curved > 20,
+        constant > 5,
+        facing > 10,
+        sobel > 20,
+        without > 10,
+        exact > 5,
+    ];
     assert!(narrow() || enough.iter().all(|&e| e), "{enough:?}");
+}
+
+/// Values of more than eight voxels are asked for one by one, in cells that can show something alone.
+#[test]
+fn nor_with_other_kernels() {
+    let (mut kernels, mut estimators) = (BTreeMap::new(), BTreeMap::new());
+    let (mut skipped, mut ended, mut styled, mut exact, mut short) = (0, 0, 0, 0, 0);
+    for seed in 5000..6500 {
+        let shot = shot(seed, |_| ());
+        let sampling = &shot.scene.sampling;
+        if sampling.kernel == Kernel::Trilinear {
+            continue;
+        }
+        let Some(together) = compared(seed, &shot) else { continue };
+        let counts = &together.counts;
+        if counts.samples == 0 {
+            continue;
+        }
+        *kernels.entry(format!("{:?}", sampling.kernel)).or_insert(0) += 1;
+        if counts.gradients > 0 {
+            *estimators.entry(format!("{:?}", sampling.gradient)).or_insert(0) += 1;
+        }
+        skipped += usize::from(counts.bytes.contains_key("cells"));
+        ended += usize::from(together.pixels().iter().any(|p| p[3] >= 1.0) && shot.scene.picture.samples == 1);
+        styled += usize::from(counts.style_lookups > 0);
+        exact += usize::from(counts.hessians > 0);
+        short += usize::from(shot.volume.dims().iter().any(|&n| n < 4));
+    }
+    println!(
+        "{kernels:?}, {estimators:?}, {skipped} skip cells, {ended} have rays that end, {styled} styles, {exact} Hessians, \
+         {short} short axes"
+    );
+    let enough = [skipped > 40, ended > 15, styled > 20, exact > 5, short > 3];
+    let all =
+        kernels.len() == 4 && estimators.len() == 4 && kernels.values().chain(estimators.values()).all(|&n| n > 5);
+    assert!(narrow() || (all && enough.iter().all(|&e| e)), "{kernels:?} {estimators:?} {enough:?}");
 }

@@ -7,7 +7,9 @@
 //! there is no surface, and the caller does not ask.
 
 use super::Outside;
-use crate::number::{Real, Sym3, Vec3};
+use crate::number::{Arithmetic, Real, Sym3, Vec3};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8};
 
 /// Principal curvatures, in 1/(world unit), and their directions, orthonormal in the tangent plane; each direction is a
 /// line, its sign means nothing.
@@ -44,10 +46,10 @@ struct Shape<R> {
     scale: R,
 }
 
-impl<R: Real> Shape<R> {
+impl<R: Arithmetic> Shape<R> {
     #[inline(always)]
-    fn new(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside) -> Self {
-        let inverse = R::ONE / gradient.length();
+    fn new(one: R, gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside) -> Self {
+        let inverse = one / gradient.length();
         let scale = match outside {
             Outside::Low => -inverse,
             Outside::High => inverse,
@@ -61,6 +63,18 @@ impl<R: Real> Shape<R> {
         self.scale * self.hessian.form(a, b)
     }
 
+    /// tᵀ G t in the direction t = Pv/‖Pv‖, and ‖Pv‖.
+    #[inline(always)]
+    fn along(&self, one: R, v: Vec3<R>) -> (R, R) {
+        // n × (v × n) is Pv without the cancellation of v − n(n·v).
+        let across = v.cross(self.n);
+        let length = across.length();
+        let t = self.n.cross(across) * (one / length);
+        (self.form(t, t), length)
+    }
+}
+
+impl<R: Real> Shape<R> {
     /// An orthonormal tangent frame, t × u = n, without a square root (Duff et al., *Building an Orthonormal Basis,
     /// Revisited*, JCGT 6(1), 2017).
     #[inline(always)]
@@ -85,7 +99,7 @@ impl<R: Real> Shape<R> {
 /// difference of the two keeps them. At an exact umbilic the directions are some frame.
 #[inline]
 pub fn principal<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside) -> Curvature<R> {
-    let shape = Shape::new(gradient, hessian, outside);
+    let shape = Shape::new(R::ONE, gradient, hessian, outside);
     let [t, u] = shape.frame();
     let [a, b, c] = shape.block([t, u]);
     let (m, h) = ((a + c) * R::HALF, (a - c) * R::HALF);
@@ -101,16 +115,39 @@ pub fn principal<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside)
 /// the mean curvature where the projection is lost to rounding, ‖Pv‖ ≤ 2⁻²⁶ ([CUR-2]).
 #[inline]
 pub fn along_view<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, v: Vec3<R>, outside: Outside) -> R {
-    let shape = Shape::new(gradient, hessian, outside);
-    // n × (v × n) is Pv without the cancellation of v − n(n·v).
-    let across = v.cross(shape.n);
-    let length = across.length();
+    let shape = Shape::new(R::ONE, gradient, hessian, outside);
+    let (kappa, length) = shape.along(R::ONE, v);
     if length <= R::NO_DIRECTION {
         let [a, _, c] = shape.block(shape.frame());
         return (a + c) * R::HALF;
     }
-    let t = shape.n.cross(across) * (R::ONE / length);
-    shape.form(t, t)
+    kappa
+}
+
+/// [`along_view`] in lanes; 0 in those that have no direction to look along, whose gradient is at most `no_normal_below`.
+#[inline(always)]
+pub(crate) fn along_view_lanes<S: Simd>(
+    g: Vec3<f64x8<S>>,
+    h: Sym3<f64x8<S>>,
+    v: Vec3<f64x8<S>>,
+    outside: Outside,
+    no_normal_below: f64,
+) -> f64x8<S> {
+    let simd = g.x.simd;
+    let has = g.length().simd_gt(no_normal_below);
+    let one = f64x8::splat(simd, 1.0);
+    let (kappa, length) = Shape::new(one, g, h, outside).along(one, v);
+    let mut kappa = has.select(kappa, f64x8::splat(simd, 0.0));
+    let mut along_normal = (has & length.simd_le(f64::NO_DIRECTION)).to_bitmask();
+    while along_normal != 0 {
+        let lane = along_normal.trailing_zeros() as usize;
+        along_normal &= along_normal - 1;
+        let vector = |a: Vec3<f64x8<S>>| Vec3::new(a.x[lane], a.y[lane], a.z[lane]);
+        let Sym3 { xx, xy, xz, yy, yz, zz } = h;
+        let h = Sym3 { xx: xx[lane], xy: xy[lane], xz: xz[lane], yy: yy[lane], yz: yz[lane], zz: zz[lane] };
+        kappa[lane] = along_view(vector(g), h, vector(v), outside);
+    }
+    kappa
 }
 
 #[cfg(test)]

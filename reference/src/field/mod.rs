@@ -259,12 +259,23 @@ impl<'v, R: Real> Field<'v, R> {
     /// The sampler of the field's kernel.
     pub fn sampler(&self) -> AnySampler<'_, 'v, R> {
         match &self.kernel {
-            KernelData::Trilinear => AnySampler::Trilinear(Sampled::new(self, Trilinear)),
+            KernelData::Trilinear => AnySampler::Trilinear(self.trilinear()),
             KernelData::Bspline(c) => AnySampler::Bspline(Sampled::new(self, Bspline(c))),
             KernelData::BsplineSmooth => AnySampler::BsplineSmooth(Sampled::new(self, BsplineSmooth)),
             KernelData::Bspline5(c) => AnySampler::Bspline5(Sampled::new(self, Bspline5(c))),
             KernelData::CatmullRom => AnySampler::CatmullRom(Sampled::new(self, CatmullRom)),
         }
+    }
+
+    /// [`Sampler::has_one_gradient`].
+    #[inline(always)]
+    pub(crate) fn has_one_gradient(&self) -> bool {
+        self.how.gradient == GradientEstimator::Analytic && matches!(self.second, Second::Analytic)
+    }
+
+    /// The trilinear sampler, whatever the field's kernel.
+    pub(crate) fn trilinear(&self) -> Sampled<'_, 'v, R, Trilinear> {
+        Sampled::new(self, Trilinear)
     }
 
     /// The cell of a position in index space, inside the box of [SPACE-1]: the same for every kernel.

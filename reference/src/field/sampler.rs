@@ -135,6 +135,63 @@ impl<'f, 'v, R: Real, K> Sampled<'f, 'v, R, K> {
     }
 }
 
+impl<R: Real> Field<'_, R> {
+    /// The gradient of the numbers along the index axes by an estimator that is the same for every kernel.
+    #[inline(always)]
+    pub(super) fn estimated_gradient(&self, at: Place<R>) -> Vec3<R> {
+        match (self.how.gradient, &self.regression) {
+            (GradientEstimator::Sobel, _) => gradient::sobel::gradient(self, at),
+            (GradientEstimator::Regression, Some(regression)) => regression.gradient(self, at),
+            (GradientEstimator::Regression, None) => {
+                panic!("a field prepared without Rung::Gradient was asked for a gradient")
+            }
+            _ => gradient::central::gradient(self, at),
+        }
+    }
+
+    /// Gradient and Hessian of the numbers along the index axes by an estimator that is the same for every kernel.
+    #[inline(always)]
+    pub(super) fn estimated_second(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+        match &self.second {
+            Second::Gaussian(coefficients) => coefficients.cubic_derivatives(at),
+            Second::NotPrepared => panic!("a field prepared without Rung::Hessian was asked for a Hessian"),
+            _ => (gradient::central::gradient(self, at), hessian::central::hessian(self, at)),
+        }
+    }
+}
+
+/// The number at a place, before slope and intercept.
+#[inline(always)]
+pub(super) fn number<R: Real, K: Interpolant<R>>(sampled: &Sampled<'_, '_, R, K>, at: Place<R>) -> R {
+    sampled.kernel.value(sampled.field, at)
+}
+
+/// The gradient of the numbers along the index axes; by an estimator that is the same for every kernel, as `estimated` says.
+#[inline(always)]
+pub(super) fn index_gradient<'f, 'v, R: Real, K: Interpolant<R>>(
+    sampled: &Sampled<'f, 'v, R, K>,
+    at: Place<R>,
+    estimated: impl Fn(&'f Field<'v, R>, Place<R>) -> Vec3<R>,
+) -> Vec3<R> {
+    match sampled.field.how.gradient {
+        GradientEstimator::Analytic => sampled.kernel.gradient(sampled.field, at),
+        _ => estimated(sampled.field, at),
+    }
+}
+
+/// Gradient and Hessian of the numbers along the index axes, likewise.
+#[inline(always)]
+pub(super) fn index_second<'f, 'v, R: Real, K: Interpolant<R>>(
+    sampled: &Sampled<'f, 'v, R, K>,
+    at: Place<R>,
+    estimated: impl Fn(&'f Field<'v, R>, Place<R>) -> (Vec3<R>, Sym3<R>),
+) -> (Vec3<R>, Sym3<R>) {
+    match sampled.field.second {
+        Second::Analytic => sampled.kernel.second(sampled.field, at),
+        _ => estimated(sampled.field, at),
+    }
+}
+
 impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
     #[inline(always)]
     fn place(&self, p: Vec3<R>) -> Place<R> {
@@ -143,7 +200,7 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
 
     #[inline(always)]
     fn value_at(&self, at: Place<R>) -> R {
-        self.field.to_value(self.kernel.value(self.field, at))
+        self.field.to_value(number(self, at))
     }
 
     const AT_ONCE: usize = K::AT_ONCE;
@@ -158,17 +215,7 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
 
     #[inline(always)]
     fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
-        let field = self.field;
-        let index = match (field.how.gradient, &field.regression) {
-            (GradientEstimator::Central, _) => gradient::central::gradient(field, at),
-            (GradientEstimator::Analytic, _) => self.kernel.gradient(field, at),
-            (GradientEstimator::Sobel, _) => gradient::sobel::gradient(field, at),
-            (GradientEstimator::Regression, Some(regression)) => regression.gradient(field, at),
-            (GradientEstimator::Regression, None) => {
-                panic!("a field prepared without Rung::Gradient was asked for a gradient")
-            }
-        };
-        field.to_world.apply(index)
+        self.field.to_world.apply(index_gradient(self, at, Field::estimated_gradient))
     }
 
     #[inline(always)]
@@ -188,19 +235,13 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
 
     #[inline(always)]
     fn has_one_gradient(&self) -> bool {
-        self.field.how.gradient == GradientEstimator::Analytic && matches!(self.field.second, Second::Analytic)
+        self.field.has_one_gradient()
     }
 
     #[inline]
     fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
-        let field = self.field;
-        let (gradient, hessian) = match &field.second {
-            Second::Analytic => self.kernel.second(field, at),
-            Second::Central => (gradient::central::gradient(field, at), hessian::central::hessian(field, at)),
-            Second::Gaussian(coefficients) => coefficients.cubic_derivatives(at),
-            Second::NotPrepared => panic!("a field prepared without Rung::Hessian was asked for a Hessian"),
-        };
-        (field.to_world.apply(gradient), field.to_world_hessian(hessian))
+        let (gradient, hessian) = index_second(self, at, Field::estimated_second);
+        (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
     }
 }
 

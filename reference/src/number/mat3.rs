@@ -16,20 +16,20 @@ impl<R: Arithmetic> Mat3<R> {
     pub fn apply(&self, v: Vec3<R>) -> Vec3<R> {
         Vec3::new(self.rows[0].dot(v), self.rows[1].dot(v), self.rows[2].dot(v))
     }
+
+    /// M S Mᵀ for a symmetric S.
+    #[inline(always)]
+    pub fn congruence(&self, s: Sym3<R>) -> Sym3<R> {
+        let [a, b, c] = self.rows;
+        let (sb, sc) = (s.apply(b), s.apply(c));
+        Sym3 { xx: s.form(a, a), xy: a.dot(sb), xz: a.dot(sc), yy: b.dot(sb), yz: b.dot(sc), zz: c.dot(sc) }
+    }
 }
 
 impl<R: Real> Mat3<R> {
     /// Rounded from glam's.
     pub fn from_glam(m: DMat3) -> Self {
         Self { rows: [0, 1, 2].map(|i| Vec3::from_glam(m.row(i))) }
-    }
-
-    /// M S Mᵀ for a symmetric S.
-    #[inline]
-    pub fn congruence(&self, s: Sym3<R>) -> Sym3<R> {
-        let [a, b, c] = self.rows;
-        let (sb, sc) = (s.apply(b), s.apply(c));
-        Sym3 { xx: s.form(a, a), xy: a.dot(sb), xz: a.dot(sc), yy: b.dot(sb), yz: b.dot(sc), zz: c.dot(sc) }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Symmetric 3×3 matrices: Hessians and shape operators.
 
-use super::{Real, Vec3};
+use super::{Arithmetic, Vec3};
 
 /// A symmetric matrix by its six entries.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Sym3<R> {
     pub zz: R,
 }
 
-impl<R: Real> Sym3<R> {
+impl<R: Arithmetic> Sym3<R> {
     /// M v.
     #[inline(always)]
     pub fn apply(self, v: Vec3<R>) -> Vec3<R> {

@@ -18,9 +18,9 @@ const FEW: u32 = 2;
 const FEW_SOBEL: u32 = 5;
 
 impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
-    /// World gradients, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    /// [`Reader::gradients`](super::Reader::gradients).
     #[inline(always)]
-    pub(crate) fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>> {
+    pub(super) fn differences(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>> {
         let inner = self.field.stencils.inner().map(|n| n as f64);
         let cell = at.cell;
         let inside = cell.x.simd_ge(1.0)

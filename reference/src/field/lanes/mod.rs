@@ -2,16 +2,21 @@
 //!
 //! Trilinear values, central differences and Sobel's operator of small whole numbers, which is what scanners store: the formulas are those of
 //! one position, over lanes, so that the bits are the same. Voxels are fetched one lane after the other, whole rows at a
-//! time, and taken apart in lanes.
+//! time, and taken apart in lanes. Other kernels are asked for one position [after the other](each).
 
+mod each;
 mod gradient;
 
+use self::each::seconds;
+pub(crate) use self::each::{Each, EachReader};
+
 use super::kernel::trilinear;
+use super::place::Place;
 use super::{Field, GradientEstimator, KernelData};
-use crate::number::{Mat3, Vec3};
-use drypoint_scene::volume::{Access, Linear, Voxel};
+use crate::number::{Mat3, Sym3, Vec3};
+use drypoint_scene::volume::{Access, Linear, Voxel, Voxels};
 use fearless_simd::prelude::*;
-use fearless_simd::{Bytes, Simd, f64x4, f64x8, u64x4, u64x8};
+use fearless_simd::{Bytes, Simd, f64x4, f64x8, mask64x8, u64x4, u64x8};
 
 pub(crate) use crate::number::lanes::LANES;
 
@@ -143,6 +148,59 @@ impl<S: Simd> Places<S> {
     pub(crate) fn from_columns([x, y, z, wx, wy, wz]: [f64x8<S>; 6]) -> Self {
         Self { cell: Vec3::new(x, y, z), w: [wx, wy, wz] }
     }
+
+    /// One by one.
+    #[inline(always)]
+    pub(crate) fn alone(&self) -> Alone {
+        let [wx, wy, wz] = self.w;
+        Alone {
+            cell: [whole(self.cell.x), whole(self.cell.y), whole(self.cell.z)],
+            w: [wx.into(), wy.into(), wz.into()],
+        }
+    }
+}
+
+/// [`Places`], to be taken one by one.
+pub(crate) struct Alone {
+    cell: [[usize; LANES]; 3],
+    w: [[f64; LANES]; 3],
+}
+
+impl Alone {
+    /// The cell of a lane.
+    #[inline(always)]
+    pub(crate) fn cell(&self, lane: usize) -> [usize; 3] {
+        let [x, y, z] = &self.cell;
+        [x[lane], y[lane], z[lane]]
+    }
+
+    /// The place of a lane.
+    #[inline(always)]
+    fn place(&self, lane: usize) -> Place<f64> {
+        let [wx, wy, wz] = &self.w;
+        Place { cell: self.cell(lane), w: [wx[lane], wy[lane], wz[lane]] }
+    }
+}
+
+/// Gradients and Hessians of one field, as [`Sampler::hessian_at`](super::Sampler::hessian_at).
+pub(crate) type Seconds<S> = (Vec3<f64x8<S>>, Sym3<f64x8<S>>);
+
+/// Reads a field in lanes.
+pub(crate) trait Reader<S: Simd>: Copy {
+    /// Whether a value is dear: only those are asked for then that may be seen in their cells.
+    const DEAR: bool;
+
+    /// The places of positions inside the box; of others the nearest cell, and ways that lead out of it.
+    fn places(&self, p: Vec3<f64x8<S>>) -> Places<S>;
+
+    /// The values at places, of the lanes `asked` at least.
+    fn values(&self, at: &Places<S>, asked: mask64x8<S>) -> f64x8<S>;
+
+    /// World gradients, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>>;
+
+    /// World gradients and Hessians, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    fn seconds(&self, at: &Places<S>, asked: mask64x8<S>) -> Seconds<S>;
 }
 
 /// Whole numbers in [0, 2⁵²) as indices.
@@ -156,7 +214,35 @@ pub(crate) fn whole<S: Simd>(x: f64x8<S>) -> [usize; LANES] {
     whole
 }
 
-/// Reads a field in lanes.
+/// The places of positions, as [`Reader::places`].
+#[inline(always)]
+fn places<S: Simd>(simd: S, field: &Field<'_, f64>, p: Vec3<f64x8<S>>) -> Places<S> {
+    let [x, y, z] = field.cells.last();
+    let (x, y, z) = (along(simd, p.x, x), along(simd, p.y, y), along(simd, p.z, z));
+    Places { cell: Vec3::new(x.0, y.0, z.0), w: [x.1, y.1, z.1] }
+}
+
+/// The cell of a coordinate and the way into it.
+#[inline(always)]
+fn along<S: Simd>(simd: S, x: f64x8<S>, last: f64) -> (f64x8<S>, f64x8<S>) {
+    let zero = f64x8::splat(simd, 0.0);
+    let cell = x.max(zero).min(f64x8::splat(simd, last)).floor();
+    (cell, x - cell)
+}
+
+/// One matrix in all lanes.
+#[inline(always)]
+fn splat<S: Simd>(simd: S, m: &Mat3<f64>) -> Mat3<f64x8<S>> {
+    let zero = f64x8::splat(simd, 0.0);
+    let mut rows = [Vec3::new(zero, zero, zero); 3];
+    for (row, r) in rows.iter_mut().zip(&m.rows) {
+        *row = Vec3::new(f64x8::splat(simd, r.x), f64x8::splat(simd, r.y), f64x8::splat(simd, r.z));
+    }
+    Mat3 { rows }
+}
+
+/// Reads small whole numbers that are interpolated trilinearly.
+#[derive(Clone, Copy)]
 pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
     simd: S,
     field: &'f Field<'v, f64>,
@@ -165,47 +251,30 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
 }
 
 impl Field<'_, f64> {
-    /// Whether [`LaneReader`] reads this field, its gradients too if they are asked for: the trilinear kernel, central
-    /// differences or Sobel's operator, at least four voxels on each axis, numbers read as they are stored. The type is the
-    /// caller's to match.
+    /// Whether a [`Reader`] reads this field, its gradients too if they are asked for: whole numbers, read as they are stored.
+    /// [`LaneReader`] reads the trilinear kernel: numbers of at most 16 bits, central differences or Sobel's operator, at
+    /// least four voxels on each axis.
     pub(crate) fn fits_lanes(&self, gradient: bool) -> bool {
+        if self.stencils.careful() || !self.volume.voxels().voxel_type().is_integer() {
+            return false;
+        }
         let estimator = matches!(self.how.gradient, GradientEstimator::Central | GradientEstimator::Sobel);
-        matches!(self.kernel, KernelData::Trilinear)
-            && (estimator || !gradient)
-            && !self.stencils.careful()
-            && self.stencils.dims().iter().all(|&n| n >= 4)
+        let small = matches!(self.volume.voxels(), Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_));
+        !matches!(self.kernel, KernelData::Trilinear)
+            || (estimator || !gradient) && small && self.stencils.dims().iter().all(|&n| n >= 4)
     }
 }
 
-impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
-    /// For a field that [`fits_lanes`](Field::fits_lanes) and its voxels.
+impl<S: Simd, V: Packed> Reader<S> for LaneReader<'_, '_, S, V> {
+    const DEAR: bool = false;
+
     #[inline(always)]
-    pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, voxels: &'f [V]) -> Self {
-        let splat = |x| f64x8::splat(simd, x);
-        let row = |r: Vec3<f64>| Vec3::new(splat(r.x), splat(r.y), splat(r.z));
-        let to_world = Mat3 { rows: field.to_world.rows.map(row) };
-        Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), to_world }
+    fn places(&self, p: Vec3<f64x8<S>>) -> Places<S> {
+        places(self.simd, self.field, p)
     }
 
-    /// The places of positions inside the box; of others the nearest cell, and ways that lead out of it.
     #[inline(always)]
-    pub(crate) fn places(&self, p: Vec3<f64x8<S>>) -> Places<S> {
-        let [x, y, z] = self.field.cells.last();
-        let (x, y, z) = (self.along(p.x, x), self.along(p.y, y), self.along(p.z, z));
-        Places { cell: Vec3::new(x.0, y.0, z.0), w: [x.1, y.1, z.1] }
-    }
-
-    /// The cell of a coordinate and the way into it.
-    #[inline(always)]
-    fn along(&self, x: f64x8<S>, last: f64) -> (f64x8<S>, f64x8<S>) {
-        let zero = f64x8::splat(self.simd, 0.0);
-        let cell = x.max(zero).min(f64x8::splat(self.simd, last)).floor();
-        (cell, x - cell)
-    }
-
-    /// The values at places.
-    #[inline(always)]
-    pub(crate) fn values(&self, at: &Places<S>) -> f64x8<S> {
+    fn values(&self, at: &Places<S>, _: mask64x8<S>) -> f64x8<S> {
         let start = self.offsets(at.cell);
         let v = self.windows::<2>(start);
         let [[a, b, c, d], [e, f, g, h]] =
@@ -214,6 +283,25 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         let along_x = [self.between(a, b, wx), self.between(c, d, wx), self.between(e, f, wx), self.between(g, h, wx)];
         let read = trilinear::bilinear(along_x, wy, wz);
         read * self.field.slope + self.field.intercept
+    }
+
+    #[inline(always)]
+    fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>> {
+        self.differences(at, asked)
+    }
+
+    #[inline(always)]
+    fn seconds(&self, at: &Places<S>, asked: mask64x8<S>) -> Seconds<S> {
+        seconds(self.simd, self.field, &self.field.trilinear(), at, asked)
+    }
+}
+
+impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
+    /// For a field that [`fits_lanes`](Field::fits_lanes) and its voxels.
+    #[inline(always)]
+    pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, voxels: &'f [V]) -> Self {
+        let to_world = splat(simd, &field.to_world);
+        Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), to_world }
     }
 
     /// The windows of side `N` that begin at some places in the order of voxels.

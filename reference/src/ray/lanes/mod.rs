@@ -17,14 +17,15 @@ mod walk;
 use self::phong::{Shaded, Unshaded};
 use self::rays::Rays;
 use self::waiting::cast_waiting;
-use self::walk::Walk;
+use self::walk::{Asked, Walk};
 use super::cast::Cast;
 use super::lattice::IndexRay;
 use super::need::Needs;
 use super::prepared::{Calls, KappaSource, Prepared};
 use super::sample::Look;
 use super::skip::{Boxes, merge};
-use crate::field::lanes::{LANES, Packed};
+use crate::field::AnySampler;
+use crate::field::lanes::{Each, EachReader, LANES, LaneReader, Packed, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, wide};
 use drypoint_scene::counts::Counts;
@@ -46,15 +47,14 @@ pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
         && prepared.volume.mask().is_none()
         && prepared.surface.is_none()
         && prepared.field.fits_lanes(shaded)
-        && matches!(prepared.volume.voxels(), Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_))
 }
 
-/// Whether a scene is one of styles over the value, without mip-maps, and with contours that no Hessian is asked for.
+/// Whether a scene is one of styles over the value, without mip-maps.
 fn is_in_style(prepared: &Prepared<'_, f64>) -> bool {
-    let calls = Calls { kappa: KappaSource::None, ..prepared.calls };
+    let calls = Calls { kappa: KappaSource::None, hessian: false, ..prepared.calls };
     matches!(&prepared.look, Look::Style(styled) if styled.detail.is_none())
         && calls == Calls::NORMAL
-        && prepared.calls.kappa != KappaSource::Exact
+        && prepared.calls.hessian == (prepared.calls.kappa == KappaSource::Exact)
         && prepared.first.is_none()
         && prepared.over_two.is_none()
         && prepared.table.is_none()
@@ -79,6 +79,8 @@ pub(super) fn cast_all(
     let inside = boxes.as_ref().is_some_and(|boxes| boxes.are_inside(prepared.ends.map(Vec3::to_glam)));
     let boxes = boxes.as_deref().map(|boxes| (boxes, inside));
     let mut intervals = Default::default();
+    let sampler = prepared.field.sampler();
+    let dear = !matches!(sampler, AnySampler::Trilinear(_));
     let at_once = if matches!(prepared.look, Look::Style(_)) { RAYS } else { LANES };
     let mut packets = Vec::with_capacity(at_once / LANES);
     packets.resize_with(at_once.min(points.len()).div_ceil(LANES), || Packet::new(prepared));
@@ -94,16 +96,19 @@ pub(super) fn cast_all(
                 },
             );
         }
-        match prepared.volume.voxels() {
-            Voxels::U8(data) => run(prepared, packets, data, counts),
-            Voxels::I8(data) => run(prepared, packets, data, counts),
-            Voxels::U16(data) => run(prepared, packets, data, counts),
-            Voxels::I16(data) => run(prepared, packets, data, counts),
-            _ => unreachable!("lanes serve 8 and 16 bits alone"),
+        match &sampler {
+            AnySampler::Trilinear(_) => match prepared.volume.voxels() {
+                Voxels::U8(data) => run(prepared, packets, data, counts),
+                Voxels::I8(data) => run(prepared, packets, data, counts),
+                Voxels::U16(data) => run(prepared, packets, data, counts),
+                Voxels::I16(data) => run(prepared, packets, data, counts),
+                _ => unreachable!("lanes serve trilinear numbers of 8 and 16 bits alone"),
+            },
+            dear => run_each(prepared, packets, dear.each(), counts),
         }
         for (packet, points) in packets.iter().zip(points.chunks(LANES)) {
             for lane in 0..points.len() {
-                let samples = packet.samples(lane);
+                let samples = packet.samples(lane, dear);
                 counts.rays += 1;
                 counts.rays_skipped += u64::from(samples == 0);
                 counts.samples += samples;
@@ -113,29 +118,39 @@ pub(super) fn cast_all(
     }
 }
 
-/// Casts the rays of packets.
+/// Casts the rays of packets through small whole numbers.
 fn run<V: Packed>(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], data: &[V], counts: &mut Counts) {
     if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
         simd.vectorize(
             #[inline(always)]
-            || walk(simd, prepared, packets, data, counts),
+            || walk(simd, prepared, packets, LaneReader::new(simd, &prepared.field, data), counts),
+        );
+    }
+}
+
+/// Casts the rays of packets through a field that is asked for one position after the other.
+fn run_each(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], each: &dyn Each, counts: &mut Counts) {
+    if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
+        simd.vectorize(
+            #[inline(always)]
+            || walk(simd, prepared, packets, EachReader::new(simd, &prepared.field, each), counts),
         );
     }
 }
 
 #[inline(always)]
-fn walk<S: Simd, V: Packed>(
+fn walk<S: Simd, F: Reader<S>>(
     simd: S,
     prepared: &Prepared<'_, f64>,
     packets: &mut [Packet<'_, '_>],
-    data: &[V],
+    reader: F,
     counts: &mut Counts,
 ) {
     if let Look::Style(styled) = &prepared.look {
-        return cast_waiting(simd, packets, styled, data, counts);
+        return cast_waiting(simd, packets, styled, reader, counts);
     }
     for packet in packets {
-        let walk = Walk::new(simd, packet, data);
+        let walk = Walk::new(simd, packet, reader);
         match &prepared.look {
             Look::Regular { colors, phong: Some(phong) } if prepared.needs == Needs::Normal => {
                 walk.run(packet, &mut Shaded::new(simd, packet, colors, phong), counts);
@@ -180,6 +195,8 @@ struct Packet<'p, 'v> {
     together: Vec<[i64; 2]>,
     /// First and last sample of each ray, and after the walk the one where it ended.
     ends: [Column; 2],
+    /// Where values are dear, the planes for which some were asked for.
+    asked: Vec<Asked>,
     rgba: [[f64; 4]; LANES],
 }
 
@@ -200,6 +217,7 @@ impl<'p, 'v> Packet<'p, 'v> {
             of_ray: [[0; 2]; LANES],
             together: Vec::with_capacity(4 * LANES),
             ends: [none; 2],
+            asked: Vec::new(),
             rgba: [[0.0; 4]; LANES],
         }
     }
@@ -210,6 +228,7 @@ impl<'p, 'v> Packet<'p, 'v> {
     fn aim<S: Simd>(&mut self, simd: S, points: &[[f64; 2]], boxes: Option<(&Boxes, bool)>, intervals: &mut Intervals) {
         let prepared = self.prepared;
         self.visits.clear();
+        self.asked.clear();
         self.of_ray = [[0; 2]; LANES];
         self.ends = [[f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]];
         self.rgba = [[0.0; 4]; LANES];
@@ -271,10 +290,13 @@ impl<'p, 'v> Packet<'p, 'v> {
         }
     }
 
-    /// The samples that a ray visited.
-    fn samples(&self, lane: usize) -> u64 {
+    /// The samples that a ray visited, or where values are dear, that it asked the value of.
+    fn samples(&self, lane: usize, dear: bool) -> u64 {
         let [first, end] = self.of_ray[lane];
         let last = self.ends[1][lane] as i64;
+        if dear {
+            return self.asked.iter().map(|&(k, lanes)| u64::from(k <= last) & lanes >> lane & 1).sum();
+        }
         self.visits[first..end].iter().map(|v| (v[1].min(last) + 1 - v[0]).max(0) as u64).sum()
     }
 }

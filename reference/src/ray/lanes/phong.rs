@@ -3,7 +3,7 @@
 use super::normal::Normals;
 use super::walk::{Sample, Show, Walk};
 use super::{IN_ORDER, Packet, of_rays, vector};
-use crate::field::lanes::Packed;
+use crate::field::lanes::Reader;
 use crate::number::{Arithmetic, Vec3};
 use crate::shading::{Exponent, Phong};
 use drypoint_scene::counts::Counts;
@@ -17,9 +17,9 @@ pub(super) struct Unshaded<'p> {
 
 impl<S: Simd> Show<S> for Unshaded<'_> {
     #[inline(always)]
-    fn show<V: Packed>(
+    fn show<F: Reader<S>>(
         &mut self,
-        _: &Walk<'_, '_, S, V>,
+        _: &Walk<'_, '_, S, F>,
         sample: &Sample<S>,
         _: &mut Counts,
     ) -> ([f64x8<S>; 3], f64x8<S>) {
@@ -69,9 +69,9 @@ impl<'p, S: Simd> Shaded<'p, S> {
 
 impl<S: Simd> Show<S> for Shaded<'_, S> {
     #[inline(always)]
-    fn show<V: Packed>(
+    fn show<F: Reader<S>>(
         &mut self,
-        walk: &Walk<'_, '_, S, V>,
+        walk: &Walk<'_, '_, S, F>,
         sample: &Sample<S>,
         counts: &mut Counts,
     ) -> ([f64x8<S>; 3], f64x8<S>) {

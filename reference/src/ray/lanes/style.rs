@@ -3,7 +3,8 @@
 use super::normal::Normals;
 use super::waiting::{Batch, Tile};
 use super::{Packet, RAYS, Row, of_rays};
-use crate::field::lanes::{LANES, Packed};
+use crate::field::curvature;
+use crate::field::lanes::{LANES, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, select};
 use crate::ray::prepared::KappaSource;
@@ -53,6 +54,8 @@ pub(super) struct Counted {
     without_normal: u64,
     /// Lanes that had to have the gradient of the sample before too.
     before: u64,
+    /// Lanes that had to have the Hessian.
+    hessians: u64,
     blends: lanes::Blends,
 }
 
@@ -61,6 +64,7 @@ impl Counted {
     #[inline(always)]
     pub(super) fn add(&self, shown: u64, counts: &mut Counts) {
         counts.gradients += u64::from(shown.count_ones() + (shown & self.before).count_ones());
+        counts.hessians += u64::from((shown & self.hessians).count_ones());
         counts.without_normal += u64::from((shown & self.without_normal).count_ones());
         counts.style_lookups += self.blends.lookups(shown);
     }
@@ -98,9 +102,9 @@ impl<'p, S: Simd> InStyle<'p, S> {
 
     /// κ_v from the normals of the samples before ([STF-5]), and remembers these. With the lanes that lacked one.
     #[inline(always)]
-    fn kappa<V: Packed>(
+    fn kappa<F: Reader<S>>(
         &mut self,
-        tile: &Tile<'_, '_, S, V>,
+        tile: &Tile<'_, '_, S, F>,
         batch: &Batch<S>,
         v: Vec3<f64x8<S>>,
         step: f64x8<S>,
@@ -166,13 +170,19 @@ impl<'p, S: Simd> InStyle<'p, S> {
 
     /// What the samples of a batch look like; whatever in the other lanes.
     #[inline(always)]
-    pub(super) fn show<V: Packed>(&mut self, tile: &Tile<'_, '_, S, V>, batch: &Batch<S>) -> Looks<S> {
+    pub(super) fn show<F: Reader<S>>(&mut self, tile: &Tile<'_, '_, S, F>, batch: &Batch<S>) -> Looks<S> {
         let (prepared, styled, place) = (tile.prepared, self.styled, &batch.place);
         let (zero, one) = (f64x8::splat(self.simd, 0.0), f64x8::splat(self.simd, 1.0));
         let asked = mask64x8::from_bitmask(self.simd, batch.asked);
         let [x, y, z, step] = of_rays(self.simd, &self.sights, &batch.rays);
         let v = Vec3::new(x, y, z);
-        let g = tile.reader.gradients(&batch.at, asked);
+        let exact = styled.contour.is_some() && prepared.calls.kappa == KappaSource::Exact;
+        let mut seconds = None;
+        let g = if exact && prepared.field.has_one_gradient() {
+            seconds.insert(tile.reader.seconds(&batch.at, asked)).0
+        } else {
+            tile.reader.gradients(&batch.at, asked)
+        };
         let Normals { n, has, length } = Normals::new(prepared, v, g);
         let magnitude = match prepared.gradient_range {
             Some((lo, width)) if width > 0.0 => lanes::clamp_01((length - lo) / width),
@@ -180,11 +190,21 @@ impl<'p, S: Simd> InStyle<'p, S> {
         };
         let [mut x, mut y] = self.on_sphere(&batch.rays, n, has);
         let n_dot_v = has.select(n.dot(v).abs(), one);
-        let (mut tau, mut before) = (zero, 0);
+        let (mut tau, mut before, mut hessians) = (zero, 0, 0);
         if let Some(contour) = &styled.contour {
             let mut kappa = zero;
             if prepared.calls.kappa == KappaSource::AlongRay {
                 (kappa, before) = self.kappa(tile, batch, v, step, n, has);
+            }
+            if exact {
+                let with_normal = asked & has;
+                hessians = with_normal.to_bitmask();
+                let (g, h) = match seconds {
+                    Some(seconds) => seconds,
+                    None => tile.reader.seconds(&batch.at, with_normal),
+                };
+                let along = curvature::along_view_lanes(g, h, v, prepared.outside, prepared.no_normal_below);
+                kappa = with_normal.select(along, zero);
             }
             tau = contour.tau_lanes(kappa, magnitude);
             [x, y] = lanes::push([x, y], n_dot_v, tau, asked & has);
@@ -192,7 +212,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
         let blends = styled.index.blends(place, prepared.function.last());
         let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
         let share = lanes::share(styled.transparency, place, n_dot_v, tau, magnitude);
-        let counted = Counted { without_normal: !has.to_bitmask(), before, blends };
+        let counted = Counted { without_normal: !has.to_bitmask(), before, hessians, blends };
         let ratio = step / prepared.reference_length;
         let opaque = alpha_d.simd_eq(1.0) | !asked;
         if opaque.all_true() {

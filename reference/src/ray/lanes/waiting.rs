@@ -8,9 +8,9 @@
 
 use super::correct::correct;
 use super::style::{InStyle, Looks};
-use super::walk::{AHEAD, Ahead, Walk};
+use super::walk::{AHEAD, Ahead, Asked, Walk};
 use super::{Packet, RAYS, vector};
-use crate::field::lanes::{LANES, LaneReader, Packed, Places};
+use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::rows;
 use crate::ray::opacity::Correction;
@@ -105,11 +105,17 @@ impl Waiting {
 struct Light {
     rgba: [[f64; 4]; RAYS],
     farthest: [f64; RAYS],
+    /// Of each packet.
+    asked: [Vec<Asked>; RAYS / LANES],
 }
 
 impl Light {
-    fn new(packets: &[Packet<'_, '_>]) -> Self {
-        let mut light = Self { rgba: [[0.0; 4]; RAYS], farthest: [f64::NEG_INFINITY; RAYS] };
+    fn new(packets: &mut [Packet<'_, '_>]) -> Self {
+        let asked = Default::default();
+        let mut light = Self { rgba: [[0.0; 4]; RAYS], farthest: [f64::NEG_INFINITY; RAYS], asked };
+        for (packet, asked) in packets.iter_mut().zip(&mut light.asked) {
+            *asked = std::mem::take(&mut packet.asked);
+        }
         for (packet, farthest) in packets.iter().zip(light.farthest.chunks_exact_mut(LANES)) {
             farthest.copy_from_slice(&packet.ends[1]);
         }
@@ -117,7 +123,10 @@ impl Light {
     }
 
     /// Hands the packets what is theirs.
-    fn hand_over(&self, packets: &mut [Packet<'_, '_>]) {
+    fn hand_over(self, packets: &mut [Packet<'_, '_>]) {
+        for (packet, asked) in packets.iter_mut().zip(self.asked) {
+            packet.asked = asked;
+        }
         let rays = self.rgba.chunks_exact(LANES).zip(self.farthest.chunks_exact(LANES));
         for (packet, (rgba, farthest)) in packets.iter_mut().zip(rays) {
             packet.rgba.copy_from_slice(rgba);
@@ -144,18 +153,17 @@ impl Light {
 
 /// Casts packets in styles.
 #[inline(always)]
-pub(super) fn cast_waiting<S: Simd, V: Packed>(
+pub(super) fn cast_waiting<S: Simd, F: Reader<S>>(
     simd: S,
     packets: &mut [Packet<'_, '_>],
     styled: &Styled<f64>,
-    data: &[V],
+    reader: F,
     counts: &mut Counts,
 ) {
     let mut light = Light::new(packets);
     if let [Packet { prepared, .. }, ..] = &*packets {
-        let reader = LaneReader::new(simd, &prepared.field, data);
         let mut look = InStyle::new(simd, packets, styled);
-        Tile { simd, prepared, packets, data, reader }.run(&mut light, &mut look, counts);
+        Tile { simd, prepared, packets, reader }.run(&mut light, &mut look, counts);
     }
     light.hand_over(packets);
 }
@@ -164,15 +172,14 @@ pub(super) fn cast_waiting<S: Simd, V: Packed>(
 type Next = (usize, i64);
 
 /// Packets whose samples wait for each other.
-pub(super) struct Tile<'p, 'v, S: Simd, V> {
+pub(super) struct Tile<'p, 'v, S: Simd, F> {
     simd: S,
     pub(super) prepared: &'p Prepared<'v, f64>,
     packets: &'p [Packet<'p, 'v>],
-    data: &'p [V],
-    pub(super) reader: LaneReader<'p, 'v, S, V>,
+    pub(super) reader: F,
 }
 
-impl<S: Simd, V: Packed> Tile<'_, '_, S, V> {
+impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
     /// Visits all samples and shows what is seen eight at a time.
     #[inline(always)]
     fn run(&self, light: &mut Light, look: &mut InStyle<'_, S>, counts: &mut Counts) {
@@ -208,23 +215,25 @@ impl<S: Simd, V: Packed> Tile<'_, '_, S, V> {
             return None;
         }
         let rays = &self.packets[packet];
-        let walk = Walk::new(simd, rays, self.data);
+        let walk = Walk::new(simd, rays, self.reader);
         let one = f64x8::splat(simd, 1.0);
         let nearest: f64x8<S> = rays.ends[0].simd_into(simd);
         // About what a ray lets through when all that waits is shown. Below the limit it may have ended by then.
         let (mut through, limit) = (one - light.opacity(simd, packet), 1.0 - self.prepared.stop_at);
         let mut ahead = Ahead::new(simd);
+        // What lay beyond where it stopped is asked for once more.
+        while light.asked[packet].pop_if(|&mut (k, _)| k >= earliest).is_some() {}
         for (range, &[first, last]) in rays.together.iter().enumerate().skip(first_range) {
             for group in (first.max(earliest)..=last).step_by(AHEAD) {
                 let open = light.open(simd, packet, group as f64);
                 if open.all_false() {
                     return None;
                 }
-                walk.look_ahead(&mut ahead, [group, last], open, nearest);
-                while let Some((plane, s)) = ahead.next() {
+                walk.look_ahead(&mut ahead, [group, last], open, nearest, &mut light.asked[packet]);
+                while let Some((plane, s, values)) = ahead.next() {
                     let k = plane as f64;
                     let open = light.open(simd, packet, k);
-                    let active = open & nearest.simd_le(k);
+                    let active = open & walk.wanted(nearest.simd_le(k), values);
                     let Some(place) = self.prepared.function.locate_lanes(s, active) else {
                         continue;
                     };

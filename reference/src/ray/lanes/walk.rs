@@ -2,7 +2,7 @@
 
 use super::correct::correct;
 use super::{Column, IN_ORDER, Packet, of_rays, vector};
-use crate::field::lanes::{LANES, LaneReader, Packed, Places};
+use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
 use crate::ray::opacity::Correction;
 use crate::ray::prepared::Prepared;
@@ -12,10 +12,10 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
 /// Eight rays on their way.
-pub(super) struct Walk<'p, 'v, S: Simd, V> {
+pub(super) struct Walk<'p, 'v, S: Simd, F> {
     pub(super) simd: S,
     pub(super) prepared: &'p Prepared<'v, f64>,
-    pub(super) reader: LaneReader<'p, 'v, S, V>,
+    pub(super) reader: F,
     origin: Vec3<f64x8<S>>,
     along: Vec3<f64x8<S>>,
     depth_step: f64x8<S>,
@@ -31,25 +31,30 @@ pub(super) const AHEAD: usize = 4;
 pub(super) struct Ahead<S: Simd> {
     first: i64,
     s: [f64x8<S>; AHEAD],
+    /// The lanes whose values were asked for.
+    asked: [u64; AHEAD],
     /// The planes on which something may be seen, a bit each.
     seen: u32,
 }
 
+/// A plane of a packet on which values were dear, and the lanes that asked for one.
+pub(super) type Asked = (i64, u64);
+
 impl<S: Simd> Ahead<S> {
     #[inline(always)]
     pub(super) fn new(simd: S) -> Self {
-        Self { first: 0, s: [f64x8::splat(simd, 0.0); AHEAD], seen: 0 }
+        Self { first: 0, s: [f64x8::splat(simd, 0.0); AHEAD], asked: [0; AHEAD], seen: 0 }
     }
 
-    /// The next plane on which something may be seen, and the values there.
+    /// The next plane on which something may be seen, the values there, and the lanes that asked for them.
     #[inline(always)]
-    pub(super) fn next(&mut self) -> Option<(i64, f64x8<S>)> {
+    pub(super) fn next(&mut self) -> Option<(i64, f64x8<S>, u64)> {
         if self.seen == 0 {
             return None;
         }
         let i = self.seen.trailing_zeros() as usize % AHEAD;
         self.seen &= self.seen - 1;
-        Some((self.first + i as i64, self.s[i]))
+        Some((self.first + i as i64, self.s[i], self.asked[i]))
     }
 }
 
@@ -66,9 +71,9 @@ pub(super) struct Sample<S: Simd> {
 /// What samples look like.
 pub(super) trait Show<S: Simd> {
     /// Straight colours and opacities per reference length of the lanes that are seen.
-    fn show<V: Packed>(
+    fn show<F: Reader<S>>(
         &mut self,
-        walk: &Walk<'_, '_, S, V>,
+        walk: &Walk<'_, '_, S, F>,
         sample: &Sample<S>,
         counts: &mut Counts,
     ) -> ([f64x8<S>; 3], f64x8<S>);
@@ -104,14 +109,14 @@ impl<S: Simd> Light<S> {
     }
 }
 
-impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
+impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
     #[inline(always)]
-    pub(super) fn new(simd: S, packet: &Packet<'p, 'v>, data: &'p [V]) -> Self {
+    pub(super) fn new(simd: S, packet: &Packet<'p, 'v>, reader: F) -> Self {
         let [_, _, _, step] = of_rays(simd, &packet.sights, &IN_ORDER);
         Self {
             simd,
             prepared: packet.prepared,
-            reader: LaneReader::new(simd, &packet.prepared.field, data),
+            reader,
             origin: vector(simd, packet.origin),
             along: vector(simd, packet.along),
             depth_step: packet.depth_step.simd_into(simd),
@@ -127,22 +132,23 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
         let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
         let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
         let mut ahead = Ahead::new(self.simd);
+        let mut asked = std::mem::take(&mut packet.asked);
         'rays: for &[first, last] in &packet.together {
             for group in (first..=last).step_by(AHEAD) {
                 let open = farthest.simd_ge(group as f64);
                 if open.all_false() {
                     break 'rays;
                 }
-                self.look_ahead(&mut ahead, [group, last], open, nearest);
-                while let Some((plane, s)) = ahead.next() {
+                self.look_ahead(&mut ahead, [group, last], open, nearest, &mut asked);
+                while let Some((plane, s, values)) = ahead.next() {
                     let k = plane as f64;
-                    let active = farthest.simd_ge(k) & nearest.simd_le(k);
+                    let active = farthest.simd_ge(k) & self.wanted(nearest.simd_le(k), values);
                     let stopped = self.visit(k, s, active, look, &mut light, counts);
                     farthest = stopped.select(f64x8::splat(self.simd, k), farthest);
                 }
             }
         }
-        packet.ends[1] = farthest.into();
+        (packet.ends[1], packet.asked) = (farthest.into(), asked);
         let [r, g, b] = light.rgb;
         let (r, g, b, opacity): (Column, Column, Column, Column) = (r.into(), g.into(), b.into(), light.opacity.into());
         for lane in 0..LANES {
@@ -158,15 +164,46 @@ impl<'p, 'v, S: Simd, V: Packed> Walk<'p, 'v, S, V> {
         [first, last]: [i64; 2],
         open: mask64x8<S>,
         nearest: f64x8<S>,
+        asked: &mut Vec<Asked>,
     ) {
         (ahead.first, ahead.seen) = (first, 0);
         let n = (last - first + 1).min(AHEAD as i64) as usize;
         for (i, s) in ahead.s.iter_mut().take(n).enumerate() {
             let k = (first + i as i64) as f64;
-            *s = self.reader.values(&self.places(k));
-            let may_be_seen = self.prepared.function.may_show(*s, open & nearest.simd_le(k));
+            let at = self.places(k);
+            let mut wanted = open & nearest.simd_le(k);
+            if F::DEAR {
+                let lanes = self.where_cells_show(&at, wanted.to_bitmask());
+                if lanes == 0 {
+                    continue;
+                }
+                asked.push((first + i as i64, lanes));
+                (ahead.asked[i], wanted) = (lanes, mask64x8::from_bitmask(self.simd, lanes));
+            }
+            *s = self.reader.values(&at, wanted);
+            let may_be_seen = self.prepared.function.may_show(*s, wanted);
             ahead.seen |= u32::from(may_be_seen) << i;
         }
+    }
+
+    /// Lanes in whose cells something may be seen.
+    #[inline(always)]
+    fn where_cells_show(&self, at: &Places<S>, lanes: u64) -> u64 {
+        let Some(cells) = &self.prepared.cells else { return lanes };
+        let alone = at.alone();
+        let (mut left, mut show) = (lanes, 0);
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % LANES;
+            left &= left - 1;
+            show |= u64::from(cells.can_show(&self.prepared.field, alone.cell(lane))) << lane;
+        }
+        show
+    }
+
+    /// Lanes of a plane that have a value.
+    #[inline(always)]
+    pub(super) fn wanted(&self, lanes: mask64x8<S>, asked: u64) -> mask64x8<S> {
+        if F::DEAR { lanes & mask64x8::from_bitmask(self.simd, asked) } else { lanes }
     }
 
     /// The places of samples k.
