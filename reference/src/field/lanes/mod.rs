@@ -253,15 +253,19 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
 impl Field<'_, f64> {
     /// Whether a [`Reader`] reads this field, its gradients too if they are asked for: whole numbers, read as they are stored.
     /// [`LaneReader`] reads the trilinear kernel: numbers of at most 16 bits, central differences or Sobel's operator, at
-    /// least four voxels on each axis.
-    pub(crate) fn fits_lanes(&self, gradient: bool) -> bool {
+    /// least four voxels on each axis. [`EachReader`] reads the others, where a sample's `looks` are dear too; else rays are
+    /// as fast alone.
+    pub(crate) fn fits_lanes(&self, gradient: bool, looks: bool) -> bool {
         if self.stencils.careful() || !self.volume.voxels().voxel_type().is_integer() {
             return false;
         }
+        if !matches!(self.kernel, KernelData::Trilinear) {
+            return looks;
+        }
         let estimator = matches!(self.how.gradient, GradientEstimator::Central | GradientEstimator::Sobel);
-        let small = matches!(self.volume.voxels(), Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_));
-        !matches!(self.kernel, KernelData::Trilinear)
-            || (estimator || !gradient) && small && self.stencils.dims().iter().all(|&n| n >= 4)
+        (estimator || !gradient)
+            && matches!(self.volume.voxels(), Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_))
+            && self.stencils.dims().iter().all(|&n| n >= 4)
     }
 }
 

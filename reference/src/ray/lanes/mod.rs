@@ -46,7 +46,7 @@ pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
         && prepared.layers == [LayerKind::Beauty]
         && prepared.volume.mask().is_none()
         && prepared.surface.is_none()
-        && prepared.field.fits_lanes(shaded)
+        && prepared.field.fits_lanes(shaded, matches!(prepared.look, Look::Style(_)))
 }
 
 /// Whether a scene is one of styles over the value, without mip-maps.
@@ -128,12 +128,13 @@ fn run<V: Packed>(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], 
     }
 }
 
-/// Casts the rays of packets through a field that is asked for one position after the other.
+/// Casts the rays of packets in styles through a field that is asked for one position after the other.
 fn run_each(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], each: &dyn Each, counts: &mut Counts) {
+    let Look::Style(styled) = &prepared.look else { unreachable!("lanes serve dear kernels in styles alone") };
     if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
         simd.vectorize(
             #[inline(always)]
-            || walk(simd, prepared, packets, EachReader::new(simd, &prepared.field, each), counts),
+            || cast_waiting(simd, packets, styled, EachReader::new(simd, &prepared.field, each), counts),
         );
     }
 }

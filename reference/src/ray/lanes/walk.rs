@@ -132,7 +132,8 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
         let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
         let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
         let mut ahead = Ahead::new(self.simd);
-        let mut asked = std::mem::take(&mut packet.asked);
+        // Nothing dear is cast here.
+        let mut asked = Vec::new();
         'rays: for &[first, last] in &packet.together {
             for group in (first..=last).step_by(AHEAD) {
                 let open = farthest.simd_ge(group as f64);
@@ -140,15 +141,15 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
                     break 'rays;
                 }
                 self.look_ahead(&mut ahead, [group, last], open, nearest, &mut asked);
-                while let Some((plane, s, values)) = ahead.next() {
+                while let Some((plane, s, _)) = ahead.next() {
                     let k = plane as f64;
-                    let active = farthest.simd_ge(k) & self.wanted(nearest.simd_le(k), values);
+                    let active = farthest.simd_ge(k) & nearest.simd_le(k);
                     let stopped = self.visit(k, s, active, look, &mut light, counts);
                     farthest = stopped.select(f64x8::splat(self.simd, k), farthest);
                 }
             }
         }
-        (packet.ends[1], packet.asked) = (farthest.into(), asked);
+        packet.ends[1] = farthest.into();
         let [r, g, b] = light.rgb;
         let (r, g, b, opacity): (Column, Column, Column, Column) = (r.into(), g.into(), b.into(), light.opacity.into());
         for lane in 0..LANES {
