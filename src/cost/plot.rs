@@ -2,11 +2,12 @@
 //! what nothing beats with its settings named ([COST-1]).
 
 use super::{On, Row, Sweep, Truth, front};
+use drypoint_scene::math::ln;
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::LinePlot;
 use kuva::plot::legend::LegendPosition;
 use kuva::plot::scatter::{MarkerShape, ScatterPlot};
+use kuva::plot::{LabelStyle, LinePlot};
 use kuva::render::annotations::ReferenceLine;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
@@ -25,6 +26,17 @@ const MARKS: [MarkerShape; 5] =
 
 /// The smallest error and time that a logarithmic axis shows.
 const LEAST: f64 = 1e-9;
+
+/// Width of the names of the front, over that from the fastest setting to the slowest.
+const NAMES: f64 = 0.25;
+
+/// From the middle of a disc of the front to the end of its name, and below it to the line that it stands on: clear of the
+/// bar of its spread.
+const BELOW: [f64; 2] = [8.0, 13.0];
+
+/// What settings span on the axes, at least, and the size of a letter, in the plot's units.
+const SPAN: [f64; 2] = [440.0, 440.0];
+const LETTER: [f64; 2] = [7.0, 15.0];
 
 /// Pixels of the PNG for each of the plot's units.
 const SCALE: f32 = 1.5;
@@ -52,7 +64,9 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     }
     let mut knobs: Vec<&str> = sweep.rows.iter().map(|row| row.knob.as_str()).collect();
     knobs.dedup();
-    let (mut plots, names) = fronts(sweep);
+    let reaches = [reach(&shown, |row| row.seconds), reach(&shown, |row| row.rms)];
+    let [[fast, slow], [small, large]] = reaches;
+    let (mut plots, names) = fronts(sweep, reaches);
     for (i, knob) in knobs.iter().enumerate() {
         let rows: Vec<&Row> = shown.iter().copied().filter(|row| row.knob == *knob).collect();
         let Some(first) = rows.first() else { continue };
@@ -79,20 +93,17 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
         if analytic { "against the formula; *: against the finest setting" } else { "*: against the finest setting" };
     let of_picture = sweep.rows.iter().any(|row| row.on == On::Picture);
     let what = if of_picture { "a frame" } else { "a page, from the voxels on," };
-    let [fast, slow] = reach(&shown, |row| row.seconds);
-    let [small, large] = reach(&shown, |row| row.rms);
     let mut layout = Layout::auto_from_plots(&plots)
         .with_width(1000.0)
         .with_height(640.0)
         .with_log_scale()
-        .with_x_axis_min(fast / 1.5)
+        .with_x_axis_min(fast / (slow / fast).max(2.0).powf(NAMES) / 1.2)
         .with_x_axis_max(slow * 1.5)
         .with_y_axis_min(small / 2.0)
         .with_y_axis_max(large * 2.0)
         .with_x_tick_format(TickFormat::Custom(Arc::new(time)))
-        .with_title(format!("{name}: what accuracy costs"))
+        .with_title(format!("{name}: RMS error, {against}"))
         .with_x_label(format!("time of {what} of {width} × {height} pixels, median of {} runs", sweep.runs))
-        .with_y_label(format!("RMS error, {against}"))
         .with_legend_position(LegendPosition::OutsideRightTop)
         .with_title_size(18)
         .with_label_size(13)
@@ -131,7 +142,7 @@ fn time(seconds: f64) -> String {
 }
 
 /// The fronts, wide and grey, which go behind all else, and the names of their settings, which go before it.
-fn fronts(sweep: &Sweep) -> (Vec<Plot>, Plot) {
+fn fronts(sweep: &Sweep, reaches: [[f64; 2]; 2]) -> (Vec<Plot>, Plot) {
     let (mut lines, mut places, mut names) = (Vec::new(), Vec::new(), Vec::new());
     let looks = [(true, "#bdbdbd", "Pareto front"), (false, "#e3e3e3", "Pareto front *")];
     for (on, (analytic, color, legend)) in On::ALL.iter().flat_map(|on| looks.map(|look| (*on, look))) {
@@ -150,9 +161,26 @@ fn fronts(sweep: &Sweep) -> (Vec<Plot>, Plot) {
         let discs = ScatterPlot::new().with_data(at).with_color(color).with_size(9.0);
         lines.extend([Plot::Line(line), Plot::Scatter(discs)]);
     }
-    // In one plot, so that no name is put over another.
-    let named = ScatterPlot::new().with_data(places).with_size(9.0).with_marker_opacity(0.0);
-    (lines, Plot::Scatter(named.with_labels(names).with_repel_labels()))
+    // Left of a place of one front and below it there is nothing. Where fronts cross or are flat, names are pushed off each
+    // other.
+    let (style, size) = if are_apart(&places, &names, reaches) {
+        // So large that no line leads from it to its name.
+        (LabelStyle::Arrow { offset_x: -BELOW[0], offset_y: -BELOW[1] }, BELOW[0].hypot(BELOW[1]))
+    } else {
+        (LabelStyle::Repel, 9.0)
+    };
+    let named = ScatterPlot::new().with_data(places).with_size(size).with_marker_opacity(0.0);
+    (lines, Plot::Scatter(named.with_labels(names).with_label_style(style)))
+}
+
+/// Whether names that end at places have room beside each other, on axes that reach so far.
+fn are_apart(places: &[(f64, f64)], names: &[String], [times, errors]: [[f64; 2]; 2]) -> bool {
+    let units = |x: f64, [lo, hi]: [f64; 2], span: f64| ln(x / lo) / ln(hi / lo).max(ln(2.0)) * span;
+    let ends: Vec<f64> = places.iter().map(|place| units(place.0, times, SPAN[0])).collect();
+    let lines: Vec<f64> = places.iter().map(|place| units(place.1, errors, SPAN[1])).collect();
+    let starts: Vec<f64> = ends.iter().zip(names).map(|(end, n)| end - LETTER[0] * n.chars().count() as f64).collect();
+    (0..names.len())
+        .all(|i| (0..i).all(|j| starts[i] > ends[j] || starts[j] > ends[i] || (lines[i] - lines[j]).abs() > LETTER[1]))
 }
 
 #[cfg(test)]
@@ -200,6 +228,15 @@ mod tests {
         assert!(!text.contains("slow and bad") && !text.contains("its own truth"));
         let bytes = png(&sweep(vec![row("sampling.step", "4 voxels", 0.01, 0.5)]), "a").unwrap();
         assert!(bytes.starts_with(b"\x89PNG"));
+    }
+
+    #[test]
+    fn names_stand_beside_their_places_where_there_is_room() {
+        let names = ["a name".to_owned(), "another".to_owned()];
+        let apart = |places: [(f64, f64); 2]| are_apart(&places, &names, [[1.0, 100.0], [0.01, 1.0]]);
+        // A steep front, names side by side, and names that would cover each other.
+        assert!(apart([(1.0, 1.0), (1.1, 0.01)]) && apart([(1.0, 1.0), (100.0, 1.0)]));
+        assert!(!apart([(1.0, 1.0), (1.1, 0.9)]) && !apart([(1.0, 1.0); 2]));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::layers::layers;
 use super::norms::{norms, quantile_above};
 use super::order::{self, Sites};
 use super::resolution::boxes;
-use super::ridge::{Norms, across, way_to_edge};
+use super::ridge::{Norms, across, step, way_to_edge};
 use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
@@ -258,7 +258,7 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
         }
     };
     let grid = volume.grid();
-    let to_step = |normal: DVec3| grid.inverse_axes() * (normal * across(grid, normal));
+    let to_step = |normal: DVec3| step(grid, normal, stipples.thin);
     let outward = if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 };
     let ridge = Norms { dims, all: &norms };
     let voxel = |x: usize, y: usize, z: usize, norm: f64| {

@@ -36,6 +36,22 @@ pub(super) fn way_to_edge(grid: &Grid, normal: DVec3, top: f64) -> DVec3 {
     own.lerp(along, share) * (top * reach)
 }
 
+/// Where ‖∇V‖ is compared with a voxel's own, in index space: as far along n as [`across`] says, to where the voxel's points
+/// may go.
+///
+/// On a grid of cubes that is n. Where slices are far apart n leads several voxels along them before it has come one slice
+/// on, and a thin layer is left alone by what those voxels have: it is followed along [`way_to_edge`].
+pub(super) fn step(grid: &Grid, normal: DVec3, thin: bool) -> DVec3 {
+    let (axes, dims) = (grid.axes(), grid.dims());
+    let lengths = [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::length);
+    let longest = (0..3).filter(|&a| dims[a] > 1).fold(0.0, |longest, a| lengths[a].max(longest));
+    if thin && longest > grid.voxel() {
+        way_to_edge(grid, normal, 1.0)
+    } else {
+        grid.inverse_axes() * (normal * across(grid, normal))
+    }
+}
+
 /// Norms of the voxels of a grid, x fastest.
 #[derive(Clone, Copy)]
 pub(super) struct Norms<'a> {
@@ -65,9 +81,8 @@ impl Norms<'_> {
         self.all[(cell[2] * self.dims[1] + cell[1]) * self.dims[0] + cell[0]]
     }
 
-    /// Whether a voxel's norm is the largest along ±n within one voxel; `step` leads one voxel along n in index space, as far
-    /// as [`across`] says. Of
-    /// equals the side of the lower linear index is kept.
+    /// Whether a voxel's norm is the largest along ±n within one voxel, which is a [`step`]. Of equals the side of the lower
+    /// linear index is kept.
     pub(super) fn is_largest(&self, cell: [usize; 3], step: DVec3) -> bool {
         // Which of the two comes first in linear order.
         let first = [step.z, step.y, step.x].into_iter().find(|&x| x != 0.0).map_or(1.0, f64::signum);
@@ -76,13 +91,20 @@ impl Norms<'_> {
     }
 
     /// Where along n the norm is largest, in steps from the voxel's centre, at most one: the top of the Gaussian through the
-    /// centre and one step to either side, or the higher end. The fit of [STIP-1] blurs every edge, and ‖∇V‖ across a blurred
-    /// edge is nearly a Gaussian; the top of a parabola leans towards the voxel's centre or away from it, which moves whole
-    /// rows of points where slices are far apart.
+    /// centre and one step to either side. The fit of [STIP-1] blurs every edge, and ‖∇V‖ across a blurred edge is nearly a
+    /// Gaussian; the top of a parabola leans towards the voxel's centre or away from it, which moves whole rows of points
+    /// where slices are far apart.
+    ///
+    /// Where the voxel is on a flank, and the top at a step or beyond, it is that of the parabola, or the higher end: the
+    /// logarithm of the flank's foot may be anything.
     pub(super) fn top(&self, cell: [usize; 3], step: DVec3) -> f64 {
         let [before, own, after] =
             [self.at(cell, -step), self.own(cell), self.at(cell, step)].map(|x| x.max(f64::MIN_POSITIVE));
-        let [falls, rises] = [before, after].map(|x| math::ln(x / own));
+        let [falls, rises] = if own >= before.max(after) {
+            [before, after].map(|x| math::ln(x / own))
+        } else {
+            [before - own, after - own]
+        };
         let bend = falls + rises;
         if bend < 0.0 {
             ((falls - rises) / (2.0 * bend)).clamp(-1.0, 1.0)
@@ -97,6 +119,7 @@ impl Norms<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drypoint_scene::philox;
 
     /// A ridge of ‖∇V‖ along an oblique plane, a parabola across: the voxels that stay have their centres within half a
     /// voxel of it, as many as the plane has area. Of a Gaussian the top is where it is.
@@ -151,7 +174,7 @@ mod tests {
                 let all: Vec<f64> =
                     (0..1728).map(|i| [i % 12, i / 12 % 12, i / 144]).map(|c| 1e4 - t(c) * t(c)).collect();
                 let norms = Norms { dims: [12; 3], all: &all };
-                let step = grid.inverse_axes() * (n * across(&grid, n));
+                let step = step(&grid, n, true);
                 // Along the axis in which a step leads farthest along n.
                 let lead = if n.z > 0.0 { 2 } else { 0 };
                 for i in 4..8 {
@@ -176,5 +199,32 @@ mod tests {
         assert_eq!(norms.top([1, 0, 0], DVec3::X), 0.5);
         assert_eq!(norms.top([1, 0, 0], DVec3::Y), 0.0);
         assert_eq!(norms.top([0, 0, 0], DVec3::X), 1.0);
+    }
+
+    /// A voxel on a flank is led up, whatever lies at its foot, and nothing jumps where it becomes the top.
+    #[test]
+    fn a_flank_leads_to_its_top() {
+        let top = |all: [f64; 3]| Norms { dims: [3, 1, 1], all: &all }.top([1, 0, 0], DVec3::X);
+        for foot in [0.0, 1e-300, 1e-9, 1e-3] {
+            assert_eq!([top([0.5, 0.05, foot]), top([foot, 0.05, 0.5])], [-1.0, 1.0], "{foot}");
+            assert_eq!(top([foot, 0.3, 0.5]), 1.0, "{foot}");
+        }
+        assert!((top([0.1, 1.0, 1.0 - 1e-9]) - 0.5).abs() < 1e-8 && (top([0.1, 1.0, 1.0 + 1e-9]) - 0.5).abs() < 1e-8);
+    }
+
+    /// Of thin layers a step never leads farther than to the next voxels, from which alone ‖∇V‖ is known, and as far along n
+    /// as a layer is thick.
+    #[test]
+    fn steps_stay_with_the_next_voxels() {
+        for spacing in [[1.0; 3], [1.0, 1.0, 4.0], [2.0, 1.0, 1.3], [1.0, 5.0, 5.0]] {
+            let grid = Grid::with_spacing([12; 3], spacing).unwrap();
+            for i in 0..1000 {
+                let n = DVec3::from_array([0, 1, 2].map(|k| philox::uniform(5, [i, k, 0], 0) - 0.5)).normalize();
+                let step = step(&grid, n, true);
+                assert!(step.abs().max_element() <= 1.0 + 1e-12, "{spacing:?} {n}: {step}");
+                let along = (grid.axes() * step).dot(n);
+                assert!((along - across(&grid, n)).abs() < 1e-12, "{spacing:?} {n}: {along}");
+            }
+        }
     }
 }

@@ -1,11 +1,11 @@
 //! Dots chosen on the page ([STIP-19]).
 
-use super::{Preprocessed, orthographic, points_of};
+use super::{Preprocessed, drawn_from, flat, orthographic, points_of};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, choose_on_page, viewing_distance};
+use drypoint::reference::volume_stippling::{Drawn, Frames, choose_on_page};
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Page};
-use drypoint::scene::tables::{Even, Ink, LightDirection, Resolution, Stipples, Threshold};
+use drypoint::scene::tables::{Even, Stipples, Threshold};
 use drypoint::scene::volume::Volume;
 use std::collections::BTreeSet;
 
@@ -27,21 +27,9 @@ fn plate() -> (Preprocessed, Volume) {
 /// Both faces in a flat tone, so many points a voxel.
 fn draw(made: &Preprocessed, volume: &Volume, tone: f64, even: Even) -> (Vec<Dot>, Page) {
     let view = orthographic(volume, 2.0);
-    let reference = viewing_distance(&view, volume.grid().centre(), 0.5) * tone / EACH as f64;
-    let resolution = Some(Resolution { re: 1.0, reference: Some(reference) });
-    let stipples = Stipples { even, ink: Ink::Opaque, resolution, ..Stipples::default() };
-    let frames = Frames::new(FrameInputs {
-        stipples: &stipples,
-        points: &made.points,
-        light: LightDirection::Head,
-        grid: volume.grid(),
-        reference: &view,
-        near: 0.5,
-        size: 0.05,
-        nib: None,
-        surface: None,
-        tone: None,
-    });
+    let stipples = Stipples { even, ..Stipples::default() };
+    let stipples = flat(stipples, &made.points, volume.grid(), &view, tone);
+    let frames = Frames::new(drawn_from(&stipples, &made.points, volume.grid(), &view, 0.05));
     let page = Page::in_pixels(view.size, 0.0, 254.0);
     let mut drawn = Drawn::default();
     frames.draw(&view, &page, &mut drawn);

@@ -1,8 +1,8 @@
 //! What a frame draws of the points ([STIP-5] … [STIP-12], hard cases).
 
-use super::{orthographic, table};
+use super::{drawn_from, made_from, orthographic, table};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, Preprocess, viewing_distance};
+use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Preprocess, viewing_distance};
 use drypoint::scene::blue_noise;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3};
@@ -30,32 +30,16 @@ impl Shown {
         let camera = Camera { direction: DVec3::new(0.2, 1.0, -0.3), ..Camera::default() };
         let reference = View::new(&camera, volume.grid(), [200, 200]).unwrap();
         let (stipples, table) = (Stipples::default(), table());
-        let inputs = Inputs {
-            stipples: &stipples,
-            table: &table,
-            volume: &volume,
-            view: &reference,
-            near: 0.5,
-            square: 1.0,
-            tone: None,
-        };
-        let points = Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap();
+        let points = Preprocess::new(made_from(&stipples, &table, &volume, &reference))
+            .unwrap()
+            .points(&mut Counts::default(), &|_| {})
+            .unwrap();
         Self { volume, points, reference }
     }
 
     fn draw(&self, stipples: &Stipples, view: &View, nib: Option<f64>) -> Vec<Dot> {
-        let frames = Frames::new(FrameInputs {
-            stipples,
-            points: &self.points,
-            light: LightDirection::Head,
-            grid: self.volume.grid(),
-            reference: &self.reference,
-            near: 0.5,
-            size: SIZE,
-            nib,
-            surface: None,
-            tone: None,
-        });
+        let inputs = drawn_from(stipples, &self.points, self.volume.grid(), &self.reference, SIZE);
+        let frames = Frames::new(FrameInputs { nib, ..inputs });
         let mut drawn = Drawn::default();
         frames.draw(view, &page(view), &mut drawn);
         drawn.to_vec()

@@ -11,12 +11,14 @@ mod spectrum;
 mod tone;
 
 use crate::common;
-use drypoint::reference::volume_stippling::{Inputs, Preprocess};
+use drypoint::reference::volume_stippling::{FrameInputs, Inputs, Preprocess, viewing_distance};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::points::Points;
+use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Camera, GradientRange, Length, PointsPerPixel, Projection, Stipples, VolumeSource, VolumeTable,
+    Camera, GradientRange, Ink, Length, LightDirection, PointsPerPixel, Projection, Resolution, Stipples, VolumeSource,
+    VolumeTable,
 };
 use drypoint::scene::view::View;
 use drypoint::scene::volume::Volume;
@@ -60,17 +62,38 @@ fn orthographic(volume: &Volume, pixels_a_unit: f64) -> View {
     View::new(&camera, volume.grid(), [100, 100]).unwrap()
 }
 
+/// What points are made from, A_vol in pixels.
+fn made_from<'a>(stipples: &'a Stipples, table: &'a VolumeTable, volume: &'a Volume, view: &'a View) -> Inputs<'a> {
+    Inputs { stipples, table, volume, view, near: 0.5, square: 1.0, tone: None }
+}
+
+/// What frames are drawn from, dots `size` mm wide that nothing hides and no pen draws.
+fn drawn_from<'a>(
+    stipples: &'a Stipples,
+    points: &'a Points,
+    grid: &'a Grid,
+    reference: &'a View,
+    size: f64,
+) -> FrameInputs<'a> {
+    let light = LightDirection::Head;
+    FrameInputs { stipples, points, light, grid, reference, near: 0.5, size, nib: None, surface: None, tone: None }
+}
+
+/// A flat tone in opaque ink: T_r is one number for all voxels, and has `tone` points of each drawn.
+fn flat(stipples: Stipples, points: &Points, grid: &Grid, view: &View, tone: f64) -> Stipples {
+    let reference = viewing_distance(view, grid.centre(), 0.5) * tone / points.each as f64;
+    Stipples { ink: Ink::Opaque, resolution: Some(Resolution { re: 1.0, reference: Some(reference) }), ..stipples }
+}
+
 /// Points of a function of the index, `each` for a voxel.
 fn points_of(dims: [usize; 3], value: impl Fn(DVec3) -> f64, stipples: &Stipples, each: usize) -> Preprocessed {
     let volume = common::volume(dims, value);
     let (view, table) = (orthographic(&volume, 8.0), table());
-    let inputs =
-        |stipples| Inputs { stipples, table: &table, volume: &volume, view: &view, near: 0.5, square: 1.0, tone: None };
     // Eq. 1 is linear in k_max.
-    let once = Preprocess::new(inputs(stipples)).unwrap();
+    let once = Preprocess::new(made_from(stipples, &table, &volume, &view)).unwrap();
     let face = (dims.iter().product::<usize>() as f64).cbrt().powi(2);
     let stipples = Stipples { k_max: PointsPerPixel::Number(each as f64 * face / once.area), ..stipples.clone() };
-    let preprocess = Preprocess::new(inputs(&stipples)).unwrap();
+    let preprocess = Preprocess::new(made_from(&stipples, &table, &volume, &view)).unwrap();
     assert_eq!((preprocess.each, preprocess.box_side), (each, 1));
     Preprocessed { points: preprocess.points(&mut Counts::default(), &|_| {}).unwrap() }
 }

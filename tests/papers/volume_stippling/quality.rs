@@ -2,15 +2,15 @@
 //! tile, which they have to tell from it.
 
 use super::spectrum::Spectrum;
-use super::{Preprocessed, points_of};
+use super::{Preprocessed, drawn_from, flat, points_of};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, viewing_distance};
+use drypoint::reference::volume_stippling::{Drawn, Frames};
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::Page;
 use drypoint::scene::math::ln;
 use drypoint::scene::philox;
 use drypoint::scene::points::Points;
-use drypoint::scene::tables::{Camera, Ink, LightDirection, Resolution, StippleOrder, Stipples, Threshold};
+use drypoint::scene::tables::{Camera, StippleOrder, Stipples, Threshold};
 use drypoint::scene::view::View;
 
 /// Half the side of the patch.
@@ -114,8 +114,7 @@ fn prefixes_of_a_flat_patch_are_even() {
     for n in [DVec3::Z, OBLIQUE] {
         let (made, centre) = patch(n, StippleOrder::Neighbours);
         for k in [1, 2, 4, 8, 16] {
-            let flat = on_plane(made.prefix(k), centre, n);
-            let quality = Quality::new(&flat);
+            let quality = Quality::new(&on_plane(made.prefix(k), centre, n));
             println!("{n} k = {k}: {quality:.3?}");
             assert!(quality.is_even(k), "{n} k = {k}: {quality:?}");
         }
@@ -157,25 +156,12 @@ fn dots_of_a_wide_edge_are_even_where_it_is_thinned() {
     }
 }
 
-/// The dots of a flat tone in opaque ink: T_r is one number for all voxels, and has `tone` points of each drawn.
+/// The dots of a flat tone in opaque ink, so many points a voxel.
 fn opaque(points: &Points, centre: DVec3, n: DVec3, tone: f64) -> Vec<DVec2> {
     let volume = common::volume(dims(n), |_| 0.0);
     let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
-    let reference = viewing_distance(&view, volume.grid().centre(), 0.5) * tone / points.each as f64;
-    let resolution = Resolution { re: 1.0, reference: Some(reference) };
-    let stipples = Stipples { ink: Ink::Opaque, resolution: Some(resolution), ..Stipples::default() };
-    let frames = Frames::new(FrameInputs {
-        stipples: &stipples,
-        points,
-        light: LightDirection::Head,
-        grid: volume.grid(),
-        reference: &view,
-        near: 0.5,
-        size: 1.0,
-        nib: None,
-        surface: None,
-        tone: None,
-    });
+    let stipples = flat(Stipples::default(), points, volume.grid(), &view, tone);
+    let frames = Frames::new(drawn_from(&stipples, points, volume.grid(), &view, 1.0));
     let mut drawn = Drawn::default();
     frames.draw(&view, &Page::in_pixels(view.size, 0.0, 254.0), &mut drawn);
     on_plane(drawn.dots().map(|dot| dot.world), centre, n)
@@ -187,8 +173,7 @@ fn a_flat_tone_in_opaque_ink_is_even() {
     for n in [DVec3::Z, OBLIQUE] {
         let (made, centre) = patch(n, StippleOrder::Neighbours);
         for tone in [0.1, 0.3, 1.0, 2.5] {
-            let flat = opaque(&made.points, centre, n, tone);
-            let quality = Quality::new(&flat);
+            let quality = Quality::new(&opaque(&made.points, centre, n, tone));
             println!("{n} tone {tone}: {quality:.3?}");
             assert!(quality.nearest >= 0.7, "{n} tone {tone}: {quality:?}");
         }

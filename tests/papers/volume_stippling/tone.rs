@@ -1,6 +1,6 @@
 //! Tone: what dots cover, `k_max = "auto"`, and the inverse of a step wedge ([STIP-17]).
 
-use super::table;
+use super::{drawn_from, made_from, table};
 use crate::common;
 use drypoint::output::paint::{Window, blank, paint};
 use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, PenTone, Preprocess};
@@ -9,9 +9,7 @@ use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Layer, Marks, Page, Pen};
 use drypoint::scene::philox;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{
-    BlendSpace, Camera, Ink, Length, LightDirection, PointsPerPixel, Projection, Stipples, Threshold,
-};
+use drypoint::scene::tables::{BlendSpace, Camera, Ink, Length, PointsPerPixel, Projection, Stipples, Threshold};
 use drypoint::scene::tone::Tone;
 use drypoint::scene::view::View;
 use drypoint::wedge::{Patch, Wedge, wedge};
@@ -124,15 +122,7 @@ fn face(n: DVec3, width: f64, thin: bool, with: With) -> f64 {
         ..Stipples::default()
     };
     let table = table();
-    let inputs = Inputs {
-        stipples: &stipples,
-        table: &table,
-        volume: &volume,
-        view: &view,
-        near: 0.5,
-        square: 1.0,
-        tone: Some((&tone, dot)),
-    };
+    let inputs = Inputs { tone: Some((&tone, dot)), ..made_from(&stipples, &table, &volume, &view) };
     let preprocess = Preprocess::new(inputs).unwrap();
     let mut points = preprocess.points(&mut Counts::default(), &|_| {}).unwrap();
     if with != With::Discs {
@@ -140,16 +130,9 @@ fn face(n: DVec3, width: f64, thin: bool, with: With) -> f64 {
         points.voxels.iter_mut().for_each(|voxel| voxel.magnitude = 1.0);
     }
     let frames = Frames::new(FrameInputs {
-        stipples: &stipples,
-        points: &points,
-        light: LightDirection::Head,
-        grid: volume.grid(),
-        reference: &view,
-        near: 0.5,
-        size,
         nib: (with != With::Discs).then_some(size),
-        surface: None,
         tone: (with == With::Table).then_some(PenTone { tone: &tone, ink: preprocess.ink, layers: preprocess.layers }),
+        ..drawn_from(&stipples, &points, volume.grid(), &view, size)
     });
     let mut drawn = Drawn::default();
     frames.draw(&view, &page, &mut drawn);
