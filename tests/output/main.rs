@@ -1,5 +1,6 @@
 //! Sheets of points and lines as other programs see them: SVG by librsvg, PDF by poppler, and both parsed back.
 
+mod figures;
 mod numbers;
 mod outside;
 mod poppler;
