@@ -153,6 +153,7 @@ pub(crate) fn along_view_lanes<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::{LANES, wide};
     use nalgebra::{Matrix3, SymmetricEigen, Vector3};
     use proptest::prelude::*;
 
@@ -225,6 +226,37 @@ mod tests {
         assert_eq!(along_view(g, h, tilted(2f64.powi(-27)), Outside::Low), 2.0);
         assert_eq!(along_view(g, h, tilted(2f64.powi(-25)), Outside::Low), 3.0);
         assert_eq!(along_view(g, h, tilted(2f64.powi(-25)), Outside::High), -3.0);
+    }
+
+    /// Along the normal and past it, in every direction between, and 0 where there is no normal.
+    #[test]
+    fn lanes_have_the_bits_of_one() {
+        let Some(simd) = wide() else { return };
+        let bound = 1e-3;
+        let z = |length: f64| [0.0, 0.0, length];
+        let tilted = |sin: f64| [sin, 0.0, (1.0 - sin * sin).sqrt()];
+        let [past, within] = [-25, -27].map(|power| tilted(2f64.powi(power)));
+        let gradients = [z(-1.0), z(-1.0), z(3.0), z(-1.0), [1.0, -2.0, 0.5], z(0.0), z(-bound), z(-bound.next_up())];
+        let views = [z(1.0), z(-1.0), within, past, [0.6, 0.0, 0.8], z(1.0), [0.6, 0.0, 0.8], z(1.0)];
+        let h = [-3.0, 0.5, 0.25, -1.0, -0.125, 2.0];
+        let column = |vectors: &[[f64; 3]; LANES], axis: usize| f64x8::simd_from(simd, vectors.map(|v| v[axis]));
+        let columns =
+            |vectors: &[[f64; 3]; LANES]| Vec3::new(column(vectors, 0), column(vectors, 1), column(vectors, 2));
+        let [xx, xy, xz, yy, yz, zz] = h.map(|x| f64x8::splat(simd, x));
+        // Each in each lane: what is done lane by lane is done where it has to be.
+        for turn in 0..LANES {
+            let turned = |vectors: [[f64; 3]; LANES]| std::array::from_fn(|lane| vectors[(lane + turn) % LANES]);
+            let (gradients, views): ([[f64; 3]; LANES], [[f64; 3]; LANES]) = (turned(gradients), turned(views));
+            for outside in [Outside::Low, Outside::High] {
+                let all = Sym3 { xx, xy, xz, yy, yz, zz };
+                let got = along_view_lanes(columns(&gradients), all, columns(&views), outside, bound);
+                for lane in 0..LANES {
+                    let (g, v) = (vector(gradients[lane]), vector(views[lane]));
+                    let want = if g.length() > bound { along_view(g, sym(h), v, outside) } else { 0.0 };
+                    assert_eq!(got[lane].to_bits(), want.to_bits(), "{:?} {:?} {want}", gradients[lane], views[lane]);
+                }
+            }
+        }
     }
 
     proptest! {
