@@ -18,6 +18,14 @@ pub(super) fn across(grid: &Grid, normal: DVec3) -> f64 {
     (0..3).filter(|&a| dims[a] > 1).fold(grid.voxel(), |reach, a| reach.max(steps[a]))
 }
 
+/// The axis of the grid nearest to a normal, whose steps lead farthest along it; the first of equals. `steps` is Dᵀn.
+///
+/// Pieces of a face are those of columns along it, and points go to the edge along it: both of them have to take the same.
+pub(super) fn nearest_axis(steps: DVec3) -> usize {
+    let lengths = steps.abs();
+    (1..3).fold(0, |nearest, a| if lengths[a] > lengths[nearest] { a } else { nearest })
+}
+
 /// From a voxel of a layer to the edge `top` steps along n, in index space: the way that its points go.
 ///
 /// Along n itself they would leave gaps. The layer is [`across`] thick; a voxel that leaves it on one side is followed on the
@@ -26,9 +34,12 @@ pub(super) fn across(grid: &Grid, normal: DVec3) -> f64 {
 /// axis, both as far as one unit along n, which leads 1/thickness along the axis.
 pub(super) fn way_to_edge(grid: &Grid, normal: DVec3, top: f64) -> DVec3 {
     let (reach, own) = (across(grid, normal), grid.inverse_axes() * normal);
-    let (steps, dims) = (grid.axes().transpose() * normal, grid.dims());
-    let longest = (0..3).filter(|&a| dims[a] > 1).max_by(|&a, &b| steps[a].abs().total_cmp(&steps[b].abs()));
-    let Some(axis) = longest.filter(|&a| steps[a] != 0.0) else { return own * (top * reach) };
+    // Along an axis of one voxel there is no neighbour.
+    let steps = grid.axes().transpose() * normal * DVec3::from_array(grid.dims().map(|n| f64::from(u8::from(n > 1))));
+    let axis = nearest_axis(steps);
+    if steps[axis] == 0.0 {
+        return own * (top * reach);
+    }
     let mut along = DVec3::ZERO;
     along[axis] = 1.0 / steps[axis];
     let (least, most) = (own[axis] * steps[axis].signum(), along[axis].abs());
