@@ -63,6 +63,10 @@ pub(super) fn step(grid: &Grid, normal: DVec3, thin: bool) -> DVec3 {
     }
 }
 
+/// Norms that differ by so much of themselves or less are equal: they are sums of 27 products, and between two slices of a
+/// segmentation the same numbers in another order.
+const EQUAL: f64 = 1e-13;
+
 /// Norms of the voxels of a grid, x fastest.
 #[derive(Clone, Copy)]
 pub(super) struct Norms<'a> {
@@ -93,12 +97,13 @@ impl Norms<'_> {
     }
 
     /// Whether a voxel's norm is the largest along ±n within one voxel, which is a [`step`]. Of equals the side of the lower
-    /// linear index is kept.
+    /// linear index is kept, and rounding does not tell them apart: a face between two slices would have a layer in both.
     pub(super) fn is_largest(&self, cell: [usize; 3], step: DVec3) -> bool {
-        // Which of the two comes first in linear order.
-        let first = [step.z, step.y, step.x].into_iter().find(|&x| x != 0.0).map_or(1.0, f64::signum);
+        // Which of the two comes first in linear order; a component that rounding left does not say.
+        let first = [step.z, step.y, step.x].into_iter().find(|x| x.abs() > EQUAL).map_or(1.0, f64::signum);
         let own = self.own(cell);
-        self.at(cell, -step * first) < own && self.at(cell, step * first) <= own
+        let equal = 1.0 + EQUAL;
+        self.at(cell, -step * first) * equal < own && self.at(cell, step * first) <= own * equal
     }
 
     /// Where along n the norm is largest, in steps from the voxel's centre, at most one: the top of the Gaussian through the
@@ -210,6 +215,27 @@ mod tests {
         assert_eq!(norms.top([1, 0, 0], DVec3::X), 0.5);
         assert_eq!(norms.top([1, 0, 0], DVec3::Y), 0.0);
         assert_eq!(norms.top([0, 0, 0], DVec3::X), 1.0);
+    }
+
+    /// Two voxels beside a face midway between them, and one layer, whatever rounding makes of their norms and of the step.
+    #[test]
+    fn rounding_does_not_tell_equals_apart() {
+        let noise = [0.0, 1e-16, -3e-16];
+        for (a, b) in noise.into_iter().flat_map(|a| noise.map(|b| (a, b))) {
+            let rows = [0.0, 0.125 + a, 0.125 + b, 0.0];
+            for axis in 0..3 {
+                let all: Vec<f64> = (0..64).map(|i| rows[[i % 4, i / 4 % 4, i / 16][axis]]).collect();
+                let norms = Norms { dims: [4; 3], all: &all };
+                let kept = (0..4).filter(|&i| {
+                    let mut cell = [1; 3];
+                    cell[axis] = i;
+                    // Each voxel's normal has been rounded for itself.
+                    let off = DVec3::splat([a, b, -a, -b][i]);
+                    norms.is_largest(cell, DVec3::AXES[axis] + off)
+                });
+                assert_eq!(kept.collect::<Vec<_>>(), [1], "{a} {b}, axis {axis}");
+            }
+        }
     }
 
     /// A voxel on a flank is led up, whatever lies at its foot, and nothing jumps where it becomes the top.
