@@ -180,7 +180,7 @@ pub struct Plan {
 pub struct PointsPlan {
     /// Voxels above the threshold.
     pub voxels: u64,
-    /// N_max: points of each ([STIP-3]).
+    /// Points of each: N_max, and more in thin layers of voxels that are not cubes ([STIP-3], [STIP-4]).
     pub each: u64,
     /// Bytes while they are made: points, voxels, order.
     pub bytes: u64,

@@ -10,9 +10,10 @@ use glam::DVec3;
 pub struct Points {
     /// Where the voxels lie: the volume's grid, or that of its boxes ([STIP-2]).
     pub grid: Grid,
-    /// N_max: points of each voxel ([STIP-3]).
+    /// Points of each voxel: N_max ([STIP-3]), or the next whole number where `full` is none.
     pub each: usize,
-    /// How many of them T = 1 stands for: all, or with `k_max = "auto"` less than one fewer ([STIP-17]).
+    /// How many of them T = 1 stands for: all, or less than one fewer with `k_max = "auto"` ([STIP-17]) and in thin layers
+    /// of voxels that are not cubes ([STIP-4]).
     pub full: f64,
     /// The voxels that have points, in ascending linear order.
     pub voxels: Vec<PointVoxel>,

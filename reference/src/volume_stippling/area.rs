@@ -1,5 +1,6 @@
 //! A_vol, the area that the volume's box covers in the picture, and what eq. 1 makes of it ([STIP-2], [STIP-3]).
 
+use super::ridge::across;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::math;
 use drypoint_scene::space::Grid;
@@ -13,18 +14,61 @@ const SMALLEST_PROJECTION: f64 = 25.0;
 /// Of a box that reaches behind `near`, an eye depth in perspective, what lies before it counts, and of that what the
 /// picture shows: near the eye a projection has no bound.
 pub(super) fn projected_area(grid: &Grid, view: &View, near: f64) -> f64 {
-    let corners = grid.world_corners().map(|corner| view.to_eye(corner));
+    shown(&eye_corners(grid, view), &[0, 1, 2, 3, 4, 5, 6, 7], view, near)
+}
+
+/// Thickness of layers over the smallest voxel that counts as 1: headers have numbers in f32.
+const ROUNDING: f64 = 1e-6;
+
+/// What N_max of eq. 1 is multiplied by for thin layers: 1 where voxels are cubes ([STIP-3], [STIP-4]).
+///
+/// Eq. 1 gives each voxel N_max points, so that of two faces the one whose voxels have the smaller pieces of it is denser.
+/// Thin layers are as dense everywhere: a voxel has N_max·h/t, h the smallest voxel and t the thickness of the layer along
+/// n ([`across`]), which goes as the number of voxels a unit of area. The mean of t/h, over what the reference camera shows
+/// of the box's faces and by its area, gives back in total what that takes: seen from the front, a face has as many dots a
+/// pixel as eq. 1 gives on the mean over the picture of the box. A face that comes into sight has no area at first, so
+/// nothing jumps as the camera turns.
+pub(super) fn mean_thickness(grid: &Grid, view: &View, near: f64) -> f64 {
+    let corners = eye_corners(grid, view);
+    let to_faces = grid.inverse_axes().transpose();
+    let faces = (0..6).map(|i| {
+        let (axis, side) = (i / 2, i % 2);
+        let normal = to_faces.col(axis).normalize();
+        let face: [usize; 4] = std::array::from_fn(|k| (k >> axis << axis) + k + (side << axis));
+        let longer = across(grid, normal) / grid.voxel() - 1.0;
+        let outward = view.direction_to_eye(normal) * if side == 0 { -1.0 } else { 1.0 };
+        let to_eye = if view.perspective { -corners[face[0]] } else { DVec3::Z };
+        let is_seen = outward.dot(to_eye) > 0.0;
+        (is_seen, shown(&corners, &face, view, near), if longer > ROUNDING { longer } else { 0.0 })
+    });
+    let faces: Vec<(bool, f64, f64)> = faces.collect();
+    // From inside all faces are seen.
+    let is_inside = faces.iter().all(|face| !face.0);
+    let seen = faces.iter().filter(|face| face.0 || is_inside);
+    let (area, longer) = seen.fold((0.0, 0.0), |(sum, more), &(_, area, longer)| (sum + area, more + area * longer));
+    if area > 0.0 { 1.0 + longer / area } else { 1.0 }
+}
+
+/// The corners of the box in eye space; a corner's bit is set where it is at the far end of an axis.
+fn eye_corners(grid: &Grid, view: &View) -> [DVec3; 8] {
+    grid.world_corners().map(|corner| view.to_eye(corner))
+}
+
+/// The area in pixels of a part of the box, the convex hull of some of its corners.
+fn shown(corners: &[DVec3; 8], part: &[usize], view: &View, near: f64) -> f64 {
+    let all = part.iter().map(|&i| corners[i]);
     if !view.perspective {
-        return hull_area(corners.map(|p| DVec2::new(p.x, p.y) / view.pixel).to_vec());
+        return hull_area(all.map(|p| DVec2::new(p.x, p.y) / view.pixel).collect());
     }
     let project = |p: DVec3| DVec2::new(p.x, p.y) / (-p.z * view.pixel);
     if corners.iter().all(|p| -p.z >= near) {
-        return hull_area(corners.map(project).to_vec());
+        return hull_area(all.map(project).collect());
     }
     // The corners before the plane, and where edges cross it. Corner i and i with one bit more share an edge.
-    let mut points: Vec<DVec2> = corners.iter().filter(|p| -p.z >= near).map(|&p| project(p)).collect();
-    for (i, bit) in (0..8usize).flat_map(|i| [1, 2, 4].map(|bit| (i, bit))).filter(|(i, bit)| i & bit == 0) {
-        let (a, b) = (corners[i], corners[i | bit]);
+    let mut points: Vec<DVec2> = all.filter(|p| -p.z >= near).map(project).collect();
+    let edges = part.iter().flat_map(|&i| [1, 2, 4].map(|bit| (i, i | bit)));
+    for (a, b) in edges.filter(|(i, j)| i != j && part.contains(j)) {
+        let (a, b) = (corners[a], corners[b]);
         let (da, db) = (-a.z - near, -b.z - near);
         if (da < 0.0) != (db < 0.0) {
             let at = a + (b - a) * (da / (da - db));
@@ -115,6 +159,7 @@ fn clipped(mut polygon: Vec<DVec2>, half: DVec2) -> Vec<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drypoint_scene::glam::{DMat3, EulerRot};
     use drypoint_scene::tables::{Camera, Length, Projection};
 
     fn grid() -> Grid {
@@ -164,5 +209,31 @@ mod tests {
         assert_eq!(points_each(1.0, 102_400.0, [64; 3]), 25);
         assert_eq!([0.02, 0.0199, 0.06].map(|k| points_each(k, 102_400.0, [64; 3])), [1, 1, 2]);
         assert_eq!(points_each(400.0, 102_400.0, [64; 3]), 10_000);
+    }
+
+    #[test]
+    fn the_mean_thickness_is_that_of_the_faces_in_front() {
+        let far = Grid::with_spacing([11, 21, 31], [1.0, 1.0, 4.0]).unwrap();
+        let seen = |grid: &Grid, eye: Option<DVec3>, direction: DVec3| {
+            let projection = Projection::Orthographic { height: Some(Length::World(50.0)) };
+            let camera = Camera { direction, direction_given: true, ..Camera::default() };
+            let camera = if eye.is_some() { Camera { eye, ..camera } } else { Camera { projection, ..camera } };
+            mean_thickness(grid, &View::new(&camera, grid, [300, 200]).unwrap(), 0.5)
+        };
+        let centre = far.centre();
+        for eye in [None, Some(centre - 100.0 * DVec3::Z)] {
+            assert!((seen(&far, eye, DVec3::Z) - 4.0).abs() < 1e-12, "{eye:?}");
+        }
+        assert_eq!(seen(&far, None, DVec3::X), 1.0);
+        // 20·120 and 10·120 units of faces of thickness 1, 10·20 of thickness 4.
+        assert!((seen(&far, None, DVec3::ONE) - (2400.0 + 1200.0 + 4.0 * 200.0) / 3800.0).abs() < 1e-12);
+        // From inside, with a face across slices in the middle of the picture.
+        let inside = seen(&far, Some(centre), DVec3::Z);
+        assert!(inside > 1.0 && inside < 4.0, "{inside}");
+        // Cubes that a header turned, in numbers of f32.
+        let turn = DMat3::from_euler(EulerRot::XYZ, 0.3, 0.7, 1.1) * 0.9;
+        let axes = DMat3::from_cols_array(&turn.to_cols_array().map(|x| f64::from(x as f32)));
+        let turned = Grid::new([11, 21, 31], axes, DVec3::ONE).unwrap();
+        assert_eq!(seen(&turned, None, DVec3::new(0.2, 1.0, -0.7)), 1.0);
     }
 }

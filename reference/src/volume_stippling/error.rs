@@ -25,7 +25,7 @@ pub enum StippleError {
     /// More points of a voxel than have a number each.
     #[error("a voxel would have {each} points, and at most {most} are possible")]
     TooDense {
-        /// N_max.
+        /// Points of each voxel.
         each: usize,
         /// The most.
         most: usize,

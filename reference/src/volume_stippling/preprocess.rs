@@ -1,6 +1,6 @@
 //! The preprocess of section 4: from a volume to the voxels that get points, and their points ([STIP-1] … [STIP-4]).
 
-use super::area::{box_side, points_each, projected_area};
+use super::area::{box_side, mean_thickness, points_each, projected_area};
 use super::curves::Edges;
 use super::error::StippleError;
 use super::frame::viewing_distance;
@@ -58,9 +58,10 @@ pub struct Preprocess<'a> {
     pub area: f64,
     /// m ([STIP-2]).
     pub box_side: usize,
-    /// N_max ([STIP-3]).
+    /// Points of each voxel: the whole number from `full` on.
     pub each: usize,
-    /// How many points of a voxel T = 1 stands for, at most N_max.
+    /// How many of them T = 1 stands for, in a voxel that has the largest piece of a face: N_max of eq. 1, times the mean
+    /// thickness of thin layers ([STIP-3], [STIP-4]), or with `k_max = "auto"` what prints the full tone ([STIP-17]).
     pub full: f64,
     /// λa of dots of S_max on the page, where a face is seen from the front with T = 1; 0 where tone is not asked for
     /// ([STIP-17]).
@@ -95,7 +96,10 @@ impl<'a> Preprocess<'a> {
             layers * grid.voxel() / grid.axes().determinant().abs() * pixel * pixel
         };
         let full = match (stipples.k_max, tone) {
-            (PointsPerPixel::Number(k_max), _) => points_each(k_max, area, volume.dims()) as f64,
+            (PointsPerPixel::Number(k_max), _) => {
+                let thickness = if stipples.thin { mean_thickness(volume.grid(), view, near) } else { 1.0 };
+                points_each(k_max, area, volume.dims()) as f64 * thickness
+            }
             (PointsPerPixel::Auto, Some((tone, dot))) => tone.ink_of_layers(FULL, layers) / (density(layers) * dot),
             // Dots of no size print nothing, however many.
             (PointsPerPixel::Auto, None) => 1.0,
@@ -172,7 +176,7 @@ impl<'a> Preprocess<'a> {
         (self.voxels.len() as u64).saturating_mul(each)
     }
 
-    /// Makes the points. `done` hears how many of the N_max ranks are done.
+    /// Makes the points. `done` hears how many of the `each` ranks are done.
     ///
     /// # Errors
     /// None that [`new`](Self::new) has not found.
@@ -193,7 +197,7 @@ impl<'a> Preprocess<'a> {
             seed: stipples.seed,
             neighbours: stipples.order == StippleOrder::Neighbours,
         };
-        // N_max is bounded by memory, which a volume without a boundary does not take.
+        // Their number is bounded by memory, which a volume without a boundary does not take.
         let offsets = if cells.is_empty() { Vec::new() } else { order::points(&sites, self.each, done) };
         let (each, full) = (self.each, self.full);
         let points = Points { grid: grid.clone(), each, full, voxels: self.voxels.clone(), offsets };

@@ -18,6 +18,14 @@ pub(super) fn across(grid: &Grid, normal: DVec3) -> f64 {
     (0..3).filter(|&a| dims[a] > 1).fold(grid.voxel(), |reach, a| reach.max(steps[a]))
 }
 
+/// The axis of the grid nearest to a normal, whose steps lead farthest along it; the first of equals. `steps` is Dᵀn.
+///
+/// Pieces of a face are those of columns along it, and points go to the edge along it: both of them have to take the same.
+pub(super) fn nearest_axis(steps: DVec3) -> usize {
+    let lengths = steps.abs();
+    (1..3).fold(0, |nearest, a| if lengths[a] > lengths[nearest] { a } else { nearest })
+}
+
 /// From a voxel of a layer to the edge `top` steps along n, in index space: the way that its points go.
 ///
 /// Along n itself they would leave gaps. The layer is [`across`] thick; a voxel that leaves it on one side is followed on the
@@ -26,9 +34,12 @@ pub(super) fn across(grid: &Grid, normal: DVec3) -> f64 {
 /// axis, both as far as one unit along n, which leads 1/thickness along the axis.
 pub(super) fn way_to_edge(grid: &Grid, normal: DVec3, top: f64) -> DVec3 {
     let (reach, own) = (across(grid, normal), grid.inverse_axes() * normal);
-    let (steps, dims) = (grid.axes().transpose() * normal, grid.dims());
-    let longest = (0..3).filter(|&a| dims[a] > 1).max_by(|&a, &b| steps[a].abs().total_cmp(&steps[b].abs()));
-    let Some(axis) = longest.filter(|&a| steps[a] != 0.0) else { return own * (top * reach) };
+    // Along an axis of one voxel there is no neighbour.
+    let steps = grid.axes().transpose() * normal * DVec3::from_array(grid.dims().map(|n| f64::from(u8::from(n > 1))));
+    let axis = nearest_axis(steps);
+    if steps[axis] == 0.0 {
+        return own * (top * reach);
+    }
     let mut along = DVec3::ZERO;
     along[axis] = 1.0 / steps[axis];
     let (least, most) = (own[axis] * steps[axis].signum(), along[axis].abs());
@@ -51,6 +62,10 @@ pub(super) fn step(grid: &Grid, normal: DVec3, thin: bool) -> DVec3 {
         grid.inverse_axes() * (normal * across(grid, normal))
     }
 }
+
+/// Norms that differ by so much of themselves or less are equal: they are sums of 27 products, and between two slices of a
+/// segmentation the same numbers in another order.
+const EQUAL: f64 = 1e-13;
 
 /// Norms of the voxels of a grid, x fastest.
 #[derive(Clone, Copy)]
@@ -82,12 +97,13 @@ impl Norms<'_> {
     }
 
     /// Whether a voxel's norm is the largest along ±n within one voxel, which is a [`step`]. Of equals the side of the lower
-    /// linear index is kept.
+    /// linear index is kept, and rounding does not tell them apart: a face between two slices would have a layer in both.
     pub(super) fn is_largest(&self, cell: [usize; 3], step: DVec3) -> bool {
-        // Which of the two comes first in linear order.
-        let first = [step.z, step.y, step.x].into_iter().find(|&x| x != 0.0).map_or(1.0, f64::signum);
+        // Which of the two comes first in linear order; a component that rounding left does not say.
+        let first = [step.z, step.y, step.x].into_iter().find(|x| x.abs() > EQUAL).map_or(1.0, f64::signum);
         let own = self.own(cell);
-        self.at(cell, -step * first) < own && self.at(cell, step * first) <= own
+        let equal = 1.0 + EQUAL;
+        self.at(cell, -step * first) * equal < own && self.at(cell, step * first) <= own * equal
     }
 
     /// Where along n the norm is largest, in steps from the voxel's centre, at most one: the top of the Gaussian through the
@@ -199,6 +215,27 @@ mod tests {
         assert_eq!(norms.top([1, 0, 0], DVec3::X), 0.5);
         assert_eq!(norms.top([1, 0, 0], DVec3::Y), 0.0);
         assert_eq!(norms.top([0, 0, 0], DVec3::X), 1.0);
+    }
+
+    /// Two voxels beside a face midway between them, and one layer, whatever rounding makes of their norms and of the step.
+    #[test]
+    fn rounding_does_not_tell_equals_apart() {
+        let noise = [0.0, 1e-16, -3e-16];
+        for (a, b) in noise.into_iter().flat_map(|a| noise.map(|b| (a, b))) {
+            let rows = [0.0, 0.125 + a, 0.125 + b, 0.0];
+            for axis in 0..3 {
+                let all: Vec<f64> = (0..64).map(|i| rows[[i % 4, i / 4 % 4, i / 16][axis]]).collect();
+                let norms = Norms { dims: [4; 3], all: &all };
+                let kept = (0..4).filter(|&i| {
+                    let mut cell = [1; 3];
+                    cell[axis] = i;
+                    // Each voxel's normal has been rounded for itself.
+                    let off = DVec3::splat([a, b, -a, -b][i]);
+                    norms.is_largest(cell, DVec3::AXES[axis] + off)
+                });
+                assert_eq!(kept.collect::<Vec<_>>(), [1], "{a} {b}, axis {axis}");
+            }
+        }
     }
 
     /// A voxel on a flank is led up, whatever lies at its foot, and nothing jumps where it becomes the top.

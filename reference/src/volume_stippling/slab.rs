@@ -1,5 +1,6 @@
 //! Random points of a voxel: between two planes parallel to its tangent plane (4.3), or with `snap` on the edge ([STIP-4]).
 
+use super::ridge::nearest_axis;
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::philox;
 
@@ -27,15 +28,8 @@ impl Slab {
     /// Between planes at the distance `h`, in world units, on both sides of the centre; `n` of length 1.
     pub(super) fn new(axes: DMat3, n: DVec3, h: f64) -> Self {
         let m = axes.transpose() * n;
-        let a = m.abs();
-        let axis = if a.x >= a.y && a.x >= a.z {
-            0
-        } else if a.y >= a.z {
-            1
-        } else {
-            2
-        };
-        Self { axis, slope: m / m[axis], half: h / a[axis], to_edge: None }
+        let axis = nearest_axis(m);
+        Self { axis, slope: m / m[axis], half: h / m[axis].abs(), to_edge: None }
     }
 
     /// The piece of an edge that lies `to_edge` from the voxel's centre, in index space; `n` of length 1.
@@ -96,7 +90,9 @@ impl Slab {
 
 #[cfg(test)]
 mod tests {
+    use super::super::ridge::way_to_edge;
     use super::*;
+    use drypoint_scene::space::Grid;
 
     fn normal(i: u32) -> DVec3 {
         let [u, v, ..] = philox::uniforms(3, [i, 0, 0], 0);
@@ -147,6 +143,22 @@ mod tests {
                 let most = points.iter().map(|o| off(o)[a]).fold(-1.0, f64::max);
                 // Of 200 draws none in the outer twentieth has odds of 4·10⁻⁵.
                 assert!((-0.5001..-0.45).contains(&least) && (0.45..0.5001).contains(&most), "{n}: {least} {most}");
+            }
+        }
+    }
+
+    /// Where two or three axes are as near to the normal, points go to the edge along the axis whose columns have the
+    /// pieces: else pieces of neighbours would not meet.
+    #[test]
+    fn of_axes_as_near_pieces_and_the_way_to_them_take_the_same() {
+        for spacing in [[1.0; 3], [1.0, 1.0, 4.0], [2.0, 1.0, 0.5]] {
+            let grid = Grid::with_spacing([8; 3], spacing).unwrap();
+            for steps in [[1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [-1.0, 0.0, 1.0], [1.0; 3], [1.0, -1.0, -1.0]] {
+                // Powers of two, so that all three are the same to the last bit.
+                let n = DVec3::from_array(steps) / DVec3::from_array(spacing);
+                let way = way_to_edge(&grid, n / n.length(), 1.0).abs();
+                let axis = Slab::on_edge(grid.axes(), n / n.length(), DVec3::ZERO).axis;
+                assert!((0..3).all(|a| a == axis || way[a] < way[axis]), "{spacing:?} {steps:?}: {way}, {axis}");
             }
         }
     }

@@ -2,6 +2,7 @@
 
 mod curves;
 mod even;
+mod faces;
 mod frames;
 mod hidden;
 mod preprocess;

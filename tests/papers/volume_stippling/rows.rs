@@ -18,14 +18,26 @@ const RADIUS: f64 = 40.0;
 /// Points of a voxel.
 const EACH: f64 = 6.0;
 
-/// Where the dots of a sphere are, as directions from its middle, and how far that is from a slice. Its edge is a logistic
-/// function of the distance over `soft` slices.
-fn sphere(slices: f64, soft: f64) -> (Vec<DVec3>, f64) {
+/// A sphere in dots.
+struct Sphere {
+    /// Where they are, as directions from its middle.
+    dots: Vec<DVec3>,
+    /// How far the middle is from a slice.
+    middle: f64,
+    /// The voxels that have dots.
+    cells: Vec<[u32; 3]>,
+}
+
+/// A sphere whose edge is a logistic function of the distance over `soft` slices; of 0, a step.
+fn sphere(slices: f64, soft: f64) -> Sphere {
     let side = 2.0 * (RADIUS + 4.0 * slices);
     let dims = [side as usize, side as usize, (side / slices) as usize];
     let grid = Grid::with_spacing(dims, [1.0, 1.0, slices]).unwrap();
     let centre = grid.centre();
-    let volume = common::on(grid, |p| 1.0 / (1.0 + exp(((p - centre).length() - RADIUS) / (soft * slices))));
+    let volume = common::on(grid, |p| match (p - centre).length() - RADIUS {
+        outside if soft == 0.0 => f64::from(u8::from(outside < 0.0)),
+        outside => 1.0 / (1.0 + exp(outside / (soft * slices))),
+    });
     let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
     let stipples = Stipples {
         thin: true,
@@ -48,7 +60,31 @@ fn sphere(slices: f64, soft: f64) -> (Vec<DVec3>, f64) {
     let mut drawn = Drawn::default();
     frames.draw(&view, &Page::in_pixels(view.size, 0.0, 254.0), &mut drawn);
     let dots = drawn.dots().map(|dot| (dot.world - centre).normalize()).collect();
-    (dots, centre.z / slices)
+    Sphere { dots, middle: centre.z / slices, cells: points.voxels.iter().map(|voxel| voxel.cell).collect() }
+}
+
+/// The dots a unit of area about each of some angles to the slices' axis, and their wave of one slice, as a share.
+fn zones(sphere: &Sphere, slices: f64) -> Vec<[f64; 2]> {
+    let zone = |degrees: f64| {
+        // Whole slices about that angle.
+        let about = (RADIUS * cos(degrees.to_radians()) / slices + sphere.middle).floor() - sphere.middle;
+        let half = (3.0 / slices).ceil();
+        let heights = sphere.dots.iter().map(|n| n.z * RADIUS / slices).filter(|z| (z - about).abs() < half);
+        let phases: Vec<f64> = heights.map(|z| TAU * (z + sphere.middle)).collect();
+        let count = phases.len() as f64;
+        let wave = phases.iter().map(|&p| cos(p)).sum::<f64>().hypot(phases.iter().map(|&p| sin(p)).sum());
+        let (wave, noise) = (2.0 * wave / count, 2.0 / count.sqrt());
+        let density = count / (TAU * RADIUS * 2.0 * half * slices);
+        println!("slices {slices}, {degrees}°: density {density:.3}, wave {wave:.3}, white noise {noise:.3}");
+        [density, wave]
+    };
+    [25.0, 35.0, 45.0, 55.0, 65.0, 75.0, 85.0].map(zone).to_vec()
+}
+
+/// The largest density over the least.
+fn spread(zones: &[[f64; 2]]) -> f64 {
+    let (least, most) = zones.iter().fold((f64::MAX, 0.0f64), |(a, b), zone| (a.min(zone[0]), b.max(zone[0])));
+    most / least
 }
 
 /// A zone of a sphere has the area 2πR·height, so that an even one has as many dots at each height within a slice: their wave
@@ -57,25 +93,31 @@ fn sphere(slices: f64, soft: f64) -> (Vec<DVec3>, f64) {
 fn a_sphere_has_no_rows_of_dots() {
     // Twice as wide as slices are apart, and as wide.
     for (slices, soft) in [1.0, 2.0, 4.0].into_iter().flat_map(|slices| [0.6, 0.3].map(|soft| (slices, soft))) {
-        let (dots, middle) = sphere(slices, soft);
-        let mut densities = Vec::new();
-        for degrees in [25f64, 35.0, 45.0, 55.0, 65.0, 75.0, 85.0] {
-            // Whole slices about that angle to their axis.
-            let about = (RADIUS * cos(degrees.to_radians()) / slices + middle).floor() - middle;
-            let half = (3.0 / slices).ceil();
-            let heights = dots.iter().map(|n| n.z * RADIUS / slices).filter(|z| (z - about).abs() < half);
-            let phases: Vec<f64> = heights.map(|z| TAU * (z + middle)).collect();
-            let count = phases.len() as f64;
-            let wave = phases.iter().map(|&p| cos(p)).sum::<f64>().hypot(phases.iter().map(|&p| sin(p)).sum());
-            let (wave, noise) = (2.0 * wave / count, 2.0 / count.sqrt());
-            let density = count / (TAU * RADIUS * 2.0 * half * slices);
-            println!(
-                "slices {slices}, soft {soft}, {degrees}°: density {density:.3}, wave {wave:.3}, white noise {noise:.3}"
-            );
-            assert!(wave < 0.08, "slices {slices}, soft {soft}, {degrees}°: {wave}");
-            densities.push(density);
+        println!("an edge of {soft} slices");
+        let zones = zones(&sphere(slices, soft), slices);
+        assert!(zones.iter().all(|zone| zone[1] < 0.08), "slices {slices}, soft {soft}: {zones:?}");
+        assert!(spread(&zones) < 1.1, "slices {slices}, soft {soft}: {zones:?}");
+    }
+}
+
+/// The edge of a segmentation: nothing tells where between two slices it is, and ‖∇V‖ is the same on both sides. One layer
+/// all the same, of treads and risers, whose area is that of the sphere at least and √2 times as much at most.
+#[test]
+fn a_step_has_one_layer() {
+    for slices in [1.0, 2.0, 4.0] {
+        println!("a step");
+        let sphere = sphere(slices, 0.0);
+        let zones = zones(&sphere, slices);
+        assert!(spread(&zones) < 2f64.sqrt(), "slices {slices}: {zones:?}");
+        // Columns across slices, where the face is nearer to them than to the other axes.
+        let steepest = RADIUS * sin(40f64.to_radians());
+        let centre = RADIUS + 4.0 * slices - 0.5;
+        let side = (2.0 * centre) as u32;
+        for (x, y) in (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y))).filter(|_| slices > 1.0) {
+            if (f64::from(x) - centre).hypot(f64::from(y) - centre) < steepest {
+                let above = |cell: &&[u32; 3]| cell[..2] == [x, y] && f64::from(cell[2]) > sphere.middle;
+                assert_eq!(sphere.cells.iter().filter(above).count(), 1, "slices {slices}: {x} {y}");
+            }
         }
-        let (least, most) = densities.iter().fold((f64::MAX, 0.0f64), |(a, b), &x| (a.min(x), b.max(x)));
-        assert!(most / least < 1.1, "slices {slices}, soft {soft}: {least} to {most}");
     }
 }
