@@ -1,6 +1,7 @@
 //! Where the eye stands and how wide it looks ([RAY-5], [RAY-6]).
 
 use crate::camera::{first_positions, grids};
+use crate::common::random::Random;
 use crate::common::{Shot, on, orthographic, perspective};
 use crate::slabs::in_steps;
 use crate::stability::{Case, Theme, worst};
@@ -8,6 +9,7 @@ use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Camera, Length, Number, Projection, StepAlong};
 use drypoint::scene::view::View;
+use drypoint::scene::volume::{Volume, Voxels};
 
 pub(crate) static THEME: Theme = Theme::new(
     "The eye",
@@ -107,12 +109,16 @@ fn inside(number: Number) -> f64 {
 
 /// The camera at 10⁶ times the box's diagonal, and a picture that the box just fills.
 fn far(grid: &Grid, direction: DVec3, projection: &Projection) -> Camera {
-    let away = 2e6 * grid.radius();
+    far_by(grid, direction, projection, 2e6)
+}
+
+/// The same at some radii of the box.
+fn far_by(grid: &Grid, direction: DVec3, projection: &Projection, radii: f64) -> Camera {
     let projection = match projection {
-        Projection::Perspective { .. } => Projection::Perspective { fov: 2.0 * (1.0 / 2e6f64).atan().to_degrees() },
+        Projection::Perspective { .. } => Projection::Perspective { fov: 2.0 * (1.0 / radii).atan().to_degrees() },
         Projection::Orthographic { .. } => Projection::Orthographic { height: None },
     };
-    let eye = Some(grid.centre() - direction.normalize() * away);
+    let eye = Some(grid.centre() - direction.normalize() * (radii * grid.radius()));
     Camera { projection, eye, direction, direction_given: true, ..Camera::default() }
 }
 
@@ -177,4 +183,33 @@ fn opacity_by_field_of_view() -> f64 {
             in_steps(&shot, STEP, ALPHA, 1.0)
         })
     }))
+}
+
+/// From just over 2¹⁷ and 2²⁰ voxels away depths are coarser in f32 than positions are, and samples stand in other bricks
+/// than the line through them: what is skipped has to know. A step next to 0 shows each of them.
+#[test]
+fn skipping_shows_nowhere_from_far_away_in_f32() {
+    for seed in 0..6 {
+        let mut random = Random(seed);
+        let grid = Grid::with_spacing([40; 3], [1.0; 3]).unwrap();
+        let values = (0..grid.len()).map(|_| if random.once_in(1000) { 1.0 } else { 0.0 }).collect();
+        let field = Volume::new(grid.clone(), Voxels::F64(values), 1.0, 0.0).unwrap();
+        let sparse = Shot::regular(field, &[(1e-6, [1.0; 3], 0.0), (2e-6, [1.0; 3], 0.1), (1.0, [1.0; 3], 0.2)]);
+        let away = [17, 20].map(|power| 1.01 * 2f64.powi(power) + grid.radius())[seed as usize % 2];
+        for direction in DIRECTIONS.into_iter().chain([DVec3::new(0.95, 0.1, 0.2), DVec3::new(0.2, -0.1, -0.9)]) {
+            for projection in [perspective(1.0).projection, orthographic(None).projection] {
+                let camera = far_by(&grid, direction, &projection, away / grid.radius());
+                let shot = sparse.in_number(Number::F32).with(|s| {
+                    s.camera = camera;
+                    s.picture.size = [72, 72];
+                    s.sampling.step = Length::Voxels(0.3);
+                });
+                let without = shot.with(|s| s.sampling.skip_empty = false).render();
+                let with = shot.render();
+                assert!(with.counts.samples * 2 < without.counts.samples && with.covered() > 200);
+                assert!(with.bits() == without.bits(), "{seed} {direction} {projection:?}");
+                assert!(shot.render_in_tiles(3).bits() == without.bits(), "{seed} {direction} {projection:?}, tiles");
+            }
+        }
+    }
 }

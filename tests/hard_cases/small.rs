@@ -127,7 +127,7 @@ fn boxes(number: Number) -> f64 {
 fn noise(number: Number) -> f64 {
     let mut wrong = 0;
     for grid in grids() {
-        let rough = on(grid.clone(), |p| 100.0 * (91.7 * p.x + 37.1 * p.y + 71.3 * p.z).sin());
+        let rough = on(grid.clone(), |p| 100.0 * (91.7 * p.x + 37.1 * p.y + 71.3 * p.z + 1.0).sin());
         for how in all(grid.voxel()) {
             let glass = plain("glass", [0.2, 0.5, 0.8, 0.7]);
             let nodes = [(-100.0, "glass", 0.1), (0.0, "glass", 0.0), (100.0, "glass", 0.6)];

@@ -21,8 +21,15 @@ type Encode = fn(&Picture) -> Result<Vec<u8>, png::EncodingError>;
 const LARGEST: usize = 300_000;
 
 /// Scenes that are shown beside the figures.
-const OTHERS: [&str; 6] =
-    ["skull-plotter", "outlines-engine", "hatching-aneurism", "hatching-engine", "hatching-skull", "plotter-page"];
+const OTHERS: [&str; 7] = [
+    "skull-plotter",
+    "silhouettes-engine",
+    "outlines-engine",
+    "hatching-aneurism",
+    "hatching-engine",
+    "hatching-skull",
+    "plotter-page",
+];
 
 /// The darkest κ_v of a map of curvature, per world unit.
 const BLACK: f64 = 1.0;

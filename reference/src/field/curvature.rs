@@ -228,6 +228,17 @@ mod tests {
         assert_eq!(along_view(g, h, tilted(2f64.powi(-25)), Outside::High), -3.0);
     }
 
+    /// In f32 the bound is its own, 2⁻¹²: a unit vector is off by 2⁻²⁴, and so is what is left of it in the tangent plane.
+    #[test]
+    fn along_the_normal_in_f32() {
+        let g = Vec3::new(0.0f32, 0.0, -1.0);
+        let h = Sym3 { xx: -3.0f32, xy: 0.0, xz: 0.0, yy: -1.0, yz: 0.0, zz: 0.0 };
+        for (power, kappa) in [(-24, 2.0), (-13, 2.0), (-11, 3.0)] {
+            let tilted = Vec3::new(2f32.powi(power), 0.0, 1.0);
+            assert_eq!(along_view(g, h, tilted, Outside::Low), kappa, "2^{power}");
+        }
+    }
+
     /// Along the normal and past it, in every direction between, and 0 where there is no normal.
     #[test]
     fn lanes_have_the_bits_of_one() {

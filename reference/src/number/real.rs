@@ -284,6 +284,22 @@ mod tests {
         assert_eq!((f64::from_index(1_000_001), f32::from_index(4096)), (1_000_001.0, 4096.0));
     }
 
+    /// exp(y ln x) in f32 would be off by y ln x last places.
+    #[test]
+    fn powers_in_f32_are_within_a_last_place() {
+        for x in [1e-6f32, 0.3, 0.9, 0.999, 1.7, 100.0] {
+            for y in [0.01f32, 0.3, 1.5, 10.25, 15.5] {
+                let exact = f64::from(x).pow(f64::from(y));
+                for got in [x.pow(y), x.power(y)].into_iter().filter(|got| got.is_normal()) {
+                    assert!(
+                        (f64::from(got) - exact).abs() <= f64::from(f32::EPSILON) * exact,
+                        "{x} {y}: {got} {exact}"
+                    );
+                }
+            }
+        }
+    }
+
     #[test]
     fn split_takes_a_negative_zero() {
         assert_eq!(Real::split(-0.0f64), (0, 0.0));

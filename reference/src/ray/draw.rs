@@ -94,10 +94,10 @@ fn draw_tile<R: Real>(
     let mut boxes = prepared.skip.as_ref().map(|skip| {
         let corner = |i: usize, j: usize| {
             let ray = prepared.view.ray(i as f64, j as f64);
-            IndexRay::<R>::new(&ray, &prepared.view, &prepared.lattice, prepared.volume.grid()).line()
+            IndexRay::<R>::new(&ray, &prepared.view, &prepared.lattice, prepared.volume.grid()).rounded()
         };
         let corners = [corner(x, y), corner(right, y), corner(right, bottom), corner(x, bottom)];
-        skip.boxes_in(&Beam::new(corners, R::EPSILON.to_f64()))
+        skip.boxes_in(&Beam::new(corners))
     });
     let blocks = blocks_of(size, whole);
     let casts = cast_parts(prepared, cast_all, [x, y], &blocks, boxes.as_mut(), &mut tile.counts);

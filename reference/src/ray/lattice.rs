@@ -150,14 +150,6 @@ impl<R: Real> IndexRay<R> {
         parts.filter(|[first, last]| first <= last)
     }
 
-    /// The samples of a ray that are inside the box if they are in boxes that are half a voxel inside it; none where rounding
-    /// could move them as far.
-    #[inline(always)]
-    pub(super) fn all_beyond_near(&self) -> Option<[i64; 2]> {
-        let [x, y, z] = self.origin.to_glam().to_array();
-        (x.abs().max(y.abs()).max(z.abs()) < FAR * R::EPSILON.to_f64().recip()).then_some([self.first, i64::MAX])
-    }
-
     /// Whether sample k may be asked for: beyond `near` and inside the box.
     #[inline]
     pub fn has(&self, k: i64, [lo, hi]: [Vec3<R>; 2]) -> bool {
@@ -181,7 +173,12 @@ impl<R: Real> IndexRay<R> {
 
     /// Origin and displacement for one unit of depth, in index space.
     pub fn line(&self) -> [DVec3; 2] {
-        [self.origin.to_glam(), self.along.to_glam()]
+        self.rounded().map(|v| v.to_glam())
+    }
+
+    /// The same, in the numbers of positions.
+    pub(super) fn rounded(&self) -> [Vec3<R>; 2] {
+        [self.origin, self.along]
     }
 
     /// Eye depths at which the ray enters and leaves a box, widened by the rounding of positions.
@@ -204,6 +201,17 @@ impl<R: Real> IndexRay<R> {
             range = [range[0].max(a.min(b)), range[1].min(a.max(b))];
         }
         (range[0] <= range[1] && range[0].is_finite() && range[1].is_finite()).then_some(range)
+    }
+}
+
+/// For rays that are cast in lanes, which compute in f64.
+impl IndexRay<f64> {
+    /// The samples of a ray that are inside the box if they are in boxes that are half a voxel inside it; none where rounding
+    /// could move them as far.
+    #[inline(always)]
+    pub(super) fn all_beyond_near(&self) -> Option<[i64; 2]> {
+        let [x, y, z] = self.origin.to_glam().to_array();
+        (x.abs().max(y.abs()).max(z.abs()) < FAR / f64::EPSILON).then_some([self.first, i64::MAX])
     }
 }
 

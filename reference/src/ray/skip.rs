@@ -1,5 +1,6 @@
 //! Empty-space skipping ([RAY-2]): which bricks a transfer function can see, and where a ray meets them.
 
+use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::{BRICK, Bricks};
 use obvhs::aabb::Aabb;
@@ -140,9 +141,10 @@ struct Plane {
 }
 
 impl Beam {
-    /// From the four corner rays in cyclic order, each as origin and displacement for one unit of depth. A side whose
-    /// corners fall together bounds nothing.
-    pub fn new(corners: [[DVec3; 2]; 4], rounding: f64) -> Self {
+    /// From the four corner rays in cyclic order, each as origin and displacement for one unit of depth, rounded as all rays
+    /// are. A side whose corners fall together bounds nothing.
+    pub fn new<R: Real>(corners: [[Vec3<R>; 2]; 4]) -> Self {
+        let (corners, rounding) = (corners.map(|ray| ray.map(|v| v.to_glam())), R::EPSILON.to_f64());
         let at_depth_1 = corners.map(|[origin, along]| origin + along);
         let centre = (at_depth_1[0] + at_depth_1[1] + at_depth_1[2] + at_depth_1[3]) * 0.25;
         let planes = std::array::from_fn(|i| {
@@ -380,7 +382,7 @@ mod tests {
             };
             let corners = [ray(-0.5, -0.5), ray(0.5, -0.5), ray(0.5, 0.5), ray(-0.5, 0.5)];
             let [origin, along] = ray(between[0] - 0.5, between[1] - 0.5);
-            let mut boxes = skip.boxes_in(&Beam::new(corners, f64::EPSILON));
+            let mut boxes = skip.boxes_in(&Beam::new(corners.map(|ray| ray.map(Vec3::<f64>::from_glam))));
             let got = boxes.intervals([origin, along], f64::EPSILON).to_vec();
             prop_assert!(got.windows(2).all(|w| w[0][1] < w[1][0]));
             // Behind a perspective eye there are no samples.
@@ -397,6 +399,36 @@ mod tests {
         }
     }
 
+    /// A beam that is bounded nowhere.
+    fn everything() -> Beam {
+        Beam::new([[Vec3::<f64>::from_glam(DVec3::ZERO); 2]; 4])
+    }
+
+    /// The same distance, and tiles no wider than its rounding: each ray has been rounded for itself, and what lies at its
+    /// positions is in the beam of the corner rays.
+    #[test]
+    fn rays_that_are_rounded_out_of_their_tile_are_in_its_beam() {
+        let mut outside = 0;
+        for i in 0..400 {
+            let aside = f64::from(i) * 0.01;
+            let eye = DVec3::new(-1e6 - aside, 4e5 + 3.0 * aside, 1e4 - aside);
+            let along = (DVec3::new(10.0, 6.0 + 0.3 * aside, 5.0) - eye) / 1e6;
+            let right = along.any_orthonormal_vector() * 3e-7;
+            let up = along.normalize().cross(right);
+            let ray = |x: f64, y: f64| [eye, along + right * x + up * y].map(Vec3::<f32>::from_glam);
+            let corners = [ray(0.0, 0.0), ray(1.0, 0.0), ray(1.0, 1.0), ray(0.0, 1.0)];
+            let exact = Beam::new(corners.map(|ray| ray.map(|v| Vec3::<f64>::from_glam(v.to_glam()))));
+            let rounded = Beam::new(corners);
+            for k in 0..64 {
+                let [origin, along] = ray(f64::from(k % 8) / 7.0, f64::from(k / 8) / 7.0);
+                let p = (origin + along * 1e6f32).to_glam().to_array().map(|x| [x; 2]);
+                outside += u32::from(!exact.can_meet(&p));
+                assert!(rounded.can_meet(&p), "{i} {k} {p:?}");
+            }
+        }
+        assert!(outside > 1000, "{outside}");
+    }
+
     /// From so far away that f32 rounds positions to 2⁻⁷: the rounded position decides, wherever the line itself runs.
     #[test]
     fn positions_that_are_rounded_into_a_box_are_in_its_interval() {
@@ -404,8 +436,7 @@ mod tests {
         let [lo, hi] = [DVec3::new(8.0, 4.0, 4.0), DVec3::new(12.0, 8.0, 8.0)];
         let within = |p: DVec3| p.cmpge(lo).all() && p.cmplt(hi).all();
         let skip = Skip::new(&bricks([5, 4, 3], &visible), |_, r| r[1] > 0.5);
-        let everything = Beam::new([[DVec3::ZERO; 2]; 4], f64::from(f32::EPSILON));
-        let mut boxes = skip.boxes_in(&everything);
+        let mut boxes = skip.boxes_in(&everything());
         let f32s = |v: DVec3| v.to_array().map(|x| x as f32);
         let mut moved = 0;
         for i in 0..400 {
@@ -430,7 +461,6 @@ mod tests {
     #[test]
     fn nothing_visible_is_no_interval() {
         let skip = Skip::new(&bricks([1, 1, 1], &[false]), |_, r| r[1] > 0.5);
-        let everything = Beam::new([[DVec3::ZERO; 2]; 4], f64::EPSILON);
-        assert!(skip.boxes_in(&everything).intervals([DVec3::ZERO, DVec3::X], f64::EPSILON).is_empty());
+        assert!(skip.boxes_in(&everything()).intervals([DVec3::ZERO, DVec3::X], f64::EPSILON).is_empty());
     }
 }

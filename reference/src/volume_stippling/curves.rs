@@ -1,7 +1,6 @@
 //! Silhouette curves: voxels of boundaries that turn away from the eye (5.6, [STIP-13]).
 
 use super::StippleError;
-use super::ridge::across;
 use crate::field::{Field, HessianEstimator, Reconstruction, Rung, Sampler};
 use crate::number::Vec3;
 use crate::with_sampler;
@@ -89,14 +88,14 @@ impl Edges {
         Ok(Self { grid: volume.grid().clone(), voxels, is_snapped: false })
     }
 
-    /// The same with segments where the curve is: on the edge of ‖∇V‖, `tops` steps along n from the centre of each of
-    /// `voxels`, and there where n·E is 0. The voxels are those that [`new`](Self::new) had.
-    pub(super) fn snapped(mut self, voxels: &[PointVoxel], tops: &[f64]) -> Self {
+    /// The same with segments where the curve is: on the edge of ‖∇V‖, as far along n as the ways of `to_edge` lead from the
+    /// centres of `voxels`, and there where n·E is 0. The voxels are those that [`new`](Self::new) had.
+    pub(super) fn snapped(mut self, voxels: &[PointVoxel], to_edge: &[DVec3]) -> Self {
         // Both in linear order.
-        let mut all = voxels.iter().zip(tops);
+        let mut all = voxels.iter().zip(to_edge);
         for edge in &mut self.voxels {
-            if let Some((voxel, top)) = all.find(|(voxel, _)| voxel.cell == edge.cell) {
-                edge.to_edge = voxel.normal * (top * across(&self.grid, voxel.normal));
+            if let Some((PointVoxel { normal, .. }, way)) = all.find(|(voxel, _)| voxel.cell == edge.cell) {
+                edge.to_edge = normal * normal.dot(self.grid.axes() * *way);
             }
         }
         self.is_snapped = true;

@@ -8,7 +8,7 @@ use super::layers::layers;
 use super::norms::{norms, quantile_above};
 use super::order::{self, Sites};
 use super::resolution::boxes;
-use super::ridge::{Norms, across, step, way_to_edge};
+use super::ridge::{Norms, step, to_edge};
 use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
@@ -51,8 +51,8 @@ pub struct Preprocess<'a> {
     /// At the adjusted resolution ([STIP-2]).
     volume: Cow<'a, Volume>,
     voxels: Vec<PointVoxel>,
-    /// Of each where the edge is, along n from its centre in voxels; empty where points stay.
-    tops: Vec<f64>,
+    /// From the centre of each to the edge, in index space; empty where points stay.
+    to_edge: Vec<DVec3>,
     slab: f64,
     /// A_vol ([STIP-3]).
     pub area: f64,
@@ -87,7 +87,7 @@ impl<'a> Preprocess<'a> {
         let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Length { key: "stipples.slab" })?;
         let field = field_of(&volume, stipples.gradient, table.outside)?;
         let range = table.range.unwrap_or(fine);
-        let Above { voxels, tops, layers } = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
+        let Above { voxels, to_edge, layers } = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
         // Voxels of a face that is seen from the front, a pixel.
         let density = |layers: f64| {
             let pixel =
@@ -114,7 +114,7 @@ impl<'a> Preprocess<'a> {
             return Err(StippleError::TooDense { each, most: order::MOST_EACH });
         }
         let gradients = volume.grid().len() as u64;
-        Ok(Self { inputs, volume, voxels, tops, slab, area, box_side: m, each, full, ink, layers, gradients })
+        Ok(Self { inputs, volume, voxels, to_edge, slab, area, box_side: m, each, full, ink, layers, gradients })
     }
 
     /// The voxels above a ‖∇V‖, whatever the threshold of points, at the adjusted resolution: those that curves are made of
@@ -148,12 +148,12 @@ impl<'a> Preprocess<'a> {
     pub fn edges(&self, counts: &mut Counts) -> Result<Option<Edges>, StippleError> {
         let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
         let threshold = Threshold::Magnitude(curves.grad);
-        let Above { voxels, tops, .. } = self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
+        let Above { voxels, to_edge, .. } = self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
         // ‖∇V‖ anew, and LoG, of which the largest is looked for.
         *counts.preprocess.entry("stipple gradients".into()).or_default() += self.gradients;
         counts.preprocess.insert("curve Hessians".into(), self.gradients);
         let edges = Edges::new(&self.volume, &voxels, curves, self.inputs.table.outside, self.range())?;
-        Ok(Some(if tops.is_empty() { edges } else { edges.snapped(&voxels, &tops) }))
+        Ok(Some(if to_edge.is_empty() { edges } else { edges.snapped(&voxels, &to_edge) }))
     }
 
     /// Number of points.
@@ -171,7 +171,7 @@ impl<'a> Preprocess<'a> {
         let each = self.each as u64;
         // A point, the draw that made it, and what its voxel knows.
         let kept = each.saturating_mul(12 + 4).saturating_add(size_of::<PointVoxel>() as u64);
-        let way = if self.tops.is_empty() { 0 } else { size_of::<DVec3>() as u64 };
+        let way = if self.to_edge.is_empty() { 0 } else { size_of::<DVec3>() as u64 };
         let each = kept.saturating_add(way).saturating_add(order::bytes_a_voxel(self.each));
         (self.voxels.len() as u64).saturating_mul(each)
     }
@@ -185,15 +185,13 @@ impl<'a> Preprocess<'a> {
         let grid = self.volume.grid();
         let cells: Vec<[u32; 3]> = self.voxels.iter().map(|voxel| voxel.cell).collect();
         let normals: Vec<DVec3> = self.voxels.iter().map(|voxel| voxel.normal).collect();
-        let to_edge: Vec<DVec3> =
-            self.voxels.par_iter().zip(&self.tops).map(|(v, top)| self.to_edge(v, *top)).collect();
         let sites = Sites {
             cells: &cells,
             normals: &normals,
             axes: grid.axes(),
             voxel: grid.voxel(),
             slab: self.slab,
-            to_edge: &to_edge,
+            to_edge: &self.to_edge,
             seed: stipples.seed,
             neighbours: stipples.order == StippleOrder::Neighbours,
         };
@@ -205,16 +203,6 @@ impl<'a> Preprocess<'a> {
         counts.preprocess.insert("stipple points".into(), points.len() as u64);
         counts.bytes.insert("points".into(), points.bytes());
         Ok(points)
-    }
-
-    /// From a voxel's centre to the edge, in index space: straight where all layers of an edge have points.
-    fn to_edge(&self, voxel: &PointVoxel, top: f64) -> DVec3 {
-        let grid = self.volume.grid();
-        if self.inputs.stipples.thin {
-            way_to_edge(grid, voxel.normal, top)
-        } else {
-            grid.inverse_axes() * voxel.normal * (top * across(grid, voxel.normal))
-        }
     }
 }
 
@@ -235,8 +223,8 @@ fn estimator(gradient: StippleGradient) -> GradientEstimator {
 struct Above {
     /// In linear order.
     voxels: Vec<PointVoxel>,
-    /// With `snap` where the edge is ([STIP-4]).
-    tops: Vec<f64>,
+    /// With `snap` from each voxel's centre to the edge, in index space ([STIP-4]).
+    to_edge: Vec<DVec3>,
     /// How many of them lie over each other, where tone is asked for ([STIP-17]).
     layers: f64,
 }
@@ -276,20 +264,23 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
             normal,
         })
     };
-    let top = |v: &PointVoxel| ridge.top(v.cell.map(|i| i as usize), to_step(v.normal));
     let rows = norms.par_chunks(dims[0]).enumerate().map(|(row, norms)| {
         let (y, z) = (row % dims[1], row / dims[1]);
         let candidates = norms.iter().enumerate().filter(|&(_, &norm)| norm > bound && is_above(norm));
         candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)).collect::<Vec<_>>()
     });
     let mut voxels = rows.collect::<Vec<_>>().concat();
-    let tops = if stipples.snap == Snap::Edge { voxels.par_iter().map(top).collect() } else { Vec::new() };
-    // What a point stands for is where it is: how far a voxel's centre is from the edge would show as terraces.
-    voxels.par_iter_mut().zip(&tops).for_each(|(v, top)| {
-        let (cell, step) = (v.cell.map(|i| i as usize), to_step(v.normal) * *top);
-        v.value = normalized(smoothed_at(field, cell, step), range);
-        v.magnitude = magnitude(ridge.at(cell, step));
-    });
+    let onto_edge = |v: &mut PointVoxel| {
+        let cell = v.cell.map(|i| i as usize);
+        let top = ridge.top(cell, to_step(v.normal));
+        let way = to_edge(grid, v.normal, stipples.thin) * top;
+        // What a point stands for is where it is: how far a voxel's centre is from the edge would show as terraces.
+        v.value = normalized(smoothed_at(field, cell, way), range);
+        v.magnitude = magnitude(ridge.at(cell, way));
+        way
+    };
+    let snaps = stipples.snap == Snap::Edge;
+    let to_edge = if snaps { voxels.par_iter_mut().map(onto_edge).collect() } else { Vec::new() };
     // A thin face has one layer, whose voxels draw as many points as they have of it.
     let layers = if inputs.tone.is_some() && !stipples.thin {
         let to_step = grid.inverse_axes() * grid.voxel();
@@ -298,7 +289,7 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
     } else {
         1.0
     };
-    Above { voxels, tops, layers }
+    Above { voxels, to_edge, layers }
 }
 
 /// The smoothed value a step from a voxel in index space, at most one along each axis: linear between the voxels' own, which

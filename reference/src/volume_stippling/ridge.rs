@@ -8,14 +8,21 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::space::Grid;
 
+/// Dᵀn, how far each step of the grid leads along a normal, in world units; 0 along an axis of one voxel, where there is no
+/// neighbour.
+fn steps(grid: &Grid, normal: DVec3) -> DVec3 {
+    grid.axes().transpose() * normal * DVec3::from_array(grid.dims().map(|n| f64::from(u8::from(n > 1))))
+}
+
 /// How far a voxel reaches along a normal, in world units: at least the smallest voxel, and as far as the largest step of the
 /// grid leads along n. Voxels whose centres lie within half of it of a plane are a layer without holes, also where slices
 /// are far apart.
+///
+/// On a sheared grid the smallest voxel can be longer than the next voxels all together lead along n, and is not asked for.
 pub(super) fn across(grid: &Grid, normal: DVec3) -> f64 {
-    let axes = grid.axes();
-    let steps = [axes.x_axis, axes.y_axis, axes.z_axis].map(|step| step.dot(normal).abs());
-    let dims = grid.dims();
-    (0..3).filter(|&a| dims[a] > 1).fold(grid.voxel(), |reach, a| reach.max(steps[a]))
+    let steps = steps(grid, normal).abs();
+    let all = steps.element_sum();
+    if all > 0.0 { grid.voxel().min(all).max(steps.max_element()) } else { grid.voxel() }
 }
 
 /// The axis of the grid nearest to a normal, whose steps lead farthest along it; the first of equals. `steps` is Dᵀn.
@@ -26,46 +33,69 @@ pub(super) fn nearest_axis(steps: DVec3) -> usize {
     (1..3).fold(0, |nearest, a| if lengths[a] > lengths[nearest] { a } else { nearest })
 }
 
-/// From a voxel of a layer to the edge `top` steps along n, in index space: the way that its points go.
+/// As far along n as [`across`] says, in index space; less far where that would lead beyond the next voxels.
+fn straight(grid: &Grid, normal: DVec3) -> DVec3 {
+    let step = grid.inverse_axes() * normal * across(grid, normal);
+    step / step.abs().max_element().max(1.0)
+}
+
+/// From a voxel of a layer as far along n as [`across`] says, in index space, and to no place beyond the next voxels: the way
+/// that its points go.
 ///
 /// Along n itself they would leave gaps. The layer is [`across`] thick; a voxel that leaves it on one side is followed on the
 /// other one by its neighbour along the axis nearest to n, and where the layer's thickness along the way is that one step,
-/// the piece of the one begins where that of the other ends: rows of pieces close up. So the way is the mean of n and that
-/// axis, both as far as one unit along n, which leads 1/thickness along the axis.
-pub(super) fn way_to_edge(grid: &Grid, normal: DVec3, top: f64) -> DVec3 {
-    let (reach, own) = (across(grid, normal), grid.inverse_axes() * normal);
-    // Along an axis of one voxel there is no neighbour.
-    let steps = grid.axes().transpose() * normal * DVec3::from_array(grid.dims().map(|n| f64::from(u8::from(n > 1))));
-    let axis = nearest_axis(steps);
-    if steps[axis] == 0.0 {
-        return own * (top * reach);
+/// the piece of the one begins where that of the other ends: rows of pieces close up. So the way is one voxel along that
+/// axis, and what is left of the thickness along the others, as they lead along n: on a grid of cubes n and the axis, over
+/// 1 + n·axis.
+fn way(grid: &Grid, normal: DVec3) -> DVec3 {
+    let steps = steps(grid, normal);
+    let a = nearest_axis(steps);
+    let [b, c] = if steps[(a + 1) % 3].abs() < steps[(a + 2) % 3].abs() { [2, 1] } else { [1, 2] }.map(|k| (a + k) % 3);
+    if steps[a] == 0.0 {
+        return straight(grid, normal);
     }
-    let mut along = DVec3::ZERO;
-    along[axis] = 1.0 / steps[axis];
-    let (least, most) = (own[axis] * steps[axis].signum(), along[axis].abs());
-    let share = if most > least { ((1.0 / reach - least) / (most - least)).clamp(0.0, 1.0) } else { 0.0 };
-    own.lerp(along, share) * (top * reach)
+    let mut way = DVec3::ZERO;
+    way[a] = steps[a].signum();
+    let left = across(grid, normal) - steps[a].abs();
+    if left > 0.0 {
+        let both = left / (steps[b] * steps[b] + steps[c] * steps[c]);
+        way[b] = (both * steps[b]).clamp(-1.0, 1.0);
+        way[c] = if way[b].abs() < 1.0 { both * steps[c] } else { (left - steps[b].abs()) / steps[c] };
+    }
+    way
 }
 
-/// Where ‖∇V‖ is compared with a voxel's own, in index space: as far along n as [`across`] says, to where the voxel's points
-/// may go.
+/// Lengths and products of a grid's steps that differ by so much of them or less are equal: headers have numbers in f32.
+const CUBIC: f64 = 1e-6;
+
+/// Whether voxels are cubes, however they stand in the world.
+fn has_cubes(grid: &Grid) -> bool {
+    let products = (grid.axes().transpose() * grid.axes()).to_cols_array_2d();
+    let (square, dims) = (grid.voxel() * grid.voxel(), grid.dims());
+    let is = |product: f64, of: f64| (product - of).abs() <= CUBIC * square;
+    (0..3).filter(|&a| dims[a] > 1).all(|a| (0..3).all(|b| is(products[a][b], if a == b { square } else { 0.0 })))
+}
+
+/// From a voxel as far along n as [`across`] says, in index space and to no place beyond the next voxels: the way that its
+/// points go, along n where all layers of a face have points, else so that pieces of one layer close up.
+pub(super) fn to_edge(grid: &Grid, normal: DVec3, thin: bool) -> DVec3 {
+    if thin { way(grid, normal) } else { straight(grid, normal) }
+}
+
+/// Where ‖∇V‖ is compared with a voxel's own, in index space: as far along n as the voxel's points may go.
 ///
-/// On a grid of cubes that is n. Where slices are far apart n leads several voxels along them before it has come one slice
-/// on, and a thin layer is left alone by what those voxels have: it is followed along [`way_to_edge`].
+/// On a grid of cubes that is along n. Where slices are far apart n leads several voxels along them before it has come one
+/// slice on, and a thin layer is left alone by what those voxels have: it is followed the way that its points go.
 pub(super) fn step(grid: &Grid, normal: DVec3, thin: bool) -> DVec3 {
-    let (axes, dims) = (grid.axes(), grid.dims());
-    let lengths = [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::length);
-    let longest = (0..3).filter(|&a| dims[a] > 1).fold(0.0, |longest, a| lengths[a].max(longest));
-    if thin && longest > grid.voxel() {
-        way_to_edge(grid, normal, 1.0)
-    } else {
-        grid.inverse_axes() * (normal * across(grid, normal))
-    }
+    to_edge(grid, normal, thin && !has_cubes(grid))
 }
 
 /// Norms that differ by so much of themselves or less are equal: they are sums of 27 products, and between two slices of a
 /// segmentation the same numbers in another order.
 const EQUAL: f64 = 1e-13;
+
+/// What of a voxel's own norm is at least at the foot of a Gaussian on either side of it.
+const FOOT: f64 = 1.0 / 1024.0;
 
 /// Norms of the voxels of a grid, x fastest.
 #[derive(Clone, Copy)]
@@ -92,18 +122,26 @@ impl Norms<'_> {
         sum
     }
 
+    /// Whether a place `s` from a voxel lies beyond the border, however little.
+    fn is_beyond(&self, cell: [usize; 3], s: DVec3) -> bool {
+        (0..3).any(|a| (cell[a] == 0 && s[a] < -EQUAL) || (cell[a] + 1 == self.dims[a] && s[a] > EQUAL))
+    }
+
     fn own(&self, cell: [usize; 3]) -> f64 {
         self.all[(cell[2] * self.dims[1] + cell[1]) * self.dims[0] + cell[0]]
     }
 
     /// Whether a voxel's norm is the largest along ±n within one voxel, which is a [`step`]. Of equals the side of the lower
     /// linear index is kept, and rounding does not tell them apart: a face between two slices would have a layer in both.
+    /// Beyond the border there is no voxel to be kept instead.
     pub(super) fn is_largest(&self, cell: [usize; 3], step: DVec3) -> bool {
         // Which of the two comes first in linear order; a component that rounding left does not say.
         let first = [step.z, step.y, step.x].into_iter().find(|x| x.abs() > EQUAL).map_or(1.0, f64::signum);
         let own = self.own(cell);
         let equal = 1.0 + EQUAL;
-        self.at(cell, -step * first) * equal < own && self.at(cell, step * first) <= own * equal
+        let [before, after] = [-step * first, step * first];
+        let is_first = self.at(cell, before) * equal < own || self.is_beyond(cell, before);
+        is_first && self.at(cell, before).max(self.at(cell, after)) <= own * equal
     }
 
     /// Where along n the norm is largest, in steps from the voxel's centre, at most one: the top of the Gaussian through the
@@ -112,10 +150,11 @@ impl Norms<'_> {
     /// where slices are far apart.
     ///
     /// Where the voxel is on a flank, and the top at a step or beyond, it is that of the parabola, or the higher end: the
-    /// logarithm of the flank's foot may be anything.
+    /// logarithm of the flank's foot may be anything. A foot below a thousandth of the voxel's own is none, and counts as
+    /// that: between 0 and what rounding leaves the logarithm has no bound.
     pub(super) fn top(&self, cell: [usize; 3], step: DVec3) -> f64 {
-        let [before, own, after] =
-            [self.at(cell, -step), self.own(cell), self.at(cell, step)].map(|x| x.max(f64::MIN_POSITIVE));
+        let own = self.own(cell);
+        let [before, after] = [-step, step].map(|step| self.at(cell, step).max(own * FOOT));
         let [falls, rises] = if own >= before.max(after) {
             [before, after].map(|x| math::ln(x / own))
         } else {
@@ -135,6 +174,7 @@ impl Norms<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drypoint_scene::glam::{self, DMat3};
     use drypoint_scene::philox;
 
     /// A ridge of ‖∇V‖ along an oblique plane, a parabola across: the voxels that stay have their centres within half a
@@ -249,18 +289,130 @@ mod tests {
         assert!((top([0.1, 1.0, 1.0 - 1e-9]) - 0.5).abs() < 1e-8 && (top([0.1, 1.0, 1.0 + 1e-9]) - 0.5).abs() < 1e-8);
     }
 
-    /// Of thin layers a step never leads farther than to the next voxels, from which alone ‖∇V‖ is known, and as far along n
-    /// as a layer is thick.
+    /// Between ever smaller feet nothing jumps: the logarithm of 0 has no say.
+    #[test]
+    fn a_foot_that_fades_moves_nothing_far() {
+        let top =
+            |before: f64, after: f64| Norms { dims: [3, 1, 1], all: &[before, 1.0, after] }.top([1, 0, 0], DVec3::X);
+        for after in [0.0, 1e-9, 0.1, 0.5, 0.9] {
+            let mut last = top(0.0, after);
+            for k in 1..=1000 {
+                let next = top(f64::from(k) / 1000.0, after);
+                // The first is at the least foot that counts, where ln has its steepest slope: a tenth of all of it.
+                assert!(next <= last + 1e-12 && last - next < 0.1, "{after} {k}: {last} {next}");
+                last = next;
+            }
+        }
+        assert_eq!([top(0.0, 0.0), top(1.0, 1.0), top(0.0, 1.0)], [0.0, 0.0, 0.5]);
+    }
+
+    /// A face at the border has a layer, whichever border it is: what goes on beyond it is no voxel.
+    #[test]
+    fn faces_at_the_border_have_one_layer() {
+        for row in [[1.0, 1.0, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 1.0, 0.0]] {
+            for (axis, mirrored, sign) in (0..12).map(|i| (i % 3, i / 3 % 2 == 1, [1.0, -1.0][i / 6])) {
+                let at = |i: usize| row[if mirrored { 3 - i } else { i }];
+                let all: Vec<f64> = (0..64).map(|i| at([i % 4, i / 4 % 4, i / 16][axis])).collect();
+                let norms = Norms { dims: [4; 3], all: &all };
+                for rest in 0..16 {
+                    let kept = (0..4).filter(|&i| {
+                        let mut cell = [rest % 4, rest / 4, 0];
+                        cell.copy_within(axis..2, axis + 1);
+                        cell[axis] = i;
+                        norms.own(cell) > 0.0 && norms.is_largest(cell, DVec3::AXES[axis] * sign)
+                    });
+                    assert_eq!(kept.count(), 1, "{row:?} along {axis}, {mirrored} {sign}");
+                }
+            }
+        }
+    }
+
+    /// Grids with right angles and without: cubes, however they stand, slices far apart, the tilt of a gantry, and rhombs.
+    fn grids() -> Vec<Grid> {
+        let turn = DMat3::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -0.7);
+        let tilted = |degrees: f64, [x, y, z]: [f64; 3]| {
+            DMat3::from_cols(DVec3::X * x, DVec3::Y * y, DVec3::new(0.0, degrees.to_radians().tan(), 1.0) * z)
+        };
+        let straight = [[1.0; 3], [1.0, 1.0, 4.0], [2.0, 1.0, 1.3], [1.0, 5.0, 5.0]].map(|s| tilted(0.0, s));
+        let oblique = [
+            turn,
+            tilted(20.0, [0.5, 0.5, 2.0]),
+            tilted(30.0, [1.0; 3]),
+            DMat3::from_cols(DVec3::X, DVec3::new(0.5, 0.75f64.sqrt(), 0.0), DVec3::Z),
+            turn * DMat3::from_cols(DVec3::X, DVec3::new(0.4, 1.0, 0.4), DVec3::new(0.4, 0.0, 1.0)),
+        ];
+        straight.into_iter().chain(oblique).map(|axes| Grid::new([12; 3], axes, DVec3::ZERO).unwrap()).collect()
+    }
+
+    fn normals() -> impl Iterator<Item = DVec3> {
+        let random = |i| DVec3::from_array([0, 1, 2].map(|k| philox::uniform(5, [i, k, 0], 0) - 0.5)).normalize();
+        (0..1000).map(random).chain(DVec3::AXES)
+    }
+
+    /// ‖∇V‖ is known at the next voxels alone, and no step leads beyond them; of thin layers one leads as far along n as a
+    /// layer is thick, and so much along the nearest axis that pieces close up; of others along n.
     #[test]
     fn steps_stay_with_the_next_voxels() {
-        for spacing in [[1.0; 3], [1.0, 1.0, 4.0], [2.0, 1.0, 1.3], [1.0, 5.0, 5.0]] {
-            let grid = Grid::with_spacing([12; 3], spacing).unwrap();
-            for i in 0..1000 {
-                let n = DVec3::from_array([0, 1, 2].map(|k| philox::uniform(5, [i, k, 0], 0) - 0.5)).normalize();
-                let step = step(&grid, n, true);
-                assert!(step.abs().max_element() <= 1.0 + 1e-12, "{spacing:?} {n}: {step}");
-                let along = (grid.axes() * step).dot(n);
-                assert!((along - across(&grid, n)).abs() < 1e-12, "{spacing:?} {n}: {along}");
+        for grid in grids() {
+            for n in normals() {
+                let reach = across(&grid, n);
+                for way in [to_edge(&grid, n, true), step(&grid, n, true)] {
+                    assert!(way.abs().max_element() <= 1.0 + 1e-12, "{grid:?} {n}: {way}");
+                    assert!(((grid.axes() * way).dot(n) - reach).abs() < 1e-12, "{grid:?} {n}: {way}");
+                }
+                let steps = grid.axes().transpose() * n;
+                let axis = nearest_axis(steps);
+                assert!(
+                    reach >= steps[axis].abs() && to_edge(&grid, n, true)[axis] == steps[axis].signum(),
+                    "{grid:?} {n}"
+                );
+                let along = step(&grid, n, false);
+                assert!(along == to_edge(&grid, n, false) && along.abs().max_element() <= 1.0 + 1e-12, "{grid:?} {n}");
+                let world = grid.axes() * along;
+                assert!((world.normalize() - n).length() < 1e-12 && world.dot(n) <= reach + 1e-12, "{grid:?} {n}");
+            }
+        }
+    }
+
+    /// Cubes are compared along n itself, also where they stand askew and their header has seven digits.
+    #[test]
+    fn turned_cubes_are_cubes() {
+        for (i, grid) in grids().into_iter().enumerate() {
+            let axes = DMat3::from_cols_array(&grid.axes().to_cols_array().map(|x| f64::from(x as f32)));
+            let rounded = Grid::new([12; 3], axes, DVec3::ZERO).unwrap();
+            assert_eq!([has_cubes(&grid), has_cubes(&rounded)], [[0, 4].contains(&i); 2], "{grid:?}");
+        }
+    }
+
+    /// On no grid a layer has a hole: of voxels in a column along the nearest axis one is kept wherever the face lies.
+    #[test]
+    fn no_grid_has_holes() {
+        for grid in grids() {
+            for n in normals().step_by(40) {
+                let steps = grid.axes().transpose() * n;
+                let (lead, reach) = (nearest_axis(steps), across(&grid, n));
+                for offset in [0.0, 0.3, 0.5, 0.8] {
+                    let centre = grid.to_world(DVec3::splat(5.5)) + n * (offset * reach);
+                    let t =
+                        |cell: [usize; 3]| (grid.to_world(DVec3::from_array(cell.map(|i| i as f64))) - centre).dot(n);
+                    let all: Vec<f64> =
+                        (0..1728).map(|i| [i % 12, i / 12 % 12, i / 144]).map(|c| 1e4 - t(c) * t(c)).collect();
+                    let norms = Norms { dims: [12; 3], all: &all };
+                    let step = step(&grid, n, true);
+                    for column in 0..16 {
+                        let cell = |k: usize| {
+                            let mut cell = [4 + column % 4, 4 + column / 4, 0];
+                            cell.copy_within(lead..2, lead + 1);
+                            cell[lead] = k;
+                            cell
+                        };
+                        let inside: Vec<usize> =
+                            (1..11).filter(|&k| t(cell(k)).abs() < 0.499 * steps[lead].abs()).collect();
+                        let kept = |k: usize| norms.is_largest(cell(k), step);
+                        assert!(inside.iter().all(|&k| kept(k)), "{grid:?} {n} {offset}");
+                        assert!((1..11).filter(|&k| kept(k)).all(|k| t(cell(k)).abs() < 0.501 * reach), "{grid:?} {n}");
+                    }
+                }
             }
         }
     }

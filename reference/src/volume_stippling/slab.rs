@@ -90,7 +90,7 @@ impl Slab {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ridge::way_to_edge;
+    use super::super::ridge::to_edge;
     use super::*;
     use drypoint_scene::space::Grid;
 
@@ -156,7 +156,7 @@ mod tests {
             for steps in [[1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [-1.0, 0.0, 1.0], [1.0; 3], [1.0, -1.0, -1.0]] {
                 // Powers of two, so that all three are the same to the last bit.
                 let n = DVec3::from_array(steps) / DVec3::from_array(spacing);
-                let way = way_to_edge(&grid, n / n.length(), 1.0).abs();
+                let way = to_edge(&grid, n / n.length(), true).abs();
                 let axis = Slab::on_edge(grid.axes(), n / n.length(), DVec3::ZERO).axis;
                 assert!((0..3).all(|a| a == axis || way[a] < way[axis]), "{spacing:?} {steps:?}: {way}, {axis}");
             }

@@ -233,9 +233,11 @@ fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<us
 fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
     // Without a node nothing is shown; that it is no function is said where the nodes are evaluated.
     let Some(end) = at.len().checked_sub(1) else { return false };
-    // The first node at or above lo and the last at or below hi, widened by the nodes on the other side of the ends.
-    let first = at.partition_point(|&a| rounded(a) < lo).saturating_sub(1);
-    let last = at.partition_point(|&a| rounded(a) <= hi).min(end);
+    // The nodes from lo to hi, and the next one on either side where none stands at that end itself.
+    let below = at.partition_point(|&a| rounded(a) < lo);
+    let first = if at.get(below).is_some_and(|&a| rounded(a) == lo) { below } else { below.saturating_sub(1) };
+    let above = at.partition_point(|&a| rounded(a) <= hi);
+    let last = if above > 0 && rounded(at[above - 1]) == hi { above - 1 } else { above.min(end) };
     opacity[first..=last].iter().any(|&a| a > 0.0)
 }
 
@@ -370,6 +372,18 @@ mod tests {
         assert!(visible(300.0, 400.0), "beyond the last node the last one holds");
         assert!(!can_be_visible(&[], &[], [0.0, 1.0]), "no node, nothing to see");
         assert!(!visible(-10.0, -5.0));
+    }
+
+    /// At a node the function is that node's, and what is 0 all over, such as emptied surroundings, mostly has one.
+    #[test]
+    fn a_range_that_ends_at_a_node_sees_nothing_of_the_next() {
+        let (at, opacity) = ([0.0, 10.0, 20.0], [0.0, 1.0, 0.0]);
+        let visible = |lo, hi| can_be_visible(&at, &opacity, [lo, hi]);
+        assert!(!visible(0.0, 0.0) && !visible(-5.0, 0.0) && !visible(20.0, 20.0) && !visible(20.0, 25.0));
+        let least = f64::MIN_POSITIVE;
+        assert!(visible(0.0, least) && visible(-5.0, least) && visible(20f64.next_down(), 20.0) && visible(10.0, 10.0));
+        // Of nodes at one value any may hold at an end.
+        assert!(can_be_visible(&[5.0; 3], &[0.0, 0.5, 0.0], [5.0; 2]));
     }
 
     #[test]

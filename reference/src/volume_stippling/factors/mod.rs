@@ -44,7 +44,7 @@ impl Still {
         Self {
             boundary: stipples.boundary.map_or(1.0, |t| boundary::boundary(&t, stipples.factors, value, magnitude)),
             interior: stipples.interior.filter(|t| t.te != 0.0).map_or(1.0, |t| interior::interior(&t, magnitude)),
-            piece: if stipples.thin { grid.voxel() / across(grid, voxel.normal) } else { 1.0 },
+            piece: if stipples.thin { (grid.voxel() / across(grid, voxel.normal)).min(1.0) } else { 1.0 },
         }
     }
 }

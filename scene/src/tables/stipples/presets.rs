@@ -62,3 +62,55 @@ impl StipplePreset {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::file::{Overrides, parse};
+    use crate::tables::{Curves, CurvesTest, Stipples};
+    use std::path::Path;
+
+    fn preset(name: &str) -> Stipples {
+        let text = format!("drypoint = 1\npreset = \"{name}\"\n[volume]\nfile = \"a\"\n");
+        parse(&text, Path::new("test.toml"), &Overrides::default()).unwrap().stipples.unwrap()
+    }
+
+    /// k_gc, k_gs, k_ge; k_sc, k_ss, k_se; k_re, k_de, k_te, k_le; Th_eye, Th_grad, Th_LOG of the literal test.
+    type Numbers = (Option<[f64; 3]>, Option<[f64; 3]>, [Option<f64>; 4], Option<[f64; 3]>);
+
+    fn numbers(stipples: &Stipples) -> Numbers {
+        let literal = |c: &Curves| (c.test == CurvesTest::Literal).then_some([c.eye, c.grad, c.log]);
+        (
+            stipples.boundary.as_ref().map(|b| [b.gc, b.gs, b.ge]),
+            stipples.silhouette.as_ref().map(|s| [s.sc, s.ss, s.se]),
+            [
+                stipples.resolution.as_ref().map(|r| r.re),
+                stipples.distance.as_ref().map(|d| d.de),
+                stipples.interior.as_ref().map(|i| i.te),
+                stipples.lighting.as_ref().map(|l| l.le),
+            ],
+            stipples.curves.as_ref().and_then(literal),
+        )
+    }
+
+    /// The numbers printed below the paper's figures ([STIP-14]), and no factor that a figure is not about.
+    #[test]
+    fn figures_have_the_numbers_of_the_paper() {
+        let boundary = Some([0.39, 0.51, 1.0]);
+        let silhouette = Some([0.279, 0.45, 1.11]);
+        let only = |which: usize, k: f64| std::array::from_fn(|i| (i == which).then_some(k));
+        let figures: [(&str, Numbers); 7] = [
+            ("1", (boundary, silhouette, [None; 4], None)),
+            ("4", (boundary, None, only(0, 1.1), None)),
+            ("5", (boundary, silhouette, only(1, 1.5), None)),
+            ("6", (boundary, None, only(2, 0.5), None)),
+            ("7", (boundary, None, only(3, 2.7), None)),
+            ("8", (boundary, None, [None; 4], Some([0.0, 0.2, 0.12]))),
+            ("9", (Some([0.4, 0.0, 10.0]), Some([0.5, 5.0, 1.0]), only(1, 1.0), Some([0.9, 0.2, 0.22]))),
+        ];
+        for (figure, expected) in figures {
+            let stipples = preset(&format!("stipple-fig{figure}"));
+            assert_eq!(numbers(&stipples), expected, "Fig. {figure}");
+            assert_eq!(stipples.curves.is_some(), ["1", "5", "8", "9"].contains(&figure), "Fig. {figure}");
+        }
+    }
+}
