@@ -176,7 +176,7 @@ impl DotFrames<'_> {
         if let (Some(curves), Some(edges)) = (&stipples.curves, edges) {
             let mut segments = edges.segments(curves, view);
             if let Some(surface) = &self.surface {
-                segments = seen(segments, surface, view, *near, grid.voxel());
+                segments = seen(segments, surface, view, *near, grid);
             }
             let lines = joined(&segments, grid, view, page, *near, line_pen.width / 2.0);
             match layers.iter_mut().find(|layer| layer.pen == *line_pen) {

@@ -163,7 +163,7 @@ impl<'a> Frames<'a> {
         let moving = Moving::new(self.stipples, self.light, view, &whole);
         let place = Place::new(view, page, &self.points.grid);
         let surface = self.surface.as_deref();
-        let hidden = surface.map(|surface| Hidden::new(surface, view, self.near, self.points.grid.voxel()));
+        let hidden = surface.map(|surface| Hidden::new(surface, view, self.near, &self.points.grid));
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, Part::default);
         drawn.nib = self.nib;

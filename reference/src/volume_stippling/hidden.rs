@@ -1,12 +1,15 @@
 //! Points that an opaque iso-surface hides ([STIP-15]). The paper's points are transparent.
 
 use super::curves::Segment;
+use super::ridge::across;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 use rayon::prelude::*;
 
-/// How far from a point its foot on the surface may be, along the gradient of its voxel, in voxels that points are made in.
+/// How far from a point its foot on the surface may be, along the gradient of its voxel, in voxels that points are made in:
+/// where slices are far apart, in as much as such a voxel reaches along it.
 const REACH: f64 = 1.5;
 
 /// δ of [HATCH-7]: how far before the surface it is asked for, in voxels of the volume.
@@ -18,17 +21,17 @@ pub(super) struct Hidden<'a> {
     surface: &'a IsoSurface<'a, 'a>,
     view: &'a View,
     near: f64,
-    /// In world units.
-    reach: f64,
+    /// That points are made in ([STIP-2]).
+    of_points: &'a Grid,
     /// In world units, with the sign of the side that the eye is on.
     offset: f64,
 }
 
 impl<'a> Hidden<'a> {
-    /// `near` is that of a perspective camera and `of_points` the voxel that points are made in ([STIP-2]), in world units.
-    pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64, of_points: f64) -> Self {
+    /// `near` is that of a perspective camera and `of_points` the grid that points are made in ([STIP-2]).
+    pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64, of_points: &'a Grid) -> Self {
         let voxel = surface.field().volume().grid().voxel();
-        Self { surface, view, near, reach: REACH * of_points, offset: OFFSET * voxel * surface.front(view) }
+        Self { surface, view, near, of_points, offset: OFFSET * voxel * surface.front(view) }
     }
 
     /// Whether the surface hides a point of the world, of a voxel with that normal. A point near the surface is taken for one
@@ -36,21 +39,21 @@ impl<'a> Hidden<'a> {
     /// that it stands for.
     pub(super) fn hides(&self, point: DVec3, normal: DVec3) -> bool {
         let grid = self.surface.field().volume().grid();
-        let foot = self.surface.foot(grid.to_index(point), normal, self.reach);
+        let foot = self.surface.foot(grid.to_index(point), normal, REACH * across(self.of_points, normal));
         let tested = foot.map_or(point, |foot| grid.to_world(self.surface.in_front(foot, self.offset)));
         self.surface.hides(tested, self.view, self.near)
     }
 }
 
-/// The segments of curves whose middle the surface does not hide. `voxel` is the one that they are made in, in world units.
+/// The segments of curves whose middle the surface does not hide. `of_points` is the grid that they are made in.
 pub fn seen(
     mut segments: Vec<Segment>,
     surface: &IsoSurface<'_, '_>,
     view: &View,
     near: f64,
-    voxel: f64,
+    of_points: &Grid,
 ) -> Vec<Segment> {
-    let hidden = Hidden::new(surface, view, near, voxel);
+    let hidden = Hidden::new(surface, view, near, of_points);
     let middle = |segment: &Segment| (segment.ends[0] + segment.ends[1]) / 2.0;
     let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(middle(segment), segment.normal)).collect();
     let mut hides = hides.into_iter();
@@ -63,19 +66,23 @@ mod tests {
     use super::*;
     use crate::field::{Field, Reconstruction, Rung};
     use drypoint_scene::philox::uniform;
-    use drypoint_scene::space::Grid;
     use drypoint_scene::tables::{Camera, Projection};
     use drypoint_scene::volume::{Volume, Voxels};
 
     /// [STIP-15]'s oracle: of points within 1.5 voxels of a sphere all with n·E > 0 are seen and none with
-    /// n·E < −√(2δ/R), E towards the eye.
+    /// n·E < −√(2δ/R), E towards the eye; with slices 2 apart as many of those 1.5 times as far as a voxel reaches.
     #[test]
     fn a_sphere_shows_its_front() {
+        shows_its_front(1);
+        shows_its_front(2);
+    }
+
+    fn shows_its_front(slices: usize) {
         let (n, radius) = (41, 14.0);
         let centre = DVec3::splat(20.0);
-        let grid = Grid::with_spacing([n; 3], [1.0; 3]).unwrap();
-        let at = |i: usize| DVec3::new((i % n) as f64, (i / n % n) as f64, (i / n / n) as f64);
-        let values = (0..n * n * n).map(|i| radius - (at(i) - centre).length()).collect();
+        let grid = Grid::with_spacing([n, n, 40 / slices + 1], [1.0, 1.0, slices as f64]).unwrap();
+        let at = |i: usize| DVec3::new((i % n) as f64, (i / n % n) as f64, (i / n / n * slices) as f64);
+        let values = (0..grid.len()).map(|i| radius - (at(i) - centre).length()).collect();
         let volume = Volume::new(grid, Voxels::F64(values), 1.0, 0.0).unwrap();
         let field = Field::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
         let surface = IsoSurface::new(&field, 0.0);
@@ -84,12 +91,14 @@ mod tests {
         for projection in [Projection::Orthographic { height: None }, Projection::Perspective { fov: 40.0 }] {
             let camera = Camera { projection, direction, ..Camera::default() };
             let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-            let hidden = Hidden::new(&surface, &view, 0.5, 1.0);
-            let limit = -(2.0 * OFFSET / radius).sqrt();
+            let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+            // Between slices the surface lies below the sphere by as much as a chord does, more than between cubes.
+            let below = (slices * slices - 1) as f64 / (8.0 * radius);
+            let limit = -(2.0 * (OFFSET + below) / radius).sqrt();
             for i in 0..4000 {
                 let draw = |k| 2.0 * uniform(11, [i, k, 0], 0) - 1.0;
                 let n = DVec3::new(draw(0), draw(1), draw(2)).normalize();
-                let point = centre + n * (radius + 1.3 * draw(3));
+                let point = centre + n * (radius + 1.3 * draw(3) * across(volume.grid(), n));
                 let foot = centre + n * radius;
                 let towards = if view.perspective { (view.eye - foot).normalize() } else { -view.forward };
                 let hides = hidden.hides(point, n);
