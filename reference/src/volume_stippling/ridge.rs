@@ -18,11 +18,12 @@ fn steps(grid: &Grid, normal: DVec3) -> DVec3 {
 /// grid leads along n. Voxels whose centres lie within half of it of a plane are a layer without holes, also where slices
 /// are far apart.
 ///
-/// On a sheared grid the smallest voxel can be longer than the next voxels all together lead along n, and is not asked for.
+/// On a sheared grid the next voxels may not lead as far along n as the smallest one is long: it is then as far as Dᵀn itself
+/// does in index space, one voxel along its longest component, which is more than any one step.
 pub(super) fn across(grid: &Grid, normal: DVec3) -> f64 {
-    let steps = steps(grid, normal).abs();
-    let all = steps.element_sum();
-    if all > 0.0 { grid.voxel().min(all).max(steps.max_element()) } else { grid.voxel() }
+    let steps = steps(grid, normal);
+    let longest = steps.abs().max_element();
+    if longest > 0.0 { grid.voxel().min(steps.length_squared() / longest).max(longest) } else { grid.voxel() }
 }
 
 /// The axis of the grid nearest to a normal, whose steps lead farthest along it; the first of equals. `steps` is Dᵀn.
@@ -50,18 +51,15 @@ fn straight(grid: &Grid, normal: DVec3) -> DVec3 {
 fn way(grid: &Grid, normal: DVec3) -> DVec3 {
     let steps = steps(grid, normal);
     let a = nearest_axis(steps);
-    let [b, c] = if steps[(a + 1) % 3].abs() < steps[(a + 2) % 3].abs() { [2, 1] } else { [1, 2] }.map(|k| (a + k) % 3);
     if steps[a] == 0.0 {
         return straight(grid, normal);
     }
-    let mut way = DVec3::ZERO;
+    let mut others = steps;
+    others[a] = 0.0;
+    // At most that of Dᵀn: near an axis what is left is rounding, and so are the others.
+    let left = (across(grid, normal) - steps[a].abs()) / others.length_squared();
+    let mut way = others * left.min(1.0 / steps[a].abs());
     way[a] = steps[a].signum();
-    let left = across(grid, normal) - steps[a].abs();
-    if left > 0.0 {
-        let both = left / (steps[b] * steps[b] + steps[c] * steps[c]);
-        way[b] = (both * steps[b]).clamp(-1.0, 1.0);
-        way[c] = if way[b].abs() < 1.0 { both * steps[c] } else { (left - steps[b].abs()) / steps[c] };
-    }
     way
 }
 
@@ -370,6 +368,25 @@ mod tests {
                 assert!(along == to_edge(&grid, n, false) && along.abs().max_element() <= 1.0 + 1e-12, "{grid:?} {n}");
                 let world = grid.axes() * along;
                 assert!((world.normalize() - n).length() < 1e-12 && world.dot(n) <= reach + 1e-12, "{grid:?} {n}");
+            }
+        }
+    }
+
+    /// Near the normals of the grid's planes a way turns as the normal does, and what rounding leaves of a component, or
+    /// nothing, leads nowhere.
+    #[test]
+    fn the_way_does_not_jump_near_an_axis() {
+        for grid in grids() {
+            let planes = grid.inverse_axes().transpose();
+            for (a, noise) in (0..3).flat_map(|a| [0.0, 1e-17, 1e-16, 3e-16, 1e-12, 1e-9, 1e-6].map(|noise| (a, noise)))
+            {
+                for (i, other) in normals().step_by(20).enumerate() {
+                    let mask = [DVec3::ONE, DVec3::new(1.0, 1.0, 0.0), DVec3::X][i % 3];
+                    let n = (planes.col(a).normalize() + other * mask * noise).normalize();
+                    let way = to_edge(&grid, n, true);
+                    let straight = DVec3::AXES[a] * way[a].signum();
+                    assert!((way - straight).length() <= 20.0 * noise + 1e-14, "{grid:?} {n} {noise}: {way}");
+                }
             }
         }
     }
