@@ -1,11 +1,12 @@
 //! The polyline of a stroke: as few vertices as the curve allows, all of it in front of the surface ([HATCH-9], [HATCH-10]).
 
 use super::counts::HatchCounts;
-use super::ground::{index_inside, inside, normal};
+use super::ground::{inside, normal};
 use super::integrator::{Piece, point, vertices};
 use super::placement::Seed;
 use super::strokes::Strokes;
 use crate::field::Outside;
+use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 
@@ -60,9 +61,10 @@ impl Strokes<'_, '_> {
         if pieces.is_empty() {
             return None;
         }
-        let mut runs = Runs { each: vec![Vec::new()], faces: Vec::new() };
+        let at = vertices(pieces, self.how().chord);
+        let mut runs = Runs { each: vec![Vec::with_capacity(2 * at.len())], faces: Vec::with_capacity(16) };
         let mut before: Option<Vertex> = None;
-        for t in vertices(pieces, self.how().chord) {
+        for t in at {
             let next = self.put_back(point(pieces, t), seed.target).map(|world| Vertex { t, world });
             match (before, next) {
                 (Some(a), Some(b)) => self.segment(pieces, seed.target, [a, b], HALVINGS, &mut runs),
@@ -126,20 +128,25 @@ impl Strokes<'_, '_> {
         let Some(iso) = self.iso() else { return true };
         let (ground, grid) = (self.ground(), self.ground().grid());
         let (from, to) = (grid.to_index(a), grid.to_index(b));
+        let (lo, hi) = (from.min(to), from.max(to));
+        let [first, last] = grid.index_box();
+        if !(lo.cmpge(first).all() && hi.cmple(last).all()) {
+            return false;
+        }
+        let outside = ground.outside();
         // How far in front; along the border of the volume rounding does not lead out of it.
         let over = |s: f64| {
-            let at = (from + (to - from) * s).clamp(from.min(to), from.max(to));
-            let value = index_inside(ground, at).map(|at| ground.value(at));
-            value.map_or(f64::NAN, |value| match ground.outside() {
-                Outside::Low => iso - value,
-                Outside::High => value - iso,
-            })
+            let at = Vec3::from_glam((from + (to - from) * s).clamp(lo, hi));
+            match outside {
+                _ if ground.masked_at(at) => f64::NAN,
+                Outside::Low => iso - ground.value(at),
+                Outside::High => ground.value(at) - iso,
+            }
         };
         faces.clear();
         faces.extend([0.0, 1.0]);
         for axis in 0..3 {
-            let (lo, hi) = (from[axis].min(to[axis]), from[axis].max(to[axis]));
-            let (first, last) = (lo.floor() as i64 + 1, hi.ceil() as i64 - 1);
+            let (first, last) = (lo[axis].floor() as i64 + 1, hi[axis].ceil() as i64 - 1);
             let at = |face: i64| ((face as f64 - from[axis]) / (to[axis] - from[axis])).clamp(0.0, 1.0);
             faces.extend((first..=last).map(at));
         }
@@ -159,7 +166,8 @@ impl Strokes<'_, '_> {
             return None;
         }
         let mut length = 0.0;
-        let mut along = vec![0.0];
+        let mut along = Vec::with_capacity(places.len());
+        along.push(0.0);
         for pair in places.windows(2) {
             length += pair[0].distance(pair[1]);
             along.push(length);
@@ -169,7 +177,10 @@ impl Strokes<'_, '_> {
             let (normal, _) = normal(self.ground(), inside(self.ground(), world)?)?;
             Some(StrokeVertex { world, normal, u: if whole > 0.0 { along / whole } else { 0.0 } })
         };
-        let vertices = places.iter().zip(along).map(vertex).collect::<Option<Vec<_>>>()?;
+        let mut vertices = Vec::with_capacity(places.len());
+        for each in places.iter().zip(along) {
+            vertices.push(vertex(each)?);
+        }
         let [nx, ny, _] = self.ground().grid().dims();
         let [x, y, z] = seed.cell;
         Some(Stroke { vertices, closed, key: ((z * ny + y) * nx + x) as u64 })

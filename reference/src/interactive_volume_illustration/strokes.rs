@@ -34,6 +34,9 @@ const DRIFT: f64 = 0.5;
 /// The least part of a direction that lies in the tangent plane, cos 60°: surface and derivatives are of one place.
 const TANGENT: f64 = 0.5;
 
+/// Cells whose strokes one thread grows in a row.
+const AT_ONCE: usize = 64;
+
 /// What δ is at least beyond the chords' error, in voxels ([HATCH-7]).
 const CLEARANCE: f64 = 0.05;
 
@@ -244,25 +247,29 @@ impl<'f, 'v> Strokes<'f, 'v> {
     /// The strokes of cells, in parallel and in their order; a second one along the other direction where `cross` says so for
     /// the seed ([HATCH-11]).
     pub fn grow_all(&self, cells: &[[usize; 3]], cross: impl Fn(&Seed) -> bool + Sync) -> Grown {
-        let each = |&cell: &[usize; 3]| {
-            let mut counts = HatchCounts::default();
-            let mut stroke = None;
-            let mut second = None;
-            match self.place(cell, &mut counts).and_then(|seed| Ok((seed, self.grow(&seed, &mut counts)?))) {
-                Ok((seed, grown)) => {
-                    second = if cross(&seed) { self.grow_across(&seed, &mut counts) } else { None }.map(|s| (seed, s));
-                    stroke = Some((seed, grown));
+        let some = |cells: &[[usize; 3]]| {
+            let mut grown = Grown::default();
+            for &cell in cells {
+                let counts = &mut grown.counts;
+                match self.place(cell, counts).and_then(|seed| Ok((seed, self.grow(&seed, counts)?))) {
+                    Ok((seed, stroke)) => {
+                        let second = if cross(&seed) { self.grow_across(&seed, counts) } else { None };
+                        grown.cross.extend(second.map(|stroke| (seed, stroke)));
+                        grown.strokes.push((seed, stroke));
+                    }
+                    Err(rejected) => counts.rejected.count(rejected),
                 }
-                Err(rejected) => counts.rejected.count(rejected),
             }
-            (stroke, second, counts)
+            grown
         };
-        let all: Vec<_> = cells.par_iter().map(each).collect();
+        let all: Vec<_> = cells.par_chunks(AT_ONCE).map(some).collect();
         let mut grown = Grown::default();
-        for (stroke, cross, counts) in all {
-            grown.strokes.extend(stroke);
-            grown.cross.extend(cross);
-            grown.counts += counts;
+        grown.strokes.reserve_exact(all.iter().map(|some| some.strokes.len()).sum());
+        grown.cross.reserve_exact(all.iter().map(|some| some.cross.len()).sum());
+        for some in all {
+            grown.strokes.extend(some.strokes);
+            grown.cross.extend(some.cross);
+            grown.counts += some.counts;
         }
         grown
     }

@@ -3,13 +3,15 @@
 use super::Piece;
 use drypoint_scene::glam::DVec3;
 
-/// Places at which the distance to a chord is taken: on each piece, and on a chord at least.
-const PLACES: usize = 4;
-const LEAST: usize = 8;
+/// Places on each piece at which the distance to a chord is taken, and on a chord that is shorter than a piece.
+const PLACES: usize = 8;
 
 /// A chord is long enough whose distance is at least this share of what it may be: some hundredths of the distance are half as
 /// many of the length.
 const ENOUGH: f64 = 0.96;
+
+/// What a chord that is not yet too long grows by at least.
+const LONGER: f64 = 1.125;
 
 /// Trials that find the end of a chord.
 const TRIALS: usize = 24;
@@ -18,12 +20,15 @@ const TRIALS: usize = 24;
 /// parameter. From each vertex the chord is as long as it can be without leaving the curve by more than `chord`; both ends of
 /// the curve are vertices.
 pub fn vertices(pieces: &[Piece], chord: f64) -> Vec<f64> {
+    let curve = Curve::new(pieces);
     let end = pieces.len() as f64;
-    let mut at = vec![0.0];
-    let mut from = 0.0;
+    let mut at = Vec::with_capacity(2 * pieces.len() + 1);
+    at.push(0.0);
+    let (mut from, mut long) = (0.0, 1.0);
     while from < end {
-        from = chord_end(pieces, from, chord);
-        at.push(from);
+        let to = curve.chord_end(from, long, chord);
+        at.push(to);
+        (from, long) = (to, to - from);
     }
     at
 }
@@ -38,68 +43,125 @@ pub fn point(pieces: &[Piece], t: f64) -> DVec3 {
     pieces[i].point(t - i as f64)
 }
 
-/// Where the longest chord from a place on the curve ends: twice as many pieces each time, then back.
-fn chord_end(pieces: &[Piece], from: f64, chord: f64) -> f64 {
-    let end = pieces.len() as f64;
-    // Distances grow with the square of the length: their roots, in those of what they may be, are nearly linear.
-    let root = |to: f64| match error(pieces, from, to) {
-        0.0 => 0.0,
-        distance => (distance / chord).sqrt(),
-    };
-    // Places with their roots.
-    let mut good = [from, 0.0];
-    let mut more = 1.0;
-    let mut bad = loop {
-        let next = (good[0].floor() + more).min(end);
-        let found = root(next);
-        if found > 1.0 {
-            break [next, found];
-        }
-        if next >= end {
-            return end;
-        }
-        (good, more) = ([next, found], next - from.floor());
-    };
-    let (enough, aim) = (ENOUGH.sqrt(), (0.5 * (1.0 + ENOUGH)).sqrt());
-    for trial in 1..=TRIALS {
-        if good[1] >= enough && good[0] > from {
-            break;
-        }
-        let share = (aim - good[1]) / (bad[1] - good[1]);
-        // What is far from linear is halved now and then.
-        let share = if trial % 4 != 0 && share > 0.0 && share < 1.0 { share } else { 0.5 };
-        let t = good[0] + (bad[0] - good[0]) * share;
-        let found = root(t);
-        *(if found <= 1.0 { &mut good } else { &mut bad }) = [t, found];
-    }
-    // No chord is short enough for a distance of 0: the piece's end has to do.
-    if good[0] == from { (from.floor() + 1.0).min(end) } else { good[0] }
+/// A curve with its places.
+struct Curve<'a> {
+    pieces: &'a [Piece],
+    /// Those at the eighths of pieces, from the first one's beginning on.
+    places: Vec<DVec3>,
 }
 
-/// The largest distance of the curve from its chord: of parabolas through neighbouring places.
-fn error(pieces: &[Piece], from: f64, to: f64) -> f64 {
-    let (a, b) = (point(pieces, from), point(pieces, to));
-    let along = b - a;
-    let square = along.length_squared();
-    let places = (PLACES * (to - from).ceil() as usize).max(LEAST);
-    let step = (to - from) / places as f64;
-    let (mut before, mut last, mut largest) = (0.0f64, 0.0f64, 0.0f64);
-    for i in 1..=places {
-        let next = if i < places {
-            let way = point(pieces, from + step * i as f64) - a;
-            let s = if square > 0.0 { (way.dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
-            (way - along * s).length()
-        } else {
-            0.0
-        };
-        if last >= before.max(next) {
-            let bend = (last - before) + (last - next);
-            let above = if bend > 0.0 { (next - before) * (next - before) / (8.0 * bend) } else { 0.0 };
-            largest = largest.max(last + above);
-        }
-        (before, last) = (last, next);
+impl<'a> Curve<'a> {
+    fn new(pieces: &'a [Piece]) -> Self {
+        let on = |piece: &'a Piece| (0..PLACES).map(|i| piece.point(i as f64 / PLACES as f64));
+        let mut places = Vec::with_capacity(PLACES * pieces.len());
+        pieces.iter().for_each(|piece| places.extend(on(piece)));
+        Self { pieces, places }
     }
-    largest
+
+    /// Where the longest chord from a place ends, by trials of which the first is as long as the chord before: longer ones until
+    /// one is too long, then between the two.
+    fn chord_end(&self, from: f64, long: f64, chord: f64) -> f64 {
+        let end = self.pieces.len() as f64;
+        let (enough, aim) = (ENOUGH.sqrt(), (0.5 * (1.0 + ENOUGH)).sqrt());
+        // Ends of chords, with the root of the distance in what it may be, which grows nearly as the length does.
+        let mut good = [from, 0.0];
+        let mut bad: Option<[f64; 2]> = None;
+        let mut to = (from + long).min(end);
+        for trial in 1..=TRIALS {
+            let found = (self.error(from, to) / chord).sqrt();
+            if found <= 1.0 {
+                good = [to, found];
+                if to >= end || found >= enough {
+                    return to;
+                }
+            } else {
+                bad = Some([to, found]);
+            }
+            to = match bad {
+                None => (from + (to - from) * (aim / found).clamp(LONGER, 2.0)).min(end),
+                Some(bad) => {
+                    let share = (aim - good[1]) / (bad[1] - good[1]);
+                    // What is far from linear is halved now and then.
+                    let share = if trial % 4 != 0 && share > 0.0 && share < 1.0 { share } else { 0.5 };
+                    good[0] + (bad[0] - good[0]) * share
+                }
+            };
+        }
+        // No chord is short enough for a distance of 0: the piece's end has to do.
+        if good[0] == from { (from.floor() + 1.0).min(end) } else { good[0] }
+    }
+
+    /// The largest distance from a chord: of parabolas through neighbouring places.
+    fn error(&self, from: f64, to: f64) -> f64 {
+        let chord = Chord::new(point(self.pieces, from), point(self.pieces, to));
+        let mut largest = Largest { before: [from, 0.0], last: [from, 0.0], found: 0.0 };
+        if to - from >= 1.0 {
+            let first = (from * PLACES as f64) as usize + 1;
+            for (i, place) in self.places.iter().enumerate().take((to * PLACES as f64).ceil() as usize).skip(first) {
+                largest.add(i as f64 / PLACES as f64, chord.square_distance(*place));
+            }
+        } else {
+            let step = (to - from) / PLACES as f64;
+            for t in (1..PLACES).map(|i| from + step * i as f64) {
+                largest.add(t, chord.square_distance(point(self.pieces, t)));
+            }
+        }
+        largest.add(to, 0.0);
+        largest.found
+    }
+}
+
+struct Chord {
+    from: DVec3,
+    along: DVec3,
+    /// 1/‖along‖², 0 where that is no number.
+    inverse: f64,
+}
+
+impl Chord {
+    fn new(from: DVec3, to: DVec3) -> Self {
+        let along = to - from;
+        let inverse = 1.0 / along.length_squared();
+        Self { from, along, inverse: if inverse.is_finite() { inverse } else { 0.0 } }
+    }
+
+    #[inline]
+    fn square_distance(&self, place: DVec3) -> f64 {
+        let way = place - self.from;
+        let s = (way.dot(self.along) * self.inverse).clamp(0.0, 1.0);
+        (way - self.along * s).length_squared()
+    }
+}
+
+/// The largest of distances along a curve, of which squares come in.
+struct Largest {
+    /// The last two: where, and the square.
+    before: [f64; 2],
+    last: [f64; 2],
+    found: f64,
+}
+
+impl Largest {
+    #[inline]
+    fn add(&mut self, t: f64, square: f64) {
+        let [before, last, next] = [self.before, self.last, [t, square]];
+        if last[1] >= before[1] && last[1] >= square {
+            self.found = self.found.max(top(before, last, next));
+        }
+        (self.before, self.last) = (last, next);
+    }
+}
+
+/// How high a parabola through three places reaches, the middle one of which is not lower than the others.
+fn top(before: [f64; 2], last: [f64; 2], next: [f64; 2]) -> f64 {
+    let distance = last[1].sqrt();
+    let (back, ahead) = (last[0] - before[0], next[0] - last[0]);
+    let (rise, fall) = ((distance - before[1].sqrt()) / back, (distance - next[1].sqrt()) / ahead);
+    let bend = (rise + fall) / (back + ahead);
+    let slope = rise - bend * back;
+    let above = slope * slope / (4.0 * bend);
+    // Of places that coincide, and of three at one height, there is none.
+    if above.is_finite() { distance + above } else { distance }
 }
 
 #[cfg(test)]
@@ -140,6 +202,17 @@ mod tests {
                 assert!(r - middle.length() <= 0.1 + 1e-4);
             }
         }
+    }
+
+    /// h − a(t − m)² through three places that are not as far from each other.
+    #[test]
+    fn the_top_of_a_parabola() {
+        let (h, a, m) = (2.0, 0.7, 0.4);
+        let at = |t: f64| [t, f64::powi(h - a * (t - m) * (t - m), 2)];
+        assert!((top(at(0.1), at(0.3), at(1.1)) - h).abs() < 1e-12);
+        assert!((top(at(-0.2), at(0.5), at(0.7)) - h).abs() < 1e-12);
+        assert_eq!(top([0.0, 4.0], [1.0, 4.0], [2.0, 4.0]), 2.0);
+        assert_eq!(top([1.0, 0.0], [1.0, 4.0], [2.0, 1.0]), 2.0);
     }
 
     #[test]

@@ -9,12 +9,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Voxels along the side of a block.
 const SIDE: usize = 8;
+const VOXELS: usize = SIDE * SIDE * SIDE;
 
 /// Blocks along the side of what is made at once for the whole grid: large enough that what neighbours share is little.
 const AT_ONCE: usize = 4;
 
-/// Numbers of a voxel: e₁, e₂, κ₁, κ₂, one line of a cache.
-const NUMBERS: usize = 8;
+/// Numbers of a line: its direction, and its curvature.
+const NUMBERS: usize = 4;
+
+/// The corners of a cell: steps from its first voxel.
+pub(super) const CORNERS: [[usize; 3]; 8] =
+    [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]];
 
 /// The first number's bits are kept inverted, so that 0, what memory begins with, is none of them.
 const UNKNOWN: u64 = 0;
@@ -22,36 +27,62 @@ const UNKNOWN: u64 = 0;
 /// There is no direction: inverted bits of something that is no number.
 const NONE: u64 = !0x7ff8_0000_0000_0000;
 
-/// A voxel. All that write to it write the same, the first number last.
+/// One of a voxel's lines; two of them fill a line of a cache. All that write to it write the same, the first number last.
 #[derive(Debug, Default)]
-#[repr(align(64))]
+#[repr(align(32))]
 struct Slot([AtomicU64; NUMBERS]);
 
 impl Slot {
-    fn get(&self, number: usize) -> f64 {
-        f64::from_bits(self.0[number].load(Ordering::Relaxed))
-    }
-
-    fn set(&self, made: Option<Curvature<f64>>) {
-        let first = made.map_or(NONE, |c| {
-            let numbers = [c.e1.y, c.e1.z, c.e2.x, c.e2.y, c.e2.z, c.k1, c.k2];
-            for (to, number) in self.0[1..].iter().zip(numbers) {
+    fn set(&self, made: Option<(Vec3<f64>, f64)>) {
+        let first = made.map_or(NONE, |(e, k)| {
+            for (to, number) in self.0[1..].iter().zip([e.y, e.z, k]) {
                 to.store(number.to_bits(), Ordering::Relaxed);
             }
-            !c.e1.x.to_bits()
+            !e.x.to_bits()
         });
         self.0[0].store(first, Ordering::Release);
     }
 
-    /// The first number, made now if need be; none where there is no direction.
+    /// The first number as it is kept.
     #[inline]
-    fn first(&self, make: impl FnOnce() -> Option<Curvature<f64>>) -> Option<f64> {
-        let mut first = self.0[0].load(Ordering::Acquire);
-        if first == UNKNOWN {
-            self.set(make());
-            first = self.0[0].load(Ordering::Acquire);
-        }
-        (first != NONE).then(|| f64::from_bits(!first))
+    fn first(&self) -> u64 {
+        self.0[0].load(Ordering::Acquire)
+    }
+
+    /// The line whose first number is kept like this.
+    #[inline]
+    fn line(&self, first: u64) -> Option<Vec3<f64>> {
+        (first != NONE).then(|| Vec3::new(f64::from_bits(!first), self.number(1), self.number(2)))
+    }
+
+    #[inline]
+    fn number(&self, i: usize) -> f64 {
+        f64::from_bits(self.0[i].load(Ordering::Relaxed))
+    }
+}
+
+/// Both lines of a voxel.
+#[derive(Clone, Copy)]
+struct Pair<'a>([&'a Slot; 2]);
+
+impl Pair<'_> {
+    fn set(self, made: Option<Curvature<f64>>) {
+        self.0[0].set(made.map(|c| (c.e1, c.k1)));
+        self.0[1].set(made.map(|c| (c.e2, c.k2)));
+    }
+
+    /// One of them, made now.
+    #[cold]
+    #[inline(never)]
+    fn make(self, which: usize, make: impl FnOnce() -> Option<Curvature<f64>>) -> Option<Vec3<f64>> {
+        self.set(make());
+        self.0[which].line(self.0[which].first())
+    }
+
+    /// One of them, whose first number is kept like this, made now if need be.
+    #[inline]
+    fn line(self, which: usize, first: u64, make: impl FnOnce() -> Option<Curvature<f64>>) -> Option<Vec3<f64>> {
+        if first == UNKNOWN { self.make(which, make) } else { self.0[which].line(first) }
     }
 }
 
@@ -94,8 +125,9 @@ impl Voxels {
     }
 }
 
+/// Of a block: all first lines, then all second ones.
 fn slots() -> Box<[Slot]> {
-    (0..SIDE * SIDE * SIDE).map(|_| Slot::default()).collect()
+    (0..2 * VOXELS).map(|_| Slot::default()).collect()
 }
 
 impl Blocks {
@@ -105,39 +137,45 @@ impl Blocks {
     }
 
     #[inline]
-    fn slot(&self, [x, y, z]: [usize; 3]) -> Option<&Slot> {
+    fn pair(&self, [x, y, z]: [usize; 3]) -> Option<Pair<'_>> {
         let [nx, ny, _] = self.dims;
-        let block = &self.blocks[(z / SIDE * ny + y / SIDE) * nx + x / SIDE];
-        block.get_or_init(slots).get((z % SIDE * SIDE + y % SIDE) * SIDE + x % SIDE)
+        let block = self.blocks[(z / SIDE * ny + y / SIDE) * nx + x / SIDE].get_or_init(slots);
+        let at = (z % SIDE * SIDE + y % SIDE) * SIDE + x % SIDE;
+        Some(Pair([block.get(at)?, block.get(VOXELS + at)?]))
     }
 
     /// All of a voxel.
-    pub(super) fn get(
-        &self,
-        voxel: [usize; 3],
-        make: impl FnOnce() -> Option<Curvature<f64>>,
-    ) -> Option<Curvature<f64>> {
-        let slot = self.slot(voxel)?;
-        let x = slot.first(make)?;
-        let [y, z, fx, fy, fz, k1, k2] = [1, 2, 3, 4, 5, 6, 7].map(|i| slot.get(i));
-        Some(Curvature { k1, k2, e1: Vec3::new(x, y, z), e2: Vec3::new(fx, fy, fz) })
+    pub(super) fn get(&self, voxel: [usize; 3], make: impl Fn() -> Option<Curvature<f64>>) -> Option<Curvature<f64>> {
+        let pair = self.pair(voxel)?;
+        let [first, second] = pair.0;
+        let e1 = pair.line(0, first.first(), &make)?;
+        // Another thread that makes the voxel may have written the first line alone.
+        let e2 = pair.line(1, second.first(), &make)?;
+        Some(Curvature { k1: first.number(3), k2: second.number(3), e1, e2 })
     }
 
-    /// One of the directions of a voxel: e₂, or e₁.
+    /// The first or second lines of those corners of a cell whose bits are set. Memory is asked for all of them before any is
+    /// waited for.
     #[inline]
-    pub(super) fn line(
+    pub(super) fn lines(
         &self,
-        voxel: [usize; 3],
-        second: bool,
-        make: impl FnOnce() -> Option<Curvature<f64>>,
-    ) -> Option<DVec3> {
-        let slot = self.slot(voxel)?;
-        let x = slot.first(make)?;
-        Some(if second {
-            DVec3::new(slot.get(3), slot.get(4), slot.get(5))
-        } else {
-            DVec3::new(x, slot.get(1), slot.get(2))
-        })
+        cell: [usize; 3],
+        corners: u8,
+        which: usize,
+        make: impl Fn([usize; 3]) -> Option<Curvature<f64>>,
+        lines: &mut [Option<DVec3>; 8],
+    ) {
+        let [x, y, z] = cell;
+        let voxel = |i: usize| [x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)];
+        let is_asked = |i: usize| corners >> i & 1 == 1;
+        let mut pairs = [const { None }; 8];
+        for i in (0..8).filter(|i| is_asked(*i)) {
+            pairs[i] = self.pair(voxel(i)).map(|pair| (pair, pair.0[which].first()));
+        }
+        for i in (0..8).filter(|i| is_asked(*i)) {
+            let line = pairs[i].and_then(|(pair, first)| pair.line(which, first, || make(voxel(i))));
+            lines[i] = line.map(Vec3::to_glam);
+        }
     }
 
     /// Makes every voxel, some blocks at once: `make` is given a box, and has its voxels' directions in their order.
@@ -165,16 +203,16 @@ impl Blocks {
         let is_empty = voxels.each().all(|voxel| made[group.place(voxel)].is_none());
         let slots = place.get_or_init(|| if is_empty { Box::default() } else { slots() });
         for voxel in voxels.each().filter(|_| !slots.is_empty()) {
-            if let Some(slot) = self.slot(voxel) {
-                slot.set(made[group.place(voxel)]);
+            if let Some(pair) = self.pair(voxel) {
+                pair.set(made[group.place(voxel)]);
             }
         }
     }
 
     /// Voxels with a direction.
     pub(super) fn made(&self) -> u64 {
-        let has = |slot: &&Slot| ![UNKNOWN, NONE].contains(&slot.0[0].load(Ordering::Acquire));
-        self.kept().map(|block| block.iter().filter(has).count() as u64).sum()
+        let has = |slot: &&Slot| ![UNKNOWN, NONE].contains(&slot.first());
+        self.kept().map(|block| block.iter().take(VOXELS).filter(has).count() as u64).sum()
     }
 
     /// Bytes of the blocks that were made.
@@ -212,8 +250,11 @@ mod tests {
         for _ in 0..2 {
             for voxel in all.each().step_by(5) {
                 assert_eq!(lazy.get(voxel, || make(voxel)), of(voxel));
-                assert_eq!(lazy.line(voxel, false, || None), of(voxel).map(|c| c.e1.to_glam()));
-                assert_eq!(lazy.line(voxel, true, || None), of(voxel).map(|c| c.e2.to_glam()));
+                let mut lines = [[None; 8]; 2];
+                lazy.lines(voxel, 1, 0, |_| None, &mut lines[0]);
+                lazy.lines(voxel, 1, 1, |_| None, &mut lines[1]);
+                let want = of(voxel).map(|c| [c.e1, c.e2].map(Vec3::to_glam));
+                assert_eq!(lines.map(|l| l[0]), [want.map(|w| w[0]), want.map(|w| w[1])]);
             }
         }
         assert_eq!(asked.get(), all.each().step_by(5).count());

@@ -9,11 +9,11 @@ const GAP: f64 = 0.2;
 /// The share of the weight that corners with a direction must exceed.
 const HALF: f64 = 0.5;
 
-/// Steps of Newton's method; each is shorter than the one before, and some three are enough where there is a gap.
+/// Steps of Halley's method; each is shorter than the one before, and two are enough where there is a gap.
 const STEPS: u32 = 24;
 
-/// A step after which the next is rounding: where there is a gap, errors are squared, times 50 at most.
-const LAST: f64 = 1e-9;
+/// A step after which the next is rounding: where there is a gap, the next is 75 times its third power at most.
+const LAST: f64 = 1e-6;
 
 /// A sum of directions with weights, of 1 in all.
 #[derive(Clone, Debug)]
@@ -43,6 +43,20 @@ impl Mean {
         }
     }
 
+    /// Adds directions with their weights, in their order; those without one, and those without a weight, not at all.
+    #[inline]
+    pub(super) fn add_all(&mut self, corners: &[Option<DVec3>; 8], weights: &[f64; 8]) {
+        let mut sum = self.clone();
+        for (e, &weight) in corners.iter().zip(weights) {
+            if let Some(e) = *e
+                && weight > 0.0
+            {
+                sum.add(e, weight);
+            }
+        }
+        *self = sum;
+    }
+
     /// What was added.
     pub(super) fn weight(&self) -> f64 {
         self.weight
@@ -57,41 +71,41 @@ impl Mean {
             Some(_) => self.vector.try_normalize(),
             None => {
                 let [d, o] = self.tensor;
-                let trace = d.x + d.y + d.z;
-                dominant(d / trace, o / trace)
+                dominant(d, o)
             }
         }
     }
 }
 
-/// The eigenvector of the largest eigenvalue of a matrix of trace 1 without negative eigenvalues: `d` its diagonal, `o` the
-/// entries yz, xz, xy. None where the next eigenvalue is nearer than the gap.
+/// The eigenvector of the largest eigenvalue of a matrix T without negative eigenvalues: `d` its diagonal, `o` the entries yz,
+/// xz, xy. None where the next eigenvalue is nearer than the gap times their sum t.
 ///
-/// The roots of the characteristic polynomial λ³ − λ² + mλ − det are not negative, and of their squares the sum is 1 − 2m: from
-/// its root Newton's method comes down to the largest. There the adjugate of T − λI is a multiple of v vᵀ.
+/// The roots of the characteristic polynomial λ³ − tλ² + mλ − det are not negative, and the two smaller ones have the sum t − λ
+/// and so squares of (t − λ)²/2 at least, of t² − 2m in all: λ is (t + √(4t² − 12m))/3 at most. From there Halley's method
+/// comes down to it. There the adjugate of T − λI is a multiple of v vᵀ.
 #[inline]
 fn dominant(d: DVec3, o: DVec3) -> Option<DVec3> {
+    const THIRD: f64 = 1.0 / 3.0;
     let minors = DVec3::new(d.y * d.z - o.x * o.x, d.x * d.z - o.y * o.y, d.x * d.y - o.z * o.z);
-    let m = minors.x + minors.y + minors.z;
+    let (t, m) = (d.x + d.y + d.z, minors.x + minors.y + minors.z);
     let det = d.x * minors.x - o.z * (o.z * d.z - o.x * o.y) + o.y * (o.z * o.x - d.y * o.y);
-    let mut largest = (1.0 - 2.0 * m).sqrt();
+    let mut largest = (t + (4.0 * t * t - 12.0 * m).max(0.0).sqrt()) * THIRD;
     for _ in 0..STEPS {
-        let p = ((largest - 1.0) * largest + m) * largest - det;
-        let slope = (3.0 * largest - 2.0) * largest + m;
-        let next = largest - p / slope;
-        if next >= largest || next.is_nan() {
+        let p = ((largest - t) * largest + m) * largest - det;
+        let slope = (3.0 * largest - 2.0 * t) * largest + m;
+        let step = p * slope / (slope * slope - p * (3.0 * largest - t));
+        if step <= 0.0 || step.is_nan() {
             break;
         }
-        let step = largest - next;
-        largest = next;
-        if step < LAST {
+        largest -= step;
+        if step < LAST * t {
             break;
         }
     }
     // The other two have the sum s and the product m − λs.
-    let s = 1.0 - largest;
+    let s = t - largest;
     let other = 0.5 * s + (0.25 * s * s - (m - largest * s)).max(0.0).sqrt();
-    if largest - other < GAP {
+    if largest - other < GAP * t {
         return None;
     }
     let d = d - largest;
@@ -106,7 +120,7 @@ fn dominant(d: DVec3, o: DVec3) -> Option<DVec3> {
     } else {
         z
     };
-    Some(column / column.length())
+    Some(column * (1.0 / column.length()))
 }
 
 #[cfg(test)]

@@ -11,8 +11,8 @@ use super::umbilics::Directions;
 use super::{Family, NoDirection, Scales};
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
-use blocks::Blocks;
 pub(super) use blocks::Voxels;
+use blocks::{Blocks, CORNERS};
 use drypoint_scene::glam::DVec3;
 use mean::Mean;
 
@@ -47,12 +47,20 @@ pub(super) struct Stored {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     cell: [usize; 3],
-    corners: [Option<Option<DVec3>>; 8],
+    /// A bit for each corner that was read.
+    read: u8,
+    corners: [Option<DVec3>; 8],
 }
 
 impl Default for Near {
     fn default() -> Self {
-        Self { cell: [usize::MAX; 3], corners: [None; 8] }
+        Self::of([usize::MAX; 3])
+    }
+}
+
+impl Near {
+    fn of(cell: [usize; 3]) -> Self {
+        Self { cell, read: 0, corners: [None; 8] }
     }
 }
 
@@ -113,26 +121,15 @@ impl Stored {
         self.blocks.get(voxel, || source.at(voxel))
     }
 
-    /// The weights of a cell's two sides along each axis.
+    /// The weights of a cell's corners.
     #[inline]
-    fn weights(&self, cell: [usize; 3], index: Vec3<f64>) -> [[f64; 2]; 3] {
-        let index = [index.x, index.y, index.z];
-        [0, 1, 2].map(|a| {
-            // Along an axis of one voxel nothing changes.
-            let w = if self.dims[a] == 1 { 0.0 } else { index[a] - cell[a] as f64 };
-            [1.0 - w, w]
-        })
-    }
-
-    /// The corners of a place's cell that have a weight: their numbers, voxels and weights.
-    #[inline(always)]
-    fn corners(&self, cell: [usize; 3], index: Vec3<f64>) -> impl Iterator<Item = (usize, [usize; 3], f64)> {
-        let [x, y, z] = self.weights(cell, index);
-        (0..8).filter_map(move |i| {
-            let up = [i & 1, i >> 1 & 1, i >> 2];
-            let weight = x[up[0]] * y[up[1]] * z[up[2]];
-            (weight > 0.0).then(|| (i, [0, 1, 2].map(|a| cell[a] + up[a]), weight))
-        })
+    fn weights(&self, cell: [usize; 3], index: Vec3<f64>) -> [f64; 8] {
+        // Along an axis of one voxel nothing changes.
+        let up = |a: usize, x: f64| if self.dims[a] == 1 { 0.0 } else { x - cell[a] as f64 };
+        let (x, y, z) = (up(0, index.x), up(1, index.y), up(2, index.z));
+        let (x, y, z) = ([1.0 - x, x], [1.0 - y, y], [1.0 - z, z]);
+        let [a, b, c, d] = [x[0] * y[0], x[1] * y[0], x[0] * y[1], x[1] * y[1]];
+        [a * z[0], b * z[0], c * z[0], d * z[0], a * z[1], b * z[1], c * z[1], d * z[1]]
     }
 
     /// The direction of a family at a place in index space, of length 1 and with either sign. `like` is the current one, `near`
@@ -147,18 +144,20 @@ impl Stored {
         counts: &mut Scales,
     ) -> Result<DVec3, NoDirection> {
         let like = like.filter(|_| self.between == Between::Flipped);
-        let mut mean = Mean::new(like);
         let cell = source.ground.cell(index);
         if near.cell != cell {
-            *near = Near { cell, corners: [None; 8] };
+            *near = Near::of(cell);
         }
-        for (i, voxel, weight) in self.corners(cell, index) {
-            let line = near.corners[i]
-                .get_or_insert_with(|| self.blocks.line(voxel, family == Family::Min, || source.at(voxel)));
-            if let Some(e) = *line {
-                mean.add(e, weight);
-            }
+        let weights = self.weights(cell, index);
+        // Corners without a weight are not made.
+        let new = weights.iter().enumerate().fold(0, |new, (i, w)| new | u8::from(*w > 0.0) << i) & !near.read;
+        if new != 0 {
+            near.read |= new;
+            let which = usize::from(family == Family::Min);
+            self.blocks.lines(cell, new, which, |voxel| source.at(voxel), &mut near.corners);
         }
+        let mut mean = Mean::new(like);
+        mean.add_all(&near.corners, &weights);
         let found = mean.direction();
         if found.is_some() {
             counts.between += 1
@@ -177,8 +176,10 @@ impl Stored {
     ) -> Result<Curvature<f64>, NoDirection> {
         let mut means = [Mean::new(None), Mean::new(None)];
         let (mut k1, mut k2) = (0.0, 0.0);
-        for (_, voxel, weight) in self.corners(source.ground.cell(index), index) {
-            if let Some(c) = self.voxel(source, voxel) {
+        let cell = source.ground.cell(index);
+        let weights = self.weights(cell, index);
+        for (up, weight) in CORNERS.into_iter().zip(weights).filter(|(_, weight)| *weight > 0.0) {
+            if let Some(c) = self.voxel(source, [0, 1, 2].map(|a| cell[a] + up[a])) {
                 means[0].add(c.e1.to_glam(), weight);
                 means[1].add(c.e2.to_glam(), weight);
                 (k1, k2) = (k1 + weight * c.k1, k2 + weight * c.k2);
