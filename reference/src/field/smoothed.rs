@@ -65,8 +65,8 @@ impl Region {
     /// Where a sample is; each axis counts from two before the grid.
     #[inline(always)]
     fn place(&self, sample: [usize; 3]) -> usize {
-        let [x, y, z] = [0, 1, 2].map(|a| sample[a] - self.first[a]);
-        (z * self.sides[1] + y) * self.sides[0] + x
+        let ([x, y, z], [x0, y0, z0]) = (sample, self.first);
+        ((z - z0) * self.sides[1] + (y - y0)) * self.sides[0] + (x - x0)
     }
 }
 
@@ -118,17 +118,18 @@ impl<'f, 'v> Smoothed<'f, 'v> {
     }
 
     /// The cell of a voxel.
-    pub fn cell_of(&self, voxel: [usize; 3]) -> [usize; 3] {
-        let dims = self.field.volume.dims();
-        [0, 1, 2].map(|a| voxel[a].min(dims[a].max(2) - 2))
+    #[inline]
+    pub fn cell_of(&self, [x, y, z]: [usize; 3]) -> [usize; 3] {
+        let [nx, ny, nz] = self.field.volume.dims();
+        [x.min(nx.max(2) - 2), y.min(ny.max(2) - 2), z.min(nz.max(2) - 2)]
     }
 
     /// The samples that the cell's brick reads, made now if need be.
-    fn brick_of(&self, cell: [usize; 3]) -> &Region {
-        let brick = cell.map(|c| c / self.side);
-        let [nx, ny, _] = self.dims;
-        let i = (brick[2] * ny + brick[1]) * nx + brick[0];
-        self.bricks[i].get_or_init(|| self.region(brick.map(|b| b * self.side), [self.side; 3]))
+    #[inline]
+    fn brick_of(&self, [x, y, z]: [usize; 3]) -> &Region {
+        let (side, [nx, ny, _]) = (self.side, self.dims);
+        let (x, y, z) = (x / side, y / side, z / side);
+        self.bricks[(z * ny + y) * nx + x].get_or_init(|| self.region([x * side, y * side, z * side], [side; 3]))
     }
 
     /// q·w_σ of [HATCH-3]: the standard deviation of a second derivative in a cell, in the unit of
@@ -139,6 +140,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
     }
 
     /// The same of a cell.
+    #[inline]
     pub fn noise_in(&self, cell: [usize; 3], deviation: f64) -> f64 {
         let q = self.rounding.max(deviation);
         if q == 0.0 { 0.0 } else { q * self.response(cell) }
@@ -151,12 +153,14 @@ impl<'f, 'v> Smoothed<'f, 'v> {
 
     /// w_σ in a cell: the root sum of squares of the weights of a second derivative along an axis, to the world's unit, the
     /// largest of the axes and of the cell's corners.
+    #[inline]
     fn response(&self, cell: [usize; 3]) -> f64 {
         let at = |a: usize| {
-            let [p, q] = [0, 1].map(|i| self.responses[a][(cell[a] + i).min(self.responses[a].len() - 1)]);
+            let of = &self.responses[a];
+            let (p, q) = (of[cell[a]], of[(cell[a] + 1).min(of.len() - 1)]);
             [p[0].max(q[0]), p[1].max(q[1])]
         };
-        let ([x, y, z], s) = ([at(0), at(1), at(2)], self.squares);
+        let (x, y, z, s) = (at(0), at(1), at(2), self.squares);
         let along = [x[1] * y[0] * z[0] * s[0], y[1] * x[0] * z[0] * s[1], z[1] * x[0] * y[0] * s[2]];
         along[0].max(along[1]).max(along[2])
     }

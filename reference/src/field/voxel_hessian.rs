@@ -69,17 +69,21 @@ pub(super) fn of_spline(d: impl Fn(usize, usize, usize) -> f64) -> (Vec3<f64>, S
     let first = |c: [f64; 3]| 0.5 * (c[2] - c[0]);
     let second = |c: [f64; 3]| (c[0] + c[2]) - 2.0 * c[1];
     // Along z at each (x, y): value, first and second derivative.
-    let along_z = [0, 1, 2].map(|j| {
-        [0, 1, 2].map(|i| {
+    let (mut values, mut slopes, mut bends) = ([[0.0; 3]; 3], [[0.0; 3]; 3], [[0.0; 3]; 3]);
+    for i in 0..3 {
+        for j in 0..3 {
             let c = [d(i, j, 0), d(i, j, 1), d(i, j, 2)];
-            [mean(c), first(c), second(c)]
-        })
-    });
-    let along_y = |order: usize, f: &dyn Fn([f64; 3]) -> f64| -> [f64; 3] {
-        [0, 1, 2].map(|i| f([0, 1, 2].map(|j| along_z[j][i][order])))
-    };
-    let [value, slope, bend] = [along_y(0, &mean), along_y(0, &first), along_y(0, &second)];
-    let [z_slope, yz, z_bend] = [along_y(1, &mean), along_y(1, &first), along_y(2, &mean)];
+            (values[i][j], slopes[i][j], bends[i][j]) = (mean(c), first(c), second(c));
+        }
+    }
+    // Along y at each x.
+    let [p, q, r] = values;
+    let (value, slope, bend) =
+        ([mean(p), mean(q), mean(r)], [first(p), first(q), first(r)], [second(p), second(q), second(r)]);
+    let [p, q, r] = slopes;
+    let (z_slope, yz) = ([mean(p), mean(q), mean(r)], [first(p), first(q), first(r)]);
+    let [p, q, r] = bends;
+    let z_bend = [mean(p), mean(q), mean(r)];
     let gradient = Vec3::new(first(value), mean(slope), mean(z_slope));
     let hessian = Sym3 {
         xx: second(value),

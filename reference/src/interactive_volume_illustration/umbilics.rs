@@ -253,7 +253,8 @@ impl Scaled<'_, '_> {
         if !(at.cmpge(lo).all() && at.cmple(hi).all()) {
             return Err(Unsure::Border);
         }
-        let (c, norm) = self.curvature([i, 0], place, regions)?;
+        let (gradient, hessian) = self.derivatives([i, 0], place, regions)?;
+        let (c, norm) = (directions::principal(gradient, hessian, self.outside), gradient.length());
         let difference = c.k1 - c.k2;
         if difference <= self.thresholds.gap * (c.k1.abs() + c.k2.abs()) {
             return Err(Unsure::Umbilic);
@@ -266,24 +267,22 @@ impl Scaled<'_, '_> {
         if difference * norm <= self.thresholds.noise * noise {
             return Err(Unsure::Noise);
         }
-        let (other, _) = self.curvature([i, 1], place, regions)?;
-        if other.k1 == other.k2 || cos_double(&c, &other) <= self.cos_double {
-            return Err(Unsure::Disagree);
-        }
-        Ok(c)
+        let (gradient, hessian) = self.derivatives([i, 1], place, regions)?;
+        // Of an umbilic it is no number.
+        if cos_double(&c, gradient, hessian, self.outside) > self.cos_double { Ok(c) } else { Err(Unsure::Disagree) }
     }
 
-    /// The curvatures at one scale, and ‖g‖ there.
+    /// Gradient and Hessian at one scale.
     #[inline]
-    fn curvature(
+    fn derivatives(
         &self,
         [i, larger]: [usize; 2],
         place: Place,
         regions: &Regions,
-    ) -> Result<(Curvature<f64>, f64), Unsure> {
+    ) -> Result<(Vec3<f64>, Sym3<f64>), Unsure> {
         let scale = &self.pairs[i][larger];
         let bound = self.no_normal_below;
-        let (gradient, hessian) = match place {
+        match place {
             Place::Between(index) => Some(scale.derivatives(index)).filter(|(gradient, _)| gradient.length() > bound),
             Place::Voxel(voxel) => {
                 let region = regions
@@ -292,15 +291,65 @@ impl Scaled<'_, '_> {
                 scale.at_voxel(voxel, bound, region)
             }
         }
-        .ok_or(Unsure::Gradient)?;
-        let norm = gradient.length();
-        Ok((directions::principal(gradient, hessian, self.outside), norm))
+        .ok_or(Unsure::Gradient)
     }
 }
 
-/// D:D'/(‖D‖‖D'‖) of the traceless shape operators, D = (κ₁ − κ₂)/2·(e₁e₁ᵀ − e₂e₂ᵀ): the cosine of twice the angle between
-/// the lines, where the tangent planes are the same.
-fn cos_double(a: &Curvature<f64>, b: &Curvature<f64>) -> f64 {
-    let square = |x: f64| x * x;
-    0.5 * (square(a.e1.dot(b.e1)) - square(a.e1.dot(b.e2)) - square(a.e2.dot(b.e1)) + square(a.e2.dot(b.e2)))
+/// D:D'/(‖D‖‖D'‖) of the traceless shape operators: the cosine of twice the angle between the lines, where the tangent planes
+/// are the same. D = (κ₁ − κ₂)/2·(e₁e₁ᵀ − e₂e₂ᵀ) by its curvatures; D' by gradient and Hessian, as the part of PHP, P = I − nnᵀ,
+/// without trace: neither its lines nor the length of the gradient are needed. No number where D' is 0.
+fn cos_double(c: &Curvature<f64>, gradient: Vec3<f64>, hessian: Sym3<f64>, outside: Outside) -> f64 {
+    let (g, h) = (gradient, hessian);
+    let u = g * (1.0 / g.dot(g));
+    let along = h.apply(g);
+    let across = u.dot(along);
+    let mean = 0.5 * (h.xx + h.yy + h.zz - across);
+    // PHP = H − uwᵀ − wuᵀ.
+    let w = along - g * (0.5 * across);
+    let d = Sym3 {
+        xx: h.xx - 2.0 * u.x * w.x - mean * (1.0 - g.x * u.x),
+        xy: h.xy - (u.x * w.y + w.x * u.y) + mean * (g.x * u.y),
+        xz: h.xz - (u.x * w.z + w.x * u.z) + mean * (g.x * u.z),
+        yy: h.yy - 2.0 * u.y * w.y - mean * (1.0 - g.y * u.y),
+        yz: h.yz - (u.y * w.z + w.y * u.z) + mean * (g.y * u.z),
+        zz: h.zz - 2.0 * u.z * w.z - mean * (1.0 - g.z * u.z),
+    };
+    let square = d.xx * d.xx + d.yy * d.yy + d.zz * d.zz + 2.0 * (d.xy * d.xy + d.xz * d.xz + d.yz * d.yz);
+    let cos = (d.form(c.e1, c.e1) - d.form(c.e2, c.e2)) / (2.0 * square).sqrt();
+    match outside {
+        Outside::Low => -cos,
+        Outside::High => cos,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::philox::uniform;
+
+    /// By the lines of both, of which the tangent planes are up to 60° apart: their eight angles.
+    #[test]
+    fn the_cosine_of_twice_the_angle_is_that_of_the_lines() {
+        for i in 0..20_000 {
+            let r = |k: u32| 2.0 * uniform(13, [i, k, 0], 0) - 1.0;
+            let vector = |k: u32| Vec3::new(r(k), r(k + 1), r(k + 2));
+            let hessian =
+                |k: u32| Sym3 { xx: r(k), xy: r(k + 1), xz: r(k + 2), yy: r(k + 3), yz: r(k + 4), zz: r(k + 5) };
+            let size = 10f64.powi(i as i32 % 41 - 20);
+            let (g, h, other) = (vector(0), hessian(10), hessian(20));
+            let turned = (g + vector(30) * 0.5) * size;
+            for outside in [Outside::Low, Outside::High] {
+                let c = directions::principal(g, h, outside);
+                let d = directions::principal(turned, other.scaled(size), outside);
+                let square = |a: Vec3<f64>, b: Vec3<f64>| a.dot(b) * a.dot(b);
+                let want = 0.5 * (square(c.e1, d.e1) - square(c.e1, d.e2) - square(c.e2, d.e1) + square(c.e2, d.e2));
+                let found = cos_double(&c, turned, other.scaled(size), outside);
+                let bound = 64.0 * f64::EPSILON * 3.0 / (turned.length() / size * (d.k1 - d.k2));
+                assert!((found - want).abs() <= bound, "{i}: {found} {want} {bound:e}");
+            }
+        }
+        let round = Sym3 { xx: -1.0, yy: -1.0, zz: -1.0, ..Sym3::default() };
+        let c = Curvature { k1: 1.0, k2: 0.0, e1: Vec3::new(1.0, 0.0, 0.0), e2: Vec3::new(0.0, 1.0, 0.0) };
+        assert!(cos_double(&c, Vec3::new(0.0, 0.0, 2.0), round, Outside::Low).is_nan());
+    }
 }

@@ -119,9 +119,9 @@ impl Voxels {
 
     /// Where one of them is in the list.
     fn place(&self, voxel: [usize; 3]) -> usize {
-        let [nx, ny, _] = self.sides();
-        let [x, y, z] = [0, 1, 2].map(|a| voxel[a] - self.first[a]);
-        (z * ny + y) * nx + x
+        let ([x, y, z], [x0, y0, z0]) = (voxel, self.first);
+        let (nx, ny) = (self.end[0] - x0, self.end[1] - y0);
+        ((z - z0) * ny + (y - y0)) * nx + (x - x0)
     }
 }
 
