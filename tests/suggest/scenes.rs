@@ -7,6 +7,7 @@ use drypoint::job::{Job, Wanted};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
+use drypoint::scene::picture::Picture;
 use drypoint::scene::plan::Quantity;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
@@ -54,7 +55,7 @@ fn drawn(path: &Path) -> ([usize; 2], f64) {
 }
 
 #[test]
-fn every_scene_gives_a_picture() {
+fn every_scene_gives_a_picture_in_every_theme() {
     let here = data().is_some();
     let mut seen = 0;
     for path in all() {
@@ -77,42 +78,33 @@ fn every_scene_gives_a_picture() {
         let scene = load(&path, &small.into_iter().collect()).unwrap_or_else(|faults| panic!("{faults}"));
         let job = Job::load(scene).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
         assert_eq!(job.plan.idle_keys, [], "{}: keys without effect", path.display());
-        let m = measure(&job.renderer().unwrap().frame(&|_| ()).0);
+        let picture = job.renderer().unwrap().frame(&|_| ()).0;
+        let m = measure(&picture);
         assert!(m.finite && (0.05..=0.90).contains(&m.covered), "{}: {m:?}", path.display());
+        draws_in_every_theme(job, &picture, &path);
         seen += 1;
     }
     assert!(seen >= if here { 6 } else { 1 }, "{seen} scenes");
 }
 
-/// Exchanging the theme changes no other line ([STF-12]).
-#[test]
-fn every_theme_draws_every_scene_of_styles() {
-    let here = data().is_some();
-    for path in all() {
-        if !here && !is_of_a_phantom(&path) {
-            println!("skipped: no data for {}", path.display());
-            continue;
-        }
-        let small = [("picture.size", "[48, 48]"), ("picture.background", "none")];
-        let scene = load(&path, &small.into_iter().collect()).unwrap_or_else(|faults| panic!("{faults}"));
-        // A theme of a scene's own has names of its own.
-        let own_names = matches!(scene.styles.theme, StyleSource::Folder(_)) || !scene.styles.files.is_empty();
-        if own_names || scene.transfer.as_ref().is_none_or(|transfer| transfer.kind == TransferKind::Regular) {
-            continue;
-        }
-        let mut job = Job::load(scene.clone()).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
-        let own = job.renderer().unwrap().frame(&|_| ()).0;
-        for theme in Theme::embedded_names().filter(|name| scene.styles.theme != StyleSource::Embedded((*name).into()))
-        {
-            let mut scene = scene.clone();
-            scene.styles.theme = StyleSource::Embedded(theme.into());
-            job = Job::with_volume(scene, job.volume).unwrap_or_else(|failure| panic!("{theme}: {failure}"));
-            let other = job.renderer().unwrap().frame(&|_| ()).0;
-            let (m, n) = (measure(&own), measure(&other));
-            assert!(n.finite && own != other, "{theme}, {}", path.display());
-            // Opacities are the scene's; only α_d of what is clear differs a little from theme to theme.
-            assert!((m.covered - n.covered).abs() < 0.05, "{theme}, {}: {m:?} and {n:?}", path.display());
-        }
+/// A scene of styles in every theme but its own: exchanging the theme changes no other line ([STF-12]). A theme of a scene's own
+/// has names of its own.
+fn draws_in_every_theme(mut job: Job, own: &Picture, path: &Path) {
+    let scene = job.scene.clone();
+    let is_own = matches!(scene.styles.theme, StyleSource::Folder(_)) || !scene.styles.files.is_empty();
+    if is_own || scene.transfer.as_ref().is_none_or(|transfer| transfer.kind == TransferKind::Regular) {
+        return;
+    }
+    let m = measure(own);
+    for theme in Theme::embedded_names().filter(|name| scene.styles.theme != StyleSource::Embedded((*name).into())) {
+        let mut scene = scene.clone();
+        scene.styles.theme = StyleSource::Embedded(theme.into());
+        job = Job::with_volume(scene, job.volume).unwrap_or_else(|failure| panic!("{theme}: {failure}"));
+        let other = job.renderer().unwrap().frame(&|_| ()).0;
+        let n = measure(&other);
+        assert!(n.finite && *own != other, "{theme}, {}", path.display());
+        // Opacities are the scene's; only α_d of what is clear differs a little from theme to theme.
+        assert!((m.covered - n.covered).abs() < 0.05, "{theme}, {}: {m:?} and {n:?}", path.display());
     }
 }
 

@@ -80,7 +80,7 @@ impl<'a> Preprocess<'a> {
     pub fn new(inputs: Inputs<'a>) -> Result<Self, StippleError> {
         let Inputs { stipples, table, volume, view, near, square, tone } = inputs;
         let area = projected_area(volume.grid(), view, near) / (square * square);
-        let m = box_side(area, volume.dims());
+        let m = stipples.box_side.map_or_else(|| box_side(area, volume.dims()), |m| m as usize);
         let fine = volume.range();
         let volume = boxes(volume, m).map_or(Cow::Borrowed(volume), Cow::Owned);
         // In the voxels that points are made in.

@@ -228,8 +228,8 @@ fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<us
 
 /// Whether a piecewise-linear opacity is above 0 somewhere on [lo, hi].
 ///
-/// On a closed range it is 0 throughout exactly if both nodes of every segment that the range touches have opacity 0;
-/// a segment touched in its end alone counts, which only keeps a brick that shows nothing. Rounding keeps nodes in order.
+/// On a closed range it is 0 throughout exactly if both nodes of every segment that the range reaches into have opacity 0, and
+/// every node that it touches. Of nodes at one value all count. Rounding keeps nodes in order.
 fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
     // Without a node nothing is shown; that it is no function is said where the nodes are evaluated.
     let Some(end) = at.len().checked_sub(1) else { return false };

@@ -108,9 +108,9 @@ fn voxels_beside_invalid_ones_have_no_points() {
 fn small_voxels_become_boxes() {
     let volume = common::ball(60, 20.0);
     let table = table();
-    let at = |pixels| {
+    let made = |pixels, box_side| {
         let view = orthographic(&volume, pixels);
-        let stipples = Stipples::default();
+        let stipples = Stipples { box_side, ..Stipples::default() };
         let inputs = Inputs {
             stipples: &stipples,
             table: &table,
@@ -123,6 +123,7 @@ fn small_voxels_become_boxes() {
         let preprocess = Preprocess::new(inputs).unwrap();
         (preprocess.area, preprocess.box_side, preprocess.each)
     };
+    let at = |pixels| made(pixels, None);
     for pixels in [0.01, 0.5, 1.0, 2.0, 5.0, 8.0] {
         let (area, m, each) = at(pixels);
         // The box is 59 units long and seen obliquely.
@@ -131,6 +132,12 @@ fn small_voxels_become_boxes() {
         assert!((m == 60 || voxel(m as f64) >= 25.0) && (m == 1 || voxel(m as f64 - 1.0) < 25.0), "{pixels}: {m}");
         let boxes = (60.0 / m as f64).ceil();
         assert_eq!(each, ((area / (boxes * boxes) + 0.5).floor() as usize).max(1), "{pixels}");
+        // Or as a scene says, with eq. 1 for what that makes.
+        for side in [1, 3, m as u64] {
+            let boxes = (60.0 / side as f64).ceil();
+            let each = ((area / (boxes * boxes) + 0.5).floor() as usize).max(1);
+            assert_eq!(made(pixels, Some(side)), (area, side as usize, each), "{pixels}");
+        }
     }
 }
 

@@ -139,6 +139,7 @@ const SAMPLES: &[Sample] = &[
     ("stipples.k_max", &[STIPPLES], "2.5"),
     ("stipples.size", &[STIPPLES], "3 px"),
     ("stipples.seed", &[STIPPLES], "7"),
+    ("stipples.box", &[STIPPLES], "2"),
     ("stipples.color", &[STIPPLES], "#00f"),
     ("stipples.pen", &[STIPPLES], "red"),
     ("stipples.gradient", &[STIPPLES], "central"),

@@ -27,6 +27,9 @@ pub struct Stipples {
     pub size: Length,
     /// Key of the random numbers ([RAY-4]).
     pub seed: u64,
+    /// Voxels along the side of the boxes that points are made in; none: the least whose projection is 5×5 pixels or, where the
+    /// picture is in millimetres, squares of side S_max ([STIP-2]).
+    pub box_side: Option<u64>,
     /// What the dots are drawn in ([STIP-16]).
     pub color: DotColor,
     /// The pen of `[[pen]]` that draws, in its colour and size ([STIP-6]); none: dots of `color` and any size.
@@ -158,6 +161,7 @@ impl Default for Stipples {
             color: DotColor::Fixed([0.0, 0.0, 0.0, 1.0]),
             pen: None,
             gradient: StippleGradient::Regression,
+            box_side: None,
             slab: Length::Voxels(0.5),
             order: StippleOrder::Neighbours,
             snap: Snap::None,

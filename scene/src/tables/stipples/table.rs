@@ -62,6 +62,18 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                 },
             ),
             Key::new(
+                "box",
+                "STIP-2",
+                "Voxels along the side of the boxes that points are made in. More of them have more dots each, and show patterns; \
+                 fewer keep what is thin.",
+                &Slot {
+                    kind: Whole { lo: 1, hi: 1 << 20 },
+                    get: |s: &Stipples| s.box_side,
+                    set: |s, v| s.box_side = Some(v),
+                },
+            )
+            .absent("as many as a projection of 5×5 pixels, or squares of side `size`, asks for"),
+            Key::new(
                 "color",
                 "STIP-16",
                 "What the dots are drawn in. `\"transfer\"`: the colour of `[transfer]` at their voxel's value, of a style \
