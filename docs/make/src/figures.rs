@@ -21,12 +21,13 @@ type Encode = fn(&Picture) -> Result<Vec<u8>, png::EncodingError>;
 const LARGEST: usize = 300_000;
 
 /// Scenes that are shown beside the figures.
-const OTHERS: [&str; 7] = [
+const OTHERS: [&str; 8] = [
     "skull-plotter",
     "silhouettes-engine",
     "outlines-engine",
     "hatching-aneurism",
     "hatching-engine",
+    "hatching-lobster",
     "hatching-skull",
     "plotter-page",
 ];
