@@ -275,6 +275,9 @@ fn failure(job: &Job, error: &StippleError) -> Failure {
         StippleError::Field(_) => ("volume", "convert the volume"),
         StippleError::Length { key } => (*key, "give it in voxels or world units"),
         StippleError::TooMany { .. } => ("stipples.threshold", "make it larger"),
+        StippleError::TooDense { .. } if job.scene.stipples.as_ref().is_some_and(|s| s.box_side.is_some()) => {
+            ("stipples.box", "make it or `stipples.k_max` smaller")
+        }
         StippleError::TooDense { .. } => ("stipples.k_max", "make it smaller"),
     };
     Failure::new(error, job.scene.given.position(key), remedy)

@@ -8,27 +8,22 @@ use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 
 impl IsoSurface<'_, '_> {
-    /// Where the straight line through a point along a unit vector of the world, such as its gradient's, first meets the
-    /// surface, at most `reach` world units from the point to either side, the nearer of both; none where there is no such
-    /// place. The point and its foot are in index space.
+    /// Where the straight line through a point along a unit vector of the world, such as its normal, first meets the surface,
+    /// at most `reach` world units from the point to either side: the nearer of both, but one whose own normal goes that way
+    /// before one whose normal does not, which is the other side of a thin wall. None where there is no such place. The point
+    /// and its foot are in index space.
     pub fn foot(&self, point: DVec3, along: DVec3, reach: f64) -> Option<DVec3> {
         let grid = self.field.volume().grid();
-        let along = grid.inverse_axes() * along;
-        let to = |way: f64| self.first_root_in_index(point, along * way, [0.0, reach]).map(|t| way * t);
-        let foot = match (to(1.0), to(-1.0)) {
-            (Some(a), Some(b)) => Some(if a <= -b { a } else { b }),
-            (a, b) => a.or(b),
-        };
+        let to_index = grid.inverse_axes() * along;
         let [lo, hi] = grid.index_box();
         // On a face of the box rounding may leave it.
-        foot.map(|t| (point + along * t).clamp(lo, hi))
-    }
-
-    /// A place in index space moved by a distance in world units along the normal there: outwards, or inwards if it is below
-    /// 0. It stays where there is no normal.
-    pub fn in_front(&self, foot: DVec3, distance: f64) -> DVec3 {
-        let to_index = self.field.volume().grid().inverse_axes();
-        self.normal(foot).map_or(foot, |n| foot + to_index * (n * distance))
+        let at = |t: f64| (point + to_index * t).clamp(lo, hi);
+        let to = |way: f64| self.first_root_in_index(point, to_index * way, [0.0, reach]).map(|t| way * t);
+        let (ahead, behind) = (to(1.0), to(-1.0));
+        let (Some(a), Some(b)) = (ahead, behind) else { return ahead.or(behind).map(at) };
+        let (near, far) = if a <= -b { (at(a), at(b)) } else { (at(b), at(a)) };
+        let goes_along = |foot| self.normal(foot).is_some_and(|n| n.dot(along) > 0.0);
+        Some(if !goes_along(near) && goes_along(far) { far } else { near })
     }
 
     /// N in world space, by the field's gradient; none where it is rounding ([PREC-3]), and outside the volume.

@@ -86,7 +86,7 @@ fn face(dims: [usize; 3]) -> f64 {
 }
 
 /// m of 4.2, the smallest whole number with m²·A_vol/(X·Y·Z)^(2/3) ≥ 25. A volume that covers nothing is left as it is, and
-/// no box is longer than the volume.
+/// no box has more voxels along its side than the longest axis of the volume.
 pub(super) fn box_side(area: f64, dims: [usize; 3]) -> usize {
     let each = area / face(dims);
     let longest = dims.into_iter().max().unwrap_or(1);

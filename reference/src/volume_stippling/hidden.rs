@@ -40,8 +40,8 @@ impl<'a> Hidden<'a> {
     pub(super) fn hides(&self, point: DVec3, normal: DVec3) -> bool {
         let grid = self.surface.field().volume().grid();
         let foot = self.surface.foot(grid.to_index(point), normal, REACH * across(self.of_points, normal));
-        let tested = foot.map_or(point, |foot| grid.to_world(self.surface.in_front(foot, self.offset)));
-        self.surface.hides(tested, self.view, self.near)
+        let in_front = |foot| grid.to_world(foot) + self.surface.normal(foot).unwrap_or(normal) * self.offset;
+        self.surface.hides(foot.map_or(point, in_front), self.view, self.near)
     }
 }
 
@@ -65,6 +65,7 @@ pub fn seen(
 mod tests {
     use super::*;
     use crate::field::{Field, Reconstruction, Rung};
+    use drypoint_scene::math;
     use drypoint_scene::philox::uniform;
     use drypoint_scene::tables::{Camera, Projection};
     use drypoint_scene::volume::{Volume, Voxels};
@@ -115,5 +116,54 @@ mod tests {
             assert!(hides(1.0) && hides(18.0) && !hides(-18.0));
         }
         assert!(front > 2500 && back > 2500, "{front} {back}");
+    }
+
+    /// A flat wall with the surface on both its sides, 1.18 voxels from its middle: of points of voxels that face the eye all
+    /// are seen, of those that face away none, though the other side may be nearer to a point.
+    #[test]
+    fn a_thin_wall_shows_one_side() {
+        let (middle, iso) = (9.8, 0.5);
+        let grid = Grid::with_spacing([5, 5, 20], [1.0; 3]).unwrap();
+        let t = |z: f64| z - middle;
+        let values = (0..grid.len()).map(|i| math::exp(-0.5 * t((i / 25) as f64).powi(2))).collect();
+        let volume = Volume::new(grid, Voxels::F64(values), 1.0, 0.0).unwrap();
+        let field = Field::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+        let surface = IsoSurface::new(&field, iso);
+        for direction in [DVec3::NEG_Z, DVec3::Z] {
+            let camera =
+                Camera { projection: Projection::Orthographic { height: None }, direction, ..Camera::default() };
+            let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
+            let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+            for i in 0..=40 {
+                // Points of the voxels of the outer flanks lie up to half a voxel beyond their centres.
+                let out = -0.25 + 2.5 * f64::from(i) / 40.0;
+                for side in [1.0, -1.0] {
+                    let (point, normal) = (DVec3::new(2.0, 2.0, middle + side * out), DVec3::Z * side);
+                    assert_eq!(hidden.hides(point, normal), normal.dot(direction) > 0.0, "{direction} {side} {out}");
+                }
+            }
+        }
+    }
+
+    /// Where the surface is a ridge without a gradient, its points lie in front of it by their voxels' normals.
+    #[test]
+    fn a_foot_without_a_normal_takes_the_voxels() {
+        let grid = Grid::with_spacing([5, 5, 20], [1.0; 3]).unwrap();
+        let values = (0..grid.len()).map(|i| 5.0 - ((i / 25) as f64 - 10.0).abs()).collect();
+        let volume = Volume::new(grid, Voxels::F64(values), 1.0, 0.0).unwrap();
+        let field = Field::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+        let surface = IsoSurface::new(&field, 5.0);
+        let camera = Camera {
+            projection: Projection::Orthographic { height: None },
+            direction: DVec3::NEG_Z,
+            ..Camera::default()
+        };
+        let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
+        let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+        assert!(surface.normal(DVec3::new(2.0, 2.0, 10.0)).is_none());
+        for side in [1.0, -1.0] {
+            let point = DVec3::new(2.0, 2.0, 10.0 + 0.3 * side);
+            assert_eq!(hidden.hides(point, DVec3::Z * side), side < 0.0);
+        }
     }
 }

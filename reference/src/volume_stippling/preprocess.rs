@@ -82,7 +82,7 @@ impl<'a> Preprocess<'a> {
         let area = projected_area(volume.grid(), view, near) / (square * square);
         let m = stipples.box_side.map_or_else(|| box_side(area, volume.dims()), |m| m as usize);
         let fine = volume.range();
-        let volume = boxes(volume, m).map_or(Cow::Borrowed(volume), Cow::Owned);
+        let (volume, m) = boxes(volume, m).map_or((Cow::Borrowed(volume), 1), |boxed| (Cow::Owned(boxed), m));
         // In the voxels that points are made in.
         let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Length { key: "stipples.slab" })?;
         let field = field_of(&volume, stipples.gradient, table.outside)?;

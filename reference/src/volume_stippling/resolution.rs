@@ -5,16 +5,18 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::volume::{Volume, Voxels};
 use rayon::prelude::*;
 
-/// The means of boxes of m³ voxels, on their own grid; a box at the end is that of the voxels it has. Voxels that are not
-/// valid do not count, and a box of none but those is not valid. An axis of length 1 stays as it is.
+/// The means of boxes of m³ voxels, on their own grid; a box at the end is that of the voxels it has, and may reach beyond the
+/// last of them. Voxels that are not valid do not count, and a box of none but those is not valid. An axis has two boxes at
+/// least, however many voxels a box should have, since there is no gradient along one box; an axis of one or two voxels stays
+/// as it is.
 ///
 /// None where there is nothing to do, or where the boxes make no volume: m = 1, or no valid voxel.
 pub(super) fn boxes(volume: &Volume, m: usize) -> Option<Volume> {
-    if m <= 1 {
+    let dims = volume.dims();
+    let side = dims.map(|n| m.min(n.div_ceil(2)));
+    if side == [1; 3] {
         return None;
     }
-    let dims = volume.dims();
-    let side = dims.map(|n| if n == 1 { 1 } else { m });
     let small: [usize; 3] = std::array::from_fn(|a| dims[a].div_ceil(side[a]));
     let (grid, scale) = (volume.grid(), DVec3::from_array(side.map(|m| m as f64)));
     let origin = grid.to_world((scale - 1.0) * 0.5);
@@ -22,21 +24,61 @@ pub(super) fn boxes(volume: &Volume, m: usize) -> Option<Volume> {
     let mean = |i: usize| {
         let at = [i % small[0], i / small[0] % small[1], i / (small[0] * small[1])];
         let range = |a: usize| at[a] * side[a]..((at[a] + 1) * side[a]).min(dims[a]);
-        // Stored numbers: sums of integers are exact.
-        let (mut sum, mut count) = (0.0, 0.0);
+        let mut mean = Mean::of(volume.voxels());
         for z in range(2) {
             for y in range(1) {
                 for x in range(0).filter(|&x| volume.mask().is_none_or(|mask| !mask.voxel([x, y, z]))) {
-                    sum += volume.voxels().get((z * dims[1] + y) * dims[0] + x);
-                    count += 1.0;
+                    mean.add(volume.voxels().get((z * dims[1] + y) * dims[0] + x));
                 }
             }
         }
-        // 0/0 is NaN, which makes the box invalid.
-        sum / count
+        // Of none it is NaN, which makes the box invalid.
+        mean.get()
     };
     let means = (0..boxes.len()).into_par_iter().map(mean).collect();
     Volume::new(boxes, Voxels::F64(means), volume.slope(), volume.intercept()).ok()
+}
+
+/// The mean of stored numbers.
+#[derive(Clone, Copy)]
+enum Mean {
+    /// Of types of so few bits that sums of integers, and of equal numbers, are exact.
+    Sum { sum: f64, count: f64 },
+    /// Of all others: of equal numbers it is that number, whatever their count, so that a constant stays one; nothing overflows.
+    Running { mean: f64, count: f64 },
+}
+
+impl Mean {
+    fn of(voxels: &Voxels) -> Self {
+        match voxels {
+            Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_) | Voxels::F32(_) => {
+                Self::Sum { sum: 0.0, count: 0.0 }
+            }
+            _ => Self::Running { mean: 0.0, count: 0.0 },
+        }
+    }
+
+    #[inline]
+    fn add(&mut self, number: f64) {
+        match self {
+            Self::Sum { sum, count } => {
+                *sum += number;
+                *count += 1.0;
+            }
+            Self::Running { mean, count } => {
+                *count += 1.0;
+                *mean += number / *count - *mean / *count;
+            }
+        }
+    }
+
+    fn get(self) -> f64 {
+        match self {
+            Self::Running { mean, count } if count > 0.0 => mean,
+            Self::Running { .. } => f64::NAN,
+            Self::Sum { sum, count } => sum / count,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -45,29 +87,58 @@ mod tests {
 
     #[test]
     fn means_of_whole_and_partial_boxes() {
-        let grid = Grid::new([5, 2, 1], DMat3::from_diagonal(DVec3::new(1.0, 2.0, 7.0)), DVec3::new(10.0, 0.0, 3.0));
-        let volume = Volume::new(grid.unwrap(), Voxels::U8((0..10).collect()), 2.0, 1.0).unwrap();
-        let boxes = boxes(&volume, 2).unwrap();
-        assert_eq!(boxes.dims(), [3, 1, 1]);
+        let grid = Grid::new([5, 3, 1], DMat3::from_diagonal(DVec3::new(1.0, 2.0, 7.0)), DVec3::new(10.0, 0.0, 3.0));
+        let volume = Volume::new(grid.unwrap(), Voxels::U8((0..15).collect()), 2.0, 1.0).unwrap();
+        let two = boxes(&volume, 2).unwrap();
+        assert_eq!(two.dims(), [3, 2, 1]);
         // {0, 1, 5, 6}, {2, 3, 7, 8} and {4, 9}; values are 2·stored + 1.
-        assert_eq!([0, 1, 2].map(|x| boxes.value([x, 0, 0])), [7.0, 11.0, 14.0]);
-        assert_eq!(boxes.grid().spacing(), [2.0, 4.0, 7.0]);
+        assert_eq!([0, 1, 2].map(|x| two.value([x, 0, 0])), [7.0, 11.0, 14.0]);
+        assert_eq!(two.value([0, 1, 0]), 22.0);
+        assert_eq!(two.grid().spacing(), [2.0, 4.0, 7.0]);
         // The middle of the first box.
-        assert_eq!(boxes.grid().origin(), DVec3::new(10.5, 1.0, 3.0));
+        assert_eq!(two.grid().origin(), DVec3::new(10.5, 1.0, 3.0));
         assert!(super::boxes(&volume, 1).is_none());
+        // However long a box is asked for, there are two along each axis, and a gradient between them.
+        for m in [3, 4, 1 << 20] {
+            let two = boxes(&volume, m).unwrap();
+            assert_eq!((two.dims(), two.grid().spacing()), ([2, 2, 1], [3.0, 4.0, 7.0]));
+        }
+        // None is shorter than it must be: two voxels stay as they are.
+        let flat =
+            Volume::new(Grid::with_spacing([2, 1, 1], [1.0; 3]).unwrap(), Voxels::U8(vec![3, 9]), 1.0, 0.0).unwrap();
+        assert!(super::boxes(&flat, 2).is_none());
+    }
+
+    /// Boxes of a constant are that constant, whole ones and partial ones, and those of the largest numbers are finite.
+    #[test]
+    fn means_of_equal_numbers_are_that_number() {
+        for number in [0.1, 1000.1, -1e-9, f64::MAX, -f64::MAX] {
+            for (dims, m) in [([33, 33, 33], 32), ([40, 9, 5], 16), ([10, 10, 10], 4)] {
+                let grid = Grid::with_spacing(dims, [1.0; 3]).unwrap();
+                let all = vec![number; grid.len()];
+                let volume = Volume::new(grid, Voxels::F64(all), 1.0, 0.0).unwrap();
+                let boxes = boxes(&volume, m).unwrap();
+                assert!((0..boxes.grid().len()).all(|i| boxes.voxels().get(i) == number), "{number} {dims:?} {m}");
+            }
+        }
+        let both = (0..8).map(|i| if i % 2 == 0 { f64::MAX } else { -f64::MAX }).collect();
+        let volume =
+            Volume::new(Grid::with_spacing([8, 1, 1], [1.0; 3]).unwrap(), Voxels::F64(both), 1.0, 0.0).unwrap();
+        let mean = boxes(&volume, 2).unwrap().voxels().get(0);
+        assert!(mean.abs() <= f64::MAX * f64::EPSILON, "{mean:e}");
     }
 
     #[test]
     fn invalid_voxels_are_left_out() {
-        let grid = Grid::with_spacing([4, 2, 2], [1.0; 3]).unwrap();
-        let mut values = vec![3.0f32; 16];
-        values[0] = f32::NAN;
-        values[1] = 10.0;
-        for i in [2, 3, 6, 7, 10, 11, 14, 15] {
+        let grid = Grid::with_spacing([4, 3, 1], [1.0; 3]).unwrap();
+        let mut values = vec![3.0f32; 12];
+        (values[0], values[1]) = (f32::NAN, 10.0);
+        for i in [2, 3, 6, 7] {
             values[i] = f32::INFINITY;
         }
         let boxes = boxes(&Volume::new(grid, Voxels::F32(values), 1.0, 0.0).unwrap(), 2).unwrap();
-        assert_eq!(boxes.value([0; 3]), 4.0);
-        assert!(boxes.mask().unwrap().voxel([1, 0, 0]));
+        // 10, 3 and 3.
+        assert_eq!(boxes.value([0; 3]), 16.0 / 3.0);
+        assert!(boxes.mask().unwrap().voxel([1, 0, 0]) && !boxes.mask().unwrap().voxel([1, 1, 0]));
     }
 }

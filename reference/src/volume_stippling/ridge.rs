@@ -63,7 +63,8 @@ fn way(grid: &Grid, normal: DVec3) -> DVec3 {
     way
 }
 
-/// Lengths and products of a grid's steps that differ by so much of them or less are equal: headers have numbers in f32.
+/// Lengths and products of a grid's steps that differ by so much of them or less are equal, and components of a step in voxels
+/// of that size are 0: headers have numbers in f32.
 const CUBIC: f64 = 1e-6;
 
 /// Whether voxels are cubes, however they stand in the world.
@@ -120,9 +121,10 @@ impl Norms<'_> {
         sum
     }
 
-    /// Whether a place `s` from a voxel lies beyond the border, however little.
+    /// Whether a place `s` from a voxel lies beyond the border. Along an axis of one voxel there is none.
     fn is_beyond(&self, cell: [usize; 3], s: DVec3) -> bool {
-        (0..3).any(|a| (cell[a] == 0 && s[a] < -EQUAL) || (cell[a] + 1 == self.dims[a] && s[a] > EQUAL))
+        let is_out = |a: usize| (cell[a] == 0 && s[a] < -CUBIC) || (cell[a] + 1 == self.dims[a] && s[a] > CUBIC);
+        (0..3).any(|a| self.dims[a] > 1 && is_out(a))
     }
 
     fn own(&self, cell: [usize; 3]) -> f64 {
@@ -133,8 +135,9 @@ impl Norms<'_> {
     /// linear index is kept, and rounding does not tell them apart: a face between two slices would have a layer in both.
     /// Beyond the border there is no voxel to be kept instead.
     pub(super) fn is_largest(&self, cell: [usize; 3], step: DVec3) -> bool {
-        // Which of the two comes first in linear order; a component that rounding left does not say.
-        let first = [step.z, step.y, step.x].into_iter().find(|x| x.abs() > EQUAL).map_or(1.0, f64::signum);
+        // Which of the two comes first in linear order; a component that rounding left, or an axis of one voxel, does not say.
+        let says = |&a: &usize| self.dims[a] > 1 && step[a].abs() > CUBIC;
+        let first = [2, 1, 0].into_iter().find(says).map_or(1.0, |a| step[a].signum());
         let own = self.own(cell);
         let equal = 1.0 + EQUAL;
         let [before, after] = [-step * first, step * first];
@@ -272,6 +275,26 @@ mod tests {
                     norms.is_largest(cell, DVec3::AXES[axis] + off)
                 });
                 assert_eq!(kept.collect::<Vec<_>>(), [1], "{a} {b}, axis {axis}");
+            }
+        }
+    }
+
+    /// Nor does what a header's f32 numbers leave of a direction: a step of two equals has one layer, in a single slice too.
+    #[test]
+    fn components_of_a_turned_header_are_no_directions() {
+        let row = [0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 0.0];
+        for dims in [[8, 8, 1], [8, 8, 3]] {
+            let all: Vec<f64> = (0..dims.iter().product()).map(|i: usize| row[i % 8]).collect();
+            let norms = Norms { dims, all: &all };
+            for off in [DVec3::new(0.0, 1.3e-9, -4.8e-9), DVec3::new(0.0, -1e-8, 1e-8), DVec3::new(0.0, 3e-7, 0.0)] {
+                for y in 0..8 {
+                    for z in 0..dims[2] {
+                        let is = |x, step| norms.own([x, y, z]) > 0.0 && norms.is_largest([x, y, z], step);
+                        let kept = |sign: f64| (0..8).filter(|&x| is(x, (DVec3::X + off) * sign)).collect();
+                        let [to, fro]: [Vec<usize>; 2] = [1.0, -1.0].map(kept);
+                        assert_eq!([to, fro], [[3], [3]], "{dims:?} {off:?} {y} {z}");
+                    }
+                }
             }
         }
     }

@@ -238,7 +238,8 @@ fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl
     let first = if at.get(below).is_some_and(|&a| rounded(a) == lo) { below } else { below.saturating_sub(1) };
     let above = at.partition_point(|&a| rounded(a) <= hi);
     let last = if above > 0 && rounded(at[above - 1]) == hi { above - 1 } else { above.min(end) };
-    opacity[first..=last].iter().any(|&a| a > 0.0)
+    // Of a range of nothing, from ∞ to −∞, there is none.
+    opacity.get(first..=last).is_some_and(|between| between.iter().any(|&a| a > 0.0))
 }
 
 /// The values of numbers in a unit.

@@ -64,8 +64,8 @@ pub(crate) static TABLE: Table<Stipples> = Table {
             Key::new(
                 "box",
                 "STIP-2",
-                "Voxels along the side of the boxes that points are made in. More of them have more dots each, and show patterns; \
-                 fewer keep what is thin.",
+                "Voxels along the side of the boxes that points are made in; an axis has two boxes at least. Larger ones have \
+                 more dots each, and show patterns; smaller ones keep what is thin.",
                 &Slot {
                     kind: Whole { lo: 1, hi: 1 << 20 },
                     get: |s: &Stipples| s.box_side,
