@@ -156,7 +156,8 @@ impl Strokes<'_, '_> {
             let at = |u: f64| over(cell[0] + (cell[1] - cell[0]) * u);
             let values = [first, at(THIRD), at(2.0 * THIRD), over(cell[1])];
             first = values[3];
-            values.iter().all(|v| *v >= 0.0) && extremes(values).into_iter().flatten().all(|u| at(u) >= 0.0)
+            is_positive(values)
+                || values.iter().all(|v| *v >= 0.0) && extremes(values).into_iter().flatten().all(|u| at(u) >= 0.0)
         })
     }
 
@@ -185,6 +186,13 @@ impl Strokes<'_, '_> {
         let [x, y, z] = seed.cell;
         Some(Stroke { vertices, closed, key: ((z * ny + y) * nx + x) as u64 })
     }
+}
+
+/// Whether the cubic with these values at 0, ⅓, ⅔ and 1 is certain to be nowhere below 0 between: it lies within the hull of
+/// its Bernstein coefficients. Often it is, and its extremes need not be known.
+fn is_positive([v0, v1, v2, v3]: [f64; 4]) -> bool {
+    let (b1, b2) = (18.0 * v1 - 9.0 * v2 - 5.0 * v0 + 2.0 * v3, 18.0 * v2 - 9.0 * v1 - 5.0 * v3 + 2.0 * v0);
+    v0 >= 0.0 && b1 >= 0.0 && b2 >= 0.0 && v3 >= 0.0
 }
 
 /// Where within (0, 1) the cubic with these values at 0, ⅓, ⅔ and 1 has its extremes.
@@ -221,5 +229,22 @@ mod tests {
         near(of(&|u| u * u * u + u), &[]);
         near(of(&|u| 3.0 * u - 1.0), &[]);
         near(of(&|_| 7.0), &[]);
+    }
+
+    /// In the Bernstein basis: all coefficients at or above 0 are certain, and one below 0 is not, though the cubic may be.
+    #[test]
+    fn cubics_that_are_certain_to_be_positive() {
+        let of = |b: [f64; 4]| {
+            let at = |u: f64| {
+                let w = 1.0 - u;
+                w * w * w * b[0] + 3.0 * w * w * u * b[1] + 3.0 * w * u * u * b[2] + u * u * u * b[3]
+            };
+            is_positive([at(0.0), at(THIRD), at(2.0 * THIRD), at(1.0)])
+        };
+        for i in 0..81 {
+            let b = [i % 3, i / 3 % 3, i / 9 % 3, i / 27].map(|b| [-0.25, 0.5, 1.0][b]);
+            assert_eq!(of(b), b.iter().all(|b| *b >= 0.0), "{b:?}");
+        }
+        assert!(!of([f64::NAN, 1.0, 1.0, 1.0]));
     }
 }

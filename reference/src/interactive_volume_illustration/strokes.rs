@@ -37,6 +37,9 @@ const TANGENT: f64 = 0.5;
 /// Cells whose strokes one thread grows in a row.
 const AT_ONCE: usize = 64;
 
+/// The side of the boxes of cells whose strokes are grown one after the other: what these read lies near together.
+const NEIGHBOURS: usize = 16;
+
 /// What δ is at least beyond the chords' error, in voxels ([HATCH-7]).
 const CLEARANCE: f64 = 0.05;
 
@@ -247,29 +250,40 @@ impl<'f, 'v> Strokes<'f, 'v> {
     /// The strokes of cells, in parallel and in their order; a second one along the other direction where `cross` says so for
     /// the seed ([HATCH-11]).
     pub fn grow_all(&self, cells: &[[usize; 3]], cross: impl Fn(&Seed) -> bool + Sync) -> Grown {
-        let some = |cells: &[[usize; 3]]| {
-            let mut grown = Grown::default();
-            for &cell in cells {
-                let counts = &mut grown.counts;
-                match self.place(cell, counts).and_then(|seed| Ok((seed, self.grow(&seed, counts)?))) {
-                    Ok((seed, stroke)) => {
-                        let second = if cross(&seed) { self.grow_across(&seed, counts) } else { None };
-                        grown.cross.extend(second.map(|stroke| (seed, stroke)));
-                        grown.strokes.push((seed, stroke));
-                    }
-                    Err(rejected) => counts.rejected.count(rejected),
+        let mut order: Vec<usize> = (0..cells.len()).collect();
+        order.sort_by_key(|&i| cells[i].map(|c| c / NEIGHBOURS));
+        let some = |order: &[usize]| {
+            let mut counts = HatchCounts::default();
+            let of = |&i: &usize| match self
+                .place(cells[i], &mut counts)
+                .and_then(|seed| Ok((seed, self.grow(&seed, &mut counts)?)))
+            {
+                Ok((seed, stroke)) => {
+                    let second = if cross(&seed) { self.grow_across(&seed, &mut counts) } else { None };
+                    Some((i, seed, stroke, second))
                 }
-            }
-            grown
+                Err(rejected) => {
+                    counts.rejected.count(rejected);
+                    None
+                }
+            };
+            let made: Vec<_> = order.iter().filter_map(of).collect();
+            (made, counts)
         };
-        let all: Vec<_> = cells.par_chunks(AT_ONCE).map(some).collect();
+        let all: Vec<_> = order.par_chunks(AT_ONCE).map(some).collect();
         let mut grown = Grown::default();
-        grown.strokes.reserve_exact(all.iter().map(|some| some.strokes.len()).sum());
-        grown.cross.reserve_exact(all.iter().map(|some| some.cross.len()).sum());
-        for some in all {
-            grown.strokes.extend(some.strokes);
-            grown.cross.extend(some.cross);
-            grown.counts += some.counts;
+        let mut strokes: Vec<_> = (0..cells.len()).map(|_| None).collect();
+        for (made, counts) in all {
+            grown.counts += counts;
+            for (i, seed, stroke, second) in made {
+                strokes[i] = Some((seed, stroke, second));
+            }
+        }
+        grown.strokes.reserve_exact(grown.counts.strokes as usize);
+        grown.cross.reserve_exact(grown.counts.cross as usize);
+        for (seed, stroke, second) in strokes.into_iter().flatten() {
+            grown.strokes.push((seed, stroke));
+            grown.cross.extend(second.map(|stroke| (seed, stroke)));
         }
         grown
     }

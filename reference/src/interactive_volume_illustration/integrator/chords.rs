@@ -4,7 +4,7 @@ use super::Piece;
 use drypoint_scene::glam::DVec3;
 
 /// Places on each piece at which the distance to a chord is taken, and on a chord that is shorter than a piece.
-const PLACES: usize = 8;
+const PLACES: usize = 4;
 
 /// A chord is long enough whose distance is at least this share of what it may be: some hundredths of the distance are half as
 /// many of the length.
@@ -46,7 +46,7 @@ pub fn point(pieces: &[Piece], t: f64) -> DVec3 {
 /// A curve with its places.
 struct Curve<'a> {
     pieces: &'a [Piece],
-    /// Those at the eighths of pieces, from the first one's beginning on.
+    /// Those at the quarters of pieces, from the first one's beginning on.
     places: Vec<DVec3>,
 }
 

@@ -154,8 +154,8 @@ impl Blocks {
         Some(Curvature { k1: first.number(3), k2: second.number(3), e1, e2 })
     }
 
-    /// The first or second lines of those corners of a cell whose bits are set. Memory is asked for all of them before any is
-    /// waited for.
+    /// The first or second lines of those corners of a cell whose bits are set, and a bit for each that has one. Memory is
+    /// asked for all of them before any is waited for.
     #[inline]
     pub(super) fn lines(
         &self,
@@ -163,19 +163,24 @@ impl Blocks {
         corners: u8,
         which: usize,
         make: impl Fn([usize; 3]) -> Option<Curvature<f64>>,
-        lines: &mut [Option<DVec3>; 8],
-    ) {
+        lines: &mut [DVec3; 8],
+    ) -> u8 {
         let [x, y, z] = cell;
         let voxel = |i: usize| [x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)];
         let is_asked = |i: usize| corners >> i & 1 == 1;
+        let mut has = 0;
         let mut pairs = [const { None }; 8];
         for i in (0..8).filter(|i| is_asked(*i)) {
             pairs[i] = self.pair(voxel(i)).map(|pair| (pair, pair.0[which].first()));
         }
         for i in (0..8).filter(|i| is_asked(*i)) {
             let line = pairs[i].and_then(|(pair, first)| pair.line(which, first, || make(voxel(i))));
-            lines[i] = line.map(Vec3::to_glam);
+            if let Some(line) = line {
+                lines[i] = line.to_glam();
+                has |= 1 << i;
+            }
         }
+        has
     }
 
     /// Makes every voxel, some blocks at once: `make` is given a box, and has its voxels' directions in their order.
@@ -250,11 +255,12 @@ mod tests {
         for _ in 0..2 {
             for voxel in all.each().step_by(5) {
                 assert_eq!(lazy.get(voxel, || make(voxel)), of(voxel));
-                let mut lines = [[None; 8]; 2];
-                lazy.lines(voxel, 1, 0, |_| None, &mut lines[0]);
-                lazy.lines(voxel, 1, 1, |_| None, &mut lines[1]);
                 let want = of(voxel).map(|c| [c.e1, c.e2].map(Vec3::to_glam));
-                assert_eq!(lines.map(|l| l[0]), [want.map(|w| w[0]), want.map(|w| w[1])]);
+                for which in 0..2 {
+                    let mut lines = [DVec3::ZERO; 8];
+                    let has = lazy.lines(voxel, 1, which, |_| None, &mut lines);
+                    assert_eq!((has, lines[0]), want.map_or((0, DVec3::ZERO), |w| (1, w[which])));
+                }
             }
         }
         assert_eq!(asked.get(), all.each().step_by(5).count());

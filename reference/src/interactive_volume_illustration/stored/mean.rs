@@ -43,16 +43,12 @@ impl Mean {
         }
     }
 
-    /// Adds directions with their weights, in their order; those without one, and those without a weight, not at all.
+    /// Adds directions with their weights, in their order, of those corners whose bits are set.
     #[inline]
-    pub(super) fn add_all(&mut self, corners: &[Option<DVec3>; 8], weights: &[f64; 8]) {
+    pub(super) fn add_all(&mut self, has: u8, corners: &[DVec3; 8], weights: &[f64; 8]) {
         let mut sum = self.clone();
-        for (e, &weight) in corners.iter().zip(weights) {
-            if let Some(e) = *e
-                && weight > 0.0
-            {
-                sum.add(e, weight);
-            }
+        for (i, (&e, &weight)) in corners.iter().zip(weights).enumerate() {
+            sum.add(e, if has >> i & 1 == 1 { weight } else { 0.0 });
         }
         *self = sum;
     }

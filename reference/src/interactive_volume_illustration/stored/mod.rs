@@ -49,7 +49,10 @@ pub(super) struct Near {
     cell: [usize; 3],
     /// A bit for each corner that was read.
     read: u8,
-    corners: [Option<DVec3>; 8],
+    /// Which of those have one.
+    has: u8,
+    /// 0 where there is none.
+    corners: [DVec3; 8],
 }
 
 impl Default for Near {
@@ -60,7 +63,7 @@ impl Default for Near {
 
 impl Near {
     fn of(cell: [usize; 3]) -> Self {
-        Self { cell, read: 0, corners: [None; 8] }
+        Self { cell, read: 0, has: 0, corners: [DVec3::ZERO; 8] }
     }
 }
 
@@ -154,10 +157,10 @@ impl Stored {
         if new != 0 {
             near.read |= new;
             let which = usize::from(family == Family::Min);
-            self.blocks.lines(cell, new, which, |voxel| source.at(voxel), &mut near.corners);
+            near.has |= self.blocks.lines(cell, new, which, |voxel| source.at(voxel), &mut near.corners);
         }
         let mut mean = Mean::new(like);
-        mean.add_all(&near.corners, &weights);
+        mean.add_all(near.has, &near.corners, &weights);
         let found = mean.direction();
         if found.is_some() {
             counts.between += 1
