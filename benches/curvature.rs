@@ -2,7 +2,8 @@
 //!
 //! `DRYPOINT_VOLUME=torus.nrrd DRYPOINT_POINTS=points.txt DRYPOINT_KERNEL=bspline cargo bench --bench curvature`; points are
 //! `x y z` in index space, one a line; kernels are `trilinear`, `bspline`, `bspline-smooth`, `bspline5` and `catmull-rom`.
-//! Hessians are what `auto` takes, with `DRYPOINT_HESSIAN=analytic` the kernel's own.
+//! Hessians are what `auto` takes, with `DRYPOINT_HESSIAN=analytic` the kernel's own; `DRYPOINT_SCALE` is the Gaussian's σ, 1
+//! by itself.
 //! With `DRYPOINT_OUT` it writes κ₁, κ₂ and e₁ of each, little-endian doubles. Curvatures are those of surfaces with the
 //! higher values inside: positive where these bulge.
 
@@ -32,14 +33,9 @@ fn main() -> Result<(), String> {
         Ok("analytic") => HessianEstimator::Analytic,
         _ => HessianEstimator::Auto,
     };
+    let scale = var("DRYPOINT_SCALE").map_or(Ok(1.0), |s| s.parse().map_err(|_| format!("{s:?} is no scale")))?;
     let volume = read(Path::new(&volume), None).map_err(|e| e.to_string())?;
-    let how = Reconstruction {
-        kernel,
-        hessian,
-        gradient: GradientEstimator::Analytic,
-        outside: Outside::Low,
-        ..Reconstruction::default()
-    };
+    let how = Reconstruction { kernel, hessian, scale, gradient: GradientEstimator::Analytic, outside: Outside::Low };
     let start = Instant::now();
     let field = Field::<f64>::new(&volume, how, Rung::Hessian).map_err(|e| e.to_string())?;
     let prepared = start.elapsed().as_secs_f64();

@@ -3,7 +3,7 @@
 //! from those of computed ones.
 //!
 //! `cargo bench --bench stroke`, with the scans in `DRYPOINT_DATA` or `../shared/data`; `-- engine` measures strokes of that
-//! scan alone, `-- directions` the directions of a whole volume alone
+//! scan alone, `-- directions` the directions of a whole volume alone, `-- packed` what packed strokes of whole volumes take
 
 use drypoint::job::Job;
 use drypoint::output::compare::lines::{Course, angles, apart};
@@ -22,6 +22,9 @@ use std::time::Instant;
 
 /// The scans, and a value of each.
 const SCANS: [(&str, f64); 2] = [("engine.nhdr", 80.0), ("hydrogen_atom.nhdr", 30.0)];
+
+/// Scans of 256³ voxels, and a value of each.
+const WHOLE: [(&str, f64); 2] = [("bonsai.nhdr", 40.0), ("aneurism.nhdr", 70.0)];
 
 /// Strokes of a scan.
 const STROKES: usize = 50_000;
@@ -46,6 +49,12 @@ fn main() -> Result<(), String> {
     }
     for (name, iso) in SCANS.into_iter().filter(|(name, _)| is_wanted(name)) {
         strokes(name, &load(&folder, name)?, iso)?;
+    }
+    for (name, iso) in WHOLE.into_iter().filter(|_| is_wanted("packed")) {
+        let volume = load(&folder, name)?;
+        let field = field(&volume, HessianEstimator::Gaussian)?;
+        let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), Rule::Scaled(Default::default()), None));
+        packed(name, &strokes.grow_all(&cells(&field, iso), |_| false), volume.grid());
     }
     Ok(())
 }
@@ -144,15 +153,7 @@ fn median(numbers: &mut [f64], share: f64) -> f64 {
 
 fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
     let field = field(volume, HessianEstimator::Gaussian)?;
-    let all: Vec<[usize; 3]> = {
-        let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), Rule::Raw, None));
-        let pyramid = Pyramid::new(volume);
-        let seeds = strokes.seeds(&pyramid, &field, iso, SeedRule::Dense, (Measure::Mean, [0.0; 2]));
-        seeds.cells.into_iter().map(|(cell, _)| cell).collect()
-    };
-    let share = (STROKES as f64 / all.len() as f64).min(1.0);
-    let kept = |i: &usize| (*i as f64 * share).floor() != ((i + 1) as f64 * share).floor();
-    let cells: Vec<_> = (0..all.len()).filter(kept).map(|i| all[i]).collect();
+    let cells = cells(&field, iso);
     println!(
         "| {name}, {} seeds | seconds | the second time | of it placing | strokes a second | directions | stored |",
         cells.len()
@@ -186,17 +187,7 @@ fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
     }
     println!();
     if let Some((_, direct)) = grown.first() {
-        let packed = Packed::new(direct.strokes.iter().map(|(_, stroke)| stroke), volume.grid());
-        let (bytes, normals) = (packed.bytes(), 4 * volume.grid().len() as u64);
-        println!(
-            "{} strokes, {} vertices: {bytes} bytes packed, 1/{:.1} of value and normal, 4 B a voxel; {:.1} segments a stroke, \
-             an eighth takes {:.0} strokes\n",
-            direct.strokes.len(),
-            packed.vertices(),
-            normals as f64 / bytes as f64,
-            packed.vertices() as f64 / direct.strokes.len() as f64 - 1.0,
-            direct.strokes.len() as f64 * normals as f64 / (8.0 * bytes as f64),
-        );
+        packed(name, direct, volume.grid());
         println!(
             "| {name}: distance to computed directions | strokes of one alone | Hausdorff, voxels: median | 95 % | angle: median \
              | 95 % |\n|---|--:|--:|--:|--:|--:|"
@@ -207,6 +198,32 @@ fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
         println!();
     }
     Ok(())
+}
+
+/// Of the cells that the surface crosses so many as there shall be strokes, all over it.
+fn cells(field: &Field<'_, f64>, iso: f64) -> Vec<[usize; 3]> {
+    let volume = field.volume();
+    let strokes = Strokes::new(field, Some(iso), hatching(volume.grid(), Rule::Raw, None));
+    let pyramid = Pyramid::new(volume);
+    let seeds = strokes.seeds(&pyramid, field, iso, SeedRule::Dense, (Measure::Mean, [0.0; 2]));
+    let all: Vec<[usize; 3]> = seeds.cells.into_iter().map(|(cell, _)| cell).collect();
+    let share = (STROKES as f64 / all.len() as f64).min(1.0);
+    let kept = |i: &usize| (*i as f64 * share).floor() != ((i + 1) as f64 * share).floor();
+    (0..all.len()).filter(kept).map(|i| all[i]).collect()
+}
+
+/// What strokes take beside the volume.
+fn packed(name: &str, grown: &Grown, grid: &Grid) {
+    let packed = Packed::new(grown.strokes.iter().map(|(_, stroke)| stroke), grid);
+    let (bytes, normals, strokes) = (packed.bytes() as f64, 4.0 * grid.len() as f64, grown.strokes.len() as f64);
+    println!(
+        "{name}: {strokes} strokes, {} vertices: {bytes} bytes packed, 1/{:.1} of value and normal, 4 B a voxel; {:.1} segments \
+         a stroke, an eighth takes {:.0} strokes\n",
+        packed.vertices(),
+        normals / bytes,
+        packed.vertices() as f64 / strokes - 1.0,
+        strokes * normals / (8.0 * bytes),
+    );
 }
 
 /// Strokes of the same seeds: how far they are apart, and the angle between them at equal arc lengths from the seed's end.

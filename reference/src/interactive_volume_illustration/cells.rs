@@ -31,11 +31,24 @@ impl Strokes<'_, '_> {
         let at = Vec3::new(x, y, z);
         let norm = ground.gradient(at).length();
         let gradient = if hi > lo { ((norm - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
+        Measure { gradient, curvature: self.kappa(voxel, kind) }
+    }
+
+    fn kappa(&self, voxel: [usize; 3], kind: Kind) -> f64 {
         let curvature = self.at_voxel(voxel).map_or(0.0, |c| match kind {
             Kind::Mean => (0.5 * (c.k1 + c.k2)).abs(),
             Kind::Curvedness => (0.5 * (c.k1 * c.k1 + c.k2 * c.k2)).sqrt(),
         });
-        Measure { gradient, curvature: (curvature * ground.grid().voxel()).min(1.0) }
+        (curvature * self.ground().grid().voxel()).min(1.0)
+    }
+
+    /// The pyramid with the largest curvature of each entry, where directions of all voxels are stored; else as it was, and
+    /// curvatures are measured where the surface goes ([HATCH-5]).
+    pub fn with_curvature(&self, pyramid: Pyramid, kind: Kind) -> Pyramid {
+        if !self.is_prepared() {
+            return pyramid;
+        }
+        pyramid.with_curvature(self.ground().grid().dims(), |voxel| self.kappa(voxel, kind))
     }
 
     /// The cells of the surface f = `iso` of a field, which the strokes grow on, with their probabilities. `range` is what |∇| is

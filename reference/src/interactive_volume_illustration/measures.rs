@@ -1,5 +1,6 @@
 //! What a seed's probability is made from, at the voxels of blocks (3.2; [HATCH-5]).
 
+use super::pyramid::outwards;
 use rayon::prelude::*;
 
 /// |∇| and the curvature at a voxel, both in [0, 1].
@@ -35,7 +36,6 @@ pub(super) fn of_blocks(
     let mut voxels: Vec<usize> = blocks.par_iter().flat_map_iter(|block| voxels_of(block).map(linear)).collect();
     voxels.par_sort_unstable();
     voxels.dedup();
-    let outwards = |x: f64| (x * 255.0).ceil() as u8;
     let measured: Vec<Largest> = voxels
         .par_iter()
         .map(|&at| {

@@ -31,7 +31,7 @@ pub fn deviation(volume: &Volume, pyramid: &Pyramid, iso: f64, outside: Outside)
         };
         (whole && inner).then_some(at)
     };
-    let blocks = pyramid.blocks(iso);
+    let blocks = pyramid.blocks(iso, None);
     let mut sizes: Vec<f64> =
         blocks.par_iter().filter_map(|&block| place(block)).map(|at| difference(volume, at, differs).abs()).collect();
     sizes.retain(|size| size.is_finite());
@@ -91,7 +91,7 @@ mod tests {
     /// The median of n numbers |x| of normal noise has a standard deviation of 1.17/√n of itself; four of them are beyond
     /// chance. About half of the blocks have their middle on the inner side.
     fn is_found(volume: &Volume, noise: f64) {
-        let n = Pyramid::new(volume).blocks(0.0).len() as f64 / 2.0;
+        let n = Pyramid::new(volume).blocks(0.0, None).len() as f64 / 2.0;
         let found = of(volume, 0.0);
         assert!(n > 500.0 && (found / noise - 1.0).abs() < 4.0 * 1.17 / n.sqrt(), "{found} of {n}");
     }

@@ -6,21 +6,24 @@
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
 
-/// Ranges of values, level by level.
+/// Ranges of values, level by level, and the largest curvature where it is known everywhere.
 #[derive(Clone, Debug)]
 pub struct Pyramid {
-    /// Blocks first, then each level of 2 × 2 × 2 entries of the one below, up to a single one.
-    levels: Vec<Level>,
+    /// Blocks first, then each level of 2 × 2 × 2 entries of the one below, up to a single one. The least and the largest value
+    /// of an entry as bytes, rounded outwards.
+    ranges: Vec<Level<[u8; 2]>>,
+    /// The largest κ of an entry as a byte, rounded outwards; as many levels, or none.
+    curvatures: Vec<Level<u8>>,
     cells: [usize; 3],
     /// The values of byte 0 and of byte 255.
     range: [f64; 2],
 }
 
-/// A level: x fastest, the least and the largest value of an entry as bytes, rounded outwards.
+/// A level, x fastest.
 #[derive(Clone, Debug)]
-struct Level {
+struct Level<T> {
     dims: [usize; 3],
-    ranges: Vec<[u8; 2]>,
+    entries: Vec<T>,
 }
 
 /// The cells of a grid along each axis; an axis of one voxel has one, without thickness.
@@ -28,20 +31,45 @@ pub(super) fn cells_of(dims: [usize; 3]) -> [usize; 3] {
     dims.map(|n| (n - 1).max(1))
 }
 
-impl Level {
-    fn at(&self, [x, y, z]: [usize; 3]) -> [u8; 2] {
-        self.ranges[x + self.dims[0] * (y + self.dims[1] * z)]
+impl<T: Copy + Send + Sync> Level<T> {
+    /// Blocks, from what their voxels are and from what two of these make.
+    fn of_blocks<V: Copy + Send>(
+        dims: [usize; 3],
+        of_voxel: impl Fn([usize; 3]) -> V + Sync,
+        join: impl Fn(V, V) -> V + Sync,
+        entry: impl Fn(V) -> T + Sync,
+    ) -> Self {
+        let blocks = cells_of(dims).map(|n| n.div_ceil(2));
+        let span = |block: usize, axis: usize| 2 * block..(2 * block + 3).min(dims[axis]);
+        let row = |row: usize| -> Vec<T> {
+            let [y, z] = [row % blocks[1], row / blocks[1]];
+            // What the up to nine voxels in each plane of x make, which blocks share.
+            let plane = |x: usize| {
+                let voxels = span(z, 2).flat_map(|k| span(y, 1).map(move |j| [x, j, k]));
+                voxels.map(&of_voxel).reduce(&join)
+            };
+            let planes: Vec<V> = (0..dims[0]).filter_map(plane).collect();
+            let of_block = |x: usize| planes[span(x, 0)].iter().copied().reduce(&join).map(&entry);
+            (0..blocks[0]).filter_map(of_block).collect()
+        };
+        let entries = (0..blocks[1] * blocks[2]).into_par_iter().flat_map_iter(row).collect();
+        Self { dims: blocks, entries }
     }
 
-    /// The entries of the level above, which take the least and the largest of their children.
-    fn above(&self) -> Self {
-        let dims = self.dims.map(|n| n.div_ceil(2));
-        let ranges = positions(dims).map(|entry| {
-            children(entry, self.dims)
-                .map(|child| self.at(child))
-                .fold([u8::MAX, 0], |a, b| [a[0].min(b[0]), a[1].max(b[1])])
-        });
-        Self { dims, ranges: ranges.collect() }
+    fn at(&self, [x, y, z]: [usize; 3]) -> T {
+        self.entries[x + self.dims[0] * (y + self.dims[1] * z)]
+    }
+
+    /// This level and all above it, of whose entries each is what its children make.
+    fn levels(self, join: impl Fn(T, T) -> T) -> Vec<Self> {
+        let mut levels = vec![self];
+        while let Some(last) = levels.last().filter(|level| level.dims != [1; 3]) {
+            let dims = last.dims.map(|n| n.div_ceil(2));
+            let entry = |entry| children(entry, last.dims).map(|child| last.at(child)).reduce(&join);
+            let entries = positions(dims).filter_map(entry).collect();
+            levels.push(Self { dims, entries });
+        }
+        levels
     }
 }
 
@@ -60,30 +88,18 @@ impl Pyramid {
     /// Looks once at each voxel of a volume; more often where blocks share it.
     pub fn new(volume: &Volume) -> Self {
         let dims = volume.dims();
-        let cells = cells_of(dims);
-        let blocks = cells.map(|n| n.div_ceil(2));
         let range = volume.range();
-        let row = |row: usize| -> Vec<[u8; 2]> {
-            let [y, z] = [row % blocks[1], row / blocks[1]];
-            // The least and the largest of the up to nine voxels in each plane of x, which blocks share.
-            let span = |block: usize, axis: usize| 2 * block..(2 * block + 3).min(dims[axis]);
-            let planes: Vec<[f64; 2]> = (0..dims[0])
-                .map(|x| {
-                    let voxels = span(z, 2).flat_map(|k| span(y, 1).map(move |j| [x, j, k]));
-                    voxels.map(|at| volume.value(at)).fold(NOTHING, |a, v| joined(a, [v, v]))
-                })
-                .collect();
-            (0..blocks[0])
-                .map(|x| planes[span(x, 0)].iter().fold(NOTHING, |a, &b| joined(a, b)))
-                .map(|[lo, hi]| [byte(range, lo).floor() as u8, byte(range, hi).ceil() as u8])
-                .collect()
-        };
-        let ranges = (0..blocks[1] * blocks[2]).into_par_iter().flat_map_iter(row).collect();
-        let mut levels = vec![Level { dims: blocks, ranges }];
-        while let Some(last) = levels.last().filter(|level| level.dims != [1; 3]) {
-            levels.push(last.above());
-        }
-        Self { levels, cells, range }
+        let of_voxel = |at: [usize; 3]| [volume.value(at); 2];
+        let bytes = |[lo, hi]: [f64; 2]| [byte(range, lo).floor() as u8, byte(range, hi).ceil() as u8];
+        let blocks = Level::of_blocks(dims, of_voxel, joined, bytes);
+        let ranges = blocks.levels(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        Self { ranges, curvatures: Vec::new(), cells: cells_of(dims), range }
+    }
+
+    /// With the largest curvature of each entry, from those of all voxels, κ in [0, 1] ([HATCH-5]).
+    pub(super) fn with_curvature(self, dims: [usize; 3], curvature: impl Fn([usize; 3]) -> f64 + Sync) -> Self {
+        let blocks = Level::of_blocks(dims, curvature, f64::max, outwards);
+        Self { curvatures: blocks.levels(u8::max), ..self }
     }
 
     /// The cells of the grid along each axis.
@@ -93,34 +109,40 @@ impl Pyramid {
 
     /// Bytes of all levels.
     pub fn bytes(&self) -> u64 {
-        self.levels.iter().map(|level| size_of_val(level.ranges.as_slice()) as u64).sum()
+        let curvatures: usize = self.curvatures.iter().map(|level| level.entries.len()).sum();
+        self.entries() * size_of::<[u8; 2]>() as u64 + curvatures as u64
     }
 
     /// Entries of all levels.
     pub fn entries(&self) -> u64 {
-        self.levels.iter().map(|level| level.ranges.len() as u64).sum()
+        self.ranges.iter().map(|level| level.entries.len() as u64).sum()
     }
 
     /// The blocks that a value may lie in, depth first: no block is left out that has it in its closed range (4.1;
-    /// [HATCH-6]).
-    pub fn blocks(&self, value: f64) -> Vec<[usize; 3]> {
+    /// [HATCH-6]), but, where curvatures are known, those that are nowhere above C₀, if it is given.
+    pub fn blocks(&self, value: f64, min_curvature: Option<f64>) -> Vec<[usize; 3]> {
         let b = byte(self.range, value);
-        let mut found = Vec::new();
-        self.descend(self.levels.len() - 1, [0; 3], &|[lo, hi]| lo <= b.ceil() && b.floor() <= hi, &mut found);
-        found
+        self.found(|[lo, hi]| lo <= b.ceil() && b.floor() <= hi, min_curvature)
     }
 
-    /// The blocks in whose closed range of values one may lie that counts, depth first ([HATCH-16]): of ranges that are wider by a
+    /// The same of blocks in whose closed range of values one may lie that counts ([HATCH-16]): of ranges that are wider by a
     /// step of a byte to either side.
-    pub fn blocks_among(&self, counts: &impl Fn([f64; 2]) -> bool) -> Vec<[usize; 3]> {
+    pub fn blocks_among(&self, counts: impl Fn([f64; 2]) -> bool, min_curvature: Option<f64>) -> Vec<[usize; 3]> {
         let [lo, hi] = self.range;
         let value = |byte: f64| {
             let t = (byte / 255.0).clamp(0.0, 1.0);
             lo * (1.0 - t) + hi * t
         };
+        self.found(|[lo, hi]| counts([value(lo - 1.0), value(hi + 1.0)]), min_curvature)
+    }
+
+    fn found(&self, counts: impl Fn([f64; 2]) -> bool, min_curvature: Option<f64>) -> Vec<[usize; 3]> {
         let mut found = Vec::new();
-        let wider = |[lo, hi]: [f64; 2]| counts([value(lo - 1.0), value(hi + 1.0)]);
-        self.descend(self.levels.len() - 1, [0; 3], &wider, &mut found);
+        let goes_on = |level: usize, entry: [usize; 3]| {
+            let is_above = |min: f64| self.curvatures.get(level).is_none_or(|of| is_above(of.at(entry), min));
+            counts(self.ranges[level].at(entry).map(f64::from)) && min_curvature.is_none_or(is_above)
+        };
+        self.descend(self.ranges.len() - 1, [0; 3], &goes_on, &mut found);
         found
     }
 
@@ -128,17 +150,17 @@ impl Pyramid {
         &self,
         level: usize,
         entry: [usize; 3],
-        counts: &impl Fn([f64; 2]) -> bool,
+        goes_on: &impl Fn(usize, [usize; 3]) -> bool,
         found: &mut Vec<[usize; 3]>,
     ) {
-        if !counts(self.levels[level].at(entry).map(f64::from)) {
+        if !goes_on(level, entry) {
             return;
         }
         match level.checked_sub(1) {
             None => found.push(entry),
             Some(below) => {
-                for child in children(entry, self.levels[below].dims) {
-                    self.descend(below, child, counts, found);
+                for child in children(entry, self.ranges[below].dims) {
+                    self.descend(below, child, goes_on, found);
                 }
             }
         }
@@ -150,7 +172,15 @@ impl Pyramid {
     }
 }
 
-const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+/// A measure in [0, 1] as a byte that is not below it.
+pub(super) fn outwards(measure: f64) -> u8 {
+    (measure * 255.0).ceil() as u8
+}
+
+/// Whether a measure that is kept as a byte is above a bound.
+pub(super) fn is_above(byte: u8, bound: f64) -> bool {
+    f64::from(byte) / 255.0 > bound
+}
 
 fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].min(b[0]), a[1].max(b[1])]
@@ -192,7 +222,7 @@ mod tests {
         let block_has = |block: &[usize; 3]| {
             let span = |axis: usize| 2 * block[axis]..(2 * block[axis] + 3).min(dims[axis]);
             let voxels = span(2).flat_map(|z| span(1).flat_map(move |y| span(0).map(move |x| [x, y, z])));
-            let [lo, hi] = voxels.map(|at| volume.value(at)).fold(NOTHING, |a, v| joined(a, [v, v]));
+            let [lo, hi] = voxels.map(|at| [volume.value(at); 2]).reduce(joined).unwrap();
             lo <= value && value <= hi
         };
         positions(cells_of(dims).map(|n| n.div_ceil(2))).filter(block_has).collect()
@@ -207,13 +237,13 @@ mod tests {
             let [lo, hi] = volume.range();
             for k in 0..=40 {
                 let value = lo + (hi - lo) * f64::from(k) / 40.0;
-                let mut found = pyramid.blocks(value);
+                let mut found = pyramid.blocks(value, None);
                 found.sort_by_key(|&[x, y, z]| [z, y, x]);
                 assert!(found.windows(2).all(|w| w[0] != w[1]));
                 assert!(exhaustive(&volume, value).iter().all(|block| found.contains(block)), "{dims:?} {value}");
             }
-            assert_eq!(pyramid.blocks(lo - 1.0), [[0; 3]; 0]);
-            assert_eq!(pyramid.blocks(hi + 1.0), [[0; 3]; 0]);
+            assert_eq!(pyramid.blocks(lo - 1.0, None), [[0; 3]; 0]);
+            assert_eq!(pyramid.blocks(hi + 1.0, None), [[0; 3]; 0]);
         }
     }
 
@@ -225,7 +255,7 @@ mod tests {
         assert_eq!([lo, hi], [0.0, 255.0]);
         let pyramid = Pyramid::new(&volume);
         for value in [0.0, 1.0, 17.0, 17.5, 128.0, 254.0, 255.0] {
-            let mut found = pyramid.blocks(value);
+            let mut found = pyramid.blocks(value, None);
             found.sort_by_key(|&[x, y, z]| [z, y, x]);
             let want = exhaustive(&volume, value);
             if value.fract() == 0.0 {
@@ -236,12 +266,40 @@ mod tests {
         }
     }
 
+    /// An entry's curvature is the largest of all voxels below it: blocks are those of a search through all, and the way down
+    /// stops above where nothing is curved enough.
+    #[test]
+    fn blocks_that_are_curved_enough() {
+        for dims in [[9, 8, 20], [2, 2, 2], [1, 6, 6], [33, 17, 5]] {
+            let volume = noise(dims);
+            let curvature = |at: [usize; 3]| uniform(9, at.map(|i| i as u32 / 3), 0).powi(20);
+            let pyramid = Pyramid::new(&volume).with_curvature(dims, curvature);
+            assert_eq!(pyramid.bytes(), 3 * pyramid.entries());
+            let value = 30.0;
+            for min in [0.0, 0.02, 0.3, 0.9] {
+                let found = pyramid.blocks(value, Some(min));
+                let largest = |block: &[usize; 3]| {
+                    let span = |axis: usize| 2 * block[axis]..(2 * block[axis] + 3).min(dims[axis]);
+                    let voxels = span(2).flat_map(|z| span(1).flat_map(move |y| span(0).map(move |x| [x, y, z])));
+                    voxels.map(curvature).fold(0.0, f64::max)
+                };
+                let want = |block: &[usize; 3]| (largest(block) * 255.0).ceil() / 255.0 > min;
+                let all: Vec<_> = pyramid.blocks(value, None).into_iter().filter(want).collect();
+                assert_eq!(found, all, "{dims:?} {min}");
+            }
+            let flat = Pyramid::new(&volume).with_curvature(dims, |_| 0.01);
+            let entries = std::cell::Cell::new(0);
+            let counts = |_| entries.replace(entries.get() + 1) >= 0;
+            assert_eq!((flat.blocks_among(counts, Some(0.02)), entries.get()), (Vec::new(), 1));
+        }
+    }
+
     #[test]
     fn a_constant_has_its_value_everywhere_and_no_other() {
         let pyramid = Pyramid::new(&volume([5, 5, 5], |_| 7.0));
-        assert_eq!(pyramid.blocks(7.0).len(), 8);
-        assert_eq!(pyramid.blocks(7.0f64.next_up()), [[0; 3]; 0]);
-        assert_eq!(pyramid.blocks(-7.0), [[0; 3]; 0]);
+        assert_eq!(pyramid.blocks(7.0, None).len(), 8);
+        assert_eq!(pyramid.blocks(7.0f64.next_up(), None), [[0; 3]; 0]);
+        assert_eq!(pyramid.blocks(-7.0, None), [[0; 3]; 0]);
     }
 
     /// 17³ voxels are 16³ cells, 8³ blocks: 512 + 64 + 8 + 1 entries of two bytes.
@@ -257,7 +315,7 @@ mod tests {
     /// Depth first: the blocks of an eighth of the volume follow each other.
     #[test]
     fn the_way_is_depth_first() {
-        let blocks = Pyramid::new(&volume([17; 3], |_| 1.0)).blocks(1.0);
+        let blocks = Pyramid::new(&volume([17; 3], |_| 1.0)).blocks(1.0, None);
         assert_eq!(
             blocks[..8],
             [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]]

@@ -1,7 +1,7 @@
 //! Where strokes begin (4.1; [HATCH-6]).
 
 use super::measures::{Largest, Measure, of_blocks};
-use super::pyramid::Pyramid;
+use super::pyramid::{Pyramid, is_above};
 use drypoint_scene::philox::uniform;
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
@@ -26,9 +26,19 @@ impl SeedRule {
         match self {
             Self::Dense => 1.0,
             Self::Curvature { min_curvature, min_gradient } => {
-                let [kappa, gradient] = [largest.curvature, largest.gradient].map(|b| f64::from(b) / 255.0);
-                if kappa <= min_curvature || gradient <= min_gradient { 0.0 } else { 0.5 * (kappa + gradient) }
+                let Largest { curvature, gradient } = largest;
+                let counts = is_above(curvature, min_curvature) && is_above(gradient, min_gradient);
+                let [kappa, gradient] = [curvature, gradient].map(|b| f64::from(b) / 255.0);
+                if counts { 0.5 * (kappa + gradient) } else { 0.0 }
             }
+        }
+    }
+
+    /// C₀, where there is one.
+    fn min_curvature(self) -> Option<f64> {
+        match self {
+            Self::Dense => None,
+            Self::Curvature { min_curvature, .. } => Some(min_curvature),
         }
     }
 }
@@ -36,7 +46,7 @@ impl SeedRule {
 /// The cells of an iso-surface and which of them strokes begin in.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seeds {
-    /// Each cell that holds the value, with its p; z slowest.
+    /// Each cell that holds the value, with its p; z slowest. Those are left out whose p the pyramid knows to be 0.
     pub cells: Vec<([usize; 3], f64)>,
     /// Voxels that were measured.
     pub measured: u64,
@@ -53,7 +63,7 @@ impl Seeds {
         measure: impl Fn([usize; 3]) -> Measure + Sync,
     ) -> Self {
         let counts = |[least, largest]: [f64; 2]| least <= iso && iso <= largest;
-        Self::of_blocks(pyramid, volume, (pyramid.blocks(iso), counts), rule, measure)
+        Self::of_blocks(pyramid, volume, (pyramid.blocks(iso, rule.min_curvature()), counts), rule, measure)
     }
 
     /// The same of the cells in whose closed range of values one counts ([HATCH-16]).
@@ -64,7 +74,7 @@ impl Seeds {
         rule: SeedRule,
         measure: impl Fn([usize; 3]) -> Measure + Sync,
     ) -> Self {
-        Self::of_blocks(pyramid, volume, (pyramid.blocks_among(&counts), counts), rule, measure)
+        Self::of_blocks(pyramid, volume, (pyramid.blocks_among(&counts, rule.min_curvature()), counts), rule, measure)
     }
 
     fn of_blocks(
@@ -193,6 +203,30 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// Where the pyramid knows the curvature, the cells that can have a seed are the same, and no more voxels are measured.
+    #[test]
+    fn seeds_are_the_same_where_the_pyramid_knows_the_curvature() {
+        let can = |cells: &[([usize; 3], f64)]| cells.iter().copied().filter(|(_, p)| *p > 0.0).collect::<Vec<_>>();
+        for dims in [[20, 9, 10], [2, 2, 2], [1, 7, 5]] {
+            let volume = noise(dims);
+            let pyramid = Pyramid::new(&volume);
+            let flat = |at: [usize; 3]| Measure { curvature: if at[0] < 9 { 0.01 } else { 0.5 }, ..measure(at) };
+            let curved = pyramid.clone().with_curvature(dims, |at| flat(at).curvature);
+            let counts = |[least, largest]: [f64; 2]| least < 0.06 && largest > 0.05;
+            let all = [
+                [&pyramid, &curved].map(|pyramid| Seeds::new(pyramid, &volume, 0.5, RULE, flat)),
+                [&pyramid, &curved].map(|pyramid| Seeds::among(pyramid, &volume, counts, RULE, flat)),
+            ];
+            for [without, with] in all {
+                assert_eq!(can(&without.cells), can(&with.cells), "{dims:?}");
+                assert!(without.draw(1).eq(with.draw(1)) && without.expected() == with.expected());
+                assert!(with.measured < without.measured || without.measured == 0, "{dims:?}");
+            }
+            let dense = |pyramid| Seeds::new(pyramid, &volume, 0.5, SeedRule::Dense, flat);
+            assert_eq!(dense(&pyramid), dense(&curved));
         }
     }
 

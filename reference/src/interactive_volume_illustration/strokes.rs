@@ -186,9 +186,14 @@ impl<'f, 'v> Strokes<'f, 'v> {
 
     /// Makes the directions of all voxels, in parallel, where that was asked for.
     pub fn prepare(&self) {
-        if let Some(stored) = self.stored.as_ref().filter(|_| self.how.stored.is_some_and(|storing| storing.all)) {
+        if let Some(stored) = self.stored.as_ref().filter(|_| self.is_prepared()) {
             stored.fill(&self.source());
         }
+    }
+
+    /// Whether directions of all voxels are made before.
+    pub(super) fn is_prepared(&self) -> bool {
+        self.how.stored.is_some_and(|storing| storing.all)
     }
 
     fn source(&self) -> Source<'_, 'f, 'v> {

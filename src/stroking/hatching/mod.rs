@@ -162,6 +162,11 @@ impl<'a> Hatching<'a> {
     pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> Hatched<'a> {
         let (pyramid, strokes) = self.strokes(field, counts);
         strokes.prepare();
+        let pyramid = match self.table.seeds {
+            SeedsBy::Curvature => strokes.with_curvature(pyramid, self.table.measure),
+            SeedsBy::Dense => pyramid,
+        };
+        counts.bytes.insert("pyramid".into(), pyramid.bytes());
         let seeds = self.seeds_of(&pyramid, &strokes, field, counts);
         let table = self.table;
         let mut cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();

@@ -1,11 +1,12 @@
 //! Stored directions against those that are computed everywhere, and what must not show in them ([HATCH-4], [HATCH-5]).
 
 use super::super::stored::{Between, Storing};
-use super::super::{Family, Hatching, NoDirection, Rule, Scales, Strokes};
+use super::super::{Family, Hatching, NoDirection, Pyramid, Rule, Scales, SeedRule, Strokes};
 use super::*;
 use crate::field::{Field, Reconstruction, Rung};
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::philox::uniform;
+use drypoint_scene::tables::Measure;
 use drypoint_scene::volume::Voxels;
 
 const TENSOR: Option<Storing> = Some(Storing { between: Between::Tensor, all: false });
@@ -110,6 +111,27 @@ fn when_directions_are_made_does_not_show() {
         let (flipped, _) = grow(1, FLIPPED);
         assert_eq!(flipped, grow(7, FLIPPED).0);
         assert!(flipped != one && flipped.strokes.len() > cells.len() / 2);
+    }
+}
+
+/// The pyramid knows curvatures where the directions of all voxels are made; seeds are the same.
+#[test]
+fn seeds_do_not_depend_on_what_the_pyramid_knows() {
+    let volume = torus(VoxelType::U8);
+    let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Hessian).unwrap();
+    let rule = SeedRule::Curvature { min_curvature: 0.1, min_gradient: 0.0 };
+    for kind in [Measure::Mean, Measure::Curvedness] {
+        let [(visited, plain), (all, known)] = [TENSOR, ALL].map(|stored| {
+            let strokes = Strokes::new(&field, Some(127.5), Hatching { stored, ..Hatching::new(volume.grid()) });
+            strokes.prepare();
+            let pyramid = strokes.with_curvature(Pyramid::new(&volume), kind);
+            let seeds = strokes.seeds(&pyramid, &field, 127.5, rule, (kind, [0.0, 100.0]));
+            (seeds, pyramid.bytes() as f64 / pyramid.entries() as f64)
+        });
+        assert_eq!([plain, known], [2.0, 3.0]);
+        assert!(visited.draw(1).count() > 100 && visited.draw(1).eq(all.draw(1)));
+        assert_eq!(visited.expected(), all.expected());
+        assert!(all.measured <= visited.measured, "{} {}", all.measured, visited.measured);
     }
 }
 
