@@ -3,7 +3,8 @@
 //! from those of computed ones.
 //!
 //! `cargo bench --bench stroke`, with the scans in `DRYPOINT_DATA` or `../shared/data`; `-- engine` measures strokes of that
-//! scan alone, `-- directions` the directions of a whole volume alone, `-- packed` what packed strokes of whole volumes take
+//! scan alone, `-- directions` the directions of a whole volume alone, `-- visible` those that its surface needs, `-- packed`
+//! what packed strokes of whole volumes take
 
 use drypoint::job::Job;
 use drypoint::output::compare::lines::{Course, angles, apart};
@@ -44,8 +45,12 @@ fn main() -> Result<(), String> {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     let is_wanted = |part: &str| wanted.is_empty() || wanted.iter().any(|word| part.starts_with(word.as_str()));
     println!("{} threads\n", rayon::current_num_threads());
+    let (whole, iso) = (|| doubled(&load(&folder, SCANS[0].0)?), SCANS[0].1);
     if is_wanted("directions") {
-        preprocessing(&doubled(&load(&folder, SCANS[0].0)?)?, SCANS[0].1)?;
+        preprocessing("all", ALL, &whole()?, iso)?;
+    }
+    if is_wanted("visible") {
+        preprocessing("visible, with pyramid and seeds", VISITED, &whole()?, iso)?;
     }
     for (name, iso) in SCANS.into_iter().filter(|(name, _)| is_wanted(name)) {
         strokes(name, &load(&folder, name)?, iso)?;
@@ -89,9 +94,9 @@ const ALL: Option<Storing> = Some(Storing { between: Between::Tensor, all: true 
 const VISITED: Option<Storing> = Some(Storing { between: Between::Tensor, all: false });
 const FLIPPED: Option<Storing> = Some(Storing { between: Between::Flipped, all: false });
 
-fn preprocessing(volume: &Volume, iso: f64) -> Result<(), String> {
+fn preprocessing(which: &str, storing: Option<Storing>, volume: &Volume, iso: f64) -> Result<(), String> {
     let dims = volume.dims();
-    println!("| preprocessing of {dims:?} | seconds | directions | bytes |\n|---|--:|--:|--:|");
+    println!("| directions of {dims:?}: {which} | seconds | directions | bytes |\n|---|--:|--:|--:|");
     let scaled = Rule::Scaled(Default::default());
     let cases = [
         ("raw, central differences", Rule::Raw, HessianEstimator::Central),
@@ -99,29 +104,24 @@ fn preprocessing(volume: &Volume, iso: f64) -> Result<(), String> {
         ("scaled, the default", scaled, HessianEstimator::Auto),
     ];
     for (name, rule, hessian) in cases {
-        let made = timed(|| {
+        let mut seconds = Vec::new();
+        let mut kept = [0; 2];
+        for _ in 0..ROUNDS {
+            let start = Instant::now();
             let field = field(volume, hessian)?;
-            let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), rule, ALL));
+            let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), rule, storing));
             strokes.prepare();
-            Ok(strokes.stored())
-        })?;
-        row(name, made);
-    }
-    for (name, rule, hessian) in cases {
-        let made = timed(|| {
-            let field = field(volume, hessian)?;
-            let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), rule, VISITED));
-            seeds(&strokes, &field, iso);
-            Ok(strokes.stored())
-        })?;
-        row(&format!("visible only, with pyramid and seeds: {name}"), made);
+            if storing == VISITED {
+                black_box(seeds(&strokes, &field, iso));
+            }
+            seconds.push(start.elapsed().as_secs_f64());
+            kept = strokes.stored();
+        }
+        let [made, bytes] = kept;
+        println!("| {name} | {:.2} | {made} | {bytes} |", median(&mut seconds, 0.5));
     }
     println!();
     Ok(())
-}
-
-fn row(name: &str, (seconds, [made, bytes]): (f64, [u64; 2])) {
-    println!("| {name} | {seconds:.2} | {made} | {bytes} |");
 }
 
 /// The cells of the surface that have a seed.
@@ -130,19 +130,6 @@ fn seeds(strokes: &Strokes<'_, '_>, field: &Field<'_, f64>, iso: f64) -> Vec<[us
     let (range, _) = gradient_range(field, GradientRange::Fixed([0.0, 60.0]));
     let pyramid = Pyramid::new(field.volume());
     strokes.seeds(&pyramid, field, iso, rule, (Measure::Mean, range)).draw(1).collect()
-}
-
-/// The median of the seconds that something takes, and what it gives.
-fn timed<T>(run: impl Fn() -> Result<T, String>) -> Result<(f64, T), String> {
-    let mut seconds = Vec::new();
-    loop {
-        let start = Instant::now();
-        let made = run()?;
-        seconds.push(start.elapsed().as_secs_f64());
-        if seconds.len() == ROUNDS {
-            return Ok((median(&mut seconds, 0.5), made));
-        }
-    }
 }
 
 /// The number below which a share of others lies.

@@ -5,6 +5,7 @@
 
 mod cell_ranges;
 mod coefficients;
+mod columns;
 pub mod curvature;
 mod error;
 mod exact;
@@ -28,6 +29,7 @@ mod voxel_hessian;
 mod tests;
 
 pub(crate) use cell_ranges::CELLS;
+pub(crate) use columns::Columns;
 pub use drypoint_scene::tables::{GradientEstimator, HessianEstimator, Kernel, Outside};
 pub use error::FieldError;
 pub use exact::Exact;

@@ -3,8 +3,11 @@
 //! A pointerless octree. An entry of its lowest level, the paper's second, is a *block* of 2 × 2 × 2 cells, that is of
 //! 3 × 3 × 3 voxels: neighbours share voxels, or no block would hold the cells between them.
 
-use drypoint_scene::volume::Volume;
+use crate::field::Columns;
+use drypoint_scene::volume::{Volume, Voxel};
+use drypoint_scene::with_access;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Ranges of values, level by level, and the largest curvature where it is known everywhere.
 #[derive(Clone, Debug)]
@@ -31,28 +34,17 @@ pub(super) fn cells_of(dims: [usize; 3]) -> [usize; 3] {
     dims.map(|n| (n - 1).max(1))
 }
 
-impl<T: Copy + Send + Sync> Level<T> {
-    /// Blocks, from what their voxels are and from what two of these make.
-    fn of_blocks<V: Copy + Send>(
-        dims: [usize; 3],
-        of_voxel: impl Fn([usize; 3]) -> V + Sync,
-        join: impl Fn(V, V) -> V + Sync,
-        entry: impl Fn(V) -> T + Sync,
-    ) -> Self {
+/// The voxels of a block along an axis.
+pub(super) fn span(block: usize, voxels: usize) -> Range<usize> {
+    2 * block..(2 * block + 3).min(voxels)
+}
+
+impl<T: Copy + Send> Level<T> {
+    /// Blocks, of which `row` makes those that lie side by side: it is given their places in y and z.
+    fn of_rows(dims: [usize; 3], row: impl Fn([usize; 2]) -> Vec<T> + Sync) -> Self {
         let blocks = cells_of(dims).map(|n| n.div_ceil(2));
-        let span = |block: usize, axis: usize| 2 * block..(2 * block + 3).min(dims[axis]);
-        let row = |row: usize| -> Vec<T> {
-            let [y, z] = [row % blocks[1], row / blocks[1]];
-            // What the up to nine voxels in each plane of x make, which blocks share.
-            let plane = |x: usize| {
-                let voxels = span(z, 2).flat_map(|k| span(y, 1).map(move |j| [x, j, k]));
-                voxels.map(&of_voxel).reduce(&join)
-            };
-            let planes: Vec<V> = (0..dims[0]).filter_map(plane).collect();
-            let of_block = |x: usize| planes[span(x, 0)].iter().copied().reduce(&join).map(&entry);
-            (0..blocks[0]).filter_map(of_block).collect()
-        };
-        let entries = (0..blocks[1] * blocks[2]).into_par_iter().flat_map_iter(row).collect();
+        let rows = (0..blocks[1] * blocks[2]).into_par_iter();
+        let entries = rows.flat_map_iter(|i| row([i % blocks[1], i / blocks[1]])).collect();
         Self { dims: blocks, entries }
     }
 
@@ -89,17 +81,36 @@ impl Pyramid {
     pub fn new(volume: &Volume) -> Self {
         let dims = volume.dims();
         let range = volume.range();
-        let of_voxel = |at: [usize; 3]| [volume.value(at); 2];
-        let bytes = |[lo, hi]: [f64; 2]| [byte(range, lo).floor() as u8, byte(range, hi).ceil() as u8];
-        let blocks = Level::of_blocks(dims, of_voxel, joined, bytes);
-        let ranges = blocks.levels(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let bytes = |stored: [f64; 2]| {
+            let [a, b] = stored.map(|v| volume.slope() * v + volume.intercept());
+            [byte(range, a.min(b)).floor() as u8, byte(range, a.max(b)).ceil() as u8]
+        };
+        let row = |[y, z]: [usize; 2]| {
+            with_access!(volume, |voxels| {
+                let mut columns = Columns::new(dims[0]);
+                for k in span(z, dims[2]) {
+                    for j in span(y, dims[1]) {
+                        columns.add(voxels, j, k);
+                    }
+                }
+                let of_block = |x| bytes(columns.range(span(x, dims[0])).map(Voxel::to_f64));
+                (0..cells_of(dims)[0].div_ceil(2)).map(of_block).collect()
+            })
+        };
+        let ranges = Level::of_rows(dims, row).levels(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         Self { ranges, curvatures: Vec::new(), cells: cells_of(dims), range }
     }
 
     /// With the largest curvature of each entry, from those of all voxels, κ in [0, 1] ([HATCH-5]).
     pub(super) fn with_curvature(self, dims: [usize; 3], curvature: impl Fn([usize; 3]) -> f64 + Sync) -> Self {
-        let blocks = Level::of_blocks(dims, curvature, f64::max, outwards);
-        Self { curvatures: blocks.levels(u8::max), ..self }
+        let row = |[y, z]: [usize; 2]| {
+            let rows = || span(z, dims[2]).flat_map(|k| span(y, dims[1]).map(move |j| [j, k]));
+            let column = |x: usize| rows().map(|[j, k]| curvature([x, j, k])).fold(0.0, f64::max);
+            let columns: Vec<f64> = (0..dims[0]).map(column).collect();
+            let of_block = |x| outwards(columns[span(x, dims[0])].iter().copied().fold(0.0, f64::max));
+            (0..cells_of(dims)[0].div_ceil(2)).map(of_block).collect()
+        };
+        Self { curvatures: Level::of_rows(dims, row).levels(u8::max), ..self }
     }
 
     /// The cells of the grid along each axis.
@@ -182,10 +193,6 @@ pub(super) fn is_above(byte: u8, bound: f64) -> bool {
     f64::from(byte) / 255.0 > bound
 }
 
-fn joined(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0].min(b[0]), a[1].max(b[1])]
-}
-
 /// A value on the scale of bytes, not yet rounded; it keeps the order of values. All is 0 in a constant volume but what
 /// lies outside of its value.
 fn byte([lo, hi]: [f64; 2], value: f64) -> f64 {
@@ -216,14 +223,17 @@ mod tests {
         volume(dims, |at| uniform(3, at.map(|i| i as u32), 0) * 100.0 - 20.0)
     }
 
+    fn voxels(block: [usize; 3], dims: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+        let span = move |axis: usize| 2 * block[axis]..(2 * block[axis] + 3).min(dims[axis]);
+        span(2).flat_map(move |z| span(1).flat_map(move |y| span(0).map(move |x| [x, y, z])))
+    }
+
     /// All blocks whose voxels have a value in their closed range.
     fn exhaustive(volume: &Volume, value: f64) -> Vec<[usize; 3]> {
         let dims = volume.dims();
         let block_has = |block: &[usize; 3]| {
-            let span = |axis: usize| 2 * block[axis]..(2 * block[axis] + 3).min(dims[axis]);
-            let voxels = span(2).flat_map(|z| span(1).flat_map(move |y| span(0).map(move |x| [x, y, z])));
-            let [lo, hi] = voxels.map(|at| [volume.value(at); 2]).reduce(joined).unwrap();
-            lo <= value && value <= hi
+            let values: Vec<f64> = voxels(*block, dims).map(|at| volume.value(at)).collect();
+            values.iter().any(|v| *v <= value) && values.iter().any(|v| *v >= value)
         };
         positions(cells_of(dims).map(|n| n.div_ceil(2))).filter(block_has).collect()
     }
@@ -278,11 +288,7 @@ mod tests {
             let value = 30.0;
             for min in [0.0, 0.02, 0.3, 0.9] {
                 let found = pyramid.blocks(value, Some(min));
-                let largest = |block: &[usize; 3]| {
-                    let span = |axis: usize| 2 * block[axis]..(2 * block[axis] + 3).min(dims[axis]);
-                    let voxels = span(2).flat_map(|z| span(1).flat_map(move |y| span(0).map(move |x| [x, y, z])));
-                    voxels.map(curvature).fold(0.0, f64::max)
-                };
+                let largest = |block: &[usize; 3]| voxels(*block, dims).map(curvature).fold(0.0, f64::max);
                 let want = |block: &[usize; 3]| (largest(block) * 255.0).ceil() / 255.0 > min;
                 let all: Vec<_> = pyramid.blocks(value, None).into_iter().filter(want).collect();
                 assert_eq!(found, all, "{dims:?} {min}");
