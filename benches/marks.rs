@@ -43,7 +43,7 @@ fn marks() -> &'static Marks {
 }
 
 fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> Sheet<'a> {
-    Sheet { marks, background: None, picture: None, plotter: false, provenance }
+    Sheet { marks, background: None, picture: None, plotter: false, beziers: false, provenance }
 }
 
 #[divan::bench(sample_count = 10)]

@@ -100,7 +100,8 @@ impl<'a> Paper<'a> {
     fn sheet<'s>(&'s self, marks: &'s Marks, picture: Option<&'s Picture>) -> Sheet<'s> {
         // The paper has its colour, and programs that know nothing of layers with % would draw round the page.
         let background = self.background().filter(|_| !self.plotter());
-        Sheet { marks, background, picture, plotter: self.plotter(), provenance: &self.provenance }
+        let beziers = self.scene.hatching.as_ref().is_some_and(|hatching| hatching.beziers);
+        Sheet { marks, background, picture, plotter: self.plotter(), beziers, provenance: &self.provenance }
     }
 
     fn plotter(&self) -> bool {

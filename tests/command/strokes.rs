@@ -66,6 +66,27 @@ fn one_circle_in_all_formats() {
     assert!(text(&folder, "ball.svg").contains("inkscape:label=\"1-outlines 0.35\""));
 }
 
+/// [HATCH-10]: Béziers are SVG's and PDF's alone, of the same strokes, and outlines of the page are, too.
+#[test]
+fn beziers_of_a_page() {
+    let folder = Folder::new();
+    folder.write("ball.toml", format!("{SCENE}[hatching]\niso = 127.5\n"));
+    for name in ["a.svg", "a.pdf", "a.png", "a.csv"] {
+        folder.good(&format!("strokes ball.toml -o straight-{name} -q"));
+        folder.good(&format!("strokes ball.toml -o {name} -q --set hatching.beziers=true"));
+    }
+    let curves =
+        |name: &str| text(&folder, name).lines().filter(|line| line.starts_with("<path") && line.contains('c')).count();
+    assert_eq!(curves("straight-a.svg"), 0);
+    let page = text(&folder, "a.svg");
+    assert_eq!(page.matches("<path").count(), text(&folder, "straight-a.svg").matches("<path").count());
+    assert!(curves("a.svg") * 10 > page.matches("<path").count() * 9, "{page}");
+    let outlines = &page[page.find("-outlines").unwrap()..];
+    assert!(outlines.lines().nth(1).is_some_and(|line| line.contains('c')), "{outlines}");
+    assert_eq!(folder.read("a.csv"), folder.read("straight-a.csv"));
+    assert!(folder.read("a.pdf") != folder.read("straight-a.pdf"));
+}
+
 /// Only what is called for: no rays, no dots; and the count is that of the lines.
 #[test]
 fn counts_and_plan() {

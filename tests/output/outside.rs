@@ -77,11 +77,16 @@ impl Codes {
 
     /// At most 0.5 % of the pixels differ by more than 32 of 255.
     pub(crate) fn is_nearly_everywhere(&self, other: &Self) {
-        assert_eq!(self.size, other.size);
-        let far = |(a, b): (&[f64; 3], &[f64; 3])| a.iter().zip(b).any(|(a, b)| (a - b).abs() > 32.0);
-        let differ = self.rgb.iter().zip(&other.rgb).filter(|&pair| far(pair)).count() as f64 / self.rgb.len() as f64;
+        let differ = self.far_off(other);
         println!("{:.4} % of the pixels differ", 100.0 * differ);
         assert!(differ <= 0.005, "{differ}");
+    }
+
+    /// The share of the pixels that differ by more than 32 of 255.
+    pub(crate) fn far_off(&self, other: &Self) -> f64 {
+        assert_eq!(self.size, other.size);
+        let far = |(a, b): (&[f64; 3], &[f64; 3])| a.iter().zip(b).any(|(a, b)| (a - b).abs() > 32.0);
+        self.rgb.iter().zip(&other.rgb).filter(|&pair| far(pair)).count() as f64 / self.rgb.len() as f64
     }
 
     /// The mean coverages differ by less than 0.2 %.

@@ -2,6 +2,7 @@
 
 use crate::outside::{Codes, run};
 use crate::sample;
+use drypoint::output::vector::Sheet;
 use drypoint::output::vector::pdf::write_pdf;
 use drypoint::scene::picture::Provenance;
 
@@ -23,6 +24,22 @@ fn poppler_draws_what_we_draw() {
         let theirs = Codes::of_ppm(&folder.path().join("theirs.ppm")).reduced(FINER);
         sample::picture(&marks, folder.path()).agrees_with(&theirs);
     }
+}
+
+/// [HATCH-10]: as with SVG.
+#[test]
+fn beziers_are_the_curves_that_their_chords_stand_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let (marks, provenance) = (sample::curves(0.05), Provenance::default());
+    let sheet = Sheet { beziers: true, ..sample::sheet(&marks, &provenance) };
+    write_pdf(&sheet, &folder.path().join("a.pdf")).unwrap();
+    let dpi = (300 * FINER).to_string();
+    let arguments = ["-r", &dpi, "-singlefile", "a.pdf", "theirs"];
+    if run("pdftoppm", Some("poppler-utils"), &arguments, folder.path()).is_none() {
+        return;
+    }
+    let theirs = Codes::of_ppm(&folder.path().join("theirs.ppm")).reduced(FINER);
+    sample::picture(&sample::curves(0.0005), folder.path()).agrees_with(&theirs);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Layer, Marks, Page, Pen, Polyline, Vertex};
 use drypoint::scene::picture::Provenance;
 use drypoint::scene::tables::BlendSpace;
+use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Two pens' dots and lines of many widths, opaque or not, some on each other, on 4 × 3 inches at 300 dpi: whole pixels.
@@ -48,7 +49,35 @@ pub(crate) fn marks(opaque: bool) -> Marks {
 
 /// The sheet of marks on white paper.
 pub(crate) fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> Sheet<'a> {
-    Sheet { marks, background: None, picture: None, plotter: false, provenance }
+    Sheet { marks, background: None, picture: None, plotter: false, beziers: false, provenance }
+}
+
+/// Circles and waves of radii from 1 to 20 mm, of one width or tapered, in chords that are at most so many mm beside them, on the
+/// same paper.
+pub(crate) fn curves(chord: f64) -> Marks {
+    let page = Page::in_millimetres(DVec2::new(101.6, 76.2), 0.0, 300.0);
+    let mut layer = Layer::new(Pen { number: 1, name: "black".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] });
+    let mut line = |closed: bool, radius: f64, tapered: bool, length: f64, at: &dyn Fn(f64) -> DVec2| {
+        let n = (length / (8.0 * chord * radius).sqrt()).ceil();
+        let vertex = |i: usize| {
+            let t = i as f64 / n;
+            let taper = if tapered { 1.0 - t } else { 1.0 };
+            Vertex { at: at(t), world: DVec3::ZERO, radius: 0.15 * taper, opacity: 1.0, t, color: None }
+        };
+        layer.lines.push(Polyline { vertices: (0..n as usize + usize::from(!closed)).map(vertex).collect(), closed });
+    };
+    let turn = |angle: f64, radius: f64| radius * DVec2::from_angle(angle);
+    for radius in [1.0, 2.0, 3.5, 5.0, 8.0, 12.0, 20.0] {
+        line(true, radius, false, TAU * radius, &|t| DVec2::new(40.0, 38.0) + turn(TAU * t, radius));
+        let around = DVec2::new(70.0 + radius, 30.0);
+        line(false, radius, true, 3.0 * radius, &|t| around + turn(2.0 + 3.0 * t, radius));
+        // The steepest way of sin is √2 long, and its sharpest bend has the radius.
+        let wave = |t: f64| DVec2::new(5.0 + 60.0 * t, 62.0 + radius / 2.0 + radius * (60.0 * t / radius).sin());
+        line(false, radius, false, 60.0 * 2f64.sqrt(), &wave);
+    }
+    let mut marks = Marks { page, layers: vec![layer] };
+    marks.settle();
+    marks
 }
 
 /// Our own picture of it, as it is in a PNG whose encoded values are blended.

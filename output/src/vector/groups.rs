@@ -2,6 +2,7 @@
 //! their order.
 
 use super::apart::apart;
+use super::curves::{Step, curves};
 use crate::grid::micrometres;
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::DVec2;
@@ -27,17 +28,43 @@ pub(super) struct Group {
 
 /// A line of at least two points, or the outlines of one.
 pub(super) struct Line {
-    pub(super) paths: Vec<Vec<Place>>,
+    pub(super) paths: Vec<Trace>,
     pub(super) closed: bool,
 }
 
-impl Line {
-    fn of(piece: &Piece, is_stroke: bool, ink: f64) -> Self {
-        let places = |points: &[DVec2]| points.iter().map(|p| p.to_array().map(micrometres)).collect();
-        if is_stroke {
-            return Self { paths: vec![places(&piece.points)], closed: piece.closed };
+/// What is drawn in one go.
+pub(super) enum Trace {
+    /// Straight from point to point.
+    Straight(Vec<Place>),
+    /// From a point on, step by step; of a closed one the last step ends there.
+    Curved(Place, Vec<Step>),
+}
+
+impl Trace {
+    fn of(points: &[DVec2], closed: bool, beziers: bool) -> Self {
+        match beziers.then(|| curves(points, closed)).flatten() {
+            Some((start, steps)) => Self::Curved(start, steps),
+            None => Self::Straight(points.iter().map(|p| p.to_array().map(micrometres)).collect()),
         }
-        Self { paths: piece.outlines(ink).iter().map(|outline| places(outline)).collect(), closed: true }
+    }
+
+    /// Where it begins, and what is drawn from there on; none without a point.
+    pub(super) fn steps(&self) -> Option<(Place, impl Iterator<Item = Step>)> {
+        let (start, points, steps): (_, &[Place], &[Step]) = match self {
+            Self::Straight(points) => (*points.first()?, &points[1..], &[]),
+            Self::Curved(start, steps) => (*start, &[], steps),
+        };
+        Some((start, points.iter().copied().map(Step::Line).chain(steps.iter().copied())))
+    }
+}
+
+impl Line {
+    fn of(piece: &Piece, is_stroke: bool, ink: f64, beziers: bool) -> Self {
+        if is_stroke {
+            return Self { paths: vec![Trace::of(&piece.points, piece.closed, beziers)], closed: piece.closed };
+        }
+        let outlines = piece.outlines(ink);
+        Self { paths: outlines.iter().map(|outline| Trace::of(outline, true, beziers)).collect(), closed: true }
     }
 }
 
@@ -51,8 +78,9 @@ const CHUNK: usize = 256;
 /// The groups of a layer, outlines first, then by width, then by opacity; after them lines with colours, in their order.
 ///
 /// A path inks once what it strokes, so that dots of one path must not overlap unless they are opaque. Dots are put into
-/// rows, to and fro, so that the moves between them are short; `keep` keeps the order that they have.
-pub(super) fn groups(layer: &Layer, keep: bool) -> Vec<Group> {
+/// rows, to and fro, so that the moves between them are short; `keep` keeps the order that they have. With `beziers` lines
+/// are smooth.
+pub(super) fn groups(layer: &Layer, keep: bool, beziers: bool) -> Vec<Group> {
     // The bits of a number above 0 order as the number does.
     let mut found: BTreeMap<Key, (Vec<Place>, Vec<Line>)> = BTreeMap::new();
     let ink = layer.pen.color[3];
@@ -66,12 +94,12 @@ pub(super) fn groups(layer: &Layer, keep: bool) -> Vec<Group> {
     let key = |piece: &Piece| (piece.stroke(ink).map(|radius| micrometres(2.0 * radius)), bits(piece.opacity));
     for piece in plain {
         let key = key(&piece);
-        found.entry(key).or_default().1.push(Line::of(&piece, key.0.is_some(), ink));
+        found.entry(key).or_default().1.push(Line::of(&piece, key.0.is_some(), ink, beziers));
     }
     let like = |piece: &Piece| (key(piece), piece.color);
     let colored = colored.chunk_by(|a, b| like(a) == like(b)).map(|same| {
         let ((width, bits), color) = like(&same[0]);
-        let lines = same.iter().map(|piece| Line::of(piece, width.is_some(), ink)).collect();
+        let lines = same.iter().map(|piece| Line::of(piece, width.is_some(), ink, beziers)).collect();
         Group { width, opacity: f64::from_bits(bits), color, dots: Vec::new(), lines }
     });
     found
@@ -125,6 +153,7 @@ mod tests {
         let found = groups(
             &layer(&[(1.0, 1.0, 0.2, 1.0), (2.0, 1.0, 0.1, 1.0), (3.0, 1.0, 0.2, 0.5), (4.0, 1.0, 0.2, 1.0)]),
             false,
+            false,
         );
         let shape: Vec<_> = found.iter().map(|g| (g.width, g.opacity, g.dots.clone())).collect();
         assert_eq!(
@@ -154,8 +183,8 @@ mod tests {
             line(vec![vertex(0.0, Some(0.5)), vertex(1.0, Some(0.5)), vertex(2.0, Some(0.0)), vertex(3.0, Some(0.0))]),
             line(vec![vertex(5.0, None), vertex(6.0, None)]),
         ];
-        let found = groups(&layer, false);
-        let starts: Vec<i64> = found.iter().map(|group| group.lines[0].paths[0][0][0]).collect();
+        let found = groups(&layer, false, false);
+        let starts: Vec<i64> = found.iter().map(|group| group.lines[0].paths[0].steps().unwrap().0[0]).collect();
         let reds: Vec<Option<f64>> = found.iter().map(|group| group.color.map(|color| color[0])).collect();
         assert_eq!(starts, [5000, 0, 1000, 2000]);
         // 0.5 is the code 188 in sRGB, 187.5, which is 0.5029; half of it is 93.76, and 94 is 0.1119.
@@ -178,6 +207,6 @@ mod tests {
         let plan = [(9.0, 1.0, 0.2, 1.0), (1.0, 5.0, 0.2, 1.0), (5.0, 1.0, 0.2, 1.0)];
         let mut opaque = layer(&plan);
         opaque.pen.color[3] = 1.0;
-        assert_eq!(groups(&opaque, true)[0].dots, [[[9000, 1000], [1000, 5000], [5000, 1000]]]);
+        assert_eq!(groups(&opaque, true, false)[0].dots, [[[9000, 1000], [1000, 5000], [5000, 1000]]]);
     }
 }

@@ -2,7 +2,9 @@
 
 mod apart;
 mod base64;
+mod curves;
 mod decimals;
+mod fit;
 mod groups;
 pub mod pdf;
 pub mod svg;
@@ -23,6 +25,9 @@ pub struct Sheet<'a> {
     pub picture: Option<&'a Picture>,
     /// Whether the marks are what a plotter will draw, in that order: each dot a stroke of its own.
     pub plotter: bool,
+    /// Whether lines and outlines are cubic Béziers, smooth through their points ([HATCH-10]): within 0.005 mm of what their
+    /// chords stand for, and corners stay.
+    pub beziers: bool,
     /// Written into the file.
     pub provenance: &'a Provenance,
 }

@@ -1,7 +1,8 @@
 //! Writing PDF ([IO-2], [IO-7]): the groups of the SVG with the same numbers, each layer an optional-content group.
 
+use super::curves::Step;
 use super::decimals::{number, push};
-use super::groups::{Group, groups};
+use super::groups::{Group, Trace, groups};
 use super::{Sheet, bytes};
 use crate::encode::{quantize, straight_srgb};
 use crate::layers::{fitting, side};
@@ -56,7 +57,7 @@ pub fn encode_pdf(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
         content.picture(sheet);
     }
     for layer in &sheet.marks.layers {
-        content.layer(layer, sheet.plotter);
+        content.layer(layer, sheet);
     }
 
     let mut pdf = Pdf::new();
@@ -152,10 +153,10 @@ impl Content {
         });
     }
 
-    fn layer(&mut self, layer: &Layer, plotter: bool) {
+    fn layer(&mut self, layer: &Layer, sheet: &Sheet) {
         self.within(layer.pen.label(), |content| {
             content.color(layer.pen.color, "RG");
-            for group in groups(layer, plotter) {
+            for group in groups(layer, sheet.plotter, sheet.beziers) {
                 content.group(&group, layer.pen.color);
             }
         });
@@ -183,9 +184,17 @@ impl Content {
             self.add("S\n");
         }
         for line in &group.lines {
-            for points in &line.paths {
-                for (i, &at) in points.iter().enumerate() {
-                    self.step(at, if i == 0 { b" m\n" } else { b" l\n" });
+            for (start, steps) in line.paths.iter().filter_map(Trace::steps) {
+                self.step(start, b" m\n");
+                for step in steps {
+                    match step {
+                        Step::Line(at) => self.step(at, b" l\n"),
+                        Step::Curve([a, b, at]) => {
+                            self.step(a, b" ");
+                            self.step(b, b" ");
+                            self.step(at, b" c\n");
+                        }
+                    }
                 }
             }
             self.add(match (group.width, line.closed) {
@@ -287,7 +296,15 @@ mod tests {
     fn encoded(background: Option<Rgba>, picture: Option<&Picture>) -> Vec<u8> {
         let provenance = Provenance { software: "Drypoint 0.1.0".into(), scene_hash: "00ff".into(), plan: "κ".into() };
         let marks = marks();
-        encode_pdf(&Sheet { marks: &marks, background, picture, plotter: false, provenance: &provenance }).unwrap()
+        encode_pdf(&Sheet {
+            marks: &marks,
+            background,
+            picture,
+            plotter: false,
+            beziers: false,
+            provenance: &provenance,
+        })
+        .unwrap()
     }
 
     fn holds(bytes: &[u8], text: &str) -> bool {
@@ -298,9 +315,16 @@ mod tests {
     fn what_is_drawn() {
         let provenance = Provenance::default();
         let marks = marks();
-        let sheet = Sheet { marks: &marks, background: None, picture: None, plotter: false, provenance: &provenance };
+        let sheet = Sheet {
+            marks: &marks,
+            background: None,
+            picture: None,
+            plotter: false,
+            beziers: false,
+            provenance: &provenance,
+        };
         let mut content = Content::new(&sheet);
-        content.layer(&marks.layers[0], false);
+        content.layer(&marks.layers[0], &sheet);
         // 72/25.4 = 2.834645669 points a millimetre; 14 mm are 39.685039 points.
         assert_eq!(
             String::from_utf8(content.bytes).unwrap(),

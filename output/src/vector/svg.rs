@@ -1,8 +1,9 @@
 //! Writing SVG ([IO-2], [IO-7]): one user unit is a millimetre, a layer is a group at the top that Inkscape and plotters
 //! know by its label, and nothing has a transform.
 
+use super::curves::Step;
 use super::decimals::{number, push_pair};
-use super::groups::{Group, Line, groups};
+use super::groups::{Group, Line, Place, Trace, groups};
 use super::{Sheet, base64, bytes, decimals};
 use crate::grid::micrometres;
 use crate::png::{KEYWORDS, encode_png};
@@ -129,7 +130,7 @@ fn content(sheet: &Sheet, id: &str, out: &mut Vec<u8>) -> Result<(), OutputError
         out.extend_from_slice(b"\"/>\n</g>\n");
     }
     for (i, layer) in sheet.marks.layers.iter().enumerate() {
-        draw(layer, &format!("{id}layer{}", i + 1), sheet.plotter, out);
+        draw(layer, &format!("{id}layer{}", i + 1), sheet, out);
     }
     Ok(())
 }
@@ -144,7 +145,7 @@ fn metadata(sheet: &Sheet, out: &mut Vec<u8>) {
     out.extend_from_slice(b"</metadata>\n");
 }
 
-fn draw(layer: &Layer, id: &str, plotter: bool, out: &mut Vec<u8>) {
+fn draw(layer: &Layer, id: &str, sheet: &Sheet, out: &mut Vec<u8>) {
     let (label, color, width) = (escaped(&layer.pen.label()), hex(layer.pen.color), number(layer.pen.width));
     text(
         out,
@@ -154,7 +155,7 @@ fn draw(layer: &Layer, id: &str, plotter: bool, out: &mut Vec<u8>) {
         ),
     );
     let pen = micrometres(layer.pen.width);
-    for group in groups(layer, plotter) {
+    for group in groups(layer, sheet.plotter, sheet.beziers) {
         // What the pen draws as it is needs no group.
         let plain = group.width == Some(pen) && group.opacity == 1.0 && group.color.is_none();
         if !plain {
@@ -172,7 +173,7 @@ fn draw(layer: &Layer, id: &str, plotter: bool, out: &mut Vec<u8>) {
                 }
             }
         }
-        dots(&group, plotter, out);
+        dots(&group, sheet.plotter, out);
         group.lines.iter().for_each(|line| path(line, out));
         if !plain {
             out.extend_from_slice(b"</g>\n");
@@ -215,23 +216,33 @@ fn push_pair_apart(out: &mut Vec<u8>, [x, y]: [i64; 2]) {
 }
 
 fn path(line: &Line, out: &mut Vec<u8>) {
-    if line.paths.iter().all(Vec::is_empty) {
+    let mut paths = line.paths.iter().filter_map(Trace::steps).peekable();
+    if paths.peek().is_none() {
         return;
     }
     out.extend_from_slice(b"<path d=\"");
-    for points in &line.paths {
-        let [first, rest @ ..] = points.as_slice() else { continue };
+    for (mut last, steps) in paths {
         out.push(b'M');
-        push_pair(out, *first);
-        out.push(b'l');
-        let mut last = *first;
-        for (i, &at) in rest.iter().enumerate() {
-            let [dx, dy] = [at[0] - last[0], at[1] - last[1]];
-            if i > 0 && dx >= 0 {
-                out.push(b' ');
+        push_pair(out, last);
+        let mut letter = None;
+        for step in steps {
+            let (own, places): (u8, &[Place]) = match &step {
+                Step::Line(at) => (b'l', std::slice::from_ref(at)),
+                Step::Curve(places) => (b'c', places),
+            };
+            let mut follows = letter == Some(own);
+            if !follows {
+                out.push(own);
             }
-            push_pair(out, [dx, dy]);
-            last = at;
+            for at in places {
+                let [dx, dy] = [at[0] - last[0], at[1] - last[1]];
+                if follows && dx >= 0 {
+                    out.push(b' ');
+                }
+                push_pair(out, [dx, dy]);
+                follows = true;
+            }
+            (letter, last) = (Some(own), step.end());
         }
         if line.closed {
             out.push(b'z');
@@ -311,7 +322,7 @@ mod tests {
         let provenance =
             Provenance { software: "Drypoint 0.1.0".into(), scene_hash: "00ff".into(), plan: "κ < 1\n\u{1}".into() };
         let marks = marks();
-        let sheet = Sheet { marks: &marks, background, picture, plotter, provenance: &provenance };
+        let sheet = Sheet { marks: &marks, background, picture, plotter, beziers: false, provenance: &provenance };
         String::from_utf8(encode_svg(&sheet).unwrap()).unwrap()
     }
 
@@ -346,7 +357,8 @@ Drypoint plan: κ &lt; 1
     fn frames_take_turns() {
         let (provenance, marks) = (Provenance::default(), marks());
         let background = Some([1.0; 4]);
-        let sheet = Sheet { marks: &marks, background, picture: None, plotter: false, provenance: &provenance };
+        let sheet =
+            Sheet { marks: &marks, background, picture: None, plotter: false, beziers: false, provenance: &provenance };
         let frames = |n: usize| String::from_utf8(encode_animated_svg(&vec![sheet; n], 0.5).unwrap()).unwrap();
         let found = frames(4);
         let turn = |values: &str, times: &str| {

@@ -196,6 +196,7 @@ const SAMPLES: &[Sample] = &[
     ("hatching.min_step", &[HATCHING], "0.1 voxels"),
     ("hatching.offset", &[HATCHING], "0.3 voxels"),
     ("hatching.chord", &[HATCHING], "0.2 voxels"),
+    ("hatching.beziers", &[HATCHING], "true"),
     ("hatching.spacing", &[HATCHING], "tone"),
     ("hatching.gap", &[HATCHING], "0.5 mm"),
     ("hatching.gap_depth", &[HATCHING], "3 voxels"),

@@ -58,6 +58,8 @@ pub struct Hatching {
     pub offset: Length,
     /// c, the most that straight segments may leave the stroke by, in the world ([HATCH-10]).
     pub chord: Length,
+    /// Whether vector files have cubic Béziers in place of straight segments ([HATCH-10]).
+    pub beziers: bool,
     /// How far strokes are apart on the page ([HATCH-19]).
     pub spacing: Spacing,
     /// How far on the page strokes stay from a nearer line that crosses them ([HATCH-20]); none: they do not.
@@ -169,6 +171,7 @@ impl Default for Hatching {
             min_step: Length::Voxels(0.01),
             offset: Length::Voxels(0.15),
             chord: Length::Voxels(0.1),
+            beziers: false,
             spacing: Spacing::Random,
             gap: None,
             gap_depth: Length::Voxels(2.0),

@@ -6,10 +6,10 @@ use super::rules;
 use super::stroke::STROKE;
 use super::{Family, HatchIso, HatchStyle, Hatching, Hidden, Measure, SeedsBy, Spacing};
 use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
+use crate::file::describe::{Key, Kind, Shape, Slot, Table};
 use crate::file::item::Item;
 use crate::file::kind::{
-    Bounds, Choice, ChoiceOption, Colors, End, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole,
+    Bounds, Choice, ChoiceOption, Colors, End, Flag, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole,
 };
 use crate::file::out::Out;
 use crate::knobs::Ladder;
@@ -102,9 +102,6 @@ impl Kind for SpacingKind {
 
 /// The description of `[hatching]`.
 pub(crate) static TABLE: Table<Hatching> = Table {
-    later: &[
-        Later { name: "beziers", tag: "HATCH-10" },
-    ],
     asks: rules::asks,
     idle: rules::idle,
     ..Table::new(
@@ -285,6 +282,13 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.chord), set: |h, v| h.chord = v },
             )
             .knob(Ladder::to_finest(|_, plan| of_strokes(plan, CHORDS))),
+            Key::new(
+                "beziers",
+                "HATCH-10",
+                "Whether SVG and PDF have all lines of the page as cubic Béziers, smooth through the ends of their straight \
+                 segments, instead of these.",
+                &Slot { kind: Flag, get: |h: &Hatching| Some(h.beziers), set: |h, v| h.beziers = v },
+            ),
             Key::new(
                 "spacing",
                 "HATCH-19",
