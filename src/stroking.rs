@@ -102,9 +102,8 @@ impl<'a> Stroking<'a> {
             scale: in_world(scene, scene.sampling.scale, "sampling.scale", volume.grid())?,
             outside: scene.volume.outside,
         };
-        // Hessians of their own scales are those of the rule, not of the field.
-        let raw = scene.hatching.as_ref().is_some_and(|h| h.directions.rule == DirectionRule::Raw);
-        let rung = if raw { Rung::Hessian } else { Rung::Gradient };
+        let reads_hessians = scene.hatching.as_ref().is_some_and(|hatching| hatching.reads_hessians());
+        let rung = if reads_hessians { Rung::Hessian } else { Rung::Gradient };
         let field = Field::new(volume, how, rung).map_err(|error| Failure::new(error, at("volume"), "convert it"))?;
         let hides = scene.surface.as_ref().map(|surface| value(scene, surface.iso, "surface.iso")).transpose()?;
         for (name, bytes) in field.bytes() {

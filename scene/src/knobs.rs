@@ -180,6 +180,8 @@ mod tests {
         assert_eq!(keys(&hidden).join(" "), format!("sampling.kernel {points}"));
         let strokes = "hatching.tolerance hatching.chord hatching.directions.rule hatching.directions.from";
         assert_eq!(keys(&scene("[hatching]\n")).join(" "), format!("sampling.kernel {strokes}"));
+        let raw = keys(&scene("[hatching]\ndirections = { rule = \"raw\" }\n")).join(" ");
+        assert_eq!(raw, format!("sampling.kernel sampling.hessian sampling.scale {strokes}"));
         assert_eq!(keys(&scene("[outlines]\n")), ["sampling.kernel"]);
         let all = keys(&scene(&format!("{REGULAR}[stipples]\n[hatching]\n"))).join(" ");
         assert_eq!(all, format!("{} {points} {strokes}", ALWAYS.join(" ")));

@@ -152,6 +152,12 @@ fn passes_are_those_that_are_called_for() {
         assert_eq!(plan(&format!("{exact} \"{hessian}\"\n")).has_pass(Pass::SmoothedCoefficients), smoothed);
     }
     assert!(!plan("[sampling]\nhessian = \"gaussian\"\n").has_pass(Pass::SmoothedCoefficients));
+    for (rule, hessian, smoothed) in [("raw", "auto", true), ("raw", "central", false), ("scaled", "gaussian", false)] {
+        let strokes = format!("[hatching]\ndirections = {{ rule = \"{rule}\" }}\n[sampling]\nkernel = \"bspline\"\n");
+        let plan = plan(&format!("{strokes}hessian = \"{hessian}\"\n"));
+        assert_eq!(plan.has_pass(Pass::SmoothedCoefficients), smoothed, "{rule} {hessian}");
+        assert!(plan.has_pass(Pass::Coefficients) && !plan.has_pass(Pass::Rays));
+    }
     assert!(plan(&format!("{PLAIN}[style_mipmaps]\n")).has_pass(Pass::StyleMipmaps));
     assert!(![PLAIN, &format!("{REGULAR}[style_mipmaps]\n")].iter().any(|s| plan(s).has_pass(Pass::StyleMipmaps)));
 }
@@ -227,6 +233,18 @@ fn keys_without_effect_are_listed_not_refused() {
         ["sampling.gradient", "sampling.hessian", "sampling.scale", "sampling.normal"]
     );
     assert_eq!(keys("[sampling]\nscale = 1\n"), ["sampling.scale"]);
+    // Strokes by the paper's rule read the field's Hessians, those by the default one have their own.
+    let strokes = "[hatching]\ndirections = { rule =";
+    let smooth = "}\n[sampling]\nhessian = \"gaussian\"\nscale = 1\ngradient = \"sobel\"\nkernel = \"bspline\"\n";
+    for (rule, idle) in [("raw", &[][..]), ("scaled", &["sampling.hessian", "sampling.scale"])] {
+        for volume in ["", REGULAR] {
+            assert_eq!(keys(&format!("{volume}{strokes} \"{rule}\" {smooth}")), idle, "{rule} {volume}");
+        }
+    }
+    assert_eq!(
+        keys(&format!("{strokes} \"raw\" }}\n[sampling]\nhessian = \"central\"\nscale = 1\n")),
+        ["sampling.scale"]
+    );
     assert_eq!(keys("[picture]\ndpi = 72\n"), ["picture.dpi"]);
     assert!(keys("[picture]\ndpi = 72\nwidth = \"9 mm\"\nheight = \"9 mm\"\n").is_empty());
     assert_eq!(keys(&format!("{ILLUSTRATIVE}[styles]\nmine = \"m.png\"\nwax = \"w.png\"\n")), ["styles.mine"]);

@@ -122,6 +122,9 @@ impl Default for Sampling {
     }
 }
 
+/// Why what only rays read does nothing.
+const NOT_DRAWN: &str = "the volume itself is not drawn";
+
 /// Settings of `step`.
 const STEPS: &[&str] =
     &["4 voxels", "2 voxels", "1 voxel", "0.5 voxels", "0.25 voxels", "0.125 voxels", "0.0625 voxels"];
@@ -161,11 +164,21 @@ fn gradients(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
     }
 }
 
+/// Whether anything reads a Hessian: a ray, or strokes by the paper's rule.
+fn reads_hessians(scene: &Scene, plan: &Plan) -> bool {
+    (plan.has_pass(Pass::Rays) && plan.needs_at_first(Quantity::Hessian))
+        || strokes_read_hessians(scene, plan.has_pass(Pass::Strokes))
+}
+
+fn strokes_read_hessians(scene: &Scene, has_strokes: bool) -> bool {
+    has_strokes && scene.hatching.as_ref().is_some_and(|hatching| hatching.reads_hessians())
+}
+
 /// Settings of `hessian`, where there is one. What rounds its values to integers is best smoothed ([REC-3]).
 fn hessians(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
     let smoothed = plan.has_pass(Pass::SmoothedCoefficients);
     match (is_twice_differentiable(scene.sampling.kernel), smoothed) {
-        _ if !plan.needs_at_first(Quantity::Hessian) => &[],
+        _ if !reads_hessians(scene, plan) => &[],
         (true, true) => &["central", "analytic", "gaussian"],
         (true, false) => &["gaussian", "central", "analytic"],
         (false, true) => &["central", "gaussian"],
@@ -191,49 +204,57 @@ pub(crate) static TABLE: Table<Sampling> = Table {
     },
     serves: |scene, asks| {
         let sampling = &scene.sampling;
-        if !(asks.casts_rays() || asks.has_pass(Pass::Outlines)) {
+        let has_strokes = asks.has_pass(Pass::Strokes);
+        if !(asks.casts_rays() || asks.has_pass(Pass::Outlines) || has_strokes) {
             return;
         }
         if matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5) {
             asks.pass(Pass::Coefficients, "prefiltered kernel", "sampling.kernel");
         }
-        if !asks.casts_rays() {
-            return;
-        }
-        let hessian = asks.first(Quantity::Hessian).map(|need| need.effect.clone());
+        let of_rays = asks.first(Quantity::Hessian).filter(|_| asks.casts_rays()).map(|need| need.effect.clone());
+        let of_strokes = strokes_read_hessians(scene, has_strokes).then(|| "hatching".into());
+        let hessian = of_rays.or(of_strokes);
         if let (Some(effect), HessianEstimator::Gaussian | HessianEstimator::Auto) = (hessian, sampling.hessian) {
             let integer_only = sampling.hessian == HessianEstimator::Auto;
             let effect = if integer_only { format!("{effect}, integer voxels") } else { effect };
             asks.pass_where(Pass::SmoothedCoefficients, integer_only, &effect, "sampling.hessian");
         }
-        if sampling.skip_empty {
+        if sampling.skip_empty && asks.casts_rays() {
             asks.pass(Pass::Bricks, "skipping what shows nothing", "sampling.skip_empty");
         }
     },
     idle: |scene, plan, idle| {
         let sampling = &scene.sampling;
-        if !plan.has_pass(Pass::Rays) {
-            // The step is still the default of camera.near.
-            let asks = [Pass::HiddenPoints, Pass::HiddenStrokes, Pass::Strokes];
-            let hides = asks.into_iter().any(|pass| plan.has_pass(pass));
-            let acts = |name: &str| name == "step" || (hides && matches!(name, "kernel" | "gradient"));
-            for key in TABLE.keys.iter().filter(|key| !acts(key.name)) {
-                idle.key(&format!("sampling.{}", key.name), "the volume itself is not drawn");
+        let draws = plan.has_pass(Pass::Rays);
+        let hides = plan.has_pass(Pass::HiddenPoints) || plan.has_pass(Pass::HiddenStrokes);
+        let hatches = plan.has_pass(Pass::Strokes);
+        if !draws {
+            for key in TABLE.keys {
+                // The step is still the default of camera.near.
+                let is_apart = matches!(key.name, "step" | "gradient" | "hessian" | "scale");
+                if !is_apart && !(key.name == "kernel" && (hides || hatches)) {
+                    idle.key(&format!("sampling.{}", key.name), NOT_DRAWN);
+                }
             }
-            return;
         }
-        if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
+        if draws && matches!(scene.camera.projection, Projection::Orthographic { .. }) {
             idle.key("sampling.step_along", "planes and shells are the same in an orthographic picture");
         }
-        if !plan.reads_gradients() && !plan.has_pass(Pass::Outlines) {
-            idle.key("sampling.gradient", "nothing needs a gradient");
+        let lines = hides || hatches || (draws && plan.has_pass(Pass::Outlines));
+        if !lines && !(draws && plan.reads_gradients()) {
+            idle.key("sampling.gradient", if draws { "nothing needs a gradient" } else { NOT_DRAWN });
         }
-        if !plan.reads_gradients() {
+        if draws && !plan.reads_gradients() {
             idle.key("sampling.normal", "nothing needs a normal");
         }
-        if !plan.needs_at_first(Quantity::Hessian) {
-            idle.key("sampling.hessian", "nothing needs a Hessian");
-            idle.key("sampling.scale", "nothing needs a Hessian");
+        if !reads_hessians(scene, plan) {
+            let why = match (hatches, draws) {
+                (true, _) => "strokes by hatching.directions.rule = \"scaled\" have scales of their own",
+                (false, true) => "nothing needs a Hessian",
+                (false, false) => NOT_DRAWN,
+            };
+            idle.key("sampling.hessian", why);
+            idle.key("sampling.scale", why);
         } else if !matches!(sampling.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian) {
             idle.key("sampling.scale", "only hessian = \"gaussian\" smooths");
         }

@@ -12,6 +12,11 @@ impl Hatching {
         self.pen.is_some() || self.spacing != Spacing::Random
     }
 
+    /// Whether strokes read the Hessians of `[sampling]`: those of the default rule have scales of their own ([HATCH-3]).
+    pub fn reads_hessians(&self) -> bool {
+        self.directions.rule == DirectionRule::Raw
+    }
+
     /// How strokes are lit: a pen has one colour, and so have strokes whose tone is in their spacing.
     pub fn lighting(&self, scene: &Scene) -> Option<LineLighting> {
         self.lighting.filter(|_| !self.has_one_width() && !has_plotter(scene))
