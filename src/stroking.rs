@@ -16,7 +16,7 @@ use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{DirectionRule, Iso, Length, Scene};
+use drypoint_scene::tables::{Iso, Length, Scene};
 use drypoint_scene::view::View;
 use hatching::{Hatched, Hatching};
 use outlining::Outlining;

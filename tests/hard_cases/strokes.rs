@@ -86,6 +86,25 @@ pub(crate) static THEME: Theme = Theme::new(
             measure: border,
         },
         Case {
+            name: "a world 2²⁰ and 2³⁰ voxels from its origin",
+            breaks: "places that have no value to 2⁻⁴⁰ of the range: seeds beside the surface, strokes without vertices",
+            done: "a value is met as near as places are known [HATCH-7]",
+            of: "strokes more or fewer; vertices 10⁻⁴ and 0.05 voxels beside those at the origin; and all that may be wrong \
+                 with strokes",
+            bound: 0.0,
+            why: "places round at 10⁻¹⁰ and 10⁻⁷ voxels; there a step may be decided otherwise, each errs by 0.01 voxels",
+            measure: far_from_the_origin,
+        },
+        Case {
+            name: "spheres of which voxels without a value leave a part",
+            breaks: "directions of what fills those voxels",
+            done: "a scale has no say within 3σ of them [HATCH-3, PREC-2]",
+            of: "the share of seeds with a stroke",
+            bound: 0.01,
+            why: "a sphere has no directions [HATCH-3]",
+            measure: masked_spheres,
+        },
+        Case {
             name: "tolerances 10⁻¹⁰ to 10³ voxels",
             breaks: "steps below their smallest, or over everything",
             done: "a largest step of two cells; below 0.005 voxels steps end at faces [HATCH-8]",
@@ -309,6 +328,45 @@ fn border() -> f64 {
     assert!(at_border > 50, "{at_border}");
     wrong += each(&volume, 0.0, |how| how).0;
     wrong
+}
+
+fn far_from_the_origin() -> f64 {
+    let at = |origin: DVec3| {
+        let grid = Grid::new([32, 32, 20], DMat3::IDENTITY, origin).unwrap();
+        let volume = on(grid, |p| ring((p - origin).to_array()) - 4.0);
+        let how = Hatching { rule: Rule::Raw, ..Hatching::new(volume.grid()) };
+        grown(&volume, 0.0, how)
+    };
+    let (near, mut wrong) = at(DVec3::ZERO);
+    for (far, most) in [(20, 1e-4), (30, 0.05)].map(|(k, most)| (2f64.powi(k), most)) {
+        let origin = DVec3::new(far, -far, far / 2.0);
+        let (found, faults) = at(origin);
+        wrong += faults + found.strokes.len().abs_diff(near.strokes.len()) as f64;
+        for ((_, a), (_, b)) in near.strokes.iter().zip(&found.strokes) {
+            let pairs = a.vertices.iter().zip(&b.vertices);
+            let beside = pairs.filter(|(a, b)| a.world.distance(b.world - origin) > most).count();
+            wrong += (beside + a.vertices.len().abs_diff(b.vertices.len())) as f64;
+        }
+    }
+    wrong
+}
+
+fn masked_spheres() -> f64 {
+    let mut most = 0.0f64;
+    for (radius, normal) in [(10.0, DVec3::Z), (15.0, DVec3::new(0.36, -0.48, 0.8))] {
+        let volume = volume([48; 3], |p| {
+            let p = p - DVec3::splat(23.5);
+            if p.dot(normal) > 2.2 { f64::NAN } else { radius - p.length() }
+        });
+        let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+        let strokes = Strokes::new(&field, Some(0.0), Hatching::new(volume.grid()));
+        let range = (Measure::Mean, [0.0, 1.0]);
+        let cells: Vec<_> =
+            strokes.seeds(&Pyramid::new(&volume), &field, 0.0, SeedRule::Dense, range).draw(1).collect();
+        assert!(cells.len() > 500, "{}", cells.len());
+        most = most.max(strokes.grow_all(&cells, |_| false).counts.strokes as f64 / cells.len() as f64);
+    }
+    most
 }
 
 fn tolerances() -> f64 {

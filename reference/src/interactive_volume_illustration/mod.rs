@@ -9,6 +9,7 @@
 
 mod cells;
 mod chain;
+mod clear;
 mod cone;
 mod counts;
 mod dash;

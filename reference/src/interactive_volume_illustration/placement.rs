@@ -102,8 +102,8 @@ impl<'f> Strokes<'f, '_> {
         Ok(Seed { cell, world, normal, target, curvature, family })
     }
 
-    /// Where the line x + s·along, a unit vector of the world, has a value nearest to s = 0, |s| ≤ `reach`, to 2⁻⁴⁰ of the
-    /// range of values.
+    /// Where the line x + s·along, a unit vector of the world, has a value nearest to s = 0, |s| ≤ `reach`, as near as
+    /// [`Self::near`].
     pub(super) fn meets(
         &self,
         x: DVec3,
@@ -118,9 +118,11 @@ impl<'f> Strokes<'f, '_> {
         Search { over, tolerance: self.near(target), budget: evaluations }.nearest(reach, places)
     }
 
-    /// |f − target| that counts as none: 2⁻⁴⁰ of the range of values, or the rounding of a large target.
+    /// |f − target| that counts as none: 2⁻⁴⁰ of the range of values, or the rounding of a large target, or what the values
+    /// change by over the rounding of places far from the world's origin.
     pub(super) fn near(&self, target: f64) -> f64 {
         let [lo, hi] = self.ground().range();
-        scale_by_power_of_two(hi - lo, -40).max(4.0 * f64::EPSILON * target.abs())
+        let places = self.rounding() * (hi - lo);
+        scale_by_power_of_two(hi - lo, -40).max(4.0 * f64::EPSILON * target.abs()).max(places)
     }
 }

@@ -40,6 +40,9 @@ const AT_ONCE: usize = 64;
 /// The side of the boxes of cells whose strokes are grown one after the other: what these read lies near together.
 const NEIGHBOURS: usize = 16;
 
+/// How many times the distance that closes a curve it must have gone before it can come back to its beginning.
+const OUT: f64 = 4.0;
+
 /// What δ is at least beyond the chords' error, in voxels ([HATCH-7]).
 const CLEARANCE: f64 = 0.05;
 
@@ -165,6 +168,7 @@ pub struct Strokes<'f, 'v> {
     stored: Option<Stored>,
     iso: Option<f64>,
     how: Hatching,
+    rounding: f64,
 }
 
 impl<'f, 'v> Strokes<'f, 'v> {
@@ -181,7 +185,12 @@ impl<'f, 'v> Strokes<'f, 'v> {
 
     fn with(ground: &'f dyn Ground, directions: Directions<'f, 'v>, iso: Option<f64>, how: Hatching) -> Self {
         let stored = how.stored.map(|storing| Stored::new(ground, storing.between));
-        Self { ground, directions, stored, iso, how }
+        let grid = ground.grid();
+        let farthest = grid.world_corners().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max);
+        let rows = grid.inverse_axes().transpose();
+        let voxels = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| row.length()).into_iter().fold(0.0, f64::max);
+        let rounding = 4.0 * f64::EPSILON * farthest * voxels;
+        Self { ground, directions, stored, iso, how, rounding }
     }
 
     /// Makes the directions of all voxels, in parallel, where that was asked for.
@@ -194,6 +203,11 @@ impl<'f, 'v> Strokes<'f, 'v> {
     /// Whether directions of all voxels are made before.
     pub(super) fn is_prepared(&self) -> bool {
         self.how.stored.is_some_and(|storing| storing.all)
+    }
+
+    /// How far values may change by over the rounding of a place in the world, over their range: some units of it in voxels.
+    pub(super) fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     fn source(&self) -> Source<'_, 'f, 'v> {
@@ -329,15 +343,16 @@ impl<'f, 'v> Strokes<'f, 'v> {
         };
         // As near as its own error and a chord's: what is joined there shows no kink.
         let within = self.how.chord + 5.0 * self.how.tolerance;
-        let goal = |at: DVec3, along: DVec3| Some(Goal { at, along, within });
-        let forward = trace(&mut lines, seed.world, along, &Control { goal: goal(seed.world, along), ..control });
+        let goal = |at: DVec3, along: DVec3, after: f64| Some(Goal { at, along, within, after });
+        let back_again = goal(seed.world, along, OUT * within);
+        let forward = trace(&mut lines, seed.world, along, &Control { goal: back_again, ..control });
         let stop = stop(&forward.end);
         let (pieces, at_seed, stops) = if stop == Stop::Closed {
             (forward.pieces, 0, [Some(stop), None])
         } else {
-            // The other half may come round to where this one ended.
+            // The other half may come round to where this one ended, at once where that is just before the seed.
             let far = forward.pieces.last().filter(|_| stop == Stop::Length);
-            let far = far.and_then(|piece| goal(piece.ends[1], -piece.tangents[1].normalize_or_zero()));
+            let far = far.and_then(|piece| goal(piece.ends[1], -piece.tangents[1].normalize_or_zero(), 0.0));
             lines.scale = scale;
             let back = trace(&mut lines, seed.world, -along, &Control { goal: far, ..control });
             joined(&back, forward, stop)

@@ -241,7 +241,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
             idle.key("sampling.step_along", "planes and shells are the same in an orthographic picture");
         }
         let lines = hides || hatches || (draws && plan.has_pass(Pass::Outlines));
-        if !lines && !(draws && plan.reads_gradients()) {
+        if !(lines || draws && plan.reads_gradients()) {
             idle.key("sampling.gradient", if draws { "nothing needs a gradient" } else { NOT_DRAWN });
         }
         if draws && !plan.reads_gradients() {

@@ -17,9 +17,6 @@ const TRIES_AT_KINK: u32 = 3;
 /// Pieces that there is room for from the start.
 const PIECES: usize = 16;
 
-/// How many times the distance that closes a curve it must have gone before it can come back.
-const OUT: f64 = 4.0;
-
 /// A field of lines.
 pub trait Lines {
     /// Why there may be none.
@@ -64,6 +61,8 @@ pub struct Goal {
     pub along: DVec3,
     /// How near a curve must pass.
     pub within: f64,
+    /// How far a curve must have gone before: one that begins at its goal comes back, and is not there at once.
+    pub after: f64,
 }
 
 /// How far and how exactly a curve is followed; all lengths in the unit of the places.
@@ -258,7 +257,7 @@ fn ends<C>(done: &Step, along: DVec3, before: f64, step: f64, control: &Control)
     let any = control.cos_max_angle <= -1.0;
     let turned = if any { None } else { piece.turned(along, control.cos_max_angle) };
     if let Some(goal) = control.goal
-        && before > OUT * goal.within
+        && before >= goal.after
         && goal.at.distance(piece.ends[1]) <= step + goal.within
     {
         let (s, distance) = piece.nearest(goal.at);
@@ -276,6 +275,7 @@ fn ends<C>(done: &Step, along: DVec3, before: f64, step: f64, control: &Control)
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drypoint_scene::glam::DQuat;
     use std::f64::consts::{PI, TAU};
 
     /// A field by a formula, whose sign jumps from place to place as no tracer must notice.
@@ -414,7 +414,7 @@ mod tests {
     /// A circle is joined where it began, and a spiral that misses its beginning by more than is allowed is not.
     #[test]
     fn a_ring_closes_and_a_spiral_does_not() {
-        let goal = |along| Some(Goal { at: DVec3::X * 20.0, along, within: 0.25 });
+        let goal = |along| Some(Goal { at: DVec3::X * 20.0, along, within: 0.25, after: 1.0 });
         let closing = Control { goal: goal(DVec3::Y), ..control(1e-4, 400.0) };
         let ring = trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &closing);
         assert_eq!((ring.end, end(&ring)), (End::Closed, DVec3::X * 20.0));
@@ -424,6 +424,23 @@ mod tests {
         let along = spiral(DVec3::X * 20.0).normalize();
         let closing = Control { goal: goal(along), ..closing };
         assert_eq!(trace(&mut Formula(spiral), DVec3::X * 20.0, along, &closing).end, End::Length);
+    }
+
+    /// A goal just ahead is there at once, where the curve need not come back, and one just behind is not.
+    #[test]
+    fn a_goal_can_be_near() {
+        for ahead in [0.3, 0.6, 1.4, 3.0] {
+            for sign in [1.0, -1.0] {
+                let angle = sign * ahead / 20.0;
+                let [at, along] = [DVec3::X * 20.0, DVec3::Y].map(|v| DQuat::from_rotation_z(angle) * v);
+                let goal = Some(Goal { at, along, within: 0.15, after: 0.0 });
+                let half =
+                    trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &Control { goal, ..control(1e-4, 400.0) });
+                let length = if sign > 0.0 { ahead } else { 40.0 * PI - ahead };
+                assert_eq!((half.end, end(&half)), (End::Closed, at));
+                assert!((half.length - length).abs() < 2e-3, "{ahead} {sign}: {}", half.length);
+            }
+        }
     }
 
     #[test]
@@ -441,7 +458,7 @@ mod tests {
         for degrees in [150.0f64, 170.0, 179.0, 179.9] {
             for radius in [2.0, 3.7, 20.0] {
                 let angle = degrees.to_radians();
-                let goal = Some(Goal { at: DVec3::X * radius, along: DVec3::Y, within: 0.15 });
+                let goal = Some(Goal { at: DVec3::X * radius, along: DVec3::Y, within: 0.15, after: 0.6 });
                 let control = Control { cos_max_angle: angle.cos(), max_step: 2.0, goal, ..control(1e-2, 400.0) };
                 let half = trace(&mut Formula(circle), DVec3::X * radius, DVec3::Y, &control);
                 assert_eq!(half.end, End::Angle, "{degrees} {radius}");

@@ -77,6 +77,59 @@ fn spheres_have_none() {
     }
 }
 
+/// The same volume without the values beyond a plane.
+fn cut(volume: &Volume, normal: DVec3) -> Volume {
+    let grid = volume.grid();
+    let [nx, ny, nz] = volume.dims();
+    let values = (0..nx * ny * nz).map(|i| {
+        let voxel = [i % nx, i / nx % ny, i / (nx * ny)];
+        let from = grid.to_world(DVec3::from_array(voxel.map(|i| i as f64))) - grid.centre();
+        if from.dot(normal) > 1.0 { f64::NAN } else { volume.value(voxel) }
+    });
+    Volume::new(grid.clone(), Voxels::F64(values.collect()), 1.0, 0.0).unwrap()
+}
+
+/// Nor where voxels without a value cut a sphere, which are filled with their neighbours' values.
+#[test]
+fn spheres_that_a_mask_cuts_have_none() {
+    for (radius, edge) in [10.3f64, 14.3].into_iter().flat_map(|r| EDGES.map(|e| (r, e))) {
+        let n = (2.0 * (radius + 8.2) + 1.0).round() as usize;
+        let whole = sampled("sphere", cube(n), VoxelType::F64, &[("R", radius), ("w", edge), ("high", 255.0)]);
+        for normal in [DVec3::Z, DVec3::new(0.36, -0.48, 0.8)] {
+            let share = share(&cut(&whole, normal), 0, |_| true);
+            assert!(share <= 0.01, "{radius} {edge} {normal}: {share}");
+        }
+    }
+}
+
+/// A cylinder loses three voxels along the mask, where σ = 1 decides, and where it has rulings they are right.
+#[test]
+fn cylinders_that_a_mask_cuts_have_their_rulings() {
+    let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
+    let params = [("R", 10.0), ("ax", axis.x), ("ay", axis.y), ("az", axis.z), ("w", 2.0), ("high", 255.0)];
+    let volume = cut(&sampled("cylinder", cube(40), VoxelType::F64, &params), DVec3::X);
+    let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+    let directions = Directions::new(&field, Rule::Scaled(measured(&volume)));
+    let (mut all, mut right, mut decided) = (0, 0, [0; 2]);
+    for voxel in iso_voxels(&volume, 127.5) {
+        let at = Vec3::new(voxel[0] as f64, voxel[1] as f64, voxel[2] as f64);
+        let found = directions.at(&field, at, &mut Scales::default()).ok();
+        let off = |e: DVec3| e.cross(axis).length().asin().to_degrees();
+        if let Some(off) = found.map(|c| off(c.e2.to_glam())) {
+            assert!(off < 2.0, "{voxel:?}: {off}");
+            all += 1;
+            right += usize::from(off <= 1.0);
+        }
+        // The mask begins at x = 21.
+        if voxel.iter().enumerate().all(|(a, &i)| i >= 2 && i <= if a == 0 { 17 } else { 37 }) {
+            decided[usize::from(found.is_some())] += 1;
+        }
+    }
+    let [missing, there] = decided;
+    assert!(there > 500 && missing * 100 <= there, "{decided:?}");
+    assert!(right * 100 >= all * 99, "{right} of {all}");
+}
+
 #[test]
 fn oblique_planes_of_eight_bits_have_none() {
     for ([nx, ny, nz], edge) in [[0.36, 0.48, 0.8], [1.0, 2.0, 3.0]].into_iter().flat_map(|n| EDGES.map(|e| (n, e))) {
