@@ -11,6 +11,7 @@ use crate::file::Place;
 use crate::file::describe::Section;
 use crate::tables::Scene;
 use crate::tables::scene::sections;
+use crate::tables::{GradientEstimator, Kernel};
 use std::fmt;
 
 /// What may have to be known at a sample.
@@ -225,6 +226,7 @@ impl Plan {
         let mut idle = Idle { scene, keys: Vec::new() };
         sections.iter().for_each(|section| (section.idle)(scene, &plan, &mut idle));
         plan.idle_keys = idle.sorted();
+        plan.warn_outlines(scene);
         plan
     }
 
@@ -272,6 +274,19 @@ impl Plan {
         let passes = self.passes.iter().map(|p| (&p.effect, p.pass.name(), &p.key));
         let lines = needs.chain(passes).map(|(effect, needs, key)| format!("{effect}: {needs}, because of {key}\n"));
         lines.collect()
+    }
+
+    /// Warns where outlines follow a gradient that jumps at the faces of cells, the derivative of the trilinear kernel:
+    /// N·v changes its sign without being 0 ([HATCH-18], [REC-2]).
+    fn warn_outlines(&mut self, scene: &Scene) {
+        let sampling = &scene.sampling;
+        if self.has_pass(Pass::Outlines)
+            && (sampling.kernel, sampling.gradient) == (Kernel::Trilinear, GradientEstimator::Analytic)
+        {
+            let why = "sampling.gradient = \"analytic\" jumps at the faces of cells with sampling.kernel = \"trilinear\": \
+                       outlines are broken there; another gradient or kernel closes them";
+            self.warnings.push(why.into());
+        }
     }
 
     /// Warns where the longest distance between samples along a ray exceeds a voxel ([RAY-1]), both in world units.

@@ -265,6 +265,22 @@ fn steps_longer_than_a_voxel_are_warned_of() {
 }
 
 #[test]
+fn outlines_along_a_gradient_that_jumps_are_warned_of() {
+    let warnings = |sampling: &str| plan(&format!("[outlines]\niso = 1\n[sampling]\n{sampling}\n")).warnings;
+    assert_eq!(
+        warnings("gradient = \"analytic\""),
+        [
+            "sampling.gradient = \"analytic\" jumps at the faces of cells with sampling.kernel = \"trilinear\": outlines \
+          are broken there; another gradient or kernel closes them"
+        ]
+    );
+    for closed in ["", "gradient = \"sobel\"", "gradient = \"analytic\"\nkernel = \"catmull-rom\""] {
+        assert!(warnings(closed).is_empty(), "{closed}");
+    }
+    assert!(plan("[surface]\niso = 1\n[sampling]\ngradient = \"analytic\"\n").warnings.is_empty());
+}
+
+#[test]
 fn a_person_reads_effect_need_price_and_reason() {
     let text = "drypoint = 1\n[volume]\nfile = \"a\"\nrange = [0, 1]\n[transfer]\nkind = \"regular\"\nnodes = [{ at = \
                 1, color = \"red\" }]\n";
