@@ -259,9 +259,15 @@ impl Sums<'_> {
 /// Weighted sums of lines that lie `stride` apart, place by place.
 #[inline(always)]
 fn weighted(sums: &mut [f64], lines: &[f64], stride: usize, weights: &[f64]) {
-    let mut chunks = sums.chunks_exact_mut(SUMS);
-    let mut from = 0;
-    for sums in &mut chunks {
+    let n = sums.len();
+    if n < SUMS {
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum = weights.iter().enumerate().map(|(k, &w)| lines[k * stride + i] * w).fold(0.0, |a, b| a + b);
+        }
+        return;
+    }
+    // The last ones are had together too, some of them a second time.
+    for from in (0..n - SUMS).step_by(SUMS).chain([n - SUMS]) {
         let mut sum = [0.0; SUMS];
         for (k, &w) in weights.iter().enumerate() {
             let line = &lines[k * stride + from..][..SUMS];
@@ -269,11 +275,7 @@ fn weighted(sums: &mut [f64], lines: &[f64], stride: usize, weights: &[f64]) {
                 sum[i] += line[i] * w;
             }
         }
-        sums.copy_from_slice(&sum);
-        from += SUMS;
-    }
-    for (i, sum) in chunks.into_remainder().iter_mut().enumerate() {
-        *sum = weights.iter().enumerate().map(|(k, &w)| lines[k * stride + from + i] * w).fold(0.0, |a, b| a + b);
+        sums[from..][..SUMS].copy_from_slice(&sum);
     }
 }
 

@@ -157,11 +157,15 @@ impl<'f, 'v> Directions<'f, 'v> {
         self.with_regions(ground, voxel, &Regions::default(), counts)
     }
 
-    /// Those of all voxels of a box in their order. What is smoothed for them is not kept.
-    pub(super) fn of_voxels(&self, ground: &dyn Ground, voxels: Voxels) -> Vec<Option<Curvature<f64>>> {
+    /// What has those of the voxels of a box. What is smoothed for them is kept as long as it.
+    pub(super) fn of_voxels(
+        &self,
+        ground: &dyn Ground,
+        voxels: Voxels,
+    ) -> impl FnMut([usize; 3]) -> Option<Curvature<f64>> {
         let regions = Regions { voxels: Some(voxels), ..Regions::default() };
         let mut counts = Scales::default();
-        voxels.each().map(|voxel| self.with_regions(ground, voxel, &regions, &mut counts).ok()).collect()
+        move |voxel| self.with_regions(ground, voxel, &regions, &mut counts).ok()
     }
 
     fn with_regions(
@@ -272,22 +276,27 @@ impl Scaled<'_, '_> {
             return Err(Unsure::Border);
         }
         let (gradient, hessian) = self.derivatives([i, 0], place, regions)?;
-        let (c, norm) = (directions::principal(gradient, hessian, self.outside), gradient.length());
-        let difference = c.k1 - c.k2;
-        if difference <= self.thresholds.gap * (c.k1.abs() + c.k2.abs()) {
+        let Thresholds { gap, noise, .. } = self.thresholds;
+        let shape = Shape::new(gradient, hessian);
+        let difference = shape.difference_squared();
+        if difference <= gap * gap * shape.sum_squared() {
             return Err(Unsure::Umbilic);
         }
         let one = &self.pairs[i][0];
-        let noise = match place {
+        let deviation = match place {
             Place::Voxel(voxel) => one.noise_in(one.cell_of(voxel), self.deviation),
             Place::Between(index) => one.noise(index, self.deviation),
         };
-        if difference * norm <= self.thresholds.noise * noise {
+        if difference <= (noise * deviation).powi(2) {
             return Err(Unsure::Noise);
         }
-        let (gradient, hessian) = self.derivatives([i, 1], place, regions)?;
+        let (larger_gradient, larger_hessian) = self.derivatives([i, 1], place, regions)?;
         // Of an umbilic it is no number.
-        if cos_double(&c, gradient, hessian, self.outside) > self.cos_double { Ok(c) } else { Err(Unsure::Disagree) }
+        if shape.cos_double(&Shape::new(larger_gradient, larger_hessian)) > self.cos_double {
+            Ok(directions::principal(gradient, hessian, self.outside))
+        } else {
+            Err(Unsure::Disagree)
+        }
     }
 
     /// Whether no masked voxel is near.
@@ -323,30 +332,57 @@ impl Scaled<'_, '_> {
     }
 }
 
-/// D:D'/(‖D‖‖D'‖) of the traceless shape operators: the cosine of twice the angle between the lines, where the tangent planes
-/// are the same. D = (κ₁ − κ₂)/2·(e₁e₁ᵀ − e₂e₂ᵀ) by its curvatures; D' by gradient and Hessian, as the part of PHP, P = I − nnᵀ,
-/// without trace: neither its lines nor the length of the gradient are needed. No number where D' is 0.
-fn cos_double(c: &Curvature<f64>, gradient: Vec3<f64>, hessian: Sym3<f64>, outside: Outside) -> f64 {
-    let (g, h) = (gradient, hessian);
-    let u = g * (1.0 / g.dot(g));
-    let along = h.apply(g);
-    let across = u.dot(along);
-    let mean = 0.5 * (h.xx + h.yy + h.zz - across);
-    // PHP = H − uwᵀ − wuᵀ.
-    let w = along - g * (0.5 * across);
-    let d = Sym3 {
-        xx: h.xx - 2.0 * u.x * w.x - mean * (1.0 - g.x * u.x),
-        xy: h.xy - (u.x * w.y + w.x * u.y) + mean * (g.x * u.y),
-        xz: h.xz - (u.x * w.z + w.x * u.z) + mean * (g.x * u.z),
-        yy: h.yy - 2.0 * u.y * w.y - mean * (1.0 - g.y * u.y),
-        yz: h.yz - (u.y * w.z + w.y * u.z) + mean * (g.y * u.z),
-        zz: h.zz - 2.0 * u.z * w.z - mean * (1.0 - g.z * u.z),
-    };
-    let square = d.xx * d.xx + d.yy * d.yy + d.zz * d.zz + 2.0 * (d.xy * d.xy + d.xz * d.xz + d.yz * d.yz);
-    let cos = (d.form(c.e1, c.e1) - d.form(c.e2, c.e2)) / (2.0 * square).sqrt();
-    match outside {
-        Outside::Low => -cos,
-        Outside::High => cos,
+/// PHP, P = I − nnᵀ, as a multiple m of P and a part D without trace: the shape operator times ∓‖g‖. What [HATCH-3] asks
+/// needs neither its lines nor the length of the gradient.
+struct Shape {
+    mean: f64,
+    d: Sym3<f64>,
+}
+
+impl Shape {
+    #[inline(always)]
+    fn new(g: Vec3<f64>, h: Sym3<f64>) -> Self {
+        let u = g * (1.0 / g.dot(g));
+        let along = h.apply(g);
+        let across = u.dot(along);
+        let mean = 0.5 * (h.xx + h.yy + h.zz - across);
+        // PHP = H − uwᵀ − wuᵀ.
+        let w = along - g * (0.5 * across);
+        let d = Sym3 {
+            xx: h.xx - 2.0 * u.x * w.x - mean * (1.0 - g.x * u.x),
+            xy: h.xy - (u.x * w.y + w.x * u.y) + mean * (g.x * u.y),
+            xz: h.xz - (u.x * w.z + w.x * u.z) + mean * (g.x * u.z),
+            yy: h.yy - 2.0 * u.y * w.y - mean * (1.0 - g.y * u.y),
+            yz: h.yz - (u.y * w.z + w.y * u.z) + mean * (g.y * u.z),
+            zz: h.zz - 2.0 * u.z * w.z - mean * (1.0 - g.z * u.z),
+        };
+        Self { mean, d }
+    }
+
+    /// D:E.
+    #[inline(always)]
+    fn product(&self, other: &Self) -> f64 {
+        let (d, e) = (&self.d, &other.d);
+        d.xx * e.xx + d.yy * e.yy + d.zz * e.zz + 2.0 * (d.xy * e.xy + d.xz * e.xz + d.yz * e.yz)
+    }
+
+    /// ((κ₁ − κ₂)‖g‖)² = 2 D:D.
+    #[inline(always)]
+    fn difference_squared(&self) -> f64 {
+        2.0 * self.product(self)
+    }
+
+    /// ((|κ₁| + |κ₂|)‖g‖)²: of curvatures of one sign |κ₁ + κ₂|, else |κ₁ − κ₂|.
+    #[inline(always)]
+    fn sum_squared(&self) -> f64 {
+        self.difference_squared().max(4.0 * self.mean * self.mean)
+    }
+
+    /// D:E/(‖D‖‖E‖), the cosine of twice the angle between the lines, where the tangent planes are the same. No number where
+    /// one of them is 0.
+    #[inline(always)]
+    fn cos_double(&self, other: &Self) -> f64 {
+        self.product(other) / (self.product(self).sqrt() * other.product(other).sqrt())
     }
 }
 
@@ -355,29 +391,40 @@ mod tests {
     use super::*;
     use drypoint_scene::philox::uniform;
 
-    /// By the lines of both, of which the tangent planes are up to 60° apart: their eight angles.
+    /// By the curvatures and lines of both, of which the tangent planes are up to 60° apart: their eight angles.
     #[test]
-    fn the_cosine_of_twice_the_angle_is_that_of_the_lines() {
+    fn shapes_know_differences_sums_and_angles_without_lines() {
         for i in 0..20_000 {
             let r = |k: u32| 2.0 * uniform(13, [i, k, 0], 0) - 1.0;
             let vector = |k: u32| Vec3::new(r(k), r(k + 1), r(k + 2));
             let hessian =
                 |k: u32| Sym3 { xx: r(k), xy: r(k + 1), xz: r(k + 2), yy: r(k + 3), yz: r(k + 4), zz: r(k + 5) };
             let size = 10f64.powi(i as i32 % 41 - 20);
-            let (g, h, other) = (vector(0), hessian(10), hessian(20));
+            let (g, h, other) = (vector(0), hessian(10), hessian(20).scaled(size));
             let turned = (g + vector(30) * 0.5) * size;
+            let shapes = [Shape::new(g, h), Shape::new(turned, other)];
             for outside in [Outside::Low, Outside::High] {
-                let c = directions::principal(g, h, outside);
-                let d = directions::principal(turned, other.scaled(size), outside);
+                let [c, d] = [directions::principal(g, h, outside), directions::principal(turned, other, outside)];
+                for (shape, c, g, h) in [(&shapes[0], &c, g, 1.0), (&shapes[1], &d, turned, size)] {
+                    let bound = 32.0 * f64::EPSILON * 3.0 * h;
+                    let near = |square: f64, want: f64| (square.sqrt() - want * g.length()).abs() <= bound;
+                    assert!(near(shape.difference_squared(), c.k1 - c.k2), "{i}");
+                    assert!(near(shape.sum_squared(), c.k1.abs() + c.k2.abs()), "{i}");
+                }
                 let square = |a: Vec3<f64>, b: Vec3<f64>| a.dot(b) * a.dot(b);
                 let want = 0.5 * (square(c.e1, d.e1) - square(c.e1, d.e2) - square(c.e2, d.e1) + square(c.e2, d.e2));
-                let found = cos_double(&c, turned, other.scaled(size), outside);
-                let bound = 64.0 * f64::EPSILON * 3.0 / (turned.length() / size * (d.k1 - d.k2));
+                let found = shapes[0].cos_double(&shapes[1]);
+                let gaps = [g.length() * (c.k1 - c.k2), turned.length() / size * (d.k1 - d.k2)];
+                let bound = 64.0 * f64::EPSILON * 3.0 / gaps[0].min(gaps[1]);
                 assert!((found - want).abs() <= bound, "{i}: {found} {want} {bound:e}");
             }
         }
         let round = Sym3 { xx: -1.0, yy: -1.0, zz: -1.0, ..Sym3::default() };
-        let c = Curvature { k1: 1.0, k2: 0.0, e1: Vec3::new(1.0, 0.0, 0.0), e2: Vec3::new(0.0, 1.0, 0.0) };
-        assert!(cos_double(&c, Vec3::new(0.0, 0.0, 2.0), round, Outside::Low).is_nan());
+        let around = Sym3 { zz: 0.0, ..round };
+        let [umbilic, cylinder] =
+            [Shape::new(Vec3::new(0.0, 0.0, 2.0), round), Shape::new(Vec3::new(-2.0, 0.0, 0.0), around)];
+        assert_eq!([umbilic.difference_squared(), umbilic.sum_squared()], [0.0, 4.0]);
+        assert_eq!([cylinder.difference_squared(), cylinder.sum_squared()], [1.0, 1.0]);
+        assert!(cylinder.cos_double(&umbilic).is_nan());
     }
 }

@@ -12,7 +12,7 @@ const SIDE: usize = 8;
 const VOXELS: usize = SIDE * SIDE * SIDE;
 
 /// Blocks along the side of what is made at once for the whole grid: large enough that what neighbours share is little.
-const AT_ONCE: usize = 4;
+const AT_ONCE: usize = 6;
 
 /// Numbers of a line: its direction, and its curvature.
 const NUMBERS: usize = 4;
@@ -116,13 +116,6 @@ impl Voxels {
         let row = move |z, y| (first[0]..end[0]).map(move |x| [x, y, z]);
         (first[2]..end[2]).flat_map(move |z| (first[1]..end[1]).flat_map(move |y| row(z, y)))
     }
-
-    /// Where one of them is in the list.
-    fn place(&self, voxel: [usize; 3]) -> usize {
-        let ([x, y, z], [x0, y0, z0]) = (voxel, self.first);
-        let (nx, ny) = (self.end[0] - x0, self.end[1] - y0);
-        ((z - z0) * ny + (y - y0)) * nx + (x - x0)
-    }
 }
 
 /// Of a block: all first lines, then all second ones.
@@ -183,33 +176,35 @@ impl Blocks {
         has
     }
 
-    /// Makes every voxel, some blocks at once: `make` is given a box, and has its voxels' directions in their order.
-    pub(super) fn fill(&self, make: impl Fn(Voxels) -> Vec<Option<Curvature<f64>>> + Sync) {
+    /// Makes every voxel, some blocks at once: `start` is given a box, and has what makes each of its voxels.
+    pub(super) fn fill<M: FnMut([usize; 3]) -> Option<Curvature<f64>>>(&self, start: impl Fn(Voxels) -> M + Sync) {
         let groups = self.dims.map(|n| n.div_ceil(AT_ONCE));
         (0..groups.iter().product::<usize>()).into_par_iter().for_each(|i| {
             let group = [i % groups[0], i / groups[0] % groups[1], i / (groups[0] * groups[1])];
             let first = group.map(|g| g * AT_ONCE * SIDE);
             let end = [0, 1, 2].map(|a| (first[a] + AT_ONCE * SIDE).min(self.voxels[a]));
-            let group = Voxels { first, end };
-            let made = make(group);
+            let mut make = start(Voxels { first, end });
+            let mut made = Vec::with_capacity(VOXELS);
             let blocks = Voxels { first: first.map(|i| i / SIDE), end: end.map(|i| i.div_ceil(SIDE)) };
             for block in blocks.each() {
-                self.keep(block, &group, &made);
+                let first = block.map(|i| i * SIDE);
+                let voxels = Voxels { first, end: [0, 1, 2].map(|a| (first[a] + SIDE).min(self.voxels[a])) };
+                made.clear();
+                made.extend(voxels.each().map(&mut make));
+                self.keep(block, voxels, &made);
             }
         });
     }
 
-    /// Keeps a block's part of what was made of a box.
-    fn keep(&self, block: [usize; 3], group: &Voxels, made: &[Option<Curvature<f64>>]) {
-        let first = block.map(|i| i * SIDE);
-        let voxels = Voxels { first, end: [0, 1, 2].map(|a| (first[a] + SIDE).min(self.voxels[a])) };
+    /// Keeps the voxels of a block, in their order.
+    fn keep(&self, block: [usize; 3], voxels: Voxels, made: &[Option<Curvature<f64>>]) {
         let [nx, ny, _] = self.dims;
         let place = &self.blocks[(block[2] * ny + block[1]) * nx + block[0]];
-        let is_empty = voxels.each().all(|voxel| made[group.place(voxel)].is_none());
+        let is_empty = made.iter().all(Option::is_none);
         let slots = place.get_or_init(|| if is_empty { Box::default() } else { slots() });
-        for voxel in voxels.each().filter(|_| !slots.is_empty()) {
+        for (voxel, made) in voxels.each().zip(made).filter(|_| !slots.is_empty()) {
             if let Some(pair) = self.pair(voxel) {
-                pair.set(made[group.place(voxel)]);
+                pair.set(*made);
             }
         }
     }
@@ -266,7 +261,7 @@ mod tests {
         assert_eq!(asked.get(), all.each().step_by(5).count());
         assert_eq!(lazy.made(), all.each().step_by(5).filter_map(of).count() as u64);
         let whole = Blocks::new(dims);
-        whole.fill(|voxels| voxels.each().map(of).collect());
+        whole.fill(|_| of);
         assert_eq!(whole.made(), all.each().filter_map(of).count() as u64);
         // 3 × 2 × 4 blocks, of which those at x = 16 and from z = 16 on are empty.
         assert_eq!(whole.bytes(), 2 * 2 * 2 * 512 * 64);

@@ -99,14 +99,8 @@ impl Stored {
             let up = drypoint_scene::philox::uniform(1, voxel.map(|i| i as u32), draw) < 0.5;
             if up { e } else { -e }
         };
-        self.blocks.fill(|voxels| {
-            let of = |voxel| source.at(voxel).map(|c| (voxel, c));
-            let each = voxels
-                .each()
-                .map(of)
-                .map(|made| made.map(|(v, c)| Curvature { e1: turned(v, 0, c.e1), e2: turned(v, 1, c.e2), ..c }));
-            each.collect()
-        });
+        let make = |v| source.at(v).map(|c| Curvature { e1: turned(v, 0, c.e1), e2: turned(v, 1, c.e2), ..c });
+        self.blocks.fill(|_| make);
     }
 
     /// Voxels with a stored direction.
