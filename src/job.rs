@@ -29,7 +29,7 @@ mod iso;
 mod load;
 
 use crate::labels::Named;
-use crate::{Failure, Failures, Format, memory};
+use crate::{Failure, Failures, Format};
 use drypoint_output::{exr, png};
 use drypoint_reference::field::FieldError;
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
@@ -37,6 +37,7 @@ use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::file::identity;
+use drypoint_scene::memory;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::plan::{Pass, Plan};

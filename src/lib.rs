@@ -23,7 +23,6 @@ pub mod format;
 pub mod job;
 pub mod labels;
 pub mod marking;
-mod memory;
 pub mod stippling;
 pub mod stroking;
 pub mod tone_plot;

@@ -2,8 +2,8 @@
 
 mod pens;
 
+use crate::Failure;
 use crate::job::Job;
-use crate::{Failure, memory};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::suggest;
 use drypoint_reference::surface::IsoSurface;
@@ -12,6 +12,7 @@ use drypoint_reference::volume_stippling::{
 };
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen};
+use drypoint_scene::memory;
 use drypoint_scene::plan::PointsPlan;
 use drypoint_scene::points::Points;
 use drypoint_scene::space::Grid;

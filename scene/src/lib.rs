@@ -13,6 +13,7 @@ pub mod fragments;
 pub mod knobs;
 pub mod marks;
 pub mod math;
+pub mod memory;
 mod nearest;
 pub mod phantom;
 pub mod philox;

@@ -12,14 +12,20 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Numbers side by side.
 pub(crate) const LANES: usize = 8;
 
-/// The registers that lanes are for; none on processors without them.
+/// Registers of the processor that hold lanes: AVX2 where an x86 has it, NEON on ARM, none elsewhere.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 pub(crate) fn wide() -> Option<impl Simd> {
     fearless_simd::Level::new().as_avx2()
 }
 
-/// The same where there is no such processor.
-#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+/// Registers of the processor that hold lanes: NEON, which every such processor has.
+#[cfg(target_arch = "aarch64")]
+pub(crate) fn wide() -> Option<impl Simd> {
+    fearless_simd::Level::new().as_neon()
+}
+
+/// Registers of the processor that hold lanes: none here.
+#[cfg(not(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) fn wide() -> Option<impl Simd> {
     None::<fearless_simd::Fallback>
 }
