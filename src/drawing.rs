@@ -3,7 +3,7 @@
 mod paper;
 
 use crate::Failure;
-use crate::job::{Job, Wanted, provenance, render_failure, room};
+use crate::job::{Job, Wanted, provenance, render_failure};
 use crate::marking::{MarkFrames, Marking};
 use drypoint_output::paint::fragments;
 use drypoint_reference::ray::Renderer;
@@ -66,6 +66,11 @@ impl<'a> Drawing<'a> {
         self.orbit.map_or(1, |orbit| orbit.frames)
     }
 
+    /// About how many samples the rays of all frames have, if none is skipped; none where the volume is not drawn.
+    pub fn samples(&self) -> Option<f64> {
+        self.renderer.as_ref().map(|renderer| renderer.samples() * self.frames() as f64)
+    }
+
     /// Draws a frame; what that took alone goes to its counts. `progress` hears the share of the rays that is done, from
     /// any thread.
     ///
@@ -81,7 +86,7 @@ impl<'a> Drawing<'a> {
         let (mut marks, mut inside) = (None, 0);
         match (&mut self.marks, &mut self.renderer) {
             (Some(frames), Some(renderer)) => {
-                let [over, merged] = frames.draw_apart(&view, &mut counts);
+                let [over, merged] = frames.draw_apart(&view, &mut counts)?;
                 inside = paper::sums(&merged)[1];
                 if inside > 0 {
                     let lines = fragments(&merged, &view, scene.picture.samples);
@@ -93,7 +98,7 @@ impl<'a> Drawing<'a> {
                 }
                 marks = Some(over);
             }
-            (Some(frames), None) => marks = Some(frames.draw(&view, &mut counts)),
+            (Some(frames), None) => marks = Some(frames.draw(&view, &mut counts)?),
             (None, _) => {}
         }
         let picture = match &mut self.renderer {
@@ -146,20 +151,26 @@ pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> R
     Paper { scene, wanted, provenance }.write(frame, path)
 }
 
-/// Writes frames as one SVG that shows them in turn, over and over.
+/// Checks that the memory budget allows the pixels of a file, before anything is drawn for it. A vector file has none.
 ///
 /// # Errors
-/// What the operating system refuses.
-pub fn write_animation(job: &Job, frames: &[Frame], path: &Path) -> Result<(), Failure> {
-    Paper::of(job, 0).write_animation(frames, path)
+/// A page of no or too many pixels.
+pub fn room_for_page(job: &Job, path: &Path) -> Result<(), Failure> {
+    Paper::of(job, 0).room(path)
 }
 
-/// Whether there is memory for the pictures of so many frames at once, which an animation has.
+/// Writes frames as one SVG that shows them in turn, over and over. Each frame is drawn by `draw` when its turn to be
+/// written comes, so that one at a time is in memory.
 ///
 /// # Errors
-/// There is not.
-pub fn room_for_animation(job: &Job, frames: usize) -> Result<(), Failure> {
-    room(&job.scene, if job.draws_volume() { 4 * 8 * frames } else { 0 })
+/// Errors of `draw`, and of the operating system.
+pub fn write_animation(
+    job: &Job,
+    frames: usize,
+    path: &Path,
+    draw: impl FnMut(usize) -> Result<Frame, Failure>,
+) -> Result<(), Failure> {
+    Paper::of(job, 0).write_animation(frames, path, draw)
 }
 
 /// Premultiplied pixels as a picture.

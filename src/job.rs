@@ -389,6 +389,7 @@ pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
             ("camera", "move camera.eye away from camera.target, or give camera.direction")
         }
         RenderError::TooManyPlanes { .. } => ("sampling.step", "make it longer, or move the camera nearer"),
+        RenderError::Endless { .. } => ("sampling.step", "make it longer, or the picture or picture.samples smaller"),
         RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
         RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
         RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
@@ -474,8 +475,8 @@ pub(crate) fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
     })
 }
 
-/// Whether there is memory for what is made of every voxel before the rays.
-fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
+/// Whether there is memory for what is made of every voxel before the rays, points and lines.
+pub(crate) fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
     let voxels = job.volume.dims().into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
     let each = plan.passes.iter().map(|need| (need, voxels.saturating_mul(need.pass.bytes_a_voxel())));
     // One after another they are kept, so together they have to fit.

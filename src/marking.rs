@@ -2,8 +2,8 @@
 //! ([HATCH-18]). What no camera changes is made once.
 
 use crate::Failure;
-use crate::job::{Job, Wanted};
-use crate::stippling::{DotFrames, Stippling};
+use crate::job::{Job, Wanted, room_for_passes};
+use crate::stippling::{DotFrames, PointsMade, Stippling};
 use crate::stroking::{StrokeFrames, Stroking};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page};
@@ -26,11 +26,11 @@ pub struct MarkFrames<'a> {
 
 impl<'a> Marking<'a> {
     /// Makes what no camera changes; nothing of a scene without points and lines, or where nothing shows them: they are drawn
-    /// over the layer `beauty`. `progress` hears the share that is made, from any thread.
+    /// over the layer `beauty`. `progress` hears how far the points are, from any thread.
     ///
     /// # Errors
     /// As [`Stippling::new`] and [`Stroking::new`].
-    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(f64) + Sync)) -> Result<Self, Failure> {
+    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsMade) + Sync)) -> Result<Self, Failure> {
         let wanted = job.wanted();
         let shown = wanted != Wanted::Picture || job.shows_beauty();
         let wanted = shown.then_some(wanted);
@@ -45,8 +45,9 @@ impl<'a> Marking<'a> {
         job: &'a Job,
         scene: &'a Scene,
         wanted: Option<Wanted>,
-        (counts, progress): (&mut Counts, &(dyn Fn(f64) + Sync)),
+        (counts, progress): (&mut Counts, &(dyn Fn(PointsMade) + Sync)),
     ) -> Result<Self, Failure> {
+        room_for_passes(job, &job.plan)?;
         let stippled = wanted.is_some_and(Wanted::has_points) && scene.stipples.is_some();
         let stroked = wanted.is_some_and(Wanted::has_strokes) && scene.has_strokes();
         Ok(Self {
@@ -71,20 +72,27 @@ impl<'a> Marking<'a> {
 
 impl MarkFrames<'_> {
     /// The marks that a camera sees: dots, and over them strokes. A pen has one layer.
-    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Marks {
-        let [mut over, inside] = self.draw_apart(view, counts);
+    ///
+    /// # Errors
+    /// As [`StrokeFrames::draw`].
+    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Result<Marks, Failure> {
+        let [mut over, inside] = self.draw_apart(view, counts)?;
         inside.layers.into_iter().for_each(|layer| add(&mut over.layers, layer));
-        over
+        Ok(over)
     }
 
     /// The same apart: what is drawn over a picture of the volume, and strokes that are inside it ([HATCH-14] d).
-    pub fn draw_apart(&mut self, view: &View, counts: &mut Counts) -> [Marks; 2] {
+    ///
+    /// # Errors
+    /// As [`StrokeFrames::draw`].
+    pub fn draw_apart(&mut self, view: &View, counts: &mut Counts) -> Result<[Marks; 2], Failure> {
         let page = self.page;
         let nothing = || Marks { page, layers: Vec::new() };
         let mut marks = self.dots.as_mut().map_or_else(nothing, |dots| dots.draw(view, counts));
-        let [over, inside] = self.strokes.as_mut().map(|strokes| strokes.draw(view, counts)).unwrap_or_default();
+        let strokes = self.strokes.as_mut().map(|strokes| strokes.draw(view, counts)).transpose()?;
+        let [over, inside] = strokes.unwrap_or_default();
         over.into_iter().for_each(|layer| add(&mut marks.layers, layer));
-        [marks, Marks { page, layers: inside }]
+        Ok([marks, Marks { page, layers: inside }])
     }
 }
 

@@ -39,6 +39,15 @@ pub struct Stippling<'a> {
     hiding: Option<(Field<'a, f64>, f64)>,
 }
 
+/// How far the points of a scene are made.
+#[derive(Clone, Copy, Debug)]
+pub struct PointsMade {
+    /// The share that is made, in [0, 1].
+    pub share: f64,
+    /// Points in all.
+    pub points: u64,
+}
+
 /// The points of one pen.
 struct Dots {
     pen: Pen,
@@ -75,12 +84,12 @@ struct Setting<'a> {
 }
 
 impl<'a> Stippling<'a> {
-    /// Makes the points of a job whose scene has `[stipples]`. `progress` hears the share that is made, from any thread.
+    /// Makes the points of a job whose scene has `[stipples]`. `progress` hears how far they are, from any thread.
     ///
     /// # Errors
     /// No stipples, a pen that there is not, a camera without direction, lengths of the wrong space, more points than there
     /// is memory for.
-    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(f64) + Sync)) -> Result<Self, Failure> {
+    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsMade) + Sync)) -> Result<Self, Failure> {
         Self::of(job, &job.scene, counts, progress)
     }
 
@@ -92,7 +101,7 @@ impl<'a> Stippling<'a> {
         job: &'a Job,
         scene: &'a Scene,
         counts: &mut Counts,
-        progress: &(dyn Fn(f64) + Sync),
+        progress: &(dyn Fn(PointsMade) + Sync),
     ) -> Result<Self, Failure> {
         let start = Instant::now();
         let setting = Setting::new(job, scene)?;
@@ -104,8 +113,9 @@ impl<'a> Stippling<'a> {
             let place = job.scene.given.position("stipples.k_max");
             Failure::new(what, place, "make k_max smaller, or threshold larger")
         })?;
-        let made = preprocess.each.max(1) as f64;
-        let points = preprocess.points(counts, &|ranks| progress(ranks as f64 / made)).map_err(wrong)?;
+        let (ranks, points) = (preprocess.each.max(1) as f64, preprocess.len() as u64);
+        let made = |made: usize| progress(PointsMade { share: made as f64 / ranks, points });
+        let points = preprocess.points(counts, &made).map_err(wrong)?;
         let edges = preprocess.edges(counts).map_err(wrong)?;
         let grid = points.grid.clone();
         let ink = [preprocess.ink, preprocess.layers];

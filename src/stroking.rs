@@ -147,7 +147,10 @@ impl<'a> Stroking<'a> {
 
 impl StrokeFrames<'_> {
     /// The strokes that a camera sees, a layer a pen: those that are drawn over a picture, and those that are inside one.
-    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> [Vec<Layer>; 2] {
+    ///
+    /// # Errors
+    /// Dashes that the memory budget does not allow.
+    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Result<[Vec<Layer>; 2], Failure> {
         let Stroking { field, page, near, hides, hatching, outlining } = self.stroking;
         // Each value has its surface.
         let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
@@ -165,7 +168,7 @@ impl StrokeFrames<'_> {
             layers.push(outlining.draw(&Frame { view, page, near: *near, hides }, own, voxel, counts));
         }
         if let Some(hatching) = hatching {
-            hatching.cut(&mut layers, hatched, view, counts);
+            hatching.cut(&mut layers, hatched, view, counts)?;
         }
         let bytes: usize = self.surfaces.iter().map(IsoSurface::bytes).sum();
         counts.bytes.insert("surface".into(), bytes as u64);
@@ -175,7 +178,7 @@ impl StrokeFrames<'_> {
         // The first layers are those of hatching.
         let merged = if hatching.as_ref().is_some_and(Hatching::is_merged) { hatched } else { 0 };
         let over = marks.layers.split_off(merged);
-        [over, marks.layers]
+        Ok([over, marks.layers])
     }
 }
 

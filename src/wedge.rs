@@ -5,6 +5,7 @@ use drypoint_output::text::{CAP_HEIGHT, WEIGHT, strokes, width};
 use drypoint_reference::volume_stippling::{Candidate, eliminate};
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Layer, Marks, Page, Pen, Polyline, Vertex};
+use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::philox;
 use drypoint_scene::tone::Tone;
 use std::f64::consts::PI;
@@ -18,6 +19,9 @@ const ROW: usize = 5;
 
 /// Candidates for each dot.
 const OVERSAMPLING: f64 = 4.0;
+
+/// Bytes of memory that a candidate takes while dots are chosen among them.
+const CANDIDATE: f64 = 400.0;
 
 /// Height of capitals, in mm.
 const LETTERS: f64 = 3.0;
@@ -57,7 +61,7 @@ pub fn steps() -> impl Iterator<Item = f64> {
 /// and its tone below. `page` gives margin and resolution; its size follows from the nib.
 ///
 /// # Errors
-/// A nib so wide that the page would be larger than a metre.
+/// A nib so wide that the page would be larger than a metre, or so fine that the memory budget does not allow its dots.
 pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Failure> {
     let side = (DOTS * pen.width).max(15.0);
     let cell = DVec2::new(side + GAP, side + 2.0 * GAP + LETTERS);
@@ -68,6 +72,16 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Fa
         let what = format!("a step wedge of a nib of {} mm would be {:.0} mm high", pen.width, picture.y);
         return Err(Failure::new(what, "pen.width", "take a finer pen"));
     }
+    let densest = steps().map(|wanted| density(tone, wanted, pen.width)).fold(0.0, f64::max);
+    let candidates = Candidates::new(side, densest).count();
+    let too_fine = |no_room: NoRoom| {
+        let what = format!("a step wedge of a nib of {} mm needs {no_room}", pen.width);
+        // The number of candidates grows with the inverse square of the nib.
+        let share = no_room.fitting(u64::from(u32::MAX)) as f64 / f64::from(u32::MAX);
+        let remedy = format!("take a wider pen: one of {:.3} mm would fit", (pen.width / share.sqrt()).min(1e3));
+        Failure::new(what, "pen.width", remedy)
+    };
+    memory::room((candidates * CANDIDATE) as u64).map_err(too_fine)?;
     let page = Page::in_millimetres(picture, page.margin, page.dpi);
     let origin = DVec2::splat(page.margin);
     let mut layer = Layer::new(pen.clone());
@@ -77,8 +91,7 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Fa
     for (i, wanted) in steps().enumerate() {
         let place = DVec2::new((i % ROW) as f64, (i / ROW) as f64) * cell;
         let corner = origin + DVec2::new(GAP, title + GAP) + place;
-        let density = tone.ink(wanted) / (0.25 * PI * nib * nib);
-        for at in even(side, density, seed, i as u32) {
+        for at in even(side, density(tone, wanted, nib), seed, i as u32) {
             layer.dots.push(Dot { at: corner + at, world: DVec3::ZERO, radius: 0.5 * nib, opacity: 1.0 });
         }
         // Beyond the dots that hang over.
@@ -104,16 +117,40 @@ pub fn template() -> String {
     text
 }
 
+/// Dots of a nib on a square millimetre that print a tone.
+fn density(tone: &Tone, wanted: f64, nib: f64) -> f64 {
+    tone.ink(wanted) / (0.25 * PI * nib * nib)
+}
+
+/// The grid of cells that candidates for a square of dots come from, one of each. It is larger than the square, since at
+/// its border the dots that are chosen lie closer.
+struct Candidates {
+    cell: f64,
+    border: f64,
+    /// Cells in a row, as many as rows.
+    cells: f64,
+}
+
+impl Candidates {
+    /// `density` dots a unit of area, above 0.
+    fn new(side: f64, density: f64) -> Self {
+        let (cell, border) = (1.0 / (OVERSAMPLING * density).sqrt(), 4.0 / density.sqrt());
+        Self { cell, border, cells: ((side + 2.0 * border) / cell).ceil() }
+    }
+
+    fn count(&self) -> f64 {
+        self.cells * self.cells
+    }
+}
+
 /// Evenly spread places in a square of so many a unit of area.
 fn even(side: f64, density: f64, seed: u64, patch: u32) -> Vec<DVec2> {
     if density <= 0.0 {
         return Vec::new();
     }
-    // One at random in each cell of a grid: as many everywhere. Chosen in a larger square, since at its border they would
-    // lie closer.
-    let cell = 1.0 / (OVERSAMPLING * density).sqrt();
-    let border = 4.0 / density.sqrt();
-    let cells = ((side + 2.0 * border) / cell).ceil() as u32;
+    // One at random in each cell: as many everywhere.
+    let Candidates { cell, border, cells } = Candidates::new(side, density);
+    let cells = cells as u32;
     let at = |i: u32| {
         let [x, y, ..] = philox::uniforms(seed, [i, patch, 0], 0);
         (DVec2::new(f64::from(i % cells), f64::from(i / cells)) + DVec2::new(x, y)) * cell - border

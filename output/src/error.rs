@@ -1,5 +1,6 @@
 //! What can go wrong with a file of a picture.
 
+use drypoint_scene::memory::NoRoom;
 use std::path::PathBuf;
 
 /// A fault in writing, reading, comparing or laying out pictures. The message says what and where,
@@ -43,6 +44,20 @@ pub enum OutputError {
         claimed: u64,
         /// Length of the file in bytes.
         length: u64,
+    },
+    /// The memory budget does not allow a picture's pixels, so nothing was allocated.
+    #[error(
+        "{}a picture of {} × {} pixels needs {no_room}; {} × {} pixels would fit",
+        path.as_ref().map(|path| format!("{}: ", path.display())).unwrap_or_default(), size[0], size[1],
+        no_room.fitting_size(*size)[0], no_room.fitting_size(*size)[1]
+    )]
+    NoRoom {
+        /// The file; none for a picture that is made.
+        path: Option<PathBuf>,
+        /// Its width and height in pixels.
+        size: [usize; 2],
+        /// What it needs, and what there is.
+        no_room: NoRoom,
     },
     /// A picture in colour was needed.
     #[error("{name}: has no channels R, G and B; it has {}", list(found))]
@@ -117,6 +132,7 @@ impl OutputError {
             Self::UnknownFormat { .. } => "convert the picture to PNG or EXR",
             Self::Malformed { .. } => "write the picture again, as a plain PNG or a flat scan-line EXR",
             Self::TooLarge { .. } => "the file is damaged or cut off: write or fetch it again",
+            Self::NoRoom { .. } => "make the picture smaller, or allow more with --memory",
             Self::NoColor { .. } => "give a picture with colour channels named R, G and B",
             Self::Layer { .. } => "ask for the layer with --layers and a picture of at least one pixel",
             Self::Bits { .. } => "use 8 or 16",

@@ -1,7 +1,9 @@
 //! Layers that fit their picture: checked before anything is written.
 
 use crate::OutputError;
+use drypoint_scene::memory;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
+use std::path::Path;
 
 /// The layer of that kind, if it is there and fits.
 pub(crate) fn fitting(picture: &Picture, kind: LayerKind) -> Result<&Layer, OutputError> {
@@ -28,6 +30,12 @@ pub(crate) fn side(pixels: usize, kind: LayerKind) -> Result<u32, OutputError> {
         Ok(n) if n > 0 && n < 1 << 31 => Ok(n),
         _ => Err(fault(kind, format!("a side of {pixels} pixels"))),
     }
+}
+
+/// Asks the memory budget for a picture of `each` bytes a pixel, which comes from the file `path` or is made.
+pub(crate) fn room(path: Option<&Path>, size: [usize; 2], each: usize) -> Result<(), OutputError> {
+    let bytes = size.into_iter().chain([each]).fold(1u64, |product, n| product.saturating_mul(n as u64));
+    memory::room(bytes).map_err(|no_room| OutputError::NoRoom { path: path.map(Into::into), size, no_room })
 }
 
 /// What is wrong with a layer.

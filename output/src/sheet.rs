@@ -1,6 +1,7 @@
 //! Contact sheets: pictures side by side on white, each with its label.
 
 use crate::OutputError;
+use crate::layers::room;
 use crate::raster::coverage;
 use crate::read::{Colors, Image};
 use crate::text::{CAP_HEIGHT, DESCENT, WEIGHT, fit, strokes, width};
@@ -24,6 +25,9 @@ impl Default for Layout {
 
 /// The largest sheet, in pixels: two gibibytes of channels.
 const LARGEST: usize = 1 << 26;
+
+/// Bytes of memory that a pixel of a sheet takes until it is written: light, channels and codes.
+const PIXEL: usize = 2 * 4 * 8 + 4;
 
 /// sRGB code of the labels' ink.
 const INK: f64 = 0.1;
@@ -62,6 +66,7 @@ pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, Ou
         return Err(fault(format!("{total_width}x{total_height} pixels are more than {LARGEST}")));
     }
 
+    room(None, [total_width, total_height], PIXEL)?;
     let mut ground = Ground::white(total_width, total_height);
     let mut top = margin;
     for ((pictures, sizes), height) in pictures.chunks(columns).zip(sizes.chunks(columns)).zip(rows) {

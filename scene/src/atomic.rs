@@ -23,14 +23,14 @@ static COUNT: AtomicU64 = AtomicU64::new(0);
 ///
 /// # Errors
 /// Whatever the operating system refuses or `fill` returns; the target is then as it was.
-pub fn write(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) -> Result<(), E>) -> Result<(), E> {
     let target = match Target::of(path)? {
         Target::Direct => return filled(File::create(path)?, fill),
         Target::File(target) => target,
     };
     let (beside, file) = Beside::create(&target)?;
     filled(file, fill)?;
-    fs::rename(&beside.path, &target)
+    Ok(fs::rename(&beside.path, &target)?)
 }
 
 /// Whether [`write()`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
@@ -66,10 +66,10 @@ pub fn remove_unfinished() {
     }
 }
 
-fn filled(file: File, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+fn filled<E: From<io::Error>>(file: File, fill: impl FnOnce(&mut dyn Write) -> Result<(), E>) -> Result<(), E> {
     let mut out = BufWriter::new(file);
     fill(&mut out)?;
-    out.flush()
+    Ok(out.flush()?)
 }
 
 /// What stands under the name that is to be written.

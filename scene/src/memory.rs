@@ -4,7 +4,12 @@
 //! that fails aborts it. So whatever a file or a key can make large asks [`room`] first, and is refused with what it
 //! would need and what would fit.
 
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
+
+const GIBIBYTE: f64 = (1u64 << 30) as f64;
 
 /// The bytes that the process may have at most, as [`limit`] was told; `u64::MAX`: no limit of its own.
 static LIMIT: AtomicU64 = AtomicU64::new(u64::MAX);
@@ -14,39 +19,39 @@ static LIMIT: AtomicU64 = AtomicU64::new(u64::MAX);
 pub struct NoRoom {
     /// Bytes that would be needed.
     pub needed: u64,
-    /// Bytes that there are; none where the system does not say.
-    pub free: Option<u64>,
+    /// Bytes that there are.
+    pub free: u64,
 }
 
 impl NoRoom {
     /// Returns how many of `n` equal items fit, when all of them together need [`NoRoom::needed`].
     pub fn fitting(&self, n: u64) -> u64 {
-        let free = self.free.unwrap_or(0).min(self.needed);
+        let free = self.free.min(self.needed);
         (u128::from(n) * u128::from(free) / u128::from(self.needed.max(1))) as u64
     }
 
-    /// Returns by what factor two lengths have to be multiplied for their rectangle to fit; from 0 to 1.
-    pub fn fitting_scale(&self) -> f64 {
-        (self.free.unwrap_or(0) as f64 / self.needed.max(1) as f64).min(1.0).sqrt()
+    /// Returns the largest size of the same shape that fits, when one of `size` needs [`NoRoom::needed`].
+    pub fn fitting_size(&self, size: [usize; 2]) -> [usize; 2] {
+        let scale = (self.free as f64 / self.needed.max(1) as f64).min(1.0).sqrt();
+        size.map(|n| (n as f64 * scale) as usize)
     }
 }
 
 impl std::fmt::Display for NoRoom {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} of memory", gibibytes(self.needed))?;
-        match self.free {
-            Some(free) => write!(f, ", and {} are free", gibibytes(free)),
-            None => write!(f, ", more than there is"),
-        }
+        // Rounded against the reader's hopes: a need never reads as nothing, and what is free never as enough.
+        let [needed, free] = [(self.needed, f64::ceil as fn(f64) -> f64), (self.free, f64::floor)]
+            .map(|(bytes, round)| round(bytes as f64 / GIBIBYTE * 100.0) / 100.0);
+        write!(f, "{needed:.2} GiB of memory, and {free:.2} GiB are free")
     }
 }
 
 impl std::error::Error for NoRoom {}
 
-/// Writes bytes in GiB with two decimals, rounded up, so that a need never reads as nothing.
-fn gibibytes(bytes: u64) -> String {
-    const GIBIBYTE: f64 = (1u64 << 30) as f64;
-    format!("{:.2} GiB", (bytes as f64 / GIBIBYTE * 100.0).ceil() / 100.0)
+impl From<NoRoom> for io::Error {
+    fn from(no_room: NoRoom) -> Self {
+        Self::new(ErrorKind::OutOfMemory, format!("its content needs {no_room}"))
+    }
 }
 
 /// Limits the memory of this process to `bytes`, for all of [`room`] from now on.
@@ -59,12 +64,17 @@ pub fn limit(bytes: u64) {
 /// # Errors
 /// The bytes that are needed and those that there are.
 pub fn room(needed: u64) -> Result<(), NoRoom> {
-    let free = free();
-    if free.is_some_and(|free| needed > free) {
+    let free = free().unwrap_or(u64::MAX);
+    let given = |bytes: u64| usize::try_from(bytes).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
+    if needed > free {
         return Err(NoRoom { needed, free });
     }
-    let given = usize::try_from(needed).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
-    if given { Ok(()) } else { Err(NoRoom { needed, free: None }) }
+    if given(needed) {
+        return Ok(());
+    }
+    // The allocator gives less than the system has, such as under `ulimit -v`: how much, to a sixteenth of the need.
+    let free = (0..16).rev().map(|sixteenths| needed / 16 * sixteenths).find(|&bytes| given(bytes)).unwrap_or(0);
+    Err(NoRoom { needed, free })
 }
 
 /// Checks that `n` items of `each` bytes could be had now.
@@ -73,6 +83,61 @@ pub fn room(needed: u64) -> Result<(), NoRoom> {
 /// As [`room`].
 pub fn room_for(n: u64, each: u64) -> Result<(), NoRoom> {
     room(n.saturating_mul(each))
+}
+
+/// A reader that asks the memory budget for what its content will take: before the first byte, and again before what
+/// was read can double. A file or a pipe without an end is an error of [`ErrorKind::OutOfMemory`].
+#[derive(Debug)]
+pub struct Metered<R> {
+    inner: R,
+    /// Bytes in memory for each byte that is read.
+    each: u64,
+    read: u64,
+    /// Bytes that may be read before the budget is asked again.
+    granted: u64,
+}
+
+impl<R: Read> Metered<R> {
+    /// Bytes that are granted without asking.
+    const FIRST: u64 = 1 << 20;
+
+    /// Meters a reader whose content takes `each` bytes of memory a byte.
+    pub fn new(inner: R, each: u64) -> Self {
+        Self { inner, each, read: 0, granted: Self::FIRST }
+    }
+}
+
+impl<R: Read> Read for Metered<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.read >= self.granted {
+            room_for(self.read, self.each)?;
+            self.granted = self.read.saturating_mul(2);
+        }
+        let n = self.inner.read(buffer)?;
+        self.read = self.read.saturating_add(n as u64);
+        Ok(n)
+    }
+}
+
+/// Reads a whole file within the memory budget.
+///
+/// # Errors
+/// Errors of the operating system, and [`ErrorKind::OutOfMemory`] for a file that does not fit.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let length = file.metadata()?.len();
+    room(length)?;
+    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
+    Metered::new(file, 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Reads a whole file of UTF-8 within the memory budget.
+///
+/// # Errors
+/// As [`read`], and [`ErrorKind::InvalidData`] for bytes that are not UTF-8.
+pub fn read_to_string(path: &Path) -> io::Result<String> {
+    String::from_utf8(read(path)?).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not text in UTF-8"))
 }
 
 /// Bytes that the system can give without swapping, within the limits of a container and of [`limit`].
@@ -120,13 +185,35 @@ mod tests {
     }
 
     #[test]
+    fn what_has_no_end_is_refused() {
+        // 2⁶⁰ bytes a byte: the first question is refused, after the bytes that are granted without asking.
+        let mut bytes = Vec::new();
+        let error = Metered::new(io::repeat(7), 1 << 60).read_to_end(&mut bytes).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::OutOfMemory);
+        assert!(error.to_string().starts_with("its content needs 1125899906842624.00 GiB of memory"), "{error}");
+        assert!(bytes.len() as u64 >= Metered::<io::Empty>::FIRST);
+    }
+
+    #[test]
+    fn files_are_read_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        let bytes: Vec<u8> = (0..3 << 20).map(|i| (i % 251) as u8).collect();
+        std::fs::write(&path, &bytes).unwrap();
+        assert_eq!(read(&path).unwrap(), bytes);
+        assert_eq!(read_to_string(&path).unwrap_err().kind(), ErrorKind::InvalidData);
+        std::fs::write(&path, "κ").unwrap();
+        assert_eq!(read_to_string(&path).unwrap(), "κ");
+        assert_eq!(read(&folder.path().join("b")).unwrap_err().kind(), ErrorKind::NotFound);
+    }
+
+    #[test]
     fn refusals_by_hand() {
         let no_room = |free| NoRoom { needed: 64 << 30, free };
-        assert_eq!(no_room(Some(3 << 29)).to_string(), "64.00 GiB of memory, and 1.50 GiB are free");
-        assert_eq!(no_room(None).to_string(), "64.00 GiB of memory, more than there is");
-        assert_eq!(gibibytes(1), "0.01 GiB");
-        assert_eq!(no_room(Some(16 << 30)).fitting(100), 25);
-        assert_eq!(no_room(Some(16 << 30)).fitting_scale(), 0.5);
-        assert_eq!((no_room(None).fitting(100), no_room(None).fitting_scale()), (0, 0.0));
+        assert_eq!(no_room(3 << 29).to_string(), "64.00 GiB of memory, and 1.50 GiB are free");
+        assert_eq!(NoRoom { needed: 2, free: 1 }.to_string(), "0.01 GiB of memory, and 0.00 GiB are free");
+        assert_eq!(no_room(16 << 30).fitting(100), 25);
+        assert_eq!(no_room(16 << 30).fitting_size([100, 50]), [50, 25]);
+        assert_eq!((no_room(0).fitting(100), no_room(0).fitting_size([100, 50])), (0, [0, 0]));
     }
 }

@@ -6,6 +6,7 @@
 //! inverse of that table says what to ask for.
 
 use crate::math::pow;
+use crate::memory;
 use std::path::{Path, PathBuf};
 
 /// Coverage of evenly spread discs at λa = 0, ⅛, ¼, …: measured on samples of the page's own elimination.
@@ -110,7 +111,7 @@ impl Tone {
     /// # Errors
     /// [`ToneError`] with the line.
     pub fn read(path: &Path) -> Result<Self, ToneError> {
-        let bytes = std::fs::read(path).map_err(|source| ToneError::Io { path: path.into(), source })?;
+        let bytes = memory::read(path).map_err(|source| ToneError::Io { path: path.into(), source })?;
         let fault = |line, fault: String| ToneError::Row { path: path.into(), line, fault };
         let mut table = csv::ReaderBuilder::new().flexible(true).from_reader(bytes.as_slice());
         let heads = table.headers().map_err(|error| fault(1, error.to_string()))?.clone();

@@ -32,8 +32,7 @@ impl Arguments {
         if words.is_empty() {
             words.push("drypoint".into());
         }
-        let talk = |word: &OsString| matches!(word.to_str(), Some("-q" | "--quiet" | "-v" | "--verbose"));
-        let at = 1 + words[1..].iter().take_while(|word| talk(word)).count();
+        let at = 1 + in_front(&words[1..]);
         let first = words.get(at).and_then(|word| word.to_str()).unwrap_or_default().to_owned();
         if let Some((verb, tag)) = LATER.iter().find(|(verb, _)| *verb == first) {
             return Err(not_built(verb, tag));
@@ -48,6 +47,20 @@ impl Arguments {
         words.insert(at, DEFAULT.into());
         Ok(Self { words, verb: DEFAULT.into() })
     }
+}
+
+/// How many words in front of a verb are options of all verbs, with their values.
+fn in_front(words: &[OsString]) -> usize {
+    let mut n = 0;
+    while let Some(word) = words.get(n).and_then(|word| word.to_str()) {
+        n += match word {
+            "-q" | "--quiet" | "-v" | "--verbose" => 1,
+            "--threads" | "--memory" => 2,
+            _ if word.starts_with("--threads=") || word.starts_with("--memory=") => 1,
+            _ => break,
+        };
+    }
+    n.min(words.len())
 }
 
 fn not_built(verb: &str, tag: &str) -> Failure {
@@ -110,6 +123,12 @@ mod tests {
     fn the_default_verb_stands_behind_what_is_said_of_talking() {
         assert_eq!(words("drypoint"), "drypoint render");
         assert_eq!(words("drypoint -q -v a.toml"), "drypoint -q -v render a.toml");
+        assert_eq!(
+            words("drypoint --threads 2 --memory=1GiB a.toml"),
+            "drypoint --threads 2 --memory=1GiB render a.toml"
+        );
+        assert_eq!(words("drypoint --memory 1GiB plan a.toml"), "drypoint --memory 1GiB plan a.toml");
+        assert_eq!(words("drypoint --threads"), "drypoint --threads render");
         assert_eq!(words("drypoint --size 3x4"), "drypoint render --size 3x4");
         assert_eq!(words("drypoint folder/scene"), "drypoint render folder/scene");
         for same in ["drypoint -q render x", "drypoint --help", "drypoint help probe", "drypoint rendre", "drypoint -V"]

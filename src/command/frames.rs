@@ -4,7 +4,7 @@ use super::empty::warn_of_nothing;
 use super::report::{Progress, note};
 use super::stats::{Times, cpu_seconds};
 use super::{Talk, target};
-use drypoint::drawing::{Drawing, room_for_animation, write_animation};
+use drypoint::drawing::{Drawing, room_for_page, write_animation};
 use drypoint::job::Job;
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
@@ -116,21 +116,30 @@ pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Pictur
 
 /// Draws every frame of a job, `repeat` times each, and writes them.
 pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Failure> {
+    room_for_page(job, &files.path(0))?;
     let mut counts = job.counts.clone();
     let marking = {
         let progress = Progress::new(talk, "points and lines");
-        Marking::new(job, &mut counts, &|share| progress.hear(share))?
+        Marking::new(job, &mut counts, &|made| {
+            progress.amount(|| format!("{:.1e} dots", made.points as f64));
+            progress.hear(made.share);
+        })?
     };
-    let mut drawing = Drawing::new(job, &marking, &mut counts)?;
+    let mut drawing = {
+        let _preparing = Progress::new(talk, "preparing");
+        Drawing::new(job, &marking, &mut counts)?
+    };
     let frames = drawing.frames();
-    if matches!(files, Files::Animated(_)) {
-        room_for_animation(job, frames)?;
-    }
     let (mut cpu, mut wall) = (Some(0.0), Vec::new());
-    let (mut animated, mut said, mut marks) = (Vec::new(), Vec::new(), [0, 0]);
+    let (mut said, mut marks) = (Vec::new(), [0, 0]);
+    let start = Instant::now();
     {
         let progress = Progress::new(talk, "rendering");
-        for i in 0..frames {
+        if let Some(samples) = drawing.samples() {
+            progress.amount(|| format!("up to {samples:.1e} samples"));
+        }
+        // Draws a frame as often as asked for, and times that without what writing takes.
+        let mut draw = |i: usize, counts: &Counts| {
             let before = cpu_seconds();
             let mut timed = || {
                 let start = Instant::now();
@@ -142,32 +151,35 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
             for _ in 1..repeat {
                 timed()?;
             }
-            // Without what writing takes.
             cpu = cpu_seconds().zip(before).zip(cpu).map(|((after, before), sum)| sum + after - before);
+            progress.hear((i + 1) as f64 / frames as f64);
             if i == 0 {
-                warn_of_nothing(job, &frame, [&counts, &own], talk);
+                warn_of_nothing(job, &frame, [counts, &own], talk);
             }
-            if matches!(files, Files::Animated(_)) {
+            Ok::<_, Failure>((frame, own))
+        };
+        match files {
+            Files::Animated(path) => write_animation(job, frames, path, |i| {
+                let (frame, own) = draw(i, &counts)?;
                 counts.add_frame(&own);
-                animated.push(frame);
-                continue;
-            }
-            let start = Instant::now();
-            let written = frame.write(job, &files.path(i))?;
-            *counts.seconds.entry("write".into()).or_default() += start.elapsed().as_secs_f64();
-            // What a plotter leaves out is drawn by no one.
-            let [points, strokes] = written.marks.map(|n| n as u64);
-            counts.add_frame(&Counts { points, strokes, ..own });
-            if i == 0 {
-                (marks, said) = (written.marks, written.said);
+                Ok(frame)
+            })?,
+            Files::One(_) | Files::Numbered(..) => {
+                for i in 0..frames {
+                    let (frame, own) = draw(i, &counts)?;
+                    let written = frame.write(job, &files.path(i))?;
+                    // What a plotter leaves out is drawn by no one.
+                    let [points, strokes] = written.marks.map(|n| n as u64);
+                    counts.add_frame(&Counts { points, strokes, ..own });
+                    if i == 0 {
+                        (marks, said) = (written.marks, written.said);
+                    }
+                }
             }
         }
     }
-    if let Files::Animated(path) = files {
-        let start = Instant::now();
-        write_animation(job, &animated, path)?;
-        counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
-    }
+    let writing = start.elapsed().as_secs_f64() - wall.iter().sum::<f64>();
+    counts.seconds.insert("write".into(), writing);
     let [dots, lines] = marks;
     match files {
         Files::One(_) if !marking.is_empty() => {

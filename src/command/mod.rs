@@ -8,6 +8,7 @@ mod empty;
 mod frames;
 mod info;
 mod input;
+mod limits;
 mod page;
 mod phantom;
 mod plan;
@@ -22,13 +23,13 @@ mod stats;
 mod strokes;
 mod styles;
 mod target;
-mod threads;
 mod wedge;
 
 use arguments::Arguments;
 use clap::{Args, Parser, Subcommand};
 use drypoint::Failures;
 use drypoint::scene::atomic;
+use limits::Limits;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -43,6 +44,8 @@ struct Cli {
     verb: Verb,
     #[command(flatten)]
     talk: Talk,
+    #[command(flatten)]
+    limits: Limits,
 }
 
 /// How much the command says.
@@ -146,6 +149,7 @@ fn parsed(words: impl IntoIterator<Item = OsString>) -> Result<Result<Cli, clap:
 impl Cli {
     fn run(self) -> Outcome {
         let talk = self.talk;
+        self.limits.apply()?;
         match self.verb {
             Verb::Render(verb) => verb.run(talk),
             Verb::Info(verb) => verb.run(talk),

@@ -3,7 +3,6 @@
 use super::input::Set;
 use super::page::Page;
 use super::raw::Raw;
-use super::threads::Threads;
 use super::{Outcome, Talk};
 use clap::Args;
 use drypoint::job::Wanted;
@@ -26,8 +25,6 @@ pub(super) struct Points {
     raw: Raw,
     #[command(flatten)]
     set: Set,
-    #[command(flatten)]
-    threads: Threads,
     /// Print the counts as one JSON object, alone on standard output
     #[arg(long)]
     stats: bool,
@@ -35,8 +32,7 @@ pub(super) struct Points {
 
 impl Points {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let Self { input, output, preset, raw, set, threads, stats } = self;
-        threads.start()?;
+        let Self { input, output, preset, raw, set, stats } = self;
         let (default_preset, wanted) = ("stipple", Wanted::Points);
         Page { input, output, preset, default_preset, raw, set, stats, wanted }.run(talk)
     }

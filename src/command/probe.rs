@@ -8,10 +8,11 @@ use clap::{Args, ValueEnum};
 use drypoint::reference::field::probe::{Probe as Probed, at_index, at_world};
 use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::memory::Metered;
 use drypoint::scene::space::Grid;
 use drypoint::{Failure, Failures};
 use serde_json::json;
-use std::io::BufRead;
+use std::io::{BufRead, Read};
 use std::path::PathBuf;
 
 /// Print value, gradient, Hessian, normal and curvatures at points, as one JSON array.
@@ -116,16 +117,38 @@ impl Probe {
     }
 }
 
-/// The points of standard input, one a line, or every line that is none.
+/// The most bytes of a line of standard input: three numbers of every digit that an f64 can have, with blanks.
+const LINE: u64 = 4096;
+
+/// Bytes of memory that a byte of standard input takes in the end: the shortest point has 6, and its object some 1500.
+const OBJECT_PER_BYTE: u64 = 250;
+
+/// The most lines that are told to be no points; reading ends there.
+const TOLD: usize = 20;
+
+/// The points of standard input, one a line, or the first lines that are none.
 fn from_input() -> Result<Vec<DVec3>, Failures> {
     let (mut points, mut failures) = (Vec::new(), Vec::new());
-    for (i, line) in std::io::stdin().lock().lines().enumerate() {
-        let place = format!("standard input, line {}", i + 1);
-        let line = line.map_err(|error| Failure::new(error, &place, "give points as text, one a line"))?;
-        match vector(&line) {
-            _ if line.trim().is_empty() => {}
+    let mut input = std::io::BufReader::new(Metered::new(std::io::stdin().lock(), OBJECT_PER_BYTE));
+    let mut line = Vec::new();
+    for i in 1.. {
+        let place = format!("standard input, line {i}");
+        line.clear();
+        let read = (&mut input).take(LINE).read_until(b'\n', &mut line);
+        let n = read.map_err(|error| Failure::new(error, &place, "give fewer points at once"))?;
+        if n == 0 || failures.len() == TOLD {
+            break;
+        }
+        if n as u64 == LINE {
+            let what = format!("the line has {LINE} bytes or more, and a point is three numbers");
+            failures.push(Failure::new(what, place, "give a point a line, as X,Y,Z"));
+            break;
+        }
+        let text = String::from_utf8_lossy(&line);
+        match vector(text.trim()) {
+            _ if text.trim().is_empty() => {}
             Ok(point) => points.push(point),
-            Err(expected) => failures.push(Failure::new(format!("{:?} is no point", line.trim()), place, expected)),
+            Err(expected) => failures.push(Failure::new(format!("{:?} is no point", text.trim()), place, expected)),
         }
     }
     Failures::check(failures).map(|()| points)

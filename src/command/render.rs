@@ -6,7 +6,6 @@ use super::raw::Raw;
 use super::report::{Progress, note, print};
 use super::stats;
 use super::target::Target;
-use super::threads::Threads;
 use super::{Done, Outcome, Talk};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
@@ -42,8 +41,6 @@ pub(super) struct Render {
     raw: Raw,
     #[command(flatten)]
     set: Set,
-    #[command(flatten)]
-    threads: Threads,
     /// Print the counts of the render as one JSON object, alone on standard output
     #[arg(long)]
     stats: bool,
@@ -70,7 +67,6 @@ impl Render {
         let target = Target::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
         let mut over = Over::new(&self.set, self.flags()?)?;
         over.beauty_only = target.format != Format::Exr;
-        self.threads.start()?;
         let start = Instant::now();
         let (job, files) = {
             let _loading = Progress::new(talk, "loading");

@@ -4,8 +4,9 @@ use super::{Done, Outcome, Talk};
 use drypoint::Failure;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{ErrorKind, IsTerminal, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Writes to standard output. A reader that has gone away is no error.
 pub(super) fn print(text: &str) -> Outcome {
@@ -39,41 +40,69 @@ pub(super) fn say(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// Time until a bar is shown: what is done by then needs none.
+/// Time until a bar is shown, and until an estimate is ventured: what is done by then needs neither.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What is being done, on a terminal, for what takes over a second; nothing where output is piped or quiet.
+/// Expected time from which on work says how long it takes.
+const LONG: Duration = Duration::from_secs(5);
+
+/// Share of the work from which its time is estimated before [`LONG`] has passed.
+const ENOUGH: f64 = 0.1;
+
+/// What is being done. Work that is expected to take five seconds or more says so in one line; on a terminal, what takes over
+/// a second has a bar. Nothing is shown where output is quiet.
 pub(super) struct Progress {
+    shown: Option<Arc<Shown>>,
+}
+
+/// What a thread of its own shows.
+struct Shown {
+    doing: String,
+    start: Instant,
     bar: Option<ProgressBar>,
-    has_share: AtomicBool,
+    amount: OnceLock<String>,
+    /// Bits of the share that is done, in [0, 1].
+    share: AtomicU64,
+    ended: (Mutex<bool>, Condvar),
 }
 
 impl Progress {
     /// Begins without a known share: a spinner with a text.
     pub(super) fn new(talk: Talk, doing: impl std::fmt::Display) -> Self {
-        let bar = (!talk.quiet && std::io::stderr().is_terminal()).then(|| {
-            let bar =
-                ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden()).with_message(doing.to_string());
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
-                bar.set_style(style);
-            }
-            let shown = bar.clone();
-            std::thread::spawn(move || {
-                std::thread::sleep(PATIENCE);
-                if !shown.is_finished() {
-                    shown.set_draw_target(ProgressDrawTarget::stderr());
-                    shown.enable_steady_tick(Duration::from_millis(100));
+        let shown = (!talk.quiet).then(|| {
+            let doing = doing.to_string();
+            let bar = std::io::stderr().is_terminal().then(|| {
+                let hidden = ProgressDrawTarget::hidden();
+                let bar = ProgressBar::with_draw_target(Some(1000), hidden).with_message(doing.clone());
+                if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}") {
+                    bar.set_style(style);
                 }
+                bar
             });
-            bar
+            let (amount, share) = (OnceLock::new(), AtomicU64::new(0));
+            let ended = (Mutex::new(false), Condvar::new());
+            let shown = Arc::new(Shown { doing, start: Instant::now(), bar, amount, share, ended });
+            let watched = shown.clone();
+            // Without a thread nothing is shown, and the work goes on.
+            let _ = std::thread::Builder::new().spawn(move || watched.watch());
+            shown
         });
-        Self { bar, has_share: AtomicBool::new(false) }
+        Self { shown }
+    }
+
+    /// Tells how much there is to do, such as `3.1e6 dots`; the first time counts.
+    pub(super) fn amount(&self, amount: impl FnOnce() -> String) {
+        if let Some(shown) = &self.shown {
+            shown.amount.get_or_init(amount);
+        }
     }
 
     /// Hears the share that is done, in [0, 1], and shows it from then on.
     pub(super) fn hear(&self, share: f64) {
-        let Some(bar) = &self.bar else { return };
-        if !self.has_share.swap(true, Ordering::Relaxed) {
+        let Some(shown) = &self.shown else { return };
+        let before = f64::from_bits(shown.share.swap(share.to_bits(), Ordering::Relaxed));
+        let Some(bar) = &shown.bar else { return };
+        if before == 0.0 {
             bar.reset_eta();
             if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {percent:>3} %  {eta} left") {
                 bar.set_style(style);
@@ -83,10 +112,83 @@ impl Progress {
     }
 }
 
+impl Shown {
+    /// Shows the bar when its time has come, and says once how long the work takes, if that is long.
+    fn watch(&self) {
+        if self.ended_within(PATIENCE) {
+            return;
+        }
+        if let Some(bar) = &self.bar {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+            bar.enable_steady_tick(Duration::from_millis(100));
+        }
+        let mut said = false;
+        loop {
+            let (elapsed, share) = (self.start.elapsed(), f64::from_bits(self.share.load(Ordering::Relaxed)));
+            // The first rays meet little.
+            if share >= ENOUGH || (share > 0.0 && elapsed >= LONG) {
+                let all = elapsed.as_secs_f64() / share;
+                if all >= LONG.as_secs_f64() {
+                    self.say(&format!("about {} in all", duration(all)));
+                }
+                return;
+            }
+            if elapsed >= LONG && !said {
+                self.say("it takes more than 5 seconds");
+                said = true;
+            }
+            if self.ended_within(PATIENCE / 4) {
+                return;
+            }
+        }
+    }
+
+    /// Waits, and returns whether the work ended meanwhile.
+    fn ended_within(&self, time: Duration) -> bool {
+        let ended = self.ended.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let waited = self.ended.1.wait_timeout_while(ended, time, |ended| !*ended);
+        *waited.unwrap_or_else(PoisonError::into_inner).0
+    }
+
+    fn say(&self, time: &str) {
+        let amount = self.amount.get().map(|amount| format!("{amount}, ")).unwrap_or_default();
+        let line = format!("{}: {amount}{time}", self.doing);
+        match &self.bar {
+            Some(bar) => bar.suspend(|| say(line)),
+            None => say(line),
+        }
+    }
+}
+
+/// Seconds in the unit that a person would take.
+fn duration(seconds: f64) -> String {
+    let units =
+        [("seconds", 1.0), ("minutes", 60.0), ("hours", 3600.0), ("days", 86400.0), ("years", 365.25 * 86400.0)];
+    let (unit, length) = units.into_iter().rev().find(|(_, length)| seconds >= 1.5 * length).unwrap_or(units[0]);
+    format!("{:.0} {unit}", seconds / length)
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
+        let Some(shown) = &self.shown else { return };
+        *shown.ended.0.lock().unwrap_or_else(PoisonError::into_inner) = true;
+        shown.ended.1.notify_all();
+        if let Some(bar) = &shown.bar {
             bar.finish_and_clear();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::duration;
+
+    #[test]
+    fn times_in_the_units_of_people() {
+        for (seconds, text) in
+            [(7.2, "7 seconds"), (89.0, "89 seconds"), (90.0, "2 minutes"), (7200.0, "2 hours"), (1e9, "32 years")]
+        {
+            assert_eq!(duration(seconds), text);
         }
     }
 }

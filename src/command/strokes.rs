@@ -3,7 +3,6 @@
 use super::input::Set;
 use super::page::Page;
 use super::raw::Raw;
-use super::threads::Threads;
 use super::{Done, Outcome, Talk};
 use clap::Args;
 use drypoint::job::Wanted;
@@ -30,8 +29,6 @@ pub(super) struct Strokes {
     raw: Raw,
     #[command(flatten)]
     set: Set,
-    #[command(flatten)]
-    threads: Threads,
     /// Print the counts as one JSON object, alone on standard output
     #[arg(long)]
     stats: bool,
@@ -39,8 +36,7 @@ pub(super) struct Strokes {
 
 impl Strokes {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let Self { input, output, preset, seeds, raw, set, threads, stats } = self;
-        threads.start()?;
+        let Self { input, output, preset, seeds, raw, set, stats } = self;
         let (default_preset, wanted) = ("hatch", Wanted::Strokes);
         let draws = output.is_some();
         let output = output.unwrap_or_default();

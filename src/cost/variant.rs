@@ -175,7 +175,7 @@ fn take_strokes(variant: &mut Variant<'_>) -> Result<(), Failure> {
     let start = Instant::now();
     let stroking = Stroking::of(job, scene, &mut counts)?;
     let mut frames = stroking.frames(&mut counts);
-    let [over, inside] = frames.draw(&job.view()?, &mut counts);
+    let [over, inside] = frames.draw(&job.view()?, &mut counts)?;
     let took = start.elapsed();
     let marks = || Marks { page: Page::of(scene), layers: over.into_iter().chain(inside).collect() };
     variant.take_page(took, |_| Ok(Made::Strokes(Drawn { strokes: frames.sample(STROKES), marks: marks() })), counts)

@@ -5,15 +5,42 @@ use crate::job::{Job, Wanted};
 use crate::{Failure, Format};
 use drypoint_output::vector::{Sheet, pdf, svg};
 use drypoint_output::{OutputError, exr, list, paint, plotter, png};
+use drypoint_scene::atomic;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::marks::{Layer, Marks, Page};
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::tables::{Background, Scene};
 use std::borrow::Cow;
+use std::io;
 use std::path::Path;
 
 /// Seconds for which an animation shows a frame: between the 4 and 15 frames a second of Lu et al.
 const FRAME_SECONDS: f64 = 0.1;
+
+/// What ended an animation before its last frame.
+enum Stopped {
+    Drawing(Failure),
+    Writing(OutputError),
+    System(io::Error),
+}
+
+impl From<Failure> for Stopped {
+    fn from(failure: Failure) -> Self {
+        Self::Drawing(failure)
+    }
+}
+
+impl From<OutputError> for Stopped {
+    fn from(error: OutputError) -> Self {
+        Self::Writing(error)
+    }
+}
+
+impl From<io::Error> for Stopped {
+    fn from(error: io::Error) -> Self {
+        Self::System(error)
+    }
+}
 
 /// What frames of a scene are written on.
 pub(super) struct Paper<'a> {
@@ -66,35 +93,77 @@ impl<'a> Paper<'a> {
     }
 
     /// See [`super::write_animation`].
-    pub(super) fn write_animation(&self, frames: &[Frame], path: &Path) -> Result<(), Failure> {
-        let with_marks = frames.iter().filter_map(|frame| frame.marks.as_ref().map(|marks| (marks, &frame.picture)));
-        let drawn: Vec<_> = with_marks.map(|(marks, picture)| (self.planned(marks), picture)).collect();
-        let sheets: Vec<Sheet> =
-            drawn.iter().map(|(planned, picture)| self.sheet(&planned.marks, picture.as_ref())).collect();
-        let written = svg::write_animated_svg(&sheets, FRAME_SECONDS, path);
-        written.map_err(|error| Failure::picture(&error, path.display()))
+    pub(super) fn write_animation(
+        &self,
+        frames: usize,
+        path: &Path,
+        mut draw: impl FnMut(usize) -> Result<Frame, Failure>,
+    ) -> Result<(), Failure> {
+        let nothing = Marks { page: Page::of(self.scene), layers: Vec::new() };
+        let written = atomic::write(path, |out| {
+            let mut animation = svg::Animation::new(out, frames, FRAME_SECONDS);
+            for i in 0..frames {
+                let frame = draw(i)?;
+                let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing));
+                animation.frame(&self.sheet(&planned.marks, frame.picture.as_ref()), path)?;
+            }
+            Ok(())
+        });
+        written.map_err(|stopped| match stopped {
+            Stopped::Drawing(failure) => failure,
+            Stopped::Writing(error) => Failure::picture(&error, path.display()),
+            Stopped::System(source) => {
+                let error = OutputError::Io { path: path.into(), action: "written", source };
+                Failure::picture(&error, path.display())
+            }
+        })
     }
 
     /// See [`Frame::painted`].
     pub(super) fn painted(&self, picture: Option<Picture>, marks: Option<&Marks>) -> Result<Picture, Failure> {
-        let Scene { picture: settings, given, .. } = self.scene;
-        // A picture has its own size, without the page's margin.
-        let page = Page::of(self.scene);
-        let (window, blank) = match self.wanted {
-            Wanted::Marks | Wanted::Points | Wanted::Strokes => (paint::Window::page(&page), page),
-            Wanted::Picture => {
-                (paint::Window::frame(&page, settings.size), Page::in_pixels(settings.size, 0.0, settings.dpi))
-            }
-        };
-        let wrong = |error: OutputError| Failure::picture(&error, given.position("picture"));
+        let (window, blank) = self.window();
+        let wrong = |error: OutputError| self.refused(&error);
         let mut picture = match picture {
             Some(picture) => picture,
             None => paint::blank(&blank, self.background()).map_err(wrong)?,
         };
         if let Some(marks) = marks.filter(|_| picture.layer(LayerKind::Beauty).is_some()) {
-            paint::paint(marks, &window, settings.blend_space, &mut picture).map_err(wrong)?;
+            paint::paint(marks, &window, self.scene.picture.blend_space, &mut picture).map_err(wrong)?;
         }
         Ok(picture)
+    }
+
+    /// See [`super::room_for_page`].
+    pub(super) fn room(&self, path: &Path) -> Result<(), Failure> {
+        if !Format::of(path).is_some_and(|format| Format::PICTURES.contains(&format)) {
+            return Ok(());
+        }
+        paint::pixels(&self.window().1).map(drop).map_err(|error| self.refused(&error))
+    }
+
+    /// The part of the page that pixels show, and the page that they fill. A picture has its own size, without the page's
+    /// margin.
+    fn window(&self) -> (paint::Window, Page) {
+        let (page, settings) = (Page::of(self.scene), &self.scene.picture);
+        match self.wanted {
+            Wanted::Marks | Wanted::Points | Wanted::Strokes => (paint::Window::page(&page), page),
+            Wanted::Picture => {
+                (paint::Window::frame(&page, settings.size), Page::in_pixels(settings.size, 0.0, settings.dpi))
+            }
+        }
+    }
+
+    /// A page that cannot be had in pixels, at the key that makes it so large.
+    fn refused(&self, error: &OutputError) -> Failure {
+        let Scene { picture, given, .. } = self.scene;
+        match error {
+            OutputError::NoRoom { size, no_room, .. } if picture.extent().is_some() => {
+                let share = no_room.fitting_size(*size)[0] as f64 / size[0] as f64;
+                let remedy = format!("picture.dpi = {:.0} would fit", (picture.dpi * share).floor());
+                Failure::new(error, given.position("picture.dpi"), remedy)
+            }
+            _ => Failure::picture(error, given.position("picture")),
+        }
     }
 
     fn sheet<'s>(&'s self, marks: &'s Marks, picture: Option<&'s Picture>) -> Sheet<'s> {

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod bare_volumes;
+mod budget;
 mod compare;
 mod cost;
 mod extract;
@@ -18,6 +19,7 @@ mod points;
 mod probe;
 mod raw;
 mod repeatable;
+mod same_bytes;
 mod sheet;
 mod stats;
 mod strokes;

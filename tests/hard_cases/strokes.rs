@@ -394,7 +394,7 @@ fn eye_inside() -> f64 {
         let job = Job::load_for(scene, Wanted::Strokes).unwrap();
         let mut counts = Counts::default();
         let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
-        let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts);
+        let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts).unwrap();
         let vertices = marks.layers.iter().flat_map(|layer| &layer.lines).flat_map(|line| &line.vertices);
         // Off the page by no more than half the widest line.
         let on = |v: f64, side: f64| (-1.0..=side + 1.0).contains(&v);

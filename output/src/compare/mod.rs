@@ -111,7 +111,7 @@ impl Comparison {
 ///
 /// # Errors
 /// [`OutputError::Sizes`], [`OutputError::Layer`] for pictures without pixels, [`OutputError::NothingInCommon`],
-/// [`OutputError::Viewing`].
+/// [`OutputError::Viewing`], [`OutputError::NoRoom`].
 pub fn compare(a: &Image, b: &Image, options: &Options) -> Result<Comparison, OutputError> {
     let (width, height) = (a.width, a.height);
     if (b.width, b.height) != (width, height) {

@@ -7,7 +7,7 @@ mod lines;
 
 use crate::OutputError;
 use crate::disc::{Scratch, cover};
-use crate::layers::{check, fault};
+use crate::layers::{check, fault, room};
 use canvas::Canvas;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::glam::DVec2;
@@ -51,16 +51,29 @@ impl Window {
 /// The most pixels of a page: those of the largest picture.
 const LARGEST: usize = 1 << 30;
 
+/// Bytes of memory that a pixel of a page takes until it is written: four channels, and their codes twice.
+const PIXEL: usize = 4 * (8 + 2 + 2);
+
+/// Checks that a page can be had in pixels: its width and height.
+///
+/// # Errors
+/// [`OutputError::Layer`] for a page without a pixel, or of more than 2³⁰; [`OutputError::NoRoom`].
+pub fn pixels(page: &Page) -> Result<[usize; 2], OutputError> {
+    let [width, height] = page.pixels();
+    if !width.checked_mul(height).is_some_and(|n| (1..=LARGEST).contains(&n)) {
+        return Err(fault(LayerKind::Beauty, format!("a page of {width}x{height} pixels")));
+    }
+    room(None, [width, height], PIXEL)?;
+    Ok([width, height])
+}
+
 /// A page without marks: `background` is linear, straight; none: transparent.
 ///
 /// # Errors
-/// [`OutputError::Layer`] for a page without a pixel, or of more than 2³⁰.
+/// As [`pixels`].
 pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputError> {
-    let [width, height] = page.pixels();
-    let Some(pixels) = width.checked_mul(height).filter(|n| (1..=LARGEST).contains(n)) else {
-        return Err(fault(LayerKind::Beauty, format!("a page of {width}x{height} pixels")));
-    };
-    let channels = premultiply(background.unwrap_or_default()).map(|c| vec![c; pixels]).into();
+    let [width, height] = pixels(page)?;
+    let channels = premultiply(background.unwrap_or_default()).map(|c| vec![c; width * height]).into();
     Ok(Picture { width, height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] })
 }
 

@@ -2,6 +2,7 @@
 
 use super::{DEFLATE, Image, check_claim};
 use crate::OutputError;
+use crate::layers::room;
 use exr::meta::attribute::{IntegerBounds, SampleType};
 use exr::meta::header::Header;
 use exr::prelude::{Compression, FlatImage, FlatSamples, ReadChannels, ReadLayers, f16, read};
@@ -74,7 +75,12 @@ fn check_headers(headers: &[Header], bytes: &[u8], path: &Path) -> Result<(), Ou
         }
     }
     // Both windows were counted, and one file fills both.
-    check_claim(claimed, 2 * ratio, bytes, path)
+    check_claim(claimed, 2 * ratio, bytes, path)?;
+    // A sample is decoded, becomes an f64, and is placed in the frame.
+    let channels: usize = headers.iter().map(|header| header.channels.list.len()).sum();
+    let sizes = headers.iter().flat_map(|h| [h.layer_size, h.shared_attributes.display_window.size]);
+    let largest = sizes.max_by_key(|size| size.area()).unwrap_or_default();
+    room(Some(path), [largest.width(), largest.height()], (4 + 8 + 8) * channels)
 }
 
 /// The samples without loss: f64 holds every f16, f32 and u32.

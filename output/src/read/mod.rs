@@ -5,6 +5,7 @@ mod exr;
 mod png;
 
 use crate::OutputError;
+use drypoint_scene::memory;
 use drypoint_scene::picture::Picture;
 use std::path::Path;
 
@@ -73,10 +74,10 @@ impl From<&Picture> for Image {
 /// second and further parts bear the part's name in front.
 ///
 /// # Errors
-/// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], and [`OutputError::TooLarge`]
-/// before anything is allocated for a header that lies.
+/// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], and before anything is allocated
+/// [`OutputError::TooLarge`] for a header that lies and [`OutputError::NoRoom`] for pixels that do not fit.
 pub fn read_image(path: &Path) -> Result<Image, OutputError> {
-    let bytes = std::fs::read(path).map_err(|source| OutputError::Io { path: path.into(), action: "read", source })?;
+    let bytes = memory::read(path).map_err(|source| OutputError::Io { path: path.into(), action: "read", source })?;
     decode(&bytes, path)
 }
 

@@ -2,10 +2,14 @@
 
 use super::{DEFLATE, Image, check_claim};
 use crate::OutputError;
+use crate::layers::room;
 use drypoint_scene::color::srgb_to_linear;
 use png::{BitDepth, ColorType, DecodeOptions, Decoder, DecodingError, Info, Limits, Transformations};
 use std::io::Cursor;
 use std::path::Path;
+
+/// The most bytes of memory that a pixel takes while it is decoded: four channels of 16 bits, their codes, and light.
+const PIXEL: usize = 4 * (2 + 2 + 8);
 
 /// Decodes a PNG of any colour type and depth.
 pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
@@ -19,8 +23,10 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     options.set_ignore_text_chunk(true);
     options.set_ignore_iccp_chunk(true);
     let mut decoder = Decoder::new_with_options(Cursor::new(bytes), options);
-    let claimed = raw_bytes(decoder.read_header_info().map_err(broken)?);
+    let info = decoder.read_header_info().map_err(broken)?;
+    let (claimed, size) = (raw_bytes(info), [info.width, info.height].map(|n| n as usize));
     check_claim(claimed, DEFLATE, bytes, path)?;
+    room(Some(path), size, PIXEL)?;
     // The claim is checked above; the decoder's own limit would refuse large honest pictures.
     decoder.set_limits(Limits { bytes: usize::MAX });
     // Palette to colours, grey of 1, 2 and 4 bits to 8 (a whole factor), transparent colours to alpha.

@@ -25,41 +25,35 @@ pub fn write_svg(sheet: &Sheet, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_svg(sheet)?)
 }
 
-/// Writes frames as one SVG that shows each for `seconds` in its turn, over and over (SMIL); what does not move shows
-/// frame 0. There is one page, and one background, those of the first; there must be a frame.
-///
-/// # Errors
-/// As [`write_svg`].
-pub fn write_animated_svg(frames: &[Sheet], seconds: f64, path: &Path) -> Result<(), OutputError> {
-    atomic::write(path, &encode_animated_svg(frames, seconds)?)
+/// An SVG that shows frames in turn, over and over (SMIL). It is written frame by frame and keeps none of them. A viewer
+/// without animation shows frame 0.
+pub struct Animation<'w> {
+    out: &'w mut dyn Write,
+    frames: usize,
+    seconds: f64,
+    written: usize,
 }
 
-/// The bytes of [`write_svg`].
-///
-/// # Errors
-/// As [`write_svg`], but for the file's.
-pub fn encode_svg(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
-    let mut out = Vec::new();
-    head(sheet, &mut out);
-    content(sheet, "", &mut out)?;
-    out.extend_from_slice(b"</svg>\n");
-    Ok(out)
-}
-
-/// The bytes of [`write_animated_svg`].
-///
-/// # Errors
-/// As [`encode_svg`].
-pub fn encode_animated_svg(frames: &[Sheet], seconds: f64) -> Result<Vec<u8>, OutputError> {
-    let mut out = Vec::new();
-    if let Some(first) = frames.first() {
-        head(first, &mut out);
+impl<'w> Animation<'w> {
+    /// Begins an SVG of so many frames of `seconds` each.
+    pub fn new(out: &'w mut dyn Write, frames: usize, seconds: f64) -> Self {
+        Self { out, frames, seconds, written: 0 }
     }
-    let all = frames.len();
-    for (i, frame) in frames.iter().enumerate() {
+
+    /// Writes the next frame. The first one gives the page, the metadata and the background of all, and the last one ends
+    /// the file.
+    ///
+    /// # Errors
+    /// Errors of the writer, as [`OutputError::Io`] of the file `path`, and of a picture that cannot be encoded.
+    pub fn frame(&mut self, sheet: &Sheet, path: &Path) -> Result<(), OutputError> {
+        let (i, all) = (self.written, self.frames);
+        let mut bytes = Vec::new();
+        if i == 0 {
+            head(sheet, &mut bytes);
+        }
         let hidden = if i == 0 { "" } else { " display=\"none\"" };
         text(
-            &mut out,
+            &mut bytes,
             format_args!("<g inkscape:groupmode=\"layer\" inkscape:label=\"%frame {i}\" id=\"frame{i}\"{hidden}>\n"),
         );
         // The end of one frame and the beginning of the next are the same number.
@@ -71,18 +65,34 @@ pub fn encode_animated_svg(frames: &[Sheet], seconds: f64) -> Result<Vec<u8>, Ou
             (_, true) => Some(("none;inline", format!("0;{from}"))),
         };
         if let Some((values, times)) = turns {
-            let whole = seconds * all as f64;
+            let whole = self.seconds * all as f64;
             text(
-                &mut out,
+                &mut bytes,
                 format_args!(
                     "<animate attributeName=\"display\" calcMode=\"discrete\" values=\"{values}\" \
                      keyTimes=\"{times}\" dur=\"{whole}s\" repeatCount=\"indefinite\"/>\n"
                 ),
             );
         }
-        content(frame, &format!("frame{i}-"), &mut out)?;
-        out.extend_from_slice(b"</g>\n");
+        content(sheet, &format!("frame{i}-"), &mut bytes)?;
+        bytes.extend_from_slice(b"</g>\n");
+        self.written += 1;
+        if self.written == all {
+            bytes.extend_from_slice(b"</svg>\n");
+        }
+        let refused = |source| OutputError::Io { path: path.into(), action: "written", source };
+        self.out.write_all(&bytes).map_err(refused)
     }
+}
+
+/// The bytes of [`write_svg`].
+///
+/// # Errors
+/// As [`write_svg`], but for the file's.
+pub fn encode_svg(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
+    let mut out = Vec::new();
+    head(sheet, &mut out);
+    content(sheet, "", &mut out)?;
     out.extend_from_slice(b"</svg>\n");
     Ok(out)
 }
@@ -359,7 +369,12 @@ Drypoint plan: κ &lt; 1
         let background = Some([1.0; 4]);
         let sheet =
             Sheet { marks: &marks, background, picture: None, plotter: false, beziers: false, provenance: &provenance };
-        let frames = |n: usize| String::from_utf8(encode_animated_svg(&vec![sheet; n], 0.5).unwrap()).unwrap();
+        let frames = |n: usize| {
+            let mut bytes = Vec::new();
+            let mut animation = Animation::new(&mut bytes, n, 0.5);
+            (0..n).for_each(|_| animation.frame(&sheet, Path::new("a.svg")).unwrap());
+            String::from_utf8(bytes).unwrap()
+        };
         let found = frames(4);
         let turn = |values: &str, times: &str| {
             let turn = format!("calcMode=\"discrete\" values=\"{values}\" keyTimes=\"{times}\"");

@@ -6,9 +6,9 @@
 //! each sample is one sum over its line, whose weights hold the continuation beyond the border too. So the samples around any
 //! cell can be had by themselves, whatever else was asked for and in whatever order.
 
-use super::coefficients::continue_lanes;
 use super::hessian::gaussian;
 use super::interpolated::{Around, TAPS, taps};
+use super::stencil::beyond;
 use super::voxel_hessian::{bends, slopes};
 use super::{Field, tensor};
 use crate::number::lanes::widely;
@@ -285,34 +285,56 @@ fn reads(rows: &[Row]) -> [usize; 2] {
     [first, rows.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or(first)]
 }
 
-/// The rows of a line of n samples, smoothed with half taps: the smoothed samples of all lines that have a single 1.
+/// The rows of a line of n samples, smoothed with half taps, and of those beyond its ends, which continue three rows each as
+/// numbers are continued ([REC-1]).
 fn rows(n: usize, half: &[f64]) -> Vec<Row> {
-    // Sample i of the line whose stored sample j is 1 stands at i·n + j.
-    let mut response = vec![0.0; (n.max(2) + 2 * PAD) * n];
-    for (i, out) in response[PAD * n..].chunks_mut(n).take(n).enumerate() {
+    let padded = n.max(2) + 2 * PAD;
+    let mut rows = vec![(0, Vec::new()); padded];
+    for i in 0..n {
         let (first, weights) = if n == 1 { (0, vec![1.0]) } else { gaussian::row(half, i, n) };
-        out[first..first + weights.len()].copy_from_slice(&weights);
+        rows[PAD + i] = shortened(first, &weights);
     }
-    continue_lanes(&mut response, n, n, PAD);
-    response.chunks(n).map(shortened).collect()
+    for i in PAD + n..padded {
+        rows[i] = continued(i - PAD, [1, 2, 3].map(|back| &rows[i.saturating_sub(back)]));
+    }
+    for i in (0..PAD).rev() {
+        rows[i] = continued(padded - i - 1, [1, 2, 3].map(|ahead| &rows[(i + ahead).min(padded - 1)]));
+    }
+    rows
 }
 
-/// A row without the zeros at its ends.
-fn shortened(weights: &[f64]) -> Row {
-    let first = weights.iter().position(|w| *w != 0.0).unwrap_or(0);
-    let end = weights.iter().rposition(|w| *w != 0.0).map_or(first, |last| last + 1);
-    (first, weights[first..end].to_vec())
+/// The row next to so many of which these are the nearest ones.
+fn continued(n: usize, near: [&Row; 3]) -> Row {
+    let weights = || near.into_iter().filter(|(_, weights)| !weights.is_empty());
+    let first = weights().map(|(first, _)| *first).min().unwrap_or(0);
+    let end = weights().map(|(first, weights)| first + weights.len()).max().unwrap_or(0);
+    let sum = |j: usize| {
+        let [a, b, c] =
+            near.map(|(first, weights)| j.checked_sub(*first).and_then(|k| weights.get(k)).map_or(0.0, |w| *w));
+        beyond(n, a, b, c)
+    };
+    shortened(first, &(first..end).map(sum).collect::<Vec<f64>>())
+}
+
+/// The row of weights from `first` on, without the zeros at its ends.
+fn shortened(first: usize, weights: &[f64]) -> Row {
+    let from = weights.iter().position(|w| *w != 0.0).unwrap_or(0);
+    let end = weights.iter().rposition(|w| *w != 0.0).map_or(from, |last| last + 1);
+    (first + from, weights[from..end].to_vec())
 }
 
 /// For each of the n voxels of a line the root sums of squares of the weights that the stored ones have in its smoothed value
 /// and in the second derivative there.
 fn responses(rows: &[Row], n: usize) -> Vec<[f64; 2]> {
     let tensor::Taps { value, second, .. } = taps(0.0);
-    let mut sum = vec![0.0; n];
+    let mut sum = Vec::new();
     let mut root_sum = |rows: &[Row], taps: &[f64; TAPS]| {
-        sum.fill(0.0);
+        let rows = &rows[..TAPS.min(rows.len())];
+        let [lowest, end] = reads(rows);
+        sum.clear();
+        sum.resize(end - lowest, 0.0);
         for ((first, weights), tap) in rows.iter().zip(taps) {
-            for (sum, w) in sum[*first..].iter_mut().zip(weights) {
+            for (sum, w) in sum[first - lowest..].iter_mut().zip(weights) {
                 *sum += w * tap;
             }
         }

@@ -7,6 +7,13 @@ pub fn dashed(lines: &[Polyline], [on, off]: [f64; 2]) -> Vec<Polyline> {
     lines.iter().flat_map(|line| dashes(line, on, off)).collect()
 }
 
+/// Returns how many vertices [`dashed`] gives at most.
+pub fn dash_vertices(lines: &[Polyline], [on, off]: [f64; 2]) -> f64 {
+    // A dash has two ends, and the vertices between.
+    let of = |line: &Polyline| 2.0 * (line.length() / (on + off) + 1.0) + line.vertices.len() as f64;
+    lines.iter().map(of).sum()
+}
+
 fn dashes(line: &Polyline, on: f64, off: f64) -> Vec<Polyline> {
     let again = line.vertices.first().filter(|_| line.closed).map(|first| Vertex { t: 1.0, ..*first });
     let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(again).collect();

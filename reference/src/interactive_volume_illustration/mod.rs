@@ -49,7 +49,7 @@ mod without_iso;
 pub use cells::gradient_range;
 pub use cone::NormalCone;
 pub use counts::{HatchCounts, NoDirection, Rejected, Rejections, Scales, Stop, Stops};
-pub use dash::dashed;
+pub use dash::{dash_vertices, dashed};
 pub use even::{Along, Even};
 pub use gaps::{Gapped, gapped};
 pub use ground::Ground;

@@ -100,16 +100,31 @@ fn draw_tile<R: Real>(
         skip.boxes_in(&Beam::new(corners))
     });
     let blocks = blocks_of(size, whole);
-    let casts = cast_parts(prepared, cast_all, [x, y], &blocks, boxes.as_mut(), &mut tile.counts);
-    tile.pixels.reserve_exact(blocks.len() * prepared.layers.iter().map(|l| l.channels().len()).sum::<usize>());
     let everywhere = match background {
         Backdrop::Color(c) => color::premultiply(c),
         Backdrop::None | Backdrop::Pixels(_) => [0.0; 4],
     };
-    for (n, [i, j]) in blocks.iter().enumerate() {
-        let behind =
-            if let Backdrop::Pixels(pixels) = background { pixels[(y + j) * width + x + i] } else { everywhere };
-        append_pixel(prepared, casts[n..].iter().step_by(blocks.len()), behind, &mut tile.pixels);
+    let behind = |[i, j]: [usize; 2]| match background {
+        Backdrop::Pixels(pixels) => pixels[(y + j) * width + x + i],
+        Backdrop::Color(_) | Backdrop::None => everywhere,
+    };
+    // The n×n rays of a pixel go through the centres of its parts ([RAY-6]): the first parts of all pixels are cast, then the
+    // second ones, and so on.
+    let n = prepared.samples;
+    let mut sums: Vec<PixelSum> = blocks.iter().map(|_| PixelSum::default()).collect();
+    let (mut points, mut casts) = (Vec::with_capacity(blocks.len()), Vec::with_capacity(blocks.len()));
+    for part in 0..n * n {
+        let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
+        points.clear();
+        points.extend(blocks.iter().map(|[i, j]| [centre(x + i, part % n), centre(y + j, part / n)]));
+        cast_all(&points, boxes.as_mut(), &mut tile.counts, &mut casts);
+        for ((sum, cast), place) in sums.iter_mut().zip(casts.drain(..)).zip(&*blocks) {
+            sum.add(prepared, cast, behind(*place));
+        }
+    }
+    tile.pixels.reserve_exact(blocks.len() * prepared.layers.iter().map(|l| l.channels().len()).sum::<usize>());
+    for sum in sums {
+        sum.append(prepared, &mut tile.pixels);
     }
     tile
 }
@@ -134,64 +149,44 @@ fn in_blocks([width, height]: [usize; 2]) -> Vec<[usize; 2]> {
     pixels
 }
 
-/// Casts the n×n rays of each pixel of a tile through the centres of its parts ([RAY-6]): the first parts of all pixels, then
-/// the second ones, and so on.
-fn cast_parts<R: Real>(
-    prepared: &Prepared<'_, R>,
-    cast_all: &impl CastAll,
-    [x, y]: [usize; 2],
-    blocks: &[[usize; 2]],
-    mut boxes: Option<&mut Boxes>,
-    counts: &mut Counts,
-) -> Vec<Cast> {
-    let n = prepared.samples;
-    let mut casts = Vec::with_capacity(n * n * blocks.len());
-    let mut points = Vec::with_capacity(blocks.len());
-    for part in 0..n * n {
-        let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
-        points.clear();
-        points.extend(blocks.iter().map(|[i, j]| [centre(x + i, part % n), centre(y + j, part / n)]));
-        cast_all(&points, boxes.as_deref_mut(), counts, &mut casts);
-    }
-    casts
+/// The rays of a pixel so far ([RAY-6]).
+#[derive(Default)]
+struct PixelSum {
+    /// Σ of the beauty, each ray with its share.
+    beauty: Rgba,
+    /// The sums and the number of samples of the first ray.
+    first: Option<(Option<Box<Sums>>, u64)>,
+    /// The sums of all rays.
+    all: Option<Box<Sums>>,
 }
 
-/// Appends the channels of a pixel, whose rays these are ([RAY-6]): of the beauty the mean; of the layers that are means
-/// themselves the mean over all samples of the pixel; of the others the first ray's.
-fn append_pixel<'c, R: Real>(
-    prepared: &Prepared<'_, R>,
-    casts: impl Iterator<Item = &'c Cast> + Clone,
-    behind: Rgba,
-    pixels: &mut Vec<f64>,
-) {
-    let share = 1.0 / (prepared.samples * prepared.samples) as f64;
-    let mut beauty = [0.0; 4];
-    for cast in casts.clone() {
-        for (mean, c) in beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
+impl PixelSum {
+    /// Adds a ray that has `behind` as its background.
+    fn add<R: Real>(&mut self, prepared: &Prepared<'_, R>, cast: Cast, behind: Rgba) {
+        let share = 1.0 / (prepared.samples * prepared.samples) as f64;
+        for (mean, c) in self.beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
             *mean += c * share;
         }
-    }
-    if prepared.layers == [LayerKind::Beauty] {
-        pixels.extend(beauty);
-        return;
-    }
-    let (mut first, mut all) = (None, Sums::new());
-    for cast in casts {
         if let Some(sums) = &cast.sums {
-            all.pool(sums);
+            self.all.get_or_insert_with(|| Box::new(Sums::new())).pool(sums);
         }
-        first.get_or_insert((cast.sums.as_deref(), cast.samples));
+        self.first.get_or_insert((cast.sums, cast.samples));
     }
-    let none = Sums::new();
-    // A pixel has at least one ray.
-    let (first, samples) = first.unwrap_or((None, 0));
-    let first = first.unwrap_or(&none);
-    for &kind in &prepared.layers {
-        if kind == LayerKind::Beauty {
-            pixels.extend(beauty);
-        } else {
-            let sums = if pooled(kind) { &all } else { first };
-            sums.channels(kind, samples, prepared.field.scale_exponent(), pixels);
+
+    /// Appends the channels of the pixel: of the beauty the mean; of the layers that are means themselves the mean over all
+    /// samples of the pixel; of the others the first ray's.
+    fn append<R: Real>(self, prepared: &Prepared<'_, R>, pixels: &mut Vec<f64>) {
+        // A pixel has at least one ray.
+        let (first, samples) = self.first.unwrap_or_default();
+        let none = Sums::new();
+        let [first, all] = [&first, &self.all].map(|sums| sums.as_deref().unwrap_or(&none));
+        for &kind in &prepared.layers {
+            if kind == LayerKind::Beauty {
+                pixels.extend(self.beauty);
+            } else {
+                let sums = if pooled(kind) { all } else { first };
+                sums.channels(kind, samples, prepared.field.scale_exponent(), pixels);
+            }
         }
     }
 }

@@ -21,6 +21,9 @@ pub struct Lattice {
 /// From here on k + ½ is no number of its own.
 pub const MOST_PLANES: f64 = (1u64 << 52) as f64;
 
+/// The most samples of a picture: beyond those a fast processor is busy for months.
+pub const MOST_SAMPLES: f64 = 1e14;
+
 /// From origins so many 1/ε voxels away rounding could move positions by a hundredth of a voxel.
 const FAR: f64 = 1.0 / 1024.0;
 
@@ -32,6 +35,21 @@ impl Lattice {
             StepAlong::Ray | StepAlong::Plane => view.to_eye(corner).z.abs(),
         };
         grid.world_corners().into_iter().map(away).fold(0.0, f64::max) / self.step
+    }
+
+    /// About how many samples the rays through all pixel centres have in a grid's box, if none is skipped: the mean over rays
+    /// through a coarse grid of pixels, times the number of pixels.
+    pub fn samples(&self, view: &View, grid: &Grid) -> f64 {
+        const SIDE: usize = 16;
+        let [width, height] = view.size.map(|n| n as f64);
+        let [lo, hi] = grid.index_box().map(Vec3::from_glam);
+        let of_ray = |i: usize| {
+            let at = |i: usize, n: f64| (i as f64 + 0.5) / SIDE as f64 * n;
+            let ray = IndexRay::<f64>::new(&view.ray(at(i % SIDE, width), at(i / SIDE, height)), view, self, grid);
+            let near = if view.perspective { self.near } else { f64::NEG_INFINITY };
+            ray.depths(lo, hi).map_or(0.0, |[from, to]| ((to - from.max(near)) / ray.depth_step).max(0.0))
+        };
+        width * height * (0..SIDE * SIDE).map(of_ray).sum::<f64>() / (SIDE * SIDE) as f64
     }
 
     /// The smallest k of a sample beyond `near`.

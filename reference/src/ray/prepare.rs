@@ -2,7 +2,7 @@
 
 use super::cells::Cells;
 use super::gradient_range::quantile_of_norms;
-use super::lattice::{Lattice, MOST_PLANES};
+use super::lattice::{Lattice, MOST_PLANES, MOST_SAMPLES};
 use super::lit::Lit;
 use super::need::Needs;
 use super::over_two::OverTwo;
@@ -59,7 +59,7 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
     let view = View::new(&scene.camera, grid, scene.picture.size)?;
     let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
     let lattice = Lattice { step, along: sampling.step_along, near };
-    within_planes(&lattice, &view, grid)?;
+    within_planes(&lattice, &view, grid, inputs.scene.picture.samples)?;
     let bricks = plan.has_pass(Pass::Bricks).then(|| field.bricks());
     if let Some(bricks) = &bricks {
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
@@ -148,7 +148,7 @@ pub(super) fn prepare<'a, R: Real>(inputs: &Inputs<'a>, counts: &mut Counts) -> 
 
 /// Turns the camera of what is prepared: all that depends on where it stands, with the same lens and picture.
 pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, scene: &Scene, view: View) -> Result<(), RenderError> {
-    within_planes(&prepared.lattice, &view, prepared.volume.grid())?;
+    within_planes(&prepared.lattice, &view, prepared.volume.grid(), prepared.samples)?;
     prepared.eye_axes = eye_axes(&view);
     match &mut prepared.look {
         Look::Regular { phong, .. } => *phong = scene.shading.as_ref().map(|s| Phong::new(s, scene.light, &view)),
@@ -166,10 +166,14 @@ pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, scene: &Scene, view:
     Ok(())
 }
 
-/// Whether sample planes are told apart all the way ([RAY-1]).
-fn within_planes(lattice: &Lattice, view: &View, grid: &Grid) -> Result<(), RenderError> {
+/// Whether sample planes are told apart all the way ([RAY-1]), and the picture's samples have an end.
+fn within_planes(lattice: &Lattice, view: &View, grid: &Grid, rays: usize) -> Result<(), RenderError> {
     let planes = lattice.planes(view, grid);
-    if planes >= MOST_PLANES { Err(RenderError::TooManyPlanes { planes }) } else { Ok(()) }
+    if planes >= MOST_PLANES {
+        return Err(RenderError::TooManyPlanes { planes });
+    }
+    let samples = lattice.samples(view, grid) * (rays * rays) as f64;
+    if samples > MOST_SAMPLES { Err(RenderError::Endless { samples }) } else { Ok(()) }
 }
 
 /// lo and hi − lo of |g| ([VAL-2]), times the power of two of [SPACE-4].

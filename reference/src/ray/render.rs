@@ -3,6 +3,7 @@
 use super::cast::{self, Cast};
 use super::draw::{CastAll, draw};
 use super::lanes;
+use super::lattice::MOST_SAMPLES;
 use super::merged;
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
@@ -80,6 +81,12 @@ pub enum RenderError {
     TooManyPlanes {
         /// The largest distance from the eye, in steps.
         planes: f64,
+    },
+    /// More samples than can be evaluated in months.
+    #[error("the rays have some {samples:.1e} samples, more than {:.0e}, which would take months", MOST_SAMPLES)]
+    Endless {
+        /// Samples of all rays, if none is skipped.
+        samples: f64,
     },
     /// The nodes make no function.
     #[error(transparent)]
@@ -180,6 +187,17 @@ impl<'a> Renderer<'a> {
     /// picture nor in the counts.
     pub fn ray_by_ray(self) -> Self {
         Self { lanes: false, ..self }
+    }
+
+    /// About how many samples a frame has, if none is skipped.
+    pub fn samples(&self) -> f64 {
+        fn of<R: Real>(p: &Prepared<'_, R>) -> f64 {
+            p.lattice.samples(&p.view, p.volume.grid()) * (p.samples * p.samples) as f64
+        }
+        match &self.ready {
+            Ready::F64(p) | Ready::Exact(p, _) => of(p),
+            Ready::F32(p) => of(p),
+        }
     }
 
     /// Whether rays are cast in lanes, eight at a time.

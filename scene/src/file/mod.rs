@@ -42,6 +42,7 @@ pub use reference::reference_markdown;
 pub use schema::schema;
 pub use set::Overrides;
 
+use crate::memory;
 use crate::tables::scene::ROOT;
 use crate::tables::{Scene, Transfer, TransferKind};
 use check::Check;
@@ -67,7 +68,7 @@ pub fn parse(text: &str, file_name: &Path, overrides: &Overrides) -> Result<Scen
 /// names and that is not there.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, Faults> {
     let mut check = Check::new(path);
-    let scene = match std::fs::read_to_string(path) {
+    let scene = match memory::read_to_string(path) {
         Ok(text) => {
             let mut scene = read(&text, overrides, &mut check);
             if let Some(scene) = &mut scene {

@@ -1,5 +1,6 @@
 //! What can be wrong with a phantom's name and parameters.
 
+use crate::memory::NoRoom;
 use crate::space::SpaceError;
 use crate::volume::VolumeError;
 
@@ -62,13 +63,13 @@ pub enum PhantomError {
     /// The phantom's volume cannot be.
     #[error(transparent)]
     Volume(#[from] VolumeError),
-    /// The voxels do not fit in memory.
-    #[error("{dims:?} voxels of {bytes} bytes do not fit in memory")]
+    /// The memory budget does not allow the voxels.
+    #[error("{} × {} × {} voxels need {no_room}", dims[0], dims[1], dims[2])]
     Memory {
         /// Voxels along x, y, z.
         dims: [usize; 3],
-        /// Bytes of one voxel.
-        bytes: usize,
+        /// What they need, and what there is.
+        no_room: NoRoom,
     },
 }
 

@@ -163,13 +163,10 @@ impl Pass {
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
             Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes | Self::Gaps => 0,
+            // At most a cell a voxel: where it is, its p, and once more if a stroke begins there.
+            Self::SeenCells => 56,
             // Of the cells of a surface alone.
-            Self::SeenCells
-            | Self::SeedMeasures
-            | Self::CrossStrokes
-            | Self::Spacing
-            | Self::LitStrokes
-            | Self::MergedStrokes => 0,
+            Self::SeedMeasures | Self::CrossStrokes | Self::Spacing | Self::LitStrokes | Self::MergedStrokes => 0,
             Self::Pyramid => 1,
             // Two directions and two curvatures, in blocks where there are any.
             Self::StoredDirections | Self::AllDirections => 64,

@@ -1,6 +1,7 @@
 //! Themes: sets of styles by name ([STF-12]).
 
 use super::{Style, StyleError};
+use crate::memory;
 use crate::nearest::nearest;
 use crate::tables::StyleSource;
 use std::collections::BTreeMap;
@@ -94,7 +95,7 @@ impl fmt::Display for Theme {
 
 /// The style in a file.
 pub(super) fn read(name: &str, path: &Path, linear: bool) -> Result<Style, StyleError> {
-    let bytes = std::fs::read(path).map_err(|e| StyleError::File {
+    let bytes = memory::read(path).map_err(|e| StyleError::File {
         name: name.into(),
         file: path.into(),
         reason: e.to_string(),

@@ -6,6 +6,7 @@ use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
 use drypoint::output::{OutputError, png};
 use drypoint::reference::style_transfer_functions::extract::{Region, extract};
+use drypoint::scene::memory;
 use drypoint::scene::picture::Provenance;
 use drypoint::scene::style::{MAX_SIDE, SourcePicture};
 use drypoint::{Failure, Format};
@@ -70,7 +71,7 @@ impl Extract {
 
     fn source(&self) -> Result<SourcePicture, Failure> {
         let place = || self.picture.display();
-        let bytes = std::fs::read(&self.picture).map_err(|source| {
+        let bytes = memory::read(&self.picture).map_err(|source| {
             Failure::picture(&OutputError::Io { path: self.picture.clone(), action: "read", source }, place())
         })?;
         SourcePicture::decode(&bytes, self.linear).map_err(|fault| Failure::new(&fault, place(), fault.help()))
@@ -118,7 +119,7 @@ fn inline(text: &str) -> Option<Vec<[f64; 2]>> {
 /// A point on each line; empty lines and such that begin with # are passed over, as is a first line with names.
 fn file(path: &Path) -> Result<Vec<[f64; 2]>, Failure> {
     let remedy = "write x,y on each line, in pixels, or all points as \"x,y x,y …\"";
-    let text = std::fs::read_to_string(path)
+    let text = memory::read_to_string(path)
         .map_err(|error| Failure::new(format!("the outline cannot be read: {error}"), path.display(), remedy))?;
     let mut points = Vec::new();
     for (k, line) in text.lines().enumerate().map(|(k, line)| (k, line.trim())) {

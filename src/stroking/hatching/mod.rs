@@ -12,7 +12,8 @@ use drypoint_reference::field::Field;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
-use drypoint_scene::marks::{Layer, Page, Pen};
+use drypoint_scene::marks::{Layer, Page, Pen, Vertex};
+use drypoint_scene::memory;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
 use drypoint_scene::tables::{
@@ -31,6 +32,9 @@ const MOST_OFF: f64 = 0.05;
 /// In voxels, what the page's measures leave chords and δ at the least: from an eye inside the volume a voxel is as large as
 /// one likes.
 const FINEST: f64 = 0.01;
+
+/// Bytes of memory that a vertex of a dash takes until it is written: itself, and the text of a file.
+const DASH_VERTEX: u64 = 2 * size_of::<Vertex>() as u64;
 
 /// The faintest tone that spacing gives.
 const LEAST: f64 = 0.08;
@@ -54,6 +58,8 @@ pub(super) struct Hatching<'a> {
     gap: Option<[f64; 2]>,
     /// On and off, in mm.
     dash: Option<[f64; 2]>,
+    /// The place of the key that says so.
+    dash_place: String,
     is_pencil: bool,
     is_merged: bool,
 }
@@ -124,6 +130,7 @@ impl<'a> Hatching<'a> {
             lighting: table.lighting(scene).map(|lighting| line_light(&lighting)),
             gap: gap.map(|gap| [gap, deeper]),
             dash,
+            dash_place: scene.given.position("hatching.stroke.dash"),
             is_pencil: table.is_pencil(scene),
             is_merged: has_picture && table.is_merged(scene),
         })
@@ -135,13 +142,30 @@ impl<'a> Hatching<'a> {
     }
 
     /// The lines of its `own` first layers with gaps where nearer ones of any layer cross them ([HATCH-20]), and in dashes.
-    pub(super) fn cut(&self, layers: &mut [Layer], own: usize, view: &View, counts: &mut Counts) {
+    ///
+    /// # Errors
+    /// Dashes that the memory budget does not allow.
+    pub(super) fn cut(
+        &self,
+        layers: &mut [Layer],
+        own: usize,
+        view: &View,
+        counts: &mut Counts,
+    ) -> Result<(), Failure> {
         if let Some(gap) = self.gap {
             cut_gaps(gap, layers, own, view, counts);
         }
-        if let Some(dash) = self.dash {
-            layers.iter_mut().take(own).for_each(|layer| layer.lines = room::dashed(&layer.lines, dash));
-        }
+        let Some(dash) = self.dash else { return Ok(()) };
+        let vertices: f64 = layers.iter().take(own).map(|layer| room::dash_vertices(&layer.lines, dash)).sum();
+        memory::room_for(vertices as u64, DASH_VERTEX).map_err(|no_room| {
+            let length = dash[0] + dash[1];
+            let share = no_room.fitting(u64::from(u32::MAX)) as f64 / f64::from(u32::MAX);
+            let what = format!("dashes with {vertices:.0} ends and bends need {no_room}");
+            let remedy = format!("make a dash and its gap longer: together {:.3} mm would fit", length / share);
+            Failure::new(what, self.dash_place.clone(), remedy)
+        })?;
+        layers.iter_mut().take(own).for_each(|layer| layer.lines = room::dashed(&layer.lines, dash));
+        Ok(())
     }
 
     /// Whether what is hidden of strokes is cut off.

@@ -11,6 +11,9 @@ use drypoint_scene::tables::{
 /// The least `chord`, in voxels: the vertices of a stroke grow with 1/√c, and a default one has some 600 there.
 const LEAST_CHORD: f64 = 1e-4;
 
+/// The least `min_step`, in voxels: a stroke of 30 voxels takes up to ten million steps there.
+const LEAST_STEP: f64 = 1e-6;
+
 /// The table in world units.
 pub(super) fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
     let length = |length, key: &str| in_world(scene, length, &format!("hatching.{key}"), grid);
@@ -21,6 +24,13 @@ pub(super) fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hat
         let place = scene.given.position("hatching.chord");
         return Err(Failure::new(what, place, format!("write \"{LEAST_CHORD} voxels\" or more")));
     }
+    let min_step = length(table.min_step, "min_step")?;
+    if min_step < LEAST_STEP * grid.voxel() {
+        let steps = length(table.length, "length")? / min_step;
+        let what = format!("hatching.min_step is below {LEAST_STEP} voxels, and a stroke could take {steps:.1e} steps");
+        let place = scene.given.position("hatching.min_step");
+        return Err(Failure::new(what, place, format!("write \"{LEAST_STEP} voxels\" or more")));
+    }
     let axis = directions.axis.unwrap_or_else(|| room::longest_axis(grid));
     let center = directions.center.unwrap_or_else(|| grid.centre());
     Ok(room::Hatching {
@@ -29,7 +39,7 @@ pub(super) fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hat
         jitter: table.stroke.jitter,
         seed: table.seed,
         tolerance: length(table.tolerance, "tolerance")?,
-        min_step: length(table.min_step, "min_step")?,
+        min_step,
         offset: length(table.offset, "offset")?,
         chord,
         max_angle: table.max_angle,

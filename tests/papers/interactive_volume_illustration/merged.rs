@@ -243,8 +243,11 @@ fn strokes_of_a_scene_lie_where_their_surface_does() {
         let marking = Marking::new(job, &mut counts, &|_| ()).unwrap();
         let (frame, own) = Drawing::new(job, &marking, &mut counts).unwrap().frame(0, &|_| ()).unwrap();
         counts.add(&own);
-        let [over, inside] =
-            marking.frames(&mut Counts::default()).unwrap().draw_apart(&job.view().unwrap(), &mut Counts::default());
+        let [over, inside] = marking
+            .frames(&mut Counts::default())
+            .unwrap()
+            .draw_apart(&job.view().unwrap(), &mut Counts::default())
+            .unwrap();
         (frame.marks(), frame.painted(job).unwrap(), counts, [over, inside])
     };
     let job = load("merged");

@@ -20,7 +20,7 @@ fn page(scene: &str, wanted: Wanted) -> (Marks, Counts, Job) {
     let job = Job::load_for(scene, wanted).unwrap();
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
-    let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts);
+    let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts).unwrap();
     drop(marking);
     (marks, counts, job)
 }

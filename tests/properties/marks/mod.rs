@@ -104,7 +104,7 @@ fn draw(sheet: &Sheet) -> Result<(Marks, Picture), Failures> {
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ())?;
     let view = job.view()?;
-    let marks = marking.frames(&mut counts).map(|mut frames| frames.draw(&view, &mut counts));
+    let marks = marking.frames(&mut counts).map(|mut frames| frames.draw(&view, &mut counts)).transpose()?;
     let (frame, _) = Drawing::new(&job, &marking, &mut counts)?.frame(0, &|_| ())?;
     Ok((marks.unwrap(), frame.painted(&job)?))
 }

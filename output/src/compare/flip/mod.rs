@@ -15,6 +15,7 @@ mod color;
 pub(super) mod filter;
 
 use crate::OutputError;
+use crate::layers::room;
 use crate::read::{Colors, Image};
 use color::{hunt_lab, lab_distance, linear_to_ycxcz, ycxcz_to_linear};
 use drypoint_scene::math;
@@ -31,6 +32,9 @@ const P_C: f64 = 0.4;
 const P_T: f64 = 0.95;
 /// q_f of section 4.2: the exponent of feature differences.
 const Q_F: f64 = 0.5;
+
+/// Bytes of memory that a pixel takes: the colours, edges and points of both pictures, and what is filtered for them.
+const PIXEL: usize = 400;
 
 /// One difference in [0, 1] for each pixel, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +58,7 @@ impl Map {
 ///
 /// # Errors
 /// [`OutputError::Viewing`], [`OutputError::Sizes`], [`OutputError::Layer`] for pictures without pixels,
-/// [`OutputError::NoColor`] for one without colours.
+/// [`OutputError::NoColor`] for one without colours, [`OutputError::NoRoom`].
 pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputError> {
     if !(1.0..=1000.0).contains(&pixels_per_degree) {
         return Err(OutputError::Viewing { pixels_per_degree });
@@ -66,6 +70,7 @@ pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputE
     if width * height == 0 {
         return Err(OutputError::Layer { layer: "beauty".into(), fault: "the pictures have no pixels".into() });
     }
+    room(None, [width, height], PIXEL)?;
     let kernels = Kernels::new(pixels_per_degree);
     let [a, b] = [("the first picture", a), ("the second picture", b)].map(|(name, image)| {
         let rgb = seen(image).ok_or_else(|| OutputError::NoColor { name: name.into(), found: image.names() })?;

@@ -3,10 +3,11 @@
 use super::{Column, Rows, Wrong};
 use crate::list::COLUMNS;
 use csv::{ByteRecord, Position, Reader};
+use drypoint_scene::memory::Metered;
 use std::fs::File;
 
 pub(super) struct CsvRows {
-    table: Reader<File>,
+    table: Reader<Metered<File>>,
     /// Where each of [`Column::ALL`] stands.
     at: [Option<usize>; Column::ALL.len()],
     row: ByteRecord,
@@ -15,7 +16,7 @@ pub(super) struct CsvRows {
 
 impl CsvRows {
     /// Reads the header.
-    pub(super) fn new(file: File) -> Result<Self, Wrong> {
+    pub(super) fn new(file: Metered<File>) -> Result<Self, Wrong> {
         // Rows of another length are told by the column that is missing.
         let mut table = csv::ReaderBuilder::new().flexible(true).from_reader(file);
         let header = table.byte_headers().map_err(broken)?;

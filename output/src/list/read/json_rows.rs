@@ -1,19 +1,20 @@
 //! The rows of a file of JSON lines: an object a line.
 
 use super::{Column, Rows, Wrong};
+use drypoint_scene::memory::Metered;
 use serde_json::{Map, Value};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 
 pub(super) struct JsonRows {
-    file: BufReader<File>,
+    file: BufReader<Metered<File>>,
     text: Vec<u8>,
     row: Map<String, Value>,
     line: u64,
 }
 
 impl JsonRows {
-    pub(super) fn new(file: File) -> Self {
+    pub(super) fn new(file: Metered<File>) -> Self {
         Self { file: BufReader::new(file), text: Vec::new(), row: Map::new(), line: 0 }
     }
 }

@@ -9,6 +9,7 @@ use csv_rows::CsvRows;
 use drypoint_scene::color::{Rgb, srgb_to_linear};
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Layer, Marks, Page, PageUnit, Pen, Polyline, Vertex};
+use drypoint_scene::memory::Metered;
 use json_rows::JsonRows;
 use std::fs::File;
 use std::path::Path;
@@ -80,6 +81,9 @@ trait Rows {
     fn found(&self, column: Column) -> Option<String>;
 }
 
+/// Bytes of marks in memory for each byte of a list: the shortest rows have 16 bytes, and a vertex has 112.
+const MARKS_PER_BYTE: u64 = 7;
+
 /// Reads a list of dots, or of lines if it has the column `stroke`, as JSON lines if the name ends in `.jsonl` and as CSV
 /// otherwise: a layer for each of `pens`, in their order, or where there are none a layer for each name that the list has, in
 /// the colour that a name such as `#c04006` says, and else in black.
@@ -91,7 +95,7 @@ trait Rows {
 /// [`OutputError::Io`]; [`OutputError::List`] with the line and the column for what is missing or cannot stand there.
 pub fn read_list(path: &Path, page: &Page, pens: &[Pen]) -> Result<Vec<Layer>, OutputError> {
     let refused = |source| OutputError::Io { path: path.into(), action: "read", source };
-    let file = File::open(path).map_err(refused)?;
+    let file = Metered::new(File::open(path).map_err(refused)?, MARKS_PER_BYTE);
     match Form::of(path) {
         Some(Form::JsonLines) => List { path, rows: JsonRows::new(file) }.read(page, pens),
         Some(Form::Csv) | None => {

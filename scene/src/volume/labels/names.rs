@@ -1,5 +1,6 @@
 //! The table of names beside a label volume: `id,name` on each line ([STF-13]).
 
+use crate::memory;
 use crate::nearest::nearest;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -68,7 +69,7 @@ impl LabelNames {
     /// A file that cannot be read, and the first line that gives no id, no name, or one that is given already.
     pub fn read(path: &Path) -> Result<Self, NamesError> {
         let error = |fault| NamesError { file: path.to_owned(), line: None, fault };
-        let text = std::fs::read(path).map_err(|e| error(NamesFault::Io(e)))?;
+        let text = memory::read(path).map_err(|e| error(NamesFault::Io(e)))?;
         Self::parse(&text).map_err(|(line, fault)| NamesError { line, ..error(fault) })
     }
 

@@ -3,6 +3,7 @@
 use super::error::{Fault, ReadError, quoted};
 use super::header::open;
 use super::limits::{Encoding, make_room};
+use crate::memory::NoRoom;
 use crate::volume::bytes::Stored;
 use crate::volume::{VoxelType, Voxels};
 use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
@@ -145,8 +146,8 @@ impl Payload<'_> {
         let share = self.share()?;
         let parts: Vec<Part> = self.files.iter().map(|path| self.check(path, share)).collect::<Result<_, _>>()?;
         let mut voxels: Vec<T> = Vec::new();
-        if self.encoding == Encoding::Raw && !make_room(&mut voxels, self.count, self.count) {
-            return Err(self.no_memory::<T>());
+        if self.encoding == Encoding::Raw {
+            make_room(&mut voxels, self.count, self.count).map_err(|no_room| self.no_memory(no_room))?;
         }
         for part in &parts {
             let failed = |e| ReadError::io(part.path, e);
@@ -172,8 +173,8 @@ impl Payload<'_> {
         Ok(voxels)
     }
 
-    fn no_memory<T>(&self) -> ReadError {
-        self.misfit(self.header, Fault::Memory { bytes: self.count as u128 * size_of::<T>() as u128 })
+    fn no_memory(&self, no_room: NoRoom) -> ReadError {
+        self.misfit(self.header, Fault::Memory { voxels: self.count, no_room })
     }
 
     /// Takes `share` numbers from a stream of bytes, which must end behind them.
@@ -204,9 +205,7 @@ impl Payload<'_> {
             if n < piece.len() {
                 return Err(short(found));
             }
-            if !make_room(voxels, n / size_of::<T>(), self.count) {
-                return Err(self.no_memory::<T>());
-            }
+            make_room(voxels, n / size_of::<T>(), self.count).map_err(|no_room| self.no_memory(no_room))?;
             T::append(piece, self.big_endian, voxels);
         }
         // Reading to the end also lets the decoder check its sums.
@@ -260,9 +259,7 @@ impl Payload<'_> {
                             let expected = format!("a number of type {}", self.voxel_type.name());
                             ReadError::new(part.path, Fault::Value { found: quoted(&text), expected }).line(line)
                         })?;
-                        if !make_room(voxels, 1, self.count) {
-                            return Err(self.no_memory::<T>());
-                        }
+                        make_room(voxels, 1, self.count).map_err(|no_room| self.no_memory(no_room))?;
                         voxels.push(number);
                     }
                     found += 1;

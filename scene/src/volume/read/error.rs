@@ -1,5 +1,6 @@
 //! What is wrong with a volume file, where, and what to do about it.
 
+use crate::memory::NoRoom;
 use crate::space::SpaceError;
 use crate::volume::VolumeError;
 use std::fmt;
@@ -129,11 +130,13 @@ pub enum Fault {
         /// Data files that the header names.
         files: usize,
     },
-    /// More voxels than there is memory for.
-    #[error("there is no memory for {bytes} bytes of voxels")]
+    /// The memory budget does not allow the voxels.
+    #[error("{voxels} voxels need {no_room}")]
     Memory {
-        /// Bytes of all voxels.
-        bytes: u128,
+        /// Voxels of the volume.
+        voxels: usize,
+        /// What was asked for last, and what there is.
+        no_room: NoRoom,
     },
     /// Sizes or axes that make no grid.
     #[error(transparent)]

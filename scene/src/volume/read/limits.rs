@@ -1,5 +1,7 @@
 //! What the length of a file allows its header to claim ([IO-1]).
 
+use crate::memory::{self, NoRoom};
+
 /// DEFLATE's limit: one stored byte decodes to 1032 bytes at the most (a match of 258 bytes takes two bits).
 const EXPANSION: u128 = 1032;
 
@@ -32,13 +34,18 @@ impl Encoding {
 }
 
 /// Makes room for `more` numbers behind those that have arrived, doubling what is there and never beyond `total`.
-/// False where there is no memory.
-pub(super) fn make_room<T>(numbers: &mut Vec<T>, more: usize, total: usize) -> bool {
+/// The memory budget is asked for what is added.
+pub(super) fn make_room<T>(numbers: &mut Vec<T>, more: usize, total: usize) -> Result<(), NoRoom> {
     if numbers.capacity() - numbers.len() >= more {
-        return true;
+        return Ok(());
     }
     let step = more.max(numbers.len()).max(STEP).min(total.saturating_sub(numbers.len())).max(more);
-    numbers.try_reserve_exact(step).is_ok()
+    memory::room_for(step as u64, size_of::<T>() as u64).map_err(|no_room| {
+        let bytes = |n: usize| (n as u64).saturating_mul(size_of::<T>() as u64);
+        NoRoom { needed: bytes(total), free: no_room.free.saturating_add(bytes(numbers.len())) }
+    })?;
+    numbers.reserve_exact(step);
+    Ok(())
 }
 
 #[cfg(test)]
@@ -69,11 +76,11 @@ mod tests {
         let total = 1 << 40;
         for arrived in [0usize, 1 << 16, 1 << 17, 1 << 20] {
             v.resize(arrived, 0);
-            assert!(make_room(&mut v, 1 << 16, total));
+            make_room(&mut v, 1 << 16, total).unwrap();
             assert!(v.capacity() <= (2 * arrived).max(1 << 16) + (1 << 16), "{arrived}: {}", v.capacity());
         }
         let mut v: Vec<u16> = Vec::new();
-        assert!(make_room(&mut v, 100, 100));
+        make_room(&mut v, 100, 100).unwrap();
         assert_eq!(v.capacity(), 100);
     }
 }

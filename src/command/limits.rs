@@ -1,0 +1,61 @@
+//! `--threads` and `--memory`: how much of the machine the command may use.
+
+use clap::builder::RangedU64ValueParser;
+use drypoint::Failure;
+use drypoint::scene::memory;
+
+/// Limits that every verb obeys.
+#[derive(Clone, Copy, Debug, Default, clap::Args)]
+pub(super) struct Limits {
+    /// Threads [default: one a processor]
+    #[arg(long, global = true, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
+    threads: Option<usize>,
+    /// Refuse what would need more memory than this, such as 4GiB [default: the memory that is free]
+    #[arg(long, global = true, value_name = "SIZE", value_parser = bytes)]
+    memory: Option<u64>,
+}
+
+impl Limits {
+    /// Sets the memory budget and starts the one pool of threads, before any verb does its work.
+    ///
+    /// # Errors
+    /// Threads that the system does not give.
+    pub(super) fn apply(self) -> Result<(), Failure> {
+        if let Some(bytes) = self.memory {
+            memory::limit(bytes);
+        }
+        // To the pool, 0 is its own default.
+        let started = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build_global();
+        started.map_err(|error| {
+            let what = format!("the threads cannot be started: {error}");
+            let place = self.threads.map_or("--threads".into(), |n| format!("--threads {n}"));
+            Failure::new(what, place, "ask for fewer with --threads, or allow the process more memory")
+        })
+    }
+}
+
+/// Bytes of a text such as `4GiB` or `512 MiB`.
+fn bytes(text: &str) -> Result<u64, &'static str> {
+    let unit = |suffix: &str, shift: u32| Some((text.trim().strip_suffix(suffix)?.trim_end(), shift));
+    let number = |(number, shift): (&str, u32)| {
+        let bytes = number.parse::<f64>().ok()? * f64::from(shift).exp2();
+        (bytes >= 1.0 && bytes.is_finite()).then_some(bytes as u64)
+    };
+    let found = unit("GiB", 30).or_else(|| unit("MiB", 20)).and_then(number);
+    found.ok_or("a size is a number with MiB or GiB, such as 4GiB")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bytes;
+
+    #[test]
+    fn sizes_by_hand() {
+        for (text, expected) in [("4GiB", 4 << 30), (" 512 MiB ", 512 << 20), ("0.5GiB", 1 << 29)] {
+            assert_eq!(bytes(text), Ok(expected), "{text}");
+        }
+        for text in ["4", "GiB", "-1GiB", "0GiB", "4 GB", "nanGiB", "infGiB", ""] {
+            assert!(bytes(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The memory budget, threads, and long work: what would end or never end the process is refused, with what would fit.
+
+use crate::folder::Folder;
+use drypoint::output::png::write_png;
+use drypoint::scene::picture::{Layer, LayerKind, Picture, Provenance};
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
+
+/// A white picture of so many pixels a side, whose file is small.
+fn white(folder: &Folder, name: &str, side: usize) {
+    let picture = Picture {
+        width: side,
+        height: side,
+        layers: vec![Layer { kind: LayerKind::Beauty, channels: vec![vec![1.0; side * side]; 4] }],
+    };
+    write_png(&picture, 8, &Provenance::default(), &folder.path(name)).unwrap();
+}
+
+#[test]
+fn decoded_pictures() {
+    let folder = Folder::new();
+    white(&folder, "white.png", 1000);
+    folder.scene("");
+    let needs = "a picture of 1000 × 1000 pixels needs 0.05 GiB of memory, and 0.0";
+    for line in ["compare white.png white.png", "sheet white.png -o sheet.png"] {
+        let said = folder.refused(&format!("{line} --memory 40MiB"));
+        assert!(said.starts_with(&format!("error: {needs}")) && said.contains("  at: white.png\n"), "{said}");
+        assert!(said.contains(" pixels would fit\n"), "{said}");
+    }
+    let said = folder.refused("render scene.toml --set picture.background=\"white.png\" --memory 40MiB");
+    assert!(said.contains(&format!("white.png: {needs}")), "{said}");
+    assert!(said.contains("  at: --set picture.background=\"white.png\", key picture.background\n"), "{said}");
+    // What fits is read; comparing it takes more.
+    let said = folder.refused("compare white.png white.png --memory 200MiB");
+    assert!(said.starts_with("error: a picture of 1000 × 1000 pixels needs 0.38 GiB of memory"), "{said}");
+    assert!(folder.good("compare white.png white.png --memory 4GiB").contains("flip"));
+}
+
+#[test]
+fn pages_in_pixels() {
+    let folder = Folder::new();
+    folder.torus();
+    let said = folder.refused("points torus.nrrd --set picture.dpi=2000 -o a.png --memory 1GiB");
+    assert!(said.starts_with("error: a picture of 12598 × 12598 pixels needs 7.10 GiB of memory, and 0.9"), "{said}");
+    assert!(said.contains("key picture.dpi\n"), "{said}");
+    let dpi: f64 = said.split("try: picture.dpi = ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((600.0..750.0).contains(&dpi), "{said}");
+    // A vector file has no pixels.
+    folder.good("points torus.nrrd --set picture.dpi=2000 -o a.svg --memory 1GiB");
+}
+
+#[test]
+fn dashes_and_step_wedges() {
+    let folder = Folder::new();
+    folder.torus();
+    let dashes = "hatching.stroke.dash=[\"0.0001mm\",\"0.0001mm\"]";
+    let page = "--set picture.width=\"30mm\"";
+    let said = folder.refused(&format!("strokes torus.nrrd {page} --set {dashes} -o a.svg --memory 300MiB"));
+    assert!(said.starts_with("error: dashes with ") && said.contains(" ends and bends need "), "{said}");
+    assert!(said.contains(&format!("  at: --set {dashes}, key hatching.stroke.dash\n")), "{said}");
+    assert!(said.contains("  try: make a dash and its gap longer: together 0.0"), "{said}");
+
+    let said = folder.run(["wedge", "--pen", "a", "--set", "pen=[{name=\"a\",width=\"0.001 mm\"}]", "-o", "a.svg"]);
+    assert_eq!(said.code, Some(2));
+    assert!(
+        said.err.starts_with("error: a step wedge of a nib of 0.001 mm needs 520.50 GiB of memory"),
+        "{}",
+        said.err
+    );
+    assert!(said.err.contains("  at: pen.width\n  try: take a wider pen: one of 0.0"), "{}", said.err);
+}
+
+/// Neither a long thin volume nor many rays a pixel take memory of their own.
+#[test]
+fn what_fits_is_drawn() {
+    let folder = Folder::new();
+    folder.good("phantom sphere --size 1,1,40000 -o thin.nrrd -q");
+    folder.good("strokes thin.nrrd -o thin.svg --memory 1GiB");
+    folder.scene("");
+    folder.good("render scene.toml --size 1x1 --set picture.samples=1024 --memory 200MiB -o many.exr");
+    folder.good("render scene.toml --size 1x1 --set picture.samples=64 -o some.exr");
+    // A mean over 256 times as many rays.
+    folder.good("compare many.exr some.exr --max 0.001");
+}
+
+#[test]
+fn volumes_and_phantoms() {
+    let folder = Folder::new();
+    let said = folder.refused("phantom sphere --size 2000,2000,1000 -o a.nrrd --memory 1GiB");
+    assert!(said.starts_with("error: 2000 × 2000 × 1000 voxels need 3.73 GiB of memory, and 0.9"), "{said}");
+    folder.good("phantom sphere --size 300 -o a.nrrd -q");
+    let said = folder.refused("info a.nrrd --memory 20MiB");
+    assert!(said.starts_with("error: 27000000 voxels need 0.03 GiB of memory, and 0.0"), "{said}");
+}
+
+#[test]
+fn lines_and_lists_without_end() {
+    let folder = Folder::new();
+    folder.torus();
+    let said = folder.line_with("probe torus.nrrd", &"1".repeat(5000));
+    let expected =
+        "error: the line has 4096 bytes or more, and a point is three numbers\n  at: standard input, line 1\n";
+    assert!(said.code == Some(2) && said.err.starts_with(expected), "{}", said.err);
+    let said = folder.line_with("probe torus.nrrd", &"word\n".repeat(1000));
+    assert_eq!((said.code, said.err.matches("error: \"word\" is no point").count()), (Some(2), 20));
+    let said = folder.line_with("probe torus.nrrd --memory 100MiB", &"1,1,1\n".repeat(200_000));
+    assert!(said.code == Some(2) && said.err.starts_with("error: its content needs 0."), "{}", said.err);
+    folder.write("list.csv", "x,y,wx,wy,wz,radius,opacity\n".to_owned() + &"1,1,0,0,0,1,1\n".repeat(1_000_000));
+    let said = folder.refused("points list.csv -o list.svg --memory 20MiB");
+    assert!(said.starts_with("error: its content needs 0.01 GiB of memory"), "{said}");
+}
+
+#[test]
+fn sizes_of_memory() {
+    let folder = Folder::new();
+    let said = folder.refused("plan --memory 4");
+    assert!(said.contains("a size is a number with MiB or GiB, such as 4GiB"), "{said}");
+    folder.good("--memory 4GiB plan");
+    folder.good("plan --threads 2");
+}
+
+/// Threads need memory for their stacks, which a shell can deny.
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_cannot_be_started() {
+    let folder = Folder::new();
+    let drypoint = env!("CARGO_BIN_EXE_drypoint");
+    let line = format!("ulimit -v 800000; {drypoint} phantom sphere --size 2000,2000,1000 -o a.nrrd --threads 1000");
+    let said = std::process::Command::new("sh").args(["-c", &line]).current_dir(folder.path("")).output().unwrap();
+    let err = String::from_utf8(said.stderr).unwrap();
+    assert_eq!(said.status.code(), Some(2), "{err}");
+    assert!(
+        err.starts_with("error: the threads cannot be started: ") && err.contains("  at: --threads 1000\n"),
+        "{err}"
+    );
+}
+
+#[test]
+fn what_never_ends() {
+    let folder = Folder::new();
+    folder.torus();
+    let said = folder.run(["render", "torus.nrrd", "--set", "sampling.step=\"1e-9 voxels\"", "-o", "a.png"]);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.starts_with("error: the rays have some "), "{}", said.err);
+    assert!(said.err.contains("e15 samples, more than 1e14, which would take months\n"), "{}", said.err);
+    assert!(said.err.contains("  at: --set sampling.step=\"1e-9 voxels\", key sampling.step\n"), "{}", said.err);
+    let said = folder.refused("strokes torus.nrrd --set hatching.min_step=1e-300 -o a.svg");
+    assert!(said.starts_with("error: hatching.min_step is below 0.000001 voxels, and a stroke could take "), "{said}");
+    assert!(said.contains("key hatching.min_step\n  try: write \"0.000001 voxels\" or more\n"), "{said}");
+}
+
+#[test]
+fn long_work_says_how_long() {
+    let folder = Folder::new();
+    folder.torus();
+    let line = ["render", "torus.nrrd", "--size", "2000x2000", "--set", "sampling.step=0.001", "-o", "a.png"];
+    let mut child = folder.command(line).stderr(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let said = lines.find(|line| line.as_ref().unwrap().starts_with("rendering: ")).unwrap().unwrap();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(said.starts_with("rendering: up to ") && said.contains("e10 samples, about "), "{said}");
+    assert!(said.ends_with(" in all"), "{said}");
+}
