@@ -22,5 +22,6 @@ mod sheet;
 mod stats;
 mod strokes;
 mod styles;
+mod terminal;
 mod usage;
 mod wedge;
