@@ -5,6 +5,7 @@ use super::header::open;
 use super::limits::{Encoding, make_room};
 use crate::volume::bytes::Stored;
 use crate::volume::{VoxelType, Voxels};
+use bzip2::bufread::MultiBzDecoder;
 use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
@@ -167,6 +168,7 @@ impl Payload<'_> {
                 Encoding::Zlib | Encoding::Gzip => {
                     self.stream(part, &mut MultiGzDecoder::new(reader), share, &mut voxels)?;
                 }
+                Encoding::Bzip2 => self.stream(part, &mut MultiBzDecoder::new(reader), share, &mut voxels)?,
             }
         }
         Ok(voxels)
