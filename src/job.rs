@@ -155,11 +155,13 @@ impl Job {
         // Of the scene as it was given: that its function was found in the data is part of the plan.
         let mut plan = plan_for(&scene, wanted);
         plan.settle(&scene, is_integer(&volume));
-        if let (true, Some(step), Ok(view)) = (
-            plan.has_pass(Pass::Rays),
-            scene.sampling.step.world(volume.grid()),
-            View::new(&scene.camera, volume.grid(), scene.picture.size),
-        ) {
+        let view = View::new(&scene.camera, volume.grid(), scene.picture.size).ok();
+        if let Some(view) = &view {
+            plan.warn_eye(view, volume.grid());
+        }
+        if let (true, Some(step), Some(view)) =
+            (plan.has_pass(Pass::Rays), scene.sampling.step.world(volume.grid()), view)
+        {
             let stretch = match scene.sampling.step_along {
                 StepAlong::Plane => view.largest_stretch(),
                 StepAlong::Ray => 1.0,

@@ -139,7 +139,7 @@ impl OutputError {
             Self::Sizes { .. } => "render both with the same --size",
             Self::Viewing { .. } => "use 1 to 1000 pixels per degree; a desk screen has about 67",
             Self::NothingInCommon { .. } => "write both pictures with the same --layers",
-            Self::List { .. } => "correct the row, or write the list again",
+            Self::List { .. } => "correct the line, or write the list again",
             Self::Sheet { .. } => "give at least one picture, and a cell from 16 to 4096 pixels",
         }
     }

@@ -4,7 +4,7 @@
 //! [`remove_unfinished`] before it ends the process, so that nothing is left beside the target either.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -13,22 +13,25 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Files that are being written just now.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Tells apart two writes of one process to one target.
+/// Numbers the files of this process.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
 /// Makes `path` hold what `fill` writes, replacing what is there, at once or not at all.
 ///
-/// A symbolic link is followed. A target that is no regular file (a pipe, `/dev/null`) is written directly, since it
-/// must not be replaced by a file.
+/// A symbolic link is followed. A file that is replaced keeps its permissions. A target that is no regular file (a pipe,
+/// `/dev/null`) is written directly, since it must not be replaced by a file.
 ///
 /// # Errors
-/// Whatever the operating system refuses or `fill` returns; the target is then as it was.
+/// A file that may not be written to, or whatever the operating system refuses or `fill` returns; the target is then as
+/// it was.
 pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) -> Result<(), E>) -> Result<(), E> {
-    let target = match Target::of(path)? {
+    let (target, permissions) = match Target::of(path)? {
         Target::Direct => return filled(File::create(path)?, fill),
-        Target::File(target) => target,
+        Target::File(target, permissions) => (target, permissions),
     };
     let (beside, file) = Beside::create(&target)?;
+    // Before the first byte, so that a private file is private while it is written.
+    permissions.map_or(Ok(()), |permissions| file.set_permissions(permissions))?;
     filled(file, fill)?;
     Ok(fs::rename(&beside.path, &target)?)
 }
@@ -40,7 +43,7 @@ pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) 
 pub fn check(path: &Path) -> io::Result<()> {
     match Target::of(path)? {
         Target::Direct => Ok(()),
-        Target::File(target) => Beside::create(&target).map(drop),
+        Target::File(target, _) => Beside::create(&target).map(drop),
     }
 }
 
@@ -50,6 +53,11 @@ pub fn remedy(error: &io::Error) -> &'static str {
         io::ErrorKind::IsADirectory => "give the name of a file, such as one in that folder",
         io::ErrorKind::NotFound => "make the folder first, or give a path in one that is there",
         io::ErrorKind::NotADirectory => "give a path in a folder",
+        io::ErrorKind::InvalidFilename => "give a shorter name",
+        // With an error inside it is that of `may_be_written`, and not one of the operating system.
+        io::ErrorKind::PermissionDenied if error.get_ref().is_some() => {
+            "allow writing to this file first, or give another name"
+        }
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "give a path in a folder that you may write to: a file is written beside its place, then renamed"
         }
@@ -76,19 +84,34 @@ fn filled<E: From<io::Error>>(file: File, fill: impl FnOnce(&mut dyn Write) -> R
 enum Target {
     /// A pipe or a device.
     Direct,
-    /// A file with its links followed, or nothing yet.
-    File(PathBuf),
+    /// A file with its links followed, and its permissions; or nothing yet.
+    File(PathBuf, Option<Permissions>),
 }
 
 impl Target {
     fn of(path: &Path) -> io::Result<Self> {
         match fs::metadata(path) {
-            Ok(found) if found.is_file() => Ok(Self::File(fs::canonicalize(path)?)),
             Ok(found) if found.is_dir() => Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")),
+            Ok(found) if found.is_file() => {
+                may_be_written(path, &found.permissions())?;
+                Ok(Self::File(fs::canonicalize(path)?, Some(found.permissions())))
+            }
             Ok(_) => Ok(Self::Direct),
-            Err(_) => Ok(Self::File(path.to_path_buf())),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::File(path.to_path_buf(), None)),
+            Err(error) => Err(error),
         }
     }
+}
+
+/// Whether a file may be written to. To rename another file over it, only its folder has to allow that.
+fn may_be_written(path: &Path, permissions: &Permissions) -> io::Result<()> {
+    // Some users may write to every file. They are refused too where the file says that nobody may.
+    let denied = permissions.readonly()
+        || OpenOptions::new()
+            .write(true)
+            .open(path)
+            .is_err_and(|error| error.kind() == io::ErrorKind::PermissionDenied);
+    if denied { Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only")) } else { Ok(()) }
 }
 
 /// A file beside the target, of which nothing is left when the write ends in any way.
@@ -98,16 +121,25 @@ struct Beside {
 
 impl Beside {
     fn create(target: &Path) -> io::Result<(Self, File)> {
-        let name = target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "it names no file"))?;
-        let mut hidden = std::ffi::OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}-{}.part", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
-        let path = target.with_file_name(hidden);
-        // Under the lock: an interrupt finds either no file, or a file that is on the list.
-        let mut unfinished = unfinished();
-        let file = File::create_new(&path)?;
-        unfinished.insert(path.clone());
-        Ok((Self { path }, file))
+        if target.file_name().is_none() {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "it names no file"));
+        }
+        loop {
+            // Without the target's name: with more behind it, a long name would be too long.
+            let number = COUNT.fetch_add(1, Ordering::Relaxed);
+            let path = target.with_file_name(format!(".drypoint.{}-{number}.part", std::process::id()));
+            // Under the lock: an interrupt finds either no file, or a file that is on the list.
+            let mut unfinished = unfinished();
+            match File::create_new(&path) {
+                Ok(file) => {
+                    unfinished.insert(path.clone());
+                    return Ok((Self { path }, file));
+                }
+                // Another machine may write to the same folder with the same process number.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+            }
+        }
     }
 }
 
@@ -190,14 +222,57 @@ mod tests {
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).unwrap();
     }
 
+    #[cfg(unix)]
     #[test]
-    fn an_interrupt_removes_what_is_beside() {
+    fn permissions_are_kept_and_a_read_only_file_stays() {
+        use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
-        let (_beside, mut file) = Beside::create(&folder.path().join("a.png")).unwrap();
-        file.write_all(b"half").unwrap();
-        assert_eq!(names(folder.path()).len(), 1);
-        remove_unfinished();
-        assert!(names(folder.path()).is_empty());
+        let path = folder.path().join("a.png");
+        put(&path, b"old").unwrap();
+        let mode = || fs::metadata(&path).unwrap().permissions().mode() & 0o777;
+        for kept in [0o600, 0o664, 0o755] {
+            fs::set_permissions(&path, Permissions::from_mode(kept)).unwrap();
+            put(&path, b"new").unwrap();
+            assert_eq!(mode(), kept);
+        }
+        fs::set_permissions(&path, Permissions::from_mode(0o444)).unwrap();
+        for error in [check(&path).unwrap_err(), put(&path, b"newer").unwrap_err()] {
+            assert_eq!(error.kind(), io::ErrorKind::PermissionDenied);
+            assert_eq!(error.to_string(), "the file is read-only");
+            assert_eq!(remedy(&error), "allow writing to this file first, or give another name");
+        }
+        assert_eq!((fs::read(&path).unwrap(), mode(), names(folder.path()).len()), (b"new".into(), 0o444, 1));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_name_may_be_as_long_as_the_system_allows() {
+        let folder = tempfile::tempdir().unwrap();
+        for length in [244, 255] {
+            let path = folder.path().join(format!("{}.png", "a".repeat(length - 4)));
+            check(&path).unwrap();
+            put(&path, b"old").unwrap();
+            put(&path, b"new").unwrap();
+            assert_eq!(fs::read(&path).unwrap(), b"new");
+        }
+        let path = folder.path().join("a".repeat(256));
+        for error in [check(&path).unwrap_err(), put(&path, b"x").unwrap_err()] {
+            assert_eq!(remedy(&error), "give a shorter name");
+        }
+        assert_eq!(names(folder.path()).len(), 2);
+    }
+
+    #[test]
+    fn a_file_of_that_name_beside_the_target_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        // Whatever number comes next, one of these is in its way.
+        let next = COUNT.load(Ordering::Relaxed);
+        let taken = |n| folder.path().join(format!(".drypoint.{}-{n}.part", std::process::id()));
+        (next..next + 100).for_each(|n| fs::write(taken(n), b"another's").unwrap());
+        let path = folder.path().join("a.png");
+        put(&path, b"new").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert!((next..next + 100).all(|n| fs::read(taken(n)).unwrap() == b"another's"));
     }
 
     #[cfg(unix)]

@@ -26,6 +26,7 @@ pub mod style;
 pub mod tables;
 pub mod tone;
 pub mod transfer;
+pub mod unprintable;
 pub mod view;
 pub mod volume;
 

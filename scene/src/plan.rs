@@ -9,9 +9,11 @@ pub use pass::Pass;
 
 use crate::file::Place;
 use crate::file::describe::Section;
+use crate::space::Grid;
 use crate::tables::Scene;
 use crate::tables::scene::sections;
 use crate::tables::{GradientEstimator, Kernel};
+use crate::view::View;
 use std::fmt;
 
 /// What may have to be known at a sample.
@@ -285,6 +287,17 @@ impl Plan {
         {
             let why = "sampling.gradient = \"analytic\" jumps at the faces of cells with sampling.kernel = \"trilinear\": \
                        outlines are broken there; another gradient or kernel closes them";
+            self.warnings.push(why.into());
+        }
+    }
+
+    /// Warns where the eye of a perspective view lies in the box of the volume: nobody sees what is behind it.
+    pub fn warn_eye(&mut self, view: &View, grid: &Grid) {
+        let [lo, hi] = grid.index_box();
+        let eye = grid.to_index(view.eye);
+        if view.perspective && eye.cmpge(lo).all() && eye.cmple(hi).all() {
+            let why = "the camera is inside the volume: what lies behind it is not seen; move camera.eye away, or leave \
+                       it out for a view of the whole";
             self.warnings.push(why.into());
         }
     }

@@ -45,6 +45,7 @@ impl Compare {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         if let Some(path) = &self.diff {
             target::picture(path, &[Format::Png])?;
+            target::apart(path, [&*self.a, &*self.b])?;
         }
         let say = |error: OutputError| {
             Failure::picture(&error, format_args!("{} and {}", self.a.display(), self.b.display()))

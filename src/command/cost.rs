@@ -2,7 +2,7 @@
 
 use super::input::{self, Over, Set};
 use super::report::{Progress, note, print};
-use super::{Done, Outcome, Talk};
+use super::{Done, Outcome, Talk, target};
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
 use drypoint::Failure;
@@ -49,6 +49,7 @@ impl Cost {
             let _loading = Progress::new(talk, "loading");
             input::load(self.input.as_deref(), &over)?
         };
+        files.iter().try_for_each(|(path, _)| target::apart(path, job.scene.files()))?;
         input::tell(talk, &job);
         let found = {
             let progress = Progress::new(talk, "measuring");
@@ -58,7 +59,7 @@ impl Cost {
             note(talk, format_args!("warning: {knob} = {setting} is left out: {}", failure.what));
         }
         for (path, form) in &files {
-            let name = self.input.as_deref().map_or("the embedded scene".into(), super::target::stem);
+            let name = self.input.as_deref().map_or("the embedded scene".into(), target::stem);
             let bytes = form.of_sweep(&found, &name).map_err(|what| {
                 Failure::new(what, path.display(), "write a .csv, or turn a knob that changes the picture")
             })?;

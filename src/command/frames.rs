@@ -30,10 +30,12 @@ impl Files {
     ///
     /// # Errors
     /// `#` without `[orbit]`, `[orbit]` without `#` where the format has no frames, fewer digits than the last frame needs,
-    /// more than one run, or a folder that is not there or may not be written to.
+    /// more than one run, a file that the scene reads, or a folder that is not there or may not be written to.
     pub(super) fn of(path: &Path, scene: &Scene) -> Result<Self, Failure> {
         let files = Self::named(path, scene)?;
         target::writable(&files.path(0))?;
+        let frames = scene.orbit.map_or(1, |orbit| orbit.frames);
+        (0..frames).try_for_each(|frame| target::apart(&files.path(frame), scene.files()))?;
         Ok(files)
     }
 

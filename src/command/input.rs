@@ -1,7 +1,7 @@
 //! What a verb is given: a scene, a bare volume, or nothing, which is the embedded scene.
 
 use super::Talk;
-use super::raw::layout;
+use super::raw::{self, layout};
 use super::report::note;
 use drypoint::job::{Job, Wanted, bare, bare_for};
 use drypoint::scene::counts::Counts;
@@ -110,6 +110,8 @@ impl Over {
                 Place::File { .. } | Place::Chosen => None,
             };
             match flag {
+                // One of its keys has a longer name.
+                Some(flag) if flag.key == raw::KEY && fault.key == raw::KEY => raw::no_keys(&flag.typed),
                 Some(flag) => Failure::new(fault.what(), &flag.typed, fault.remedy()),
                 None => Failure::from(fault),
             }
@@ -206,13 +208,21 @@ pub(super) fn is_scene(path: &Path) -> bool {
 
 /// Why a path is neither a scene nor a volume.
 pub(super) fn no_input(path: &Path) -> Failure {
-    let what = match std::fs::metadata(path) {
-        Ok(found) if found.is_dir() => "a folder is neither a scene nor a volume".into(),
-        Ok(_) => "the suffix is neither that of a scene nor of a volume".into(),
-        Err(error) => format!("the file cannot be read: {error}"),
-    };
+    if let Err(error) = read::refuse_dicom(path) {
+        return error.into();
+    }
     let suffixes = read::EXTENSIONS.map(|suffix| format!(".{suffix}")).join(", ");
-    Failure::new(what, path.display(), format!("check the path; scenes end in .toml, volumes in {suffixes}"))
+    let check = format!("check the path; scenes end in .toml, volumes in {suffixes}");
+    match std::fs::metadata(path) {
+        Ok(found) if found.is_dir() => Failure::new("a folder is neither a scene nor a volume", path.display(), check),
+        Ok(_) => {
+            let what = "the suffix is neither that of a scene nor of a volume";
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let remedy = format!("{check}; --raw or a file {name}.toml describes raw voxels of any other");
+            Failure::new(what, path.display(), remedy)
+        }
+        Err(error) => Failure::new(format!("the file cannot be read: {error}"), path.display(), check),
+    }
 }
 
 /// The scene for a bare volume. It goes through its own text, so that overrides act on it as on any scene.

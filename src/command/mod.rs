@@ -19,6 +19,7 @@ mod render;
 mod report;
 mod schema;
 mod sheet;
+mod signals;
 mod stats;
 mod strokes;
 mod styles;
@@ -28,7 +29,6 @@ mod wedge;
 use arguments::Arguments;
 use clap::{Args, Parser, Subcommand};
 use drypoint::Failures;
-use drypoint::scene::atomic;
 use limits::Limits;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -36,7 +36,7 @@ use std::process::ExitCode;
 /// Illustrations from volumes: CT, MRI and simulation data in lit-sphere styles with contours of controlled thickness.
 ///
 /// Without a verb it renders: `drypoint head.nii.gz` is `drypoint render head.nii.gz`. Exit codes: 0 done, 1 a
-/// comparison failed, 2 bad use or bad input, 130 interrupted.
+/// comparison failed, 2 bad use or bad input, 130 interrupted, 143 or 129 ended by SIGTERM or SIGHUP.
 #[derive(Debug, Parser)]
 #[command(name = "drypoint", version, propagate_version = true, subcommand_required = true)]
 struct Cli {
@@ -104,17 +104,9 @@ type Outcome = Result<Done, Failures>;
 /// Bad use or bad input.
 const BAD: u8 = 2;
 
-/// What shells expect of a program that SIGINT ended: 128 and the number of the signal. Scripts can so tell an
-/// interrupt from bad input.
-const INTERRUPTED: i32 = 130;
-
-/// Runs a command line. 0: done; 1: a comparison failed; 2: bad use or bad input; 130: interrupted.
+/// Runs a command line. 0: done; 1: a comparison failed; 2: bad use or bad input; 128 and its number: ended by a signal.
 pub(crate) fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
-    // Ctrl-C leaves no half file. Where no handler can be set, the unfinished file has a name of its own.
-    let _ = ctrlc::set_handler(|| {
-        atomic::remove_unfinished();
-        std::process::exit(INTERRUPTED);
-    });
+    signals::remove_unfinished_at_the_end();
     match parsed(words) {
         Ok(Ok(cli)) => exit_code(cli.run()),
         Ok(Err(help)) => {

@@ -66,6 +66,7 @@ impl Page {
             let _loading = Progress::new(talk, "loading");
             input::load(Some(&self.input), &over)?
         };
+        target::apart(path, job.scene.files())?;
         let mut counts = job.counts.clone();
         let stroking = Stroking::new(&job, &mut counts)?;
         let Some(map) = stroking.seeds(&mut counts) else {
@@ -123,6 +124,7 @@ impl Page {
         target::picture(&self.output, &Format::ALL)?;
         let (mut counts, start) = (Counts::default(), Instant::now());
         let scene = input::page(&self.set)?;
+        target::apart(&self.output, scene.files().into_iter().chain([&*self.input]))?;
         let page = Paper::of(&scene);
         let pens = Pen::of(&scene.pens, &page);
         let layers = list::read_list(&self.input, &page, &pens)

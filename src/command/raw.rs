@@ -1,10 +1,13 @@
 //! `--raw`: the layout of voxels without a header, where no sidecar describes them ([IO-1]).
 
 use super::input::{self, Flag};
-use drypoint::Failures;
 use drypoint::scene::tables::{RawLayout, VolumeSource};
 use drypoint::scene::volume::{Volume, read};
+use drypoint::{Failure, Failures};
 use std::path::Path;
+
+/// The scene key that `--raw` stands for.
+pub(super) const KEY: &str = "volume.raw";
 
 /// The layout of a file without header, as verbs take it.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -18,7 +21,7 @@ impl Raw {
     /// The scene key that it stands for.
     pub(super) fn flag(&self) -> Option<Flag> {
         let keys = self.keys.as_ref()?;
-        Some(Flag { key: "volume.raw", value: format!("{{ {keys} }}"), typed: format!("--raw {keys}") })
+        Some(Flag { key: KEY, value: format!("{{ {keys} }}"), typed: format!("--raw {keys}") })
     }
 
     /// Reads a volume: by its layout, if one was given.
@@ -26,6 +29,24 @@ impl Raw {
         let scene = input::settings(self.flag().into_iter().collect())?;
         Ok(read::read(path, layout(&scene.volume.source))?)
     }
+}
+
+/// The failure of a `--raw`, as it was typed, that is no list of keys.
+pub(super) fn no_keys(typed: &str) -> Failure {
+    let has = |key: &str| typed.contains(key);
+    let absent = match (has("size"), has("["), has("type")) {
+        (true, false, true) => ": size has no brackets",
+        (true, false, false) => ": size has no brackets, and type is missing",
+        (false, ..) => ": size is missing",
+        (true, true, false) => ": type is missing",
+        (true, true, true) => "",
+    };
+    let what = format!("this is no layout{absent}");
+    Failure::new(
+        what,
+        typed,
+        "write --raw 'size = [256, 256, 113], type = \"i16\"', with size and type of these voxels",
+    )
 }
 
 /// The layout that a source has.

@@ -2,6 +2,7 @@
 
 use super::{Done, Outcome, Talk};
 use drypoint::Failure;
+use drypoint::scene::unprintable::is_unprintable;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,6 +11,10 @@ use std::time::{Duration, Instant};
 
 /// Writes to standard output. A reader that has gone away is no error.
 pub(super) fn print(text: &str) -> Outcome {
+    write_out(&escaped(text))
+}
+
+fn write_out(text: &str) -> Outcome {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -22,7 +27,7 @@ pub(super) fn print(text: &str) -> Outcome {
 /// A value, as `serde_json` has it, on standard output.
 pub(super) fn print_json(text: serde_json::Result<String>) -> Outcome {
     match text {
-        Ok(text) => print(&(text + "\n")),
+        Ok(text) => write_out(&(escaped_json(&text) + "\n")),
         Err(error) => Err(Failure::new(error, "the result as JSON", "leave --json out").into()),
     }
 }
@@ -37,7 +42,30 @@ pub(super) fn note(talk: Talk, text: impl std::fmt::Display) {
 /// A line on standard error.
 pub(super) fn say(text: impl std::fmt::Display) {
     // Where standard error is closed nobody hears it, and work goes on.
-    let _ = writeln!(std::io::stderr(), "{text}");
+    let _ = writeln!(std::io::stderr(), "{}", escaped(&text.to_string()));
+}
+
+/// Escapes a text for a terminal, where a name in it could change what is shown around it, by a colour or the direction of
+/// writing: ESC becomes `\u{1b}`. Line ends and tabs stay.
+fn escaped(text: &str) -> String {
+    with_escapes(text, |c| c.escape_unicode().to_string())
+}
+
+/// Escapes JSON as JSON does, so that its value stays: unprintable characters stand in its strings alone.
+fn escaped_json(text: &str) -> String {
+    with_escapes(text, |c| format!("\\u{:04x}", u32::from(c)))
+}
+
+fn with_escapes(text: &str, escape: impl Fn(char) -> String) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_unprintable(c) && c != '\n' && c != '\t' {
+            escaped += &escape(c);
+        } else {
+            escaped.push(c);
+        }
+    }
+    escaped
 }
 
 /// Time until a bar is shown, and until an estimate is ventured: what is done by then needs neither.
@@ -70,7 +98,7 @@ impl Progress {
     /// Begins without a known share: a spinner with a text.
     pub(super) fn new(talk: Talk, doing: impl std::fmt::Display) -> Self {
         let shown = (!talk.quiet).then(|| {
-            let doing = doing.to_string();
+            let doing = escaped(&doing.to_string());
             let bar = std::io::stderr().is_terminal().then(|| {
                 let hidden = ProgressDrawTarget::hidden();
                 let bar = ProgressBar::with_draw_target(Some(1000), hidden).with_message(doing.clone());
@@ -181,7 +209,16 @@ impl Drop for Progress {
 
 #[cfg(test)]
 mod tests {
-    use super::duration;
+    use super::*;
+
+    #[test]
+    fn names_change_nothing_around_them() {
+        assert_eq!(escaped("a\u{1b}[31m\u{202e}\u{9b}b\t×\n"), "a\\u{1b}[31m\\u{202e}\\u{9b}b\t×\n");
+        let name = "a\u{1b}\u{202e}\u{7f}\u{9b}\n\"b";
+        let json = escaped_json(&serde_json::to_string_pretty(&[name]).unwrap());
+        assert!(json.chars().all(|c| c == '\n' || !is_unprintable(c)), "{json}");
+        assert_eq!(serde_json::from_str::<Vec<String>>(&json).unwrap(), [name]);
+    }
 
     #[test]
     fn times_in_the_units_of_people() {

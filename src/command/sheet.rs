@@ -35,12 +35,13 @@ pub(super) struct Sheet {
 impl Sheet {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         target::picture(&self.output, &[Format::Png])?;
+        target::apart(&self.output, self.files.iter().map(PathBuf::as_path))?;
         input::all_there(&self.files)?;
         let mut over = Over::new(&self.set, Vec::new())?;
         (over.beauty_only, over.longer_side) = (true, Some(self.cell));
         let mut pictures = Vec::new();
         for file in &self.files {
-            pictures.push((target::stem(file), image(file, &over, talk)?));
+            pictures.push((target::stem(file), self.image(file, &over, talk)?));
         }
         let layout = Layout { columns: self.columns, cell: self.cell };
         let failed = |error| Failure::picture(&error, self.output.display());
@@ -49,23 +50,24 @@ impl Sheet {
         note(talk, self.output.display());
         Ok(Done::Yes)
     }
-}
 
-/// One cell: a picture as it is, anything else rendered to fit.
-fn image(file: &Path, over: &Over, talk: Talk) -> Result<Image, Failures> {
-    if Format::of(file).is_some_and(|format| Format::PICTURES.contains(&format)) {
-        let image = read_image(file).map_err(|error| Failure::picture(&error, file.display()))?;
-        if image.colors().is_none() {
-            let what = format!("the picture has no channels R, G and B; it has {}", image.names().join(", "));
-            return Err(Failure::new(what, file.display(), "give a picture with colours").into());
+    /// One cell: a picture as it is, anything else rendered to fit.
+    fn image(&self, file: &Path, over: &Over, talk: Talk) -> Result<Image, Failures> {
+        if Format::of(file).is_some_and(|format| Format::PICTURES.contains(&format)) {
+            let image = read_image(file).map_err(|error| Failure::picture(&error, file.display()))?;
+            if image.colors().is_none() {
+                let what = format!("the picture has no channels R, G and B; it has {}", image.names().join(", "));
+                return Err(Failure::new(what, file.display(), "give a picture with colours").into());
+            }
+            return Ok(image);
         }
-        return Ok(image);
+        let job = {
+            let _loading = Progress::new(talk, file.display());
+            input::load(Some(file), over)?
+        };
+        target::apart(&self.output, job.scene.files())?;
+        input::tell(talk, &job);
+        let progress = Progress::new(talk, file.display());
+        Ok(Image::from(&frames::first(&job, &|share| progress.hear(share))?))
     }
-    let job = {
-        let _loading = Progress::new(talk, file.display());
-        input::load(Some(file), over)?
-    };
-    input::tell(talk, &job);
-    let progress = Progress::new(talk, file.display());
-    Ok(Image::from(&frames::first(&job, &|share| progress.hear(share))?))
 }

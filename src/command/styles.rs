@@ -48,10 +48,11 @@ impl Styles {
         if let Some(What::Extract(verb)) = self.what {
             return verb.run(talk);
         }
+        let folder = PathBuf::from(&self.theme);
         if let Some(output) = &self.output {
             target::picture(output, &[Format::Png])?;
+            target::apart(output, [&*folder])?;
         }
-        let folder = PathBuf::from(&self.theme);
         let source = if folder.is_dir() && !Theme::embedded_names().any(|name| name == self.theme) {
             StyleSource::Folder(folder)
         } else {

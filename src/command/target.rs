@@ -49,6 +49,24 @@ pub(super) fn writable(path: &Path) -> Result<(), Failure> {
     atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))
 }
 
+/// Whether a file that is to be written is none of those that are read. Of a folder, which is a theme, no picture may be
+/// written over. Links and other spellings of one path are the same file.
+///
+/// # Errors
+/// It is one of them.
+pub(super) fn apart<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+    // What is not there yet is nobody's input.
+    let Ok(written) = output.canonicalize() else { return Ok(()) };
+    let is_picture = Format::of(&written).is_some_and(|format| Format::PICTURES.contains(&format));
+    for read in inputs.into_iter().filter_map(|input| input.canonicalize().ok()) {
+        if read == written || is_picture && written.parent() == Some(&read) {
+            let what = "this file is read too, and would be overwritten";
+            return Err(Failure::new(what, output.display(), "give another name"));
+        }
+    }
+    Ok(())
+}
+
 /// Where a rendered picture goes, and frames of it.
 pub(super) struct Target {
     /// The file, or what the names of frames are made of.

@@ -49,6 +49,7 @@ impl Wedge {
             atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))?;
         }
         let scene = input::page(&self.set)?;
+        target::apart(&self.output, scene.files())?;
         let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
         let page = wedge(&pen, &tone, &Page::of(&scene), 1)?;
         let [width, height] = page.marks.page.size.to_array();
@@ -70,6 +71,7 @@ impl Wedge {
     fn plot(&self, measured: &Path, talk: Talk) -> Outcome {
         let format = Format::among(&self.output, &[Format::Svg, Format::Png])?;
         atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
+        target::apart(&self.output, [measured])?;
         let (tone, name) = (tone(measured)?, target::stem(measured));
         let bytes = if format == Format::Svg {
             tone_plot::svg(&tone, &name).into_bytes()

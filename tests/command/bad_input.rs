@@ -70,12 +70,47 @@ fn neither_a_scene_nor_a_volume() {
     let suffixes = "check the path; scenes end in .toml, volumes in .nrrd, .nhdr, .nii, .nii.gz, .hdr, .hdr.gz, .img, .img.gz, .mhd, .mha, .raw, .raw.gz";
     for (name, what) in [
         ("folder", "a folder is neither a scene nor a volume"),
-        ("notes.txt", "the suffix is neither that of a scene nor of a volume"),
         ("missing", "the file cannot be read: No such file or directory (os error 2)"),
     ] {
         let expected = format!("error: {what}\n  at: {name}\n  try: {suffixes}\n");
         assert_eq!(folder.refused(&format!("render {name} -o out.png")), expected);
         assert_eq!(folder.refused(&format!("plan {name}")), expected);
+    }
+}
+
+#[test]
+fn raw_voxels_of_another_suffix_are_told_of_the_flag() {
+    let folder = folder();
+    folder.write("notes.txt", "hello");
+    for line in ["render notes.txt -o out.png", "plan notes.txt", "points notes.txt -o out.svg"] {
+        let said = folder.refused(line);
+        let [what, place, remedy] = said.lines().collect::<Vec<_>>()[..] else { panic!("{said}") };
+        assert_eq!([what, place], ["error: the suffix is neither that of a scene nor of a volume", "  at: notes.txt"]);
+        assert!(remedy.starts_with("  try: check the path; scenes end in .toml, volumes in .nrrd, "), "{said}");
+        assert!(remedy.ends_with("; --raw or a file notes.txt.toml describes raw voxels of any other"), "{said}");
+    }
+}
+
+#[test]
+fn dicom_is_told_what_converts_it() {
+    let folder = folder();
+    folder.write("slice.dcm", "");
+    folder.write("IM0001", [&[0; 128][..], b"DICM"].concat());
+    folder.write("scene.toml", "drypoint = 1\n[volume]\nfile = \"slice.dcm\"\n");
+    for (name, place) in [("slice.dcm", "slice.dcm"), ("IM0001", "IM0001"), ("scene.toml", "slice.dcm")] {
+        let expected = format!(
+            "error: this is a DICOM file, and DICOM is not read yet\n  at: {place}\n  try: convert its series to .nii.gz or \
+             .nrrd first: dcm2niix, 3D Slicer and ITK-SNAP do that\n"
+        );
+        assert_eq!(
+            folder.refused(&format!("render ./{name} -o out.png")),
+            expected.replace("at: ", "at: ./"),
+            "{name}"
+        );
+        if name != "scene.toml" {
+            assert_eq!(folder.refused(&format!("info {name}")), expected);
+            assert_eq!(folder.refused(&format!("sheet {name} -o out.png")), expected);
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Ctrl-C.
+//! Ctrl-C and the other signals that end a program.
 
 #![cfg(unix)]
 
@@ -7,8 +7,8 @@ use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-fn interrupt(child: &Child) {
-    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("kill").args([&format!("-{signal}"), &child.id().to_string()]).status().unwrap();
     assert!(sent.success());
 }
 
@@ -25,26 +25,58 @@ fn while_it_renders_it_leaves_no_file_and_exits_with_130() {
     let mut stderr = BufReader::new(child.stderr.take().unwrap());
     stderr.read_line(&mut said).unwrap();
     assert!(said.contains("torus.nrrd: 24 × 24 × 24"), "{said}");
-    interrupt(&child);
+    send("INT", &child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert_eq!(folder.listing(), before);
 }
 
-#[test]
-fn while_it_writes_it_leaves_no_half_file_and_the_old_one_as_it_was() {
-    let folder = Folder::new();
+/// Starts a write that takes a second, over a file that is there, and returns while it writes.
+fn writing(folder: &Folder, before: &str) -> Child {
     folder.write("noise.nrrd", "the old one");
     // Noise does not compress: writing takes far longer than making it.
-    let line = ["phantom", "white-noise", "--size", "160", "--type", "f64", "-o", "noise.nrrd"];
-    let mut child = folder.command(line).stderr(Stdio::null()).spawn().unwrap();
+    let line = format!("{before} exec \"$0\" phantom white-noise --size 160 --type f64 -o noise.nrrd");
+    let mut command = Command::new("sh");
+    command.arg("-c").arg(line).arg(env!("CARGO_BIN_EXE_drypoint")).current_dir(folder.path(""));
+    let mut child = command.stderr(Stdio::null()).spawn().unwrap();
     let writes =
         || folder.listing().iter().any(|(path, length)| path.to_string_lossy().ends_with(".part") && *length > 0);
     while !writes() {
         assert!(child.try_wait().unwrap().is_none(), "it was done before it was seen to write");
         std::thread::sleep(Duration::from_millis(2));
     }
-    interrupt(&child);
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert_eq!(folder.listing().len(), 1);
+    child
+}
+
+#[test]
+fn while_it_writes_it_leaves_no_half_file_and_the_old_one_as_it_was() {
+    for (signal, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
+        // Where a system does not say whether a hang-up is ignored, it is left alone.
+        if signal == "HUP" && !cfg!(target_os = "linux") {
+            continue;
+        }
+        let folder = Folder::new();
+        let mut child = writing(&folder, "");
+        send(signal, &child);
+        let ended = child.wait().unwrap().code();
+        if signal == "HUP" && ended == Some(0) {
+            println!("skipped: these tests were started by nohup");
+            continue;
+        }
+        assert_eq!(ended, Some(code), "{signal}");
+        assert_eq!(folder.listing().len(), 1, "{signal}");
+        assert_eq!(folder.read("noise.nrrd"), b"the old one");
+    }
+}
+
+/// A program that `nohup` starts goes on after a hang-up. SIGTERM ends it.
+#[test]
+fn a_hangup_that_is_ignored_stays_ignored() {
+    let folder = Folder::new();
+    let mut child = writing(&folder, "trap '' HUP;");
+    send("HUP", &child);
+    std::thread::sleep(Duration::from_millis(100));
+    assert!(child.try_wait().unwrap().is_none(), "the hang-up has ended it");
+    send("TERM", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(143));
     assert_eq!(folder.read("noise.nrrd"), b"the old one");
 }

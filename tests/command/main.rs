@@ -24,5 +24,6 @@ mod sheet;
 mod stats;
 mod strokes;
 mod styles;
+mod terminal;
 mod usage;
 mod wedge;

@@ -81,6 +81,107 @@ fn a_folder_without_permission_is_told_as_that() {
     set_permissions(folder.path("locked"), Permissions::from_mode(0o755)).unwrap();
 }
 
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_replaced_keeps_its_permissions_and_a_read_only_one_stays() {
+    use std::fs::{Permissions, metadata, set_permissions};
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new();
+    folder.scene("");
+    for name in ["out.png", "out.nrrd", "list.csv"] {
+        folder.write(name, "old");
+        set_permissions(folder.path(name), Permissions::from_mode(0o600)).unwrap();
+    }
+    folder.good("-q render scene.toml -o out.png");
+    folder.good("-q phantom torus --size 8 -o out.nrrd");
+    folder.good("-q strokes scene.toml --set outlines.iso=128 -o list.csv");
+    for name in ["out.png", "out.nrrd", "list.csv"] {
+        assert_ne!(folder.read(name), b"old");
+        assert_eq!(metadata(folder.path(name)).unwrap().permissions().mode() & 0o777, 0o600, "{name}");
+        set_permissions(folder.path(name), Permissions::from_mode(0o444)).unwrap();
+    }
+    let told = |what: &str, name: &str| {
+        format!(
+            "error: the {what} cannot be written: the file is read-only\n  at: {name}\n  try: allow writing to this file \
+             first, or give another name\n"
+        )
+    };
+    // Before the input is even looked at.
+    assert_eq!(folder.refused("render missing.nrrd -o out.png"), told("picture", "out.png"));
+    assert_eq!(folder.refused("points missing.nrrd -o list.csv"), told("picture", "list.csv"));
+    assert_eq!(folder.refused("phantom torus --size 8 -o out.nrrd"), told("volume", "out.nrrd"));
+}
+
+#[test]
+fn names_may_be_as_long_as_the_system_allows() {
+    let folder = Folder::new();
+    folder.scene("");
+    for length in [244, 255] {
+        let name = format!("{}.png", "a".repeat(length - 4));
+        folder.good(&format!("-q render scene.toml -o {name}"));
+        assert_eq!(read_image(&folder.path(&name)).unwrap().width, 24);
+    }
+    let said = folder.refused(&format!("render scene.toml -o {}.png", "a".repeat(252)));
+    assert!(said.ends_with("\n  try: give a shorter name\n"), "{said}");
+}
+
+/// No verb writes over a file that it reads, by whatever path or link.
+#[cfg(unix)]
+#[test]
+fn inputs_are_never_overwritten() {
+    let folder = Folder::new();
+    folder.scene("");
+    for name in ["theme", "sub"] {
+        std::fs::create_dir(folder.path(name)).unwrap();
+    }
+    folder.good("-q render scene.toml --size 16x16 -o a.png");
+    folder.write("b.png", folder.read("a.png"));
+    folder.write("theme/wax.png", folder.read("a.png"));
+    folder.write("dots.csv", "x,y,wx,wy,wz,radius,opacity\n10,10,0,0,0,1,1\n");
+    folder.write("tone.csv", "wanted,measured\n0,0\n0.5,0.6\n0.9,1\n");
+    folder.write("measured.svg", folder.read("tone.csv"));
+    std::os::unix::fs::symlink(folder.path("a.png"), folder.path("link.png")).unwrap();
+    let scene = String::from_utf8(folder.read("scene.toml")).unwrap();
+    let behind = scene.replace("[picture]", "[picture]\nbackground = \"a.png\"");
+    folder.write("behind.toml", &behind);
+    folder.write("turn.toml", behind.replace("a.png", "a_1.png") + "[orbit]\nframes = 2\n");
+    folder.write("a_1.png", folder.read("a.png"));
+    folder.write("themed.toml", format!("{scene}[styles]\ntheme = \"theme\"\n"));
+    folder.write("single.toml", format!("{scene}[styles]\nwax = \"b.png\"\n"));
+    folder.write("pens.toml", format!("{scene}[stipples]\n[[pen]]\nname = \"black\"\ntone = \"tone.csv\"\n"));
+    for (line, output) in [
+        ("sheet a.png b.png -o", "a.png"),
+        ("sheet a.png b.png -o", "link.png"),
+        ("sheet link.png -o", "a.png"),
+        ("sheet behind.toml -o", "a.png"),
+        ("compare a.png b.png --diff", "b.png"),
+        ("compare a.png b.png --diff", "sub/../a.png"),
+        ("styles extract a.png --circle 8,8,5 -o", "./a.png"),
+        ("styles --theme theme -o", "theme/wax.png"),
+        ("render behind.toml -o", "a.png"),
+        ("render turn.toml -o", "a_#.png"),
+        ("render themed.toml -o", "theme/wax.png"),
+        ("render single.toml -o", "b.png"),
+        ("points pens.toml -o", "tone.csv"),
+        ("points dots.csv -o", "dots.csv"),
+        ("strokes dots.csv -o", "dots.csv"),
+        ("cost behind.toml -o", "a.png"),
+        ("wedge --measured measured.svg -o", "measured.svg"),
+    ] {
+        let place = if output == "a_#.png" { "a_1.png" } else { output };
+        assert_eq!(
+            folder.refused(&format!("{line} {output}")),
+            format!(
+                "error: this file is read too, and would be overwritten\n  at: {place}\n  try: give another name\n"
+            ),
+            "{line} {output}"
+        );
+    }
+    // Beside what is read there is room.
+    folder.good("-q styles --theme theme -o theme/sheet.png");
+    folder.good("-q sheet a.png b.png -o c.png");
+}
+
 /// With little address space a picture is drawn or refused, and the process never aborted: neither where its channels do
 /// not fit nor where they do and their encoding does not.
 #[cfg(target_os = "linux")]

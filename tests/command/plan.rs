@@ -20,6 +20,31 @@ fn it_says_what_is_needed_and_which_line_asked() {
     assert!(plan.contains("\nwarnings\n  samples are up to 3.0000 apart along a ray"), "{plan}");
 }
 
+/// An eye in the volume is a warning, and a picture.
+#[test]
+fn a_camera_inside_the_volume_is_warned_of() {
+    let folder = Folder::new();
+    let warning = "the camera is inside the volume: what lies behind it is not seen; move camera.eye away, or leave it out \
+                   for a view of the whole";
+    for (camera, is_inside) in [
+        ("eye = [9, 9, 9]\ndirection = [1, 0, 0]\n", true),
+        ("eye = [0, 9, 9]\ndirection = [1, 0, 0]\n", true),
+        ("eye = [-0.1, 9, 9]\ndirection = [1, 0, 0]\n", false),
+        ("projection = \"orthographic\"\neye = [9, 9, 9]\ndirection = [1, 0, 0]\n", false),
+        ("", false),
+    ] {
+        folder.scene(&format!("[camera]\n{camera}"));
+        assert_eq!(
+            folder.good("plan scene.toml").contains(&format!("\nwarnings\n  {warning}\n")),
+            is_inside,
+            "{camera}"
+        );
+        let said = folder.line("render scene.toml -o a.png");
+        assert_eq!(said.code, Some(0));
+        assert_eq!(said.err.contains(&format!("warning: {warning}\n")), is_inside, "{}", said.err);
+    }
+}
+
 #[test]
 fn a_function_that_is_found_in_the_data_is_part_of_the_plan() {
     let folder = Folder::new();

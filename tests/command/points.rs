@@ -144,8 +144,15 @@ fn lists_that_are_none() {
     folder.write("a.jsonl", "{\"x\": 1, \"y\": 2}\n");
     assert_eq!(
         folder.refused("points a.jsonl -o a.svg"),
-        "error: found nothing, expected a number\n  at: a.jsonl, line 1, column wx\n  try: correct the row, or write the list again\n"
+        "error: wx is missing, expected a number\n  at: a.jsonl, line 1, column wx\n  try: correct the line, or write the list again\n"
     );
+    folder.write("a.csv", "x,y,wx,wy,wz,opacity\n1,2,0,0,0,1\n");
+    for verb in ["points", "strokes"] {
+        assert_eq!(
+            folder.refused(&format!("{verb} a.csv -o a.svg")),
+            "error: the column radius is missing\n  at: a.csv, line 1, column radius\n  try: correct the line, or write the list again\n"
+        );
+    }
     for flag in ["--raw {size=[1,1,1],type=\"u8\"}", "--preset stipple"] {
         let told = folder.refused(&format!("points a.jsonl -o a.svg {flag}"));
         assert!(told.starts_with("error: a list of dots has no use for --"), "{told}");

@@ -82,21 +82,46 @@ fn layouts_that_do_not_fit() {
     let folder = folder();
     assert_eq!(
         folder.refused("render a.raw"),
-        "error: raw voxels without a description of their layout\n  at: a.raw\n  try: open the header that belongs to it, or describe it in a.raw.toml or as volume.raw: size, type, endian, spacing and skip\n"
+        "error: raw voxels without a description of their layout\n  at: a.raw\n  try: open the header that belongs to it, or describe it in a.raw.toml, with --raw or as volume.raw: size, type, endian, spacing and skip\n"
     );
     folder.write("a.raw.toml", LAYOUT.replace("4]", "5]"));
     assert_eq!(
         folder.refused("render a.raw"),
-        "error: the data are too short: found 384 bytes, expected 480\n  at: a.raw, field size of a.raw.toml\n  try: get the file again, or correct the sizes and the type in the header\n"
+        "error: the data are too short: found 384 bytes, expected 480\n  at: a.raw, field size of a.raw.toml\n  try: get the file again, or correct the sizes and the type in the layout\n"
+    );
+    let said = folder.run(["info", "a.raw", "--raw", "size = [8, 6, 5], type = \"u16\", skip = 5"]);
+    assert_eq!(
+        said.err,
+        "error: the data are too short: found 384 bytes, expected 480\n  at: a.raw, field size of its layout\n  try: get the file again, or correct the sizes and the type in the layout\n"
     );
     folder.write("a.raw.toml", LAYOUT.replace("u16", "short"));
     assert_eq!(
         folder.refused("info a.raw"),
-        "error: found `short`, expected one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64\n  at: a.raw.toml, field type\n  try: correct the header\n"
+        "error: found `short`, expected one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64\n  at: a.raw.toml, field type\n  try: correct the layout\n"
     );
     folder.write("a.raw.toml", LAYOUT.replace("skip", "offset"));
     assert_eq!(
         folder.refused("info a.raw"),
-        "error: the description of raw voxels is not valid: unknown field `offset`, expected one of `size`, `type`, `endian`, `spacing`, `skip`\n  at: a.raw.toml, line 5\n  try: correct the header\n"
+        "error: the description of raw voxels is not valid: unknown field `offset`, expected one of `size`, `type`, `endian`, `spacing`, `skip`\n  at: a.raw.toml, line 5\n  try: correct the layout\n"
     );
+}
+
+/// The error of a `--raw` that is no table shows one.
+#[test]
+fn a_layout_without_brackets_is_shown_the_right_form() {
+    let folder = folder();
+    for (keys, what) in [
+        ("size=8,6,4", "this is no layout: size has no brackets, and type is missing"),
+        ("size=8,6,4, type=\"u16\"", "this is no layout: size has no brackets"),
+        ("8,6,4", "this is no layout: size is missing"),
+    ] {
+        let form = "write --raw 'size = [256, 256, 113], type = \"i16\"', with size and type of these voxels";
+        let expected = format!("error: {what}\n  at: --raw {keys}\n  try: {form}\n");
+        for line in [&["info", "a.raw"][..], &["render", "a.raw"], &["probe", "a.raw", "--at", "1,1,1"]] {
+            let said = folder.run([line, &["--raw", keys]].concat());
+            assert_eq!((said.code, said.err), (Some(2), expected.clone()), "{line:?}");
+        }
+    }
+    let said = folder.run(["info", "a.raw", "--raw", "size = [8, 6, 4]"]);
+    assert!(said.err.starts_with("error: volume.raw.type is missing\n"), "{}", said.err);
 }

@@ -199,14 +199,14 @@ mod tests {
                 format!("{head}\n1,2,0,0,0,0.1\n"),
                 2,
                 "opacity",
-                "found nothing, expected a number above 0 and of at most 1",
+                "opacity is missing, expected a number above 0 and of at most 1",
             ),
             (format!("{head},pen\n1,2,0,0,0,0.1,1,blue\n"), 2, "pen", "found \"blue\", expected \"black\" or \"red\""),
             (format!("stroke,t,{head}\n0,2,1,2,0,0,0,0.1,1\n"), 2, "t", "found \"2\", expected a number from 0 to 1"),
             (format!("stroke,t,{head}\nx,1,1,2,0,0,0,0.1,1\n"), 2, "stroke", "found \"x\", expected a whole number"),
-            ("x,y,wx,wy,radius,opacity\n".into(), 1, "wz", "is not there"),
-            ("stroke,x,y,wx,wy,wz,radius,opacity\n".into(), 1, "t", "is not there"),
-            (String::new(), 1, "x", "is not there"),
+            ("x,y,wx,wy,radius,opacity\n".into(), 1, "wz", "the column wz is missing"),
+            ("stroke,x,y,wx,wy,wz,radius,opacity\n".into(), 1, "t", "the column t is missing"),
+            (String::new(), 1, "x", "the column x is missing"),
         ] {
             let (_folder, path) = file(text.as_bytes());
             match read_list(&path, &pages()[0], &[pen(1, "black"), pen(2, "red")]) {
@@ -226,12 +226,12 @@ mod tests {
             (format!("{}\n{{\"x\":\n", row("")), 3, "character 5", "is not one JSON object"),
             ("[1, 2]\n".into(), 1, "character 1", "is not one JSON object"),
             ("{} {}\n".into(), 1, "character 4", "is not one JSON object"),
-            ("{\"x\":1}\n".into(), 1, "y", "found nothing, expected a number"),
+            ("{\"x\":1}\n".into(), 1, "y", "y is missing, expected a number"),
             (row("").replace("0.1", "\"0.1\""), 1, "radius", "found \"0.1\", expected a number above 0"),
             (row("").replace("0.1", "-1"), 1, "radius", "found -1, expected a number above 0"),
             (row(",\"pen\":3"), 1, "pen", "found 3, expected \"black\" or \"red\""),
             (row(",\"stroke\":0.5"), 1, "stroke", "found 0.5, expected a whole number"),
-            (row(",\"stroke\":1"), 1, "t", "found nothing, expected a number from 0 to 1"),
+            (row(",\"stroke\":1"), 1, "t", "t is missing, expected a number from 0 to 1"),
         ] {
             let (_folder, path) = named("list.jsonl", text.as_bytes());
             match read_list(&path, &pages()[0], &[pen(1, "black"), pen(2, "red")]) {

@@ -1,5 +1,6 @@
 //! A value on its way out of a scene: to TOML (`--full`) and to JSON (defaults of the schema).
 
+use crate::unprintable::is_unprintable;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -77,7 +78,7 @@ pub(crate) fn key(name: &str) -> String {
     if bare { name.to_owned() } else { quoted(name) }
 }
 
-/// A basic string of TOML.
+/// A basic string of TOML. What a terminal must not get is escaped, as TOML has it.
 fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
@@ -88,7 +89,7 @@ fn quoted(text: &str) -> String {
             }
             '\n' => out.push_str("\\n"),
             '\t' => out.push_str("\\t"),
-            c if c.is_control() => {
+            c if is_unprintable(c) => {
                 // Writing to a String cannot fail.
                 let _ = write!(out, "\\u{:04X}", u32::from(c));
             }
@@ -124,6 +125,11 @@ mod tests {
         for (x, text) in [(30.0, "30"), (0.5, "0.5"), (-0.0, "-0"), (1e21, "1e21"), (1.0 / 256.0, "0.00390625")] {
             assert_eq!(number(x), text);
         }
+    }
+
+    #[test]
+    fn texts_are_plain_on_a_terminal() {
+        assert_eq!(quoted("a\u{1b}[31m\u{202e}b"), r#""a\u001B[31m\u202Eb""#);
     }
 
     #[test]

@@ -3,8 +3,9 @@
 use super::preset::PRESETS;
 use super::styles::check_styles;
 use super::{
-    Camera, Contours, Hatching, LightDirection, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling,
-    Shading, Stipples, StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
+    Axis, Background, Camera, Contours, Hatching, LightDirection, Orbit, Outlines, PageSettings, PenSettings,
+    PictureSettings, Sampling, Shading, Stipples, StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook, Transfer,
+    TransferKind, VolumeSource, VolumeTable,
 };
 use super::{
     camera, contours, hatching, orbit, outlines, over, page, pen, picture, sampling, shading, stipples, style_mipmaps,
@@ -18,7 +19,7 @@ use crate::file::kind::{ListOf, TableOf};
 use crate::file::out::Out;
 use crate::plan::{Pass, Quantity};
 use serde_json::{Value as Json, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Everything that a picture is made of, with every default filled in. A table that is absent here is an effect that
 /// does not exist ([SCN-1]).
@@ -66,6 +67,32 @@ impl Scene {
     /// The shortest scene: a volume, every default, and the preset `style`.
     pub fn for_volume(source: VolumeSource) -> Self {
         Self { transfer: Some(Transfer::automatic(TransferKind::Style)), ..Self::without_effects(source) }
+    }
+
+    /// The files that the scene names, and the folder of its theme, as paths to open.
+    pub fn files(&self) -> Vec<&Path> {
+        let volume = match &self.volume.source {
+            VolumeSource::File { path, .. } => Some(path),
+            VolumeSource::Phantom(_) => None,
+        };
+        let labels = [&self.volume.labels, &self.volume.label_names].into_iter().flatten();
+        let axes = self.transfer.as_ref().map_or(&[][..], |transfer| transfer.over.axes());
+        let further = axes.iter().filter_map(|axis| match axis {
+            Axis::Volume(path) => Some(path),
+            _ => None,
+        });
+        let theme = match &self.styles.theme {
+            StyleSource::Folder(folder) => Some(folder),
+            StyleSource::Embedded(_) => None,
+        };
+        let styles = self.styles.files.iter().map(|(_, file)| &file.path);
+        let background = match &self.picture.background {
+            Background::Picture(path) => Some(path),
+            Background::Color(_) | Background::None => None,
+        };
+        let tones = self.pens.iter().filter_map(|pen| pen.tone.as_ref());
+        let all = volume.into_iter().chain(labels).chain(further).chain(theme).chain(styles);
+        all.chain(background).chain(tones).map(PathBuf::as_path).collect()
     }
 
     /// Whether points or lines are drawn.

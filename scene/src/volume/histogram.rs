@@ -1,9 +1,9 @@
 //! Histograms and quantiles of values.
 
+use super::bytes::Stored;
 use super::{Access, Volume, Voxel};
 use rayon::prelude::*;
 use serde::Serialize;
-use std::cmp::Ordering;
 
 /// Counts of the values of a volume in equal bins. Masked voxels do not count ([PREC-2]).
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -20,7 +20,10 @@ impl Histogram {
     /// The histogram over the volume's own range, after slope and intercept ([VAL-1]).
     pub fn new(volume: &Volume, bins: usize) -> Self {
         let [lo, hi] = volume.range();
-        let counts = with_access!(volume, |access| count(volume, access, bins, |value| bin(value, [lo, hi], bins)));
+        let (slope, intercept) = (volume.slope(), volume.intercept());
+        let counts = with_access!(volume, |access| sums(volume, access, bins, |stored| {
+            (bins > 0).then(|| bin(slope * stored.to_f64() + intercept, [lo, hi], bins))
+        }));
         Self { lo, hi, bins: counts }
     }
 
@@ -45,23 +48,32 @@ fn bin(value: f64, [lo, hi]: [f64; 2], bins: usize) -> usize {
     ((t * bins as f64) as usize).min(bins.saturating_sub(1))
 }
 
-fn count<A: Access>(volume: &Volume, access: A, bins: usize, bin: impl Fn(f64) -> usize + Sync) -> Vec<u64> {
+/// Counts the voxels that are not masked in so many bins; `bin` says in which one a stored number belongs, if in any.
+fn sums<A: Access>(
+    volume: &Volume,
+    access: A,
+    bins: usize,
+    bin: impl Fn(A::Voxel) -> Option<usize> + Sync,
+) -> Vec<u64> {
     let [nx, ny, nz] = volume.dims();
-    let (slope, intercept) = (volume.slope(), volume.intercept());
     let add = |mut sum: Vec<u64>, part: Vec<u64>| {
         sum.iter_mut().zip(part).for_each(|(a, b)| *a += b);
         sum
     };
-    // Sums of whole numbers: the order of the parts does not show.
+    // Sums of whole numbers: the order of the parts does not show. A part for each thread: bins can be many.
+    let part = nz.div_ceil(rayon::current_num_threads());
     (0..nz)
         .into_par_iter()
+        .with_min_len(part)
         .fold(
             || vec![0; bins],
             |mut counts, z| {
                 for y in 0..ny {
                     for x in 0..nx {
-                        if bins > 0 && volume.mask().is_none_or(|mask| !mask.voxel([x, y, z])) {
-                            counts[bin(slope * access.at(x, y, z).to_f64() + intercept)] += 1;
+                        if volume.mask().is_none_or(|mask| !mask.voxel([x, y, z]))
+                            && let Some(bin) = bin(access.at(x, y, z))
+                        {
+                            counts[bin] += 1;
                         }
                     }
                 }
@@ -94,34 +106,66 @@ pub fn quantile(numbers: &mut [f64], q: f64) -> Option<f64> {
 /// Quantiles of the values of a volume, after slope and intercept, masked voxels left out.
 pub fn quantiles(volume: &Volume, qs: &[f64]) -> Vec<f64> {
     let (slope, intercept) = (volume.slope(), volume.intercept());
+    let n = volume.grid().len() - volume.mask().map_or(0, |mask| mask.count());
+    let places = qs.iter().map(|&q| rank(q, n)).map(|place| if slope < 0.0 { n - 1 - place } else { place });
+    let places: Vec<u64> = places.map(|place| place as u64).collect();
     with_access!(volume, |access| {
-        // Sorted in the stored type, which takes no more memory than the volume does.
-        let stored = sorted(volume, access);
-        let n = stored.len();
-        let at = |place: usize| slope * stored[if slope < 0.0 { n - 1 - place } else { place }].to_f64() + intercept;
-        qs.iter().map(|&q| at(rank(q, n))).collect()
+        let stored = select(volume, access, &places);
+        stored.into_iter().map(|stored| slope * stored.to_f64() + intercept).collect()
     })
 }
 
-/// The stored numbers that are not masked, in ascending order. There is at least one, or the volume would not be.
-fn sorted<A: Access>(volume: &Volume, access: A) -> Vec<A::Voxel> {
-    let [nx, ny, nz] = volume.dims();
-    let mut stored = Vec::with_capacity(volume.grid().len() - volume.mask().map_or(0, |mask| mask.count()));
-    for z in 0..nz {
-        for y in 0..ny {
-            let valid = |x: &usize| volume.mask().is_none_or(|mask| !mask.voxel([*x, y, z]));
-            stored.extend((0..nx).filter(valid).map(|x| access.at(x, y, z)));
+/// Bits of a number that are counted at a time.
+const DIGIT: u32 = 16;
+
+/// A number that is sought by its place in the ascending order: the upper bits of its key, as far as they are known, and its
+/// place among the numbers that begin with them.
+#[derive(Clone, Copy)]
+struct Sought {
+    prefix: u64,
+    place: u64,
+}
+
+/// The stored numbers at some places, from 0, of their ascending order; those that are masked do not count.
+///
+/// A radix selection: the numbers are counted by the upper 16 bits of their keys, then those that begin as a sought one by the
+/// next 16, and so on. Sorting would need a second volume.
+fn select<A: Access>(volume: &Volume, access: A, places: &[u64]) -> Vec<A::Voxel>
+where
+    A::Voxel: Stored,
+{
+    let mut sought: Vec<Sought> = places.iter().map(|&place| Sought { prefix: 0, place }).collect();
+    let bits = 8 * size_of::<A::Voxel>() as u32;
+    let digit = bits.min(DIGIT);
+    for below in (0..bits / digit).rev().map(|i| i * digit) {
+        let mut prefixes: Vec<u64> = sought.iter().map(|one| one.prefix).collect();
+        prefixes.sort_unstable();
+        prefixes.dedup();
+        let digits = 1 << digit;
+        let counts = sums(volume, access, prefixes.len() * digits, |stored| {
+            let upper = stored.key() >> below;
+            let block = prefixes.iter().position(|&prefix| prefix == upper >> digit)?;
+            Some(block * digits + upper as usize % digits)
+        });
+        for one in &mut sought {
+            let Ok(block) = prefixes.binary_search(&one.prefix) else { continue };
+            for (value, &count) in counts[block * digits..][..digits].iter().enumerate() {
+                if one.place < count {
+                    one.prefix = one.prefix << digit | value as u64;
+                    break;
+                }
+                one.place -= count;
+            }
         }
     }
-    stored.par_sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
-    stored
+    sought.into_iter().map(|one| A::Voxel::of_key(one.prefix)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::space::Grid;
-    use crate::volume::Voxels;
+    use crate::volume::{VoxelType, Voxels};
     use proptest::prelude::*;
 
     fn volume(voxels: Voxels, slope: f64, intercept: f64) -> Volume {
@@ -166,6 +210,24 @@ mod tests {
         let halves = Histogram::new(&wide, 2);
         assert_eq!(halves.bins, [1, 2]);
         assert_eq!([halves.edges(0), halves.edges(1)], [[-f64::MAX, 0.0], [0.0, f64::MAX]]);
+    }
+
+    #[test]
+    fn quantiles_of_every_type_are_those_of_its_sorted_numbers() {
+        let qs = [0.0, 0.1, 0.25, 0.5, 0.7, 0.99, 1.0];
+        let numbers: Vec<f64> = (0..1000).map(|i| f64::from(i * 7919 % 1000 - 400) * 1.37e5 / 3.0).collect();
+        for &voxel_type in VoxelType::ALL {
+            for slope in [1.0, -0.5] {
+                let volume = volume(Voxels::from_f64(&numbers, voxel_type), slope, 2.0);
+                let mut values: Vec<f64> = (0..1000).map(|i| volume.value([i, 0, 0])).collect();
+                let expected: Vec<f64> = qs.iter().filter_map(|&q| quantile(&mut values, q)).collect();
+                assert_eq!(quantiles(&volume, &qs), expected, "{}, {slope}", voxel_type.name());
+            }
+        }
+        // Numbers that differ in their last bits, and both ends of a type.
+        let close = [u64::MAX, 1 << 60, (1 << 60) + (1 << 20), 0, (1 << 60) + (1 << 40)];
+        let found = quantiles(&volume(Voxels::U64(close.to_vec()), 1.0, 0.0), &[0.0, 0.4, 0.6, 0.8, 1.0]);
+        assert_eq!(found, [0, 1 << 60, (1 << 60) + (1 << 20), (1 << 60) + (1 << 40), u64::MAX].map(|n| n as f64));
     }
 
     proptest! {

@@ -47,6 +47,8 @@ pub(super) struct Extract {
 impl Extract {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         target::picture(&self.output, &[Format::Png])?;
+        let outline = self.outline.as_deref().map(Path::new);
+        target::apart(&self.output, outline.into_iter().chain([&*self.picture]))?;
         let (option, region) = self.region()?;
         let source = self.source()?;
         let found = extract(&source, &region, self.size).map_err(|error| {

@@ -24,7 +24,7 @@ impl CsvRows {
         let at = Column::ALL.map(|column| find(column.name()));
         let with_strokes = if at[Column::Stroke as usize].is_some() { &["t"][..] } else { &[] };
         if let Some(absent) = COLUMNS.iter().chain(with_strokes).find(|name| find(name).is_none()) {
-            return Err((absent.to_string(), "is not there".into()));
+            return Err((absent.to_string(), format!("the column {absent} is missing")));
         }
         Ok(Self { table, at, row: ByteRecord::new(), line: 1 })
     }

@@ -153,8 +153,12 @@ impl<R: Rows> List<'_, R> {
 
     /// What the row has in a column is not what should stand there.
     fn wrong(&self, column: Column, expected: &str) -> OutputError {
-        let found = self.rows.found(column).unwrap_or_else(|| "nothing".into());
-        self.fault(column.name(), format!("found {found}, expected {expected}"))
+        let name = column.name();
+        let fault = match self.rows.found(column) {
+            Some(found) => format!("found {found}, expected {expected}"),
+            None => format!("{name} is missing, expected {expected}"),
+        };
+        self.fault(name, fault)
     }
 
     /// A finite number that may stand there.

@@ -6,6 +6,7 @@ use super::limits::{Encoding, make_room};
 use crate::memory::NoRoom;
 use crate::volume::bytes::Stored;
 use crate::volume::{VoxelType, Voxels};
+use bzip2::bufread::MultiBzDecoder;
 use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
@@ -168,6 +169,7 @@ impl Payload<'_> {
                 Encoding::Zlib | Encoding::Gzip => {
                     self.stream(part, &mut MultiGzDecoder::new(reader), share, &mut voxels)?;
                 }
+                Encoding::Bzip2 => self.stream(part, &mut MultiBzDecoder::new(reader), share, &mut voxels)?,
             }
         }
         Ok(voxels)

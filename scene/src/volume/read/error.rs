@@ -17,6 +17,8 @@ pub struct ReadError {
     pub line: Option<usize>,
     /// The field at fault, named as in the format.
     pub field: Option<String>,
+    /// Whether the file has no header, and a layout describes it.
+    pub has_layout: bool,
     /// What is wrong with it.
     pub fault: Box<Fault>,
 }
@@ -36,6 +38,9 @@ pub enum Fault {
     /// Raw voxels that nothing describes.
     #[error("raw voxels without a description of their layout")]
     NoLayout,
+    /// A file of a format that hospitals write and this program does not read.
+    #[error("this is a DICOM file, and DICOM is not read yet")]
+    Dicom,
     /// The file does not begin as its format does.
     #[error("this is not {format}: it begins with {found}, expected {expected}")]
     Magic {
@@ -149,7 +154,7 @@ pub enum Fault {
 impl ReadError {
     /// An error about a whole file.
     pub(super) fn new(file: &Path, fault: impl Into<Fault>) -> Self {
-        Self { file: file.to_path_buf(), line: None, field: None, fault: Box::new(fault.into()) }
+        Self { file: file.to_path_buf(), line: None, field: None, has_layout: false, fault: Box::new(fault.into()) }
     }
 
     /// An error of the operating system about a file.
@@ -160,6 +165,11 @@ impl ReadError {
     /// The same error, at a field.
     pub(super) fn field(self, field: impl Into<String>) -> Self {
         Self { field: Some(field.into()), ..self }
+    }
+
+    /// Marks the error as one about a file that a layout describes.
+    pub(super) fn of_layout(self) -> Self {
+        Self { has_layout: true, ..self }
     }
 
     /// The same error, on a line counted from 1.
@@ -187,31 +197,37 @@ impl ReadError {
     /// What to do, in one line.
     pub fn remedy(&self) -> String {
         let name = self.file.file_name().unwrap_or_default().to_string_lossy();
+        let header = if self.has_layout { "layout" } else { "header" };
         match &*self.fault {
             Fault::Io(error) if error.kind() == io::ErrorKind::NotFound => "check the path".into(),
             Fault::Io(_) | Fault::NotAFile => "give a file that may be read".into(),
             Fault::Suffix => format!(
-                "give a file with one of the suffixes {}, or describe raw voxels in {name}.toml or as volume.raw",
+                "give a file with one of the suffixes {}, or describe raw voxels in {name}.toml, with --raw or as \
+                 volume.raw",
                 super::EXTENSIONS.join(", ")
             ),
             Fault::NoLayout => format!(
-                "open the header that belongs to it, or describe it in {name}.toml or as volume.raw: size, type, \
-                 endian, spacing and skip"
+                "open the header that belongs to it, or describe it in {name}.toml, with --raw or as volume.raw: size, \
+                 type, endian, spacing and skip"
             ),
+            Fault::Dicom => {
+                "convert its series to .nii.gz or .nrrd first: dcm2niix, 3D Slicer and ITK-SNAP do that".into()
+            }
             Fault::Magic { .. } => "check that the suffix says what the file holds".into(),
             Fault::EndlessHeader { .. } | Fault::Line { .. } | Fault::Value { .. } | Fault::Sidecar(_) => {
-                "correct the header".into()
+                format!("correct the {header}")
             }
             Fault::UnknownField => "correct its name, or make it a key with := in place of the colon".into(),
             Fault::Missing { .. } => "add the field to the header".into(),
             Fault::Repeated => "keep one of the two".into(),
             Fault::Unsupported { .. } => "convert the file first".into(),
             Fault::Short { .. } | Fault::Long { .. } | Fault::Oversized { .. } => {
-                "get the file again, or correct the sizes and the type in the header".into()
+                format!("get the file again, or correct the sizes and the type in the {header}")
             }
             Fault::Damaged(_) => "get the file again".into(),
             Fault::Shares { .. } => "correct the list of data files".into(),
             Fault::Memory { .. } => "crop or downsample the volume first".into(),
+            Fault::Space(_) if self.has_layout => "correct the sizes or the spacing in the layout".into(),
             Fault::Space(_) => "correct the sizes or the axis directions in the header".into(),
             Fault::Volume(VolumeError::Scaling { .. }) => "correct slope and intercept in the header".into(),
             Fault::Volume(_) => "give a volume with at least one finite value".into(),

@@ -5,6 +5,10 @@ use crate::memory::{self, NoRoom};
 /// DEFLATE's limit: one stored byte decodes to 1032 bytes at the most (a match of 258 bytes takes two bits).
 const EXPANSION: u128 = 1032;
 
+/// bzip2's limit. A block holds 900 000 bytes at the most, in which five may stand for a run of 259: 46 620 000 decoded
+/// bytes. It is stored in no fewer than 24: sums, tables and the length of its runs.
+const BZIP2_EXPANSION: u128 = 46_620_000 / 24;
+
 /// Numbers that are taken in one step: decoded data get memory as they arrive, not as the header claims.
 const STEP: usize = 1 << 16;
 
@@ -15,6 +19,8 @@ pub(super) enum Encoding {
     Raw,
     /// One or more gzip members.
     Gzip,
+    /// One or more bzip2 streams.
+    Bzip2,
     /// A zlib stream, or gzip where its magic says so.
     Zlib,
     /// Numbers in ASCII, parted by white space or commas.
@@ -27,6 +33,7 @@ impl Encoding {
         match self {
             Self::Raw => stored.into(),
             Self::Gzip | Self::Zlib => EXPANSION * u128::from(stored),
+            Self::Bzip2 => BZIP2_EXPANSION * u128::from(stored),
             // A digit and a separator for each number, no separator after the last.
             Self::Text => u128::from(stored).div_ceil(2) * voxel as u128,
         }
@@ -68,6 +75,15 @@ mod tests {
         let stored = encoder.finish().unwrap().len() as u64;
         let most = Encoding::Gzip.most(stored, 1);
         assert!((10_000_000..10_200_000).contains(&most), "{most}");
+    }
+
+    #[test]
+    fn bzip2_reaches_half_its_limit_but_does_not_pass_it() {
+        use std::io::Read;
+        let mut encoder = bzip2::read::BzEncoder::new(std::io::repeat(0).take(90_000_000), bzip2::Compression::best());
+        let stored = std::io::copy(&mut encoder, &mut std::io::sink()).unwrap();
+        let most = Encoding::Bzip2.most(stored, 1);
+        assert!((90_000_000..180_000_000).contains(&most), "{most}");
     }
 
     #[test]

@@ -22,6 +22,7 @@ use super::{Anatomy, Volume, VolumeError, Voxels};
 use crate::space::{Grid, SpaceError};
 use crate::tables::RawLayout;
 use glam::{DMat3, DVec3};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// The suffixes of volume files. Raw voxels may have any other one, with a sidecar.
@@ -47,12 +48,28 @@ pub fn read(path: &Path, raw: Option<&RawLayout>) -> Result<Volume, ReadError> {
     if let Some(layout) = raw {
         return raw::read(path, layout, None);
     }
+    refuse_dicom(path)?;
     match suffix(path) {
         Some("nrrd" | "nhdr") => nrrd::read(path),
         Some("nii" | "nii.gz" | "hdr" | "hdr.gz" | "img" | "img.gz") => nifti::read(path),
         Some("mhd" | "mha") => metaimage::read(path),
         known => raw::read_described(path, known.is_some()),
     }
+}
+
+/// Refuses a DICOM file: one with its suffix, or with its mark behind a preamble of 128 bytes.
+///
+/// # Errors
+/// [`Fault::Dicom`]. A file that cannot be read passes: who reads it says why.
+pub fn refuse_dicom(path: &Path) -> Result<(), ReadError> {
+    let Ok((file, _)) = header::open(path) else { return Ok(()) };
+    let has_suffix = path.extension().is_some_and(|e| ["dcm", "dicom"].iter().any(|s| e.eq_ignore_ascii_case(s)));
+    let mut start = Vec::new();
+    let is_read = file.take(132).read_to_end(&mut start).is_ok();
+    if has_suffix || is_read && start.get(128..) == Some(b"DICM") {
+        return Err(ReadError::new(path, Fault::Dicom));
+    }
+    Ok(())
 }
 
 /// The longest of [`EXTENSIONS`] that a path ends with.

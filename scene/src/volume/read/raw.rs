@@ -30,13 +30,17 @@ pub(super) fn sidecar(file: &Path) -> PathBuf {
 /// Reads voxels in a given layout. `described` is the file that gives the layout, none where flags do. A name that
 /// ends in `.gz` says that the file is compressed.
 pub(super) fn read(file: &Path, layout: &RawLayout, described: Option<&Path>) -> Result<Volume, ReadError> {
-    let described = described.unwrap_or(file);
+    let (described, [size, spacing]) = match described {
+        Some(description) => (description, ["size", "spacing"]),
+        None => (file, ["size of its layout", "spacing of its layout"]),
+    };
     let axes = DMat3::from_diagonal(DVec3::from_array(layout.spacing));
-    let grid = grid_of(described, layout.size, axes, DVec3::ZERO, ["size", "spacing", "spacing"])?;
+    let grid =
+        grid_of(described, layout.size, axes, DVec3::ZERO, [size, spacing, spacing]).map_err(ReadError::of_layout)?;
     let compressed = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
     let payload = Payload {
         header: described,
-        sizes: "size",
+        sizes: size,
         count: grid.len(),
         voxel_type: layout.voxel_type,
         big_endian: layout.big_endian,
@@ -48,7 +52,7 @@ pub(super) fn read(file: &Path, layout: &RawLayout, described: Option<&Path>) ->
         encoding: if compressed { Encoding::Gzip } else { Encoding::Raw },
         inside: layout.skip,
     };
-    volume_of(file, grid, payload.read()?, [1.0, 0.0], None)
+    volume_of(file, grid, payload.read().map_err(ReadError::of_layout)?, [1.0, 0.0], None)
 }
 
 /// Reads voxels in the layout of a sidecar. Without one it is an error, whose advice depends on whether the suffix is
@@ -59,7 +63,7 @@ pub(super) fn read_described(file: &Path, known_suffix: bool) -> Result<Volume, 
     if !description.is_file() {
         return Err(ReadError::new(file, if known_suffix { Fault::NoLayout } else { Fault::Suffix }));
     }
-    let layout = parse(&description)?;
+    let layout = parse(&description).map_err(ReadError::of_layout)?;
     read(file, &layout, Some(&description))
 }
 

@@ -85,16 +85,17 @@ fn number(header: &Header) -> Result<(VoxelType, bool), ReadError> {
 }
 
 fn encoding(header: &Header) -> Result<Encoding, ReadError> {
-    let field = header.need("encoding", "raw, gzip or ascii")?;
+    let field = header.need("encoding", "raw, gzip, bzip2 or ascii")?;
     Ok(match field.value.to_ascii_lowercase().as_str() {
         "raw" => Encoding::Raw,
         "gzip" | "gz" => Encoding::Gzip,
         "ascii" | "text" | "txt" => Encoding::Text,
-        "hex" | "bzip2" | "bz2" | "zrl" => {
+        "bzip2" | "bz2" => Encoding::Bzip2,
+        "hex" | "zrl" => {
             let found = format!("data in encoding {}", quoted(&field.value));
-            return Err(header.error(field, Fault::Unsupported { found, supported: "raw, gzip and ascii" }));
+            return Err(header.error(field, Fault::Unsupported { found, supported: "raw, gzip, bzip2 and ascii" }));
         }
-        _ => return Err(header.expected(field, "raw, gzip or ascii")),
+        _ => return Err(header.expected(field, "raw, gzip, bzip2 or ascii")),
     })
 }
 

@@ -56,6 +56,12 @@ fn zlib(bytes: &[u8]) -> Vec<u8> {
     encoder.finish().unwrap()
 }
 
+fn bzip2(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = bzip2::write::BzEncoder::new(Vec::new(), bzip2::Compression::default());
+    encoder.write_all(bytes).unwrap();
+    encoder.finish().unwrap()
+}
+
 macro_rules! per_type {
     ($($variant:ident $type:ty, [$($special:expr),*];)*) => {
         /// Twelve voxels of a type, its extremes among them.

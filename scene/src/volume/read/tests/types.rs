@@ -28,6 +28,9 @@ fn nrrd() {
             ("raw", stored.clone()),
             ("gzip", gzip(&stored)),
             ("gz", [gzip(&stored[..5]), gzip(&stored[5..])].concat()),
+            ("bzip2", bzip2(&stored)),
+            // pbzip2 writes a stream a block.
+            ("bz2", [bzip2(&stored[..5]), bzip2(&stored[5..])].concat()),
             ("ascii", text_of(&voxels, "\n").into_bytes()),
             ("txt", text_of(&voxels, " , ").into_bytes()),
         ] {
@@ -38,6 +41,27 @@ fn nrrd() {
             same(&folder.read("a.nhdr", lines + "data file: a.data\n").unwrap(), &voxels, &what);
         }
     }
+}
+
+/// Bytes of another bzip2 than the one that the other tests compress with: two streams, of the levels 9 and 1.
+#[test]
+fn nrrd_of_another_program_in_bzip2() {
+    let data = b"\
+        \x42\x5a\x68\x39\x31\x41\x59\x26\x53\x59\x06\xdc\xae\xd5\x00\x00\x00\x40\x00\x7c\x00\x20\x00\x21\x83\x41\
+        \x9a\x02\x5c\x71\x77\x24\x53\x85\x09\x00\x6d\xca\xed\x50\x42\x5a\x68\x31\x31\x41\x59\x26\x53\x59\x5e\x25\
+        \xa1\xd6\x00\x00\x00\x40\x00\x03\xf8\x20\x00\x31\x0c\x00\xc4\xc2\x65\xce\x5d\xe2\xee\x48\xa7\x0a\x12\x0b\
+        \xc4\xb4\x3a\xc0\
+        ";
+    let folder = Folder::new();
+    let lines = nrrd_lines(VoxelType::U8, "2 3 2", "bzip2", false);
+    let want = Voxels::U8((0..12).collect());
+    same(&folder.read("a.nrrd", joined(lines.clone() + "\n", data)).unwrap(), &want, "attached");
+    folder.put("a.raw.bz2", data);
+    same(&folder.read("a.nhdr", lines.clone() + "data file: a.raw.bz2\n").unwrap(), &want, "detached");
+    // Bytes to skip are those of the voxels, not of the file.
+    folder.put("b.raw.bz2", bzip2(&[[9; 4].as_slice(), &bytes_of(&want, false)].concat()));
+    let skipping = lines + "byte skip: 4\ndata file: b.raw.bz2\n";
+    same(&folder.read("b.nhdr", skipping).unwrap(), &want, "behind bytes to skip");
 }
 
 #[test]

@@ -28,15 +28,20 @@ fn truncated() {
         lines(&folder, folder.read("head.nrrd", joined(header("gzip"), &gzip(&[0; 11])))),
         ["the data are too short: found 11 bytes, expected 12", "head.nrrd, field sizes", AGAIN]
     );
-    let cut = gzip(&[0; 12]);
     assert_eq!(
-        lines(&folder, folder.read("head.nrrd", joined(header("gzip"), &cut[..cut.len() - 1]))),
-        [
-            "the compressed data are damaged: the stream ends too early, or something follows it",
-            "head.nrrd",
-            "get the file again"
-        ]
+        lines(&folder, folder.read("head.nrrd", joined(header("bzip2"), &bzip2(&[0; 11])))),
+        ["the data are too short: found 11 bytes, expected 12", "head.nrrd, field sizes", AGAIN]
     );
+    for (encoding, whole) in [("gzip", gzip(&[0; 12])), ("bzip2", bzip2(&[0; 12]))] {
+        assert_eq!(
+            lines(&folder, folder.read("head.nrrd", joined(header(encoding), &whole[..whole.len() - 1]))),
+            [
+                "the compressed data are damaged: the stream ends too early, or something follows it",
+                "head.nrrd",
+                "get the file again"
+            ]
+        );
+    }
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("ascii"), b"1 2 3 4 5 6 7 8 9 10 11   "))),
         ["the data are too short: found 11 numbers, expected 12", "head.nrrd, field sizes", AGAIN]
@@ -62,7 +67,7 @@ fn truncated() {
 fn trailing_bytes() {
     let folder = Folder::new();
     let header = |encoding| nrrd_lines(U8, "2 3 2", encoding, false) + "\n";
-    for (encoding, data) in [("raw", vec![0; 15]), ("gzip", gzip(&[0; 15]))] {
+    for (encoding, data) in [("raw", vec![0; 15]), ("gzip", gzip(&[0; 15])), ("bzip2", bzip2(&[0; 15]))] {
         assert_eq!(
             lines(&folder, folder.read("head.nrrd", joined(header(encoding), &data))),
             ["the data are too long: found 15 bytes, expected 12", "head.nrrd, field sizes", AGAIN]
@@ -77,9 +82,11 @@ fn trailing_bytes() {
         lines(&folder, folder.read("head.nrrd", joined(header("ascii"), b"1 2 3 4 5 6 7 8 9 10 11 12 13"))),
         ["the data are too long: found 13 numbers, expected 12", "head.nrrd, field sizes", AGAIN]
     );
-    let after = joined(header("gzip"), &joined(gzip(&[0; 12]), b"junk"));
-    let [what, place, _] = lines(&folder, folder.read("head.nrrd", after));
-    assert!(what.starts_with("the compressed data are damaged: ") && place == "head.nrrd", "{what}");
+    for (encoding, data) in [("gzip", gzip(&[0; 12])), ("bzip2", bzip2(&[0; 12]))] {
+        let after = joined(header(encoding), &joined(data, b"junk"));
+        let [what, place, _] = lines(&folder, folder.read("head.nrrd", after));
+        assert!(what.starts_with("the compressed data are damaged: ") && place == "head.nrrd", "{what}");
+    }
 }
 
 #[test]
@@ -94,6 +101,14 @@ fn oversized_dims() {
         lines(&folder, folder.read("head.nrrd", joined(header("10000 10000 10000", "gzip"), &[0; 100]))),
         [
             "the sizes claim 1000000000000 bytes, and a file of this length holds 103200 at the most",
+            "head.nrrd, field sizes",
+            AGAIN
+        ]
+    );
+    assert_eq!(
+        lines(&folder, folder.read("head.nrrd", joined(header("10000 10000 10000", "bzip2"), &[0; 100]))),
+        [
+            "the sizes claim 1000000000000 bytes, and a file of this length holds 194250000 at the most",
             "head.nrrd, field sizes",
             AGAIN
         ]
@@ -122,7 +137,11 @@ fn oversized_dims() {
         RawLayout { size: [1 << 40, 1 << 20, 1], voxel_type: U8, big_endian: false, spacing: [1.0; 3], skip: 0 };
     assert_eq!(
         lines(&folder, read(&folder.put("head.raw", [0; 8]), Some(&layout))),
-        ["the data are too short: found 8 bytes, expected 1152921504606846976", "head.raw, field size", AGAIN]
+        [
+            "the data are too short: found 8 bytes, expected 1152921504606846976",
+            "head.raw, field size of its layout",
+            "get the file again, or correct the sizes and the type in the layout"
+        ]
     );
 }
 
@@ -200,9 +219,9 @@ fn headers_that_say_the_wrong_thing() {
         ["the line `type uchar` is no field", "head.nrrd, line 2", "correct the header"]
     );
     assert_eq!(
-        lines(&folder, nrrd("type: uchar\nencoding: bzip2\n")),
+        lines(&folder, nrrd("type: uchar\nencoding: hex\n")),
         [
-            "data in encoding `bzip2`, where this program reads raw, gzip and ascii",
+            "data in encoding `hex`, where this program reads raw, gzip, bzip2 and ascii",
             "head.nrrd, line 3, field encoding",
             "convert the file first"
         ]
@@ -237,7 +256,7 @@ fn files_that_are_not_there_or_not_known() {
             "the suffix belongs to no volume format that is known",
             "head.jpg",
             "give a file with one of the suffixes nrrd, nhdr, nii, nii.gz, hdr, hdr.gz, img, img.gz, mhd, mha, raw, \
-             raw.gz, or describe raw voxels in head.jpg.toml or as volume.raw"
+             raw.gz, or describe raw voxels in head.jpg.toml, with --raw or as volume.raw"
         ]
     );
     assert_eq!(
@@ -245,8 +264,8 @@ fn files_that_are_not_there_or_not_known() {
         [
             "raw voxels without a description of their layout",
             "head.raw",
-            "open the header that belongs to it, or describe it in head.raw.toml or as volume.raw: size, type, endian, \
-             spacing and skip"
+            "open the header that belongs to it, or describe it in head.raw.toml, with --raw or as volume.raw: size, \
+             type, endian, spacing and skip"
         ]
     );
     std::fs::create_dir(folder.path("x.nrrd")).unwrap();
@@ -271,18 +290,51 @@ fn sidecars() {
     };
     let [what, place, remedy] = described("size = [2, 3, 2]\ntype = \"u8\"\nskipp = 1\n");
     assert!(what.starts_with("the description of raw voxels is not valid: unknown field `skipp`"), "{what}");
-    assert_eq!([place.as_str(), remedy.as_str()], ["a.raw.toml, line 3", "correct the header"]);
+    assert_eq!([place.as_str(), remedy.as_str()], ["a.raw.toml, line 3", "correct the layout"]);
     assert_eq!(
         described("size = [2, 3, 2]\ntype = \"byte\"\n"),
         [
             "found `byte`, expected one of u8, i8, u16, i16, u32, i32, u64, i64, f32, f64",
             "a.raw.toml, field type",
-            "correct the header"
+            "correct the layout"
         ]
     );
     assert_eq!(
         described("size = [2, 3, 3]\ntype = \"u8\"\n"),
-        ["the data are too short: found 12 bytes, expected 18", "a.raw, field size of a.raw.toml", AGAIN]
+        [
+            "the data are too short: found 12 bytes, expected 18",
+            "a.raw, field size of a.raw.toml",
+            "get the file again, or correct the sizes and the type in the layout"
+        ]
     );
-    assert_eq!(described("size = [2, 3, 2]\ntype = \"u8\"\nspacing = [1, 0, 1]\n")[1], "a.raw.toml, field spacing");
+    assert_eq!(
+        described("size = [2, 3, 2]\ntype = \"u8\"\nspacing = [1, 0, 1]\n")[1..],
+        ["a.raw.toml, field spacing", "correct the sizes or the spacing in the layout"]
+    );
+}
+
+#[test]
+fn dicom() {
+    let folder = Folder::new();
+    let mut preamble = vec![0; 128];
+    preamble.extend(b"DICM and more");
+    for (name, bytes) in
+        [("a.dcm", &b"old"[..]), ("b.DICOM", b""), ("IM0001", &preamble), ("c.nii", &preamble), ("d.raw", &preamble)]
+    {
+        assert_eq!(
+            lines(&folder, folder.read(name, bytes)),
+            [
+                "this is a DICOM file, and DICOM is not read yet",
+                name,
+                "convert its series to .nii.gz or .nrrd first: dcm2niix, 3D Slicer and ITK-SNAP do that"
+            ]
+        );
+    }
+    assert_eq!(lines(&folder, read(&folder.path("gone.dcm"), None))[2], "check the path");
+    preamble[130] = b'X';
+    let other = folder.read("IM0002", &preamble).unwrap_err();
+    assert!(matches!(*other.fault, super::super::Fault::Suffix), "{other}");
+    // A layout that is given wins over the mark.
+    let layout = RawLayout { size: [141, 1, 1], voxel_type: U8, big_endian: false, spacing: [1.0; 3], skip: 0 };
+    assert!(read(&folder.path("c.nii"), Some(&layout)).is_ok());
 }

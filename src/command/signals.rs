@@ -1,0 +1,43 @@
+//! Signals that end the command: none of them leaves an unfinished file.
+
+use drypoint::scene::atomic;
+
+/// Ends the process on SIGINT, SIGTERM and SIGHUP, after unfinished files are removed. The exit code is 128 and the
+/// number of the signal, as shells have it: 130, 143 and 129.
+///
+/// Where no handler can be set, or no thread started, an unfinished file stays, under a name of its own.
+#[cfg(unix)]
+pub(super) fn remove_unfinished_at_the_end() {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let ending = [SIGINT, SIGTERM].into_iter().chain(ends_on_hangup().then_some(SIGHUP));
+    let Ok(mut signals) = signal_hook::iterator::Signals::new(ending) else { return };
+    let _ = std::thread::Builder::new().spawn(move || {
+        if let Some(signal) = signals.forever().next() {
+            atomic::remove_unfinished();
+            std::process::exit(128 + signal);
+        }
+    });
+}
+
+/// Whether SIGHUP is to end the process. `nohup` starts a program that ignores it, which a handler would undo; where the
+/// system does not say whether SIGHUP is ignored, it is left alone.
+#[cfg(unix)]
+fn ends_on_hangup() -> bool {
+    let ignored = std::fs::read_to_string("/proc/self/status").ok().and_then(|status| {
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"))?;
+        u64::from_str_radix(mask.trim(), 16).ok()
+    });
+    // The lowest bit is that of the first signal, SIGHUP.
+    ignored.is_some_and(|mask| mask & 1 == 0)
+}
+
+/// Ends the process on Ctrl-C and when its console is closed, after unfinished files are removed, with exit code 130.
+///
+/// Where no handler can be set, an unfinished file stays, under a name of its own.
+#[cfg(not(unix))]
+pub(super) fn remove_unfinished_at_the_end() {
+    let _ = ctrlc::set_handler(|| {
+        atomic::remove_unfinished();
+        std::process::exit(130);
+    });
+}
