@@ -44,8 +44,10 @@ impl Wedge {
             );
         }
         Format::among(&self.output, &Format::SHEETS)?;
-        let table = self.output.with_extension("csv");
-        for path in [&self.output, &table] {
+        let (table, template) = (self.output.with_extension("csv"), template());
+        // A table that is filled in stays, and may be read-only.
+        let stays = std::fs::read_to_string(&table).is_ok_and(|there| there != template);
+        for path in std::iter::once(&self.output).chain((!stays).then_some(&table)) {
             atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))?;
         }
         let scene = input::page(&self.set)?;
@@ -58,8 +60,7 @@ impl Wedge {
         for line in said {
             note(talk, line);
         }
-        let template = template();
-        if std::fs::read_to_string(&table).is_ok_and(|there| there != template) {
+        if stays {
             note(talk, format_args!("{}: is there and stays as it is", table.display()));
             return Ok(Done::Yes);
         }

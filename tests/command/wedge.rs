@@ -25,6 +25,14 @@ fn a_page_its_table_and_its_plot() {
     for name in ["plot.svg", "plot.png"] {
         folder.good(&format!("wedge --measured measured.csv -o {name} -q"));
     }
+    // A table that is filled in stays, also where nobody may write to it.
+    let mut permissions = std::fs::metadata(folder.path("wedge.csv")).unwrap().permissions();
+    folder.write("wedge.csv", &measured);
+    permissions.set_readonly(true);
+    std::fs::set_permissions(folder.path("wedge.csv"), permissions).unwrap();
+    let said = folder.line("wedge -o wedge.svg --pen black --set picture.dpi=100");
+    assert!(said.code == Some(0) && said.err.ends_with("wedge.csv: is there and stays as it is\n"), "{}", said.err);
+    assert_eq!(folder.read("wedge.csv"), measured.as_bytes());
     // With the table the page has fewer dots.
     let pens = "pen=[{name=\"black\",tone=\"measured.csv\"}]";
     let said = folder.run(["wedge", "-o", "second.svg", "--pen", "black", "--set", pens]);
