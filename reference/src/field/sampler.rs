@@ -43,6 +43,17 @@ pub trait Sampler<R: Real>: Sync {
         self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64))))
     }
 
+    /// ‖g‖ at every voxel of a row, times 2^−e: the length of [`voxel_gradient`](Self::voxel_gradient). `rows` is memory to
+    /// work in, `norms` as long as the row.
+    ///
+    /// # Panics
+    /// As [`voxel_gradient`](Self::voxel_gradient).
+    fn voxel_norms(&self, [y, z]: [usize; 2], _rows: &mut Vec<R>, norms: &mut [R]) {
+        for (x, norm) in norms.iter_mut().enumerate() {
+            *norm = self.voxel_gradient([x, y, z]).length();
+        }
+    }
+
     /// The Hessian at a place by the field's estimator, and the gradient of the field that it belongs to ([CUR-1]), in
     /// world space, times 2^−e.
     ///
@@ -230,6 +241,16 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
         match gradient::at_voxel(self.field, x, y, z) {
             Some(index) => self.field.to_world.apply(index),
             None => self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
+        }
+    }
+
+    fn voxel_norms(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, norms: &mut [R]) {
+        let norm = |x| self.voxel_gradient([x, y, z]).length();
+        if self.field.norms_inside([y, z], rows, norms) {
+            let last = norms.len() - 1;
+            (norms[0], norms[last]) = (norm(0), norm(last));
+        } else {
+            norms.iter_mut().enumerate().for_each(|(x, at)| *at = norm(x));
         }
     }
 

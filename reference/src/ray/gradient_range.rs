@@ -2,7 +2,7 @@
 
 use crate::field::{GradientEstimator, Sampler};
 use crate::number::Real;
-use drypoint_scene::volume::histogram::quantile;
+use crate::number::quantile::quantile_of_parts;
 use drypoint_scene::volume::{Mask, Volume};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
@@ -17,29 +17,23 @@ pub(crate) fn quantile_of_norms<R: Real, S: Sampler<R>>(
     no_normal_below: R,
     q: f64,
 ) -> (f64, u64) {
-    let [nx, ny, nz] = volume.dims();
-    let norms: Vec<(Vec<f64>, u64)> = (0..nz)
-        .into_par_iter()
-        .map(|z| {
-            let (mut plane, mut evaluated) = (Vec::new(), 0);
-            for y in 0..ny {
-                for x in 0..nx {
-                    if volume.mask().is_some_and(|m| touches(m, volume.dims(), [x, y, z], estimator)) {
-                        continue;
-                    }
-                    evaluated += 1;
-                    let norm = sampler.voxel_gradient([x, y, z]).length();
-                    if norm > no_normal_below {
-                        plane.push(norm.to_f64());
-                    }
-                }
-            }
-            (plane, evaluated)
-        })
-        .collect();
-    let evaluated = norms.iter().map(|(_, n)| n).sum();
-    let mut norms: Vec<f64> = norms.into_iter().flat_map(|(plane, _)| plane).collect();
-    (quantile(&mut norms, q).unwrap_or(0.0), evaluated)
+    let dims @ [nx, ny, nz] = volume.dims();
+    let counts = |x: usize, y: usize, z: usize| !volume.mask().is_some_and(|m| touches(m, dims, [x, y, z], estimator));
+    let norms = |(rows, norms): &mut (Vec<R>, Vec<R>), row: usize, numbers: &mut Vec<f64>| {
+        let (y, z) = (row % ny, row / ny);
+        sampler.voxel_norms([y, z], rows, norms);
+        let seen = norms.iter().enumerate().filter(|(x, norm)| **norm > no_normal_below && counts(*x, y, z));
+        numbers.extend(seen.map(|(_, norm)| norm.to_f64()));
+    };
+    let hi = quantile_of_parts(ny * nz, || (Vec::new(), vec![R::ZERO; nx]), norms, q);
+    let evaluated = match volume.mask() {
+        None => (nx * ny * nz) as u64,
+        Some(_) => {
+            let of_row = |row: usize| (0..nx).filter(|&x| counts(x, row % ny, row / ny)).count() as u64;
+            (0..ny * nz).into_par_iter().map(of_row).sum()
+        }
+    };
+    (hi.unwrap_or(0.0), evaluated)
 }
 
 /// Whether the gradient at a voxel reads a masked voxel, or the voxel is one.

@@ -233,7 +233,7 @@ struct Above {
 fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'_>, range: [f64; 2]) -> Above {
     let volume = field.volume();
     let (stipples, dims) = (inputs.stipples, volume.dims());
-    let norms = norms(sampler, field, estimator(stipples.gradient));
+    let norms = norms(sampler, field.volume(), estimator(stipples.gradient));
     let bound = field.no_normal_below();
     let quantile = |q| quantile_above(&norms, bound, q).unwrap_or(0.0);
     let scaled = |norm: f64| math::scale_by_power_of_two(norm, -field.scale_exponent());

@@ -154,8 +154,10 @@ impl Pass {
         match self {
             // One number of 64 bits.
             Self::Coefficients | Self::LabelDistances => 8,
-            // A filter reads one copy and writes another; norms are gathered from the planes.
-            Self::SmoothedCoefficients | Self::GradientRange => 16,
+            // A filter reads one copy and writes another.
+            Self::SmoothedCoefficients => 16,
+            // Norms are counted row by row.
+            Self::GradientRange => 0,
             Self::AutomaticTransfer | Self::AutomaticIso | Self::Bricks | Self::StyleMipmaps | Self::Rays => 0,
             // A norm each, and what a fit smooths.
             Self::StippleGradients => 16,

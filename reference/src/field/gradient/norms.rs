@@ -1,54 +1,111 @@
-//! ‖g‖ of the regression gradient at every voxel of a row, eight side by side: the operations of one, so the same bits.
+//! ‖g‖ by central differences, Sobel's operator and the fit at every voxel of a row, eight side by side: the operations of one voxel, so
+//! the same bits.
 
 use super::regression::Taps;
-use crate::field::Field;
+use crate::field::{Field, GradientEstimator};
 use crate::number::lanes::{LANES, widely};
-use crate::number::{Mat3, Vec3};
+use crate::number::{Mat3, Real, Vec3};
 
-/// Numbers of voxels side by side.
-type Lane = [f64; LANES];
+/// Rows that a row's gradients read: that one, and those around it, (y, z) = (−1, −1), (0, −1), … (1, 1).
+const ROWS: usize = 9;
 
-impl Field<'_, f64> {
-    /// ‖g‖ times 2^−e of the voxels of a row but for its first and last, by the `regression` gradient: the bits of
+/// The row itself.
+const MIDDLE: usize = 4;
+
+/// The voxels that eight gradients read in each of the rows.
+type Windows<R> = [[R; LANES + 2]; ROWS];
+
+/// Of eight voxels the components of their gradients along the index axes.
+type Lane<R> = [[R; LANES]; 3];
+
+impl<R: Real> Field<'_, R> {
+    /// ‖g‖ times 2^−e of the voxels of a row but for its first and last: the bits of
     /// [`voxel_gradient`](crate::field::Sampler::voxel_gradient)'s length. `rows` is memory to work in, `norms` as long as the
-    /// row. Whether it can: not in rows at a border or too short, nor where numbers are read with care, nor with another
-    /// estimator.
-    pub(crate) fn regression_norms(&self, [y, z]: [usize; 2], rows: &mut Vec<f64>, norms: &mut [f64]) -> bool {
+    /// row.
+    ///
+    /// Returns whether it can. It cannot in rows at a border or shorter than ten voxels, where numbers are read with care,
+    /// and with a kernel's own derivative.
+    pub(crate) fn norms_inside(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, norms: &mut [R]) -> bool {
         let (nx, inside) = (norms.len(), norms.len().saturating_sub(2));
-        let Some(regression) = &self.regression else { return false };
         if inside < LANES || !self.stencils.surrounds([1, y, z]) {
             return false;
         }
-        rows.resize(9 * nx, 0.0);
+        let is_central = match (self.how.gradient, &self.regression) {
+            (GradientEstimator::Central, _) => true,
+            (GradientEstimator::Sobel, _) | (GradientEstimator::Regression, Some(_)) => false,
+            _ => return false,
+        };
+        rows.resize(ROWS * nx, R::ZERO);
         for (i, row) in rows.chunks_exact_mut(nx).enumerate() {
-            self.stencils.read_row(y - 1 + i % 3, z - 1 + i / 3, row);
+            // Central differences read no row that is beside the middle one along both axes.
+            if !is_central || i % 2 == 1 || i == MIDDLE {
+                self.stencils.read_row(y - 1 + i % 3, z - 1 + i / 3, row);
+            }
         }
-        let taps = regression.taps_inside();
-        widely(
-            #[inline(always)]
-            || {
-                for start in (0..inside).step_by(LANES) {
-                    // The last eight once more where the row ends in fewer.
-                    let start = start.min(inside - LANES);
-                    let lane = norms_of_eight(rows, nx, start, taps, &self.to_world);
-                    norms[start + 1..][..LANES].copy_from_slice(&lane);
-                }
-            },
-        );
+        let rows = rows.as_slice();
+        match &self.regression {
+            _ if is_central => lengths(&self.to_world, norms, |start| central(rows, nx, start)),
+            Some(regression) if self.how.gradient == GradientEstimator::Regression => {
+                let taps = regression.taps_inside();
+                lengths(&self.to_world, norms, |start| changing(rows, nx, start, |w, first| fitted(w, first, taps)));
+            }
+            _ => lengths(&self.to_world, norms, |start| changing(rows, nx, start, sobel)),
+        }
         true
     }
 }
 
-/// Those of eight voxels, the first of which lies behind the one at `start`.
+/// The lengths of the gradients that `eight` gives for the eight voxels behind one.
+fn lengths<R: Real>(to_world: &Mat3<R>, norms: &mut [R], eight: impl Fn(usize) -> Lane<R>) {
+    let inside = norms.len() - 2;
+    widely(
+        #[inline(always)]
+        || {
+            for start in (0..inside).step_by(LANES) {
+                // The last eight once more where the row ends in fewer.
+                let start = start.min(inside - LANES);
+                let [x, y, z] = eight(start);
+                let out = &mut norms[start + 1..][..LANES];
+                for l in 0..LANES {
+                    out[l] = to_world.apply(Vec3::new(x[l], y[l], z[l])).length();
+                }
+            }
+        },
+    );
+}
+
+/// Central differences at the eight voxels behind the one at `start`.
 #[inline(always)]
-fn norms_of_eight(rows: &[f64], nx: usize, start: usize, taps: &Taps, to_world: &Mat3<f64>) -> Lane {
-    let mut windows = [[0.0; LANES + 2]; 9];
+fn central<R: Real>(rows: &[R], nx: usize, start: usize) -> Lane<R> {
+    let run = |row: usize, from: usize| -> &[R] { &rows[row * nx + start + from..][..LANES] };
+    let pairs = [
+        [run(MIDDLE, 0), run(MIDDLE, 2)],
+        [run(MIDDLE - 1, 1), run(MIDDLE + 1, 1)],
+        [run(MIDDLE - 3, 1), run(MIDDLE + 3, 1)],
+    ];
+    let mut lane = [[R::ZERO; LANES]; 3];
+    for (lane, [down, up]) in lane.iter_mut().zip(pairs) {
+        for l in 0..LANES {
+            lane[l] = (up[l] - down[l]) * R::HALF;
+        }
+    }
+    lane
+}
+
+/// The gradients of an estimator that reads 3³ voxels, at the same eight; 0 where all that it reads is one number.
+#[inline(always)]
+fn changing<R: Real>(
+    rows: &[R],
+    nx: usize,
+    start: usize,
+    estimate: impl Fn(&Windows<R>, &[R; LANES]) -> Lane<R>,
+) -> Lane<R> {
+    let mut windows = [[R::ZERO; LANES + 2]; ROWS];
     for (r, window) in windows.iter_mut().enumerate() {
         window.copy_from_slice(&rows[r * nx + start..][..LANES + 2]);
     }
-    let mut first = [0.0; LANES];
-    first.copy_from_slice(&windows[4][1..=LANES]);
-    // Where nothing changes differences and sums are 0.
+    let mut first = [R::ZERO; LANES];
+    first.copy_from_slice(&windows[MIDDLE][1..=LANES]);
     let mut differs = [false; LANES];
     for window in &windows {
         for l in 0..LANES {
@@ -56,10 +113,13 @@ fn norms_of_eight(rows: &[f64], nx: usize, start: usize, taps: &Taps, to_world: 
         }
         differs[0] |= window[LANES] != first[0] || window[LANES + 1] != first[0];
     }
-    if differs == [false; LANES] {
-        return [0.0; LANES];
-    }
-    let mut sums = [[0.0; LANES]; 3];
+    if differs == [false; LANES] { [[R::ZERO; LANES]; 3] } else { estimate(&windows, &first) }
+}
+
+/// The fit of [REC-2], of differences from each voxel itself.
+#[inline(always)]
+fn fitted<R: Real>(windows: &Windows<R>, first: &[R; LANES], taps: &Taps<R>) -> Lane<R> {
+    let mut sums = [[R::ZERO; LANES]; 3];
     for (sum, taps) in sums.iter_mut().zip(taps) {
         for &(t, weight) in taps {
             let window = &windows[t / 3];
@@ -68,9 +128,38 @@ fn norms_of_eight(rows: &[f64], nx: usize, start: usize, taps: &Taps, to_world: 
             }
         }
     }
-    let mut norms = [0.0; LANES];
-    for l in 0..LANES {
-        norms[l] = to_world.apply(Vec3::new(sums[0][l], sums[1][l], sums[2][l])).length();
+    sums
+}
+
+/// Sobel's operator, with the sums of [`sobel::at_voxel`](super::sobel::at_voxel) in their order.
+#[inline(always)]
+fn sobel<R: Real>(windows: &Windows<R>, first: &[R; LANES]) -> Lane<R> {
+    let (half, quarter) = (R::HALF, R::HALF * R::HALF);
+    let (value, slope) = ([quarter, half, quarter], [-half, R::ZERO, half]);
+    // For each x: sums over z and y, named by the derivatives in (y, z).
+    let [mut s00, mut s10, mut s01] = [[[R::ZERO; LANES]; 3]; 3];
+    for k in 0..3 {
+        for i in 0..3 {
+            let [mut p0, mut p1] = [[R::ZERO; LANES]; 2];
+            for j in 0..3 {
+                for l in 0..LANES {
+                    let c = windows[3 * k + j][i + l] - first[l];
+                    p0[l] += c * value[j];
+                    p1[l] += c * slope[j];
+                }
+            }
+            for l in 0..LANES {
+                s00[i][l] += p0[l] * value[k];
+                s10[i][l] += p1[l] * value[k];
+                s01[i][l] += p0[l] * slope[k];
+            }
+        }
     }
-    norms
+    let mut lane = [[R::ZERO; LANES]; 3];
+    for l in 0..LANES {
+        let smooth = |s: &[[R; LANES]; 3]| (s[0][l] * quarter + s[2][l] * quarter) + s[1][l] * half;
+        lane[0][l] = s00[2][l] * half - s00[0][l] * half;
+        (lane[1][l], lane[2][l]) = (smooth(&s10), smooth(&s01));
+    }
+    lane
 }

@@ -21,7 +21,7 @@ use drypoint_scene::volume::Access;
 type Weights<R> = [[R; 27]; 4];
 
 /// For each index axis the voxels that have a weight, x fastest, and it.
-pub(super) type Taps = [Vec<(usize, f64)>; 3];
+pub(super) type Taps<R> = [Vec<(usize, R)>; 3];
 
 /// The fit for each of the cases that a grid has.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub(in crate::field) struct Regression<R> {
     /// By the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
     cases: Vec<Option<Box<Weights<R>>>>,
     /// Those of the gradient of a voxel that has all neighbours.
-    taps: Taps,
+    taps: Taps<R>,
 }
 
 /// 1 if a voxel of a line of n has one before it, plus 2 if it has one after it.
@@ -44,7 +44,8 @@ impl<R: Real> Regression<R> {
             let n = grid.dims()[axis];
             [0, n / 2, n - 1].into_iter().any(|i| sides(i, n) == s)
         };
-        let taps = fit(grid, [3; 3]).map(|row| row.into_iter().enumerate().filter(|(_, w)| *w != 0.0).collect());
+        let tap = |(t, weight): (usize, f64)| (weight != 0.0).then(|| (t, R::from_f64(weight)));
+        let taps = fit(grid, [3; 3]).map(|row| row.into_iter().enumerate().filter_map(tap).collect());
         let [x, y, z, _] = taps;
         let cases = (0..64)
             .map(|case| {
@@ -61,7 +62,7 @@ impl<R: Real> Regression<R> {
     }
 
     /// The weights at a voxel that has neighbours on all sides, without zeros.
-    pub(super) fn taps_inside(&self) -> &Taps {
+    pub(super) fn taps_inside(&self) -> &Taps<R> {
         &self.taps
     }
 
