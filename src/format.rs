@@ -63,7 +63,7 @@ impl Format {
         let suffix = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
         let what = match found {
             Some(Self::Csv | Self::JsonLines) => {
-                format!(".{suffix} is for lists of points, which `drypoint points` writes ([STIP-16])")
+                format!(".{suffix} is for lists of points, which `drypoint points` writes")
             }
             Some(_) if *may == [Self::Png] => "this picture is written as PNG".into(),
             Some(_) => format!("this picture is not written as .{suffix}"),
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(of("b.exr"), Ok(Format::Exr));
         for (name, what) in [
             ("a.pdf", "this picture is not written as .pdf"),
-            ("a.csv", ".csv is for lists of points, which `drypoint points` writes ([STIP-16])"),
+            ("a.csv", ".csv is for lists of points, which `drypoint points` writes"),
             ("a.jpg", ".jpg is the suffix of no picture format that is written"),
             ("png", "the name has no suffix, which chooses the format of the picture"),
             (".png", "the name has no suffix, which chooses the format of the picture"),

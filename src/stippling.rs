@@ -39,7 +39,7 @@ pub struct Stippling<'a> {
     hiding: Option<(Field<'a, f64>, f64)>,
 }
 
-/// How far the points of a scene are made.
+/// Progress in making the points of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct PointsMade {
     /// The share that is made, in [0, 1].

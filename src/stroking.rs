@@ -8,7 +8,7 @@ mod seeding;
 mod shown;
 
 use crate::Failure;
-use crate::job::Job;
+use crate::job::{Job, render_failure};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::interactive_volume_illustration::Sight;
 use drypoint_reference::surface::IsoSurface;
@@ -104,7 +104,7 @@ impl<'a> Stroking<'a> {
         };
         let reads_hessians = scene.hatching.as_ref().is_some_and(|hatching| hatching.reads_hessians());
         let rung = if reads_hessians { Rung::Hessian } else { Rung::Gradient };
-        let field = Field::new(volume, how, rung).map_err(|error| Failure::new(error, at("volume"), "convert it"))?;
+        let field = Field::new(volume, how, rung).map_err(|error| render_failure(&error.into(), scene))?;
         let hides = scene.surface.as_ref().map(|surface| value(scene, surface.iso, "surface.iso")).transpose()?;
         for (name, bytes) in field.bytes() {
             *counts.bytes.entry(format!("strokes {name}")).or_default() += bytes;

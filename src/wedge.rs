@@ -77,8 +77,10 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Fa
     let too_fine = |no_room: NoRoom| {
         let what = format!("a step wedge of a nib of {} mm needs {no_room}", pen.width);
         // The number of candidates grows with the inverse square of the nib.
-        let share = no_room.fitting(u64::from(u32::MAX)) as f64 / f64::from(u32::MAX);
-        let remedy = format!("take a wider pen: one of {:.3} mm would fit", (pen.width / share.sqrt()).min(1e3));
+        let remedy = match no_room.enlarged(pen.width * pen.width) {
+            Some(square) => format!("take a wider pen: one of {:.1e} mm would fit", 1.01 * square.sqrt()),
+            None => "take a wider pen".into(),
+        };
         Failure::new(what, "pen.width", remedy)
     };
     memory::room((candidates * CANDIDATE) as u64).map_err(too_fine)?;

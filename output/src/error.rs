@@ -127,6 +127,9 @@ impl OutputError {
     /// One line that says what to do.
     pub fn help(&self) -> &'static str {
         match self {
+            Self::Io { source, .. } if source.kind() == std::io::ErrorKind::OutOfMemory => {
+                "give a smaller file, or allow more with --memory"
+            }
             Self::Io { action: "read", .. } => "check that the file exists and may be read",
             Self::Io { source, .. } => drypoint_scene::atomic::remedy(source),
             Self::UnknownFormat { .. } => "convert the picture to PNG or EXR",

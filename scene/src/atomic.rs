@@ -97,7 +97,11 @@ impl Target {
                 Ok(Self::File(fs::canonicalize(path)?, Some(found.permissions())))
             }
             Ok(_) => Ok(Self::Direct),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::File(path.to_path_buf(), None)),
+            // A link to a file that is not there yet makes that file.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => match fs::read_link(path) {
+                Ok(to) => Self::of(&path.with_file_name(to)),
+                Err(_) => Ok(Self::File(path.to_path_buf(), None)),
+            },
             Err(error) => Err(error),
         }
     }

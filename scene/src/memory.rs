@@ -30,10 +30,23 @@ impl NoRoom {
         (u128::from(n) * u128::from(free) / u128::from(self.needed.max(1))) as u64
     }
 
-    /// Returns the largest size of the same shape that fits, when one of `size` needs [`NoRoom::needed`].
+    /// Returns the largest size of the same shape that fits, when one of `size` needs [`NoRoom::needed`]. A side has at
+    /// least one item.
     pub fn fitting_size(&self, size: [usize; 2]) -> [usize; 2] {
-        let scale = (self.free as f64 / self.needed.max(1) as f64).min(1.0).sqrt();
-        size.map(|n| (n as f64 * scale) as usize)
+        let share = (self.free as f64 / self.needed.max(1) as f64).min(1.0);
+        let [a, b] = size.map(|n| ((n as f64 * share.sqrt()) as usize).max(1));
+        let most = (size[0] as f64 * size[1] as f64 * share) as usize;
+        [a.min((most / b).max(1)), b.min((most / a).max(1))]
+    }
+
+    /// Returns the least length that fits, rounded up to three digits, when one of `length` needs [`NoRoom::needed`] and the
+    /// need grows with its inverse; none if nothing fits.
+    pub fn enlarged(&self, length: f64) -> Option<f64> {
+        let fits = length * (self.needed as f64 / self.free as f64).max(1.0);
+        let unit = 10f64.powf(fits.log10().floor() - 2.0);
+        let rounded = (fits / unit).ceil() * unit;
+        // Through its text, without the digits that rounding leaves.
+        format!("{rounded:.2e}").parse().ok().filter(|length: &f64| length.is_finite())
     }
 }
 
@@ -66,15 +79,19 @@ pub fn limit(bytes: u64) {
 pub fn room(needed: u64) -> Result<(), NoRoom> {
     let free = free().unwrap_or(u64::MAX);
     let given = |bytes: u64| usize::try_from(bytes).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
-    if needed > free {
-        return Err(NoRoom { needed, free });
-    }
-    if given(needed) {
+    if needed <= free && given(needed) {
         return Ok(());
     }
-    // The allocator gives less than the system has, such as under `ulimit -v`: how much, to a sixteenth of the need.
-    let free = (0..16).rev().map(|sixteenths| needed / 16 * sixteenths).find(|&bytes| given(bytes)).unwrap_or(0);
-    Err(NoRoom { needed, free })
+    // The allocator may give less than the system has, such as under `ulimit -v`: bisection finds how much.
+    let [mut yes, mut no] = [0, needed.min(free).min(isize::MAX as u64)];
+    if given(no) {
+        return Err(NoRoom { needed, free: no });
+    }
+    while no - yes > needed / 256 + 1 {
+        let middle = yes + (no - yes) / 2;
+        *if given(middle) { &mut yes } else { &mut no } = middle;
+    }
+    Err(NoRoom { needed, free: yes })
 }
 
 /// Checks that `n` items of `each` bytes could be had now.
@@ -124,11 +141,13 @@ impl<R: Read> Read for Metered<R> {
 /// # Errors
 /// Errors of the operating system, and [`ErrorKind::OutOfMemory`] for a file that does not fit.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
+    let mut file = File::open(path)?;
     let length = file.metadata()?.len();
     room(length)?;
     let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
-    Metered::new(file, 1).read_to_end(&mut bytes)?;
+    (&mut file).take(length).read_to_end(&mut bytes)?;
+    // A pipe and a device do not say their length. A list that grows is there twice, the longer one of twice the length.
+    Metered::new(file, 3).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
@@ -214,6 +233,9 @@ mod tests {
         assert_eq!(NoRoom { needed: 2, free: 1 }.to_string(), "0.01 GiB of memory, and 0.00 GiB are free");
         assert_eq!(no_room(16 << 30).fitting(100), 25);
         assert_eq!(no_room(16 << 30).fitting_size([100, 50]), [50, 25]);
-        assert_eq!((no_room(0).fitting(100), no_room(0).fitting_size([100, 50])), (0, [0, 0]));
+        assert_eq!((no_room(0).fitting(100), no_room(0).fitting_size([100, 50])), (0, [1, 1]));
+        assert_eq!(no_room(48 << 30).fitting_size([100_000_000, 1]), [75_000_000, 1]);
+        assert_eq!((no_room(16 << 30).enlarged(0.001), no_room(48 << 30).enlarged(0.01)), (Some(0.004), Some(0.0134)));
+        assert_eq!(no_room(0).enlarged(1.0), None);
     }
 }

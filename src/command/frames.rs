@@ -34,7 +34,10 @@ impl Files {
     pub(super) fn of(path: &Path, scene: &Scene) -> Result<Self, Failure> {
         let files = Self::named(path, scene)?;
         target::writable(&files.path(0))?;
-        let frames = scene.orbit.map_or(1, |orbit| orbit.frames);
+        let frames = match files {
+            Self::One(_) | Self::Animated(_) => 1,
+            Self::Numbered(..) => scene.orbit.map_or(1, |orbit| orbit.frames),
+        };
         (0..frames).try_for_each(|frame| target::apart(&files.path(frame), scene.files()))?;
         Ok(files)
     }
@@ -128,7 +131,8 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
         })?
     };
     let mut drawing = {
-        let _preparing = Progress::new(talk, "preparing");
+        let preparing = Progress::new(talk, "preparing");
+        preparing.amount(|| format!("{:.1e} voxels", job.volume.grid().len() as f64));
         Drawing::new(job, &marking, &mut counts)?
     };
     let frames = drawing.frames();
@@ -145,7 +149,10 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
             let before = cpu_seconds();
             let mut timed = || {
                 let start = Instant::now();
-                let drawn = drawing.frame(i, &|share| progress.hear((i as f64 + share) / frames as f64));
+                // Each frame is drawn as often as asked for.
+                let before = wall.len() as f64;
+                let all = (frames * repeat) as f64;
+                let drawn = drawing.frame(i, &|share| progress.hear((before + share) / all));
                 wall.push(start.elapsed().as_secs_f64());
                 drawn
             };
@@ -153,8 +160,8 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
             for _ in 1..repeat {
                 timed()?;
             }
-            cpu = cpu_seconds().zip(before).zip(cpu).map(|((after, before), sum)| sum + after - before);
             progress.hear((i + 1) as f64 / frames as f64);
+            cpu = cpu_seconds().zip(before).zip(cpu).map(|((after, before), sum)| sum + after - before);
             if i == 0 {
                 warn_of_nothing(job, &frame, [counts, &own], talk);
             }

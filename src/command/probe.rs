@@ -6,9 +6,9 @@ use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::{Args, ValueEnum};
 use drypoint::reference::field::probe::{Probe as Probed, at_index, at_world};
-use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
+use drypoint::reference::field::{Field, HessianEstimator, Kernel, Reconstruction, Rung};
 use drypoint::scene::glam::DVec3;
-use drypoint::scene::memory::Metered;
+use drypoint::scene::memory::{self, Metered};
 use drypoint::scene::space::Grid;
 use drypoint::{Failure, Failures};
 use serde_json::json;
@@ -84,22 +84,32 @@ impl Probe {
             scale: sampling.scale.world(volume.grid()).ok_or_else(|| refused(&"--scale is no length in the volume"))?,
             outside: settings.volume.outside,
         };
+        // Bytes a voxel for the coefficients of the kernel, and for those of the smoothed volume while it is filtered.
+        let prefiltered = matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5);
+        let smoothed = matches!(sampling.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian);
+        let each = 8 * u64::from(prefiltered) + 16 * u64::from(smoothed);
+        memory::room_for(volume.grid().len() as u64, each).map_err(|no_room| {
+            let what = format!("the coefficients of the volume need {no_room}");
+            Failure::new(what, self.volume.display(), "crop or downsample the volume first")
+        })?;
         let field = Field::<f64>::new(&volume, how, Rung::Hessian).map_err(|e| refused(&e))?;
-        let (mut objects, mut failures) = (Vec::new(), Vec::new());
-        for point in points {
-            let probed = match self.space {
-                Space::Index => at_index(&field, point, self.view),
-                Space::World => at_world(&field, point, self.view),
-            };
-            match probed {
-                Some(probed) => objects.push(object(&probed, field.hessian_estimator())),
-                None => failures.push(self.outside_of(volume.grid(), point)),
+        let probe = |point: DVec3| match self.space {
+            Space::Index => at_index(&field, point, self.view),
+            Space::World => at_world(&field, point, self.view),
+        };
+        let outside = points.iter().filter(|point| probe(**point).is_none()).take(TOLD);
+        Failures::check(outside.map(|point| self.outside_of(volume.grid(), *point)))?;
+        // A point a line, printed some thousand bytes at a time.
+        let mut text = String::from("[");
+        for (i, probed) in points.iter().filter_map(|point| probe(*point)).enumerate() {
+            text += if i > 0 { ",\n" } else { "\n" };
+            text += &object(&probed, field.hessian_estimator()).to_string();
+            if text.len() > PRINTED {
+                print(&text)?;
+                text.clear();
             }
         }
-        Failures::check(failures)?;
-        // A point a line.
-        let lines: Vec<String> = objects.iter().map(|object| format!("\n{object}")).collect();
-        print(&format!("[{}\n]\n", lines.join(",")))
+        print(&(text + "\n]\n"))
     }
 
     fn outside_of(&self, grid: &Grid, point: DVec3) -> Failure {
@@ -120,16 +130,20 @@ impl Probe {
 /// The most bytes of a line of standard input: three numbers of every digit that an f64 can have, with blanks.
 const LINE: u64 = 4096;
 
-/// Bytes of memory that a byte of standard input takes in the end: the shortest point has 6, and its object some 1500.
-const OBJECT_PER_BYTE: u64 = 250;
+/// Bytes of memory that a byte of standard input takes in the end: the shortest point has 6, and is a vector in a list that
+/// may have grown to twice its need.
+const POINT_PER_BYTE: u64 = 12;
 
-/// The most lines that are told to be no points; reading ends there.
+/// The most points that are refused one by one.
 const TOLD: usize = 20;
+
+/// Bytes that are printed at a time.
+const PRINTED: usize = 1 << 16;
 
 /// The points of standard input, one a line, or the first lines that are none.
 fn from_input() -> Result<Vec<DVec3>, Failures> {
     let (mut points, mut failures) = (Vec::new(), Vec::new());
-    let mut input = std::io::BufReader::new(Metered::new(std::io::stdin().lock(), OBJECT_PER_BYTE));
+    let mut input = std::io::BufReader::new(Metered::new(std::io::stdin().lock(), POINT_PER_BYTE));
     let mut line = Vec::new();
     for i in 1.. {
         let place = format!("standard input, line {i}");

@@ -61,7 +61,7 @@ enum Backend {
 impl Render {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         if self.backend == Backend::Gpu {
-            let what = "the GPU backend is not built yet ([GPU-1])";
+            let what = "the GPU backend is not built yet";
             return Err(Failure::new(what, "--backend gpu", "leave --backend out: the CPU renders").into());
         }
         let target = Target::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;

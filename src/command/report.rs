@@ -77,13 +77,13 @@ const LONG: Duration = Duration::from_secs(5);
 /// Share of the work from which its time is estimated before [`LONG`] has passed.
 const ENOUGH: f64 = 0.1;
 
-/// What is being done. Work that is expected to take five seconds or more says so in one line; on a terminal, what takes over
+/// Work in progress. Work that is expected to take five seconds or more says so in one line; on a terminal, what takes over
 /// a second has a bar. Nothing is shown where output is quiet.
 pub(super) struct Progress {
     shown: Option<Arc<Shown>>,
 }
 
-/// What a thread of its own shows.
+/// State that a thread of its own shows.
 struct Shown {
     doing: String,
     start: Instant,
@@ -141,7 +141,7 @@ impl Progress {
 }
 
 impl Shown {
-    /// Shows the bar when its time has come, and says once how long the work takes, if that is long.
+    /// Shows the bar when its time has come, and says how long the work takes, if that is long.
     fn watch(&self) {
         if self.ended_within(PATIENCE) {
             return;
@@ -150,20 +150,18 @@ impl Shown {
             bar.set_draw_target(ProgressDrawTarget::stderr());
             bar.enable_steady_tick(Duration::from_millis(100));
         }
-        let mut said = false;
+        let mut said = 0.0;
         loop {
             let (elapsed, share) = (self.start.elapsed(), f64::from_bits(self.share.load(Ordering::Relaxed)));
-            // The first rays meet little.
-            if share >= ENOUGH || (share > 0.0 && elapsed >= LONG) {
-                let all = elapsed.as_secs_f64() / share;
-                if all >= LONG.as_secs_f64() {
-                    self.say(&format!("about {} in all", duration(all)));
-                }
-                return;
-            }
-            if elapsed >= LONG && !said {
+            let all = elapsed.as_secs_f64() / share;
+            // The first rays meet little, so an early estimate may be far too low: what is twice as long is said again.
+            let ventured = elapsed >= LONG || (ENOUGH..1.0).contains(&share);
+            if ventured && share > 0.0 && share < 1.0 && all >= LONG.as_secs_f64().max(2.0 * said) {
+                self.say(&format!("about {} in all", duration(all)));
+                said = all;
+            } else if elapsed >= LONG && said == 0.0 {
                 self.say("it takes more than 5 seconds");
-                said = true;
+                said = LONG.as_secs_f64();
             }
             if self.ended_within(PATIENCE / 4) {
                 return;

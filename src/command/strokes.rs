@@ -5,6 +5,7 @@ use super::page::Page;
 use super::raw::Raw;
 use super::{Done, Outcome, Talk};
 use clap::Args;
+use drypoint::Failure;
 use drypoint::job::Wanted;
 use std::path::PathBuf;
 
@@ -41,6 +42,10 @@ impl Strokes {
         let draws = output.is_some();
         let output = output.unwrap_or_default();
         let page = Page { input, output, preset, default_preset, raw, set, stats: stats && draws, wanted };
+        if let Some(path) = seeds.as_ref().filter(|path| **path == page.output) {
+            let what = "the seeds and the strokes go to one file";
+            return Err(Failure::new(what, path.display(), "give --seeds another name").into());
+        }
         if let Some(path) = &seeds {
             Page { stats: stats && !draws, ..page.clone() }.seeds(path, talk)?;
         }

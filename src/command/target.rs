@@ -50,7 +50,7 @@ pub(super) fn writable(path: &Path) -> Result<(), Failure> {
 }
 
 /// Whether a file that is to be written is none of those that are read. Of a folder, which is a theme, no picture may be
-/// written over. Links and other spellings of one path are the same file.
+/// written over. Symbolic links and other spellings of one path are the same file.
 ///
 /// # Errors
 /// It is one of them.
@@ -103,7 +103,7 @@ impl Target {
     pub(super) fn files(&self, scene: &Scene) -> Result<Files, Failure> {
         if !Format::PICTURES.contains(&self.format) && !scene.has_marks() {
             let suffix = self.format.suffix();
-            let what = format!(".{suffix} is for points and lines, and the scene has none ([IO-7])");
+            let what = format!(".{suffix} is for points and lines, and the scene has none");
             return Err(Failure::new(what, self.path.display(), "give a name that ends in .png or .exr"));
         }
         match scene.orbit {

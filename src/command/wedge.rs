@@ -1,7 +1,7 @@
 //! `wedge`: a page to print and measure, and what was measured as a plot ([STIP-17]).
 
 use super::input::{self, Set};
-use super::report::note;
+use super::report::{Progress, note};
 use super::{Done, Outcome, Talk, target};
 use clap::Args;
 use drypoint::drawing::write_page;
@@ -9,6 +9,7 @@ use drypoint::format::Format;
 use drypoint::job::Wanted;
 use drypoint::output::atomic;
 use drypoint::scene::marks::{Page, Pen};
+use drypoint::scene::memory;
 use drypoint::scene::tables::Scene;
 use drypoint::scene::tone::Tone;
 use drypoint::stippling::tone;
@@ -46,16 +47,19 @@ impl Wedge {
         Format::among(&self.output, &Format::SHEETS)?;
         let (table, template) = (self.output.with_extension("csv"), template());
         // A table that is filled in stays, and may be read-only.
-        let stays = std::fs::read_to_string(&table).is_ok_and(|there| there != template);
+        let stays = memory::read_to_string(&table).is_ok_and(|there| there != template);
         for path in std::iter::once(&self.output).chain((!stays).then_some(&table)) {
             atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))?;
         }
         let scene = input::page(&self.set)?;
         target::apart(&self.output, scene.files())?;
         let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
+        let drawing = Progress::new(talk, "step wedge");
+        drawing.amount(|| format!("a nib of {} mm", pen.width));
         let page = wedge(&pen, &tone, &Page::of(&scene), 1)?;
         let [width, height] = page.marks.page.size.to_array();
         let said = write_page(page.marks, &scene, Wanted::Marks, &self.output)?.said;
+        drop(drawing);
         note(talk, format_args!("{}: {width:.0} × {height:.0} mm", self.output.display()));
         for line in said {
             note(talk, line);

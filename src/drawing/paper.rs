@@ -1,13 +1,14 @@
 //! Frames on paper: as pixels, vectors or a list.
 
 use super::{Frame, Written};
-use crate::job::{Job, Wanted};
+use crate::job::{Job, Wanted, no_room_for_pixels};
 use crate::{Failure, Format};
 use drypoint_output::vector::{Sheet, pdf, svg};
 use drypoint_output::{OutputError, exr, list, paint, plotter, png};
 use drypoint_scene::atomic;
 use drypoint_scene::color::Rgba;
-use drypoint_scene::marks::{Layer, Marks, Page};
+use drypoint_scene::marks::{Layer, Marks, Page, Vertex};
+use drypoint_scene::memory;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::tables::{Background, Scene};
 use std::borrow::Cow;
@@ -17,7 +18,10 @@ use std::path::Path;
 /// Seconds for which an animation shows a frame: between the 4 and 15 frames a second of Lu et al.
 const FRAME_SECONDS: f64 = 0.1;
 
-/// What ended an animation before its last frame.
+/// Bytes of memory that a vertex of a stroke that fills a dot takes until it is written.
+const FILLING_VERTEX: u64 = 3 * size_of::<Vertex>() as u64;
+
+/// The error that ended an animation before its last frame.
 enum Stopped {
     Drawing(Failure),
     Writing(OutputError),
@@ -75,7 +79,7 @@ impl<'a> Paper<'a> {
             let said = (lines > 0).then(|| format!("{lines} lines are left out: a list has dots alone"));
             return Ok(Written { marks: whole, said: said.into_iter().collect() });
         }
-        let planned = frame.marks.as_ref().map(|marks| self.planned(marks));
+        let planned = frame.marks.as_ref().map(|marks| self.planned(marks)).transpose()?;
         let marks = planned.as_ref().map(|planned| &*planned.marks);
         match (format, marks) {
             (Format::Svg, Some(marks)) => svg::write_svg(&self.sheet(marks, frame.picture.as_ref()), path),
@@ -104,7 +108,7 @@ impl<'a> Paper<'a> {
             let mut animation = svg::Animation::new(out, frames, FRAME_SECONDS);
             for i in 0..frames {
                 let frame = draw(i)?;
-                let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing));
+                let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing))?;
                 animation.frame(&self.sheet(&planned.marks, frame.picture.as_ref()), path)?;
             }
             Ok(())
@@ -153,16 +157,11 @@ impl<'a> Paper<'a> {
         }
     }
 
-    /// A page that cannot be had in pixels, at the key that makes it so large.
+    /// The failure of a page that cannot be had in pixels.
     fn refused(&self, error: &OutputError) -> Failure {
-        let Scene { picture, given, .. } = self.scene;
         match error {
-            OutputError::NoRoom { size, no_room, .. } if picture.extent().is_some() => {
-                let share = no_room.fitting_size(*size)[0] as f64 / size[0] as f64;
-                let remedy = format!("picture.dpi = {:.0} would fit", (picture.dpi * share).floor());
-                Failure::new(error, given.position("picture.dpi"), remedy)
-            }
-            _ => Failure::picture(error, given.position("picture")),
+            OutputError::NoRoom { size, no_room, .. } => no_room_for_pixels(self.scene, *size, no_room),
+            _ => Failure::picture(error, self.scene.given.position("picture")),
         }
     }
 
@@ -184,15 +183,25 @@ impl<'a> Paper<'a> {
         }
     }
 
-    fn planned<'m>(&self, marks: &'m Marks) -> Planned<'m> {
+    /// Marks as they are drawn.
+    ///
+    /// # Errors
+    /// Dots so large for the nib that the memory budget does not allow the strokes that fill them.
+    fn planned<'m>(&self, marks: &'m Marks) -> Result<Planned<'m>, Failure> {
         if !self.plotter() {
             let written = Written { marks: sums(marks), said: Vec::new() };
-            return Planned { marks: Cow::Borrowed(marks), written };
+            return Ok(Planned { marks: Cow::Borrowed(marks), written });
         }
+        let vertices = plotter::filling_vertices(marks);
+        memory::room_for(vertices as u64, FILLING_VERTEX).map_err(|no_room| {
+            let what =
+                format!("strokes of {vertices:.1e} vertices, which fill dots larger than the nib, need {no_room}");
+            Failure::new(what, self.scene.given.position("page.plotter"), "take a wider pen, or smaller or fewer dots")
+        })?;
         let plan = plotter::plan(marks, &plotter::Speed::default());
         let [touches, lines] = sums(&plan.marks);
         let written = Written { marks: [touches + plan.larger, lines - plan.larger], said: travel(&plan) };
-        Planned { marks: Cow::Owned(plan.marks), written }
+        Ok(Planned { marks: Cow::Owned(plan.marks), written })
     }
 }
 

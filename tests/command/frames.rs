@@ -122,7 +122,7 @@ fn names_that_do_not_fit_are_refused_before_anything_is_drawn() {
         ),
         (
             "render scene.toml -o turn.svg --set orbit.frames=4",
-            "error: .svg is for points and lines, and the scene has none ([IO-7])\n  at: turn.svg\n  try: give a name that ends in .png or .exr\n",
+            "error: .svg is for points and lines, and the scene has none\n  at: turn.svg\n  try: give a name that ends in .png or .exr\n",
         ),
         (
             "sheet scene.toml -o sheet_#.png",

@@ -89,7 +89,7 @@ fn what_is_not_built_yet_says_so() {
     }
     assert_eq!(
         folder.refused("render --backend gpu"),
-        "error: the GPU backend is not built yet ([GPU-1])\n  at: --backend gpu\n  try: leave --backend out: the CPU renders\n"
+        "error: the GPU backend is not built yet\n  at: --backend gpu\n  try: leave --backend out: the CPU renders\n"
     );
 }
 

@@ -41,6 +41,16 @@ pub(super) fn stroke(dot: &Dot, nib: f64) -> Option<Polyline> {
     Some(Polyline { vertices: places.into_iter().enumerate().map(vertex).collect(), closed: false })
 }
 
+/// Returns how many vertices [`stroke`] gives at most.
+pub(super) fn vertices(dot: &Dot, nib: f64) -> f64 {
+    let rim = dot.radius - nib / 2.0;
+    if rim <= SLACK || nib <= 0.0 {
+        return 0.0;
+    }
+    let turns = if rim > nib / 2.0 { (rim / (PITCH * nib)).ceil() } else { 0.0 };
+    (turns + 1.0) * steps_of(rim) + 2.0
+}
+
 /// Steps of a turn of that radius: a chord over the angle 2φ lies r(1 − cos φ) ≈ rφ²/2 off its arc.
 fn steps_of(radius: f64) -> f64 {
     (TAU / (2.0 * (2.0 * CHORD / radius).sqrt())).ceil().max(8.0)

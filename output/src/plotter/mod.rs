@@ -29,6 +29,12 @@ pub struct Plan {
 /// How close dots of one pen may be, in nibs.
 const CLOSEST: f64 = 0.7;
 
+/// Returns how many vertices the strokes have at most that [`plan`] fills dots larger than the nib with.
+pub fn filling_vertices(marks: &Marks) -> f64 {
+    let of_layer = |layer: &Layer| layer.dots.iter().map(|dot| fill::vertices(dot, layer.pen.width)).sum::<f64>();
+    marks.layers.iter().map(of_layer).sum()
+}
+
 /// Turns marks into what their pens can draw.
 ///
 /// A dot up to the nib's size becomes one touch of the nib, a larger one a circle or a spiral out to its rim. Pens know no

@@ -33,8 +33,12 @@ const MOST_OFF: f64 = 0.05;
 /// one likes.
 const FINEST: f64 = 0.01;
 
-/// Bytes of memory that a vertex of a dash takes until it is written: itself, and the text of a file.
-const DASH_VERTEX: u64 = 2 * size_of::<Vertex>() as u64;
+/// Bytes of memory that a vertex of a dash takes until it is written: itself, in a list that may have grown to twice its need,
+/// once more on the way to a file, and its text.
+const DASH_VERTEX: u64 = 5 * size_of::<Vertex>() as u64;
+
+/// Bytes of memory that a node of a table of light on lines takes.
+const TERMS: u64 = 16;
 
 /// The faintest tone that spacing gives.
 const LEAST: f64 = 0.08;
@@ -109,6 +113,13 @@ impl<'a> Hatching<'a> {
         how.offset = how.offset.min((0.5 * pen.width / scale).max(finest));
         let deeper = in_world(scene, table.gap_depth, "hatching.gap_depth", grid)?;
         let gap = table.gap.map(|gap| on_page(scene, page, gap, "hatching.gap")).transpose()?;
+        if let Some(side) = table.lighting(scene).and_then(|lighting| lighting.table) {
+            memory::room_for(side as u64 * side as u64, TERMS).map_err(|no_room| {
+                let what = format!("a table of {side} × {side} terms of light needs {no_room}");
+                let remedy = format!("{} would fit", no_room.fitting_size([side; 2])[0]);
+                Failure::new(what, scene.given.position("hatching.lighting.table"), remedy)
+            })?;
+        }
         let dash = match table.stroke.dash {
             Some([on, off]) => {
                 let length = |length| on_page(scene, page, length, "hatching.stroke.dash");
@@ -158,10 +169,11 @@ impl<'a> Hatching<'a> {
         let Some(dash) = self.dash else { return Ok(()) };
         let vertices: f64 = layers.iter().take(own).map(|layer| room::dash_vertices(&layer.lines, dash)).sum();
         memory::room_for(vertices as u64, DASH_VERTEX).map_err(|no_room| {
-            let length = dash[0] + dash[1];
-            let share = no_room.fitting(u64::from(u32::MAX)) as f64 / f64::from(u32::MAX);
-            let what = format!("dashes with {vertices:.0} ends and bends need {no_room}");
-            let remedy = format!("make a dash and its gap longer: together {:.3} mm would fit", length / share);
+            let what = format!("dashes with {vertices:.1e} ends and bends need {no_room}");
+            let remedy = match no_room.enlarged(dash[0] + dash[1]) {
+                Some(length) => format!("make a dash and its gap longer: together {length} mm would fit"),
+                None => "make a dash and its gap longer, or leave hatching.stroke.dash out".into(),
+            };
             Failure::new(what, self.dash_place.clone(), remedy)
         })?;
         layers.iter_mut().take(own).for_each(|layer| layer.lines = room::dashed(&layer.lines, dash));
