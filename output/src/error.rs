@@ -1,5 +1,6 @@
 //! What can go wrong with a file of a picture.
 
+use drypoint_scene::memory::NoRoom;
 use std::path::PathBuf;
 
 /// A fault in writing, reading, comparing or laying out pictures. The message says what and where,
@@ -43,6 +44,14 @@ pub enum OutputError {
         claimed: u64,
         /// Length of the file in bytes.
         length: u64,
+    },
+    /// There is no memory for the pixels, so nothing was allocated.
+    #[error("{}: its pixels need {no_room}", path.display())]
+    Memory {
+        /// The file.
+        path: PathBuf,
+        /// What they need, and what there is.
+        no_room: NoRoom,
     },
     /// A picture in colour was needed.
     #[error("{name}: has no channels R, G and B; it has {}", list(found))]
@@ -117,6 +126,7 @@ impl OutputError {
             Self::UnknownFormat { .. } => "convert the picture to PNG or EXR",
             Self::Malformed { .. } => "write the picture again, as a plain PNG or a flat scan-line EXR",
             Self::TooLarge { .. } => "the file is damaged or cut off: write or fetch it again",
+            Self::Memory { .. } => "scale the picture down, or cut a part out of it",
             Self::NoColor { .. } => "give a picture with colour channels named R, G and B",
             Self::Layer { .. } => "ask for the layer with --layers and a picture of at least one pixel",
             Self::Bits { .. } => "use 8 or 16",

@@ -1,6 +1,6 @@
 //! EXR as it is: every flat channel of every part.
 
-use super::{DEFLATE, Image, check_claim};
+use super::{DEFLATE, Image, check_claim, check_room};
 use crate::OutputError;
 use exr::meta::attribute::{IntegerBounds, SampleType};
 use exr::meta::header::Header;
@@ -52,7 +52,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
 fn check_headers(headers: &[Header], bytes: &[u8], path: &Path) -> Result<(), OutputError> {
     let refuse =
         |field: &str, fault: String| Err(OutputError::Malformed { path: path.into(), field: field.into(), fault });
-    let mut claimed = Some(0u64);
+    let (mut claimed, mut needed) = (Some(0u64), Some(0u64));
     let mut ratio = DEFLATE;
     for header in headers {
         if header.deep {
@@ -68,13 +68,17 @@ fn check_headers(headers: &[Header], bytes: &[u8], path: &Path) -> Result<(), Ou
         let sizes = header.channels.list.iter().map(|c| if c.sample_type == SampleType::F16 { 2 } else { 4 });
         let pixel: u64 = sizes.sum();
         let window = header.shared_attributes.display_window.size;
-        for size in [header.layer_size, window] {
+        // The layer is held as it is stored and as f64, the window as f64.
+        let numbers = 8 * header.channels.list.len() as u64;
+        for (size, held) in [(header.layer_size, pixel + numbers), (window, numbers)] {
             let area = (size.width() as u64).checked_mul(size.height() as u64);
-            claimed = claimed.zip(area.and_then(|n| n.checked_mul(pixel))).and_then(|(a, b)| a.checked_add(b));
+            let add = |sum: Option<u64>, each: u64| sum?.checked_add(area?.checked_mul(each)?);
+            (claimed, needed) = (add(claimed, pixel), add(needed, held));
         }
     }
     // Both windows were counted, and one file fills both.
-    check_claim(claimed, 2 * ratio, bytes, path)
+    check_claim(claimed, 2 * ratio, bytes, path)?;
+    check_room(needed, path)
 }
 
 /// The samples without loss: f64 holds every f16, f32 and u32.

@@ -5,6 +5,7 @@ mod exr;
 mod png;
 
 use crate::OutputError;
+use drypoint_scene::memory;
 use drypoint_scene::picture::Picture;
 use std::path::Path;
 
@@ -73,8 +74,8 @@ impl From<&Picture> for Image {
 /// second and further parts bear the part's name in front.
 ///
 /// # Errors
-/// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], and [`OutputError::TooLarge`]
-/// before anything is allocated for a header that lies.
+/// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`]; and before anything is allocated,
+/// [`OutputError::TooLarge`] for a header that lies and [`OutputError::Memory`] for more pixels than memory has room for.
 pub fn read_image(path: &Path) -> Result<Image, OutputError> {
     let bytes = std::fs::read(path).map_err(|source| OutputError::Io { path: path.into(), action: "read", source })?;
     decode(&bytes, path)
@@ -101,6 +102,11 @@ fn check_claim(claimed: Option<u64>, ratio: u64, bytes: &[u8], path: &Path) -> R
         Some(claimed) if claimed <= length.saturating_mul(ratio) => Ok(()),
         _ => Err(OutputError::TooLarge { path: path.into(), claimed: claimed.unwrap_or(u64::MAX), length }),
     }
+}
+
+/// Refuses pixels that take more bytes than there is memory for.
+fn check_room(needed: Option<u64>, path: &Path) -> Result<(), OutputError> {
+    memory::room(needed.unwrap_or(u64::MAX)).map_err(|no_room| OutputError::Memory { path: path.into(), no_room })
 }
 
 /// One byte of DEFLATE gives at most 1032.

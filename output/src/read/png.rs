@@ -1,11 +1,14 @@
 //! PNG to linear premultiplied light ([VAL-3]).
 
-use super::{DEFLATE, Image, check_claim};
+use super::{DEFLATE, Image, check_claim, check_room};
 use crate::OutputError;
 use drypoint_scene::color::srgb_to_linear;
 use png::{BitDepth, ColorType, DecodeOptions, Decoder, DecodingError, Info, Limits, Transformations};
 use std::io::Cursor;
 use std::path::Path;
+
+/// Bytes of a pixel at the most: four samples of two bytes as they are decoded and as codes, and four channels.
+const EACH: u64 = 2 * 8 + 4 * 8;
 
 /// Decodes a PNG of any colour type and depth.
 pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
@@ -19,8 +22,10 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     options.set_ignore_text_chunk(true);
     options.set_ignore_iccp_chunk(true);
     let mut decoder = Decoder::new_with_options(Cursor::new(bytes), options);
-    let claimed = raw_bytes(decoder.read_header_info().map_err(broken)?);
-    check_claim(claimed, DEFLATE, bytes, path)?;
+    let info = decoder.read_header_info().map_err(broken)?;
+    let pixels = u64::from(info.width) * u64::from(info.height);
+    check_claim(raw_bytes(info), DEFLATE, bytes, path)?;
+    check_room(pixels.checked_mul(EACH), path)?;
     // The claim is checked above; the decoder's own limit would refuse large honest pictures.
     decoder.set_limits(Limits { bytes: usize::MAX });
     // Palette to colours, grey of 1, 2 and 4 bits to 8 (a whole factor), transparent colours to alpha.
@@ -130,6 +135,19 @@ mod tests {
         let check = crc(&bytes[12..29]);
         bytes[29..33].copy_from_slice(&check.to_be_bytes());
         assert!(matches!(decode(&bytes, Path::new("a.png")), Err(OutputError::TooLarge { .. })));
+    }
+
+    /// 2¹⁷ × 2¹⁷ pixels of a bit are 2 GiB, which a file of three megabytes can hold, and 768 GiB as they are read.
+    #[test]
+    fn more_pixels_than_memory_has_room_for_are_refused() {
+        let mut bytes = file(1, ColorType::Grayscale, BitDepth::One, &[0], None);
+        bytes[16..24].copy_from_slice(&[0, 2, 0, 0, 0, 2, 0, 0]);
+        let check = crc(&bytes[12..29]);
+        bytes[29..33].copy_from_slice(&check.to_be_bytes());
+        bytes.resize(3_000_000, 0);
+        let error = decode(&bytes, Path::new("a.png")).unwrap_err();
+        assert!(error.to_string().starts_with("a.png: its pixels need 768.00 GiB of memory, and "), "{error}");
+        assert_eq!(error.help(), "scale the picture down, or cut a part out of it");
     }
 
     /// The check sum of a chunk: CRC-32, bit by bit.

@@ -1,6 +1,7 @@
 //! A phantom on a grid.
 
 use super::{Phantom, PhantomError, of_source};
+use crate::memory;
 use crate::space::Grid;
 use crate::tables::PhantomSource;
 use crate::volume::{Volume, VoxelType, Voxels};
@@ -59,10 +60,10 @@ pub fn generate(source: &PhantomSource) -> Result<Volume, PhantomError> {
 /// One number a voxel, x fastest.
 fn fill<T: Send>(grid: &Grid, at: impl Fn(DVec3) -> T + Sync) -> Result<Vec<T>, PhantomError> {
     let [nx, ny, _] = grid.dims();
+    let no_memory = || PhantomError::Memory { dims: grid.dims(), bytes: size_of::<T>() };
+    memory::room_for(grid.len() as u64, size_of::<T>() as u64).map_err(|_| no_memory())?;
     let mut voxels = Vec::new();
-    voxels
-        .try_reserve_exact(grid.len())
-        .map_err(|_| PhantomError::Memory { dims: grid.dims(), bytes: size_of::<T>() })?;
+    voxels.try_reserve_exact(grid.len()).map_err(|_| no_memory())?;
     let index = |i: usize| DVec3::new((i % nx) as f64, (i / nx % ny) as f64, (i / nx / ny) as f64);
     (0..grid.len()).into_par_iter().map(|i| at(grid.to_world(index(i)))).collect_into_vec(&mut voxels);
     Ok(voxels)

@@ -1,10 +1,15 @@
-//! What the length of a file allows its header to claim ([IO-1]).
+//! What the length of a file allows its header to claim ([IO-1]), and what memory allows.
+
+use crate::memory;
 
 /// DEFLATE's limit: one stored byte decodes to 1032 bytes at the most (a match of 258 bytes takes two bits).
 const EXPANSION: u128 = 1032;
 
 /// Numbers that are taken in one step: decoded data get memory as they arrive, not as the header claims.
 const STEP: usize = 1 << 16;
+
+/// Steps of so many bytes ask the memory budget first. Smaller ones are taken without a look at the system.
+const LARGE: usize = 1 << 24;
 
 /// How voxels are stored in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,13 +37,14 @@ impl Encoding {
 }
 
 /// Makes room for `more` numbers behind those that have arrived, doubling what is there and never beyond `total`.
-/// False where there is no memory.
+/// False where there is no memory, or the budget has no room.
 pub(super) fn make_room<T>(numbers: &mut Vec<T>, more: usize, total: usize) -> bool {
     if numbers.capacity() - numbers.len() >= more {
         return true;
     }
     let step = more.max(numbers.len()).max(STEP).min(total.saturating_sub(numbers.len())).max(more);
-    numbers.try_reserve_exact(step).is_ok()
+    let bytes = step.saturating_mul(size_of::<T>());
+    (bytes < LARGE || memory::room(bytes as u64).is_ok()) && numbers.try_reserve_exact(step).is_ok()
 }
 
 #[cfg(test)]
@@ -61,6 +67,13 @@ mod tests {
         let stored = encoder.finish().unwrap().len() as u64;
         let most = Encoding::Gzip.most(stored, 1);
         assert!((10_000_000..10_200_000).contains(&most), "{most}");
+    }
+
+    #[test]
+    fn what_memory_has_no_room_for_is_not_asked_for() {
+        let mut v: Vec<u64> = Vec::new();
+        assert!(!make_room(&mut v, 1 << 50, 1 << 50));
+        assert_eq!(v.capacity(), 0);
     }
 
     #[test]
