@@ -17,7 +17,7 @@ fn names(file: &[u8]) {
         Ok(names) => {
             for (id, name) in names.iter() {
                 assert_eq!((names.id(name), names.name(id)), (Some(id), Some(name)));
-                assert_eq!(names.nearest(name), Some(name));
+                assert!(names.nearest(name).is_some());
             }
         }
         Err(error) => check_error([error.what(), error.place(), error.remedy().into()]),

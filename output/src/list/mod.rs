@@ -11,8 +11,9 @@
 //! | `color` | lines only, where a vertex has one of its own: `#rrggbb` | |
 //! | `pen` | name of the pen, where there are several layers | |
 //!
-//! A closed line ends with its first vertex again. What was written is read back to the same numbers, bit for bit, if
-//! marks were on their steps ([`Marks::round`](drypoint_scene::marks::Marks::round)).
+//! A closed line ends with its first vertex again, and an open one that ends where it began is read as closed. What was
+//! written is read back to the same numbers, bit for bit, if marks were on their steps and on the page
+//! ([`Marks::settle`](drypoint_scene::marks::Marks::settle)).
 
 mod read;
 mod write;

@@ -73,6 +73,10 @@ impl<K: Into<String>, V: Into<String>> FromIterator<(K, V)> for Overrides {
     }
 }
 
+/// The most names and numbers of a key: beyond every key of the format, and few enough for tables that are walked by
+/// recursion.
+const DEEPEST: usize = 16;
+
 /// The names and numbers of a key: `a."b c"[2].d` is `a`, `b c`, `2`, `d`.
 fn steps(key: &str) -> Result<Vec<String>, Problem> {
     let mut steps = Vec::new();
@@ -99,7 +103,7 @@ fn steps(key: &str) -> Result<Vec<String>, Problem> {
         }
         match rest.strip_prefix('.') {
             Some(after) => rest = after,
-            None if rest.is_empty() => return Ok(steps),
+            None if rest.is_empty() && steps.len() <= DEEPEST => return Ok(steps),
             None => return Err(no_key(key)),
         }
     }
@@ -195,6 +199,14 @@ mod tests {
         assert_eq!(cut("a[0][1]"), ["a", "0", "1"]);
         for wrong in ["", ".", "a.", ".a", "a[", "a[x]", "a[]", "a]b[", "a\"b", "\"a", "a[0]b"] {
             assert!(wrong == "a]b[" || wrong == "a\"b" || steps(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_key_of_any_length_is_a_fault_and_no_overflow() {
+        assert_eq!(steps(&["a"; DEEPEST].join(".")).unwrap().len(), DEEPEST);
+        for long in [vec!["a"; 100_000].join("."), format!("a{}", "[0]".repeat(100_000))] {
+            assert!(steps(&long).is_err());
         }
     }
 

@@ -2,11 +2,15 @@
 
 use super::PictureFault;
 use crate::color::Rgba;
+use crate::memory;
 use image::{ColorType, ImageError, ImageReader};
 use std::io::Cursor;
 
 /// The largest side of a style's picture, in texels: 512 MiB decoded, far beyond what a lookup can tell apart.
 pub const MAX_SIDE: usize = 4096;
+
+/// Bytes of a texel at the most: four channels as the decoder and the file have them, the straight ones, and the style's.
+const EACH: u64 = 2 * 16 + 2 * 32;
 
 /// A square or other picture of straight RGBA in [0, 1], row by row from the top.
 pub(super) struct Straight {
@@ -24,7 +28,7 @@ pub(super) struct Straight {
 /// Bytes that are no PNG, JPEG or OpenEXR, damaged ones, and sides above [`MAX_SIDE`] (seen before anything is
 /// allocated).
 pub(super) fn straight(bytes: &[u8]) -> Result<Straight, PictureFault> {
-    let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE)?;
+    let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE, EACH)?;
     let light = matches!(codes, Codes::Light(_));
     let texels = match codes {
         Codes::Eight(codes) => codes.chunks_exact(channels).map(|codes| shares(codes, 255.0)).collect(),
@@ -55,18 +59,26 @@ pub(super) enum Codes {
 }
 
 impl Decoded {
-    /// From a PNG, JPEG or OpenEXR file's bytes.
+    /// From a PNG, JPEG or OpenEXR file's bytes. A pixel takes `each` bytes at the most, with all that is made of it.
     ///
     /// # Errors
-    /// Bytes that are no such picture, damaged ones, and sides above `limit` (seen before anything is allocated).
-    pub(super) fn new(bytes: &[u8], limit: usize) -> Result<Self, PictureFault> {
-        let unreadable = |e: ImageError| PictureFault::Unreadable { reason: e.to_string() };
+    /// Bytes that are no such picture, damaged ones; sides above `limit` and more pixels than memory has room for (seen
+    /// before anything is allocated).
+    pub(super) fn new(bytes: &[u8], limit: usize, each: u64) -> Result<Self, PictureFault> {
+        // Some decoders end their message with a line break, and a fault is told on one line.
+        let one_line = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let unreadable = |e: ImageError| PictureFault::Unreadable { reason: one_line(e.to_string()) };
         let reader = || ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| unreadable(e.into()));
         let (width, height) = reader()?.into_dimensions().map_err(unreadable)?;
         let [width, height] = [width, height].map(|n| n as usize);
         if width > limit || height > limit {
             return Err(PictureFault::TooLarge { width, height, limit });
         }
+        memory::room_for((width * height) as u64, each).map_err(|no_room| PictureFault::Memory {
+            width,
+            height,
+            no_room,
+        })?;
         let picture = reader()?.decode().map_err(unreadable)?;
         let color = picture.color();
         let bytes = picture.into_bytes();
@@ -178,6 +190,14 @@ mod tests {
         for bytes in [&b""[..], b"not a picture", &oblong[..oblong.len() / 2]] {
             assert!(matches!(Style::decode("s", bytes, false), Err(PictureFault::Unreadable { .. })));
         }
+    }
+
+    /// The decoder's own message ends with a line break.
+    #[test]
+    fn a_fault_is_told_on_one_line() {
+        let cut_off = include_bytes!("../../../fuzz/findings/pictures/cut-off.jpg");
+        let fault = Style::decode("s", cut_off, false).unwrap_err().to_string();
+        assert!(fault.starts_with("not a readable PNG, JPEG or OpenEXR: ") && !fault.contains('\n'), "{fault:?}");
     }
 
     #[test]

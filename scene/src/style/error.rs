@@ -1,5 +1,6 @@
 //! What can be wrong with a style, a theme or their pictures.
 
+use crate::memory::NoRoom;
 use std::path::PathBuf;
 
 /// Why a picture is no style.
@@ -28,6 +29,16 @@ pub enum PictureFault {
         height: usize,
         /// The largest side.
         limit: usize,
+    },
+    /// There is no memory for the pixels.
+    #[error("{width} × {height} pixels need {no_room}")]
+    Memory {
+        /// Pixels from left to right.
+        width: usize,
+        /// Pixels from top to bottom.
+        height: usize,
+        /// What they need, and what there is.
+        no_room: NoRoom,
     },
     /// The texels given are not S × S.
     #[error("{found} texels do not make a square of side {side}")]
@@ -134,7 +145,7 @@ impl PictureFault {
         match self {
             Self::Unreadable { .. } => "give a picture in PNG, JPEG or OpenEXR",
             Self::NotSquare { .. } | Self::Texels { .. } => "cut the picture to the square around its sphere",
-            Self::TooLarge { .. } => "scale the picture down",
+            Self::TooLarge { .. } | Self::Memory { .. } => "scale the picture down",
             Self::Pixels { .. } => "give one for each place of a picture that has at least one",
         }
     }

@@ -7,6 +7,9 @@ use crate::color::{Rgba, premultiply, srgb_to_linear};
 /// The largest side of such a picture, in pixels: room for large scans of works of art.
 const MAX_SIDE: usize = 16384;
 
+/// Bytes of a pixel at the most: four channels as the decoder and the file have them.
+const EACH: u64 = 2 * 16;
+
 /// A decoded picture. Its pixels are kept as the file has them, a byte or two a channel, and become light where they
 /// are asked for: a style needs few of those of a large scan.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,9 +32,10 @@ impl SourcePicture {
     /// sRGB; gAMA, cHRM and ICC chunks are ignored ([VAL-3]). Without an alpha channel it is opaque.
     ///
     /// # Errors
-    /// Bytes that are no such picture, and sides above 16384 (seen before anything is allocated).
+    /// Bytes that are no such picture; sides above 16384 and more pixels than memory has room for (seen before anything
+    /// is allocated).
     pub fn decode(bytes: &[u8], linear: bool) -> Result<Self, PictureFault> {
-        let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE)?;
+        let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE, EACH)?;
         let linear = linear || matches!(codes, Codes::Light(_));
         Ok(Self { width, height, linear, pixels: Pixels::File(codes, channels) })
     }

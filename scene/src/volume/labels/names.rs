@@ -2,6 +2,7 @@
 
 use crate::memory;
 use crate::nearest::nearest;
+use crate::volume::read::quoted;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -34,13 +35,13 @@ pub enum NamesFault {
     #[error("the line is not UTF-8")]
     NotText,
     /// A first column that holds no id.
-    #[error("`{0}` is no label: an id is a whole number from 0 to 4294967295")]
+    #[error("{} is no label: an id is a whole number from 0 to 4294967295", quoted(.0))]
     NotAnId(String),
     /// A line without a second column, or with nothing in it.
     #[error("label {0} has no name")]
     NoName(u32),
     /// A name for a label that has one.
-    #[error("label {id} has a name already, on line {before}: {name}")]
+    #[error("label {id} has a name already, on line {before}: {}", quoted(name))]
     IdTwice {
         /// The label.
         id: u32,
@@ -50,7 +51,7 @@ pub enum NamesFault {
         before: u64,
     },
     /// A name that another label has.
-    #[error("`{name}` is the name of label {id} already, on line {before}")]
+    #[error("{} is the name of label {id} already, on line {before}", quoted(name))]
     NameTwice {
         /// The name.
         name: String,
@@ -200,6 +201,18 @@ mod tests {
         assert_eq!((names.nearest("livre"), names.nearest("kidney")), (Some("liver"), None));
     }
 
+    /// A field in quotes may hold line breaks, and a fault is told on one line.
+    #[test]
+    fn a_fault_is_told_on_one_line() {
+        let (line, fault) =
+            LabelNames::parse(include_bytes!("../../../../fuzz/findings/labels/line-break.csv")).unwrap_err();
+        let what = r"`\0\n\u{1}` is no label: an id is a whole number from 0 to 4294967295";
+        // A carriage return ends a record, and no line.
+        assert_eq!((line, fault.to_string()), (Some(1), what.to_owned()));
+        let (_, fault) = LabelNames::parse(b"1,\"a\nb\"\n1,c\n").unwrap_err();
+        assert_eq!(fault.to_string(), r"label 1 has a name already, on line 1: `a\nb`");
+    }
+
     #[test]
     fn faults_have_their_line() {
         for (text, line, what) in [
@@ -208,7 +221,7 @@ mod tests {
             ("4294967296,a\n", 1, "`4294967296` is no label: an id is a whole number from 0 to 4294967295"),
             ("1,a\n2\n", 2, "label 2 has no name"),
             ("1,a\n2, ,x\n", 2, "label 2 has no name"),
-            ("1,a\n2,b\n\n1,c\n", 4, "label 1 has a name already, on line 1: a"),
+            ("1,a\n2,b\n\n1,c\n", 4, "label 1 has a name already, on line 1: `a`"),
             ("1,\"a\nb\"\n2,b\n3,b\n", 4, "`b` is the name of label 2 already, on line 3"),
         ] {
             let (at, fault) = LabelNames::parse(text.as_bytes()).unwrap_err();

@@ -248,7 +248,7 @@ impl std::error::Error for ReadError {
 }
 
 /// Text from a file for a message of one line: escaped, in quotes, cut after 40 characters.
-pub(super) fn quoted(text: &str) -> String {
+pub(in crate::volume) fn quoted(text: &str) -> String {
     let mut quoted: String = text.chars().take(40).flat_map(char::escape_debug).collect();
     if text.chars().nth(40).is_some() {
         quoted += "…";

@@ -16,6 +16,7 @@ mod series;
 #[cfg(test)]
 mod tests;
 
+pub(super) use error::quoted;
 pub use error::{Fault, ReadError};
 
 use super::{Anatomy, Volume, VolumeError, Voxels};
