@@ -27,6 +27,7 @@
 
 mod iso;
 mod load;
+mod room;
 
 use crate::labels::Named;
 use crate::{Failure, Failures, Format};
@@ -37,18 +38,19 @@ use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::file::identity;
-use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::style::Style;
-use drypoint_scene::tables::{Background, Ids, Scene, StepAlong, Table, VolumeSource};
+use drypoint_scene::tables::{Background, Ids, Scene, StepAlong, VolumeSource};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
 use iso::find_iso_values;
 use load::{background, function_failure, further, load_volume, named, styles};
+use room::room_for_table;
+pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
@@ -466,58 +468,4 @@ fn something_is_drawn(scene: &Scene, wanted: Wanted) -> Result<(), Failure> {
 /// Whether a volume's file is of integers ([REC-3]).
 fn is_integer(volume: &Volume) -> bool {
     volume.voxels().voxel_type().is_integer()
-}
-
-/// Checks that the memory budget allows the table of the transfer function.
-fn room_for_table(scene: &Scene) -> Result<(), Failure> {
-    /// Bytes of an entry while the table is made: colour and opacity, twice.
-    const ENTRY: u64 = 80;
-    let Some(Table::Entries(entries)) = scene.transfer.as_ref().map(|transfer| transfer.table) else { return Ok(()) };
-    memory::room_for(entries as u64, ENTRY).map_err(|no_room| {
-        let what = format!("a table of {entries} entries needs {no_room}");
-        let remedy = format!("{} would fit", no_room.fitting(entries as u64));
-        Failure::new(what, scene.given.position("transfer.table"), remedy)
-    })
-}
-
-/// Checks that the memory budget allows so many bytes a pixel.
-pub(crate) fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
-    let [width, height] = scene.picture.size;
-    let needed = [width, height, bytes].into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
-    memory::room(needed).map_err(|no_room| no_room_for_pixels(scene, scene.picture.size, &no_room))
-}
-
-/// The failure of a picture that the memory budget does not allow, at the key that makes it so large, with what fits.
-pub(crate) fn no_room_for_pixels(scene: &Scene, size: [usize; 2], no_room: &NoRoom) -> Failure {
-    let [width, height] = size;
-    let what = format!("a picture of {width} × {height} pixels needs {no_room}");
-    let [w, h] = no_room.fitting_size(size);
-    // A page in mm has its pixels from its resolution.
-    let (key, fits) = if scene.picture.extent().is_some() {
-        let dpi = (scene.picture.dpi * w as f64 / width.max(1) as f64).floor();
-        ("picture.dpi", format!("picture.dpi = {dpi:.0} would fit"))
-    } else {
-        ("picture.size", format!("{w} × {h} pixels would fit"))
-    };
-    let remedy = if no_room.free == 0 { "free some memory, or allow more with --memory".into() } else { fits };
-    Failure::new(what, scene.given.position(key), remedy)
-}
-
-/// Whether there is memory for what is made of every voxel before the rays, points and lines.
-pub(crate) fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
-    let voxels = job.volume.dims().into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
-    let each = plan.passes.iter().map(|need| (need, voxels.saturating_mul(need.pass.bytes_a_voxel())));
-    // One after another they are kept, so together they have to fit.
-    let mut needed = 0u64;
-    for (need, bytes) in each {
-        needed = needed.saturating_add(bytes);
-        memory::room(needed).map_err(|no_room| {
-            let [nx, ny, nz] = job.volume.dims();
-            let (effect, pass) = (&need.effect, need.pass.name());
-            let what = format!("{effect}: {pass} of {nx} × {ny} × {nz} voxels need {no_room}");
-            let remedy = "leave out what asks for it (`drypoint plan` shows what does), or make the volume smaller";
-            Failure::new(what, job.scene.given.position(&need.key), remedy)
-        })?;
-    }
-    Ok(())
 }

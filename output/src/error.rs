@@ -56,7 +56,7 @@ pub enum OutputError {
         path: Option<PathBuf>,
         /// Its width and height in pixels.
         size: [usize; 2],
-        /// What it needs, and what there is.
+        /// The need, and the memory that is free.
         no_room: NoRoom,
     },
     /// A picture in colour was needed.

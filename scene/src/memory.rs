@@ -14,12 +14,12 @@ const GIBIBYTE: f64 = (1u64 << 30) as f64;
 /// The bytes that the process may have at most, as [`limit`] was told; `u64::MAX`: no limit of its own.
 static LIMIT: AtomicU64 = AtomicU64::new(u64::MAX);
 
-/// A refusal: the bytes that something needs, and those that there are.
+/// A refusal: the bytes that something needs, and those that are free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoRoom {
     /// Bytes that would be needed.
     pub needed: u64,
-    /// Bytes that there are.
+    /// Bytes that are free.
     pub free: u64,
 }
 
@@ -75,7 +75,7 @@ pub fn limit(bytes: u64) {
 /// Checks that so many bytes could be had now: the budget allows them, the system has them, the allocator gives them.
 ///
 /// # Errors
-/// The bytes that are needed and those that there are.
+/// The bytes that are needed and those that are free.
 pub fn room(needed: u64) -> Result<(), NoRoom> {
     let free = free().unwrap_or(u64::MAX);
     let given = |bytes: u64| usize::try_from(bytes).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());

@@ -68,7 +68,7 @@ pub enum PhantomError {
     Memory {
         /// Voxels along x, y, z.
         dims: [usize; 3],
-        /// What they need, and what there is.
+        /// The need, and the memory that is free.
         no_room: NoRoom,
     },
 }

@@ -37,7 +37,7 @@ pub enum PictureFault {
         width: usize,
         /// Pixels from top to bottom.
         height: usize,
-        /// What they need, and what there is.
+        /// The need, and the memory that is free.
         no_room: NoRoom,
     },
     /// The texels given are not S × S.

@@ -1,5 +1,5 @@
-//! ‖g‖ by central differences, Sobel's operator and the fit at every voxel of a row, eight side by side: the operations of one voxel, so
-//! the same bits.
+//! ‖g‖ by central differences, Sobel's operator and the fit at every voxel of a row, eight side by side: the operations of
+//! one voxel, so the same bits.
 
 use super::regression::Taps;
 use crate::field::{Field, GradientEstimator};
@@ -15,7 +15,7 @@ const MIDDLE: usize = 4;
 /// The voxels that eight gradients read in each of the rows.
 type Windows<R> = [[R; LANES + 2]; ROWS];
 
-/// Of eight voxels the components of their gradients along the index axes.
+/// The components of eight gradients along the index axes.
 type Lane<R> = [[R; LANES]; 3];
 
 impl<R: Real> Field<'_, R> {

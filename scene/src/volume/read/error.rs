@@ -140,7 +140,7 @@ pub enum Fault {
     Memory {
         /// Voxels of the volume.
         voxels: usize,
-        /// What was asked for last, and what there is.
+        /// The need, and the memory that is free.
         no_room: NoRoom,
     },
     /// Sizes or axes that make no grid.
