@@ -156,7 +156,8 @@ pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> R
 /// # Errors
 /// A page of no or too many pixels.
 pub fn room_for_page(job: &Job, path: &Path) -> Result<(), Failure> {
-    Paper::of(job, 0).room(path)
+    // Where rays draw, preparing them asks for their picture.
+    if job.draws_volume() { Ok(()) } else { Paper::of(job, 0).room(path) }
 }
 
 /// Writes frames as one SVG that shows them in turn, over and over. Each frame is drawn by `draw` when its turn to be

@@ -113,7 +113,7 @@ impl<'a> Stippling<'a> {
             let place = job.scene.given.position("stipples.k_max");
             Failure::new(what, place, "make k_max smaller, or threshold larger")
         })?;
-        let (ranks, points) = (preprocess.each.max(1) as f64, preprocess.len() as u64);
+        let (ranks, points) = (preprocess.each.max(1) as f64, preprocess.len());
         let made = |made: usize| progress(PointsMade { share: made as f64 / ranks, points });
         let points = preprocess.points(counts, &made).map_err(wrong)?;
         let edges = preprocess.edges(counts).map_err(wrong)?;

@@ -87,7 +87,7 @@ pub fn room(needed: u64) -> Result<(), NoRoom> {
     if given(no) {
         return Err(NoRoom { needed, free: no });
     }
-    while no - yes > needed / 256 + 1 {
+    while no - yes > 1 << 20 {
         let middle = yes + (no - yes) / 2;
         *if given(middle) { &mut yes } else { &mut no } = middle;
     }

@@ -35,10 +35,9 @@ pub(crate) fn no_room_for_pixels(scene: &Scene, size: [usize; 2], no_room: &NoRo
         let dpi = (scene.picture.dpi * w as f64 / width.max(1) as f64).floor();
         ("picture.dpi", format!("picture.dpi = {dpi:.0} would fit"))
     } else {
-        ("picture.size", format!("{w} × {h} pixels would fit"))
+        ("picture.size", format!("make it smaller, or ask for fewer layers: {w} × {h} pixels would fit"))
     };
-    let remedy = if no_room.free == 0 { "free some memory, or allow more with --memory".into() } else { fits };
-    Failure::new(what, scene.given.position(key), remedy)
+    Failure::new(what, scene.given.position(key), fits)
 }
 
 /// Whether there is memory for what is made of every voxel before the rays, points and lines.

@@ -124,7 +124,7 @@ fn files_that_are_no_scene() {
     for (name, expected) in [
         (
             "junk.toml",
-            "error: the scene cannot be read: stream did not contain valid UTF-8\n  at: junk.toml\n  try: check the file's name and that it is text in UTF-8\n",
+            "error: the scene cannot be read: it is not text in UTF-8\n  at: junk.toml\n  try: check the file's name and that it is text in UTF-8\n",
         ),
         (
             "empty.toml",

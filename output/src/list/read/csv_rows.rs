@@ -24,7 +24,7 @@ impl CsvRows {
         let at = Column::ALL.map(|column| find(column.name()));
         let with_strokes = if at[Column::Stroke as usize].is_some() { &["t"][..] } else { &[] };
         if let Some(absent) = COLUMNS.iter().chain(with_strokes).find(|name| find(name).is_none()) {
-            return Err((absent.to_string(), format!("the column {absent} is missing")));
+            return Err(Wrong::Row(absent.to_string(), format!("the column {absent} is missing")));
         }
         Ok(Self { table, at, row: ByteRecord::new(), line: 1 })
     }
@@ -36,7 +36,10 @@ impl CsvRows {
 
 /// A file that the reader cannot go on with.
 fn broken(error: csv::Error) -> Wrong {
-    ("x".into(), error.to_string())
+    match error.into_kind() {
+        csv::ErrorKind::Io(source) => Wrong::File(source),
+        _ => Wrong::Row("x".into(), "the rest is no CSV".into()),
+    }
 }
 
 impl Rows for CsvRows {

@@ -24,8 +24,8 @@ impl Rows for JsonRows {
         loop {
             self.text.clear();
             self.line += 1;
-            let wrong = |at: usize, fault: String| (format!("character {at}"), fault);
-            let read = self.file.read_until(b'\n', &mut self.text).map_err(|error| wrong(1, error.to_string()))?;
+            let wrong = |at: usize, fault: &str| Wrong::Row(format!("character {at}"), fault.into());
+            let read = self.file.read_until(b'\n', &mut self.text).map_err(Wrong::File)?;
             if read == 0 {
                 return Ok(false);
             }
@@ -33,7 +33,7 @@ impl Rows for JsonRows {
                 continue;
             }
             self.row = serde_json::from_slice(self.text.trim_ascii_end())
-                .map_err(|error| wrong(error.column().max(1), "is not one JSON object".into()))?;
+                .map_err(|error| wrong(error.column().max(1), "is not one JSON object"))?;
             return Ok(true);
         }
     }

@@ -12,6 +12,7 @@ use drypoint_scene::marks::{Dot, Layer, Marks, Page, PageUnit, Pen, Polyline, Ve
 use drypoint_scene::memory::Metered;
 use json_rows::JsonRows;
 use std::fs::File;
+use std::io;
 use std::path::Path;
 
 /// The columns of a list.
@@ -62,8 +63,22 @@ impl Column {
     }
 }
 
-/// What is wrong in a row: the column, or how far on the line, and why.
-type Wrong = (String, String);
+/// A fault that ends reading.
+enum Wrong {
+    /// The file cannot be read on.
+    File(io::Error),
+    /// The column or the character of a row, and its fault.
+    Row(String, String),
+}
+
+impl Wrong {
+    fn at(self, path: &Path, line: u64) -> OutputError {
+        match self {
+            Self::File(source) => OutputError::Io { path: path.into(), action: "read", source },
+            Self::Row(column, fault) => OutputError::List { path: path.into(), line, column, fault },
+        }
+    }
+}
 
 /// The rows of a file, one after another.
 trait Rows {
@@ -99,8 +114,8 @@ pub fn read_list(path: &Path, page: &Page, pens: &[Pen]) -> Result<Vec<Layer>, O
     match Form::of(path) {
         Some(Form::JsonLines) => List { path, rows: JsonRows::new(file) }.read(page, pens),
         Some(Form::Csv) | None => {
-            let fault = |(column, fault)| OutputError::List { path: path.into(), line: 1, column, fault };
-            List { path, rows: CsvRows::new(file).map_err(fault)? }.read(page, pens)
+            let rows = CsvRows::new(file).map_err(|wrong| wrong.at(path, 1))?;
+            List { path, rows }.read(page, pens)
         }
     }
 }
@@ -119,7 +134,7 @@ impl<R: Rows> List<'_, R> {
         };
         let mut layers: Vec<Layer> = pens.iter().cloned().map(Layer::new).collect();
         let mut last = None;
-        while self.rows.next().map_err(|(column, fault)| self.fault(&column, fault))? {
+        while self.rows.next().map_err(|wrong| wrong.at(self.path, self.rows.line()))? {
             let any = |column| self.number(column, |_| true, "a number");
             let at = DVec2::new(any(Column::X)?, any(Column::Y)?) * scale;
             let world = DVec3::new(any(Column::Wx)?, any(Column::Wy)?, any(Column::Wz)?);
