@@ -136,7 +136,7 @@ fn four_gigabytes() {
     let folder = Folder::new();
     folder.torus();
     let page = "--set picture.width=\"30mm\" -o a.svg";
-    let pen = "--set pen=[{name=\"a\",width=\"0.003mm\"}] --set page.plotter=true --set stipples.pen=\"a\"";
+    let pen = "--set pen=[{name=\"a\",width=\"0.0005mm\"}] --set page.plotter=true --set stipples.pen=\"a\"";
     for (line, begins) in [
         (
             "points torus.nrrd --set picture.dpi=2000 -o a.png".into(),
