@@ -136,14 +136,19 @@ fn four_gigabytes() {
     let folder = Folder::new();
     folder.torus();
     let page = "--set picture.width=\"30mm\" -o a.svg";
-    let pen = "--set pen=[{name=\"a\",width=\"0.0005mm\"}] --set page.plotter=true --set stipples.pen=\"a\"";
+    let pen = "--set pen=[{name=\"a\",width=\"0.001mm\"}] --set page.plotter=true --set stipples.pen=\"a\"";
     for (line, begins) in [
         (
             "points torus.nrrd --set picture.dpi=2000 -o a.png".into(),
             "a picture of 12598 × 12598 pixels needs 7.10 GiB",
         ),
         (format!("strokes torus.nrrd --set hatching.stroke.dash=[\"1e-5mm\",\"1e-5mm\"] {page}"), "dashes with "),
-        (format!("points torus.nrrd --set stipples.k_max=10 {pen} --set picture.dpi=100 {page}"), "strokes of "),
+        (
+            format!(
+                "points torus.nrrd --set stipples.k_max=10 {pen} --set picture.dpi=100 --set picture.width=\"80mm\" -o a.svg"
+            ),
+            "strokes of ",
+        ),
         ("phantom sphere --size 3000,2000,1000 -o a.nrrd".into(), "3000 × 2000 × 1000 voxels need 5.59 GiB"),
         ("compare /dev/zero /dev/zero".into(), "the picture cannot be read: its content needs "),
     ] {
