@@ -142,7 +142,7 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
     {
         let progress = Progress::new(talk, "rendering");
         if let Some(samples) = drawing.samples() {
-            progress.amount(|| format!("up to {samples:.1e} samples"));
+            progress.amount(|| format!("up to {:.1e} samples", samples * repeat as f64));
         }
         // Draws a frame as often as asked for, and times that without what writing takes.
         let mut draw = |i: usize, counts: &Counts| {
