@@ -2,7 +2,7 @@
 
 use super::Talk;
 use super::raw::{self, layout};
-use super::report::note;
+use super::report::{note, say};
 use drypoint::job::{Job, Wanted, bare, bare_for};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
@@ -308,7 +308,8 @@ pub(super) fn tell(talk: Talk, job: &Job) {
             VolumeSource::File { path, .. } => path.display().to_string(),
             VolumeSource::Phantom(phantom) => format!("phantom {}", phantom.name),
         };
-        note(talk, format_args!("{source}: {nx} × {ny} × {nz} voxels, {}\n\n{}", voxels.voxel_type().name(), job.plan));
+        note(talk, format_args!("{source}: {nx} × {ny} × {nz} voxels, {}", voxels.voxel_type().name()));
+        say(format_args!("\n{}", job.plan));
     }
 }
 

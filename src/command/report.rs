@@ -32,10 +32,10 @@ pub(super) fn print_json(text: serde_json::Result<String>) -> Outcome {
     }
 }
 
-/// A line on standard error, unless `-q`.
+/// A line on standard error, unless `-q`. A line break in it, which a file's name may have, is escaped.
 pub(super) fn note(talk: Talk, text: impl std::fmt::Display) {
     if !talk.quiet {
-        say(text);
+        say(text.to_string().replace('\n', "\\n"));
     }
 }
 
