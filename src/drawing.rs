@@ -61,6 +61,11 @@ impl<'a> Drawing<'a> {
         Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks })
     }
 
+    /// The same with the volume's rays plane by plane; it shows nowhere.
+    pub fn plane_by_plane(self) -> Self {
+        Self { renderer: self.renderer.map(Renderer::plane_by_plane), ..self }
+    }
+
     /// Number of frames: those of `[orbit]`, or one.
     pub fn frames(&self) -> usize {
         self.orbit.map_or(1, |orbit| orbit.frames)
@@ -104,7 +109,8 @@ impl<'a> Drawing<'a> {
         let picture = match &mut self.renderer {
             Some(renderer) => {
                 if self.orbit.is_some() {
-                    renderer.turn(view.clone()).map_err(|error| render_failure(&error, scene))?;
+                    let shot = self.job.shot_from(view)?;
+                    renderer.turn(&shot).map_err(|error| render_failure(&error, scene))?;
                 }
                 let (picture, own) = renderer.again(progress);
                 counts.add(&own);

@@ -41,6 +41,7 @@ use drypoint_scene::file::identity;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::plan::{Pass, Plan};
+use drypoint_scene::shot::{Shot, ShotError, VolumeFacts};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{Background, Ids, Scene, StepAlong, VolumeSource};
 use drypoint_scene::transfer::Function;
@@ -53,6 +54,7 @@ use room::room_for_table;
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A scene with everything that it names.
 pub struct Job {
@@ -65,8 +67,10 @@ pub struct Job {
     /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
     pub counts: Counts,
     wanted: Wanted,
+    /// The scene's camera in numbers.
+    view: Result<View, ViewError>,
     /// What the volume is drawn in, or what dots take their colours from.
-    function: Option<Function>,
+    function: Option<Arc<Function>>,
     labels: Option<LabelVolume>,
     further: [Option<Volume>; 2],
     styles: Vec<Style>,
@@ -105,7 +109,7 @@ pub struct Turned {
     pub scene: Scene,
     /// What it calls for.
     pub plan: Plan,
-    function: Option<Function>,
+    function: Option<Arc<Function>>,
 }
 
 impl Job {
@@ -157,12 +161,12 @@ impl Job {
         // Of the scene as it was given: that its function was found in the data is part of the plan.
         let mut plan = plan_for(&scene, wanted);
         plan.settle(&scene, is_integer(&volume));
-        let view = View::new(&scene.camera, volume.grid(), scene.picture.size).ok();
-        if let Some(view) = &view {
+        let view = View::new(&scene.camera, volume.grid(), scene.picture.size);
+        if let Ok(view) = &view {
             plan.warn_eye(view, volume.grid());
         }
-        if let (true, Some(step), Some(view)) =
-            (plan.has_pass(Pass::Rays), scene.sampling.step.world(volume.grid()), view)
+        if let (true, Some(step), Ok(view)) =
+            (plan.has_pass(Pass::Rays), scene.sampling.step.world(volume.grid()), &view)
         {
             let stretch = match scene.sampling.step_along {
                 StepAlong::Plane => view.largest_stretch(),
@@ -205,7 +209,8 @@ impl Job {
             let place = scene.given.position("transfer.nodes");
             return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
         }
-        Ok(Self { scene, plan, volume, counts, wanted, function, labels: labels.volume, further, styles, background })
+        let (function, labels) = (function.map(Arc::new), labels.volume);
+        Ok(Self { scene, plan, volume, counts, wanted, view, function, labels, further, styles, background })
     }
 
     /// Whether the volume itself is drawn, by rays.
@@ -226,7 +231,7 @@ impl Job {
 
     /// What dots take their colours from, where they do.
     pub(crate) fn function(&self) -> Option<&Function> {
-        self.function.as_ref()
+        self.function.as_deref()
     }
 
     /// The styles that the function names.
@@ -249,9 +254,23 @@ impl Job {
     /// # Errors
     /// A camera without direction, or a height on the page.
     pub fn view(&self) -> Result<View, Failure> {
-        let scene = &self.scene;
-        View::new(&scene.camera, self.volume.grid(), scene.picture.size)
-            .map_err(|error| render_failure(&error.into(), scene))
+        self.view.clone().map_err(|error| view_failure(error, &self.scene))
+    }
+
+    /// The picture of the scene with nothing left to decide.
+    ///
+    /// # Errors
+    /// A volume that is not drawn itself, and what makes no shot: a camera without direction, a length without size.
+    pub fn shot(&self) -> Result<Shot, Failure> {
+        self.shot_from(self.view()?)
+    }
+
+    /// The shot of another camera.
+    ///
+    /// # Errors
+    /// As [`Job::shot`].
+    pub fn shot_from(&self, view: View) -> Result<Shot, Failure> {
+        self.resolve(&self.scene, &self.plan, self.function.as_ref(), view)
     }
 
     /// The scene made ready for any number of frames.
@@ -260,7 +279,7 @@ impl Job {
     /// A volume that is not drawn itself, a reconstruction that does not exist, a camera without direction, a picture for
     /// which there is no memory.
     pub fn renderer(&self) -> Result<Renderer<'_>, Failure> {
-        self.made_ready(&self.scene, &self.plan, self.function.as_ref(), Renderer::new)
+        self.made_ready(&self.scene, &self.plan, &self.shot()?, Renderer::new)
     }
 
     /// Another scene over what this one has loaded: one that differs in its knobs alone ([COST-1]).
@@ -270,7 +289,7 @@ impl Job {
         // Over two quantities, labels among them, no knob changes the function.
         let over_value = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none());
         let function = over_value.and_then(|t| Function::new(t, range, &self.volume, &|_| None).ok().flatten());
-        Turned { function: function.or_else(|| self.function.clone()), scene, plan }
+        Turned { function: function.map(Arc::new).or_else(|| self.function.clone()), scene, plan }
     }
 
     /// The same with other knobs.
@@ -278,7 +297,7 @@ impl Job {
     /// # Errors
     /// As [`Job::renderer`].
     pub fn renderer_of<'a>(&'a self, turned: &'a Turned) -> Result<Renderer<'a>, Failure> {
-        self.made_ready(&turned.scene, &turned.plan, turned.function.as_ref(), Renderer::new)
+        self.made_ready(&turned.scene, &turned.plan, &self.shot_of(turned)?, Renderer::new)
     }
 
     /// The same of a phantom's own formula in place of the voxels ([COST-2]).
@@ -290,8 +309,13 @@ impl Job {
         turned: &'a Turned,
         phantom: &'a dyn Phantom,
     ) -> Result<Renderer<'a>, Failure> {
-        let make = |inputs| Renderer::exact(inputs, phantom);
-        self.made_ready(&turned.scene, &turned.plan, turned.function.as_ref(), make)
+        let make = |shot: &Shot, inputs| Renderer::exact(shot, inputs, phantom);
+        self.made_ready(&turned.scene, &turned.plan, &self.shot_of(turned)?, make)
+    }
+
+    /// The shot of a scene with other knobs, none of which is the camera's.
+    fn shot_of(&self, turned: &Turned) -> Result<Shot, Failure> {
+        self.resolve(&turned.scene, &turned.plan, turned.function.as_ref(), self.view()?)
     }
 
     /// The plan of a scene over what this job has loaded.
@@ -301,27 +325,35 @@ impl Job {
         plan
     }
 
-    fn made_ready<'a>(
-        &'a self,
-        scene: &'a Scene,
-        plan: &'a Plan,
-        function: Option<&'a Function>,
-        make: impl FnOnce(Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
-    ) -> Result<Renderer<'a>, Failure> {
+    fn resolve(
+        &self,
+        scene: &Scene,
+        plan: &Plan,
+        function: Option<&Arc<Function>>,
+        view: View,
+    ) -> Result<Shot, Failure> {
         let Some(function) = function.filter(|_| plan.has_pass(Pass::Rays)) else {
             let what = "the volume itself is not drawn";
             return Err(Failure::new(what, scene.given.position("transfer"), "add a [transfer] table"));
         };
+        let facts = VolumeFacts { grid: self.volume.grid(), is_integer: is_integer(&self.volume) };
+        Shot::resolve(scene, plan, facts, function.clone(), view).map_err(|error| shot_failure(&error, scene))
+    }
+
+    fn made_ready<'a>(
+        &'a self,
+        scene: &'a Scene,
+        plan: &Plan,
+        shot: &Shot,
+        make: impl FnOnce(&Shot, Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
+    ) -> Result<Renderer<'a>, Failure> {
         let background = match (&self.background, &scene.picture.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
             (None, Background::Color(color)) => Backdrop::Color(*color),
             (None, _) => Backdrop::None,
         };
         let inputs = Inputs {
-            scene,
-            plan,
             volume: &self.volume,
-            function,
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &self.styles,
@@ -329,7 +361,7 @@ impl Job {
         };
         room_for_passes(self, plan)?;
         room_for_table(scene)?;
-        let renderer = make(inputs).map_err(|error| render_failure(&error, scene))?;
+        let renderer = make(shot, inputs).map_err(|error| render_failure(&error, scene))?;
         // Of what is left: the picture's channels, and as much again while they are encoded.
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
         room(scene, 2 * 8 * channels)?;
@@ -381,25 +413,41 @@ impl Job {
     }
 }
 
+/// A camera that sees nothing, at the key that says it.
+fn view_failure(error: ViewError, scene: &Scene) -> Failure {
+    let (key, remedy) = match error {
+        ViewError::HeightOnPage => ("camera.height", "give it in world units or in voxels"),
+        ViewError::NoDirection => ("camera", "move camera.eye away from camera.target, or give camera.direction"),
+    };
+    Failure::new(error, scene.given.position(key), remedy)
+}
+
+/// A scene that makes no shot, at the key that says it.
+fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
+    let (key, remedy) = match error {
+        ShotError::NotSmooth(_) => NOT_SMOOTH,
+        ShotError::Length { key } => (*key, "give it in world units or in voxels"),
+        ShotError::NoIso => ("surface.iso", "give it a value"),
+    };
+    Failure::new(error, scene.given.position(key), remedy)
+}
+
+/// The key of a Hessian that its kernel does not have, and what to do.
+const NOT_SMOOTH: (&str, &str) = ("sampling.hessian", "choose another sampling.kernel or sampling.hessian");
+
 /// What makes no picture, at the key that says it.
 pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
-        RenderError::Field(FieldError::NotSmooth { .. }) => {
-            ("sampling.hessian", "choose another sampling.kernel or sampling.hessian")
-        }
+        RenderError::Field(FieldError::NotSmooth(_)) => NOT_SMOOTH,
         RenderError::Field(FieldError::TooLarge { .. }) => ("sampling.number", "write \"f64\""),
         RenderError::Field(FieldError::Scale { .. }) => ("sampling.scale", "make it smaller, or leave it out"),
-        RenderError::View(ViewError::HeightOnPage) => ("camera.height", "give it in world units or in voxels"),
-        RenderError::View(ViewError::NoDirection) => {
-            ("camera", "move camera.eye away from camera.target, or give camera.direction")
-        }
         RenderError::TooManyPlanes { .. } => ("sampling.step", "make it longer, or move the camera nearer"),
         RenderError::Endless { .. } => ("sampling.step", "make it longer, or the picture or picture.samples smaller"),
         RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
         RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
         RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
         RenderError::NoSuchLabel { .. } => ("transfer.over", "name a label that the label volume has"),
-        RenderError::Length { key } => (*key, "give it in world units or in voxels"),
+        RenderError::Material => ("transfer", "hand over the material of its kind"),
         RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
     };
     Failure::new(error, scene.given.position(key), remedy)

@@ -1,9 +1,7 @@
 //! Blinn–Phong shading of a regular transfer function ([STF-11]).
 
 use crate::number::{Real, Vec3};
-use drypoint_scene::glam::DVec3;
-use drypoint_scene::tables::{LightDirection, Shading};
-use drypoint_scene::view::View;
+use drypoint_scene::shot::PhongParams;
 
 /// Material and light; the vectors are in world space.
 #[derive(Clone, Copy, Debug)]
@@ -23,27 +21,17 @@ pub(crate) enum Exponent<R> {
     Other(R),
 }
 
-/// The unit vector towards a light, in world space. The head light is eye space's (0, 0, 1) at every sample, also in
-/// perspective.
-pub fn towards(light: LightDirection, view: &View) -> DVec3 {
-    match light {
-        LightDirection::Head => -view.forward,
-        LightDirection::Eye(d) => view.direction_to_world(d.normalize()),
-        LightDirection::World(d) => d.normalize(),
-    }
-}
-
 impl<R: Real> Phong<R> {
-    /// A shading table under the light of its scene.
-    pub fn new(shading: &Shading, scene_light: LightDirection, view: &View) -> Self {
-        let s = shading.shininess;
+    /// Prepares the reflection of a shot.
+    pub fn new(params: &PhongParams) -> Self {
+        let s = params.shininess;
         let whole = s.fract() == 0.0 && (0.0..=64.0).contains(&s);
         Self {
-            ambient: R::from_f64(shading.ambient),
-            diffuse: R::from_f64(shading.diffuse),
-            specular: R::from_f64(shading.specular),
+            ambient: R::from_f64(params.ambient),
+            diffuse: R::from_f64(params.diffuse),
+            specular: R::from_f64(params.specular),
             shininess: if whole { Exponent::Whole(s as u32) } else { Exponent::Other(R::from_f64(s)) },
-            light: Vec3::from_glam(towards(shading.light.unwrap_or(scene_light), view)),
+            light: Vec3::from_glam(params.light),
         }
     }
 
@@ -75,6 +63,7 @@ impl<R: Real> Phong<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drypoint_scene::glam::DVec3;
 
     fn shade(light: DVec3, c_u: f64, n: Vec3<f64>) -> f64 {
         let phong = Phong {

@@ -1,5 +1,6 @@
 //! A rendered picture as plain layers, before any file format.
 
+use serde::{Serialize, Serializer};
 use std::fmt;
 
 /// Named layers of one size; row 0 is the top. The layer `beauty` is linear, premultiplied, background included
@@ -50,6 +51,12 @@ pub enum LayerKind {
     FirstCurvatureAlongView,
     /// Samples evaluated on the ray: `counts.SAMPLES`.
     Counts,
+}
+
+impl Serialize for LayerKind {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
 }
 
 impl LayerKind {

@@ -2,11 +2,12 @@
 
 use crate::math;
 use crate::space::Grid;
-use crate::tables::{Camera, Projection};
+use crate::tables::{Camera, LightDirection, Projection};
 use glam::DVec3;
+use serde::Serialize;
 
 /// A camera with every default of [RAY-5] filled in.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct View {
     /// World position of the origin of eye space.
     pub eye: DVec3,
@@ -108,6 +109,16 @@ impl View {
     /// World position to eye space.
     pub fn to_eye(&self, p: DVec3) -> DVec3 {
         self.direction_to_eye(p - self.eye)
+    }
+
+    /// The unit vector towards a light, in world space. The head light is eye space's (0, 0, 1) at every sample, also in
+    /// perspective.
+    pub fn towards(&self, light: LightDirection) -> DVec3 {
+        match light {
+            LightDirection::Head => -self.forward,
+            LightDirection::Eye(d) => self.direction_to_world(d.normalize()),
+            LightDirection::World(d) => d.normalize(),
+        }
     }
 
     /// The largest Δ_ray / Δ of the picture: 1/cosφ in its corner, 1 for orthographic views ([VAL-4]).

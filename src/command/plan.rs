@@ -4,6 +4,7 @@ use super::input::{self, Over, Set};
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::Args;
+use drypoint::Failure;
 use drypoint::scene::file::write_full;
 use drypoint::stippling::Stippling;
 use std::path::PathBuf;
@@ -17,6 +18,9 @@ pub(super) struct Plan {
     /// Print the scene with every default filled in, as a valid scene; its paths are those from the working directory
     #[arg(long)]
     full: bool,
+    /// Print the picture with nothing left to decide, as JSON: all that a renderer has to know of the scene beside its data
+    #[arg(long, conflicts_with = "full")]
+    json: bool,
     /// The preset of a bare volume, as `render` takes it
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
@@ -33,6 +37,12 @@ impl Plan {
             let _loading = Progress::new(talk, "loading");
             input::load(self.input.as_deref(), &over)?
         };
+        if self.json {
+            let json = job.shot()?.to_json();
+            return print(
+                &json.map_err(|error| Failure::new(error, "transfer.over", "name volumes by paths that are text"))?,
+            );
+        }
         if !self.full && job.scene.stipples.is_some() {
             job.plan.points = Some(Stippling::planned(&job)?);
         }

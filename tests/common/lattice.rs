@@ -1,10 +1,10 @@
 //! The samples of a picture one by one, walked without anything that the caster does to be fast: every k of every ray
 //! that lies in the box, with the value that the field has there.
 
-use super::Shot;
-use drypoint::reference::field::{Field, Reconstruction, Rung, Sampler};
+use super::Stage;
+use drypoint::reference::field::{Field, Rung, Sampler};
 use drypoint::reference::number::{Real, Vec3};
-use drypoint::reference::ray::lattice::{IndexRay, Lattice};
+use drypoint::reference::ray::lattice::IndexRay;
 use drypoint::reference::with_sampler;
 use drypoint::scene::glam::DVec3;
 
@@ -22,28 +22,18 @@ pub(crate) struct Sighted {
 }
 
 /// The samples inside the box of the ray of each pixel, in the number type of the caster.
-pub(crate) fn sighted<R: Real>(shot: &Shot) -> Vec<Vec<Sighted>> {
-    let (scene, grid) = (&shot.scene, shot.volume.grid());
-    let sampling = &scene.sampling;
-    let world = |length: drypoint::scene::tables::Length| length.world(grid).unwrap();
-    let how = Reconstruction {
-        kernel: sampling.kernel,
-        gradient: sampling.gradient,
-        hessian: sampling.hessian,
-        scale: world(sampling.scale),
-        outside: scene.volume.outside,
-    };
-    let field = Field::<R>::new(&shot.volume, how, Rung::Gradient).unwrap();
-    let step = world(sampling.step);
-    let near = scene.camera.near.map_or(step, world);
-    let lattice = Lattice { step, along: sampling.step_along, near };
-    let (view, ends) = (shot.view(), grid.index_box().map(Vec3::from_glam));
+pub(crate) fn sighted<R: Real>(stage: &Stage) -> Vec<Vec<Sighted>> {
+    let (scene, grid) = (&stage.scene, stage.volume.grid());
+    let shot = stage.resolved(stage.view());
+    let [object] = &shot.objects;
+    let field = Field::<R>::new(&stage.volume, object.reconstruction, Rung::Gradient).unwrap();
+    let (view, ends) = (&shot.view, grid.index_box().map(Vec3::from_glam));
     let [width, height] = scene.picture.size;
     let pixels = (0..width * height).map(|t| [t % width, t / width].map(|i| i as f64 + 0.5));
     with_sampler!(field, |sampler| {
         pixels
             .map(|[i, j]| {
-                let ray = IndexRay::<R>::new(&view.ray(i, j), &view, &lattice, grid);
+                let ray = IndexRay::<R>::new(&view.ray(i, j), view, &shot.lattice, grid);
                 let [first, last] = ray.inside(ends);
                 (first..=last)
                     .map(|k| {
@@ -52,7 +42,7 @@ pub(crate) fn sighted<R: Real>(shot: &Shot) -> Vec<Vec<Sighted>> {
                         Sighted {
                             k,
                             value: sampler.value(p).to_f64(),
-                            masked: shot.volume.mask().is_some_and(|mask| mask.touches_cell(sampler.cell(p))),
+                            masked: stage.volume.mask().is_some_and(|mask| mask.touches_cell(sampler.cell(p))),
                             gradient: (g.length() > field.no_normal_below()).then(|| g.to_glam().normalize()),
                         }
                     })

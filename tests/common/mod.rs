@@ -8,22 +8,25 @@ pub(crate) mod random;
 pub(crate) mod strip;
 
 use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
+use drypoint::reference::suggest;
 use drypoint::scene::color::Rgba;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::fragments::Fragments;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::{LayerKind, Picture};
 use drypoint::scene::plan::Plan;
+use drypoint::scene::shot::{Shot, VolumeFacts};
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::Style;
 use drypoint::scene::tables::{
-    Background, Camera, GradientRange, Length, Node, NodeColor, Number, Projection, Scene, Transfer, TransferKind,
+    Background, Camera, GradientRange, Iso, Length, Node, NodeColor, Number, Projection, Scene, Transfer, TransferKind,
     VolumeSource,
 };
 use drypoint::scene::transfer::Function;
 use drypoint::scene::view::View;
 use drypoint::scene::volume::labels::LabelVolume;
 use drypoint::scene::volume::{Volume, Voxels};
+use std::sync::Arc;
 
 /// A volume of f64 voxels on a cubic grid at the world's origin.
 pub(crate) fn volume(dims: [usize; 3], f: impl Fn(DVec3) -> f64) -> Volume {
@@ -74,7 +77,7 @@ pub(crate) fn plain(name: &str, color: Rgba) -> Style {
 
 /// A scene with everything that it names.
 #[derive(Clone)]
-pub(crate) struct Shot {
+pub(crate) struct Stage {
     pub(crate) scene: Scene,
     pub(crate) volume: Volume,
     /// Every style that a node may name.
@@ -87,7 +90,7 @@ pub(crate) struct Shot {
     pub(crate) behind: Option<Vec<Rgba>>,
 }
 
-impl Shot {
+impl Stage {
     /// A regular function of linear colours: (value, colour, α_u).
     pub(crate) fn regular(volume: Volume, nodes: &[(f64, [f64; 3], f64)]) -> Self {
         let nodes = nodes.iter().map(|&(at, c, opacity)| Node { at, color: NodeColor::Color(c), opacity }).collect();
@@ -161,6 +164,17 @@ impl Shot {
         }
     }
 
+    /// The scene with nothing left to decide, seen by a camera.
+    pub(crate) fn resolved(&self, view: View) -> Shot {
+        let facts =
+            VolumeFacts { grid: self.volume.grid(), is_integer: self.volume.voxels().voxel_type().is_integer() };
+        let mut scene = self.scene.clone();
+        if let Some(iso) = scene.surface.as_mut().map(|surface| &mut surface.iso).filter(|iso| **iso == Iso::Auto) {
+            *iso = Iso::Value(suggest::iso(&self.volume, &self.scene.volume, &mut Counts::default()));
+        }
+        Shot::resolve(&scene, &Plan::new(&scene), facts, Arc::new(self.function()), view).unwrap()
+    }
+
     /// The picture.
     pub(crate) fn render(&self) -> Shown {
         self.render_by(|renderer| renderer)
@@ -194,7 +208,7 @@ impl Shot {
         let mut all = Vec::new();
         self.render_by(|mut renderer| {
             for view in views {
-                renderer.turn(view.clone()).unwrap();
+                renderer.turn(&self.resolved(view.clone())).unwrap();
                 let (picture, counts) = renderer.frame(&|_| {});
                 all.push(Shown { picture, counts });
             }
@@ -217,18 +231,14 @@ impl Shot {
             (None, Background::Color(c)) => Backdrop::Color(*c),
             (None, _) => Backdrop::None,
         };
-        let plan = Plan::new(&self.scene);
         let inputs = Inputs {
-            scene: &self.scene,
-            plan: &plan,
             volume: &self.volume,
-            function: &function,
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &named,
             background,
         };
-        let (picture, counts) = set(Renderer::new(inputs).unwrap()).frame(&|_| {});
+        let (picture, counts) = set(Renderer::new(&self.resolved(self.view()), inputs).unwrap()).frame(&|_| {});
         Shown { picture, counts }
     }
 }

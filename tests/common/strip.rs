@@ -1,6 +1,6 @@
 //! Contour rings, measured in pictures: a row of pixels through the middle of a ball.
 
-use super::{Shot, orthographic, style};
+use super::{Stage, orthographic, style};
 use drypoint::scene::style::Style;
 use drypoint::scene::tables::Contours;
 
@@ -20,7 +20,7 @@ pub(crate) struct Ring {
 /// Renders one row of `width` pixels of side `pixel`, with and without contours. A pixel belongs to a contour where that
 /// changes a bit: off contours nothing is pushed. Returns the ring at the left and the one at the right end of the run
 /// of covered pixels from `from` up to, not including, `end`.
-pub(crate) fn strip(shot: &Shot, contours: &Contours, pixel: f64, width: usize, [from, end]: [usize; 2]) -> [Ring; 2] {
+pub(crate) fn strip(shot: &Stage, contours: &Contours, pixel: f64, width: usize, [from, end]: [usize; 2]) -> [Ring; 2] {
     let row = shot.with(|s| {
         s.picture.size = [width, 1];
         s.camera.projection = orthographic(Some(pixel)).projection;

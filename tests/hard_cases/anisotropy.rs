@@ -1,6 +1,6 @@
 //! Voxels of 1 : 1000, and sheared ones ([SPACE-2], [SPACE-4]).
 
-use crate::common::{Shot, on, orthographic, perspective};
+use crate::common::{Stage, on, orthographic, perspective};
 use crate::reconstruction::{linear, linear_errors, places, sphere_errors, spheres};
 use crate::slabs::in_steps;
 use crate::stability::{Case, Theme, worst};
@@ -97,7 +97,7 @@ fn boxes(number: Number) -> f64 {
             let step = grid.radius() / 40.0;
             let flat = on(grid.clone(), |_| 3.0);
             [orthographic(None), perspective(40.0)].map(|camera| {
-                let shot = Shot::regular(flat.clone(), &[(0.0, [1.0; 3], 0.2)]).with(|s| {
+                let shot = Stage::regular(flat.clone(), &[(0.0, [1.0; 3], 0.2)]).with(|s| {
                     s.camera = camera;
                     s.camera.direction = direction;
                     s.sampling.step = Length::World(step);

@@ -1,6 +1,6 @@
 //! Colours composited ([VAL-3], [IO-6]): by hand, on volumes whose rays meet one or two samples.
 
-use crate::common::{Shot, ball, in_a_texture, orthographic, plain, volume};
+use crate::common::{Stage, ball, in_a_texture, orthographic, plain, volume};
 use drypoint::scene::color::{linear_to_srgb, srgb_to_linear};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -8,8 +8,8 @@ use drypoint::scene::tables::{Background, BlendSpace, Length};
 
 /// A slab of two voxels, y from 0 to 1, that planes 1 apart at half depths meet once (at its middle) or twice (at its
 /// faces), and its two values.
-fn slab(samples: usize) -> Shot {
-    let shot = Shot::regular(
+fn slab(samples: usize) -> Stage {
+    let shot = Stage::regular(
         volume([5, 2, 5], |p| p.y),
         &[(0.0, [0.8, 0.1, 0.05], 0.25), (0.5, [0.2, 0.6, 0.4], 0.5), (1.0, [0.1, 0.2, 0.9], 0.75)],
     );
@@ -24,7 +24,7 @@ fn slab(samples: usize) -> Shot {
     })
 }
 
-fn all(shot: &Shot, expected: [f64; 4]) {
+fn all(shot: &Stage, expected: [f64; 4]) {
     for pixel in shot.render().pixels() {
         for (p, e) in pixel.iter().zip(expected) {
             assert!((p - e).abs() < 1e-15, "{pixel:?} {expected:?}");
@@ -42,10 +42,10 @@ fn one_and_two_samples_over_nothing() {
 #[test]
 fn colours_and_pictures_behind() {
     // A straight colour of opacity ½: C + (1 − A)·B, B premultiplied.
-    let over = |shot: &Shot| shot.with(|s| s.picture.background = Background::Color([0.4, 0.8, 1.0, 0.5]));
+    let over = |shot: &Stage| shot.with(|s| s.picture.background = Background::Color([0.4, 0.8, 1.0, 0.5]));
     all(&over(&slab(1)), [0.1 + 0.5 * 0.2, 0.3 + 0.5 * 0.4, 0.2 + 0.5 * 0.5, 0.75]);
     let behind = vec![[0.2, 0.4, 0.5, 0.5], [0.0, 0.0, 0.0, 0.0], [1.0, 1.0, 1.0, 1.0], [0.1, 0.0, 0.0, 0.25]];
-    let shot = Shot { behind: Some(behind.clone()), ..slab(1) };
+    let shot = Stage { behind: Some(behind.clone()), ..slab(1) };
     for (p, b) in shot.render().pixels().into_iter().zip(behind) {
         let c = [0.1, 0.3, 0.2, 0.5];
         for i in 0..4 {
@@ -59,7 +59,7 @@ fn colours_and_pictures_behind() {
 #[test]
 fn encoded_compositing_by_hand() {
     let encode = |c: [f64; 3]| c.map(linear_to_srgb);
-    let srgb = |shot: Shot, background: Background| {
+    let srgb = |shot: Stage, background: Background| {
         shot.with(|s| {
             s.picture.blend_space = BlendSpace::Srgb;
             s.picture.background = background;
@@ -89,7 +89,7 @@ fn encoded_compositing_by_hand() {
 fn an_encoded_style_by_hand() {
     let style = plain("s", [0.3, 0.6, 0.9, 0.5]);
     let mut shot = slab(1);
-    let styled = Shot::styled(shot.volume.clone(), vec![style], &[(0.0, "s", 1.0)]);
+    let styled = Stage::styled(shot.volume.clone(), vec![style], &[(0.0, "s", 1.0)]);
     shot.scene.transfer = styled.scene.transfer;
     shot.styles = styled.styles;
     let shot = shot.with(|s| {
@@ -105,7 +105,7 @@ fn an_encoded_style_by_hand() {
 /// both. Of what is a mean itself each part counts with its opacity; depths, values and counts are the first part's.
 #[test]
 fn samples_average_the_parts_of_a_pixel() {
-    let shot = Shot::regular(ball(16, 6.0), &[(-1.0, [1.0, 0.2, 0.1], 0.0), (2.0, [0.1, 0.8, 1.0], 0.8)])
+    let shot = Stage::regular(ball(16, 6.0), &[(-1.0, [1.0, 0.2, 0.1], 0.0), (2.0, [0.1, 0.8, 1.0], 0.8)])
         .seen_along([0.3, 0.9, 0.2])
         .layers(&[LayerKind::Normal, LayerKind::Z, LayerKind::First, LayerKind::Counts])
         .with(|s| s.picture.background = Background::Color([0.5, 0.9, 0.1, 1.0]));
@@ -155,7 +155,7 @@ fn samples_average_the_parts_of_a_pixel() {
 /// Between nodes straight colour and opacity interpolate each by itself: a node of opacity 0 keeps its colour.
 #[test]
 fn a_node_of_opacity_zero_keeps_its_colour() {
-    let shot = Shot::regular(volume([5; 3], |_| 0.5), &[(0.0, [1.0, 0.0, 0.0], 0.0), (1.0, [0.0, 0.0, 1.0], 1.0)]);
+    let shot = Stage::regular(volume([5; 3], |_| 0.5), &[(0.0, [1.0, 0.0, 0.0], 0.0), (1.0, [0.0, 0.0, 1.0], 1.0)]);
     let shot = shot.step(1.0).with(|s| {
         s.picture.size = [1, 1];
         s.sampling.step = Length::World(100.0);

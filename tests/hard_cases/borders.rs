@@ -1,6 +1,6 @@
 //! The border of the box: closed, without a skirt, and no mirror ([SPACE-1], [REC-1], [REC-2]).
 
-use crate::common::{Shot, on, orthographic};
+use crate::common::{Stage, on, orthographic};
 use crate::reconstruction::{linear, linear_errors};
 use crate::stability::{Case, Theme, worst};
 use drypoint::reference::number::Real;
@@ -89,11 +89,11 @@ const HAIR: (Number, f64) = (Number::F64, 1.0 / (1u64 << 40) as f64);
 const HAIR_F32: (Number, f64) = (Number::F32, 1.0 / 65536.0);
 
 /// A box seen along an axis, with planes half a voxel apart of which one is `offset` before the box's near face.
-fn along(direction: DVec3, up: DVec3, offset: f64) -> Shot {
+fn along(direction: DVec3, up: DVec3, offset: f64) -> Stage {
     let grid = Grid::with_spacing([5, 7, 9], [1.0; 3]).unwrap();
     let (centre, [_, last]) = (grid.centre(), grid.index_box());
     let half = (direction.abs() * last).element_sum() / 2.0;
-    Shot::regular(on(grid, |_| 3.0), &[(0.0, [1.0; 3], 0.25)]).layers(&[LayerKind::Counts]).with(|s| {
+    Stage::regular(on(grid, |_| 3.0), &[(0.0, [1.0; 3], 0.25)]).layers(&[LayerKind::Counts]).with(|s| {
         s.camera = Camera {
             direction,
             up,

@@ -1,6 +1,6 @@
 //! Where rays run ([RAY-5], [RAY-6], [SPACE-3]): a field that is a coordinate says where its samples lie.
 
-use crate::common::{Shot, on, orthographic, perspective};
+use crate::common::{Stage, on, orthographic, perspective};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
@@ -24,7 +24,7 @@ pub(crate) fn first_positions(
     along: StepAlong,
 ) -> Vec<Option<(DVec3, f64)>> {
     let shown = [0, 1, 2].map(|axis: usize| {
-        let shot = Shot::regular(on(grid.clone(), |p| p[axis]), &[(0.0, [1.0; 3], 1.0)])
+        let shot = Stage::regular(on(grid.clone(), |p| p[axis]), &[(0.0, [1.0; 3], 1.0)])
             .layers(&[LayerKind::First, LayerKind::Z])
             .with(|s| {
                 s.camera = camera.clone();
@@ -135,7 +135,7 @@ fn the_default_camera_frames_the_volume() {
 fn pictures_stand_upright() {
     let grid = Grid::with_spacing([8; 3], [1.0; 3]).unwrap();
     let corner = on(grid, |p| if p.x < 3.0 && p.z < 3.0 { 1.0 } else { 0.0 });
-    let pixels = Shot::regular(corner, &[(0.5, [1.0; 3], 0.0), (0.5, [1.0; 3], 1.0)]).render().pixels();
+    let pixels = Stage::regular(corner, &[(0.5, [1.0; 3], 0.0), (0.5, [1.0; 3], 1.0)]).render().pixels();
     let row = |t: usize| (t / 16 >= 8, t % 16 < 8);
     let shown: Vec<_> = (0..256).filter(|&t| pixels[t][3] > 0.0).map(row).collect();
     assert!(shown.len() > 5 && shown.iter().all(|&lower_left| lower_left == (true, true)), "{shown:?}");

@@ -1,7 +1,7 @@
 //! What is not called for is not done ([PLAN-1], [PLAN-2]): counts against a walk along every ray that asks each sample.
 
 use crate::common::lattice::{Sighted, sighted};
-use crate::common::{LAYERS, Shot, ball, on, perspective, plain};
+use crate::common::{LAYERS, Stage, ball, on, perspective, plain};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -14,29 +14,29 @@ use drypoint::scene::volume::{Volume, Voxels};
 
 /// A ball with a constant outside, of which more than the ball is visible: samples with and without a normal, none of
 /// them opaque.
-fn regular() -> Shot {
+fn regular() -> Stage {
     let centre = DVec3::splat(9.5);
     let field = crate::common::volume([20; 3], |p| (7.0 - (p - centre).length()).max(-1.0));
-    Shot::regular(field, &[(-2.0, [0.5; 3], 0.0), (3.0, [0.9, 0.5, 0.2], 0.2)]).with(|s| {
+    Stage::regular(field, &[(-2.0, [0.5; 3], 0.0), (3.0, [0.9, 0.5, 0.2], 0.2)]).with(|s| {
         let direction = s.camera.direction;
         s.camera = perspective(50.0);
         s.camera.direction = direction;
     })
 }
 
-fn styled() -> Shot {
+fn styled() -> Stage {
     let regular = regular();
     let styles = vec![plain("a", [0.2, 0.4, 0.6, 1.0]), plain("b", [0.7, 0.4, 0.1, 0.9])];
-    let shot = Shot::styled(regular.volume, styles, &[(-2.0, "a", 0.0), (1.0, "a", 0.1), (3.0, "b", 0.2)]);
-    Shot { scene: drypoint::scene::tables::Scene { transfer: shot.scene.transfer, ..regular.scene }, ..shot }
+    let shot = Stage::styled(regular.volume, styles, &[(-2.0, "a", 0.0), (1.0, "a", 0.1), (3.0, "b", 0.2)]);
+    Stage { scene: drypoint::scene::tables::Scene { transfer: shot.scene.transfer, ..regular.scene }, ..shot }
 }
 
 /// Visible samples: all above −2.
-fn visible(shot: &Shot) -> u64 {
+fn visible(shot: &Stage) -> u64 {
     sighted::<f64>(shot).iter().flatten().filter(|s| s.value > -2.0).count() as u64
 }
 
-fn counts(shot: &Shot) -> Counts {
+fn counts(shot: &Stage) -> Counts {
     shot.render().counts
 }
 
@@ -106,7 +106,7 @@ fn hessians_are_for_exact_contours_and_the_layer_of_curvatures_alone() {
     let c = counts(&exact);
     assert_eq!(c.gradients, visible(&exact));
     assert_eq!(c.hessians, c.gradients - c.without_normal, "no surface, no curvature");
-    let layer = |shot: &Shot, kind| counts(&shot.layers(&[kind]));
+    let layer = |shot: &Stage, kind| counts(&shot.layers(&[kind]));
     // κ₁ and κ₂ of a regular scene: Hessians, and the scene's κ, along the ray.
     let curvature = layer(&regular(), LayerKind::Curvature);
     assert_eq!(curvature.hessians, visible(&regular()) - curvature.without_normal);
@@ -129,7 +129,7 @@ fn hessians_are_for_exact_contours_and_the_layer_of_curvatures_alone() {
 #[test]
 fn layers_of_the_first_sample_cost_one_sample_a_ray() {
     use LayerKind::{Curvature, FirstCurvature, FirstCurvatureAlongView, FirstNormal, Normal};
-    let layers = |shot: &Shot, kinds: &[LayerKind]| counts(&shot.layers(kinds));
+    let layers = |shot: &Stage, kinds: &[LayerKind]| counts(&shot.layers(kinds));
     let shot = regular();
     let rays = sighted::<f64>(&shot);
     // All above −2, which is all of the box: the first sample is the first of the ray, and has none before it.
@@ -163,7 +163,7 @@ fn layers_of_the_first_sample_cost_one_sample_a_ray() {
 /// The range of |g| is looked for only if something reads |g| and the scene does not give it.
 #[test]
 fn the_range_of_gradients_is_found_only_if_it_is_read() {
-    let with = |shot: &Shot, range| counts(&shot.with(|s| s.volume.gradient_range = range)).preprocess;
+    let with = |shot: &Stage, range| counts(&shot.with(|s| s.volume.gradient_range = range)).preprocess;
     let quantile = GradientRange::Quantile(0.999);
     let voxels = 20 * 20 * 20;
     assert_eq!(with(&styled(), quantile).get("gradients"), Some(&voxels));
@@ -188,7 +188,7 @@ fn rays_that_see_nothing_evaluate_nothing() {
     let all = counts(&nothing.with(|s| s.sampling.skip_empty = false));
     assert!(all.samples > 0);
     // Skipping leaves out what a small thing does not fill.
-    let small = Shot::regular(ball(40, 3.0), &[(0.0, [1.0; 3], 0.0), (0.0, [1.0; 3], 0.5)]);
+    let small = Stage::regular(ball(40, 3.0), &[(0.0, [1.0; 3], 0.0), (0.0, [1.0; 3], 0.5)]);
     let (with, without) = (counts(&small), counts(&small.with(|s| s.sampling.skip_empty = false)));
     assert!(with.samples * 4 < without.samples && with.rays_skipped > 0, "{} {}", with.samples, without.samples);
 }
@@ -207,7 +207,7 @@ fn masked_samples_are_counted_apart() {
     let mut voxels = vec![1.0; 729];
     voxels[364] = f64::NAN;
     let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
-    let shot = Shot::regular(volume, &[(0.0, [1.0; 3], 0.25)]);
+    let shot = Stage::regular(volume, &[(0.0, [1.0; 3], 0.25)]);
     let masked = sighted::<f64>(&shot).iter().flatten().filter(|s| s.masked).count() as u64;
     let all = sighted::<f64>(&shot).iter().flatten().count() as u64;
     let c = counts(&shot);
@@ -218,8 +218,8 @@ fn masked_samples_are_counted_apart() {
 /// Buffers exist only for what the scene calls for.
 #[test]
 fn buffers_are_those_that_are_called_for() {
-    let names = |shot: &Shot| counts(shot).bytes.into_keys().collect::<Vec<_>>();
-    let unskipped = |shot: &Shot| shot.with(|s| s.sampling.skip_empty = false);
+    let names = |shot: &Stage| counts(shot).bytes.into_keys().collect::<Vec<_>>();
+    let unskipped = |shot: &Stage| shot.with(|s| s.sampling.skip_empty = false);
     assert_eq!(names(&unskipped(&regular())), ["picture", "volume"]);
     assert_eq!(names(&regular()), ["bricks", "picture", "skip", "volume"]);
     // Cell by cell only where values are dear.
@@ -227,12 +227,12 @@ fn buffers_are_those_that_are_called_for() {
     assert_eq!(names(&smooth), ["bricks", "cells", "picture", "skip", "volume"]);
     let spline = unskipped(&regular()).with(|s| s.sampling.kernel = Kernel::Bspline);
     assert_eq!(names(&spline), ["coefficients", "picture", "volume"]);
-    let gaussian = |shot: &Shot| unskipped(shot).with(|s| s.sampling.hessian = HessianEstimator::Gaussian);
+    let gaussian = |shot: &Stage| unskipped(shot).with(|s| s.sampling.hessian = HessianEstimator::Gaussian);
     assert_eq!(names(&gaussian(&regular())), ["picture", "volume"], "no Hessian is asked for");
     let layer = gaussian(&regular()).layers(&[LayerKind::Curvature]);
     assert_eq!(names(&layer), ["picture", "smoothed", "volume"]);
     // What is asked of the system before it is made covers it, but for the border that small volumes have.
-    let bytes = |shot: &Shot, name: &str| counts(shot).bytes[name];
+    let bytes = |shot: &Stage, name: &str| counts(shot).bytes[name];
     for (pass, held) in [
         (Pass::Coefficients, bytes(&spline, "coefficients")),
         (Pass::SmoothedCoefficients, bytes(&gaussian(&regular()).layers(&[LayerKind::Curvature]), "smoothed")),
@@ -252,6 +252,6 @@ fn buffers_are_those_that_are_called_for() {
 fn eight_bits_stay_one_byte() {
     let grid = Grid::with_spacing([5, 6, 7], [1.0; 3]).unwrap();
     let volume = Volume::new(grid.clone(), Voxels::U8(vec![3; 210]), 0.5, 0.0).unwrap();
-    assert_eq!(counts(&Shot::regular(volume, &[(0.0, [1.0; 3], 0.5)])).bytes["volume"], 210);
-    assert_eq!(counts(&Shot::regular(on(grid, |_| 1.5), &[(0.0, [1.0; 3], 0.5)])).bytes["volume"], 1680);
+    assert_eq!(counts(&Stage::regular(volume, &[(0.0, [1.0; 3], 0.5)])).bytes["volume"], 210);
+    assert_eq!(counts(&Stage::regular(on(grid, |_| 1.5), &[(0.0, [1.0; 3], 0.5)])).bytes["volume"], 1680);
 }

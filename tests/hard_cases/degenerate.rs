@@ -1,6 +1,6 @@
 //! Gradients that are 0, or nearly ([PREC-3], [CUR-1], [CUR-2]).
 
-use crate::common::{LAYERS, Shot, on, orthographic, perspective, plain, quadratic_ball};
+use crate::common::{LAYERS, Stage, on, orthographic, perspective, plain, quadratic_ball};
 use crate::stability::{Case, Theme, worse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -83,7 +83,7 @@ fn just_above_rounding(number: Number) -> f64 {
     for (ulps, has_normal) in [(around[0], false), (around[1], true)] {
         let ramp = on(Grid::with_spacing([9, 9, 9], [1.0; 3]).unwrap(), |p| 1000.0 + ulps * ulp * p.y);
         for gradient in [GradientEstimator::Central, GradientEstimator::Sobel] {
-            let shot = Shot::regular(ramp.clone(), &[(0.0, [0.5; 3], 0.1)]).with(|s| {
+            let shot = Stage::regular(ramp.clone(), &[(0.0, [0.5; 3], 0.1)]).with(|s| {
                 s.shading = Some(Shading::default());
                 s.sampling.gradient = gradient;
                 s.sampling.number = number;
@@ -103,7 +103,7 @@ fn saddles() -> f64 {
         let volume = on(Grid::with_spacing([9, 9, 9], [1.0; 3]).unwrap(), |p| field(p.x - 4.0, p.y - 4.0));
         for kappa in [Kappa::Ray, Kappa::Exact] {
             let glass = plain("glass", [0.2, 0.5, 0.8, 0.7]);
-            let shot = Shot::styled(volume.clone(), vec![glass], &[(0.0, "glass", 0.1)]).layers(&LAYERS).with(|s| {
+            let shot = Stage::styled(volume.clone(), vec![glass], &[(0.0, "glass", 0.1)]).layers(&LAYERS).with(|s| {
                 s.camera = Camera { direction: DVec3::Z, up: DVec3::Y, ..orthographic(Some(5.0)) };
                 s.contours = Some(Contours { kappa, ..Contours::default() });
                 s.volume.gradient_range = GradientRange::Quantile(0.99);
@@ -125,9 +125,9 @@ fn saddles() -> f64 {
 }
 
 /// An opaque ball with exact curvatures.
-fn ball() -> Shot {
+fn ball() -> Stage {
     let nodes = [(0.0, "grey", 0.0), (0.0, "grey", 1.0)];
-    Shot::styled(quadratic_ball(26, 8.0), vec![plain("grey", [0.5, 0.5, 0.5, 1.0])], &nodes)
+    Stage::styled(quadratic_ball(26, 8.0), vec![plain("grey", [0.5, 0.5, 0.5, 1.0])], &nodes)
         .layers(&[LayerKind::Curvature, LayerKind::First])
         .with(|s| {
             s.sampling.kernel = Kernel::Bspline5;
@@ -179,7 +179,7 @@ fn no_range() -> f64 {
     for range in [GradientRange::Quantile(0.999), GradientRange::Quantile(0.0), GradientRange::Fixed([2.0, 2.0])] {
         for fade in [None, Some([0.0, 0.0]), Some([0.1, 0.1])] {
             let flat = on(Grid::with_spacing([5, 5, 5], [1.0; 3]).unwrap(), |_| 7.0);
-            let shot = Shot::styled(flat, vec![plain("s", [0.5, 0.5, 0.5, 1.0])], &[(0.0, "s", alpha_u)]).with(|s| {
+            let shot = Stage::styled(flat, vec![plain("s", [0.5, 0.5, 0.5, 1.0])], &[(0.0, "s", alpha_u)]).with(|s| {
                 s.volume.gradient_range = range;
                 s.contours = Some(Contours { fade, thickness: Length::World(1.0), ..Contours::default() });
                 s.camera.projection = orthographic(Some(2.0)).projection;

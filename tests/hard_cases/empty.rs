@@ -1,16 +1,19 @@
 //! Nothing to see, in every way ([PLAN-1], [RAY-2]).
 
-use crate::common::{LAYERS, Shot, ball, orthographic, perspective, plain};
+use crate::common::{LAYERS, Stage, ball, orthographic, perspective, plain};
 use crate::stability::{Case, Theme};
 use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::plan::Plan;
+use drypoint::scene::shot::{Shot, VolumeFacts};
 use drypoint::scene::space::{Grid, SpaceError};
 use drypoint::scene::tables::{Background, Camera, Contours, Kappa, Length, Number, TransferKind, VolumeSource};
 use drypoint::scene::tables::{Scene, Transfer};
 use drypoint::scene::transfer::Function;
+use drypoint::scene::view::View;
 use drypoint::scene::volume::Volume;
+use std::sync::Arc;
 
 pub(crate) static THEME: Theme = Theme::new(
     "Empty everything",
@@ -60,11 +63,11 @@ fn empty_everything() {
 }
 
 /// Scenes that show nothing, and whether no sample at all is to be looked at.
-fn scenes() -> Vec<(Shot, bool)> {
+fn scenes() -> Vec<(Stage, bool)> {
     let contours = Some(Contours { kappa: Kappa::Exact, ..Contours::default() });
     let of = |alpha_u: f64, alpha_d: f64| {
         let clear = plain("s", [0.5, 0.5, 0.5, alpha_d]);
-        Shot::styled(ball(12, 4.0), vec![clear], &[(-9.0, "s", alpha_u), (9.0, "s", alpha_u)])
+        Stage::styled(ball(12, 4.0), vec![clear], &[(-9.0, "s", alpha_u), (9.0, "s", alpha_u)])
             .layers(&LAYERS)
             .with(|s| s.contours = contours.clone())
     };
@@ -78,7 +81,7 @@ fn scenes() -> Vec<(Shot, bool)> {
     };
     let beside = Camera { target: Some(DVec3::new(5.0, 5.0, 1e6)), direction: DVec3::Y, ..orthographic(Some(10.0)) };
     let before_near = Camera { direction: DVec3::Y, near: Some(Length::World(1e9)), ..perspective(40.0) };
-    let one_node = Shot::regular(ball(12, 4.0), &[(0.0, [1.0; 3], 0.0)]).layers(&LAYERS);
+    let one_node = Stage::regular(ball(12, 4.0), &[(0.0, [1.0; 3], 0.0)]).layers(&LAYERS);
     vec![
         (of(0.0, 1.0), true),
         (of(0.5, 0.0), false),
@@ -140,7 +143,9 @@ fn made(scene: &Scene, volume: &Volume) -> Result<(), ()> {
     let function = Function::new(scene.transfer.as_ref().ok_or(())?, volume.range(), volume, &|_| None);
     let (function, plan) = (function.map_err(|_| ())?.ok_or(())?, Plan::new(scene));
     let background = Backdrop::None;
+    let view = View::new(&scene.camera, volume.grid(), scene.picture.size).map_err(|_| ())?;
+    let facts = VolumeFacts { grid: volume.grid(), is_integer: false };
+    let shot = Shot::resolve(scene, &plan, facts, Arc::new(function), view).map_err(|_| ())?;
     let (labels, further, styles) = (None, [None, None], &[][..]);
-    let inputs = Inputs { scene, plan: &plan, volume, function: &function, labels, further, styles, background };
-    Renderer::new(inputs).map(drop).map_err(|_| ())
+    Renderer::new(&shot, Inputs { volume, labels, further, styles, background }).map(drop).map_err(|_| ())
 }

@@ -2,7 +2,7 @@
 
 use crate::camera::{first_positions, grids};
 use crate::common::random::Random;
-use crate::common::{Shot, on, orthographic, perspective};
+use crate::common::{Stage, on, orthographic, perspective};
 use crate::slabs::in_steps;
 use crate::stability::{Case, Theme, worst};
 use drypoint::scene::glam::DVec3;
@@ -80,8 +80,8 @@ const STEP: f64 = 0.37;
 const ALPHA: f64 = 0.2;
 
 /// A homogeneous box of α₀ = 0.2 a world unit.
-fn slab(camera: Camera) -> Shot {
-    Shot::regular(on(grid(), |_| 3.0), &[(0.0, [1.0; 3], ALPHA)]).with(|s| {
+fn slab(camera: Camera) -> Stage {
+    Stage::regular(on(grid(), |_| 3.0), &[(0.0, [1.0; 3], ALPHA)]).with(|s| {
         s.camera = camera;
         s.sampling.step = Length::World(STEP);
         s.sampling.reference_length = Length::World(1.0);
@@ -194,7 +194,7 @@ fn skipping_shows_nowhere_from_far_away_in_f32() {
         let grid = Grid::with_spacing([40; 3], [1.0; 3]).unwrap();
         let values = (0..grid.len()).map(|_| if random.once_in(1000) { 1.0 } else { 0.0 }).collect();
         let field = Volume::new(grid.clone(), Voxels::F64(values), 1.0, 0.0).unwrap();
-        let sparse = Shot::regular(field, &[(1e-6, [1.0; 3], 0.0), (2e-6, [1.0; 3], 0.1), (1.0, [1.0; 3], 0.2)]);
+        let sparse = Stage::regular(field, &[(1e-6, [1.0; 3], 0.0), (2e-6, [1.0; 3], 0.1), (1.0, [1.0; 3], 0.2)]);
         let away = [17, 20].map(|power| 1.01 * 2f64.powi(power) + grid.radius())[seed as usize % 2];
         for direction in DIRECTIONS.into_iter().chain([DVec3::new(0.95, 0.1, 0.2), DVec3::new(0.2, -0.1, -0.9)]) {
             for projection in [perspective(1.0).projection, orthographic(None).projection] {

@@ -1,7 +1,7 @@
 //! The same bits on every machine ([PREC-4]): small pictures, held by their hashes. Another target has to arrive at
 //! the same; a change of a formula that moves a bit has to change them here, and to say why.
 
-use crate::common::{Shot, perspective, style};
+use crate::common::{Stage, perspective, style};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{Contours, GradientRange, Kappa, Kernel, Length, Number, Shading};
@@ -21,7 +21,7 @@ fn torus() -> drypoint::scene::volume::Volume {
     phantom::sample(torus.as_ref(), grid, VoxelType::U8).unwrap()
 }
 
-fn framed(shot: Shot) -> Shot {
+fn framed(shot: Stage) -> Stage {
     shot.with(|s| {
         s.camera = perspective(35.0);
         s.camera.direction = DVec3::new(-0.6, 0.5, -0.7);
@@ -36,7 +36,7 @@ fn a_style_picture_with_contours() {
         [0.2 + 0.7 * light, 0.1 + 0.8 * light, 0.3, 0.6 + 0.4 * (x * x + y * y).min(1.0)]
     });
     let nodes = [(60.0, "tone", 0.0), (110.0, "tone", 0.15), (200.0, "tone", 0.8)];
-    let shot = framed(Shot::styled(torus(), vec![tone], &nodes)).layers(&[LayerKind::Curvature, LayerKind::Depth]);
+    let shot = framed(Stage::styled(torus(), vec![tone], &nodes)).layers(&[LayerKind::Curvature, LayerKind::Depth]);
     let shot = shot.with(|s| {
         s.contours = Some(Contours {
             thickness: Length::Voxels(1.5),
@@ -57,7 +57,7 @@ fn a_style_picture_with_contours() {
 fn a_picture_of_half_steps() {
     let nodes = [(60.0, [0.6, 0.3, 0.1], 0.0), (128.0, [0.8, 0.6, 0.3], 0.4), (255.0, [1.0, 0.9, 0.8], 0.9)];
     for (number, hash) in [(Number::F64, 0x88b0_f665_817a_ed6c), (Number::F32, 0x3e82_da39_4785_7ea4)] {
-        let shot = Shot::regular(torus(), &nodes).with(|s| {
+        let shot = Stage::regular(torus(), &nodes).with(|s| {
             s.camera.direction = DVec3::new(-0.6, 0.5, -0.7);
             s.picture.size = [48, 40];
             s.sampling.number = number;
@@ -73,7 +73,7 @@ fn a_picture_of_half_steps() {
 #[test]
 fn a_lit_picture() {
     let nodes = [(60.0, [0.6, 0.3, 0.1], 0.0), (128.0, [0.8, 0.6, 0.3], 0.4), (255.0, [1.0, 0.9, 0.8], 0.9)];
-    let shot = framed(Shot::regular(torus(), &nodes)).layers(&[LayerKind::Normal]).with(|s| {
+    let shot = framed(Stage::regular(torus(), &nodes)).layers(&[LayerKind::Normal]).with(|s| {
         s.sampling.kernel = Kernel::CatmullRom;
         s.shading = Some(Shading { shininess: 17.5, ..Shading::default() });
         s.picture.samples = 2;

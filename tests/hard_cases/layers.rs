@@ -1,6 +1,6 @@
 //! What layers mean ([IO-6]): in closed form on an opaque ball, by hand on a slab of three samples.
 
-use crate::common::{LAYERS, Shot, ball, orthographic, perspective, plain, quadratic_ball, volume};
+use crate::common::{LAYERS, Stage, ball, orthographic, perspective, plain, quadratic_ball, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{
@@ -11,9 +11,9 @@ const RADIUS: f64 = 8.0;
 const STEP: f64 = 0.3;
 
 /// An opaque ball: a quadratic, which the spline has to rounding.
-fn opaque() -> Shot {
+fn opaque() -> Stage {
     let nodes = [(0.0, "grey", 0.0), (0.0, "grey", 1.0)];
-    Shot::styled(quadratic_ball(26, RADIUS), vec![plain("grey", [0.5, 0.5, 0.5, 1.0])], &nodes).layers(&LAYERS).with(
+    Stage::styled(quadratic_ball(26, RADIUS), vec![plain("grey", [0.5, 0.5, 0.5, 1.0])], &nodes).layers(&LAYERS).with(
         |s| {
             s.sampling.kernel = Kernel::Bspline5;
             s.sampling.gradient = GradientEstimator::Analytic;
@@ -103,7 +103,7 @@ fn layers_of_an_opaque_ball_in_closed_form() {
 #[test]
 fn layers_of_three_samples_by_hand() {
     let slab = volume([3, 3, 3], |p| p.y + 1.0);
-    let shot = Shot::regular(slab, &[(1.0, [1.0; 3], 0.2), (2.0, [1.0; 3], 0.5), (3.0, [1.0; 3], 0.6)])
+    let shot = Stage::regular(slab, &[(1.0, [1.0; 3], 0.2), (2.0, [1.0; 3], 0.5), (3.0, [1.0; 3], 0.6)])
         .layers(&LAYERS)
         .step(1.0)
         .with(|s| {
@@ -143,7 +143,7 @@ fn layers_of_three_samples_by_hand() {
 #[test]
 fn a_mean_normal_is_no_unit_vector() {
     let sheet = volume([5, 4, 5], |p| -(p.y - 1.5).abs());
-    let shot = Shot::regular(sheet, &[(-1.0, [1.0; 3], 0.0), (-1.0, [1.0; 3], 0.5)])
+    let shot = Stage::regular(sheet, &[(-1.0, [1.0; 3], 0.0), (-1.0, [1.0; 3], 0.5)])
         .layers(&[LayerKind::Normal])
         .step(1.0)
         .with(|s| {
@@ -163,7 +163,7 @@ fn a_mean_normal_is_no_unit_vector() {
 /// A sample without a normal counts with N = v and κ = 0; off the axis of a perspective picture v is not z.
 #[test]
 fn samples_without_a_normal_count_with_v() {
-    let shot = Shot::regular(volume([6; 3], |_| 7.5), &[(0.0, [1.0; 3], 0.5)]).layers(&LAYERS).with(|s| {
+    let shot = Stage::regular(volume([6; 3], |_| 7.5), &[(0.0, [1.0; 3], 0.5)]).layers(&LAYERS).with(|s| {
         let direction = s.camera.direction;
         s.camera = perspective(90.0);
         s.camera.direction = direction;
@@ -185,7 +185,7 @@ fn samples_without_a_normal_count_with_v() {
 #[test]
 fn layers_do_not_disturb_each_other() {
     let glass = plain("glass", [0.2, 0.5, 0.8, 0.7]);
-    let shot = Shot::styled(ball(14, 5.0), vec![glass], &[(-1.0, "glass", 0.0), (3.0, "glass", 0.5)])
+    let shot = Stage::styled(ball(14, 5.0), vec![glass], &[(-1.0, "glass", 0.0), (3.0, "glass", 0.5)])
         .with_transfer(|t| t.transparency = Transparency::Plain)
         .with(|s| s.contours = Some(Contours { kappa: Kappa::Exact, ..Contours::default() }));
     let all = shot.layers(&LAYERS).render();
@@ -208,8 +208,8 @@ fn the_first_sample_knows_the_same_when_only_it_is_asked() {
     let glass = plain("glass", [0.2, 0.5, 0.8, 0.7]);
     let nodes = [(-3.0, "clear", 1.0), (1.0, "clear", 1.0), (1.0, "glass", 0.3)];
     for kappa in [Kappa::Ray, Kappa::Exact] {
-        let regular = Shot::regular(ball(14, 5.0), &[(-1.0, [1.0; 3], 0.0), (3.0, [1.0; 3], 0.5)]);
-        let styled = Shot::styled(ball(14, 5.0), vec![clear.clone(), glass.clone()], &nodes);
+        let regular = Stage::regular(ball(14, 5.0), &[(-1.0, [1.0; 3], 0.0), (3.0, [1.0; 3], 0.5)]);
+        let styled = Stage::styled(ball(14, 5.0), vec![clear.clone(), glass.clone()], &nodes);
         for shot in [regular, styled] {
             let shot = shot.seen_along([0.3, 0.8, -0.5]).with(|s| {
                 s.contours = Some(Contours { kappa, ..Contours::default() });
@@ -240,7 +240,7 @@ fn means_of_a_pixel_of_several_rays_by_hand() {
     let field = volume([3, 3, 3], |p| p.x * p.z);
     // Rays at x and z of ½ and 3/2, from the upper left: values ¾, 2¼, ¼, ¾ with α = ½, ¼, 0, ½.
     let node = |at: f64, opacity| (at, [1.0; 3], opacity);
-    let shot = Shot::regular(field, &[node(0.5, 0.0), node(0.5, 0.5), node(1.0, 0.5), node(1.0, 0.25)])
+    let shot = Stage::regular(field, &[node(0.5, 0.0), node(0.5, 0.5), node(1.0, 0.5), node(1.0, 0.25)])
         .layers(&[LayerKind::Gradient, LayerKind::First, LayerKind::Depth])
         .step(5.0)
         .with(|s| {
@@ -273,7 +273,7 @@ fn means_of_a_pixel_of_several_rays_by_hand() {
 fn gradients_that_overflow_are_infinite_never_undefined() {
     let grid = drypoint::scene::space::Grid::with_spacing([5, 4, 5], [1e-9; 3]).unwrap();
     let sheet = crate::common::on(grid, |p| 1e303 * (1.0 - ((p.y - 1.5e-9) * 1e9).abs()));
-    let shot = Shot::regular(sheet, &[(0.0, [1.0; 3], 0.5)]).layers(&LAYERS);
+    let shot = Stage::regular(sheet, &[(0.0, [1.0; 3], 0.5)]).layers(&LAYERS);
     let shown = shot.render();
     assert!(shown.covered() > 20);
     assert!(shown.picture.layers.iter().flat_map(|l| l.channels.iter().flatten()).all(|v| !v.is_nan()));

@@ -3,7 +3,7 @@
 
 use crate::common::lattice::sighted;
 use crate::common::random::Random;
-use crate::common::{LAYERS, Shot, perspective, plain};
+use crate::common::{LAYERS, Stage, perspective, plain};
 use crate::stability::{Case, Theme, differing};
 use drypoint::reference::number::Real;
 use drypoint::scene::glam::DVec3;
@@ -106,11 +106,11 @@ fn filled(volume: &Volume) -> Volume {
     Volume::new(volume.grid().clone(), volume.voxels().clone(), 1.0, 0.0).unwrap()
 }
 
-fn shots(volume: Volume) -> Vec<Shot> {
+fn shots(volume: Volume) -> Vec<Stage> {
     let nodes = [(-1.0, [0.9, 0.2, 0.1], 0.0), (0.5, [0.2, 0.9, 0.1], 0.1), (2.5, [0.1, 0.2, 0.9], 0.4)];
     let styled = [(-1.0, "a", 0.0), (2.5, "a", 0.4)];
-    let regular = Shot::regular(volume.clone(), &nodes).with(|s| s.shading = Some(Shading::default()));
-    let style = Shot::styled(volume, vec![plain("a", [0.2, 0.4, 0.6, 0.8])], &styled);
+    let regular = Stage::regular(volume.clone(), &nodes).with(|s| s.shading = Some(Shading::default()));
+    let style = Stage::styled(volume, vec![plain("a", [0.2, 0.4, 0.6, 0.8])], &styled);
     let contours = |kappa| Some(Contours { kappa, ..Contours::default() });
     vec![
         regular.clone(),
@@ -141,7 +141,7 @@ fn outside_the_masked_cells<R: Real>(number: Number) -> f64 {
                 s.sampling.number = number;
             });
             let with = shot.render();
-            let without = Shot { volume: filled(&masked), ..shot.clone() }.render();
+            let without = Stage { volume: filled(&masked), ..shot.clone() }.render();
             let (mut same, mut touched) = (0, 0);
             for (t, ray) in sighted::<R>(&shot).iter().enumerate() {
                 let channels = |s: &crate::common::Shown| {
@@ -171,7 +171,7 @@ fn a_hole_through_the_volume_is_seen_through() {
     let voxels =
         crate::common::positions(&grid).map(|p| if p.x == 4.0 && p.z == 4.0 { f64::NAN } else { 5.0 }).collect();
     let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
-    let shot = Shot::regular(volume, &[(0.0, [1.0; 3], 1.0)]).with(|s| {
+    let shot = Stage::regular(volume, &[(0.0, [1.0; 3], 1.0)]).with(|s| {
         s.camera.projection = crate::common::orthographic(Some(8.0)).projection;
     });
     for (t, p) in shot.render().pixels().into_iter().enumerate() {
@@ -201,7 +201,7 @@ fn the_range_of_gradients_leaves_out_stencils_that_touch_a_mask() {
     // |g| is in no layer; eq. 2 at |N·v| = 1 says it: α = α_u^(0.5 + (1 − |g|)). What comes out is hi over the ‖g‖ there.
     let largest = |volume: Volume, gradient: GradientEstimator| {
         let glass = plain("glass", [1.0, 1.0, 1.0, 1.0]);
-        let shot = Shot::styled(volume, vec![glass], &[(0.0, "glass", 0.5)]).with(|s| {
+        let shot = Stage::styled(volume, vec![glass], &[(0.0, "glass", 0.5)]).with(|s| {
             s.volume.gradient_range = GradientRange::Quantile(1.0);
             s.sampling.gradient = gradient;
         });
@@ -252,7 +252,7 @@ fn almost_nothing_finite() {
     let mut voxels = vec![f64::NAN; 64];
     voxels[21] = 3.0;
     let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
-    let shown = Shot::regular(volume, &[(0.0, [1.0; 3], 0.5)]).layers(&LAYERS).render();
+    let shown = Stage::regular(volume, &[(0.0, [1.0; 3], 0.5)]).layers(&LAYERS).render();
     assert_eq!(shown.covered(), 0);
     assert!(shown.one(LayerKind::Z).iter().all(|z| *z == f64::INFINITY));
 }

@@ -1,7 +1,7 @@
 //! f and −f, and f·2^k: the same thing in other numbers ([NORM-1], [SPACE-4]).
 
 use crate::common::strip::ramp;
-use crate::common::{LAYERS, Shot, largest_difference, perspective};
+use crate::common::{LAYERS, Stage, largest_difference, perspective};
 use crate::stability::{Case, Theme, differing, worse};
 use drypoint::scene::math::scale_by_power_of_two;
 use drypoint::scene::picture::LayerKind;
@@ -65,7 +65,7 @@ fn grid() -> Grid {
     Grid::with_spacing([13, 11, 12], [1.0, 1.5, 0.8]).unwrap()
 }
 
-fn seen(shot: Shot) -> Shot {
+fn seen(shot: Stage) -> Stage {
     shot.with(|s| {
         let direction = drypoint::scene::glam::DVec3::new(0.4, 0.8, -0.5);
         s.camera = perspective(35.0);
@@ -74,10 +74,10 @@ fn seen(shot: Shot) -> Shot {
 }
 
 /// The same scene over −f: nodes negated and in reverse order, `outside` exchanged.
-fn mirrored(shot: &Shot) -> Shot {
+fn mirrored(shot: &Stage) -> Stage {
     let v = &shot.volume;
     let volume = Volume::new(v.grid().clone(), v.voxels().clone(), -v.slope(), -v.intercept()).unwrap();
-    let other = Shot { volume, ..shot.clone() }.with_transfer(|t| {
+    let other = Stage { volume, ..shot.clone() }.with_transfer(|t| {
         let nodes = t.nodes.as_mut().unwrap();
         nodes.reverse();
         nodes.iter_mut().for_each(|n| n.at = -n.at);
@@ -95,12 +95,12 @@ fn mirrored(shot: &Shot) -> Shot {
 fn negative_pictures() -> f64 {
     let mut largest = 0.0;
     let volume = Volume::new(grid(), Voxels::U8(voxels(&grid())), 0.5, -20.0).unwrap();
-    let regular = Shot::regular(
+    let regular = Stage::regular(
         volume.clone(),
         &[(10.0, [0.9, 0.3, 0.2], 0.0), (35.3, [0.2, 0.9, 0.2], 0.2), (61.0, [0.1, 0.4, 0.9], 0.5)],
     )
     .with(|s| s.shading = Some(Shading::default()));
-    let styled = Shot::styled(volume, vec![ramp()], &[(10.0, "ramp", 0.0), (35.3, "ramp", 0.1), (61.0, "ramp", 0.6)])
+    let styled = Stage::styled(volume, vec![ramp()], &[(10.0, "ramp", 0.0), (35.3, "ramp", 0.1), (61.0, "ramp", 0.6)])
         .with(|s| {
             s.contours = Some(Contours { kappa: Kappa::Exact, fade: Some([0.05, 0.3]), ..Contours::default() });
             s.volume.gradient_range = GradientRange::Quantile(0.99);
@@ -127,7 +127,7 @@ fn negative_normals() -> f64 {
     for kernel in KERNELS {
         for outside in [Outside::Low, Outside::High] {
             // No sample has the value at the step itself, where the later node holds on both sides.
-            let shot = Shot::regular(volume.clone(), &[(110.123_456, [1.0; 3], 0.0), (110.123_456, [1.0; 3], 1.0)]);
+            let shot = Stage::regular(volume.clone(), &[(110.123_456, [1.0; 3], 0.0), (110.123_456, [1.0; 3], 1.0)]);
             let shot = seen(shot.layers(&[LayerKind::Normal])).with(|s| {
                 s.sampling.kernel = kernel;
                 s.volume.outside = outside;
@@ -145,7 +145,7 @@ fn negative_normals() -> f64 {
 #[test]
 fn the_literal_gradient_knows_no_outside() {
     let volume = Volume::new(grid(), Voxels::U8(voxels(&grid())), 1.0, 0.0).unwrap();
-    let shot = seen(Shot::styled(volume, vec![ramp()], &[(60.0, "ramp", 0.0), (150.0, "ramp", 0.8)]))
+    let shot = seen(Stage::styled(volume, vec![ramp()], &[(60.0, "ramp", 0.0), (150.0, "ramp", 0.8)]))
         .with(|s| s.sampling.normal = NormalSide::Gradient);
     assert_eq!(shot.render().bits(), shot.with(|s| s.volume.outside = Outside::High).render().bits());
 }
@@ -163,7 +163,7 @@ fn powers_of_two() -> f64 {
             let at = if unit == Unit::Normalized { at / 200.0 } else { scale_by_power_of_two(at, k) };
             (at, name, opacity)
         });
-        seen(Shot::styled(volume, vec![ramp()], &nodes).layers(&LAYERS))
+        seen(Stage::styled(volume, vec![ramp()], &nodes).layers(&LAYERS))
             .with(|s| {
                 s.contours = Some(Contours { kappa: Kappa::Exact, fade: Some([0.05, 0.3]), ..Contours::default() });
                 s.volume.gradient_range = GradientRange::Quantile(0.99);

@@ -1,7 +1,7 @@
 //! Data with an offset ([PREC-3], [REC-1]): rounding must not shade what is constant, and whole numbers lose nothing.
 
 use crate::common::strip::ramp;
-use crate::common::{LAYERS, Shot, on, perspective, plain, volume};
+use crate::common::{LAYERS, Stage, on, perspective, plain, volume};
 use crate::stability::{Case, Theme, differing};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -68,7 +68,7 @@ fn constants() -> f64 {
             let nodes = [(stored, "ramp", 0.0), (stored, "ramp", 0.3)];
             for kernel in KERNELS {
                 for gradient in GRADIENTS {
-                    let shot = Shot::styled(flat.clone(), vec![ramp()], &nodes).layers(&LAYERS).with(|s| {
+                    let shot = Stage::styled(flat.clone(), vec![ramp()], &nodes).layers(&LAYERS).with(|s| {
                         (s.sampling.kernel, s.sampling.gradient, s.sampling.number) = (kernel, gradient, number);
                         s.contours = Some(Contours { kappa: Kappa::Exact, ..Contours::default() });
                         s.volume.gradient_range = GradientRange::Quantile(0.999);
@@ -97,7 +97,7 @@ fn constants() -> f64 {
 fn flat_insides_of_offset_data_have_no_normal() {
     let centre = DVec3::splat(9.5);
     let thing = volume([20; 3], |p| 1000.3 + (3.0 * (8.0 - (p - centre).length())).clamp(-5.0, 3.0));
-    let shot = Shot::regular(thing, &[(1000.0, [0.3; 3], 0.0), (1003.0, [0.9; 3], 0.2)]).with(|s| {
+    let shot = Stage::regular(thing, &[(1000.0, [0.3; 3], 0.0), (1003.0, [0.9; 3], 0.2)]).with(|s| {
         s.shading = Some(Shading::default());
     });
     let c = shot.render().counts;
@@ -132,7 +132,7 @@ fn whole_numbers() -> f64 {
                 let volume = Volume::new(grid.clone(), voxels, 1.0, intercept).unwrap();
                 let step = 120.3 + offset as f64;
                 let nodes = [(step, "s", 0.0), (step, "s", 1.0)];
-                let shot = Shot::styled(volume, vec![plain("s", [0.5, 0.5, 0.5, 1.0])], &nodes).layers(&LAYERS);
+                let shot = Stage::styled(volume, vec![plain("s", [0.5, 0.5, 0.5, 1.0])], &nodes).layers(&LAYERS);
                 shot.with(|s| {
                     s.camera = perspective(35.0);
                     s.camera.direction = DVec3::new(0.4, 0.8, -0.5);
@@ -170,7 +170,7 @@ fn ends_of_the_number_type() -> f64 {
     let seen = |scale: f64| {
         let volume = on(grid.clone(), |p| scale * shape(p));
         let nodes = [(0.0, [1.0, 0.5, 0.2], 0.0), (2.0 * scale, [0.2, 0.5, 1.0], 0.5)];
-        let shot = Shot::regular(volume, &nodes).layers(&[LayerKind::Normal, LayerKind::Curvature]);
+        let shot = Stage::regular(volume, &nodes).layers(&[LayerKind::Normal, LayerKind::Curvature]);
         shot.with(|s| s.shading = Some(Shading::default())).render()
     };
     let one = seen(1.0);

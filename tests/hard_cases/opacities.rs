@@ -1,6 +1,6 @@
 //! Opacities of 0, of 1, and as near to them as numbers go ([VAL-4], [STF-9]).
 
-use crate::common::{Shot, orthographic, plain, volume};
+use crate::common::{Stage, orthographic, plain, volume};
 use crate::stability::{Case, Theme, worst};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -54,7 +54,7 @@ fn opacities_of_0_and_1() {
 }
 
 /// A ramp along the view, in one pixel, with a plane on every voxel.
-fn on_voxels(shot: &Shot) -> Shot {
+fn on_voxels(shot: &Stage) -> Stage {
     shot.step(1.0).with(|s| {
         s.picture.size = [1, 1];
         s.camera = orthographic(Some(1.0));
@@ -69,15 +69,15 @@ const RATIOS: [f64; 7] = [1e-300, 1e-9, 0.3, 0.5, 1.0, 7.7, 1e300];
 
 fn ones() -> f64 {
     let mut wrong = 0;
-    let opacity = |alpha_d: f64, shot: &Shot| {
+    let opacity = |alpha_d: f64, shot: &Stage| {
         let styles = vec![plain("s", [0.5, 0.5, 0.5, alpha_d])];
-        Shot { styles, ..shot.clone() }.render().pixels()[0][3]
+        Stage { styles, ..shot.clone() }.render().pixels()[0][3]
     };
     for threshold in [0.0, 0.3, 1.0] {
         for number in [Number::F64, Number::F32] {
             for transparency in [Transparency::Illustrative, Transparency::Plain] {
                 let wall = volume([5, 2, 5], |p| p.y);
-                let shot = Shot::styled(
+                let shot = Stage::styled(
                     wall,
                     vec![plain("s", [0.5; 4])],
                     &[(0.0, "s", 1.0), (0.5, "s", 1.0), (0.5, "s", 0.0)],
@@ -108,9 +108,9 @@ fn zeros() -> f64 {
     let ramp = volume([5, 9, 5], |p| p.y);
     for ratio in RATIOS {
         let styled =
-            Shot::styled(ramp.clone(), vec![plain("s", [0.5, 0.5, 0.5, 1.0])], &[(0.0, "s", 0.0), (9.0, "s", 0.0)])
+            Stage::styled(ramp.clone(), vec![plain("s", [0.5, 0.5, 0.5, 1.0])], &[(0.0, "s", 0.0), (9.0, "s", 0.0)])
                 .with(|s| s.contours = Some(Contours::default()));
-        let regular = Shot::regular(ramp.clone(), &[(0.0, [1.0; 3], 0.0), (9.0, [1.0; 3], 0.0)]);
+        let regular = Stage::regular(ramp.clone(), &[(0.0, [1.0; 3], 0.0), (9.0, [1.0; 3], 0.0)]);
         for shot in [styled, regular] {
             for skip in [true, false] {
                 let shown = shot
@@ -129,7 +129,7 @@ fn zeros() -> f64 {
 
 fn nearly() -> f64 {
     worst([5e-324, 1e-300, 1e-17, 1.0 - f64::EPSILON / 2.0].map(|alpha| {
-        let shot = Shot::regular(volume([5, 9, 5], |_| 1.0), &[(0.0, [1.0; 3], alpha)]).layers(&[LayerKind::Counts]);
+        let shot = Stage::regular(volume([5, 9, 5], |_| 1.0), &[(0.0, [1.0; 3], alpha)]).layers(&[LayerKind::Counts]);
         let shown = on_voxels(&shot).render();
         let (found, n) = (shown.pixels()[0][3], shown.one(LayerKind::Counts)[0]);
         if alpha > 0.5 { (found - 1.0).abs() } else { (found / alpha - n).abs() / n }
@@ -139,7 +139,7 @@ fn nearly() -> f64 {
 fn nothing_shines_through() -> f64 {
     let seen = |behind: [f64; 3], opacity: f64| {
         let nodes = [(0.0, [0.1, 0.2, 0.3], 0.3), (2.0, [0.4, 0.5, 0.6], 1.0), (2.5, behind, opacity)];
-        on_voxels(&Shot::regular(volume([5, 9, 5], |p| p.y), &nodes)).render().bits()
+        on_voxels(&Stage::regular(volume([5, 9, 5], |p| p.y), &nodes)).render().bits()
     };
     let black = seen([0.0; 3], 1.0);
     let others = [seen([1.0; 3], 1.0), seen([1e300; 3], 0.5), seen([0.5; 3], 0.0)];

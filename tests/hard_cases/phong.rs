@@ -1,14 +1,14 @@
 //! Blinn–Phong on a ball whose normals are known ([STF-11]).
 
-use crate::common::{Shot, ball, orthographic, perspective, plain, quadratic_ball, volume};
+use crate::common::{Stage, ball, orthographic, perspective, plain, quadratic_ball, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::tables::{GradientEstimator, Kernel, Length, LightDirection, Outside, Shading};
 
 const RADIUS: f64 = 8.0;
 const COLOR: [f64; 3] = [0.8, 0.5, 0.2];
 
-fn shaded(shading: Shading) -> Shot {
-    Shot::regular(quadratic_ball(24, RADIUS), &[(0.0, COLOR, 0.0), (0.0, COLOR, 1.0)]).with(|s| {
+fn shaded(shading: Shading) -> Stage {
+    Stage::regular(quadratic_ball(24, RADIUS), &[(0.0, COLOR, 0.0), (0.0, COLOR, 1.0)]).with(|s| {
         s.sampling.kernel = Kernel::Bspline5;
         s.sampling.gradient = GradientEstimator::Analytic;
         // Samples so near the surface that the pixel's own ray says where on the ball they are.
@@ -90,7 +90,7 @@ fn a_lit_ball_in_closed_form() {
 /// A sample without a normal keeps its colour unshaded; the scene's light counts where the table has none.
 #[test]
 fn flat_interiors_are_unshaded() {
-    let flat = Shot::regular(volume([6; 3], |_| 1000.3), &[(0.0, COLOR, 1.0)]);
+    let flat = Stage::regular(volume([6; 3], |_| 1000.3), &[(0.0, COLOR, 1.0)]);
     let lit = flat.with(|s| s.shading = Some(Shading::default())).render();
     assert_eq!(lit.bits(), flat.render().bits());
     assert!(lit.counts.without_normal > 0);
@@ -109,13 +109,13 @@ fn flat_interiors_are_unshaded() {
 /// Opacity is not lit: shading changes no α. And a style function is not shaded at all.
 #[test]
 fn shading_changes_colours_alone() {
-    let soft = Shot::regular(ball(16, 6.0), &[(-2.0, COLOR, 0.0), (2.0, COLOR, 0.4)]);
-    let alphas = |shot: &Shot| shot.render().pixels().iter().map(|p| p[3].to_bits()).collect::<Vec<_>>();
+    let soft = Stage::regular(ball(16, 6.0), &[(-2.0, COLOR, 0.0), (2.0, COLOR, 0.4)]);
+    let alphas = |shot: &Stage| shot.render().pixels().iter().map(|p| p[3].to_bits()).collect::<Vec<_>>();
     let lit = soft.with(|s| s.shading = Some(Shading::default()));
     assert_eq!(alphas(&lit), alphas(&soft));
     assert_ne!(lit.render().bits(), soft.render().bits());
     let styled =
-        Shot::styled(ball(16, 6.0), vec![plain("s", [0.2, 0.4, 0.6, 1.0])], &[(-2.0, "s", 0.0), (2.0, "s", 0.4)]);
+        Stage::styled(ball(16, 6.0), vec![plain("s", [0.2, 0.4, 0.6, 1.0])], &[(-2.0, "s", 0.0), (2.0, "s", 0.4)]);
     assert_eq!(styled.with(|s| s.shading = Some(Shading::default())).render().bits(), styled.render().bits());
 }
 

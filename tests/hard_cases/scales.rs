@@ -1,7 +1,7 @@
 //! Extreme scales ([SPACE-4], [VAL-1]): values and lengths of 10^±30, and worlds far from their origin.
 
 use crate::common::strip::ramp;
-use crate::common::{LAYERS, Shot, largest_difference, on, orthographic, perspective};
+use crate::common::{LAYERS, Stage, largest_difference, on, orthographic, perspective};
 use crate::stability::{Case, Theme, differing, worst};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::math::scale_by_power_of_two;
@@ -73,10 +73,10 @@ fn wave(p: DVec3) -> f64 {
 }
 
 /// The scene over values times `value`, in a world whose lengths are times `length`.
-fn scenes(value: f64, length: f64) -> Vec<Shot> {
+fn scenes(value: f64, length: f64) -> Vec<Stage> {
     let grid = Grid::with_spacing([12, 11, 10], [1.0, 0.75, 1.25].map(|s| s * length)).unwrap();
     let volume = on(grid, |p| value * wave(p / length));
-    let looked = |shot: Shot, kernel, kappa| {
+    let looked = |shot: Stage, kernel, kappa| {
         shot.layers(&[LayerKind::Normal]).with(|s| {
             s.camera = Camera { direction: DVec3::new(0.4, 0.8, -0.5), ..perspective(35.0) };
             s.camera.eye = Some(DVec3::new(-8.0, -16.0, 16.0) * length);
@@ -90,9 +90,9 @@ fn scenes(value: f64, length: f64) -> Vec<Shot> {
         })
     };
     let nodes = [(0.3 * value, "ramp", 0.0), (0.5 * value, "ramp", 0.2), (0.8 * value, "ramp", 0.7)];
-    let styled = Shot::styled(volume.clone(), vec![ramp()], &nodes);
+    let styled = Stage::styled(volume.clone(), vec![ramp()], &nodes);
     let nodes = [(0.3 * value, [0.9, 0.3, 0.2], 0.0), (0.8 * value, [0.2, 0.5, 0.9], 0.5)];
-    let regular = Shot::regular(volume, &nodes).with(|s| s.shading = Some(Shading::default()));
+    let regular = Stage::regular(volume, &nodes).with(|s| s.shading = Some(Shading::default()));
     vec![
         looked(styled.clone(), Kernel::Bspline, Kappa::Exact),
         looked(styled, Kernel::Trilinear, Kappa::Ray),
@@ -138,7 +138,7 @@ fn far_from_the_origin() -> f64 {
         let grid = Grid::new([9, 8, 10], DMat3::from_diagonal(DVec3::new(1.0, 0.5, 2.0)), origin).unwrap();
         let centre = grid.centre();
         let nodes = [(0.3, "ramp", 0.0), (0.5, "ramp", 0.2), (0.8, "ramp", 0.7)];
-        Shot::styled(on(grid, |p| wave(p - origin)), vec![ramp()], &nodes)
+        Stage::styled(on(grid, |p| wave(p - origin)), vec![ramp()], &nodes)
             .layers(&LAYERS)
             .with(|s| {
                 s.camera = Camera {

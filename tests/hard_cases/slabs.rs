@@ -3,7 +3,7 @@
 //! n samples Δ_ray apart have 1 − (1 − α₀)^(nΔ_ray/Δ₀), and n is L/Δ_ray rounded up or down, since the lattice belongs to
 //! the camera: |α − (1 − (1 − α₀)^(L/Δ₀))| ≤ 1 − (1 − α₀)^(Δ_ray/Δ₀).
 
-use crate::common::{Shot, on, orthographic, perspective};
+use crate::common::{Stage, on, orthographic, perspective};
 use crate::stability::{Case, Theme, U, worse};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
@@ -50,7 +50,7 @@ fn homogeneous_boxes() {
 
 /// How far the opacities of a homogeneous box of α₀ per Δ₀ are off their closed form, in units of one step's opacity; in f32 after what
 /// rounding can do.
-pub(crate) fn in_steps(shot: &Shot, step: f64, alpha: f64, reference: f64) -> f64 {
+pub(crate) fn in_steps(shot: &Stage, step: f64, alpha: f64, reference: f64) -> f64 {
     let lengths = lengths(shot, step, false);
     let pixels = shot.render().pixels();
     let off = lengths.into_iter().zip(pixels).map(|((length, cos), pixel)| {
@@ -78,7 +78,7 @@ fn boxes(number: Number) -> f64 {
             if i % 8 == 7 { [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]][i as usize % 3] } else { askew };
         let step = [0.03, 0.25, 0.5, 0.77, 1.0, 3.0][i as usize % 6];
         let alpha = [1e-12, 0.001, 0.3, 0.999][i as usize % 4];
-        let shot = Shot::regular(on(grid(i as usize % 5), |_| 3.0), &[(0.0, [0.5, 0.25, 1.0], alpha)]).with(|s| {
+        let shot = Stage::regular(on(grid(i as usize % 5), |_| 3.0), &[(0.0, [0.5, 0.25, 1.0], alpha)]).with(|s| {
             s.camera = if i % 2 == 0 { orthographic(None) } else { perspective([5.0, 60.0, 120.0][i as usize % 3]) };
             s.camera.direction = direction.into();
             s.sampling.step = Length::World(step);
@@ -92,7 +92,7 @@ fn boxes(number: Number) -> f64 {
 }
 
 /// The world length of each pixel's ray inside the box, beyond `near`, in perspective.
-fn lengths(shot: &Shot, near: f64, shells: bool) -> Vec<(f64, f64)> {
+fn lengths(shot: &Stage, near: f64, shells: bool) -> Vec<(f64, f64)> {
     let (view, grid) = (shot.view(), shot.volume.grid());
     let [lo, hi] = grid.index_box();
     let [width, height] = shot.scene.picture.size;
@@ -147,7 +147,7 @@ proptest! {
         skip in any::<bool>(),
     ) {
         prop_assume!(DVec3::from_array(direction).length() > 0.1);
-        let shot = Shot::regular(on(grid(kind), |_| 3.0), &[(0.0, [0.5, 0.25, 1.0], alpha)])
+        let shot = Stage::regular(on(grid(kind), |_| 3.0), &[(0.0, [0.5, 0.25, 1.0], alpha)])
             .seen_along(direction)
             .with(|s| {
                 let (direction, eye) = (s.camera.direction, if inside { Some(grid(kind).centre()) } else { None });
@@ -191,7 +191,7 @@ fn moved_by_steps() -> f64 {
     for direction in [[0.0, 1.0, 0.0], [0.4, -0.7, 0.5], [-0.1, 0.2, 1.0]] {
         let step = 0.375;
         let seen = |moved: f64| {
-            let shot = Shot::regular(on(grid.clone(), field), &nodes).seen_along(direction).with(|s| {
+            let shot = Stage::regular(on(grid.clone(), field), &nodes).seen_along(direction).with(|s| {
                 s.sampling.step = Length::World(step);
                 s.camera.eye = Some(grid.centre() + s.camera.direction.normalize() * moved);
                 s.camera.direction_given = true;
@@ -212,7 +212,7 @@ fn moved_by_steps() -> f64 {
 /// every ray, converge to the same picture.
 #[test]
 fn planes_and_shells_converge_to_one_picture_at_120_degrees() {
-    let shot = Shot::regular(on(grid(0), |p| p.y), &[(0.0, [1.0; 3], 0.0), (9.0, [0.2; 3], 0.3)]).with(|s| {
+    let shot = Stage::regular(on(grid(0), |p| p.y), &[(0.0, [1.0; 3], 0.0), (9.0, [0.2; 3], 0.3)]).with(|s| {
         let direction = s.camera.direction;
         s.camera = perspective(120.0);
         s.camera.direction = direction;

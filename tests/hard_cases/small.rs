@@ -1,6 +1,6 @@
 //! Volumes of 1×1×1, 1×N×1 and 2×2×2, with every kernel and estimator ([SPACE-1], [REC-1], [REC-2]).
 
-use crate::common::{LAYERS, Shot, on, orthographic, perspective, plain};
+use crate::common::{LAYERS, Stage, on, orthographic, perspective, plain};
 use crate::reconstruction::{all, linear, linear_errors, places};
 use crate::slabs::in_steps;
 use crate::stability::{Case, Theme, worst};
@@ -108,7 +108,7 @@ fn boxes(number: Number) -> f64 {
         directions.into_iter().flat_map(move |direction| {
             let flat = flat.clone();
             [orthographic(None), perspective(50.0)].map(|camera| {
-                let shot = Shot::regular(flat.clone(), &[(0.0, [1.0; 3], 0.3)]).with(|s| {
+                let shot = Stage::regular(flat.clone(), &[(0.0, [1.0; 3], 0.3)]).with(|s| {
                     s.camera = camera;
                     s.camera.direction = direction;
                     // One pixel looks through the middle, however thin the box.
@@ -131,7 +131,7 @@ fn noise(number: Number) -> f64 {
         for how in all(grid.voxel()) {
             let glass = plain("glass", [0.2, 0.5, 0.8, 0.7]);
             let nodes = [(-100.0, "glass", 0.1), (0.0, "glass", 0.0), (100.0, "glass", 0.6)];
-            let shown = Shot::styled(rough.clone(), vec![glass], &nodes)
+            let shown = Stage::styled(rough.clone(), vec![glass], &nodes)
                 .layers(&LAYERS)
                 .with(|s| {
                     s.camera.direction = DVec3::new(0.3, 0.8, -0.4);

@@ -1,12 +1,11 @@
 //! Tiny and huge steps ([RAY-1], [VAL-4]).
 
-use crate::common::{Shot, corrected, on, orthographic, perspective};
+use crate::common::{Stage, corrected, on, orthographic, perspective};
 use crate::stability::{Case, Theme, U, rounding, worst};
 use drypoint::reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::plan::Plan;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Length, Number, StepAlong};
 use std::path::Path;
@@ -86,9 +85,9 @@ fn tiny_and_huge_steps() {
 }
 
 /// A homogeneous box, seen along y in one pixel.
-fn slab(alpha: f64, step: f64) -> Shot {
+fn slab(alpha: f64, step: f64) -> Stage {
     let flat = on(Grid::with_spacing([3, 3, 3], [1.0; 3]).unwrap(), |_| 3.0);
-    Shot::regular(flat, &[(0.0, [1.0; 3], alpha)]).layers(&[LayerKind::Counts]).with(|s| {
+    Stage::regular(flat, &[(0.0, [1.0; 3], alpha)]).layers(&[LayerKind::Counts]).with(|s| {
         s.picture.size = [1, 1];
         s.camera = orthographic(Some(1.0));
         s.camera.direction = DVec3::Y;
@@ -160,18 +159,15 @@ fn too_many_planes() -> f64 {
                     s.camera = camera.clone();
                     s.sampling.step_along = along;
                 });
-                let (plan, function) = (Plan::new(&shot.scene), shot.function());
                 let inputs = Inputs {
-                    scene: &shot.scene,
-                    plan: &plan,
                     volume: &shot.volume,
-                    function: &function,
                     labels: None,
                     further: [None, None],
                     styles: &[],
                     background: Backdrop::None,
                 };
-                taken += usize::from(!matches!(Renderer::new(inputs), Err(RenderError::TooManyPlanes { .. })));
+                let made = Renderer::new(&shot.resolved(shot.view()), inputs);
+                taken += usize::from(!matches!(made, Err(RenderError::TooManyPlanes { .. })));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Styles where their formulas have an edge ([STF-1] … [STF-9]).
 
 use crate::common::strip::ramp;
-use crate::common::{Shot, corrected, in_a_texture, on, orthographic, perspective, plain, style, volume};
+use crate::common::{Stage, corrected, in_a_texture, on, orthographic, perspective, plain, style, volume};
 use crate::stability::{Case, Theme, U, rounding, worse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -115,7 +115,7 @@ fn slabs_of_powers(number: Number) -> f64 {
         let alpha = alpha_u.powf(x);
         let whole = corrected(alpha, length / reference);
         let glass = plain("glass", [0.6, 0.7, 0.8, 1.0]);
-        let slab = Shot::styled(volume([5, 17, 5], |_| 3.0), vec![glass], &[(0.0, "glass", alpha_u)]).with(|s| {
+        let slab = Stage::styled(volume([5, 17, 5], |_| 3.0), vec![glass], &[(0.0, "glass", alpha_u)]).with(|s| {
             s.contours = Some(Contours { kappa: Kappa::None { threshold: tau }, ..Contours::default() });
             s.sampling.reference_length = Length::World(reference);
             s.camera.projection = orthographic(Some(3.0)).projection;
@@ -148,7 +148,7 @@ fn thin_sheet() -> f64 {
     let alpha_u = 0.25f64;
     let grey = plain("grey", [0.5, 0.5, 0.5, 1.0]);
     let sheet = volume([7, 8, 7], |p| 1.0 - (p.y - 3.5).abs());
-    let shot = Shot::styled(sheet, vec![grey], &[(0.4, "grey", 0.0), (0.4, "grey", alpha_u)]).step(1.0).with(|s| {
+    let shot = Stage::styled(sheet, vec![grey], &[(0.4, "grey", 0.0), (0.4, "grey", alpha_u)]).step(1.0).with(|s| {
         // ‖g‖ = ½ at both: |g| = 0.
         s.volume.gradient_range = GradientRange::Fixed([0.5, 1.0]);
         s.contours = Some(Contours { thickness: Length::World(0.5), ..Contours::default() });
@@ -183,7 +183,7 @@ fn wall(number: Number) -> f64 {
     ];
     for direction in directions {
         for (kappa, tau) in kappas {
-            let bare = Shot::styled(field(), vec![ramp()], &[(-1.0, "ramp", alpha_u)])
+            let bare = Stage::styled(field(), vec![ramp()], &[(-1.0, "ramp", alpha_u)])
                 .layers(&[LayerKind::Normal, LayerKind::CurvatureAlongView])
                 .seen_along(direction);
             let shot = one_plane(&bare).in_number(number).with(|s| {
@@ -230,7 +230,7 @@ fn exact_ends(number: Number) -> f64 {
         {
             for mix in [Mix::Premultiplied, Mix::Printed] {
                 let nodes = [(ends[0], "red", 0.25), (ends[1], "blue", 0.75)];
-                let shot = Shot::styled(volume.clone(), styles(), &nodes).with_transfer(|t| {
+                let shot = Stage::styled(volume.clone(), styles(), &nodes).with_transfer(|t| {
                     (t.unit, t.mix, t.transparency) = (unit, mix, Transparency::Plain);
                 });
                 // Pixels of 1½ voxels, none of which looks between the halves.
@@ -259,7 +259,7 @@ fn wide_picture(number: Number) -> f64 {
     let gradient = DVec3::new(0.2, 0.5, -0.1);
     let grid = Grid::with_spacing([12, 9, 10], [1.0, 1.25, 0.8]).unwrap();
     let centre = grid.centre();
-    let shot = Shot::styled(on(grid, |p| gradient.dot(p)), vec![ramp()], &[(0.0, "ramp", alpha_u)])
+    let shot = Stage::styled(on(grid, |p| gradient.dot(p)), vec![ramp()], &[(0.0, "ramp", alpha_u)])
         .layers(&[LayerKind::Counts])
         .with(|s| {
             s.camera = perspective(120.0);
@@ -310,7 +310,7 @@ fn a_picture_of_one_pixel_and_a_style_of_one_texel() {
     let ball = crate::common::ball(14, 5.0);
     let nodes = [(-1.0, "s", 0.0), (2.0, "s", 0.6)];
     let edge = style("s", 64, |x, y| [0.5 + 0.5 * x, 0.5 + 0.5 * y, 0.2, (x * x + y * y).min(1.0)]);
-    let shot = Shot::styled(ball.clone(), vec![edge], &nodes).seen_along([0.3, 0.8, -0.4]).with(|s| {
+    let shot = Stage::styled(ball.clone(), vec![edge], &nodes).seen_along([0.3, 0.8, -0.4]).with(|s| {
         s.contours = Some(Contours::default());
         s.picture.size = [3, 3];
         s.camera.projection = orthographic(Some(9.0)).projection;
@@ -321,14 +321,14 @@ fn a_picture_of_one_pixel_and_a_style_of_one_texel() {
     });
     assert!(shot.render().pixels()[4][3] > 0.0);
     assert_eq!(one.render().pixels(), [shot.render().pixels()[4]]);
-    let texel = Shot::styled(ball, vec![plain("s", [0.3, 0.6, 0.9, 1.0])], &[(0.0, "s", 0.0), (0.0, "s", 1.0)]);
+    let texel = Stage::styled(ball, vec![plain("s", [0.3, 0.6, 0.9, 1.0])], &[(0.0, "s", 0.0), (0.0, "s", 1.0)]);
     let pushed = texel.with(|s| s.contours = Some(Contours { thickness: Length::World(9.0), ..Contours::default() }));
     assert_eq!(pushed.render().bits(), texel.render().bits());
     assert!(texel.render().pixels().iter().all(|p| p[3] == 0.0 || *p == in_a_texture([0.3, 0.6, 0.9, 1.0])));
 }
 
 /// One sample a ray, on the plane through the middle of the volume, and nothing to correct.
-fn one_plane(shot: &Shot) -> Shot {
+fn one_plane(shot: &Stage) -> Stage {
     let centre = shot.volume.grid().centre();
     shot.step(64.0).with(|s| {
         s.camera.projection = orthographic(Some(3.0)).projection;

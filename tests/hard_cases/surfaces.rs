@@ -1,7 +1,7 @@
 //! Opaque iso-surfaces ([HATCH-14]): where they are, what they hide, what they cost.
 
 use crate::common::random::Random;
-use crate::common::{LAYERS, Shot, ball, on, orthographic, perspective, quadratic_ball, volume};
+use crate::common::{LAYERS, Stage, ball, on, orthographic, perspective, quadratic_ball, volume};
 use crate::stability::{Case, Theme, rounding, worst};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::picture::LayerKind;
@@ -90,8 +90,8 @@ fn surface(look: SurfaceLook, iso: f64) -> Option<Surface> {
 }
 
 /// A surface alone.
-fn alone(volume: Volume, look: SurfaceLook, iso: f64) -> Shot {
-    Shot::regular(volume, &[(0.0, [1.0; 3], 0.0)]).layers(&[LayerKind::Z]).with(|s| {
+fn alone(volume: Volume, look: SurfaceLook, iso: f64) -> Stage {
+    Stage::regular(volume, &[(0.0, [1.0; 3], 0.0)]).layers(&[LayerKind::Z]).with(|s| {
         s.transfer = None;
         s.surface = surface(look, iso);
     })
@@ -147,7 +147,7 @@ fn plane_depths(number: Number) -> f64 {
 }
 
 /// For each pixel that meets the plane well inside the box, how far off its Z is.
-fn off_the_plane(shot: &Shot) -> Vec<f64> {
+fn off_the_plane(shot: &Stage) -> Vec<f64> {
     let (view, grid) = (shot.view(), shot.volume.grid());
     let [lo, hi] = grid.index_box();
     let z = shot.render().one(LayerKind::Z);
@@ -174,9 +174,9 @@ fn off_the_plane(shot: &Shot) -> Vec<f64> {
 const ALPHA: f64 = 0.3;
 
 /// A red haze before a white plane y = `at`, in a box that begins at y = 0, seen along +y.
-fn haze(at: f64, step: f64, shells: bool) -> Shot {
+fn haze(at: f64, step: f64, shells: bool) -> Stage {
     let field = volume([5, 21, 5], |p| p.y);
-    Shot::regular(field, &[(0.0, [1.0, 0.0, 0.0], ALPHA)]).with(|s| {
+    Stage::regular(field, &[(0.0, [1.0, 0.0, 0.0], ALPHA)]).with(|s| {
         s.surface = surface(SurfaceLook::White, at);
         s.camera = Camera { direction: DVec3::Y, ..orthographic(Some(3.0)) };
         s.sampling.step = Length::World(step);
@@ -231,7 +231,7 @@ fn slab_up_to_a_plane() -> f64 {
 const RADIUS: f64 = 8.0;
 
 /// A ball that the quintic spline has to rounding.
-fn exact_ball(look: SurfaceLook) -> Shot {
+fn exact_ball(look: SurfaceLook) -> Stage {
     alone(quadratic_ball(26, RADIUS), look, 0.0).with(|s| {
         s.sampling.kernel = Kernel::Bspline5;
         s.sampling.gradient = GradientEstimator::Analytic;
@@ -242,7 +242,7 @@ fn exact_ball(look: SurfaceLook) -> Shot {
 }
 
 /// Distance of each pixel's centre from the middle of the picture, in world units, with the pixel.
-fn from_the_middle(shot: &Shot) -> impl Iterator<Item = (usize, f64)> {
+fn from_the_middle(shot: &Stage) -> impl Iterator<Item = (usize, f64)> {
     let view = shot.view();
     let ([w, h], pixel) = (view.size, view.pixel);
     let middle = move |i: usize, n: usize| (i as f64 + 0.5 - n as f64 / 2.0) * pixel;
@@ -391,7 +391,7 @@ fn skipping_and_tiles_show_nowhere() {
         field = Volume::new(field.grid().clone(), Voxels::F64(values.collect()), 1.0, 0.0).unwrap();
         for number in [Number::F64, Number::F32] {
             let nodes = [(20.0, [0.8, 0.1, 0.1], 0.0), (60.0, [0.1, 0.1, 0.9], 0.2)];
-            let shot = Shot::regular(field.clone(), &nodes).layers(&LAYERS).with(|s| {
+            let shot = Stage::regular(field.clone(), &nodes).layers(&LAYERS).with(|s| {
                 s.surface = surface(SurfaceLook::Phong, 55.0);
                 s.camera = perspective(50.0);
                 s.camera.direction = DVec3::new(-0.3, 0.8, 0.4);

@@ -3,7 +3,7 @@
 //! The voxels are stored anew, so that axes change places and directions: x, y, z are nested, summed and stepped over in
 //! another order. A mirrored scene is a mirrored picture.
 
-use crate::common::{Shot, Shown, on, orthographic, perspective, style};
+use crate::common::{Shown, Stage, on, orthographic, perspective, style};
 use crate::stability::{Case, Theme, U, differing, worst};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::picture::LayerKind;
@@ -78,7 +78,7 @@ fn centred(dims: [usize; 3], spacing: DVec3) -> Grid {
 
 /// The same scene with everything in the world moved by a symmetry, the voxels stored along the axes again. What was
 /// the value at p is the value at m·p.
-fn moved(shot: &Shot, m: DMat3, field: impl Fn(DVec3) -> f64) -> Shot {
+fn moved(shot: &Stage, m: DMat3, field: impl Fn(DVec3) -> f64) -> Stage {
     let grid = shot.volume.grid();
     let dims = (m * DVec3::from_array(grid.dims().map(|n| n as f64))).abs();
     let spacing = (m * DVec3::from_array(grid.spacing())).abs();
@@ -86,7 +86,7 @@ fn moved(shot: &Shot, m: DMat3, field: impl Fn(DVec3) -> f64) -> Shot {
     let flip = m.determinant() < 0.0;
     // A mirrored thing in a mirrored style is a mirrored picture.
     let styles = if flip { vec![look(true)] } else { shot.styles.clone() };
-    Shot { volume, styles, ..shot.clone() }.with(|s| {
+    Stage { volume, styles, ..shot.clone() }.with(|s| {
         let Camera { eye, direction, up, .. } = &mut s.camera;
         *eye = eye.map(|eye| m * eye);
         (*direction, *up) = (m * *direction, m * *up);
@@ -120,7 +120,7 @@ fn whole(p: DVec3) -> f64 {
 }
 
 /// Orthographic along an axis, or straight down between two, with pixels, steps and planes at dyadic places.
-fn along_axes(shot: &Shot, direction: DVec3, up: DVec3) -> Shot {
+fn along_axes(shot: &Stage, direction: DVec3, up: DVec3) -> Stage {
     shot.with(|s| {
         s.camera = Camera {
             direction,
@@ -141,9 +141,9 @@ fn phantom() -> Grid {
 }
 
 /// Shaded, with layers, seen along two axes.
-fn shaded() -> [Shot; 2] {
+fn shaded() -> [Stage; 2] {
     let nodes = [(-5.0, [0.9, 0.3, 0.2], 0.0), (10.0, [0.2, 0.9, 0.2], 0.2), (25.0, [0.1, 0.4, 0.9], 0.6)];
-    let regular = Shot::regular(on(phantom(), whole), &nodes)
+    let regular = Stage::regular(on(phantom(), whole), &nodes)
         .layers(&[LayerKind::Depth, LayerKind::Normal, LayerKind::Gradient, LayerKind::First])
         .with(|s| s.shading = Some(Shading::default()));
     [(DVec3::Y, DVec3::Z), (-DVec3::X, DVec3::Y)].map(|(direction, up)| along_axes(&regular, direction, up))
@@ -193,7 +193,7 @@ fn dyadic() -> f64 {
 
 fn dyadic_styles() -> f64 {
     let nodes = [(-5.0, "look", 0.0), (10.0, "look", 0.25), (25.0, "look", 0.5)];
-    let shot = Shot::styled(on(phantom(), whole), vec![look(false)], &nodes)
+    let shot = Stage::styled(on(phantom(), whole), vec![look(false)], &nodes)
         .with(|s| s.volume.gradient_range = GradientRange::Fixed([0.0, 16.0]));
     let mut differ = 0.0;
     for (direction, up) in [(DVec3::Y, DVec3::Z), (-DVec3::X, DVec3::Y)] {
@@ -239,9 +239,9 @@ fn waves() -> f64 {
         for (j, camera) in cameras.iter().enumerate() {
             let kappa = if j == 0 { Kappa::Exact } else { Kappa::Ray };
             let shot = if (i + j) % 3 == 2 {
-                Shot::regular(volume.clone(), &regular).with(|s| s.shading = Some(Shading::default()))
+                Stage::regular(volume.clone(), &regular).with(|s| s.shading = Some(Shading::default()))
             } else {
-                Shot::styled(volume.clone(), vec![look(false)], &styled)
+                Stage::styled(volume.clone(), vec![look(false)], &styled)
                     .with(|s| s.contours = Some(Contours { kappa, ..Contours::default() }))
             };
             let here = shot.with(|s| {

@@ -1,6 +1,6 @@
 //! Early termination ([RAY-2]): it costs at most ε·c_max a channel, and ends where the opacity is reached.
 
-use crate::common::{Shot, ball, largest_difference};
+use crate::common::{Stage, ball, largest_difference};
 use crate::stability::{Case, Theme, U, worse};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{Background, BlendSpace, Number, Shading};
@@ -44,9 +44,9 @@ fn early_termination() {
 }
 
 /// A soft ball with a bright core behind a dark shell: what is cut off is the brightest there is.
-fn soft() -> Shot {
+fn soft() -> Stage {
     let nodes = [(-2.0, [0.1, 0.05, 0.0], 0.0), (1.0, [0.2, 0.1, 0.0], 0.3), (4.0, [0.5, 1.0, 0.2], 0.5)];
-    Shot::regular(ball(20, 8.0), &nodes)
+    Stage::regular(ball(20, 8.0), &nodes)
         .seen_along([0.3, 0.8, 0.2])
         .with(|s| s.picture.background = Background::Color([1.0, 0.9, 0.8, 1.0]))
 }
@@ -97,7 +97,7 @@ fn steepest() -> f64 {
             let through = (epsilon * share / 2.4f64).min(0.99);
             let slab = crate::common::volume([4, 3, 4], |p| p.y);
             let nodes = [(0.0, [0.0; 3], 1.0 - through), (0.5, [1.0; 3], 1.0), (2.0, [1.0; 3], 1.0)];
-            let shot = Shot::regular(slab, &nodes).step(1.0).with(|s| {
+            let shot = Stage::regular(slab, &nodes).step(1.0).with(|s| {
                 s.picture.blend_space = BlendSpace::Srgb;
                 s.picture.size = [1, 1];
                 // Planes at half depths: one in each voxel's plane.
@@ -116,7 +116,7 @@ fn steepest() -> f64 {
 /// A ray ends at the first sample with A ≥ 1 − ε: opacities ½ a sample reach ¾ at the second and 1 − 2⁻ⁿ at the n-th.
 #[test]
 fn rays_end_at_the_sample_that_reaches_the_bound() {
-    let shot = Shot::regular(crate::common::volume([4, 51, 4], |_| 1.0), &[(0.0, [1.0; 3], 0.5)])
+    let shot = Stage::regular(crate::common::volume([4, 51, 4], |_| 1.0), &[(0.0, [1.0; 3], 0.5)])
         .layers(&[LayerKind::Counts])
         .step(1.0)
         .with(|s| {

@@ -1,7 +1,7 @@
 //! Thresholds that are met exactly ([STF-3], [STF-7], [RAY-1], [RAY-2]).
 
 use crate::common::strip::ramp;
-use crate::common::{Shot, largest_difference, on, orthographic, volume};
+use crate::common::{Stage, largest_difference, on, orthographic, volume};
 use crate::stability::{Case, Theme, worst};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -57,7 +57,7 @@ fn thresholds_met_exactly() {
 }
 
 /// One pixel along y, with a plane on every voxel.
-fn on_voxels(shot: &Shot) -> Shot {
+fn on_voxels(shot: &Stage) -> Stage {
     shot.layers(&[LayerKind::Z, LayerKind::Counts]).step(1.0).with(|s| {
         s.picture.size = [1, 1];
         s.camera = orthographic(Some(1.0));
@@ -84,7 +84,7 @@ fn steps_at_values() -> f64 {
                         } else {
                             [(value(i), [1.0; 3], 0.0), (value(i), [1.0; 3], 1.0)]
                         };
-                        let shot = Shot::regular(field, &nodes).with(|s| {
+                        let shot = Stage::regular(field, &nodes).with(|s| {
                             (s.sampling.kernel, s.sampling.number) = (kernel, number);
                         });
                         let depth = on_voxels(&shot).render().one(LayerKind::Z)[0];
@@ -107,15 +107,16 @@ fn every_byte() -> f64 {
         for number in [Number::F64, Number::F32] {
             for at in (0..=255).step_by(5) {
                 let value = volume.value([at, 0, 0]);
-                let shot = Shot::regular(volume.clone(), &[(value, [1.0; 3], 0.0), (value, [1.0; 3], 1.0)]).with(|s| {
-                    s.sampling.number = number;
-                    s.picture.size = [256, 1];
-                    // A pixel a voxel.
-                    s.camera = orthographic(Some(1.0));
-                    s.camera.direction = DVec3::Y;
-                    s.camera.eye = Some(DVec3::new(127.5, 0.0, 0.0));
-                    s.camera.direction_given = true;
-                });
+                let shot =
+                    Stage::regular(volume.clone(), &[(value, [1.0; 3], 0.0), (value, [1.0; 3], 1.0)]).with(|s| {
+                        s.sampling.number = number;
+                        s.picture.size = [256, 1];
+                        // A pixel a voxel.
+                        s.camera = orthographic(Some(1.0));
+                        s.camera.direction = DVec3::Y;
+                        s.camera.eye = Some(DVec3::new(127.5, 0.0, 0.0));
+                        s.camera.direction_given = true;
+                    });
                 let seen = shot.render().pixels();
                 wrong += seen.iter().enumerate().filter(|(byte, p)| (p[3] == 1.0) != (*byte >= at)).count();
             }
@@ -128,7 +129,7 @@ fn contour_threshold() -> f64 {
     let g = DVec3::new(0.3, 0.4, 0.0);
     let wall = on(Grid::with_spacing([9, 9, 9], [1.0; 3]).unwrap(), |p| g.dot(p));
     worst([0.2f64, 0.6].into_iter().flat_map(|alpha_u| {
-        let shot = Shot::styled(wall.clone(), vec![ramp()], &[(-9.0, "ramp", alpha_u)]).with(|s| {
+        let shot = Stage::styled(wall.clone(), vec![ramp()], &[(-9.0, "ramp", alpha_u)]).with(|s| {
             s.volume.gradient_range = GradientRange::Fixed([0.0, 1.0]);
             s.camera.projection = orthographic(Some(3.0)).projection;
             s.picture.size = [3, 3];
@@ -152,7 +153,7 @@ fn contour_threshold() -> f64 {
 }
 
 fn termination() -> f64 {
-    let shot = Shot::regular(volume([5, 60, 5], |_| 1.0), &[(0.0, [1.0; 3], 0.5)]);
+    let shot = Stage::regular(volume([5, 60, 5], |_| 1.0), &[(0.0, [1.0; 3], 0.5)]);
     let samples =
         |epsilon: f64| on_voxels(&shot).with(|s| s.sampling.stop_below = epsilon).render().one(LayerKind::Counts)[0];
     let off = (1..=40).map(|n| {

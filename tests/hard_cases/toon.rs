@@ -1,6 +1,6 @@
 //! Tones, silhouettes and view-dependent opacity at their edges ([HATCH-15]).
 
-use crate::common::{Shot, ball, orthographic, volume};
+use crate::common::{Stage, ball, orthographic, volume};
 use crate::stability::{Case, Theme, differing, worst};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::math::scale_by_power_of_two;
@@ -84,7 +84,7 @@ fn values_by_two() -> f64 {
     let scenes = |scale: f64| {
         let soft = ball(16, 6.0);
         let of = volume([16; 3], |p| scale * soft.value([p.x as usize, p.y as usize, p.z as usize]));
-        let function = Shot::regular(of, &[(-2.0 * scale, COLOR, 0.0), (2.0 * scale, COLOR, 0.4)]).with(|s| {
+        let function = Stage::regular(of, &[(-2.0 * scale, COLOR, 0.0), (2.0 * scale, COLOR, 0.4)]).with(|s| {
             s.camera = orthographic(Some(15.0));
             s.camera.direction = DVec3::new(0.4, 0.8, -0.5);
             s.shading = Some(everything(2.0));
@@ -110,8 +110,8 @@ fn values_by_two() -> f64 {
 }
 
 /// A field that rises along z, of one colour, seen so that |N·V| is a cosine; the box is wider than the picture.
-fn slope(cosine: f64) -> Shot {
-    Shot::regular(volume([20; 3], |p| p.z), &[(0.0, COLOR, 0.06)]).step(0.25).with(|s| {
+fn slope(cosine: f64) -> Stage {
+    Stage::regular(volume([20; 3], |p| p.z), &[(0.0, COLOR, 0.06)]).step(0.25).with(|s| {
         s.camera = orthographic(Some(4.0));
         s.camera.direction = DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
         s.camera.up = DVec3::Y;
@@ -121,11 +121,11 @@ fn slope(cosine: f64) -> Shot {
 }
 
 /// ln T of each pixel.
-fn depths(shot: &Shot) -> Vec<f64> {
+fn depths(shot: &Stage) -> Vec<f64> {
     shot.render().pixels().iter().map(|p| (1.0 - p[3]).ln()).collect()
 }
 
-fn with_strength(shot: &Shot, s: f64) -> Shot {
+fn with_strength(shot: &Stage, s: f64) -> Stage {
     shot.with(|scene| scene.shading = Some(Shading { view_opacity: s, ..Shading::default() }))
 }
 
@@ -164,10 +164,10 @@ fn steps_halved() -> f64 {
 }
 
 fn nothing_to_change() -> f64 {
-    let soft = Shot::regular(ball(16, 6.0), &[(-2.0, COLOR, 0.0), (2.0, COLOR, 0.4)]);
-    let hard = Shot::regular(ball(16, 6.0), &[(0.0, COLOR, 0.0), (0.0, COLOR, 1.0)]);
-    let clear = Shot::regular(ball(16, 6.0), &[(0.0, COLOR, 0.0)]);
-    let bits = |shot: &Shot, shading: Shading| shot.with(|s| s.shading = Some(shading)).render().bits();
+    let soft = Stage::regular(ball(16, 6.0), &[(-2.0, COLOR, 0.0), (2.0, COLOR, 0.4)]);
+    let hard = Stage::regular(ball(16, 6.0), &[(0.0, COLOR, 0.0), (0.0, COLOR, 1.0)]);
+    let clear = Stage::regular(ball(16, 6.0), &[(0.0, COLOR, 0.0)]);
+    let bits = |shot: &Stage, shading: Shading| shot.with(|s| s.shading = Some(shading)).render().bits();
     let phong = |view_opacity| Shading { view_opacity, ..Shading::default() };
     assert_ne!(bits(&soft, phong(0.0)), bits(&soft, phong(0.5)));
     let plain = soft.with(|s| s.shading = Some(Shading::default())).render();
@@ -185,7 +185,7 @@ fn without_normal() -> f64 {
     // L·v is 1, 0 and −1: with the offset of 0.1 the third, first and first tone.
     for (light, tone) in [(DVec3::Z, 1.0), (DVec3::X, 0.125), (-DVec3::Z, 0.125)] {
         for number in [Number::F64, Number::F32] {
-            let flat = Shot::regular(volume([6; 3], |_| 1000.3), &[(0.0, COLOR, 1.0)]).with(|s| {
+            let flat = Stage::regular(volume([6; 3], |_| 1000.3), &[(0.0, COLOR, 1.0)]).with(|s| {
                 s.shading = Some(Shading { light: Some(LightDirection::Eye(light)), ..everything(3.0) });
                 s.sampling.number = number;
             });
@@ -202,7 +202,7 @@ fn without_normal() -> f64 {
 /// A light in eye space turns with the camera: a renderer that is turned draws what a new one does.
 #[test]
 fn a_turned_camera_takes_its_light_along() {
-    let function = Shot::regular(ball(16, 6.0), &[(-2.0, COLOR, 0.0), (2.0, COLOR, 0.4)])
+    let function = Stage::regular(ball(16, 6.0), &[(-2.0, COLOR, 0.0), (2.0, COLOR, 0.4)])
         .with(|s| s.shading = Some(everything(1.0)));
     let surface = function.with(|s| {
         s.transfer = None;
@@ -222,7 +222,7 @@ fn a_turned_camera_takes_its_light_along() {
 #[test]
 fn a_mirrored_light_makes_a_mirrored_picture() {
     let lit = |x: f64| {
-        let shot = Shot::regular(ball(17, 6.3), &[(0.0, COLOR, 0.0), (0.0, COLOR, 1.0)]).with(|s| {
+        let shot = Stage::regular(ball(17, 6.3), &[(0.0, COLOR, 0.0), (0.0, COLOR, 1.0)]).with(|s| {
             s.picture.size = [31, 31];
             s.camera = orthographic(Some(15.0));
             s.camera.direction = DVec3::Y;

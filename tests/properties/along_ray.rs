@@ -3,7 +3,7 @@
 use super::generator::{camera, grid};
 use crate::common::lattice::sighted;
 use crate::common::random::Random;
-use crate::common::{Shot, corrected, plain};
+use crate::common::{Stage, corrected, plain};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind::CurvatureAlongView;
 use drypoint::scene::tables::{
@@ -34,7 +34,7 @@ fn the_turn_since_the_plane_before() {
         let flip = r.pick(&[SignFlip::TwoSided, SignFlip::Literal]);
         let normal = r.pick(&[NormalSide::Outward, NormalSide::Facing, NormalSide::Gradient]);
         let outside = r.pick(&[Outside::Low, Outside::High]);
-        let shot = Shot::styled(volume, vec![plain("a", [0.5, 0.5, 0.5, 1.0])], &nodes)
+        let shot = Stage::styled(volume, vec![plain("a", [0.5, 0.5, 0.5, 1.0])], &nodes)
             .with_transfer(|t| t.transparency = Transparency::Plain)
             .layers(&[CurvatureAlongView])
             .with(|s| {

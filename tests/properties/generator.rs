@@ -2,7 +2,7 @@
 
 use super::over_two::over_two;
 use crate::common::random::Random;
-use crate::common::{LAYERS, Shot, perspective, plain, style};
+use crate::common::{LAYERS, Stage, perspective, plain, style};
 use drypoint::scene::color::Rgba;
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::phantom::{self, Allowed};
@@ -184,24 +184,24 @@ fn behind([width, height]: [usize; 2]) -> Vec<Rgba> {
 }
 
 /// The same scene in another size.
-pub(crate) fn resized(shot: &Shot, size: [usize; 2]) -> Shot {
+pub(crate) fn resized(shot: &Stage, size: [usize; 2]) -> Stage {
     let mut other = shot.with(|s| s.picture.size = size);
     other.behind = shot.behind.as_ref().map(|_| behind(size));
     other
 }
 
-fn function(r: &mut Random, volume: Volume) -> Shot {
+fn function(r: &mut Random, volume: Volume) -> Stage {
     let n = 1 + r.below(4);
     let at = at(r, &volume, n);
     let mut shot = if r.once_in(3) {
         let nodes: Vec<_> = at.iter().map(|&a| (a, [r.unit(), r.unit(), r.unit()], opacity(r))).collect();
-        Shot::regular(volume, &nodes)
+        Stage::regular(volume, &nodes)
     } else {
         let mut table = Styles::default();
         let styles = if r.once_in(8) { themed(r, &mut table) } else { styles() };
         let names: Vec<&str> = styles.iter().map(|style| style.name.as_str()).collect();
         let nodes: Vec<_> = at.iter().map(|&a| (a, r.pick(&names), opacity(r))).collect();
-        Shot::styled(volume, styles.clone(), &nodes).with(|s| s.styles = table)
+        Stage::styled(volume, styles.clone(), &nodes).with(|s| s.styles = table)
     };
     let t = shot.scene.transfer.as_mut().unwrap();
     t.mix = r.pick(&[Mix::Premultiplied, Mix::Printed]);
@@ -271,7 +271,7 @@ fn paper(r: &mut Random, scene: &mut Scene) {
 }
 
 /// What the picture is drawn on.
-fn picture(r: &mut Random, shot: &mut Shot) {
+fn picture(r: &mut Random, shot: &mut Stage) {
     let p = &mut shot.scene.picture;
     p.size = r.pick(&[[9, 7], [7, 9], [8, 8], [1, 1], [17, 2]]);
     p.samples = r.pick(&[1, 1, 1, 2]);
@@ -336,7 +336,7 @@ fn silhouette(r: &mut Random) -> Option<SilhouetteShading> {
 }
 
 /// An opaque iso-surface at some value of the volume, or at its lowest, or at one that is found.
-fn iso_surface(r: &mut Random, shot: &mut Shot) {
+fn iso_surface(r: &mut Random, shot: &mut Stage) {
     let [lo, hi] = shot.volume.range();
     let some = lo + r.between(0.0, 1.0) * (hi - lo);
     shot.scene.surface = Some(Surface {
@@ -350,7 +350,7 @@ fn iso_surface(r: &mut Random, shot: &mut Shot) {
 }
 
 /// The scene of a seed.
-pub(crate) fn scene(seed: u64) -> Shot {
+pub(crate) fn scene(seed: u64) -> Stage {
     let r = &mut Random(seed);
     let dims = dims(r);
     let grid = grid(r, dims);

@@ -1,7 +1,7 @@
 //! Rays side by side are rays alone: no bit of the picture and no count tells them apart.
 
 use super::generator::{resized, scene};
-use crate::common::{Shot, Shown};
+use crate::common::{Shown, Stage};
 use drypoint::scene::tables::{
     BlendSpace, GradientEstimator, HessianEstimator, Kappa, Kernel, NormalSide, Number, Sampling, ShadingModel,
     StepAlong, Table, TransferKind,
@@ -9,7 +9,7 @@ use drypoint::scene::tables::{
 use std::collections::BTreeMap;
 
 /// A random scene made into such as lanes serve with the trilinear kernel.
-fn trilinear(seed: u64) -> Shot {
+fn trilinear(seed: u64) -> Stage {
     shot(seed, |sampling| {
         sampling.kernel = Kernel::Trilinear;
         sampling.gradient = if seed.is_multiple_of(3) { GradientEstimator::Sobel } else { GradientEstimator::Central };
@@ -19,7 +19,7 @@ fn trilinear(seed: u64) -> Shot {
 
 /// A random scene made into such as lanes serve, with all else as it came: cameras, steps, spacings, stored types, slopes,
 /// functions with steps and empty stretches, materials, sides of normals, ends of rays. The picture is no multiple of a block.
-fn shot(seed: u64, sampled: impl Fn(&mut Sampling)) -> Shot {
+fn shot(seed: u64, sampled: impl Fn(&mut Sampling)) -> Stage {
     let shot = scene(seed).with(|s| {
         sampled(&mut s.sampling);
         s.sampling.number = Number::F64;
@@ -43,7 +43,7 @@ fn shot(seed: u64, sampled: impl Fn(&mut Sampling)) -> Shot {
 }
 
 /// The picture, if lanes serve the scene, after it was compared with that of rays alone.
-fn compared(seed: u64, shot: &Shot) -> Option<Shown> {
+fn compared(seed: u64, shot: &Stage) -> Option<Shown> {
     let (alone, lanes) = shot.render_ray_by_ray();
     if !lanes {
         return None;

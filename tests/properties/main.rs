@@ -11,5 +11,6 @@ mod marks;
 mod orbit;
 mod order;
 mod over_two;
+mod planes;
 mod scenes;
 mod skipping;

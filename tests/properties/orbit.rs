@@ -1,7 +1,7 @@
 //! A camera that is turned ([STIP-4]): nothing of another frame is left in a picture.
 
 use super::generator::scene;
-use crate::common::{Shot, largest_difference, on};
+use crate::common::{Stage, largest_difference, on};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{LightDirection, Orbit, Shading};
@@ -45,7 +45,7 @@ fn a_turned_camera_sees_a_turned_volume() {
         // Nothing is seen where the box ends, which rounding can move across a sample.
         let nodes = [(40.0, [0.2, 0.5, 0.9], 0.0), (60.0, [0.9, 0.4, 0.1], 0.4)];
         let shot = |volume| {
-            Shot::regular(volume, &nodes).with(|s| {
+            Stage::regular(volume, &nodes).with(|s| {
                 s.shading = shading.clone();
                 s.camera = crate::common::perspective(35.0);
                 s.camera.target = Some(centre);

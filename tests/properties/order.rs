@@ -4,7 +4,7 @@
 use super::generator::scene;
 use crate::common::random::Random;
 use crate::common::strip::ramp;
-use crate::common::{LAYERS, Shot, plain};
+use crate::common::{LAYERS, Stage, plain};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
@@ -19,7 +19,7 @@ fn more_rows_above_and_below_change_no_pixel() {
     let mut checked = 0;
     for seed in 3000..3060 {
         // A background picture is stretched to the frame, so another frame shows another one.
-        let shot = Shot { behind: None, ..scene(seed) };
+        let shot = Stage { behind: None, ..scene(seed) };
         let [width, height] = shot.scene.picture.size;
         let Projection::Orthographic { .. } = shot.scene.camera.projection else { continue };
         // A pixel of exactly ½, so that neither height rounds it.
@@ -87,7 +87,7 @@ fn a_larger_box_changes_no_pixel() {
         let kernel = r.pick(&[Kernel::Trilinear, Kernel::CatmullRom, Kernel::BsplineSmooth]);
         let camera = r.pick(&[crate::common::perspective(25.0), crate::common::orthographic(Some(15.0))]);
         let seen = |more: usize| {
-            let shot = Shot::styled(with(more), vec![ramp()], &[(0.2, "ramp", 0.0), (0.9, "ramp", 0.6)]);
+            let shot = Stage::styled(with(more), vec![ramp()], &[(0.2, "ramp", 0.0), (0.9, "ramp", 0.6)]);
             shot.layers(&LAYERS)
                 .with(|s| {
                     s.camera = camera.clone();
@@ -119,7 +119,7 @@ fn units_of_nodes_are_one_function() {
     let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
     let seen = |unit, at: [f64; 3]| {
         let nodes: Vec<_> = at.into_iter().zip([0.0, 0.3, 0.6]).map(|(at, opacity)| (at, "a", opacity)).collect();
-        Shot::styled(volume.clone(), vec![plain("a", [0.2, 0.5, 0.7, 0.9])], &nodes)
+        Stage::styled(volume.clone(), vec![plain("a", [0.2, 0.5, 0.7, 0.9])], &nodes)
             .with_transfer(|t| t.unit = unit)
             .with(|s| s.volume.range = Some([-64.0, 64.0]))
             .render()

@@ -1,7 +1,7 @@
 //! Functions over two quantities ([STF-4]) at random, and what holds for all of them.
 
 use super::generator::{at, dims, grid, opacity, scene, volume};
-use crate::common::Shot;
+use crate::common::Stage;
 use crate::common::random::Random;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
@@ -24,7 +24,7 @@ fn labels(r: &mut Random, own: &Grid) -> LabelVolume {
 }
 
 /// Gives a scene labels, now and then with names: that of label n is `part n`.
-fn give_labels(r: &mut Random, shot: &mut Shot, own: &Grid) {
+fn give_labels(r: &mut Random, shot: &mut Stage, own: &Grid) {
     shot.labels = Some(labels(r, own));
     let table = &mut shot.scene.volume;
     table.labels = Some("labels.nrrd".into());
@@ -32,7 +32,7 @@ fn give_labels(r: &mut Random, shot: &mut Shot, own: &Grid) {
 }
 
 /// Whether the labels of a scene have names.
-fn names(shot: &Shot) -> bool {
+fn names(shot: &Stage) -> bool {
     shot.scene.volume.label_names.is_some()
 }
 
@@ -48,7 +48,7 @@ fn rows_of_ids(r: &mut Random, ids: &[f64], named: bool) -> Vec<RowAt> {
 }
 
 /// A quantity other than the value, and numbers that it has or nearly has.
-fn quantity(r: &mut Random, shot: &mut Shot, which: usize) -> (Axis, [f64; 2]) {
+fn quantity(r: &mut Random, shot: &mut Stage, which: usize) -> (Axis, [f64; 2]) {
     let own = shot.volume.grid().clone();
     let [lo, hi] = shot.volume.range();
     match r.below(11) {
@@ -85,10 +85,10 @@ fn quantity(r: &mut Random, shot: &mut Shot, which: usize) -> (Axis, [f64; 2]) {
 }
 
 /// Gives the function of a scene two quantities: rows of its own nodes' looks.
-pub(crate) fn over_two(r: &mut Random, shot: &mut Shot) {
+pub(crate) fn over_two(r: &mut Random, shot: &mut Stage) {
     let looks: Vec<NodeColor> =
         shot.scene.transfer.as_ref().unwrap().nodes.iter().flatten().map(|node| node.color.clone()).collect();
-    let values = |r: &mut Random, shot: &Shot, n: usize| match shot.scene.transfer.as_ref().unwrap().unit {
+    let values = |r: &mut Random, shot: &Stage, n: usize| match shot.scene.transfer.as_ref().unwrap().unit {
         Unit::Percentile => (0..n).map(|i| 100.0 * i as f64 / n.max(2) as f64).collect(),
         Unit::Normalized => (0..n).map(|i| (i as f64 + 0.2) / n as f64).collect(),
         _ => at(r, &shot.volume, n),
@@ -118,7 +118,7 @@ pub(crate) fn over_two(r: &mut Random, shot: &mut Shot) {
         return;
     }
     let is_id = axes.each_ref().map(Axis::is_id);
-    let places = |r: &mut Random, shot: &Shot, i: usize, n| match value {
+    let places = |r: &mut Random, shot: &Stage, i: usize, n| match value {
         Some(v) if v == i => values(r, shot, n),
         _ if is_id[i] => match ids(r, n) {
             none if none.is_empty() => vec![2.0],
@@ -238,7 +238,7 @@ fn axes_can_be_exchanged() {
             let row = |j: usize| Row { at: RowAt::Number(down[j]), nodes: (0..3).map(|i| node(i, j)).collect() };
             (0..3).map(row).collect()
         };
-        let with = |shot: &Shot, axes, rows| {
+        let with = |shot: &Stage, axes, rows| {
             shot.with_transfer(|t| {
                 *t = Transfer { over: Over::Two(axes), unit: Unit::Value, nodes: None, rows: Some(rows), ..t.clone() };
             })

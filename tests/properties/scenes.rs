@@ -1,7 +1,7 @@
 //! Every scene: nothing undefined, opacities in [0, 1], one picture however it is made.
 
 use super::generator::{resized, scene};
-use crate::common::{Shot, Shown};
+use crate::common::{Shown, Stage};
 use drypoint::scene::picture::LayerKind;
 
 const SEEDS: std::ops::Range<u64> = 0..400;
@@ -29,7 +29,7 @@ fn sound(shown: &Shown, place: &str) {
 }
 
 /// [RAY-2]: skipping changes no bit of any layer but the count of samples.
-fn skipping_shows_nowhere(shot: &Shot, shown: &Shown, place: &str) {
+fn skipping_shows_nowhere(shot: &Stage, shown: &Shown, place: &str) {
     let without = shot.with(|s| s.sampling.skip_empty = false).render();
     assert_eq!(shown.bits(), without.bits(), "{place}");
     assert!(shown.counts.samples <= without.counts.samples, "{place}");

@@ -1,7 +1,7 @@
 //! The traps of empty-space skipping ([RAY-2]): steps set exactly where a kernel's values are.
 
 use super::generator::{KERNELS, camera, dims, grid, volume};
-use crate::common::Shot;
+use crate::common::Stage;
 use crate::common::lattice::sighted;
 use crate::common::random::Random;
 use drypoint::scene::glam::DVec3;
@@ -9,14 +9,14 @@ use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Kernel, Length, Number, StepAlong};
 use drypoint::scene::volume::{Volume, Voxels};
 
-fn same_bits(shot: &Shot, place: &str) -> usize {
+fn same_bits(shot: &Stage, place: &str) -> usize {
     let (with, without) = (shot.render(), shot.with(|s| s.sampling.skip_empty = false).render());
     assert_eq!(with.bits(), without.bits(), "{place}");
     with.covered()
 }
 
 /// The values of all samples, as the caster has them.
-fn values(shot: &Shot) -> Vec<f64> {
+fn values(shot: &Stage) -> Vec<f64> {
     let rays = match shot.scene.sampling.number {
         Number::F64 => sighted::<f64>(shot),
         Number::F32 => sighted::<f32>(shot),
@@ -36,7 +36,7 @@ fn the_most_extreme_samples_are_seen() {
         let dims = dims(r);
         let grid = grid(r, dims);
         let volume = volume(r, grid.clone());
-        let shot = Shot::regular(volume, &[(0.0, [1.0; 3], 1.0)]).with(|s| {
+        let shot = Stage::regular(volume, &[(0.0, [1.0; 3], 1.0)]).with(|s| {
             s.camera = camera(r, &grid);
             s.picture.size = [8, 8];
             s.sampling.kernel = r.pick(&KERNELS);
@@ -56,7 +56,7 @@ fn the_most_extreme_samples_are_seen() {
         let functions = [from(highest), upto(lowest), from(some), upto(some), only(some), only(highest), only(lowest)];
         for (i, nodes) in functions.into_iter().enumerate() {
             let nodes: Vec<_> = nodes.into_iter().map(|(at, opacity)| (at, [1.0; 3], opacity)).collect();
-            let function = Shot::regular(shot.volume.clone(), &nodes).scene.transfer;
+            let function = Stage::regular(shot.volume.clone(), &nodes).scene.transfer;
             let with = shot.with(|s| s.transfer = function);
             let covered = same_bits(&with, &format!("seed {seed}, function {i}: {:?}", with.scene));
             assert!(covered > 0, "seed {seed}, function {i}: a sample has the value, and none is seen");
@@ -76,7 +76,7 @@ fn the_farthest_overshoot() {
         if near { sign(p.x) * sign(p.y) * sign(p.z) } else { 0.0 }
     });
     for at in [1.953_125, 1.953] {
-        let shot = Shot::regular(volume.clone(), &[(at, [1.0; 3], 0.0), (at, [1.0; 3], 0.5)]).with(|s| {
+        let shot = Stage::regular(volume.clone(), &[(at, [1.0; 3], 0.0), (at, [1.0; 3], 0.5)]).with(|s| {
             s.sampling.kernel = Kernel::CatmullRom;
             // The middle ray of one pixel, with a plane through the middle.
             s.picture.size = [1, 1];
@@ -98,7 +98,7 @@ fn nodes_are_rounded_as_samples_see_them() {
     let stored = (0..8000).map(|i| if i % 20 < 10 { 0 } else { 100 }).collect();
     let volume = Volume::new(grid, Voxels::U8(stored), 0.001, 1000.0).unwrap();
     let node = 1000.1;
-    let shot = Shot::regular(volume, &[(node, [1.0; 3], 0.0), (node, [1.0; 3], 0.5)])
+    let shot = Stage::regular(volume, &[(node, [1.0; 3], 0.0), (node, [1.0; 3], 0.5)])
         .with(|s| s.sampling.number = Number::F32);
     assert!(f64::from(1000.1f32) < node);
     assert!(same_bits(&shot, "f32 nodes") > 0);
@@ -114,7 +114,7 @@ fn constants_on_a_node() {
                     let flat = crate::common::volume(dims, |_| value);
                     for (before, after) in [(0.0, 0.5), (0.5, 0.0), (0.0, 0.0)] {
                         let nodes = [(value, [1.0; 3], before), (value, [1.0; 3], after)];
-                        let shot = Shot::regular(flat.clone(), &nodes).with(|s| {
+                        let shot = Stage::regular(flat.clone(), &nodes).with(|s| {
                             (s.sampling.kernel, s.sampling.number) = (kernel, number);
                         });
                         let covered = same_bits(&shot, &format!("{kernel:?} {value} {dims:?}"));
@@ -143,7 +143,7 @@ fn looking_back_across_skipped_bricks() {
         }
         let volume = Volume::new(grid.clone(), Voxels::F64(voxels), 1.0, 0.0).unwrap();
         let styles = vec![plain("a", [0.2, 0.4, 0.6, 0.9]), style("b", 8, |x, y| [x.abs(), y.abs(), 0.5, 1.0])];
-        let shot = Shot::styled(volume, styles, &[(1.5, "a", 0.0), (4.0, "b", 0.4)]).with(|s| {
+        let shot = Stage::styled(volume, styles, &[(1.5, "a", 0.0), (4.0, "b", 0.4)]).with(|s| {
             s.camera = camera(r, &grid);
             s.sampling.kernel = r.pick(&KERNELS);
             s.sampling.step = Length::Voxels(r.pick(&[0.3, 1.0, 4.0]));
@@ -164,7 +164,7 @@ fn close_ups_and_far_eyes() {
         // Seen are a few voxels, not their neighbours.
         let voxels: Vec<f64> = (0..grid.len()).map(|_| if r.once_in(60) { 1.0 } else { 0.0 }).collect();
         let volume = Volume::new(grid.clone(), Voxels::F64(voxels), 1.0, 0.0).unwrap();
-        let shot = Shot::regular(volume, &[(0.4, [1.0; 3], 0.0), (1.0, [0.5; 3], 0.5)]).with(|s| {
+        let shot = Stage::regular(volume, &[(0.4, [1.0; 3], 0.0), (1.0, [0.5; 3], 0.5)]).with(|s| {
             s.sampling.number = r.pick(&[Number::F64, Number::F64, Number::F32]);
             s.picture.size = [20, 18];
             let direction = DVec3::from_array(r.direction()).normalize();

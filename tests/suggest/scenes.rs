@@ -146,3 +146,48 @@ fn the_embedded_scene_needs_no_file() {
     let scene = load(&embedded, &Overrides::default()).unwrap();
     assert!(matches!(scene.volume.source, VolumeSource::Phantom(_)));
 }
+
+/// Every scene that draws the volume, with its lines and surfaces: plane by plane to the bits and the counts of ray by ray.
+#[test]
+fn every_scene_is_the_same_plane_by_plane() {
+    let (mut compared, mut merged, mut surfaces) = (0, 0, 0);
+    for path in all() {
+        if data().is_none() && !is_of_a_phantom(&path) {
+            println!("skipped: no data for {}", path.display());
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        let mut small = vec![("picture.samples", "1")];
+        if text.contains("\nwidth = ") {
+            small.extend([("picture.width", "40 mm"), ("picture.height", "40 mm"), ("picture.dpi", "30")]);
+        } else {
+            small.push(("picture.size", "[48, 40]"));
+        }
+        let job = Job::load(load(&path, &small.into_iter().collect()).unwrap()).unwrap();
+        if !job.draws_volume() {
+            continue;
+        }
+        let mut counts = Counts::default();
+        let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
+        let draw = |planes: bool| {
+            let drawing = Drawing::new(&job, &marking, &mut Counts::default()).unwrap();
+            let mut drawing = if planes { drawing.plane_by_plane() } else { drawing };
+            drawing.frame(0, &|_| ()).unwrap()
+        };
+        let [(rays, by_rays), (planes, by_planes)] = [false, true].map(draw);
+        let bits = |picture: &Option<Picture>| {
+            let layers = picture.iter().flat_map(|picture| &picture.layers);
+            layers.flat_map(|layer| layer.channels.iter().flatten()).map(|v| v.to_bits()).collect::<Vec<_>>()
+        };
+        assert!(bits(&rays.picture) == bits(&planes.picture), "{}", path.display());
+        let work = |c: &Counts| {
+            [c.samples, c.gradients, c.hessians, c.style_lookups, c.without_normal, c.rays, c.rays_skipped]
+        };
+        assert_eq!(work(&by_rays), work(&by_planes), "{}", path.display());
+        compared += 1;
+        merged += usize::from(rays.inside > 0);
+        surfaces += usize::from(job.scene.surface.is_some());
+    }
+    println!("{compared} scenes, {merged} with lines inside, {surfaces} with surfaces");
+    assert!(data().is_none() || (compared > 25 && merged > 0 && surfaces > 5));
+}

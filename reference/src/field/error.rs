@@ -1,14 +1,13 @@
 //! Reconstructions that cannot be.
 
+use drypoint_scene::shot::NotSmooth;
+
 /// A field that cannot be prepared.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FieldError {
     /// An `analytic` Hessian of a kernel without a continuous second derivative ([REC-3]).
-    #[error("hessian = \"analytic\" needs a kernel that is twice differentiable: \"{kernel}\" is not, \"bspline\" is")]
-    NotSmooth {
-        /// The kernel's name in a scene.
-        kernel: &'static str,
-    },
+    #[error(transparent)]
+    NotSmooth(#[from] NotSmooth),
     /// Values that the number type of the samples does not hold.
     #[error("values up to {largest:e} are too large for the number type of the samples")]
     TooLarge {

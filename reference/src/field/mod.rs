@@ -30,7 +30,7 @@ mod tests;
 
 pub(crate) use cell_ranges::CELLS;
 pub(crate) use columns::Columns;
-pub use drypoint_scene::tables::{GradientEstimator, HessianEstimator, Kernel, Outside};
+pub use drypoint_scene::shot::{GradientEstimator, HessianEstimator, Kernel, Outside, Reconstruction, Rung};
 pub use error::FieldError;
 pub use exact::Exact;
 pub(crate) use place::Cells;
@@ -46,44 +46,6 @@ use gradient::regression::Regression;
 use kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use std::collections::BTreeMap;
 use stencil::Stencils;
-
-/// How the field is reconstructed. The default is the papers': trilinear, central differences.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reconstruction {
-    /// Kernel of the values ([REC-1]).
-    pub kernel: Kernel,
-    /// Estimator of the gradient ([REC-2]).
-    pub gradient: GradientEstimator,
-    /// Estimator of the Hessian ([REC-3]).
-    pub hessian: HessianEstimator,
-    /// σ of the `gaussian` Hessian, in world units.
-    pub scale: f64,
-    /// Which values lie outside ([NORM-1]).
-    pub outside: Outside,
-}
-
-impl Default for Reconstruction {
-    fn default() -> Self {
-        Self {
-            kernel: Kernel::Trilinear,
-            gradient: GradientEstimator::Central,
-            hessian: HessianEstimator::Auto,
-            scale: 1.0,
-            outside: Outside::Low,
-        }
-    }
-}
-
-/// What will be asked of a field. What is not asked for is not allocated ([PLAN-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rung {
-    /// Values.
-    Value,
-    /// Values and gradients.
-    Gradient,
-    /// Values, gradients and Hessians.
-    Hessian,
-}
 
 /// A volume with a reconstruction: what the samples read.
 #[derive(Clone, Debug)]
@@ -135,7 +97,8 @@ impl<'v, R: Real> Field<'v, R> {
     /// # Errors
     /// Those of [`FieldError`], whatever the rung.
     pub fn new(volume: &'v Volume, how: Reconstruction, rung: Rung) -> Result<Self, FieldError> {
-        let how = Reconstruction { hessian: resolved(&how, volume)?, ..how };
+        let is_integer = volume.voxels().voxel_type().is_integer();
+        let how = Reconstruction { hessian: how.hessian.resolved(how.kernel, is_integer)?, ..how };
         let grid = volume.grid();
         let stencils = Stencils::new::<R>(volume);
 
@@ -294,21 +257,5 @@ impl<'v, R: Real> Field<'v, R> {
     /// D⁻ᵀ H D⁻¹ in the value's units, times 2^−e: scaled first, so that nothing overflows on the way.
     fn to_world_hessian(&self, index: Sym3<R>) -> Sym3<R> {
         self.inverse_transpose.congruence(index.scaled(self.derivative))
-    }
-}
-
-/// The estimator of the Hessian, with `auto` decided ([REC-3]).
-fn resolved(how: &Reconstruction, volume: &Volume) -> Result<HessianEstimator, FieldError> {
-    let rough = match how.kernel {
-        Kernel::Trilinear => Some("trilinear"),
-        Kernel::CatmullRom => Some("catmull-rom"),
-        Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5 => None,
-    };
-    match (how.hessian, rough) {
-        (HessianEstimator::Auto, _) if volume.voxels().voxel_type().is_integer() => Ok(HessianEstimator::Gaussian),
-        (HessianEstimator::Auto, Some(_)) => Ok(HessianEstimator::Central),
-        (HessianEstimator::Auto, None) => Ok(HessianEstimator::Analytic),
-        (HessianEstimator::Analytic, Some(kernel)) => Err(FieldError::NotSmooth { kernel }),
-        (named, _) => Ok(named),
     }
 }

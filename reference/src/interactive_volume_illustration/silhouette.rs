@@ -1,7 +1,6 @@
 //! Silhouettes: black where the surface turns away from the eye (4.4, [HATCH-15]).
 
 use crate::number::Real;
-use drypoint_scene::tables::SilhouetteShading;
 
 /// The test (N·V)² + offset > ½.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,9 +9,9 @@ pub struct Silhouette<R> {
 }
 
 impl<R: Real> Silhouette<R> {
-    /// By its table.
-    pub fn new(table: SilhouetteShading) -> Self {
-        Self { offset: R::from_f64(table.offset) }
+    /// The test with its offset.
+    pub fn new(offset: f64) -> Self {
+        Self { offset: R::from_f64(offset) }
     }
 
     /// Whether a place with that N·V, of either sign, is black.
@@ -30,9 +29,9 @@ mod tests {
     #[test]
     fn black_up_to_the_root() {
         let black = |offset: f64, x: f64| {
-            let silhouette = Silhouette::<f64>::new(SilhouetteShading { offset });
+            let silhouette = Silhouette::<f64>::new(offset);
             assert_eq!(silhouette.is_black(x), silhouette.is_black(-x));
-            assert_eq!(silhouette.is_black(x), Silhouette::<f32>::new(SilhouetteShading { offset }).is_black(x as f32));
+            assert_eq!(silhouette.is_black(x), Silhouette::<f32>::new(offset).is_black(x as f32));
             silhouette.is_black(x)
         };
         assert!(black(0.25, 0.5) && !black(0.25, 0.53125) && black(0.25, 0.0));

@@ -1,9 +1,7 @@
 //! Toon shading: tones with hard steps, by the angle between normal and light (4.4, [HATCH-15]).
 
 use crate::number::{Real, Vec3};
-use crate::shading::towards;
-use drypoint_scene::tables::{LightDirection, ToonShading};
-use drypoint_scene::view::View;
+use drypoint_scene::shot::{Tone, ToonParams};
 
 /// Tones under a light; vectors are in world space.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,12 +14,11 @@ pub struct Toon<R> {
 }
 
 impl<R: Real> Toon<R> {
-    /// A table of tones under a light.
-    pub fn new(toon: &ToonShading, light: LightDirection, view: &View) -> Self {
-        let tone =
-            |tone: &drypoint_scene::tables::Tone| (R::from_f64(tone.at), [0, 1, 2].map(|c| R::from_f64(tone.color[c])));
+    /// Prepares the tones of a shot.
+    pub fn new(toon: &ToonParams) -> Self {
+        let tone = |tone: &Tone| (R::from_f64(tone.at), [0, 1, 2].map(|c| R::from_f64(tone.color[c])));
         Self {
-            light: Vec3::from_glam(towards(light, view)),
+            light: Vec3::from_glam(toon.light),
             offset: R::from_f64(toon.offset),
             tones: toon.tones.iter().map(tone).collect(),
         }
@@ -43,18 +40,13 @@ impl<R: Real> Toon<R> {
 mod tests {
     use super::*;
     use drypoint_scene::glam::DVec3;
-    use drypoint_scene::space::Grid;
-    use drypoint_scene::tables::{Camera, Tone};
 
     const COLOR: [f64; 3] = [0.9, 0.5, 0.1];
 
     fn toon<R: Real>(offset: f64, at: &[f64]) -> Toon<R> {
         // Tone i multiplies by (i + 1)/8, which changes no mantissa's length.
         let tone = |(i, &at): (usize, &f64)| Tone { at, color: [(i + 1) as f64 / 8.0, 0.25, 1.0, 1.0] };
-        let table = ToonShading { offset, tones: at.iter().enumerate().map(tone).collect() };
-        let camera = Camera { direction: DVec3::Y, ..Camera::default() };
-        let view = View::new(&camera, &Grid::with_spacing([4; 3], [1.0; 3]).unwrap(), [8, 8]).unwrap();
-        Toon::new(&table, LightDirection::World(DVec3::new(0.0, 0.0, 3.0)), &view)
+        Toon::new(&ToonParams { light: DVec3::Z, offset, tones: at.iter().enumerate().map(tone).collect() })
     }
 
     /// Which tone a normal at cos θ = L·N has.

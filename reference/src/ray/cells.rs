@@ -4,11 +4,11 @@ use crate::field::{CELLS, Field, Kernel};
 use crate::number::Real;
 use drypoint_scene::transfer::Function;
 use drypoint_scene::volume::{BRICK, Bricks};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Which cells a transfer function can see. A brick is looked at when the first ray comes there.
-pub(super) struct Cells<'a> {
-    function: &'a Function,
+pub(super) struct Cells {
+    function: Arc<Function>,
     /// Bricks along x, y, z.
     dims: [usize; 3],
     /// For each brick a bit a cell, x fastest.
@@ -17,11 +17,11 @@ pub(super) struct Cells<'a> {
 
 const _: () = assert!(CELLS == u64::BITS as usize);
 
-impl<'a> Cells<'a> {
+impl Cells {
     /// Where bricks are skipped and a value is of more than eight voxels; nothing is looked at yet.
-    pub(super) fn new(bricks: &Bricks, kernel: Kernel, function: &'a Function) -> Option<Self> {
+    pub(super) fn new(bricks: &Bricks, kernel: Kernel, function: &Arc<Function>) -> Option<Self> {
         let seen = || bricks.ranges.iter().map(|_| OnceLock::new()).collect();
-        (kernel != Kernel::Trilinear).then(|| Self { function, dims: bricks.dims, seen: seen() })
+        (kernel != Kernel::Trilinear).then(|| Self { function: function.clone(), dims: bricks.dims, seen: seen() })
     }
 
     /// Bytes in memory.

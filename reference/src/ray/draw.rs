@@ -1,8 +1,8 @@
 //! The rays of a picture, tile by tile.
 
-use super::cast::Cast;
+use super::composite::plane_order::TileRays;
+use super::composite::{Cast, Sums, pooled};
 use super::lattice::IndexRay;
-use super::layers::{Sums, pooled};
 use super::prepared::Prepared;
 use super::render::Backdrop;
 use super::skip::{Beam, Boxes};
@@ -25,22 +25,35 @@ struct Tile {
     counts: Counts,
 }
 
-/// Casts the rays through points of the picture, in pixels from the top left corner, and appends what comes out of each.
-pub(super) trait CastAll: Fn(&[[f64; 2]], Option<&mut Boxes>, &mut Counts, &mut Vec<Cast>) + Sync {}
+/// Rays of one tile that are to be cast.
+pub(super) struct TileWork<'a> {
+    /// The number of the tile.
+    pub(super) tile: usize,
+    /// Points of the picture that the rays go through, in pixels from the top left corner.
+    pub(super) points: &'a [[f64; 2]],
+    /// Boxes of visible bricks that they can meet; none where nothing is skipped.
+    pub(super) boxes: Option<&'a mut Boxes>,
+    pub(super) counts: &'a mut Counts,
+    /// What comes out of each is appended, in the order of the points.
+    pub(super) casts: &'a mut Vec<Cast>,
+}
 
-impl<F: Fn(&[[f64; 2]], Option<&mut Boxes>, &mut Counts, &mut Vec<Cast>) + Sync> CastAll for F {}
+/// Casts rays of a tile.
+pub(super) trait CastAll: Fn(TileWork<'_>) + Sync {}
+
+impl<F: Fn(TileWork<'_>) + Sync> CastAll for F {}
 
 /// Casts all rays of a picture. Each pixel is a function of its place alone, so neither threads nor the order of tiles
 /// show ([RAY-3]).
 pub(super) fn draw<R: Real>(
     prepared: &Prepared<'_, R>,
-    cast_all: impl CastAll,
+    cast_all: &dyn CastAll,
     background: Backdrop<'_>,
     tile: usize,
     progress: &(dyn Fn(f64) + Sync),
 ) -> (Picture, Counts) {
     let [width, height] = prepared.view.size;
-    let (across, down) = (width.div_ceil(tile), height.div_ceil(tile));
+    let [across, down] = tiles_across(prepared, tile);
     let batch = BATCH / (tile * tile);
     let done = std::sync::atomic::AtomicUsize::new(0);
     let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();
@@ -51,8 +64,7 @@ pub(super) fn draw<R: Real>(
         let tiles: Vec<Tile> = (first..(first + batch).min(across * down))
             .into_par_iter()
             .map(|t| {
-                let at = [t % across * tile, t / across * tile];
-                let drawn = draw_tile(prepared, &cast_all, background, at, &whole, tile);
+                let drawn = draw_tile(prepared, cast_all, background, TilePlace::new(prepared, t, tile), &whole);
                 let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                 progress(n as f64 / (across * down) as f64);
                 drawn
@@ -81,43 +93,31 @@ pub(super) fn draw<R: Real>(
 /// Casts the rays of one tile.
 fn draw_tile<R: Real>(
     prepared: &Prepared<'_, R>,
-    cast_all: &impl CastAll,
+    cast_all: &dyn CastAll,
     background: Backdrop<'_>,
-    [x, y]: [usize; 2],
+    place: TilePlace,
     whole: &[[usize; 2]],
-    side: usize,
 ) -> Tile {
-    let [width, height] = prepared.view.size;
-    let (right, bottom) = ((x + side).min(width), (y + side).min(height));
-    let size = [right - x, bottom - y];
+    let TilePlace { index, at: [x, y], size } = place;
     let mut tile = Tile { x, y, size, pixels: Vec::new(), counts: Counts::default() };
-    let mut boxes = prepared.skip.as_ref().map(|skip| {
-        let corner = |i: usize, j: usize| {
-            let ray = prepared.view.ray(i as f64, j as f64);
-            IndexRay::<R>::new(&ray, &prepared.view, &prepared.lattice, prepared.volume.grid()).rounded()
-        };
-        let corners = [corner(x, y), corner(right, y), corner(right, bottom), corner(x, bottom)];
-        skip.boxes_in(&Beam::new(corners))
-    });
+    let mut boxes = place.boxes(prepared);
     let blocks = blocks_of(size, whole);
     let everywhere = match background {
         Backdrop::Color(c) => color::premultiply(c),
         Backdrop::None | Backdrop::Pixels(_) => [0.0; 4],
     };
     let behind = |[i, j]: [usize; 2]| match background {
-        Backdrop::Pixels(pixels) => pixels[(y + j) * width + x + i],
+        Backdrop::Pixels(pixels) => pixels[(y + j) * prepared.view.size[0] + x + i],
         Backdrop::Color(_) | Backdrop::None => everywhere,
     };
-    // The n×n rays of a pixel go through the centres of its parts ([RAY-6]): the first parts of all pixels are cast, then the
-    // second ones, and so on.
-    let n = prepared.samples;
+    let n = prepared.rays_across;
     let mut sums: Vec<PixelSum> = blocks.iter().map(|_| PixelSum::default()).collect();
     let (mut points, mut casts) = (Vec::with_capacity(blocks.len()), Vec::with_capacity(blocks.len()));
     for part in 0..n * n {
-        let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
         points.clear();
-        points.extend(blocks.iter().map(|[i, j]| [centre(x + i, part % n), centre(y + j, part / n)]));
-        cast_all(&points, boxes.as_mut(), &mut tile.counts, &mut casts);
+        points.extend(blocks.iter().map(|&pixel| place.point(pixel, part, n)));
+        let (boxes, counts) = (boxes.as_mut(), &mut tile.counts);
+        cast_all(TileWork { tile: index, points: &points, boxes, counts, casts: &mut casts });
         for ((sum, cast), place) in sums.iter_mut().zip(casts.drain(..)).zip(&*blocks) {
             sum.add(prepared, cast, behind(*place));
         }
@@ -127,6 +127,70 @@ fn draw_tile<R: Real>(
         sum.append(prepared, &mut tile.pixels);
     }
     tile
+}
+
+/// The rays of all tiles of a picture, each tile's in the order in which [`draw`] asks for them.
+pub(super) fn rays_of_tiles<R: Real>(prepared: &Prepared<'_, R>, side: usize) -> Vec<TileRays> {
+    let n = prepared.rays_across;
+    let whole = in_blocks([side; 2]);
+    let places = (0..tiles_across(prepared, side).iter().product()).into_par_iter();
+    let rays = places.map(|index| {
+        let place = TilePlace::new(prepared, index, side);
+        let blocks = blocks_of(place.size, &whole);
+        let parts = || (0..n * n).flat_map(|part| blocks.iter().map(move |&pixel| (pixel, part)));
+        let ray =
+            |([i, j], part): ([usize; 2], usize)| [(place.at[0] + i) * n + part % n, (place.at[1] + j) * n + part / n];
+        TileRays {
+            points: parts().map(|(pixel, part)| place.point(pixel, part, n)).collect(),
+            places: parts().map(ray).collect(),
+            boxes: place.boxes(prepared),
+        }
+    });
+    rays.collect()
+}
+
+/// Tiles across and down.
+fn tiles_across<R: Real>(prepared: &Prepared<'_, R>, side: usize) -> [usize; 2] {
+    prepared.view.size.map(|n| n.div_ceil(side))
+}
+
+/// Where a tile lies in the picture.
+#[derive(Clone, Copy)]
+struct TilePlace {
+    index: usize,
+    /// Its first pixel.
+    at: [usize; 2],
+    /// Pixels across and down.
+    size: [usize; 2],
+}
+
+impl TilePlace {
+    fn new<R: Real>(prepared: &Prepared<'_, R>, index: usize, side: usize) -> Self {
+        let [across, _] = tiles_across(prepared, side);
+        let at = [index % across * side, index / across * side];
+        Self { index, at, size: [0, 1].map(|a| side.min(prepared.view.size[a] - at[a])) }
+    }
+
+    /// The point of a part of a pixel. The n×n rays of a pixel go through the centres of its parts ([RAY-6]); the first parts
+    /// of all pixels are cast, then the second ones, and so on.
+    fn point(&self, [i, j]: [usize; 2], part: usize, n: usize) -> [f64; 2] {
+        let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
+        [centre(self.at[0] + i, part % n), centre(self.at[1] + j, part / n)]
+    }
+
+    /// The boxes of visible bricks that its rays can meet; none where nothing is skipped.
+    fn boxes<R: Real>(&self, prepared: &Prepared<'_, R>) -> Option<Boxes> {
+        prepared.skip.as_ref().map(|skip| {
+            let corner = |i: usize, j: usize| {
+                let ray = prepared.view.ray(i as f64, j as f64);
+                IndexRay::<R>::new(&ray, &prepared.view, &prepared.lattice, prepared.object.volume.grid()).rounded()
+            };
+            let ([x, y], [width, height]) = (self.at, self.size);
+            let (right, bottom) = (x + width, y + height);
+            let corners = [corner(x, y), corner(right, y), corner(right, bottom), corner(x, bottom)];
+            skip.boxes_in(&Beam::new(corners))
+        })
+    }
 }
 
 /// The pixels of a tile as [`in_blocks`] orders them, from those of a whole one.
@@ -163,7 +227,7 @@ struct PixelSum {
 impl PixelSum {
     /// Adds a ray that has `behind` as its background.
     fn add<R: Real>(&mut self, prepared: &Prepared<'_, R>, cast: Cast, behind: Rgba) {
-        let share = 1.0 / (prepared.samples * prepared.samples) as f64;
+        let share = 1.0 / (prepared.rays_across * prepared.rays_across) as f64;
         for (mean, c) in self.beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
             *mean += c * share;
         }
@@ -185,7 +249,7 @@ impl PixelSum {
                 pixels.extend(self.beauty);
             } else {
                 let sums = if pooled(kind) { all } else { first };
-                sums.channels(kind, samples, prepared.field.scale_exponent(), pixels);
+                sums.channels(kind, samples, prepared.object.field.scale_exponent(), pixels);
             }
         }
     }

@@ -1,25 +1,11 @@
-//! Where a ray's samples lie ([RAY-1]).
+//! Rays in index space, and the samples on them ([RAY-1]).
 
 use super::skip::Boxes;
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::shot::{Lattice, StepAlong};
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::StepAlong;
 use drypoint_scene::view::{Ray, View};
-
-/// The sample planes (or shells) of a camera: eye depths (k + ½)Δ, k a whole number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lattice {
-    /// Δ in world units.
-    pub step: f64,
-    /// What Δ is measured along.
-    pub along: StepAlong,
-    /// Smallest depth (radius, for shells) of a sample, perspective.
-    pub near: f64,
-}
-
-/// From here on k + ½ is no number of its own.
-pub const MOST_PLANES: f64 = (1u64 << 52) as f64;
 
 /// The most samples of a picture: beyond those a fast processor is busy for months.
 pub const MOST_SAMPLES: f64 = 1e14;
@@ -27,35 +13,19 @@ pub const MOST_SAMPLES: f64 = 1e14;
 /// From origins so many 1/ε voxels away rounding could move positions by a hundredth of a voxel.
 const FAR: f64 = 1.0 / 1024.0;
 
-impl Lattice {
-    /// How many steps the farthest point of a grid's box lies from the eye, before it or behind it.
-    pub fn planes(&self, view: &View, grid: &Grid) -> f64 {
-        let away = |corner: DVec3| match self.along {
-            StepAlong::Ray if view.perspective => view.to_eye(corner).length(),
-            StepAlong::Ray | StepAlong::Plane => view.to_eye(corner).z.abs(),
-        };
-        grid.world_corners().into_iter().map(away).fold(0.0, f64::max) / self.step
-    }
-
-    /// About how many samples the rays through all pixel centres have in a grid's box, if none is skipped: the mean over rays
-    /// through a coarse grid of pixels, times the number of pixels.
-    pub fn samples(&self, view: &View, grid: &Grid) -> f64 {
-        const SIDE: usize = 16;
-        let [width, height] = view.size.map(|n| n as f64);
-        let [lo, hi] = grid.index_box().map(Vec3::from_glam);
-        let of_ray = |i: usize| {
-            let at = |i: usize, n: f64| (i as f64 + 0.5) / SIDE as f64 * n;
-            let ray = IndexRay::<f64>::new(&view.ray(at(i % SIDE, width), at(i / SIDE, height)), view, self, grid);
-            let near = if view.perspective { self.near } else { f64::NEG_INFINITY };
-            ray.depths(lo, hi).map_or(0.0, |[from, to]| ((to - from.max(near)) / ray.depth_step).max(0.0))
-        };
-        width * height * (0..SIDE * SIDE).map(of_ray).sum::<f64>() / (SIDE * SIDE) as f64
-    }
-
-    /// The smallest k of a sample beyond `near`.
-    pub(super) fn first(&self, view: &View) -> i64 {
-        if view.perspective { first_beyond(self.near, self.step) } else { i64::MIN }
-    }
+/// About how many samples the rays through all pixel centres have in a grid's box, if none is skipped: the mean over rays
+/// through a coarse grid of pixels, times the number of pixels.
+pub fn samples_in(lattice: &Lattice, view: &View, grid: &Grid) -> f64 {
+    const SIDE: usize = 16;
+    let [width, height] = view.size.map(|n| n as f64);
+    let [lo, hi] = grid.index_box().map(Vec3::from_glam);
+    let of_ray = |i: usize| {
+        let at = |i: usize, n: f64| (i as f64 + 0.5) / SIDE as f64 * n;
+        let ray = IndexRay::<f64>::new(&view.ray(at(i % SIDE, width), at(i / SIDE, height)), view, lattice, grid);
+        let near = if view.perspective { lattice.near } else { f64::NEG_INFINITY };
+        ray.depths(lo, hi).map_or(0.0, |[from, to]| ((to - from.max(near)) / ray.depth_step).max(0.0))
+    };
+    width * height * (0..SIDE * SIDE).map(of_ray).sum::<f64>() / (SIDE * SIDE) as f64
 }
 
 /// One ray in index space, with its samples at whole numbers.
@@ -246,45 +216,11 @@ fn contains<R: Real>(lo: Vec3<R>, hi: Vec3<R>, p: Vec3<R>) -> bool {
     p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z
 }
 
-/// The smallest k with (k + ½)Δ > near. Beyond 2⁵² steps, where halves are lost, there is none.
-fn first_beyond(near: f64, step: f64) -> i64 {
-    if near / step >= MOST_PLANES {
-        return i64::MAX;
-    }
-    let mut k = (near / step - 0.5).floor() as i64 - 1;
-    while (k as f64 + 0.5) * step <= near {
-        k += 1;
-    }
-    k
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use drypoint_scene::tables::{Camera, Projection};
     use proptest::prelude::*;
-
-    #[test]
-    fn samples_begin_beyond_near() {
-        // near = Δ: depth ½Δ is out, 3/2 Δ is in.
-        assert_eq!(first_beyond(0.5, 0.5), 1);
-        // near = ½Δ: depth ½Δ is not beyond.
-        assert_eq!(first_beyond(0.25, 0.5), 1);
-        assert_eq!(first_beyond(0.249, 0.5), 0);
-        assert_eq!(first_beyond(1e30, 0.5), i64::MAX);
-    }
-
-    #[test]
-    fn planes_between_the_eye_and_the_farthest_corner() {
-        // A box of 8 × 6 × 4 about (4, 3, 2), seen along x from 6 before its middle: 10 to its far face.
-        let grid = Grid::with_spacing([9, 7, 5], [1.0; 3]).unwrap();
-        let eye = Some(DVec3::new(-2.0, 3.0, 2.0));
-        let camera = Camera { eye, direction: DVec3::X, direction_given: true, ..Camera::default() };
-        let view = View::new(&camera, &grid, [4, 4]).unwrap();
-        let planes = |along| Lattice { step: 0.5, along, near: 0.5 }.planes(&view, &grid);
-        assert_eq!(planes(StepAlong::Plane), 20.0);
-        assert_eq!(planes(StepAlong::Ray), 2.0 * (100.0f64 + 9.0 + 4.0).sqrt());
-    }
 
     /// A ray by its numbers.
     fn ray<R: Real>(origin: [f64; 3], along: [f64; 3], depth_step: f64) -> IndexRay<R> {

@@ -1,13 +1,12 @@
-//! A picture of a scene: what it is made of, and what can be wrong with that.
+//! A picture of a shot: the data that it is made of, and what can be wrong with that.
 
-use super::cast::{self, Cast};
-use super::draw::{CastAll, draw};
+use super::composite::{PlaneEffect, plane_order, ray_order};
+use super::draw::{CastAll, TileWork, draw, rays_of_tiles};
 use super::lanes;
-use super::lattice::MOST_SAMPLES;
+use super::lattice::{MOST_SAMPLES, samples_in};
 use super::merged;
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
-use super::skip::Boxes;
 use crate::field::{Exact, FieldError, Sampler};
 use crate::number::Real;
 use crate::transfer::NodesError;
@@ -17,34 +16,26 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
-use drypoint_scene::plan::Plan;
+use drypoint_scene::shot::{Number, Shot};
 use drypoint_scene::style::Style;
-use drypoint_scene::tables::{Number, Scene};
-use drypoint_scene::transfer::Function;
-use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Pixels along the side of a tile, the work of one thread at a time.
 const TILE: usize = 8;
 
-/// What a picture is made of.
+/// The data that a shot names.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// What it calls for.
-    pub plan: &'a Plan,
-    /// Its volume.
+    /// The volume.
     pub volume: &'a Volume,
-    /// Its transfer function, over the volume's values.
-    pub function: &'a Function,
-    /// The labels beside the volume, where the plan needs them ([STF-13]).
+    /// The labels beside the volume, where the function reads them ([STF-13]).
     pub labels: Option<&'a LabelVolume>,
     /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
     pub further: [Option<&'a Volume>; 2],
-    /// The styles that the function names, in the order of [`Function::Style::names`].
+    /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names).
     pub styles: &'a [Style],
     /// What lies behind.
     pub background: Backdrop<'a>,
@@ -67,15 +58,6 @@ pub enum RenderError {
     /// The field cannot be reconstructed as the scene asks.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// The camera sees nothing.
-    #[error(transparent)]
-    View(#[from] ViewError),
-    /// A length of the scene has no size in the world.
-    #[error("{key} is a length on the page, not in the volume")]
-    Length {
-        /// The scene key.
-        key: &'static str,
-    },
     /// Sample planes that fall together ([RAY-1]): k + ½ has no half from 2⁵² on.
     #[error("the volume reaches {planes:.1e} steps from the eye, where sample planes are not told apart any more")]
     TooManyPlanes {
@@ -103,6 +85,9 @@ pub enum RenderError {
         /// The label.
         id: u32,
     },
+    /// The function and the material do not fit.
+    #[error("the material is of colours and the transfer function of styles, or the other way round")]
+    Material,
     /// The function's nodes and the styles do not fit.
     #[error("the transfer function names {named} styles, {given} were loaded")]
     Styles {
@@ -113,15 +98,24 @@ pub enum RenderError {
     },
 }
 
-/// A scene that is ready to be rendered any number of times.
+/// A shot that is ready to be rendered any number of times.
 pub struct Renderer<'a> {
     ready: Ready<'a>,
-    scene: &'a Scene,
     background: Backdrop<'a>,
     counts: Counts,
     tile: usize,
-    /// Whether rays are cast side by side.
-    lanes: bool,
+    order: Order,
+}
+
+/// In which order samples are visited. It shows nowhere, neither in the picture nor in the counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Order {
+    /// Ray by ray, eight rays side by side.
+    Lanes,
+    /// Ray by ray.
+    Rays,
+    /// Plane by plane.
+    Planes,
 }
 
 enum Ready<'a> {
@@ -131,39 +125,40 @@ enum Ready<'a> {
 }
 
 impl<'a> Renderer<'a> {
-    /// Prepares a scene: reconstruction, ranges, visible bricks.
+    /// Prepares a shot: reconstruction, ranges, visible bricks.
     ///
     /// # Errors
-    /// A reconstruction that does not exist, a camera without direction, a length without size.
-    pub fn new(inputs: Inputs<'a>) -> Result<Self, RenderError> {
+    /// A reconstruction that does not exist, sample planes that fall together, data that the shot names and that is not there.
+    pub fn new(shot: &Shot, inputs: Inputs<'a>) -> Result<Self, RenderError> {
         let start = Instant::now();
         let mut counts = Counts::default();
-        let ready = match inputs.scene.sampling.number {
-            Number::F64 => Ready::F64(Box::new(prepare(&inputs, &mut counts)?)),
-            Number::F32 => Ready::F32(Box::new(prepare(&inputs, &mut counts)?)),
+        let ready = match shot.number {
+            Number::F64 => Ready::F64(Box::new(prepare(shot, &inputs, &mut counts)?)),
+            Number::F32 => Ready::F32(Box::new(prepare(shot, &inputs, &mut counts)?)),
         };
         Ok(Self::of(ready, &inputs, counts, start))
     }
 
     /// Prepares the picture that reconstructions converge to: of a phantom's own formula and its derivatives in place of
-    /// the voxels, in f64, with every other key as the scene has it ([COST-2]). The volume says the grid, and is where
+    /// the voxels, in f64, with all else as the shot has it ([COST-2]). The volume says the grid, and is where
     /// labels and further quantities belong.
     ///
     /// # Errors
     /// As [`Renderer::new`].
-    pub fn exact(inputs: Inputs<'a>, phantom: &'a dyn Phantom) -> Result<Self, RenderError> {
+    pub fn exact(shot: &Shot, inputs: Inputs<'a>, phantom: &'a dyn Phantom) -> Result<Self, RenderError> {
         let start = Instant::now();
         let mut counts = Counts::default();
-        let mut prepared: Prepared<'a, f64> = prepare(&inputs, &mut counts)?;
+        let mut prepared: Prepared<'a, f64> = prepare(shot, &inputs, &mut counts)?;
         // Ranges of bricks are those of the voxels.
         prepared.skip = None;
         prepared.cells = None;
         if let Some(surface) = &mut prepared.surface {
-            surface.look_everywhere();
+            surface.roots.look_everywhere();
         }
-        let exact = Exact::new(phantom, inputs.volume.grid(), prepared.field.scale_exponent());
-        if prepared.gradient_range.is_some() {
-            prepared.gradient_range = Some(gradient_range(&exact, &prepared.field, &inputs, &mut counts));
+        let exact = Exact::new(phantom, inputs.volume.grid(), prepared.object.field.scale_exponent());
+        let ([object], field) = (&shot.objects, &prepared.object.field);
+        if let Some(range) = object.gradient_range {
+            prepared.object.gradient_range = Some(gradient_range(&exact, field, range, object, &mut counts));
         }
         Ok(Self::of(Ready::Exact(Box::new(prepared), phantom), &inputs, counts, start))
     }
@@ -174,8 +169,8 @@ impl<'a> Renderer<'a> {
             counts.bytes.insert("mask".into(), mask.bytes() as u64);
         }
         counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
-        let lanes = matches!(&ready, Ready::F64(p) if lanes::serve(p));
-        Self { ready, scene: inputs.scene, background: inputs.background, counts, tile: TILE, lanes }
+        let order = if matches!(&ready, Ready::F64(p) if lanes::serve(p)) { Order::Lanes } else { Order::Rays };
+        Self { ready, background: inputs.background, counts, tile: TILE, order }
     }
 
     /// The same with tiles of another side, from 1 to 1024 pixels; it shows nowhere ([RAY-3]).
@@ -186,13 +181,19 @@ impl<'a> Renderer<'a> {
     /// The same with each ray cast alone, as where the processor has no wide registers; it shows nowhere, neither in the
     /// picture nor in the counts.
     pub fn ray_by_ray(self) -> Self {
-        Self { lanes: false, ..self }
+        Self { order: Order::Rays, ..self }
+    }
+
+    /// The same with all rays together, plane by plane, as effects need that read what lies on the planes before; it shows
+    /// nowhere, neither in the picture nor in the counts.
+    pub fn plane_by_plane(self) -> Self {
+        Self { order: Order::Planes, ..self }
     }
 
     /// About how many samples a frame has, if none is skipped.
     pub fn samples(&self) -> f64 {
         fn of<R: Real>(p: &Prepared<'_, R>) -> f64 {
-            p.lattice.samples(&p.view, p.volume.grid()) * (p.samples * p.samples) as f64
+            samples_in(&p.lattice, &p.view, p.object.volume.grid()) * (p.rays_across * p.rays_across) as f64
         }
         match &self.ready {
             Ready::F64(p) | Ready::Exact(p, _) => of(p),
@@ -202,18 +203,18 @@ impl<'a> Renderer<'a> {
 
     /// Whether rays are cast in lanes, eight at a time.
     pub fn in_lanes(&self) -> bool {
-        self.lanes
+        self.order == Order::Lanes
     }
 
-    /// Turns the camera for the frames that follow: of the lens and the picture of the scene's own, elsewhere. What was
-    /// prepared stays.
+    /// Turns the camera for the frames that follow to that of another shot, which differs in where the camera stands alone. What
+    /// was prepared stays.
     ///
     /// # Errors
     /// Sample planes that fall together, seen from there.
-    pub fn turn(&mut self, view: View) -> Result<(), RenderError> {
+    pub fn turn(&mut self, shot: &Shot) -> Result<(), RenderError> {
         match &mut self.ready {
-            Ready::F64(p) | Ready::Exact(p, _) => turn(p, self.scene, view),
-            Ready::F32(p) => turn(p, self.scene, view),
+            Ready::F64(p) | Ready::Exact(p, _) => turn(p, shot),
+            Ready::F32(p) => turn(p, shot),
         }
     }
 
@@ -239,34 +240,22 @@ impl<'a> Renderer<'a> {
 
     /// The same with what the frame itself took: a further one, prepared with the first.
     pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
+        self.draw_frame(None, progress)
+    }
+
+    /// Renders a frame plane by plane with an effect, as [`again`](Self::again) does without one.
+    pub fn frame_with(&self, effect: &mut dyn PlaneEffect, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
+        self.draw_frame(Some(effect), progress)
+    }
+
+    fn draw_frame(&self, effect: Option<&mut dyn PlaneEffect>, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let start = Instant::now();
         let (picture, mut counts) = match &self.ready {
-            Ready::F64(p) if self.lanes => {
-                let together = |points: &[_], boxes: Option<&mut Boxes>, counts: &mut Counts, casts: &mut Vec<Cast>| {
-                    lanes::cast_all(p, points, boxes, counts, casts);
-                };
-                if p.lines.is_none() {
-                    draw(p, together, self.background, self.tile, progress)
-                } else {
-                    with_sampler!(p.field, |s| {
-                        let alone = one_by_one(p, s);
-                        let apart =
-                            |points: &[_], boxes: Option<&mut Boxes>, counts: &mut Counts, casts: &mut Vec<_>| {
-                                merged::cast_apart(p, [&alone, &together], points, boxes, counts, casts);
-                            };
-                        draw(p, apart, self.background, self.tile, progress)
-                    })
-                }
-            }
-            Ready::F64(p) => {
-                with_sampler!(p.field, |s| draw(p, one_by_one(p, s), self.background, self.tile, progress))
-            }
-            Ready::F32(p) => {
-                with_sampler!(p.field, |s| draw(p, one_by_one(p, s), self.background, self.tile, progress))
-            }
+            Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, effect, progress)),
+            Ready::F32(p) => with_sampler!(p.object.field, |s| self.draw(p, s, effect, progress)),
             Ready::Exact(p, phantom) => {
-                let exact = Exact::new(*phantom, p.volume.grid(), p.field.scale_exponent());
-                draw(p, one_by_one(p, &exact), self.background, self.tile, progress)
+                let exact = Exact::new(*phantom, p.object.volume.grid(), p.object.field.scale_exponent());
+                self.draw(p, &exact, effect, progress)
             }
         };
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
@@ -274,11 +263,36 @@ impl<'a> Renderer<'a> {
         counts.bytes.insert("picture".into(), (channels * picture.width * picture.height * 8) as u64);
         (picture, counts)
     }
-}
 
-/// Casts rays alone, each for itself.
-fn one_by_one<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S) -> impl CastAll {
-    move |points: &[[f64; 2]], boxes: Option<&mut Boxes>, counts: &mut Counts, casts: &mut Vec<Cast>| {
-        cast::cast_all(prepared, sampler, points, boxes, counts, casts);
+    /// Casts the rays of a frame in the renderer's order.
+    fn draw<R: Real, S: Sampler<R>>(
+        &self,
+        prepared: &Prepared<'_, R>,
+        sampler: &S,
+        effect: Option<&mut dyn PlaneEffect>,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> (Picture, Counts) {
+        let alone = |work: TileWork<'_>| ray_order::cast_all(prepared, sampler, work);
+        let draw = |cast_all: &dyn CastAll| draw(prepared, cast_all, self.background, self.tile, progress);
+        let order = if effect.is_some() { Order::Planes } else { self.order };
+        match (&self.ready, order) {
+            (Ready::F64(p), Order::Lanes) if p.lines.is_none() => draw(&|work: TileWork<'_>| lanes::cast_all(p, work)),
+            (Ready::F64(p), Order::Lanes) => {
+                let together = |work: TileWork<'_>| lanes::cast_all(p, work);
+                draw(&|work: TileWork<'_>| merged::cast_apart(p, [&alone, &together], work))
+            }
+            (_, Order::Lanes | Order::Rays) => draw(&alone),
+            (_, Order::Planes) => {
+                let tiles = rays_of_tiles(prepared, self.tile);
+                let done = plane_order::cast_tiles(prepared, sampler, tiles, effect, progress);
+                let done: Vec<_> =
+                    done.into_iter().map(|(casts, counts)| Mutex::new((casts.into_iter(), counts))).collect();
+                draw(&|work: TileWork<'_>| {
+                    let mut tile = done[work.tile].lock().unwrap_or_else(PoisonError::into_inner);
+                    work.casts.extend(tile.0.by_ref().take(work.points.len()));
+                    work.counts.add(&std::mem::take(&mut tile.1));
+                })
+            }
+        }
     }
 }

@@ -71,7 +71,8 @@ pub fn push<R: Real>(nx: R, ny: R, n_dot_v: R, tau: R) -> (R, R) {
 mod tests {
     use super::*;
     use crate::number::Vec3;
-    use crate::style_transfer_functions::curvature_along_ray::{self, Turn};
+    use crate::style_transfer_functions::curvature_along_ray;
+    use drypoint_scene::shot::Turn;
     use proptest::prelude::*;
 
     #[test]

@@ -1,27 +1,7 @@
 //! κ_v from two normals along a ray (3.3, Fig. 6; [STF-5]): no second derivative is reconstructed.
 
 use crate::number::{Real, Vec3};
-use drypoint_scene::tables::{NormalSide, SignFlip};
-
-/// What the angle between two normals is measured between.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turn {
-    /// The normals, in [0, π].
-    OfNormals,
-    /// The lines that they span, in [0, π/2]: a normal that was flipped towards the eye has not turned.
-    OfLines,
-}
-
-impl Turn {
-    /// The paper's plain angle, except where normals are flipped towards the eye and the scene does not ask for the
-    /// literal reading.
-    pub fn new(normal: NormalSide, flip: SignFlip) -> Self {
-        match (normal, flip) {
-            (NormalSide::Facing, SignFlip::TwoSided) => Self::OfLines,
-            _ => Self::OfNormals,
-        }
-    }
-}
+use drypoint_scene::shot::Turn;
 
 /// κ_v ≈ angle(N here, N at plane k − 1) / Δ_ray, in reciprocal world units, never negative.
 ///
@@ -65,15 +45,6 @@ mod tests {
         assert!(kappa(Turn::OfLines, n, Some(-n), 0.5).abs() < 1e-15);
         let across = unit(0.2, 0.3, 0.0);
         assert!((kappa(Turn::OfLines, n, Some(across), 1.0) - FRAC_PI_2).abs() < 1e-15);
-    }
-
-    #[test]
-    fn only_facing_normals_are_lines() {
-        for normal in [NormalSide::Outward, NormalSide::Gradient] {
-            assert_eq!(Turn::new(normal, SignFlip::TwoSided), Turn::OfNormals);
-        }
-        assert_eq!(Turn::new(NormalSide::Facing, SignFlip::TwoSided), Turn::OfLines);
-        assert_eq!(Turn::new(NormalSide::Facing, SignFlip::Literal), Turn::OfNormals);
     }
 
     /// On a sphere of radius r a step Δ along the ray, from a point at angle θ between N and v, turns the normal by

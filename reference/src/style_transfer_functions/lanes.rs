@@ -1,11 +1,11 @@
 //! What one sample passes through, for eight of them side by side, to the same bits.
 
-use super::curvature_along_ray::Turn;
 use super::{Contour, SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
 use crate::number::lanes::columns;
 use crate::number::{Arithmetic, Vec3, lanes};
 use crate::transfer::lanes::Places;
+use drypoint_scene::shot::Turn;
 use drypoint_scene::tables::{Mix, Transparency};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};

@@ -4,7 +4,9 @@ use super::SphereMap;
 use super::sphere_map::mix;
 use crate::number::Real;
 use drypoint_scene::math;
+use drypoint_scene::shot::LevelOfDetail;
 use drypoint_scene::style::{MipLevel, Style};
+use drypoint_scene::view::View;
 
 /// p of [STF-10]: how many rays lie side by side in a voxel's picture.
 ///
@@ -45,6 +47,18 @@ pub struct Detail<R> {
 }
 
 impl<R: Real> Detail<R> {
+    /// Prepares the level of detail for a picture of n×n rays a pixel and a voxel side in world units.
+    pub fn new(level: &LevelOfDetail, view: &View, rays_across: usize, voxel: f64) -> Self {
+        let rays = R::from_f64(voxel * rays_across as f64 / view.pixel);
+        Self {
+            curvature_bias: R::from_f64(level.curvature_bias),
+            gradient_bias: R::from_f64(level.gradient_bias),
+            turn: R::from_f64(level.turn),
+            voxel: R::from_f64(voxel),
+            footprint: if view.perspective { Footprint::Perspective(rays) } else { Footprint::Orthographic(rays) },
+        }
+    }
+
     /// λ − log₂ S = log₂( ½·max(ω₀, b_κ·min(|κ|·voxel, 1)) / p ) + b_g(1 − |g|), not yet clamped, from κ in reciprocal
     /// world units and |g| in [0, 1]: by how many levels the lookup lies below the style's last one.
     ///

@@ -6,6 +6,7 @@ use crate::knobs::Ladder;
 use crate::picture::LayerKind;
 use crate::plan::Quantity;
 use crate::tables::{Length, NormalSide, Scene, TransferKind};
+use serde::Serialize;
 
 /// The table `[contours]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +22,8 @@ pub struct Contours {
 }
 
 /// Which κ_v ([STF-6]).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Kappa {
     /// From two normals along the ray; the paper's.
     Ray,

@@ -13,6 +13,7 @@ use crate::picture::LayerKind;
 use crate::plan::{Pass, Quantity};
 use crate::tables::Length;
 use crate::tables::contours::{Measured, measured_curvature};
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
@@ -50,7 +51,8 @@ pub enum Background {
 }
 
 /// Which numbers are composited ([VAL-3]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum BlendSpace {
     /// Linear light.
     Linear,

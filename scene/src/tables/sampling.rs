@@ -6,6 +6,7 @@ use crate::file::kind::{Bounds, Choice, ChoiceOption, Flag, Number as AnyNumber,
 use crate::knobs::Ladder;
 use crate::plan::{Pass, Plan, Quantity};
 use crate::tables::{Length, Projection, Scene};
+use serde::Serialize;
 
 /// The table `[sampling]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +36,8 @@ pub struct Sampling {
 }
 
 /// What the distance between samples is measured along.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum StepAlong {
     /// View-aligned planes.
     Plane,
@@ -44,7 +46,8 @@ pub enum StepAlong {
 }
 
 /// Reconstruction kernels ([REC-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Kernel {
     /// Three nested interpolations; the papers'.
     Trilinear,
@@ -59,7 +62,8 @@ pub enum Kernel {
 }
 
 /// Gradient estimators ([REC-2]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum GradientEstimator {
     /// Central differences on the voxels, then trilinear; the papers'.
     Central,
@@ -72,7 +76,8 @@ pub enum GradientEstimator {
 }
 
 /// Hessian estimators ([REC-3]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum HessianEstimator {
     /// Gaussian for integer data, else analytic for B-splines and central for the others.
     Auto,
@@ -96,7 +101,8 @@ pub enum NormalSide {
 }
 
 /// Number type of the samples.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Number {
     /// The truth.
     F64,

@@ -9,6 +9,7 @@ use crate::file::kind::{Bounds, Colors, ListOf, Number};
 use crate::file::out::Out;
 use crate::tables::{LightDirection, Shading, Surface, SurfaceLook};
 use glam::DVec3;
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 /// A table `toon`: tones with hard steps between them.
@@ -24,7 +25,7 @@ pub struct ToonShading {
 }
 
 /// One tone.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tone {
     /// Where it begins, in x = L·N + offset; this x itself still has the tone before.
     pub at: f64,

@@ -11,6 +11,7 @@ use crate::file::out::Out;
 use crate::knobs::Ladder;
 use crate::plan::{Pass, Plan, Quantity};
 use crate::tables::{Projection, Scene};
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 /// The table `[transfer]`.
@@ -77,7 +78,8 @@ pub enum NodeColor {
 }
 
 /// How α_u and α_d become α ([STF-9]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Transparency {
     /// Eq. 2.
     Illustrative,
@@ -86,7 +88,8 @@ pub enum Transparency {
 }
 
 /// How two styles mix ([STF-3]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Mix {
     /// Premultiplied.
     Premultiplied,
@@ -95,7 +98,8 @@ pub enum Mix {
 }
 
 /// Frame of the lit sphere ([STF-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SphereFrame {
     /// Eye space; the paper's.
     Eye,

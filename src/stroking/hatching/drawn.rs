@@ -4,7 +4,6 @@ use super::kept::{add, count_kept};
 use super::{Grown, Hatched, Hatching};
 use crate::stroking::Frame;
 use drypoint_reference::interactive_volume_illustration as room;
-use drypoint_reference::shading::towards;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Pen, Polyline};
@@ -31,7 +30,7 @@ impl Hatched<'_> {
     pub(in crate::stroking) fn draw(&self, frame: &Frame<'_>, counts: &mut Counts) -> Vec<Layer> {
         let Hatching { table, pen, cross_pen, spacing, .. } = self.hatching;
         let start = Instant::now();
-        let light = towards(self.hatching.light, frame.view);
+        let light = frame.view.towards(self.hatching.light);
         let tone = |normal: DVec3| 1.0 - (table.stroke.ambient + normal.dot(light)).clamp(0.0, 1.0);
         // They lie in front of the surface themselves.
         let sight = frame.sight(0.0);

@@ -1,6 +1,6 @@
 //! Lines inside a translucent volume ([HATCH-14] d): in a homogeneous slab the picture is known in closed form.
 
-use crate::common::{Shot, Shown, on, orthographic, perspective, volume};
+use crate::common::{Shown, Stage, on, orthographic, perspective, volume};
 use drypoint::drawing::Drawing;
 use drypoint::job::Job;
 use drypoint::marking::Marking;
@@ -22,12 +22,12 @@ const INK: [f64; 3] = [0.1, 0.2, 0.7];
 
 /// A slab of 16 units, seen along y from its middle, in steps of half a unit: it reaches from depth −8 to 8, both between
 /// steps.
-fn slab() -> Shot {
+fn slab() -> Stage {
     fog(volume([17; 3], |_| 1.0))
 }
 
-fn fog(volume: Volume) -> Shot {
-    Shot::regular(volume, &[(-1e3, FOG, ALPHA), (1e3, FOG, ALPHA)]).with(|s| {
+fn fog(volume: Volume) -> Stage {
+    Stage::regular(volume, &[(-1e3, FOG, ALPHA), (1e3, FOG, ALPHA)]).with(|s| {
         s.sampling.step = Length::World(0.5);
         s.sampling.reference_length = Length::World(1.0);
         s.sampling.stop_below = 0.0;
@@ -166,7 +166,7 @@ fn a_line_before_a_surface() {
 #[test]
 fn encoded_codes_are_composited() {
     use drypoint::scene::color::{linear_to_srgb, srgb_to_linear};
-    let shot = Shot::regular(volume([5; 3], |_| 0.0), &[(1.0, FOG, 0.0), (2.0, FOG, 1.0)]).with(|s| {
+    let shot = Stage::regular(volume([5; 3], |_| 0.0), &[(1.0, FOG, 0.0), (2.0, FOG, 1.0)]).with(|s| {
         s.picture.blend_space = BlendSpace::Srgb;
         s.picture.background = drypoint::scene::tables::Background::Color([1.0; 4]);
     });
@@ -196,7 +196,7 @@ fn nothing_shows_how_it_was_drawn() {
     let voxels = (0..40usize.pow(3)).map(|i| if i % 1600 < 600 { 0 } else { (i * 37 % 251) as u8 }).collect();
     let grid = Grid::with_spacing([40; 3], [1.0; 3]).unwrap();
     let volume = Volume::new(grid, Voxels::U8(voxels), 1.0, 0.0).unwrap();
-    let shot = Shot::regular(volume, &[(0.0, FOG, 0.0), (10.0, FOG, 0.0), (255.0, INK, 0.4)])
+    let shot = Stage::regular(volume, &[(0.0, FOG, 0.0), (10.0, FOG, 0.0), (255.0, INK, 0.4)])
         .with(|s| s.picture.size = [40, 30])
         .seen_along([0.3, 1.0, -0.2]);
     let found: Vec<_> = (0..1200)

@@ -1,6 +1,6 @@
 //! Tones, silhouettes and view-dependent opacity on a ball whose normals are known (4.4, [HATCH-15]).
 
-use crate::common::{Shot, orthographic, perspective, quadratic_ball};
+use crate::common::{Stage, orthographic, perspective, quadratic_ball};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::tables::{
     GradientEstimator, Iso, Kernel, Length, LightDirection, Number, Shading, ShadingModel, SilhouetteShading, Surface,
@@ -14,8 +14,8 @@ const RADIUS: f64 = 8.0;
 const HEIGHT: f64 = 18.0;
 
 /// The ball in a kernel that reproduces it: normals are right to rounding.
-fn ball(nodes: &[(f64, [f64; 3], f64)], pixels: usize) -> Shot {
-    Shot::regular(quadratic_ball(24, RADIUS), nodes).with(|s| {
+fn ball(nodes: &[(f64, [f64; 3], f64)], pixels: usize) -> Stage {
+    Stage::regular(quadratic_ball(24, RADIUS), nodes).with(|s| {
         s.sampling.kernel = Kernel::Bspline5;
         s.sampling.gradient = GradientEstimator::Analytic;
         s.camera = orthographic(Some(HEIGHT));
@@ -25,7 +25,7 @@ fn ball(nodes: &[(f64, [f64; 3], f64)], pixels: usize) -> Shot {
 }
 
 /// Its surface alone.
-fn surface(surface: Surface, pixels: usize) -> Shot {
+fn surface(surface: Surface, pixels: usize) -> Stage {
     let mut shot = ball(&[], pixels);
     shot.scene.transfer = None;
     shot.scene.surface = Some(Surface { iso: Iso::Value(0.0), ..surface });
@@ -33,7 +33,7 @@ fn surface(surface: Surface, pixels: usize) -> Shot {
 }
 
 /// Where each pixel's ray meets the ball: the pixel, its N and V in eye space.
-fn met(shot: &Shot) -> Vec<(usize, DVec3, DVec3)> {
+fn met(shot: &Stage) -> Vec<(usize, DVec3, DVec3)> {
     let view = shot.view();
     let centre = view.to_eye(shot.volume.grid().centre());
     let [width, height] = shot.scene.picture.size;
@@ -65,7 +65,7 @@ fn lights() -> [LightDirection; 4] {
     ]
 }
 
-fn towards(light: LightDirection, shot: &Shot) -> DVec3 {
+fn towards(light: LightDirection, shot: &Stage) -> DVec3 {
     match light {
         LightDirection::Head => DVec3::Z,
         LightDirection::Eye(d) => d.normalize(),

@@ -1,7 +1,7 @@
 //! κ_v in pictures ([STF-5], [STF-6], [CUR-2]): what the layer `curvature.KV` shows against closed forms.
 
 use super::{planes, smooth};
-use crate::common::{Shot, ball, orthographic, plain, quadratic_ball, volume};
+use crate::common::{Stage, ball, orthographic, plain, quadratic_ball, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind::{CurvatureAlongView, First, Normal, Z};
 use drypoint::scene::tables::{Contours, Kappa, Length, NormalSide, SignFlip};
@@ -9,9 +9,9 @@ use drypoint::scene::volume::Volume;
 use std::f64::consts::PI;
 
 /// Opaque from value 0 on, with κ of that kind in a layer.
-fn opaque(volume: Volume, kappa: Kappa) -> Shot {
+fn opaque(volume: Volume, kappa: Kappa) -> Stage {
     let grey = plain("grey", [0.5, 0.5, 0.5, 1.0]);
-    Shot::styled(volume, vec![grey], &[(0.0, "grey", 0.0), (0.0, "grey", 1.0)])
+    Stage::styled(volume, vec![grey], &[(0.0, "grey", 0.0), (0.0, "grey", 1.0)])
         .layers(&[CurvatureAlongView, Normal, First, Z])
         .with(|s| s.contours = Some(Contours { kappa, ..Contours::default() }))
 }
@@ -31,7 +31,7 @@ struct Seen {
 }
 
 /// The covered pixels.
-fn covered(shot: &Shot) -> Vec<Seen> {
+fn covered(shot: &Stage) -> Vec<Seen> {
     let shown = shot.render();
     let (kappa, normal) = (shown.one(CurvatureAlongView), shown.layer::<3>(Normal));
     let (value, depth) = (shown.one(First), shown.one(Z));
@@ -148,7 +148,7 @@ fn a_flat_wall_has_no_curvature() {
 fn a_thin_sheet_turns_the_normal_round() {
     let sheet = || volume([7, 8, 7], |p| 1.0 - (p.y - 3.5).abs());
     let grey = plain("grey", [0.5, 0.5, 0.5, 1.0]);
-    let shot = Shot::styled(sheet(), vec![grey], &[(0.4, "grey", 0.0), (0.4, "grey", 0.5)])
+    let shot = Stage::styled(sheet(), vec![grey], &[(0.4, "grey", 0.0), (0.4, "grey", 0.5)])
         .with_transfer(|t| t.transparency = drypoint::scene::tables::Transparency::Plain)
         .layers(&[CurvatureAlongView])
         .step(1.0)
@@ -186,7 +186,7 @@ fn facing_normals_at_a_silhouette() {
     let centre = DVec3::new(12.0, 1.0, 12.0);
     let slab = || volume([25, 3, 25], |p| radius - (p - centre).length());
     let grey = plain("grey", [0.5, 0.5, 0.5, 1.0]);
-    let shot = Shot::styled(slab(), vec![grey], &[(0.0, "grey", 0.5)])
+    let shot = Stage::styled(slab(), vec![grey], &[(0.0, "grey", 0.5)])
         .with_transfer(|t| t.transparency = drypoint::scene::tables::Transparency::Plain)
         .layers(&[CurvatureAlongView])
         .step(delta)

@@ -3,7 +3,7 @@
 //! between, as a person would have them.
 
 use super::planes;
-use crate::common::{Shot, orthographic, volume};
+use crate::common::{Stage, orthographic, volume};
 use drypoint::output::compare::{Comparison, Options, compare};
 use drypoint::output::png::encode_png;
 use drypoint::output::read::{Image, decode};
@@ -27,11 +27,11 @@ fn distance(name: &str, n: usize, params: &[(&str, f64)]) -> Volume {
 
 /// Opaque from the surface on, before light grey, seen along y with z up; `pixel` is the side of a pixel in the world,
 /// `shift` moves the body to the right and up, in pixels, and `roll` turns the picture clockwise, in degrees.
-fn shot(body: Volume, step: f64, size: [usize; 2], pixel: f64, shift: [f64; 2], roll: f64) -> Shot {
+fn shot(body: Volume, step: f64, size: [usize; 2], pixel: f64, shift: [f64; 2], roll: f64) -> Stage {
     let (sin, cos) = roll.to_radians().sin_cos();
     let [right, up] = [DVec3::new(cos, 0.0, sin), DVec3::new(-sin, 0.0, cos)];
     let target = body.grid().centre() - (right * shift[0] + up * shift[1]) * pixel;
-    planes(&Shot::styled(body, Vec::new(), &[(0.0, "s", 0.0), (0.0, "s", 1.0)]), step).with(|s| {
+    planes(&Stage::styled(body, Vec::new(), &[(0.0, "s", 0.0), (0.0, "s", 1.0)]), step).with(|s| {
         s.camera.projection = orthographic(Some(size[1] as f64 * pixel)).projection;
         s.camera.target = Some(target);
         s.camera.up = up;
@@ -53,7 +53,7 @@ fn image(picture: &Picture) -> Image {
     decode(&png(picture), Path::new("a.png")).unwrap()
 }
 
-fn in_style(shot: &Shot, style: Style) -> Picture {
+fn in_style(shot: &Stage, style: Style) -> Picture {
     let mut styled = shot.clone();
     styled.styles = vec![Style { name: "s".into(), ..style }];
     styled.render().picture
@@ -67,7 +67,7 @@ struct Trip {
 }
 
 impl Trip {
-    fn new(shot: &Shot, theme: &str, region: &Region, side: usize) -> Self {
+    fn new(shot: &Stage, theme: &str, region: &Region, side: usize) -> Self {
         let first = in_style(shot, load(&Styles::default(), [theme]).unwrap().remove(0));
         let source = SourcePicture::decode(&png(&first), false).unwrap();
         let extracted = extract(&source, region, side).unwrap();
@@ -102,7 +102,7 @@ fn style(extracted: &Extracted) -> Style {
 /// A sphere of 60 voxels and 187 pixels. A step of a 3000th of the radius keeps the layers of samples from showing, and
 /// the circle lies 0.02 pixels inside the edge, since trilinear interpolation moves a distance by up to
 /// h²/8 · 2/R = 0.004 voxels = 0.013 pixels inwards.
-fn sphere(size: [usize; 2], shift: [f64; 2]) -> (Shot, Region) {
+fn sphere(size: [usize; 2], shift: [f64; 2]) -> (Stage, Region) {
     let (radius, pixel) = (60.0, 0.32);
     let [x, y] = middle(size, shift);
     let region = Region::Circle { x, y, r: radius / pixel - 0.02 };

@@ -2,7 +2,7 @@
 
 use super::{one_sample, planes, smooth};
 use crate::common::strip::ramp;
-use crate::common::{Shot, ball, orthographic, perspective, plain, style, volume};
+use crate::common::{Stage, ball, orthographic, perspective, plain, style, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{Length, Mix, NormalSide, Outside, SphereFrame, Table, Transparency};
@@ -20,7 +20,7 @@ fn evaluated(value: f64, nodes: &[(f64, &str, f64)], mix: Mix, table: Table) -> 
         plain("blue", [0.0, 0.0, 1.0, 1.0]),
         plain("clear", [1.0, 1.0, 0.0, 0.0]),
     ];
-    let shot = Shot::styled(volume([5; 3], |_| value), styles, nodes).with_transfer(|t| {
+    let shot = Stage::styled(volume([5; 3], |_| value), styles, nodes).with_transfer(|t| {
         t.mix = mix;
         t.transparency = Transparency::Plain;
         t.table = table;
@@ -109,7 +109,7 @@ fn a_style_of_opacity_zero_shows_nothing() {
         assert_eq!(pixel(3.0, &[(0.0, "clear", 1.0)], mix), [0.0; 4]);
         assert_eq!(pixel(0.5, &[(0.0, "clear", 1.0), (1.0, "clear", 1.0)], mix), [0.0; 4]);
     }
-    let shot = Shot::styled(ball(12, 4.0), vec![plain("clear", [1.0, 0.0, 0.0, 0.0])], &[(0.0, "clear", 1.0)])
+    let shot = Stage::styled(ball(12, 4.0), vec![plain("clear", [1.0, 0.0, 0.0, 0.0])], &[(0.0, "clear", 1.0)])
         .layers(&[LayerKind::Z, LayerKind::First, LayerKind::Normal]);
     let shown = shot.render();
     assert_eq!(shown.covered(), 0);
@@ -124,7 +124,7 @@ fn a_style_of_opacity_zero_shows_nothing() {
 #[test]
 fn a_ball_shows_its_style() {
     for direction in [[0.0, 1.0, 0.0], [0.5, -0.3, 0.8]] {
-        let shot = Shot::styled(ball(24, 8.0), vec![ramp()], &[(0.0, "ramp", 0.0), (0.0, "ramp", 1.0)])
+        let shot = Stage::styled(ball(24, 8.0), vec![ramp()], &[(0.0, "ramp", 0.0), (0.0, "ramp", 1.0)])
             .seen_along(direction)
             .with(|s| s.camera.projection = orthographic(Some(18.0)).projection);
         let shot = planes(&smooth(&shot), 0.05);
@@ -155,7 +155,7 @@ fn a_ball_far_off_the_axis_has_its_silhouette_on_the_rim() {
     let centre = DVec3::splat((n - 1) as f64 / 2.0);
     let sin_cos = 50f64.to_radians().sin_cos();
     let eye = centre - DVec3::new(sin_cos.0, sin_cos.1, 0.0) * 40.0;
-    let shot = Shot::styled(ball(n, 8.0), vec![ramp()], &[(0.0, "ramp", 0.0), (0.0, "ramp", 1.0)])
+    let shot = Stage::styled(ball(n, 8.0), vec![ramp()], &[(0.0, "ramp", 0.0), (0.0, "ramp", 1.0)])
         .layers(&[LayerKind::Normal])
         .with(|s| {
             s.camera = perspective(130.0);
@@ -199,7 +199,7 @@ fn a_ball_far_off_the_axis_has_its_silhouette_on_the_rim() {
 /// Both frames are one in an orthographic picture, bit for bit.
 #[test]
 fn both_frames_are_one_in_orthographic_pictures() {
-    let shot = Shot::styled(ball(16, 6.0), vec![ramp()], &[(-2.0, "ramp", 0.0), (2.0, "ramp", 0.7)])
+    let shot = Stage::styled(ball(16, 6.0), vec![ramp()], &[(-2.0, "ramp", 0.0), (2.0, "ramp", 0.7)])
         .seen_along([0.3, 0.5, -0.9]);
     assert_eq!(shot.render().bits(), shot.with_transfer(|t| t.sphere_frame = SphereFrame::View).render().bits());
 }
@@ -207,10 +207,10 @@ fn both_frames_are_one_in_orthographic_pictures() {
 /// A dark ball in a bright surround, `outside = "high"`: the same picture as the bright one in a dark surround.
 #[test]
 fn dark_objects_look_like_bright_ones() {
-    let bright = Shot::styled(ball(16, 6.0), vec![ramp()], &[(0.1, "ramp", 0.0), (0.1, "ramp", 1.0)]);
+    let bright = Stage::styled(ball(16, 6.0), vec![ramp()], &[(0.1, "ramp", 0.0), (0.1, "ramp", 1.0)]);
     let centre = DVec3::splat(7.5);
     let dark = volume([16; 3], |p| -(6.0 - (p - centre).length()));
-    let dark = Shot::styled(dark, vec![ramp()], &[(-0.1, "ramp", 1.0), (-0.1, "ramp", 0.0)]);
+    let dark = Stage::styled(dark, vec![ramp()], &[(-0.1, "ramp", 1.0), (-0.1, "ramp", 0.0)]);
     let dark = dark.with(|s| s.volume.outside = Outside::High);
     assert_eq!(bright.render().bits(), dark.render().bits());
 }
@@ -224,7 +224,7 @@ fn texels_outside_the_disk_never_show() {
         style("s", 8, move |x, y| if x * x + y * y <= 1.0 { inside(x, y) } else { [outside; 4] })
     };
     let picture = |style| {
-        Shot::styled(ball(16, 6.0), vec![style], &[(0.0, "s", 0.0), (0.0, "s", 1.0)])
+        Stage::styled(ball(16, 6.0), vec![style], &[(0.0, "s", 0.0), (0.0, "s", 1.0)])
             .with(|s| s.contours = Some(Default::default()))
             .render()
             .bits()

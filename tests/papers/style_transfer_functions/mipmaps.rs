@@ -1,7 +1,7 @@
 //! Mip-maps of styles in pictures ([STF-10]): the level of each pixel, and what it does to grain.
 
 use super::smooth;
-use crate::common::{Shot, ball, largest_difference, on, orthographic, perspective, plain, style, volume};
+use crate::common::{Stage, ball, largest_difference, on, orthographic, perspective, plain, style, volume};
 use drypoint::reference::style_transfer_functions::{MipMap, SphereMap};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::philox::uniforms;
@@ -40,7 +40,7 @@ fn unbiased() -> StyleMipmaps {
 /// matter of styles: these pixels are left out.
 #[test]
 fn a_grainy_ball_is_as_quiet_as_sixteen_times_sixteen_rays_make_it() {
-    let shot = Shot::styled(ball(13, 4.0), vec![grain(1024)], &[(0.0, "grain", 0.0), (0.0, "grain", 1.0)]);
+    let shot = Stage::styled(ball(13, 4.0), vec![grain(1024)], &[(0.0, "grain", 0.0), (0.0, "grain", 1.0)]);
     let exact = Contours { thickness: Length::World(0.0), kappa: Kappa::Exact, ..Contours::default() };
     let ways = [
         (None, None),
@@ -81,7 +81,7 @@ fn every_pixel_has_the_level_of_the_formula() {
     let field = |p: DVec3| (36.0 - (p - centre).length_squared()) / 12.0;
     let styles = vec![grain(side)];
     let (picture, chain) = (SphereMap::new(&styles[0]), MipMap::<f64>::new(&styles[0]));
-    let shot = Shot::styled(on(grid, field), styles, &[(0.0, "grain", 0.0), (0.0, "grain", 1.0)])
+    let shot = Stage::styled(on(grid, field), styles, &[(0.0, "grain", 0.0), (0.0, "grain", 1.0)])
         .layers(&[CurvatureAlongView, Normal, Gradient, Z])
         .with(|s| {
             s.volume.gradient_range = GradientRange::Fixed(range);
@@ -134,14 +134,14 @@ fn every_pixel_has_the_level_of_the_formula() {
 #[test]
 fn level_0_is_the_unfiltered_picture_bit_for_bit() {
     let nodes = [(0.0, "grain", 0.0), (3.0, "grain", 0.6), (5.0, "grain", 0.9)];
-    let wall = Shot::styled(volume([12; 3], |p| p.y + 0.5 * p.x - 6.0), vec![grain(256)], &nodes)
+    let wall = Stage::styled(volume([12; 3], |p| p.y + 0.5 * p.x - 6.0), vec![grain(256)], &nodes)
         .with(|s| s.camera.projection = orthographic(Some(16.0)).projection);
-    let with = |shot: &Shot, table| shot.with(|s| s.style_mipmaps = Some(table)).render();
+    let with = |shot: &Stage, table| shot.with(|s| s.style_mipmaps = Some(table)).render();
     assert_eq!(with(&wall, StyleMipmaps::default()).bits(), wall.render().bits());
     // A larger style has more texels than pixels, and another picture.
-    let fine = Shot { styles: vec![grain(512)], ..wall.clone() };
+    let fine = Stage { styles: vec![grain(512)], ..wall.clone() };
     assert!(largest_difference(&with(&fine, StyleMipmaps::default()), &fine.render()) > 0.01);
-    let round = Shot::styled(ball(14, 5.0), vec![grain(64)], &nodes);
+    let round = Stage::styled(ball(14, 5.0), vec![grain(64)], &nodes);
     assert_eq!(with(&round, StyleMipmaps { turn: 0.0, ..unbiased() }).bits(), round.render().bits());
     assert!(largest_difference(&with(&round, StyleMipmaps::default()), &round.render()) > 0.01);
 }
@@ -157,7 +157,7 @@ fn from_afar_a_style_is_the_mean_of_its_disk() {
         for (name, expected) in [("grain", mean), ("white", [1.0; 4])] {
             let nodes =
                 [(0.0, name, 0.0), (0.0, name, 1.0), (9.0, name, 1.0), (9.0, "white", 1.0), (9.0, "grain", 1.0)];
-            let far = Shot::styled(ball(14, 5.0), styles.clone(), &nodes).with(|s| {
+            let far = Stage::styled(ball(14, 5.0), styles.clone(), &nodes).with(|s| {
                 s.style_mipmaps = Some(StyleMipmaps::default());
                 s.camera = perspective(5.0);
                 s.camera.direction = DVec3::Y;
@@ -175,7 +175,7 @@ fn from_afar_a_style_is_the_mean_of_its_disk() {
 #[test]
 fn rays_of_a_divided_pixel_have_the_level_of_a_larger_picture() {
     let nodes = [(-1.0, "grain", 0.0), (2.0, "grain", 0.8)];
-    let shot = Shot::styled(ball(16, 6.0), vec![grain(300)], &nodes).with(|s| {
+    let shot = Stage::styled(ball(16, 6.0), vec![grain(300)], &nodes).with(|s| {
         s.style_mipmaps = Some(StyleMipmaps::default());
         s.camera = perspective(45.0);
     });
@@ -197,7 +197,7 @@ fn rays_of_a_divided_pixel_have_the_level_of_a_larger_picture() {
 #[test]
 fn mip_maps_cost_what_they_are_asked_for() {
     let nodes = [(-1.0, "grain", 0.0), (2.0, "grain", 0.8)];
-    let shot = Shot::styled(ball(16, 6.0), vec![grain(12)], &nodes)
+    let shot = Stage::styled(ball(16, 6.0), vec![grain(12)], &nodes)
         .with_transfer(|t| t.transparency = Transparency::Plain)
         .with(|s| s.volume.gradient_range = GradientRange::Quantile(0.999));
     let bare = shot.render().counts;
@@ -217,7 +217,7 @@ fn mip_maps_cost_what_they_are_asked_for() {
     let exact = Contours { kappa: Kappa::Exact, ..Contours::default() };
     let c = with(StyleMipmaps::default()).with(|s| s.contours = Some(exact)).render().counts;
     assert!(c.gradients == bare.gradients && c.hessians > 0);
-    let regular = Shot::regular(ball(16, 6.0), &[(-1.0, [0.2, 0.3, 0.4], 0.1), (2.0, [0.9, 0.3, 0.4], 0.8)]);
+    let regular = Stage::regular(ball(16, 6.0), &[(-1.0, [0.2, 0.3, 0.4], 0.1), (2.0, [0.9, 0.3, 0.4], 0.8)]);
     let (without, with) =
         (regular.render(), regular.with(|s| s.style_mipmaps = Some(StyleMipmaps::default())).render());
     assert_eq!(without.bits(), with.bits());
@@ -228,7 +228,7 @@ fn mip_maps_cost_what_they_are_asked_for() {
 #[test]
 fn without_a_kappa_there_is_no_curvature_to_be_biased_by() {
     let nodes = [(-1.0, "grain", 0.1), (2.0, "grain", 0.8)];
-    let shot = Shot::styled(ball(16, 6.0), vec![grain(300)], &nodes).with(|s| {
+    let shot = Stage::styled(ball(16, 6.0), vec![grain(300)], &nodes).with(|s| {
         s.contours = Some(Contours { kappa: Kappa::None { threshold: 0.3 }, ..Contours::default() });
     });
     let with = |curvature_bias| {

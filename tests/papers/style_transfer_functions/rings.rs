@@ -9,7 +9,7 @@
 
 use super::{planes, smooth};
 use crate::common::strip::{ramp, strip};
-use crate::common::{Shot, ball, orthographic, plain, style, volume};
+use crate::common::{Stage, ball, orthographic, plain, style, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::phantom;
 use drypoint::scene::picture::LayerKind;
@@ -18,8 +18,8 @@ use drypoint::scene::tables::{Contours, HessianEstimator, Kappa, Kernel, Length,
 use drypoint::scene::volume::{Volume, VoxelType};
 
 /// Opaque from the surface at a value inwards, in the style that shows where it is looked up.
-fn opaque(volume: Volume, surface: f64) -> Shot {
-    Shot::styled(volume, vec![ramp()], &[(surface, "ramp", 0.0), (surface, "ramp", 1.0)]).seen_along([0.3, 0.8, -0.5])
+fn opaque(volume: Volume, surface: f64) -> Stage {
+    Stage::styled(volume, vec![ramp()], &[(surface, "ramp", 0.0), (surface, "ramp", 1.0)]).seen_along([0.3, 0.8, -0.5])
 }
 
 fn contours(thickness: f64, kappa: Kappa) -> Contours {
@@ -45,7 +45,7 @@ fn interval(kappa: Kappa, t: f64, radius: f64, delta: f64) -> [f64; 2] {
 }
 
 /// Both rings of the row through the middle of a ball have a width in the interval, `slack` world units off.
-fn check(shot: &Shot, kappa: Kappa, [t, radius, delta]: [f64; 3], slack: f64) {
+fn check(shot: &Stage, kappa: Kappa, [t, radius, delta]: [f64; 3], slack: f64) {
     let pixel = if radius < 15.0 { 0.05 } else { 0.1 };
     let width = 2 * ((radius + 1.0) / pixel) as usize;
     let [least, most] = interval(kappa, t, radius, delta);
@@ -161,7 +161,7 @@ fn a_black_rim_makes_a_black_ring() {
     const EDGE: f64 = 0.9;
     let (radius, t, delta) = (14.0, 2.5, 0.5);
     let black_rim = style("rim", 256, |x, y| if x.hypot(y) > EDGE { [0.0, 0.0, 0.0, 1.0] } else { [1.0; 4] });
-    let shot = Shot::styled(ball(40, radius), vec![black_rim], &[(0.0, "rim", 0.0), (0.0, "rim", 1.0)]);
+    let shot = Stage::styled(ball(40, radius), vec![black_rim], &[(0.0, "rim", 0.0), (0.0, "rim", 1.0)]);
     let shot = planes(&smooth(&shot), delta).layers(&[LayerKind::Normal, LayerKind::First]).with(|s| {
         s.picture.size = [48, 48];
         s.camera.projection = orthographic(Some(32.0)).projection;
@@ -244,7 +244,7 @@ fn faded_contours_are_gone_where_the_gradient_is_weak() {
 #[test]
 fn contours_leave_a_constant_style_alone() {
     let grey = plain("grey", [0.3, 0.4, 0.5, 1.0]);
-    let shot = Shot::styled(ball(20, 6.0), vec![grey], &[(0.0, "grey", 0.0), (0.0, "grey", 1.0)]);
+    let shot = Stage::styled(ball(20, 6.0), vec![grey], &[(0.0, "grey", 0.0), (0.0, "grey", 1.0)]);
     for kappa in [Kappa::Exact, Kappa::Ray, Kappa::None { threshold: 0.5 }] {
         let with = shot.with(|s| s.contours = Some(contours(2.0, kappa)));
         assert_eq!(with.render().bits(), shot.render().bits());

@@ -1,7 +1,7 @@
 //! Eq. 2 in pictures ([STF-9]) and the order of the correction ([VAL-4]).
 
 use super::one_sample;
-use crate::common::{Shot, ball, corrected, orthographic, plain, volume};
+use crate::common::{Stage, ball, corrected, orthographic, plain, volume};
 use drypoint::reference::style_transfer_functions::contour::fade;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -40,7 +40,7 @@ fn eq_2_by_hand_at_every_pixel() {
             if range[0] < range[1] { ((G.length() - range[0]) / (range[1] - range[0])).clamp(0.0, 1.0) } else { 0.0 };
         let tau = threshold.unwrap_or(0.0) * fades.map_or(1.0, |[lo, hi]| fade(g, lo, hi));
         let glass = plain("glass", [color[0], color[1], color[2], alpha_d]);
-        let shot = Shot::styled(linear(), vec![glass], &nodes).layers(&[LayerKind::First]).with(|s| {
+        let shot = Stage::styled(linear(), vec![glass], &nodes).layers(&[LayerKind::First]).with(|s| {
             s.volume.gradient_range = GradientRange::Fixed(range);
             s.contours = threshold.map(|threshold| Contours {
                 kappa: Kappa::None { threshold },
@@ -72,7 +72,7 @@ fn a_flat_field_is_seen_along_its_normal() {
         (Kappa::None { threshold: 1.0 }, 0.5),
     ] {
         let glass = plain("glass", [0.5, 0.25, 1.0, 0.75]);
-        let shot = Shot::styled(volume([9; 3], |_| 100.1), vec![glass], &[(0.0, "glass", 0.4)])
+        let shot = Stage::styled(volume([9; 3], |_| 100.1), vec![glass], &[(0.0, "glass", 0.4)])
             .with(|s| s.contours = Some(Contours { kappa, thickness: Length::World(50.0), ..Contours::default() }));
         let shown = one_sample(&shot, [0.1, 0.9, 0.4], 4.0).render();
         assert_eq!(shown.counts.without_normal, 256);
@@ -89,7 +89,7 @@ fn the_ends_of_alpha_u_are_exact() {
         for contours in [None, Some(Contours { kappa: Kappa::None { threshold: 0.7 }, ..Contours::default() })] {
             let with = |alpha_u: f64| {
                 let glass = plain("glass", [0.5, 0.25, 1.0, 0.375]);
-                let shot = Shot::styled(linear(), vec![glass], &[(0.0, "glass", alpha_u)])
+                let shot = Stage::styled(linear(), vec![glass], &[(0.0, "glass", alpha_u)])
                     .with_transfer(|t| t.transparency = transparency)
                     .with(|s| s.contours = contours.clone());
                 one_sample(&shot, [0.1, 0.9, 0.4], 6.0).render().pixels()
@@ -112,7 +112,7 @@ fn a_slab_under_eq_2_converges_because_correction_comes_last() {
         let exponent =
             0.5 + (G.normalize().dot(direction).abs() - threshold.unwrap_or(0.0)).max(0.0) * (1.0 - G.length());
         let alpha = alpha_u.powf(exponent);
-        let shot = Shot::styled(linear(), vec![plain("glass", [0.5, 0.5, 0.5, 1.0])], &[(0.0, "glass", alpha_u)])
+        let shot = Stage::styled(linear(), vec![plain("glass", [0.5, 0.5, 0.5, 1.0])], &[(0.0, "glass", alpha_u)])
             .seen_along(direction.to_array())
             .with(|s| {
                 s.volume.gradient_range = GradientRange::Fixed(range);
@@ -147,7 +147,7 @@ fn a_translucent_ball_converges() {
     let glass = plain("glass", [0.7, 0.5, 0.2, 0.9]);
     // Opacity 0 at the box's faces, so that no sample enters or leaves the picture with a step.
     let nodes = [(-4.0, "glass", 0.0), (1.0, "glass", 0.3), (9.0, "glass", 0.05)];
-    let shot = super::smooth(&Shot::styled(ball(24, 6.0), vec![glass], &nodes)).seen_along([0.2, 0.5, 0.4]);
+    let shot = super::smooth(&Stage::styled(ball(24, 6.0), vec![glass], &nodes)).seen_along([0.2, 0.5, 0.4]);
     for contours in [None, Some(Contours { kappa: Kappa::Exact, ..Contours::default() })] {
         let pictures: Vec<_> = (0..5)
             .map(|halvings| {
@@ -172,7 +172,7 @@ fn a_translucent_ball_converges() {
 /// A regular function is always plain: no eq. 2, no contour, no κ ([STF-8], [STF-9]).
 #[test]
 fn a_regular_function_with_contours_computes_nothing_of_them() {
-    let shot = Shot::regular(ball(16, 6.0), &[(-1.0, [0.2, 0.3, 0.4], 0.0), (3.0, [0.9, 0.3, 0.4], 0.6)]);
+    let shot = Stage::regular(ball(16, 6.0), &[(-1.0, [0.2, 0.3, 0.4], 0.0), (3.0, [0.9, 0.3, 0.4], 0.6)]);
     let bare = shot.render();
     for kappa in [Kappa::Exact, Kappa::Ray, Kappa::None { threshold: 0.9 }] {
         let table = Contours { kappa, fade: Some([0.1, 0.2]), ..Contours::default() };

@@ -1,7 +1,7 @@
 //! Functions over two quantities (4.2; [STF-4]).
 
 use super::{one_sample, planes, smooth};
-use crate::common::{Shot, Shown, on, orthographic, plain, positions, volume};
+use crate::common::{Shown, Stage, on, orthographic, plain, positions, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
@@ -32,7 +32,7 @@ fn rows_of<C>(rows: &[ByHand<'_, C>], color: impl Fn(&C) -> NodeColor) -> Vec<Ro
 }
 
 /// The same picture with a function over two quantities.
-fn over(shot: &Shot, axes: [Axis; 2], rows: Vec<Row>) -> Shot {
+fn over(shot: &Stage, axes: [Axis; 2], rows: Vec<Row>) -> Stage {
     let kind = match rows[0].nodes[0].color {
         NodeColor::Style(_) => TransferKind::Style,
         NodeColor::Color(_) => TransferKind::Regular,
@@ -53,7 +53,7 @@ fn sample(rows: Vec<Row>, mix: Mix) -> [f64; 4] {
         plain("blue", [0.0, 0.0, 1.0, 1.0]),
         plain("clear", [1.0, 1.0, 0.0, 0.0]),
     ];
-    let shot = Shot::styled(volume([5; 3], |_| 15.0), styles, &[]);
+    let shot = Stage::styled(volume([5; 3], |_| 15.0), styles, &[]);
     let shot = over(&shot, [Axis::Value, Axis::Distance(DVec3::new(5.0, 6.0, 2.0))], rows).with_transfer(|t| {
         t.mix = mix;
         t.transparency = Transparency::Plain;
@@ -107,10 +107,10 @@ fn rows_may_have_nodes_of_their_own() {
 const RADIUS: f64 = 16.0;
 const WIDTH: f64 = 2.0;
 
-fn logistic() -> Shot {
+fn logistic() -> Stage {
     let centre = DVec3::splat(27.5);
     let field = volume([56; 3], |p| 100.0 / (1.0 + (((p - centre).length() - RADIUS) / WIDTH).exp()));
-    smooth(&Shot::regular(field, &[]))
+    smooth(&Stage::regular(field, &[]))
 }
 
 /// ‖g‖ ≥ g₀ is the shell |ρ − R| ≤ 2s·acosh √(25/s g₀): where the ray meets it first, and what values it has.
@@ -161,7 +161,7 @@ fn a_distance_cuts_a_ball() {
     let (radius, point) = (7.3, DVec3::new(13.0, 11.0, 14.0));
     let step = 1.0 / 32.0;
     let rows = colored(&[(0.0, &[(0.0, RED, 1.0)]), (radius, &[(0.0, RED, 1.0)]), (radius, &[(0.0, RED, 0.0)])]);
-    let shot = over(&Shot::regular(volume([28; 3], |_| 1.0), &[]), [Axis::Value, Axis::Distance(point)], rows);
+    let shot = over(&Stage::regular(volume([28; 3], |_| 1.0), &[]), [Axis::Value, Axis::Distance(point)], rows);
     let shot = planes(&shot, step).layers(&[LayerKind::Depth]).with(|s| {
         s.camera = Camera { direction: DVec3::Y, target: Some(point), ..orthographic(Some(20.0)) };
         s.picture.size = [40, 40];
@@ -205,7 +205,7 @@ fn curvature_parts_the_inside_of_a_torus_from_its_outside() {
         let zero = [(0.0, [0.0; 3], 0.0), (0.0, [0.0; 3], 1.0)];
         let line = |c: [f64; 3]| zero.map(|(at, _, opacity)| (at, c, opacity));
         let rows = colored(&[(0.0, &line(RED)), (0.0, &line(BLUE))]);
-        let shot = smooth(&Shot::regular(torus.clone(), &[]));
+        let shot = smooth(&Stage::regular(torus.clone(), &[]));
         let shot = over(&shot, [Axis::Value, Axis::Gaussian], rows);
         let shot = planes(&shot, 1.0 / 16.0).with(|s| {
             s.camera = Camera {
@@ -235,7 +235,7 @@ fn curvature_parts_the_inside_of_a_torus_from_its_outside() {
 #[test]
 fn a_further_volume_selects_by_its_own_grid() {
     let grid = Grid::with_spacing([8, 8, 8], [4.0; 3]).unwrap();
-    let mut shot = Shot::regular(volume([24; 3], |_| 1.0), &[]);
+    let mut shot = Stage::regular(volume([24; 3], |_| 1.0), &[]);
     shot.further[1] = Some(on(grid, |p| p.x));
     let rows = colored(&[(0.0, &[(0.0, RED, 0.0)]), (11.25, &[(0.0, RED, 0.0)]), (11.25, &[(0.0, RED, 1.0)])]);
     let shot = over(&shot, [Axis::Value, Axis::Volume("x.nrrd".into())], rows).with(|s| {
@@ -292,7 +292,7 @@ fn each_label_has_a_function_of_its_own() {
         rows
     };
     let styles = vec![plain("red", [1.0, 0.0, 0.0, 1.0]), plain("blue", [0.0, 0.0, 1.0, 1.0])];
-    let mut shot = Shot::styled(data, styles, &[]);
+    let mut shot = Stage::styled(data, styles, &[]);
     shot.labels = Some(LabelVolume::new(&labels).unwrap());
     let shot = planes(&shot, 0.25).with(|s| {
         s.camera = Camera { direction: DVec3::Y, ..orthographic(Some(31.0)) };
@@ -327,7 +327,7 @@ fn the_neighbourhood_of_a_label() {
     let centre = DVec3::splat(16.0);
     let ids = positions(&grid).map(|p| u8::from((p - centre).length() <= 6.0) * 4).collect();
     let labels = Volume::new(grid.clone(), Voxels::U8(ids), 1.0, 0.0).unwrap();
-    let mut shot = Shot::regular(on(grid, |_| 1.0), &[]);
+    let mut shot = Stage::regular(on(grid, |_| 1.0), &[]);
     shot.labels = Some(LabelVolume::new(&labels).unwrap());
     let near = 5.0;
     let rows = colored(&[(0.0, &[(0.0, RED, 1.0)]), (near, &[(0.0, RED, 1.0)]), (near, &[(0.0, RED, 0.0)])]);

@@ -18,11 +18,12 @@ use self::phong::{Shaded, Unshaded};
 use self::rays::Rays;
 use self::waiting::cast_waiting;
 use self::walk::{Asked, Walk};
-use super::cast::Cast;
+use super::composite::Cast;
+use super::draw::TileWork;
 use super::lattice::IndexRay;
-use super::need::Needs;
-use super::prepared::{Calls, KappaSource, Prepared};
-use super::sample::Look;
+use super::prepared::Prepared;
+use super::sample::Shader;
+use super::sample::need::Needs;
 use super::skip::{Boxes, merge};
 use crate::field::AnySampler;
 use crate::field::lanes::{Each, EachReader, LANES, LaneReader, Packed, Reader};
@@ -30,13 +31,14 @@ use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, wide};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
+use drypoint_scene::shot::{KappaSource, SampleQuery};
 use drypoint_scene::volume::Voxels;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, f64x8};
 
 /// Whether a scene's rays can be cast in lanes.
 pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
-    let shaded = match prepared.needs {
+    let shaded = match prepared.object.needs {
         Needs::Value => false,
         Needs::Normal => true,
         Needs::Anything if is_in_style(prepared) => true,
@@ -44,44 +46,38 @@ pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
     };
     wide().is_some()
         && prepared.layers == [LayerKind::Beauty]
-        && prepared.volume.mask().is_none()
+        && prepared.object.volume.mask().is_none()
         && prepared.surface.is_none()
-        && prepared.field.fits_lanes(shaded, matches!(prepared.look, Look::Style(_)))
+        && prepared.object.field.fits_lanes(shaded, matches!(prepared.object.shader, Shader::Style(_)))
 }
 
 /// Whether a scene is one of styles over the value, without mip-maps.
 fn is_in_style(prepared: &Prepared<'_, f64>) -> bool {
-    let calls = Calls { kappa: KappaSource::None, hessian: false, ..prepared.calls };
-    matches!(&prepared.look, Look::Style(styled) if styled.detail.is_none())
-        && calls == Calls::NORMAL
-        && prepared.calls.hessian == (prepared.calls.kappa == KappaSource::Exact)
-        && prepared.first.is_none()
-        && prepared.over_two.is_none()
-        && prepared.table.is_none()
+    let query = SampleQuery { kappa: KappaSource::None, hessian: false, ..prepared.object.query };
+    matches!(&prepared.object.shader, Shader::Style(styled) if styled.detail.is_none())
+        && query == SampleQuery::NORMAL
+        && prepared.object.query.hessian == (prepared.object.query.kappa == KappaSource::Exact)
+        && prepared.object.first.is_none()
+        && prepared.object.over_two.is_none()
+        && prepared.object.table.is_none()
         && !prepared.encode
 }
 
-/// Casts the rays through points of the picture, in pixels from the top left corner, and appends what comes out of each. For
-/// scenes that lanes [`serve`].
-pub(super) fn cast_all(
-    prepared: &Prepared<'_, f64>,
-    points: &[[f64; 2]],
-    boxes: Option<&mut Boxes>,
-    counts: &mut Counts,
-    casts: &mut Vec<Cast>,
-) {
+/// Casts rays of a tile, of scenes that lanes [`serve`].
+pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
+    let TileWork { points, boxes, counts, casts, .. } = work;
     if boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
         counts.rays += points.len() as u64;
         counts.rays_skipped += points.len() as u64;
         casts.extend(points.iter().map(|_| Cast { rgba: [0.0; 4], sums: None, samples: 0 }));
         return;
     }
-    let inside = boxes.as_ref().is_some_and(|boxes| boxes.are_inside(prepared.ends.map(Vec3::to_glam)));
+    let inside = boxes.as_ref().is_some_and(|boxes| boxes.are_inside(prepared.object.ends.map(Vec3::to_glam)));
     let boxes = boxes.as_deref().map(|boxes| (boxes, inside));
     let mut intervals = Default::default();
-    let sampler = prepared.field.sampler();
+    let sampler = prepared.object.field.sampler();
     let dear = !matches!(sampler, AnySampler::Trilinear(_));
-    let at_once = if matches!(prepared.look, Look::Style(_)) { RAYS } else { LANES };
+    let at_once = if matches!(prepared.object.shader, Shader::Style(_)) { RAYS } else { LANES };
     let mut packets = Vec::with_capacity(at_once / LANES);
     packets.resize_with(at_once.min(points.len()).div_ceil(LANES), || Packet::new(prepared));
     for points in points.chunks(at_once) {
@@ -97,7 +93,7 @@ pub(super) fn cast_all(
             );
         }
         match &sampler {
-            AnySampler::Trilinear(_) => match prepared.volume.voxels() {
+            AnySampler::Trilinear(_) => match prepared.object.volume.voxels() {
                 Voxels::U8(data) => run(prepared, packets, data, counts),
                 Voxels::I8(data) => run(prepared, packets, data, counts),
                 Voxels::U16(data) => run(prepared, packets, data, counts),
@@ -123,18 +119,20 @@ fn run<V: Packed>(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], 
     if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
         simd.vectorize(
             #[inline(always)]
-            || walk(simd, prepared, packets, LaneReader::new(simd, &prepared.field, data), counts),
+            || walk(simd, prepared, packets, LaneReader::new(simd, &prepared.object.field, data), counts),
         );
     }
 }
 
 /// Casts the rays of packets in styles through a field that is asked for one position after the other.
 fn run_each(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], each: &dyn Each, counts: &mut Counts) {
-    let Look::Style(styled) = &prepared.look else { unreachable!("lanes serve dear kernels in styles alone") };
+    let Shader::Style(styled) = &prepared.object.shader else {
+        unreachable!("lanes serve dear kernels in styles alone")
+    };
     if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
         simd.vectorize(
             #[inline(always)]
-            || cast_waiting(simd, packets, styled, EachReader::new(simd, &prepared.field, each), counts),
+            || cast_waiting(simd, packets, styled, EachReader::new(simd, &prepared.object.field, each), counts),
         );
     }
 }
@@ -147,17 +145,17 @@ fn walk<S: Simd, F: Reader<S>>(
     reader: F,
     counts: &mut Counts,
 ) {
-    if let Look::Style(styled) = &prepared.look {
+    if let Shader::Style(styled) = &prepared.object.shader {
         return cast_waiting(simd, packets, styled, reader, counts);
     }
     for packet in packets {
         let walk = Walk::new(simd, packet, reader);
-        match &prepared.look {
-            Look::Regular { colors, phong: Some(phong) } if prepared.needs == Needs::Normal => {
+        match &prepared.object.shader {
+            Shader::Regular { colors, phong: Some(phong) } if prepared.object.needs == Needs::Normal => {
                 walk.run(packet, &mut Shaded::new(simd, packet, colors, phong), counts);
             }
-            Look::Regular { colors, .. } => walk.run(packet, &mut Unshaded { colors }, counts),
-            Look::Style(_) | Look::Illustrated(_) => unreachable!("lanes serve regular functions and styles alone"),
+            Shader::Regular { colors, .. } => walk.run(packet, &mut Unshaded { colors }, counts),
+            Shader::Style(_) | Shader::Illustrated(_) => unreachable!("lanes serve regular functions and styles alone"),
         }
     }
 }
@@ -249,12 +247,12 @@ impl<'p, 'v> Packet<'p, 'v> {
             let ray = self.ray(lane);
             let before = self.visits.len();
             match boxes {
-                None => self.visits.extend(ray.visits(prepared.ends, None)),
+                None => self.visits.extend(ray.visits(prepared.object.ends, None)),
                 Some(_) if intervals.is_empty() => continue,
                 Some((_, inside)) => {
                     merge(intervals);
                     let inside = if inside { ray.all_beyond_near() } else { None };
-                    let range = inside.unwrap_or_else(|| ray.inside(prepared.ends));
+                    let range = inside.unwrap_or_else(|| ray.inside(prepared.object.ends));
                     self.visits.extend(ray.parts(range, intervals));
                 }
             }

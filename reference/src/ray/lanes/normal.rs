@@ -1,8 +1,8 @@
 //! The shading normal in lanes ([NORM-1], [PREC-3]).
 
 use crate::number::Vec3;
-use crate::ray::prepared::{Prepared, Side};
-use drypoint_scene::tables::Outside;
+use crate::ray::prepared::Prepared;
+use drypoint_scene::shot::{NormalDirection, Outside};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
@@ -17,21 +17,21 @@ pub(super) struct Normals<S: Simd> {
 }
 
 impl<S: Simd> Normals<S> {
-    /// [`outward`](crate::field::normal::outward) and [`Side::turn`] of gradients seen from v.
+    /// [`outward`](crate::field::normal::outward) and [`NormalDirection::turn`] of gradients seen from v.
     #[inline(always)]
     pub(super) fn new(prepared: &Prepared<'_, f64>, v: Vec3<f64x8<S>>, g: Vec3<f64x8<S>>) -> Self {
         let one = f64x8::splat(g.x.simd, 1.0);
         let length = g.length();
         let scale = one / length;
-        let outward = g * match prepared.outside {
+        let outward = g * match prepared.object.outside {
             Outside::Low => -scale,
             Outside::High => scale,
         };
-        let n = match prepared.side {
-            Side::Outward => outward,
-            Side::Facing => outward * outward.dot(v).simd_lt(0.0).select(-one, one),
-            Side::Inward => outward * -one,
+        let n = match prepared.object.normal {
+            NormalDirection::Outward => outward,
+            NormalDirection::Facing => outward * outward.dot(v).simd_lt(0.0).select(-one, one),
+            NormalDirection::Inward => outward * -one,
         };
-        Self { n, has: length.simd_gt(prepared.no_normal_below), length }
+        Self { n, has: length.simd_gt(prepared.object.no_normal_below), length }
     }
 }

@@ -1,12 +1,12 @@
 //! Rays through eight points of the picture side by side: the steps of [`View::ray`](drypoint_scene::view::View::ray),
-//! [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and [`Look::sight`](crate::ray::sample::Look::sight).
+//! [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and [`Shader::view_dirs`](crate::ray::sample::Shader::view_dirs).
 
 use super::LANES;
 use crate::number::Vec3;
 use crate::ray::prepared::Prepared;
-use crate::ray::sample::Look;
+use crate::ray::sample::Shader;
 use drypoint_scene::glam::{DMat3, DVec3};
-use drypoint_scene::tables::StepAlong;
+use drypoint_scene::shot::StepAlong;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
@@ -37,7 +37,7 @@ impl<S: Simd> Rays<S> {
         }
         let (i, j): (f64x8<S>, f64x8<S>) = (i.simd_into(simd), j.simd_into(simd));
         let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
-        let (view, lattice, grid) = (&prepared.view, &prepared.lattice, prepared.volume.grid());
+        let (view, lattice, grid) = (&prepared.view, &prepared.lattice, prepared.object.volume.grid());
         let [right, up, forward] = [view.right, view.up, view.forward].map(|v| all(simd, v));
         let x = (i - view.size[0] as f64 / 2.0) * view.pixel;
         let y = (f64x8::splat(simd, view.size[1] as f64 / 2.0) - j) * view.pixel;
@@ -55,7 +55,7 @@ impl<S: Simd> Rays<S> {
         let step = f64x8::splat(simd, lattice.step);
         let v = right * v_eye.x + up * v_eye.y - forward * v_eye.z;
         let mut half = Vec3::new(zero, zero, zero);
-        if let Look::Regular { phong: Some(phong), .. } = &prepared.look {
+        if let Shader::Regular { phong: Some(phong), .. } = &prepared.object.shader {
             let sum = all(simd, phong.light.to_glam()) + v;
             let length = sum.length();
             let unit = sum * (one / length);

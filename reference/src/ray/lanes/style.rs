@@ -7,11 +7,10 @@ use crate::field::curvature;
 use crate::field::lanes::{LANES, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, select};
-use crate::ray::prepared::KappaSource;
 use crate::ray::sample::Styled;
 use crate::style_transfer_functions::{frame, lanes};
 use drypoint_scene::counts::Counts;
-use drypoint_scene::tables::SphereFrame;
+use drypoint_scene::shot::{KappaSource, SphereFrame};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, f64x8, mask64x8};
 
@@ -135,7 +134,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
         if !unknown.all_false() {
             let p = tile.positions_of(&batch.rays, before, unknown.to_bitmask());
             let [_, _, _, beyond] = of_rays(simd, &self.eyes, &batch.rays);
-            let asked = unknown & inside(p, tile.prepared.ends) & beyond.simd_le(before);
+            let asked = unknown & inside(p, tile.prepared.object.ends) & beyond.simd_le(before);
             fetched = asked.to_bitmask();
             if fetched != 0 {
                 let g = tile.reader.gradients(&tile.reader.places(p), asked);
@@ -145,7 +144,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
             }
         }
         let both = (asked & has & has_before).to_bitmask();
-        (lanes::kappa(tile.prepared.turn, n, n_before, both, step), fetched)
+        (lanes::kappa(tile.prepared.object.turn, n, n_before, both, step), fetched)
     }
 
     /// N in the frame of the sphere, of which two coordinates are looked up; N = v where there is none ([PREC-3]).
@@ -176,15 +175,15 @@ impl<'p, S: Simd> InStyle<'p, S> {
         let asked = mask64x8::from_bitmask(self.simd, batch.asked);
         let [x, y, z, step] = of_rays(self.simd, &self.sights, &batch.rays);
         let v = Vec3::new(x, y, z);
-        let exact = styled.contour.is_some() && prepared.calls.kappa == KappaSource::Exact;
+        let exact = styled.contour.is_some() && prepared.object.query.kappa == KappaSource::Exact;
         let mut seconds = None;
-        let g = if exact && prepared.field.has_one_gradient() {
+        let g = if exact && prepared.object.field.has_one_gradient() {
             seconds.insert(tile.reader.seconds(&batch.at, asked)).0
         } else {
             tile.reader.gradients(&batch.at, asked)
         };
         let Normals { n, has, length } = Normals::new(prepared, v, g);
-        let magnitude = match prepared.gradient_range {
+        let magnitude = match prepared.object.gradient_range {
             Some((lo, width)) if width > 0.0 => lanes::clamp_01((length - lo) / width),
             _ => zero,
         };
@@ -193,7 +192,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
         let (mut tau, mut before, mut hessians) = (zero, 0, 0);
         if let Some(contour) = &styled.contour {
             let mut kappa = zero;
-            if prepared.calls.kappa == KappaSource::AlongRay {
+            if prepared.object.query.kappa == KappaSource::AlongRay {
                 (kappa, before) = self.kappa(tile, batch, v, step, n, has);
             }
             if exact {
@@ -203,17 +202,18 @@ impl<'p, S: Simd> InStyle<'p, S> {
                     Some(seconds) => seconds,
                     None => tile.reader.seconds(&batch.at, with_normal),
                 };
-                let along = curvature::along_view_lanes(g, h, v, prepared.outside, prepared.no_normal_below);
+                let along =
+                    curvature::along_view_lanes(g, h, v, prepared.object.outside, prepared.object.no_normal_below);
                 kappa = with_normal.select(along, zero);
             }
             tau = contour.tau_lanes(kappa, magnitude);
             [x, y] = lanes::push([x, y], n_dot_v, tau, asked & has);
         }
-        let blends = styled.index.blends(place, prepared.function.last());
+        let blends = styled.index.blends(place, prepared.object.function.last());
         let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
         let share = lanes::share(styled.transparency, place, n_dot_v, tau, magnitude);
         let counted = Counted { without_normal: !has.to_bitmask(), before, hessians, blends };
-        let ratio = step / prepared.reference_length;
+        let ratio = step / prepared.object.reference_length;
         let opaque = alpha_d.simd_eq(1.0) | !asked;
         if opaque.all_true() {
             return Looks { rgb: [r, g, b], alpha: share, ratio, counted };

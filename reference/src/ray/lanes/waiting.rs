@@ -13,6 +13,7 @@ use super::{Packet, RAYS, vector};
 use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::rows;
+use crate::ray::composite::Accumulator;
 use crate::ray::opacity::Correction;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::Styled;
@@ -20,7 +21,7 @@ use crate::transfer;
 use crate::transfer::lanes::Nodes;
 use drypoint_scene::counts::Counts;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4, f64x8, mask64x8};
+use fearless_simd::{Simd, f64x8, mask64x8};
 
 /// Numbers of a sample: k, its cell, the ways into it, α_u and i − i₀.
 const NUMBERS: usize = 9;
@@ -101,25 +102,25 @@ impl Waiting {
     }
 }
 
-/// What has come together on the rays of a tile: r, g, b and opacity of each, and the sample where it ends.
-struct Light {
-    rgba: [[f64; 4]; RAYS],
+/// The rays of a tile: what lies in front on each, and the sample where it ends.
+struct Fronts {
+    of_ray: [Accumulator<f64>; RAYS],
     farthest: [f64; RAYS],
     /// Of each packet.
     asked: [Vec<Asked>; RAYS / LANES],
 }
 
-impl Light {
+impl Fronts {
     fn new(packets: &mut [Packet<'_, '_>]) -> Self {
         let asked = Default::default();
-        let mut light = Self { rgba: [[0.0; 4]; RAYS], farthest: [f64::NEG_INFINITY; RAYS], asked };
-        for (packet, asked) in packets.iter_mut().zip(&mut light.asked) {
+        let mut fronts = Self { of_ray: [Accumulator::empty(0.0); RAYS], farthest: [f64::NEG_INFINITY; RAYS], asked };
+        for (packet, asked) in packets.iter_mut().zip(&mut fronts.asked) {
             *asked = std::mem::take(&mut packet.asked);
         }
-        for (packet, farthest) in packets.iter().zip(light.farthest.chunks_exact_mut(LANES)) {
+        for (packet, farthest) in packets.iter().zip(fronts.farthest.chunks_exact_mut(LANES)) {
             farthest.copy_from_slice(&packet.ends[1]);
         }
-        light
+        fronts
     }
 
     /// Hands the packets what is theirs.
@@ -127,9 +128,11 @@ impl Light {
         for (packet, asked) in packets.iter_mut().zip(self.asked) {
             packet.asked = asked;
         }
-        let rays = self.rgba.chunks_exact(LANES).zip(self.farthest.chunks_exact(LANES));
-        for (packet, (rgba, farthest)) in packets.iter_mut().zip(rays) {
-            packet.rgba.copy_from_slice(rgba);
+        let rays = self.of_ray.chunks_exact(LANES).zip(self.farthest.chunks_exact(LANES));
+        for (packet, (fronts, farthest)) in packets.iter_mut().zip(rays) {
+            for (rgba, Accumulator { rgb: [r, g, b], opacity }) in packet.rgba.iter_mut().zip(fronts) {
+                *rgba = [*r, *g, *b, *opacity];
+            }
             packet.ends[1].copy_from_slice(farthest);
         }
     }
@@ -144,8 +147,8 @@ impl Light {
     #[inline(always)]
     fn opacity<S: Simd>(&self, simd: S, packet: usize) -> f64x8<S> {
         let mut opacity = [0.0; LANES];
-        for (opacity, rgba) in opacity.iter_mut().zip(&self.rgba[LANES * packet..][..LANES]) {
-            *opacity = rgba[3];
+        for (opacity, front) in opacity.iter_mut().zip(&self.of_ray[LANES * packet..][..LANES]) {
+            *opacity = front.opacity;
         }
         opacity.simd_into(simd)
     }
@@ -160,12 +163,12 @@ pub(super) fn cast_waiting<S: Simd, F: Reader<S>>(
     reader: F,
     counts: &mut Counts,
 ) {
-    let mut light = Light::new(packets);
+    let mut fronts = Fronts::new(packets);
     if let [Packet { prepared, .. }, ..] = &*packets {
         let mut look = InStyle::new(simd, packets, styled);
-        Tile { simd, prepared, packets, reader }.run(&mut light, &mut look, counts);
+        Tile { simd, prepared, packets, reader }.run(&mut fronts, &mut look, counts);
     }
-    light.hand_over(packets);
+    fronts.hand_over(packets);
 }
 
 /// Where a packet goes on: in which of the ranges that it visits, and at which sample at the earliest.
@@ -182,18 +185,18 @@ pub(super) struct Tile<'p, 'v, S: Simd, F> {
 impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
     /// Visits all samples and shows what is seen eight at a time.
     #[inline(always)]
-    fn run(&self, light: &mut Light, look: &mut InStyle<'_, S>, counts: &mut Counts) {
+    fn run(&self, fronts: &mut Fronts, look: &mut InStyle<'_, S>, counts: &mut Counts) {
         let mut waiting = Waiting::new();
         let mut next = [Some((0, i64::MIN)); RAYS / LANES];
         let on_their_way = &mut next[..self.packets.len()];
         while on_their_way.iter().any(Option::is_some) {
             for (packet, next) in on_their_way.iter_mut().enumerate() {
                 if let Some(from) = *next {
-                    *next = self.follow(packet, from, &mut waiting, light, look, counts);
+                    *next = self.follow(packet, from, &mut waiting, fronts, look, counts);
                 }
             }
             while waiting.len > 0 {
-                self.show_batch(&waiting.pop(self.simd), look, light, counts);
+                self.show_batch(&waiting.pop(self.simd), look, fronts, counts);
             }
         }
     }
@@ -206,12 +209,12 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
         packet: usize,
         (first_range, earliest): Next,
         waiting: &mut Waiting,
-        light: &mut Light,
+        fronts: &mut Fronts,
         look: &mut InStyle<'_, S>,
         counts: &mut Counts,
     ) -> Option<Next> {
         let simd = self.simd;
-        if light.open(simd, packet, earliest as f64).all_false() {
+        if fronts.open(simd, packet, earliest as f64).all_false() {
             return None;
         }
         let rays = &self.packets[packet];
@@ -219,22 +222,22 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
         let one = f64x8::splat(simd, 1.0);
         let nearest: f64x8<S> = rays.ends[0].simd_into(simd);
         // About what a ray lets through when all that waits is shown. Below the limit it may have ended by then.
-        let (mut through, limit) = (one - light.opacity(simd, packet), 1.0 - self.prepared.stop_at);
+        let (mut through, limit) = (one - fronts.opacity(simd, packet), 1.0 - self.prepared.stop_at);
         let mut ahead = Ahead::new(simd);
         // What lay beyond where it stopped is asked for once more.
-        while light.asked[packet].pop_if(|&mut (k, _)| k >= earliest).is_some() {}
+        while fronts.asked[packet].pop_if(|&mut (k, _)| k >= earliest).is_some() {}
         for (range, &[first, last]) in rays.together.iter().enumerate().skip(first_range) {
             for group in (first.max(earliest)..=last).step_by(AHEAD) {
-                let open = light.open(simd, packet, group as f64);
+                let open = fronts.open(simd, packet, group as f64);
                 if open.all_false() {
                     return None;
                 }
-                walk.look_ahead(&mut ahead, [group, last], open, nearest, &mut light.asked[packet]);
+                walk.look_ahead(&mut ahead, [group, last], open, nearest, &mut fronts.asked[packet]);
                 while let Some((plane, s, values)) = ahead.next() {
                     let k = plane as f64;
-                    let open = light.open(simd, packet, k);
+                    let open = fronts.open(simd, packet, k);
                     let active = open & walk.wanted(nearest.simd_le(k), values);
-                    let Some(place) = self.prepared.function.locate_lanes(s, active) else {
+                    let Some(place) = self.prepared.object.function.locate_lanes(s, active) else {
                         continue;
                     };
                     let late = place.visible & through.simd_le(limit).to_bitmask();
@@ -244,7 +247,7 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
                     }
                     waiting.push(packet, k, walk.places(k), &place);
                     if waiting.len >= LANES {
-                        self.show_batch(&waiting.pop(simd), look, light, counts);
+                        self.show_batch(&waiting.pop(simd), look, fronts, counts);
                     }
                     let seen = mask64x8::from_bitmask(simd, place.visible);
                     through = seen.select(through * (one - place.alpha_u), through);
@@ -277,7 +280,7 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
 
     /// Shows samples and lays them behind what is in front of them.
     #[inline(always)]
-    fn show_batch(&self, batch: &Batch<S>, look: &mut InStyle<'_, S>, light: &mut Light, counts: &mut Counts) {
+    fn show_batch(&self, batch: &Batch<S>, look: &mut InStyle<'_, S>, fronts: &mut Fronts, counts: &mut Counts) {
         let simd = self.simd;
         let Looks { rgb: [r, g, b], alpha, ratio, counted } = look.show(self, batch);
         let corrected: [f64; LANES] = if batch.asked.count_ones() > 2 {
@@ -294,16 +297,15 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
         let mut shown = 0;
         for lane in 0..batch.asked.count_ones() as usize {
             let ray = usize::from(batch.rays[lane]) % RAYS;
-            if k[lane] > light.farthest[ray] {
+            if k[lane] > fronts.farthest[ray] {
                 continue;
             }
             shown |= 1 << lane;
-            let sum = f64x4::simd_from(simd, light.rgba[ray]);
-            let w = (1.0 - light.rgba[ray][3]) * corrected[lane];
-            let sum = sum + rows[lane] * w;
-            light.rgba[ray] = sum.into();
-            if sum[3] >= self.prepared.stop_at {
-                light.farthest[ray] = k[lane];
+            let [r, g, b, _] = rows[lane].into();
+            let front = &mut fronts.of_ray[ray];
+            front.over(1.0, [r, g, b], corrected[lane]);
+            if front.opacity >= self.prepared.stop_at {
+                fronts.farthest[ray] = k[lane];
             }
         }
         counted.add(shown, counts);

@@ -4,6 +4,7 @@ use super::correct::correct;
 use super::{Column, IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
+use crate::ray::composite::Accumulator;
 use crate::ray::opacity::Correction;
 use crate::ray::prepared::Prepared;
 use crate::transfer;
@@ -79,33 +80,28 @@ pub(super) trait Show<S: Simd> {
     ) -> ([f64x8<S>; 3], f64x8<S>);
 }
 
-/// What has come together on the rays.
+/// The last opacities that were corrected, and what they became: levels of a function repeat along a ray.
 #[derive(Clone, Copy)]
-struct Light<S: Simd> {
-    rgb: [f64x8<S>; 3],
-    opacity: f64x8<S>,
-    /// The last opacities that were corrected, and what they became: levels of a function repeat along a ray.
-    corrected: [f64x8<S>; 2],
-}
+struct Corrected<S: Simd>([f64x8<S>; 2]);
 
-impl<S: Simd> Light<S> {
+impl<S: Simd> Corrected<S> {
     /// Corrects the opacities of the lanes `fresh`: together, or alone where they are few.
     #[inline(always)]
     fn correct(&mut self, fresh: u64, alpha: f64x8<S>, ratio: f64x8<S>) {
         let lanes = mask64x8::from_bitmask(alpha.simd, fresh);
         if fresh.count_ones() > 2 {
-            self.corrected[1] = lanes.select(correct(alpha, ratio), self.corrected[1]);
+            self.0[1] = lanes.select(correct(alpha, ratio), self.0[1]);
         } else {
-            let mut corrected: Column = self.corrected[1].into();
+            let mut corrected: Column = self.0[1].into();
             let mut left = fresh;
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
                 corrected[lane] = Correction::new(ratio[lane]).apply(alpha[lane]);
             }
-            self.corrected[1] = corrected.simd_into(self.opacity.simd);
+            self.0[1] = corrected.simd_into(alpha.simd);
         }
-        self.corrected[0] = lanes.select(alpha, self.corrected[0]);
+        self.0[0] = lanes.select(alpha, self.0[0]);
     }
 }
 
@@ -120,7 +116,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
             origin: vector(simd, packet.origin),
             along: vector(simd, packet.along),
             depth_step: packet.depth_step.simd_into(simd),
-            ratio: step / packet.prepared.reference_length,
+            ratio: step / packet.prepared.object.reference_length,
         }
     }
 
@@ -128,7 +124,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
     #[inline(always)]
     pub(super) fn run(&self, packet: &mut Packet<'_, '_>, look: &mut impl Show<S>, counts: &mut Counts) {
         let zero = f64x8::splat(self.simd, 0.0);
-        let mut light = Light { rgb: [zero; 3], opacity: zero, corrected: [zero; 2] };
+        let (mut front, mut corrected) = (Accumulator::empty(zero), Corrected([zero; 2]));
         let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
         let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
         let mut ahead = Ahead::new(self.simd);
@@ -144,14 +140,14 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
                 while let Some((plane, s, _)) = ahead.next() {
                     let k = plane as f64;
                     let active = farthest.simd_ge(k) & nearest.simd_le(k);
-                    let stopped = self.visit(k, s, active, look, &mut light, counts);
+                    let stopped = self.visit(k, s, active, look, &mut front, &mut corrected, counts);
                     farthest = stopped.select(f64x8::splat(self.simd, k), farthest);
                 }
             }
         }
         packet.ends[1] = farthest.into();
-        let [r, g, b] = light.rgb;
-        let (r, g, b, opacity): (Column, Column, Column, Column) = (r.into(), g.into(), b.into(), light.opacity.into());
+        let Accumulator { rgb: [r, g, b], opacity } = front;
+        let (r, g, b, opacity): (Column, Column, Column, Column) = (r.into(), g.into(), b.into(), opacity.into());
         for lane in 0..LANES {
             packet.rgba[lane] = [r[lane], g[lane], b[lane], opacity[lane]];
         }
@@ -182,7 +178,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
                 (ahead.asked[i], wanted) = (lanes, mask64x8::from_bitmask(self.simd, lanes));
             }
             *s = self.reader.values(&at, wanted);
-            let may_be_seen = self.prepared.function.may_show(*s, wanted);
+            let may_be_seen = self.prepared.object.function.may_show(*s, wanted);
             ahead.seen |= u32::from(may_be_seen) << i;
         }
     }
@@ -196,7 +192,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
         while left != 0 {
             let lane = left.trailing_zeros() as usize % LANES;
             left &= left - 1;
-            show |= u64::from(cells.can_show(&self.prepared.field, alone.cell(lane))) << lane;
+            show |= u64::from(cells.can_show(&self.prepared.object.field, alone.cell(lane))) << lane;
         }
         show
     }
@@ -221,25 +217,27 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
         s: f64x8<S>,
         active: mask64x8<S>,
         look: &mut impl Show<S>,
-        light: &mut Light<S>,
+        front: &mut Accumulator<f64x8<S>>,
+        corrected: &mut Corrected<S>,
         counts: &mut Counts,
     ) -> mask64x8<S> {
         let simd = self.simd;
-        let Some(place) = self.prepared.function.locate_lanes(s, active) else {
+        let Some(place) = self.prepared.object.function.locate_lanes(s, active) else {
             return mask64x8::splat(simd, false);
         };
         let seen = mask64x8::from_bitmask(simd, place.visible);
         let sample = Sample { k, place, seen };
         let (rgb, alpha) = look.show(self, &sample, counts);
-        let fresh = (seen & alpha.simd_ne(light.corrected[0])).to_bitmask();
+        let fresh = (seen & alpha.simd_ne(corrected.0[0])).to_bitmask();
         if fresh != 0 {
-            light.correct(fresh, alpha, self.ratio);
+            corrected.correct(fresh, alpha, self.ratio);
         }
-        let w = (f64x8::splat(simd, 1.0) - light.opacity) * light.corrected[1];
-        for (sum, c) in light.rgb.iter_mut().zip(rgb) {
-            *sum = seen.select(*sum + w * c, *sum);
+        let mut with = *front;
+        with.over(f64x8::splat(simd, 1.0), rgb, corrected.0[1]);
+        for (c, with) in front.rgb.iter_mut().zip(with.rgb) {
+            *c = seen.select(with, *c);
         }
-        light.opacity = seen.select(light.opacity + w, light.opacity);
-        seen & light.opacity.simd_ge(self.prepared.stop_at)
+        front.opacity = seen.select(with.opacity, front.opacity);
+        seen & front.opacity.simd_ge(self.prepared.stop_at)
     }
 }

@@ -11,7 +11,6 @@ mod silhouette;
 pub use resolution::viewing_distance;
 
 use super::ridge::across;
-use crate::shading::towards;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::points::PointVoxel;
 use drypoint_scene::space::Grid;
@@ -90,7 +89,7 @@ impl<'a> Moving<'a> {
         Self {
             stipples,
             view,
-            light: lighting.map_or(DVec3::ZERO, |t| towards(t.light.unwrap_or(light), view)),
+            light: lighting.map_or(DVec3::ZERO, |t| view.towards(t.light.unwrap_or(light))),
             resolution: stipples.resolution.map_or(1.0, |t| resolution::resolution(&t, whole.reference, distance())),
             depth: -view.to_eye(whole.centre).z,
             radius: whole.radius,

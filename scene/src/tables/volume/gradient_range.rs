@@ -5,10 +5,12 @@ use crate::file::describe::{Kind, Shape};
 use crate::file::item::{Item, Value};
 use crate::file::kind::{Bounds, Numbers, Rule};
 use crate::file::out::Out;
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 /// What |g| = 1 stands for ([VAL-2]).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum GradientRange {
     /// lo = 0, hi the quantile of ‖g‖ over the voxels with a normal; `"max"` is the quantile 1.
     Quantile(f64),

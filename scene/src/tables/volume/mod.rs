@@ -18,6 +18,7 @@ use crate::tables::{NormalSide, Unit};
 use gradient_range::Quantile;
 use phantom::PHANTOM;
 use raw::RAW;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// The table `[volume]`.
@@ -65,7 +66,8 @@ pub enum Ids {
 }
 
 /// Which label lies between voxels ([STF-13]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum LabelLookup {
     /// That of the nearest voxel.
     Nearest,
@@ -74,7 +76,8 @@ pub enum LabelLookup {
 }
 
 /// Which values lie outside ([NORM-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Outside {
     /// Values fall towards the outside: N = −g/‖g‖.
     Low,

@@ -3,12 +3,13 @@
 //! The loop over samples is compiled for each of three needs: what few scenes ask for would cost the others the registers
 //! that they compute in.
 
-use super::prepared::{Calls, Prepared};
+use super::PreparedObject;
 use crate::number::Real;
+use drypoint_scene::shot::SampleQuery;
 
 /// The need that the loop is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Needs {
+pub(crate) enum Needs {
     /// [`Value`].
     Value,
     /// [`Normal`].
@@ -19,40 +20,40 @@ pub(super) enum Needs {
 
 impl Needs {
     /// The least that is enough; `more` is [`Need::MORE`].
-    pub(super) fn new(calls: Calls, more: bool) -> Self {
-        match (calls, more) {
-            (Calls::NONE, false) => Self::Value,
-            (Calls::NORMAL, false) => Self::Normal,
+    pub(crate) fn new(query: SampleQuery, more: bool) -> Self {
+        match (query, more) {
+            (SampleQuery::VALUE, false) => Self::Value,
+            (SampleQuery::NORMAL, false) => Self::Normal,
             _ => Self::Anything,
         }
     }
 }
 
 /// One of [`Needs`], as a type.
-pub(super) trait Need {
+pub(crate) trait Need {
     /// Whether there can be more than a colour for each value: a function over two quantities or from a table, |g|,
     /// styles, layers, and compositing of encoded colours.
     const MORE: bool;
 
-    /// What visible samples have to know.
-    fn calls<R: Real>(prepared: &Prepared<'_, R>) -> Calls;
+    /// The query of visible samples.
+    fn query<R: Real>(object: &PreparedObject<'_, R>) -> SampleQuery;
 }
 
 /// The value alone: an unshaded picture.
-pub(super) enum Value {}
+pub(crate) enum Value {}
 
 /// The normal: a shaded picture.
-pub(super) enum Normal {}
+pub(crate) enum Normal {}
 
 /// Whatever a scene can call for.
-pub(super) enum Anything {}
+pub(crate) enum Anything {}
 
 impl Need for Value {
     const MORE: bool = false;
 
     #[inline(always)]
-    fn calls<R: Real>(_: &Prepared<'_, R>) -> Calls {
-        Calls::NONE
+    fn query<R: Real>(_: &PreparedObject<'_, R>) -> SampleQuery {
+        SampleQuery::VALUE
     }
 }
 
@@ -60,8 +61,8 @@ impl Need for Normal {
     const MORE: bool = false;
 
     #[inline(always)]
-    fn calls<R: Real>(_: &Prepared<'_, R>) -> Calls {
-        Calls::NORMAL
+    fn query<R: Real>(_: &PreparedObject<'_, R>) -> SampleQuery {
+        SampleQuery::NORMAL
     }
 }
 
@@ -69,7 +70,7 @@ impl Need for Anything {
     const MORE: bool = true;
 
     #[inline(always)]
-    fn calls<R: Real>(prepared: &Prepared<'_, R>) -> Calls {
-        prepared.calls
+    fn query<R: Real>(object: &PreparedObject<'_, R>) -> SampleQuery {
+        object.query
     }
 }

@@ -1,42 +1,41 @@
 //! Samples of a transfer function over two quantities ([STF-4]): what is asked of them, and in which order.
 
-use super::prepared::{Calls, KappaSource};
-use super::render::{Inputs, RenderError};
 use crate::field::Field;
 use crate::labels::Labels;
 use crate::number::Real;
+use crate::ray::render::{Inputs, RenderError};
 use crate::transfer::over::{Differential, Distance, Further, Here, Label, LabelDistance, Magnitude, Measure, Value};
 use crate::transfer::{Patch, Plane};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::math;
-use drypoint_scene::tables::Axis;
+use drypoint_scene::shot::{Axis, KappaSource, LabelLookup, Object, SampleQuery};
 use drypoint_scene::transfer::Rows;
 
 /// A function over two quantities, with what measures them.
-pub(super) struct OverTwo<'v, R> {
+pub(crate) struct OverTwo<'v, R> {
     plane: Plane<R>,
     measures: [Box<dyn Measure<R> + 'v>; 2],
     /// What the quantities need of a sample, asked before α_u is known.
-    pub(super) first: Calls,
-    /// What else a visible sample has to know.
-    pub(super) rest: Calls,
+    pub(crate) first: SampleQuery,
+    /// What else a visible sample is asked for.
+    pub(crate) rest: SampleQuery,
 }
 
 impl<'v, R: Real> OverTwo<'v, R> {
-    /// From a function's nodes and rows. `calls` is all that a visible sample has to know.
+    /// Prepares a function from its nodes and rows.
     ///
     /// # Errors
     /// Nodes that make no function, a label volume or a further volume that was not handed over or cannot be read, a label
     /// that no voxel has.
-    pub(super) fn new(
+    pub(crate) fn new(
         (at, opacity): (&[f64], &[f64]),
         rows: &Rows,
         inputs: &Inputs<'v>,
+        object: &Object,
         field: &Field<'_, R>,
-        calls: Calls,
         counts: &mut Counts,
     ) -> Result<Self, RenderError> {
-        let [across, down] = [0, 1].map(|i| measure(&rows.over[i], i, rows.normalized, inputs));
+        let [across, down] = [0, 1].map(|i| measure(&rows.over[i], i, rows.normalized, inputs, object.label_lookup));
         let measures = [across?, down?];
         for measure in &measures {
             if let Some((name, bytes)) = measure.bytes() {
@@ -52,13 +51,13 @@ impl<'v, R: Real> OverTwo<'v, R> {
         };
         let rows_at = scaled(&rows.over[1], &rows.at);
         let plane = Plane::new(&scaled(&rows.over[0], at), opacity, &Rows { at: rows_at, ..rows.clone() })?;
-        let (first, rest) = calls.split(&rows.over);
+        let (first, rest) = split(object.query, &rows.over);
         Ok(Self { plane, measures, first, rest })
     }
 
     /// Where a sample falls between the nodes; none where it is transparent.
     #[inline]
-    pub(super) fn locate(&self, here: &Here<R>) -> Option<Patch<R>> {
+    pub(crate) fn locate(&self, here: &Here<R>) -> Option<Patch<R>> {
         let [x, y] = &self.measures;
         self.plane.locate(x.at(here), y.at(here))
     }
@@ -70,6 +69,7 @@ fn measure<'v, R: Real>(
     which: usize,
     normalized: bool,
     inputs: &Inputs<'v>,
+    label_lookup: LabelLookup,
 ) -> Result<Box<dyn Measure<R> + 'v>, RenderError> {
     let data = inputs.volume;
     Ok(match axis {
@@ -87,8 +87,8 @@ fn measure<'v, R: Real>(
             Box::new(Further::new(volume, data)?)
         }
         Axis::Label => {
-            let (labels, lookup) = (inputs.labels.ok_or(RenderError::NoLabels)?, inputs.scene.volume.label_lookup);
-            Box::new(Label(Labels::new(labels, data.grid(), data.anatomy(), lookup)))
+            let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
+            Box::new(Label(Labels::new(labels, data.grid(), data.anatomy(), label_lookup)))
         }
         Axis::DistanceToLabel(id) => {
             let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
@@ -98,51 +98,49 @@ fn measure<'v, R: Real>(
     })
 }
 
-impl Calls {
-    /// What two quantities need of it, and the rest.
-    fn split(self, over: &[Axis<u32>; 2]) -> (Self, Self) {
-        let any = |is: fn(&Axis<u32>) -> bool| over.iter().any(is);
-        let along_view = any(|axis| *axis == Axis::AlongView);
-        let hessian = any(Axis::is_principal) || along_view && self.kappa == KappaSource::Exact;
-        // What one Hessian gives is taken from it at once.
-        let kappa = match self.kappa {
-            KappaSource::Exact if hessian => KappaSource::Exact,
-            KappaSource::AlongRay if along_view => KappaSource::AlongRay,
-            _ => KappaSource::None,
-        };
-        let gradient = hessian || along_view || any(|axis| *axis == Axis::GradientMagnitude);
-        let first = Self { gradient, hessian, principal: hessian && self.principal, kappa };
-        let rest = Self {
-            gradient: self.gradient && !gradient,
-            hessian: self.hessian && !hessian,
-            principal: self.principal && !first.principal,
-            kappa: if kappa == KappaSource::None { self.kappa } else { KappaSource::None },
-        };
-        (first, rest)
-    }
+/// The part of a query that two quantities need, and the rest.
+fn split(query: SampleQuery, over: &[Axis<u32>; 2]) -> (SampleQuery, SampleQuery) {
+    let any = |is: fn(&Axis<u32>) -> bool| over.iter().any(is);
+    let along_view = any(|axis| *axis == Axis::AlongView);
+    let hessian = any(Axis::is_principal) || along_view && query.kappa == KappaSource::Exact;
+    // What one Hessian gives is taken from it at once.
+    let kappa = match query.kappa {
+        KappaSource::Exact if hessian => KappaSource::Exact,
+        KappaSource::AlongRay if along_view => KappaSource::AlongRay,
+        _ => KappaSource::None,
+    };
+    let gradient = hessian || along_view || any(|axis| *axis == Axis::GradientMagnitude);
+    let first = SampleQuery { gradient, hessian, principal: hessian && query.principal, kappa };
+    let rest = SampleQuery {
+        gradient: query.gradient && !gradient,
+        hessian: query.hessian && !hessian,
+        principal: query.principal && !first.principal,
+        kappa: if kappa == KappaSource::None { query.kappa } else { KappaSource::None },
+    };
+    (first, rest)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const NONE: Calls = Calls::NONE;
+    const NONE: SampleQuery = SampleQuery::VALUE;
 
     #[test]
     fn quantities_ask_first_for_what_they_need() {
-        let styled = Calls { gradient: true, hessian: true, principal: true, kappa: KappaSource::Exact };
-        let split = |calls: Calls, axis| calls.split(&[Axis::Value, axis]);
+        let styled = SampleQuery { gradient: true, hessian: true, principal: true, kappa: KappaSource::Exact };
+        let split = |query, axis| super::split(query, &[Axis::Value, axis]);
         assert_eq!(split(styled, Axis::Label), (NONE, styled));
-        let gradient = Calls { gradient: true, ..NONE };
-        assert_eq!(split(styled, Axis::GradientMagnitude), (gradient, Calls { gradient: false, ..styled }));
+        let gradient = SampleQuery { gradient: true, ..NONE };
+        assert_eq!(split(styled, Axis::GradientMagnitude), (gradient, SampleQuery { gradient: false, ..styled }));
         // One Hessian gives all that it can.
         assert_eq!(split(styled, Axis::Mean), (styled, NONE));
         assert_eq!(split(styled, Axis::AlongView), (styled, NONE));
-        let along_ray = Calls { kappa: KappaSource::AlongRay, ..styled };
-        let rest = Calls { kappa: KappaSource::AlongRay, ..NONE };
-        assert_eq!(split(along_ray, Axis::K1), (Calls { kappa: KappaSource::None, ..styled }, rest));
-        let first = Calls { gradient: true, kappa: KappaSource::AlongRay, ..NONE };
-        let rest = Calls { hessian: true, principal: true, ..NONE };
+        let along_ray = SampleQuery { kappa: KappaSource::AlongRay, ..styled };
+        let rest = SampleQuery { kappa: KappaSource::AlongRay, ..NONE };
+        assert_eq!(split(along_ray, Axis::K1), (SampleQuery { kappa: KappaSource::None, ..styled }, rest));
+        let first = SampleQuery { gradient: true, kappa: KappaSource::AlongRay, ..NONE };
+        let rest = SampleQuery { hessian: true, principal: true, ..NONE };
         assert_eq!(split(along_ray, Axis::AlongView), (first, rest));
     }
 }

@@ -5,26 +5,26 @@ use drypoint_scene::picture::LayerKind;
 
 /// A visible sample as the layers see it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Seen {
+pub(crate) struct LayerSample {
     /// w = (1 − A)·α(Δ).
-    pub(super) weight: f64,
+    pub(crate) weight: f64,
     /// Eye depth of the sample's plane.
-    pub(super) depth: f64,
+    pub(crate) depth: f64,
     /// The value.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// N in eye space, v where there is none.
-    pub(super) normal: [f64; 3],
+    pub(crate) normal: [f64; 3],
     /// World gradient, times the power of two of [SPACE-4].
-    pub(super) gradient: [f64; 3],
+    pub(crate) gradient: [f64; 3],
     /// κ₁, κ₂ and the scene's κ.
-    pub(super) curvature: [f64; 3],
+    pub(crate) curvature: [f64; 3],
 }
 
 /// Sums along one ray.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sums {
+pub(crate) struct Sums {
     weight: f64,
-    first: Option<Seen>,
+    first: Option<LayerSample>,
     half: f64,
     depth: f64,
     normal: [f64; 3],
@@ -34,7 +34,7 @@ pub(super) struct Sums {
 
 impl Sums {
     /// Before the first sample.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let none = [0.0; 3];
         Self {
             weight: 0.0,
@@ -47,29 +47,24 @@ impl Sums {
         }
     }
 
-    /// Whether no sample with α > 0 was added yet.
-    pub(super) fn is_empty(&self) -> bool {
-        self.first.is_none()
-    }
-
     /// Adds a sample with α > 0; `opacity` is A with this sample included.
-    pub(super) fn add(&mut self, seen: &Seen, opacity: f64) {
-        self.weight += seen.weight;
-        self.first.get_or_insert(*seen);
+    pub(crate) fn add(&mut self, sample: &LayerSample, opacity: f64) {
+        self.weight += sample.weight;
+        self.first.get_or_insert(*sample);
         if self.half == f64::INFINITY && opacity >= 0.5 {
-            self.half = seen.depth;
+            self.half = sample.depth;
         }
-        self.depth += seen.weight * seen.depth;
+        self.depth += sample.weight * sample.depth;
         for axis in 0..3 {
-            self.normal[axis] += seen.weight * seen.normal[axis];
-            self.gradient[axis] += seen.weight * seen.gradient[axis];
-            self.curvature[axis] += seen.weight * seen.curvature[axis];
+            self.normal[axis] += sample.weight * sample.normal[axis];
+            self.gradient[axis] += sample.weight * sample.gradient[axis];
+            self.curvature[axis] += sample.weight * sample.curvature[axis];
         }
     }
 
     /// Adds another ray of the same pixel to the means ([RAY-6]): they are then those over the samples of both, so a ray
     /// counts with its opacity, and one that sees nothing not at all. Depths and what is first stay this ray's.
-    pub(super) fn pool(&mut self, other: &Self) {
+    pub(crate) fn pool(&mut self, other: &Self) {
         self.weight += other.weight;
         for axis in 0..3 {
             self.normal[axis] += other.normal[axis];
@@ -82,7 +77,7 @@ impl Sums {
     ///
     /// The mean gradient is multiplied by 2^`exponent`, which takes back the power of two of [SPACE-4]: after the mean,
     /// since the sum of what overflows both ways is no number.
-    pub(super) fn channels(&self, kind: LayerKind, samples: u64, exponent: i32, out: &mut Vec<f64>) {
+    pub(crate) fn channels(&self, kind: LayerKind, samples: u64, exponent: i32, out: &mut Vec<f64>) {
         let mean = |sum: f64| if self.weight > 0.0 { sum / self.weight } else { 0.0 };
         let first = self.first.unwrap_or_default();
         match kind {
@@ -108,7 +103,7 @@ impl Sums {
 }
 
 /// Whether a layer of a pixel of n×n rays is a mean over all of them; the others are the first ray's ([RAY-6]).
-pub(super) fn pooled(kind: LayerKind) -> bool {
+pub(crate) fn pooled(kind: LayerKind) -> bool {
     matches!(kind, LayerKind::Normal | LayerKind::Gradient | LayerKind::Curvature | LayerKind::CurvatureAlongView)
 }
 
@@ -119,9 +114,17 @@ mod tests {
     #[test]
     fn means_and_depths_by_hand() {
         let mut sums = Sums::new();
-        let near = Seen { weight: 0.25, depth: 2.0, value: 7.0, normal: [0.0, 0.0, 1.0], ..Seen::default() };
+        let near =
+            LayerSample { weight: 0.25, depth: 2.0, value: 7.0, normal: [0.0, 0.0, 1.0], ..LayerSample::default() };
         let gradient = [3.0, 0.0, 0.0];
-        let far = Seen { weight: 0.5, depth: 5.0, value: 9.0, normal: [1.0, 0.0, 0.0], gradient, ..Seen::default() };
+        let far = LayerSample {
+            weight: 0.5,
+            depth: 5.0,
+            value: 9.0,
+            normal: [1.0, 0.0, 0.0],
+            gradient,
+            ..LayerSample::default()
+        };
         sums.add(&near, 0.25);
         sums.add(&far, 0.75);
         let channels = |kind| {

@@ -1,0 +1,72 @@
+//! The one *over* ([VAL-3]).
+
+use crate::number::Arithmetic;
+
+/// Premultiplied colour C and opacity A of what lies in front, of one ray or of rays side by side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Accumulator<T> {
+    /// C, in the blend space.
+    pub(crate) rgb: [T; 3],
+    /// A.
+    pub(crate) opacity: T,
+}
+
+impl<T: Arithmetic> Accumulator<T> {
+    /// An accumulator in which nothing has come together, of a given 0.
+    #[inline(always)]
+    pub(crate) fn empty(zero: T) -> Self {
+        Self { rgb: [zero; 3], opacity: zero }
+    }
+
+    /// Lays a straight colour c of opacity α behind what is there: w = (1 − A)·α, C ← C + w·c, A ← A + w. Returns w.
+    #[inline(always)]
+    pub(crate) fn over(&mut self, one: T, rgb: [T; 3], alpha: T) -> T {
+        let w = (one - self.opacity) * alpha;
+        self.add(rgb, w);
+        self.opacity = self.opacity + w;
+        w
+    }
+
+    /// Lays an opaque colour behind what is there, after which A is 1 exactly. Returns w = 1 − A.
+    #[inline(always)]
+    pub(crate) fn end(&mut self, one: T, rgb: [T; 3]) -> T {
+        let w = one - self.opacity;
+        self.add(rgb, w);
+        self.opacity = one;
+        w
+    }
+
+    #[inline(always)]
+    fn add(&mut self, [r, g, b]: [T; 3], w: T) {
+        let [before_r, before_g, before_b] = self.rgb;
+        self.rgb = [before_r + w * r, before_g + w * g, before_b + w * b];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn over_by_hand() {
+        let mut front = Accumulator::empty(0.0);
+        assert_eq!(front.over(1.0, [1.0, 0.5, 0.0], 0.5), 0.5);
+        assert_eq!(front, Accumulator { rgb: [0.5, 0.25, 0.0], opacity: 0.5 });
+        assert_eq!(front.over(1.0, [0.0, 1.0, 1.0], 0.5), 0.25);
+        assert_eq!(front, Accumulator { rgb: [0.5, 0.5, 0.25], opacity: 0.75 });
+        assert_eq!(front.end(1.0, [1.0; 3]), 0.25);
+        assert_eq!(front, Accumulator { rgb: [0.75, 0.75, 0.5], opacity: 1.0 });
+    }
+
+    /// However 1 − A rounds, an opaque colour leaves A = 1.
+    #[test]
+    fn opaque_is_opaque() {
+        for i in 0..1000 {
+            let mut front = Accumulator::empty(0.0);
+            front.over(1.0, [0.3; 3], f64::from(i) / 999.0);
+            front.end(1.0, [0.3; 3]);
+            assert_eq!(front.opacity, 1.0);
+            assert!((front.rgb[0] - 0.3).abs() < 1e-16 * 2.0);
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! How samples come together: one *over*, and two orders that drive it.
+//!
+//! [`ray_order`] follows one ray at a time. [`plane_order`] visits all rays of a picture plane by plane, for effects that read
+//! what lies on the planes before. Both give the same bits and the same counts.
+
+mod accumulator;
+mod layers;
+mod path;
+mod plane_effect;
+pub(super) mod plane_order;
+pub(super) mod ray_order;
+mod ray_state;
+
+pub(super) use accumulator::Accumulator;
+pub(super) use layers::{Sums, pooled};
+pub use plane_effect::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};
+pub(super) use ray_state::Cast;

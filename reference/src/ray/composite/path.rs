@@ -1,0 +1,94 @@
+//! The path of a ray: what it meets, front to back, before any of it is evaluated.
+
+use crate::number::Real;
+use crate::ray::lattice::IndexRay;
+use drypoint_scene::fragments::Fragment;
+
+/// One step of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Step<'l> {
+    /// Whole samples first..=last.
+    Samples([i64; 2]),
+    /// A share of a sample's way: the sample counts for so many steps. `again` where a share of the same sample was before.
+    Share { k: i64, steps: f64, again: bool },
+    /// A line, between samples or between shares of sample k.
+    Line { k: i64, line: &'l Fragment },
+    /// The iso-surface at a depth, where the ray ends; k is the last sample before it.
+    Surface { k: i64, depth: f64 },
+}
+
+impl Step<'_> {
+    /// The first sample plane that it belongs to.
+    pub(crate) fn plane(&self) -> i64 {
+        match *self {
+            Self::Samples([first, _]) => first,
+            Self::Share { k, .. } | Self::Line { k, .. } | Self::Surface { k, .. } => k,
+        }
+    }
+}
+
+/// Appends the steps of a ray: samples of its visits, and lines and the iso-surface at their own depths.
+///
+/// A sample stands for the way of one step about it, so its way is split where something lies in it: the share before a line is
+/// composited, then the line, then the rest. Of an opacity α a step both shares leave what the whole leaves,
+/// (1 − α)^s·(1 − α)^(1−s).
+///
+/// A sample counts if its plane lies before the surface. The last one stands for all the way from where its own share of the ray
+/// begins to the surface, from half a step to one and a half. So the way through a volume that is translucent before a surface
+/// grows evenly with the surface's depth, and there are no terraces on it.
+pub(crate) fn steps<'l, R: Real>(
+    ray: &IndexRay<R>,
+    visits: impl Iterator<Item = [i64; 2]>,
+    lines: &'l [Fragment],
+    surface: Option<f64>,
+    steps: &mut Vec<Step<'l>>,
+) {
+    if lines.is_empty() && surface.is_none() {
+        steps.extend(visits.map(Step::Samples));
+        return;
+    }
+    let step = ray.depth_step.to_f64();
+    let plane = |depth: f64| (depth / step).floor() as i64;
+    // Lines beyond the surface are not seen.
+    let has_lines = !lines.is_empty();
+    let mut lines = surface.map_or(lines, |end| &lines[..lines.iter().take_while(|line| line.depth < end).count()]);
+    // The sample that stands for the way up to the surface.
+    let last_of_all = surface.map_or(i64::MAX, |depth| ray.last_before(depth));
+    for [first, last] in visits {
+        let last = last.min(last_of_all);
+        let mut next = first;
+        while next <= last {
+            // What lies between visible bricks, where nothing is seen.
+            let passed = lines.iter().take_while(|line| line.depth <= next as f64 * step).count();
+            steps.extend(lines[..passed].iter().map(|line| Step::Line { k: plane(line.depth).min(next), line }));
+            lines = &lines[passed..];
+            let met = lines.first().map_or(i64::MAX, |line| plane(line.depth).max(next));
+            let split = met.min(last_of_all);
+            if next < split {
+                let to = last.min(split - 1);
+                steps.push(Step::Samples([next, to]));
+                next = to + 1;
+                continue;
+            }
+            // The way of sample `split`, share by share.
+            let end = surface.filter(|_| split == last_of_all);
+            let until = end.unwrap_or((split + 1) as f64 * step);
+            let within = lines.iter().take_while(|line| line.depth < until).count();
+            let mut from = split as f64 * step;
+            let mut again = false;
+            for (depth, line) in lines[..within].iter().map(|line| (line.depth, Some(line))).chain([(until, None)]) {
+                if depth > from {
+                    // Where no line is on the ray, k is taken from the quotient: one rounding less.
+                    let share = if has_lines { (depth - from) / step } else { depth / step - split as f64 };
+                    steps.push(Step::Share { k: split, steps: share, again });
+                    (from, again) = (depth, true);
+                }
+                steps.extend(line.map(|line| Step::Line { k: split, line }));
+            }
+            lines = &lines[within..];
+            next = split + 1;
+        }
+    }
+    steps.extend(lines.iter().map(|line| Step::Line { k: plane(line.depth), line }));
+    steps.extend(surface.map(|depth| Step::Surface { k: last_of_all, depth }));
+}

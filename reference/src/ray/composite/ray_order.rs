@@ -1,0 +1,58 @@
+//! Ray order: one ray after the other, each to its end.
+
+use super::path::{self, Step};
+use super::ray_state::RayState;
+use crate::field::Sampler;
+use crate::number::Real;
+use crate::ray::draw::TileWork;
+use crate::ray::prepared::Prepared;
+use crate::ray::sample::need::{self, Need, Needs};
+use crate::ray::skip::Boxes;
+
+/// Casts rays of a tile one by one.
+pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {
+    match prepared.object.needs {
+        Needs::Value => cast_with::<need::Value, R, S>(prepared, sampler, work),
+        Needs::Normal => cast_with::<need::Normal, R, S>(prepared, sampler, work),
+        Needs::Anything => cast_with::<need::Anything, R, S>(prepared, sampler, work),
+    }
+}
+
+fn cast_with<N: Need, R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {
+    let TileWork { points, mut boxes, counts, casts, .. } = work;
+    let mut steps: Vec<Step> = Vec::new();
+    for &point in points {
+        let mut state = RayState::new(prepared, sampler, point);
+        steps.clear();
+        state.path(point, boxes.as_deref_mut(), &mut steps);
+        for step in &steps {
+            if !state.take::<N>(step, &mut None, counts) {
+                break;
+            }
+        }
+        casts.push(state.finish(counts));
+    }
+}
+
+impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
+    /// Appends the steps of the ray, which goes through a point of the picture.
+    pub(crate) fn path(&self, point: [f64; 2], boxes: Option<&mut Boxes>, steps: &mut Vec<Step<'p>>) {
+        let (prepared, ray) = (self.prepared, &self.evaluator.ray);
+        let lines = prepared.lines_at(point);
+        let Some(surface) = &prepared.surface else {
+            return path::steps(ray, ray.visits(prepared.object.ends, ray.intervals(boxes)), lines, None, steps);
+        };
+        let near = match prepared.view.perspective {
+            // Of shells near is the radius.
+            true => prepared.lattice.near * (ray.depth_step.to_f64() / prepared.lattice.step),
+            false => f64::NEG_INFINITY,
+        };
+        let mask = prepared.object.volume.mask();
+        let root = surface.roots.first(self.evaluator.sampler, mask, ray.line(), [near, f64::INFINITY]);
+        if surface.alone {
+            path::steps(ray, std::iter::empty(), lines, root, steps);
+        } else {
+            path::steps(ray, ray.visits(prepared.object.ends, ray.intervals(boxes)), lines, root, steps);
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! A ray on its way, sample by sample, front to back ([VAL-3], [VAL-4], [RAY-2]).
+
+use super::Accumulator;
+use super::layers::{LayerSample, Sums};
+use super::path::Step;
+use super::plane_effect::Hook;
+use crate::field::{Place, Sampler};
+use crate::number::{Real, Vec3};
+use crate::ray::cells::Cells;
+use crate::ray::lattice::IndexRay;
+use crate::ray::opacity::Correction;
+use crate::ray::prepared::Prepared;
+use crate::ray::sample::need::{self, Need};
+use crate::ray::sample::{Evaluator, OverTwo, Previous, Sample, SampleAttributes};
+use crate::transfer;
+use crate::transfer::over::Here;
+use drypoint_scene::color;
+use drypoint_scene::counts::Counts;
+
+/// What comes out of one ray.
+pub(crate) struct Cast {
+    /// Premultiplied colour and opacity in the blend space, without the background.
+    pub(crate) rgba: [f64; 4],
+    /// Sums for the other layers; none where there are none, or nothing was seen.
+    pub(crate) sums: Option<Box<Sums>>,
+    /// Samples evaluated.
+    pub(crate) samples: u64,
+}
+
+/// The most values that are computed at once.
+const MOST_AT_ONCE: usize = 8;
+
+/// The state of a ray on its way.
+pub(crate) struct RayState<'p, 'v, R: Real, S> {
+    pub(crate) prepared: &'p Prepared<'v, R>,
+    pub(crate) evaluator: Evaluator<'p, 'v, R, S>,
+    /// To the opacity of one step on this ray.
+    correction: Correction,
+    /// The previous sample of the one whose shares are visited.
+    before_shares: Previous<R>,
+    pub(crate) front: Front<R>,
+    /// Sums for the layers; none before the first sample with an opacity.
+    sums: Option<Box<Sums>>,
+    /// Samples evaluated.
+    pub(crate) samples: u64,
+}
+
+/// What lies in front on a ray. The loop over samples holds it in registers.
+#[derive(Clone, Copy)]
+pub(crate) struct Front<R> {
+    pub(crate) accumulator: Accumulator<R>,
+    /// The last opacity that was corrected, and what it became: levels of a function repeat along a ray.
+    corrected: [R; 2],
+}
+
+impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
+    /// The ray through a point of the picture, in pixels from the top left corner.
+    #[inline(always)]
+    pub(crate) fn new(prepared: &'p Prepared<'v, R>, sampler: &'p S, [i, j]: [f64; 2]) -> Self {
+        let (view, object) = (&prepared.view, &prepared.object);
+        let pixel = view.ray(i, j);
+        let ray = IndexRay::<R>::new(&pixel, view, &prepared.lattice, object.volume.grid());
+        let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
+        Self {
+            prepared,
+            correction: Correction::new(ray.step / object.reference_length),
+            evaluator: Evaluator {
+                object,
+                sampler,
+                ray,
+                dirs: object.shader.view_dirs(v, v_eye),
+                previous: Previous::None,
+            },
+            before_shares: Previous::None,
+            front: Front { accumulator: Accumulator::empty(R::ZERO), corrected: [R::ZERO; 2] },
+            sums: None,
+            samples: 0,
+        }
+    }
+
+    /// What comes out of the ray.
+    pub(crate) fn finish(self, counts: &mut Counts) -> Cast {
+        counts.rays += 1;
+        counts.rays_skipped += u64::from(self.samples == 0);
+        counts.samples += self.samples;
+        let Accumulator { rgb: [r, g, b], opacity } = self.front.accumulator;
+        Cast { rgba: [r, g, b, opacity].map(Real::to_f64), sums: self.sums, samples: self.samples }
+    }
+
+    /// Takes a step of the path. Returns whether the ray is still open.
+    #[inline(always)]
+    pub(crate) fn take<N: Need>(&mut self, step: &Step<'_>, hook: &mut Option<Hook<'_>>, counts: &mut Counts) -> bool {
+        match *step {
+            Step::Samples(range) => self.run::<N>(range, hook, counts),
+            Step::Share { k, steps, again } => self.run_share::<N>((k, steps, again), hook, counts),
+            Step::Line { line, .. } => self.lay_behind(line.rgb.map(R::from_f64), R::from_f64(line.opacity)),
+            Step::Surface { depth, .. } => {
+                self.meet_surface(depth, counts);
+                false
+            }
+        }
+    }
+
+    /// Visits a share of a sample's way, so many steps long.
+    #[inline(never)]
+    fn run_share<N: Need>(
+        &mut self,
+        (k, steps, again): (i64, f64, bool),
+        hook: &mut Option<Hook<'_>>,
+        counts: &mut Counts,
+    ) -> bool {
+        // All shares have the same sample before.
+        match again {
+            true => self.evaluator.previous = self.before_shares,
+            false => self.before_shares = self.evaluator.previous,
+        }
+        let whole = self.correction;
+        self.correct_by(Correction::new(steps * self.evaluator.ray.step / self.prepared.object.reference_length));
+        let open = self.run::<N>([k, k], hook, counts);
+        self.correct_by(whole);
+        open
+    }
+
+    /// Takes another correction for the samples that follow.
+    fn correct_by(&mut self, correction: Correction) {
+        self.correction = correction;
+        self.front.corrected = [R::ZERO; 2];
+    }
+
+    /// Lays something of a linear colour that is no sample behind what is there. Returns whether the ray is still open.
+    pub(crate) fn lay_behind(&mut self, rgb: [R; 3], alpha: R) -> bool {
+        let rgb = self.in_blend_space(rgb);
+        if alpha >= R::ONE {
+            self.front.accumulator.end(R::ONE, rgb);
+            return false;
+        }
+        self.front.accumulator.over(R::ONE, rgb, alpha);
+        self.is_open()
+    }
+
+    /// Whether what lies behind would be seen.
+    pub(crate) fn is_open(&self) -> bool {
+        self.front.accumulator.opacity < self.prepared.stop_at
+    }
+
+    /// Composites the iso-surface, of opacity 1, at its own depth.
+    #[inline(never)]
+    fn meet_surface(&mut self, depth: f64, counts: &mut Counts) {
+        let prepared = self.prepared;
+        let Some(surface) = &prepared.surface else { return };
+        let query = if self.sums.is_none() { surface.query.and(surface.first) } else { surface.query };
+        let attributes = self.evaluator.evaluate_at_depth(depth, query, prepared.view.perspective, counts);
+        counts.without_normal += u64::from(query.gradient && attributes.normal.is_none());
+        let v = self.evaluator.dirs.v;
+        let rgb = surface.lit.color(surface.rgb, attributes.normal, [v, surface.lit.half_vector(v)]);
+        let w = self.front.accumulator.end(R::ONE, self.in_blend_space(rgb));
+        if prepared.collects {
+            self.add_to_layers([w, R::ONE], depth, surface.roots.iso(), &attributes);
+        }
+    }
+
+    /// A linear colour as it is composited ([VAL-3]).
+    #[inline(always)]
+    fn in_blend_space(&self, rgb: [R; 3]) -> [R; 3] {
+        if self.prepared.encode { rgb.map(|c| R::from_f64(color::linear_to_srgb(c.to_f64()))) } else { rgb }
+    }
+
+    /// Visits the samples first..=last. Returns whether the ray is still open.
+    #[inline(never)]
+    fn run<N: Need>(&mut self, visit: [i64; 2], hook: &mut Option<Hook<'_>>, counts: &mut Counts) -> bool {
+        if S::AT_ONCE > 1 {
+            self.run_ahead::<N>(visit, hook, counts)
+        } else {
+            self.run_by_cells::<N>(visit, hook, counts)
+        }
+    }
+
+    /// Values are computed a few samples ahead. Where a ray ends early those left over count for nothing.
+    #[inline(always)]
+    fn run_ahead<N: Need>(
+        &mut self,
+        [first, last]: [i64; 2],
+        hook: &mut Option<Hook<'_>>,
+        counts: &mut Counts,
+    ) -> bool {
+        let (prepared, object) = (self.prepared, &self.prepared.object);
+        let mut samples = 0;
+        let mut front = self.front;
+        let mut open = true;
+        let mut values = [R::ZERO; MOST_AT_ONCE];
+        let mut k = first;
+        'samples: while k <= last {
+            let n = (last - k + 1).min(S::AT_ONCE as i64) as usize;
+            let values = &mut values[..n.min(MOST_AT_ONCE)];
+            self.evaluator.sampler.values(|i| self.evaluator.ray.position(k + i as i64), values);
+            for (k, &s) in (k..).zip(&*values) {
+                let at = || self.evaluator.sampler.place(self.evaluator.ray.position(k));
+                if object.volume.mask().is_some() && self.is_masked(at(), counts) {
+                    continue;
+                }
+                samples += 1;
+                if let Some(place) = object.function.locate(s) {
+                    self.visit::<N>(Sample { k, at: at(), s }, &place, &mut front, hook, counts);
+                    if front.accumulator.opacity >= prepared.stop_at {
+                        open = false;
+                        break 'samples;
+                    }
+                }
+            }
+            k += values.len() as i64;
+        }
+        (self.front, self.samples) = (front, self.samples + samples);
+        open
+    }
+
+    /// Values are computed only in cells that can show something.
+    #[inline(always)]
+    fn run_by_cells<N: Need>(
+        &mut self,
+        [first, last]: [i64; 2],
+        hook: &mut Option<Hook<'_>>,
+        counts: &mut Counts,
+    ) -> bool {
+        let (prepared, object) = (self.prepared, &self.prepared.object);
+        let mut samples = 0;
+        let mut front = self.front;
+        let mut open = true;
+        for k in first..=last {
+            let at = self.evaluator.sampler.place(self.evaluator.ray.position(k));
+            let can_show = |cells: &Cells| cells.can_show(&object.field, at.cell);
+            if !prepared.cells.as_ref().is_none_or(can_show) || self.is_masked(at, counts) {
+                continue;
+            }
+            samples += 1;
+            let s = self.evaluator.sampler.value_at(at);
+            if let Some(place) = object.function.locate(s) {
+                self.visit::<N>(Sample { k, at, s }, &place, &mut front, hook, counts);
+                if front.accumulator.opacity >= prepared.stop_at {
+                    open = false;
+                    break;
+                }
+            }
+        }
+        (self.front, self.samples) = (front, self.samples + samples);
+        open
+    }
+
+    /// Whether a voxel of a sample's cell is masked, which is counted.
+    #[inline(always)]
+    fn is_masked(&self, at: Place<R>, counts: &mut Counts) -> bool {
+        let is_masked = self.prepared.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell));
+        counts.masked += u64::from(is_masked);
+        is_masked
+    }
+
+    /// Evaluates, shades and composites a sample whose value can be seen.
+    #[inline(always)]
+    fn visit<N: Need>(
+        &mut self,
+        sample: Sample<R>,
+        place: &transfer::Place<R>,
+        front: &mut Front<R>,
+        hook: &mut Option<Hook<'_>>,
+        counts: &mut Counts,
+    ) {
+        let object = &self.prepared.object;
+        if let (true, Some(over_two)) = (N::MORE, &object.over_two) {
+            return self.visit_over_two(over_two, sample, front, hook, counts);
+        }
+        let query = N::query(object);
+        let attributes = self.evaluator.evaluate(sample, query, SampleAttributes::neutral(), counts);
+        counts.without_normal += u64::from(query.gradient && attributes.normal.is_none());
+        let dirs = &self.evaluator.dirs;
+        let shaded = match &object.table {
+            Some(table) if N::MORE => object.shader.shade(table.between_nodes(place), attributes, dirs, counts),
+            _ => object.shader.shade(*place, attributes, dirs, counts),
+        };
+        self.composite::<N>(sample, shaded, attributes, front, hook, counts);
+    }
+
+    /// Visits a sample of a function over two quantities: what they need is asked first, and the rest only where α_u > 0.
+    #[inline(never)]
+    fn visit_over_two(
+        &mut self,
+        over_two: &OverTwo<'_, R>,
+        sample: Sample<R>,
+        front: &mut Front<R>,
+        hook: &mut Option<Hook<'_>>,
+        counts: &mut Counts,
+    ) {
+        let object = &self.prepared.object;
+        let attributes = self.evaluator.evaluate(sample, over_two.first, SampleAttributes::neutral(), counts);
+        let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
+        let here = Here {
+            position: self.evaluator.ray.position(sample.k),
+            place: sample.at,
+            value: sample.s,
+            gradient: of_normal(attributes.gradient.length()),
+            magnitude: of_normal(attributes.magnitude),
+            principal: attributes.principal,
+            kappa: attributes.kappa,
+        };
+        let Some(patch) = over_two.locate(&here) else { return };
+        let attributes = self.evaluator.evaluate(sample, over_two.rest, attributes, counts);
+        counts.without_normal += u64::from(object.query.gradient && attributes.normal.is_none());
+        let shaded = object.shader.shade(patch, attributes, &self.evaluator.dirs, counts);
+        self.composite::<need::Anything>(sample, shaded, attributes, front, hook, counts);
+    }
+
+    /// Composites a shaded sample, of an opacity per reference length.
+    #[inline(always)]
+    fn composite<N: Need>(
+        &mut self,
+        sample: Sample<R>,
+        (rgb, alpha): ([R; 3], R),
+        attributes: SampleAttributes<R>,
+        front: &mut Front<R>,
+        hook: &mut Option<Hook<'_>>,
+        counts: &mut Counts,
+    ) {
+        let prepared = self.prepared;
+        if alpha != front.corrected[0] {
+            front.corrected = [alpha, self.correction.apply(alpha)];
+        }
+        let mut rgb = rgb;
+        if let (true, Some(hook)) = (N::MORE, &*hook) {
+            rgb = hook.before(sample, rgb, &attributes);
+        }
+        let rgb = if N::MORE { self.in_blend_space(rgb) } else { rgb };
+        let w = front.accumulator.over(R::ONE, rgb, front.corrected[1]);
+        if N::MORE && prepared.collects && alpha > R::ZERO {
+            self.collect(sample, [w, front.accumulator.opacity], attributes, counts);
+        }
+        if let (true, Some(hook)) = (N::MORE, hook) {
+            hook.after(sample, alpha, &attributes);
+        }
+    }
+
+    /// Adds a sample with α > 0 to the layers, by its w and the A after it.
+    #[inline(never)]
+    fn collect(&mut self, sample: Sample<R>, weights: [R; 2], attributes: SampleAttributes<R>, counts: &mut Counts) {
+        let mut attributes = attributes;
+        if let (Some(first), true) = (self.prepared.object.first, self.sums.is_none()) {
+            attributes = self.evaluator.evaluate(sample, first, attributes, counts);
+            counts.without_normal += u64::from(first.gradient && attributes.normal.is_none());
+        }
+        self.add_to_layers(weights, self.evaluator.ray.depth(sample.k).to_f64(), sample.s.to_f64(), &attributes);
+    }
+
+    /// Adds a value at a depth to the layers, by its w and the A after it.
+    fn add_to_layers(&mut self, [w, opacity]: [R; 2], depth: f64, value: f64, attributes: &SampleAttributes<R>) {
+        let sample = LayerSample {
+            weight: w.to_f64(),
+            depth,
+            value,
+            normal: self.prepared.eye_axes.normal(attributes, &self.evaluator.dirs).to_glam().to_array(),
+            gradient: attributes.gradient.to_glam().to_array(),
+            curvature: [attributes.principal[0], attributes.principal[1], attributes.kappa].map(Real::to_f64),
+        };
+        self.sums.get_or_insert_with(|| Box::new(Sums::new())).add(&sample, opacity.to_f64());
+    }
+}

@@ -1,0 +1,44 @@
+//! The iso-surface of a picture, at which rays end ([HATCH-14]).
+
+use super::sample::Lit;
+use crate::field::Field;
+use crate::number::Real;
+use crate::surface::Roots;
+use drypoint_scene::counts::Counts;
+use drypoint_scene::shot::{IsoSurface, SampleQuery};
+use drypoint_scene::volume::Bricks;
+
+/// An iso-surface ready for rays.
+pub(super) struct PreparedSurface<R> {
+    pub(super) roots: Roots,
+    /// Linear.
+    pub(super) rgb: [R; 3],
+    pub(super) lit: Lit<R>,
+    /// What a place on it is asked for.
+    pub(super) query: SampleQuery,
+    /// What a place is asked for beyond that where nothing lies before it, for the layers `first.*`.
+    pub(super) first: SampleQuery,
+    /// Whether it is drawn alone, without the volume.
+    pub(super) alone: bool,
+}
+
+impl<R: Real> PreparedSurface<R> {
+    /// Prepares the search for an iso-value in a field.
+    pub(super) fn new(
+        surface: &IsoSurface,
+        field: &Field<'_, R>,
+        bricks: Option<&Bricks>,
+        counts: &mut Counts,
+    ) -> Self {
+        let roots = Roots::new(field, surface.iso, bricks);
+        counts.bytes.insert("surface".into(), roots.bytes() as u64);
+        Self {
+            roots,
+            rgb: surface.rgb.map(R::from_f64),
+            lit: Lit::new(&surface.lit),
+            query: surface.query,
+            first: surface.first,
+            alone: surface.alone,
+        }
+    }
+}

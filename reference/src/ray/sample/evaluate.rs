@@ -1,0 +1,179 @@
+//! The attributes of the samples of one ray.
+
+use super::{PreparedObject, SampleAttributes, ViewDirs};
+use crate::field::{Place, Sampler, curvature};
+use crate::number::{Real, Sym3, Vec3};
+use crate::ray::lattice::IndexRay;
+use crate::style_transfer_functions::curvature_along_ray;
+use drypoint_scene::counts::Counts;
+use drypoint_scene::shot::{KappaSource, SampleQuery};
+
+/// A sample: its plane, its place, its value.
+#[derive(Clone, Copy)]
+pub(crate) struct Sample<R> {
+    /// k.
+    pub(crate) k: i64,
+    /// Its place in the field.
+    pub(crate) at: Place<R>,
+    /// The value there.
+    pub(crate) s: R,
+}
+
+/// The last sample of a ray that was asked for a normal.
+#[derive(Clone, Copy)]
+pub(crate) enum Previous<R> {
+    /// There was none.
+    None,
+    /// The sample has no normal ([PREC-3]).
+    WithoutNormal(i64),
+    /// The sample and its normal.
+    Normal(i64, Vec3<R>),
+}
+
+/// Evaluates the samples of one ray through an object.
+pub(crate) struct Evaluator<'p, 'v, R: Real, S> {
+    pub(crate) object: &'p PreparedObject<'v, R>,
+    pub(crate) sampler: &'p S,
+    pub(crate) ray: IndexRay<R>,
+    pub(crate) dirs: ViewDirs<R>,
+    pub(crate) previous: Previous<R>,
+}
+
+impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
+    /// Adds what is asked for to the attributes of a sample that are known.
+    ///
+    /// Attributes go in and out as values, so that those of a scene that needs few of them stay in registers.
+    #[inline(always)]
+    pub(crate) fn evaluate(
+        &mut self,
+        sample: Sample<R>,
+        query: SampleQuery,
+        known: SampleAttributes<R>,
+        counts: &mut Counts,
+    ) -> SampleAttributes<R> {
+        let Sample { k, at, .. } = sample;
+        let mut attributes = known;
+        // A Hessian brings the gradient of its own field, which often is the one that shades.
+        let together = query.gradient && query.hessian && self.sampler.has_one_gradient();
+        let second = if together { Some(self.sampler.hessian_at(at)) } else { None };
+        if query.gradient {
+            let g = second.map_or_else(|| self.sampler.gradient_at(at), |(g, _)| g);
+            counts.gradients += 1;
+            attributes.gradient = g;
+            attributes.depth = self.ray.depth(k);
+            if let Some((lo, width)) = self.object.gradient_range {
+                attributes.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
+            }
+            attributes.normal = self.normal(g);
+        }
+        // Curvatures, of samples that have a normal.
+        if let Some(n) = attributes.normal {
+            if query.hessian {
+                let second = second.unwrap_or_else(|| self.sampler.hessian_at(at));
+                let known = (attributes.kappa, attributes.principal);
+                (attributes.kappa, attributes.principal) = self.curvatures(second, query, known, counts);
+            }
+            if query.kappa == KappaSource::AlongRay {
+                attributes.kappa = self.kappa_along_ray(k, n, counts);
+            }
+        }
+        if query.kappa == KappaSource::AlongRay {
+            self.previous = attributes.normal.map_or(Previous::WithoutNormal(k), |n| Previous::Normal(k, n));
+        }
+        attributes
+    }
+
+    /// Evaluates what is asked for at a depth on the ray that need not be a sample's.
+    pub(crate) fn evaluate_at_depth(
+        &self,
+        depth: f64,
+        query: SampleQuery,
+        perspective: bool,
+        counts: &mut Counts,
+    ) -> SampleAttributes<R> {
+        let mut attributes = SampleAttributes::neutral();
+        if !query.gradient {
+            return attributes;
+        }
+        let at = self.sampler.place(self.inside(depth));
+        counts.gradients += 1;
+        attributes.gradient = self.sampler.gradient_at(at);
+        attributes.normal = self.normal(attributes.gradient);
+        let Some(n) = attributes.normal else { return attributes };
+        if query.hessian {
+            let known = (attributes.kappa, attributes.principal);
+            (attributes.kappa, attributes.principal) =
+                self.curvatures(self.sampler.hessian_at(at), query, known, counts);
+        }
+        if query.kappa == KappaSource::AlongRay {
+            let before = depth - self.ray.depth_step.to_f64();
+            let position = self.inside(before);
+            let is_before = position == self.at(before) && !(perspective && before <= 0.0);
+            let before = is_before.then(|| {
+                counts.gradients += 1;
+                self.sampler.gradient(position)
+            });
+            let before = before.and_then(|g| self.normal(g));
+            attributes.kappa = curvature_along_ray::kappa(self.object.turn, n, before, R::from_f64(self.ray.step));
+        }
+        attributes
+    }
+
+    /// The normal that shades, seen along the ray ([NORM-1]).
+    #[inline]
+    fn normal(&self, g: Vec3<R>) -> Option<Vec3<R>> {
+        self.object.normal(g, self.dirs.v)
+    }
+
+    /// κ_v from the normal of the sample before on this ray ([STF-5]); 0 where there is none.
+    fn kappa_along_ray(&mut self, k: i64, n: Vec3<R>, counts: &mut Counts) -> R {
+        let before = match self.previous {
+            Previous::Normal(at, normal) if at == k - 1 => Some(normal),
+            Previous::WithoutNormal(at) if at == k - 1 => None,
+            _ if self.ray.has(k - 1, self.object.ends) => {
+                let g = self.sampler.gradient(self.ray.position(k - 1));
+                counts.gradients += 1;
+                self.normal(g)
+            }
+            _ => None,
+        };
+        curvature_along_ray::kappa(self.object.turn, n, before, R::from_f64(self.ray.step))
+    }
+
+    /// Curvatures from the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]). Where the Hessian's own field has no normal, `known`
+    /// is returned.
+    #[inline(always)]
+    fn curvatures(
+        &self,
+        (g, h): (Vec3<R>, Sym3<R>),
+        query: SampleQuery,
+        known: (R, [R; 2]),
+        counts: &mut Counts,
+    ) -> (R, [R; 2]) {
+        let object = self.object;
+        counts.hessians += 1;
+        let (mut kappa, mut principal) = known;
+        if g.length() > object.no_normal_below {
+            if query.kappa == KappaSource::Exact {
+                kappa = curvature::along_view(g, h, self.dirs.v, object.outside);
+            }
+            if query.principal {
+                let c = curvature::principal(g, h, object.outside);
+                principal = [c.k1, c.k2];
+            }
+        }
+        (kappa, principal)
+    }
+
+    /// The index position at a depth.
+    fn at(&self, depth: f64) -> Vec3<R> {
+        let [origin, along] = self.ray.line();
+        Vec3::from_glam(origin + along * depth)
+    }
+
+    /// The index position at a depth, moved into the box where rounding leaves it.
+    fn inside(&self, depth: f64) -> Vec3<R> {
+        let (p, [lo, hi]) = (self.at(depth), self.object.ends);
+        Vec3::new(p.x.max(lo.x).min(hi.x), p.y.max(lo.y).min(hi.y), p.z.max(lo.z).min(hi.z))
+    }
+}

@@ -1,0 +1,60 @@
+//! How a colour is lit, at a sample or on an iso-surface: by Blinn–Phong or in tones, and black on silhouettes.
+
+use crate::interactive_volume_illustration::{Silhouette, Toon};
+use crate::number::{Real, Vec3};
+use crate::shading::Phong;
+use drypoint_scene::shot::{Illumination, Lighting};
+
+/// The light of a colour.
+pub(crate) struct Lit<R> {
+    model: Model<R>,
+    silhouette: Option<Silhouette<R>>,
+}
+
+/// How light is reflected.
+enum Model<R> {
+    /// Not at all.
+    Flat,
+    /// [STF-11].
+    Phong(Phong<R>),
+    /// [HATCH-15].
+    Toon(Toon<R>),
+}
+
+impl<R: Real> Lit<R> {
+    /// Prepares the light of a shot.
+    pub(crate) fn new(lit: &Illumination) -> Self {
+        let model = match &lit.lighting {
+            Lighting::Flat => Model::Flat,
+            Lighting::Phong(phong) => Model::Phong(Phong::new(phong)),
+            Lighting::Toon(toon) => Model::Toon(Toon::new(toon)),
+        };
+        Self { model, silhouette: lit.silhouette.map(Silhouette::new) }
+    }
+
+    /// Ĥ of Blinn–Phong; 0 where nothing reads it.
+    pub(crate) fn half_vector(&self, v: Vec3<R>) -> Vec3<R> {
+        match &self.model {
+            Model::Phong(phong) => phong.half_vector(v),
+            Model::Flat | Model::Toon(_) => Vec3::zero(),
+        }
+    }
+
+    /// The colour of a place seen from v, with Ĥ of [`Lit::half_vector`].
+    ///
+    /// Without a normal it has the tone of N = v and is on no silhouette ([PREC-3]), but is unshaded by Blinn–Phong, whose
+    /// highlight would be on every flat interior ([STF-11]).
+    #[inline]
+    pub(crate) fn color(&self, c_u: [R; 3], normal: Option<Vec3<R>>, [v, half]: [Vec3<R>; 2]) -> [R; 3] {
+        if let Some(silhouette) = self.silhouette
+            && silhouette.is_black(normal.map_or(R::ONE, |n| n.dot(v)))
+        {
+            return [R::ZERO; 3];
+        }
+        match (&self.model, normal) {
+            (Model::Phong(phong), Some(n)) => phong.shade(c_u, n, half),
+            (Model::Toon(toon), n) => toon.shade(c_u, n.unwrap_or(v)),
+            (Model::Flat, _) | (Model::Phong(_), None) => c_u,
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! Shaders: from the attributes of a visible sample to its straight colour and its opacity per reference length.
+
+use super::{EyeAxes, Lit, SampleAttributes, ViewDirs};
+use crate::interactive_volume_illustration::ViewOpacity;
+use crate::number::{Real, Vec3};
+use crate::ray::opacity::Correction;
+use crate::ray::render::RenderError;
+use crate::shading::Phong;
+use crate::style_transfer_functions::{Blend2, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
+use crate::transfer::{Patch, Place};
+use drypoint_scene::counts::Counts;
+use drypoint_scene::shot::{Illumination, Lighting, Material, Shot, SphereFrame, StyleParams, Transparency};
+use drypoint_scene::style::Style;
+use drypoint_scene::transfer::Function;
+
+/// A material ready for samples: how visible samples are coloured.
+pub(crate) enum Shader<R> {
+    /// Colours, unshaded or shaded ([STF-11]).
+    Regular {
+        /// Linear straight colour of each node.
+        colors: Vec<[R; 3]>,
+        /// Reflection and light.
+        phong: Option<Phong<R>>,
+    },
+    /// Colours with more than Phong: tones, silhouettes, view-dependent opacity ([HATCH-15]).
+    Illustrated(Illustrated<R>),
+    /// Styles (Bruckner and Gröller 2007).
+    Style(Styled<R>),
+}
+
+/// A regular function with more than Phong.
+pub(crate) struct Illustrated<R> {
+    /// Linear straight colour of each node.
+    pub(crate) colors: Vec<[R; 3]>,
+    pub(crate) lit: Lit<R>,
+    /// None: opacities are as they are.
+    pub(crate) view_opacity: Option<ViewOpacity>,
+}
+
+/// What a style transfer function needs.
+pub(crate) struct Styled<R> {
+    /// ift.
+    pub(crate) index: StyleIndex,
+    /// sft.
+    pub(crate) spheres: Spheres<R>,
+    /// [STF-10]; none: each lookup reads the style itself.
+    pub(crate) detail: Option<Detail<R>>,
+    /// [STF-7], [STF-8].
+    pub(crate) contour: Option<Contour<R>>,
+    /// [STF-9].
+    pub(crate) transparency: Transparency,
+    /// [STF-1].
+    pub(crate) frame: SphereFrame,
+    pub(crate) eye_axes: EyeAxes<R>,
+}
+
+impl<R: Real> Shader<R> {
+    /// Prepares the material of a shot's object, with the styles that its function names, in their order, for a volume whose
+    /// smallest voxel side is `voxel` in world units.
+    ///
+    /// # Errors
+    /// Another number of styles than the function names; a material of the other kind of function.
+    pub(crate) fn new(shot: &Shot, styles: &[Style], voxel: f64) -> Result<Self, RenderError> {
+        let [object] = &shot.objects;
+        match (&*object.function, &object.material) {
+            (Function::Regular(nodes), Material::Regular(lit)) => {
+                let colors = nodes.color.iter().map(|c| c.map(R::from_f64)).collect();
+                Ok(Self::regular(colors, lit))
+            }
+            (Function::Style { nodes, names }, Material::Style(style)) => {
+                if names.len() != styles.len() {
+                    return Err(RenderError::Styles { named: names.len(), given: styles.len() });
+                }
+                Ok(Self::Style(Styled::new(&nodes.color, style, styles, shot, voxel)))
+            }
+            _ => Err(RenderError::Material),
+        }
+    }
+
+    fn regular(colors: Vec<[R; 3]>, lit: &Illumination) -> Self {
+        match &lit.lighting {
+            Lighting::Flat if lit.is_plain() => Self::Regular { colors, phong: None },
+            Lighting::Phong(phong) if lit.is_plain() => Self::Regular { colors, phong: Some(Phong::new(phong)) },
+            _ => {
+                let view_opacity = ViewOpacity::new(lit.view_opacity);
+                Self::Illustrated(Illustrated { colors, lit: Lit::new(lit), view_opacity })
+            }
+        }
+    }
+
+    /// The size of mip chains in memory; none without them.
+    pub(crate) fn mipmap_bytes(&self) -> Option<usize> {
+        if let Self::Style(styled) = self { styled.spheres.mipmap_bytes() } else { None }
+    }
+
+    /// Takes over what depends on the camera from the shot of another one.
+    pub(crate) fn turn(&mut self, shot: &Shot) {
+        let [object] = &shot.objects;
+        match (self, &object.material) {
+            (Self::Regular { phong: Some(phong), .. }, Material::Regular(lit)) => {
+                if let Lighting::Phong(params) = &lit.lighting {
+                    *phong = Phong::new(params);
+                }
+            }
+            (Self::Illustrated(illustrated), Material::Regular(lit)) => illustrated.lit = Lit::new(lit),
+            (Self::Style(styled), _) => styled.eye_axes = EyeAxes::new(&shot.view),
+            _ => {}
+        }
+    }
+
+    /// Directions of a ray towards whose eye v points, in world and eye space.
+    pub(crate) fn view_dirs(&self, v: Vec3<R>, v_eye: Vec3<R>) -> ViewDirs<R> {
+        let half = match self {
+            Self::Regular { phong: Some(phong), .. } => phong.half_vector(v),
+            Self::Illustrated(illustrated) => illustrated.lit.half_vector(v),
+            _ => Vec3::zero(),
+        };
+        ViewDirs { v, v_eye, half }
+    }
+
+    /// Straight colour and opacity per reference length. Place and attributes come as values: only the arm of styles then needs
+    /// them in memory.
+    #[inline(always)]
+    pub(crate) fn shade(
+        &self,
+        place: impl Between<R>,
+        attributes: SampleAttributes<R>,
+        dirs: &ViewDirs<R>,
+        counts: &mut Counts,
+    ) -> ([R; 3], R) {
+        match self {
+            Self::Regular { colors, phong } => {
+                let rgb = place.color(colors);
+                let rgb = match (phong, attributes.normal) {
+                    (Some(phong), Some(n)) => phong.shade(rgb, n, dirs.half),
+                    _ => rgb,
+                };
+                (rgb, place.alpha_u())
+            }
+            Self::Illustrated(illustrated) => illustrated.shade(place, attributes, dirs),
+            Self::Style(styled) => styled.shade(place, attributes, dirs, counts),
+        }
+    }
+}
+
+impl<R: Real> Illustrated<R> {
+    #[inline(never)]
+    fn shade(&self, place: impl Between<R>, attributes: SampleAttributes<R>, dirs: &ViewDirs<R>) -> ([R; 3], R) {
+        let rgb = self.lit.color(place.color(&self.colors), attributes.normal, [dirs.v, dirs.half]);
+        let alpha = match (self.view_opacity, attributes.normal) {
+            // |N·v| counts as 1 where there is no normal ([PREC-3]), and then the exponent is 1.
+            (Some(view_opacity), Some(n)) => {
+                Correction::new(view_opacity.exponent(n.dot(dirs.v))).apply(place.alpha_u())
+            }
+            _ => place.alpha_u(),
+        };
+        (rgb, alpha)
+    }
+}
+
+impl<R: Real> Styled<R> {
+    fn new(of_node: &[usize], style: &StyleParams, styles: &[Style], shot: &Shot, voxel: f64) -> Self {
+        let spheres = Spheres::new(styles, style.mix);
+        let has_levels = style.level_of_detail.is_some();
+        Self {
+            index: StyleIndex::new(of_node),
+            spheres: if has_levels { spheres.with_mipmaps(styles) } else { spheres },
+            detail: style.level_of_detail.map(|level| Detail::new(&level, &shot.view, shot.samples, voxel)),
+            contour: style.contour.map(|c| Contour::new(c.thickness, c.kappa, c.fade)),
+            transparency: style.transparency,
+            frame: style.frame,
+            eye_axes: EyeAxes::new(&shot.view),
+        }
+    }
+
+    #[inline(never)]
+    fn shade(
+        &self,
+        place: impl Between<R>,
+        attributes: SampleAttributes<R>,
+        dirs: &ViewDirs<R>,
+        counts: &mut Counts,
+    ) -> ([R; 3], R) {
+        let n = frame::on_sphere(self.frame, self.eye_axes.normal(&attributes, dirs), dirs.v_eye);
+        // |N·v| counts as 1 where there is no normal ([PREC-3]).
+        let n_dot_v = attributes.normal.map_or(R::ONE, |n| n.dot(dirs.v).abs());
+        // Without contours T = 0, so τ = 0 ([STF-9]).
+        let tau = self.contour.as_ref().map_or(R::ZERO, |c| c.tau(attributes.kappa, attributes.magnitude));
+        // A sample without a normal is on no contour, whatever the threshold.
+        let on = self.contour.is_some() && attributes.normal.is_some();
+        let (x, y) = if on { contour::push(n.x, n.y, n_dot_v, tau) } else { (n.x, n.y) };
+        let level =
+            self.detail.as_ref().map(|d| d.below_last(attributes.depth, attributes.kappa, attributes.magnitude));
+        let [r, g, b, alpha_d] = place.style(&self.index, &self.spheres, [x, y], level, counts);
+        if alpha_d == R::ZERO {
+            return ([R::ZERO; 3], R::ZERO);
+        }
+        let share = transparency::share(self.transparency, place.alpha_u(), n_dot_v, tau, attributes.magnitude);
+        // What follows would change no bit.
+        if alpha_d == R::ONE {
+            return ([r, g, b], share);
+        }
+        ([r / alpha_d, g / alpha_d, b / alpha_d], alpha_d * share)
+    }
+}
+
+/// A place between the nodes of a function over one quantity or two.
+pub(crate) trait Between<R: Real> {
+    /// α_u, above 0.
+    fn alpha_u(&self) -> R;
+
+    /// The colour between the nodes' linear straight colours, which interpolate by themselves ([VAL-3]).
+    fn color(&self, colors: &[[R; 3]]) -> [R; 3];
+
+    /// The style between the nodes' styles, looked up at (N_x, N_y): linear, premultiplied. `level` is that of
+    /// [`Detail::below_last`] in the mip chains; none: the styles themselves.
+    fn style(
+        &self,
+        index: &StyleIndex,
+        spheres: &Spheres<R>,
+        n: [R; 2],
+        level: Option<R>,
+        counts: &mut Counts,
+    ) -> [R; 4];
+}
+
+impl<R: Real> Between<R> for Place<R> {
+    #[inline(always)]
+    fn alpha_u(&self) -> R {
+        self.alpha_u
+    }
+
+    #[inline(always)]
+    fn color(&self, colors: &[[R; 3]]) -> [R; 3] {
+        self.color(colors)
+    }
+
+    #[inline(always)]
+    fn style(
+        &self,
+        index: &StyleIndex,
+        spheres: &Spheres<R>,
+        [x, y]: [R; 2],
+        level: Option<R>,
+        counts: &mut Counts,
+    ) -> [R; 4] {
+        let blend = index.blend(self);
+        counts.style_lookups += blend.lookups();
+        match level {
+            None => spheres.lookup(&blend, x, y),
+            Some(level) => spheres.lookup_level(&blend, x, y, level),
+        }
+    }
+}
+
+impl<R: Real> Between<R> for Patch<R> {
+    #[inline]
+    fn alpha_u(&self) -> R {
+        self.alpha_u
+    }
+
+    #[inline]
+    fn color(&self, colors: &[[R; 3]]) -> [R; 3] {
+        let [a, b] = &self.rows;
+        if self.w == R::ZERO { a.color(colors) } else { mixed(a.color(colors), b.color(colors), self.w) }
+    }
+
+    #[inline]
+    fn style(
+        &self,
+        index: &StyleIndex,
+        spheres: &Spheres<R>,
+        [x, y]: [R; 2],
+        level: Option<R>,
+        counts: &mut Counts,
+    ) -> [R; 4] {
+        let blend = Blend2::new(index, self);
+        counts.style_lookups += blend.lookups();
+        match level {
+            None => spheres.lookup2(&blend, x, y),
+            Some(level) => spheres.lookup2_level(&blend, x, y, level),
+        }
+    }
+}
+
+/// Channel by channel, a + w(b − a).
+#[inline(always)]
+fn mixed<R: Real>(a: [R; 3], b: [R; 3], w: R) -> [R; 3] {
+    [R::lerp(a[0], b[0], w), R::lerp(a[1], b[1], w), R::lerp(a[2], b[2], w)]
+}

@@ -1,0 +1,56 @@
+//! An object prepared for its samples: everything that is decided once a picture.
+
+use super::need::Needs;
+use super::{OverTwo, Shader};
+use crate::field::Field;
+use crate::number::{Real, Vec3};
+use crate::transfer::{Piecewise, Table};
+use drypoint_scene::shot::{NormalDirection, Outside, SampleQuery, Turn};
+use drypoint_scene::volume::Volume;
+
+/// A volume with its function and its material, ready for samples.
+pub(crate) struct PreparedObject<'v, R> {
+    pub(crate) volume: &'v Volume,
+    pub(crate) field: Field<'v, R>,
+    /// Lowest and highest index position ([SPACE-1]).
+    pub(crate) ends: [Vec3<R>; 2],
+    /// α_u over the value; with two quantities, the values at which it can be above 0.
+    pub(crate) function: Piecewise<R>,
+    /// From entries to nodes, where the function is read from a table.
+    pub(crate) table: Option<Table<R>>,
+    /// The function itself where it is over two quantities.
+    pub(crate) over_two: Option<OverTwo<'v, R>>,
+    pub(crate) shader: Shader<R>,
+    pub(crate) query: SampleQuery,
+    pub(crate) needs: Needs,
+    /// What the first visible sample of a ray is asked for beyond that, for the layers `first.*`; none: nothing.
+    pub(crate) first: Option<SampleQuery>,
+    /// lo and hi − lo of [VAL-2], times the power of two of [SPACE-4]; none where nothing reads |g|.
+    pub(crate) gradient_range: Option<(R, R)>,
+    /// Δ₀ in world units.
+    pub(crate) reference_length: f64,
+    pub(crate) outside: Outside,
+    pub(crate) normal: NormalDirection,
+    /// The angle that κ along the ray is made of ([STF-5]).
+    pub(crate) turn: Turn,
+    /// ‖g‖ at or below which there is no normal ([PREC-3]).
+    pub(crate) no_normal_below: R,
+}
+
+impl<R: Real> PreparedObject<'_, R> {
+    /// The normal that shades ([NORM-1]): the outward one turned as the shot says, seen from v; none where ‖g‖ is rounding
+    /// ([PREC-3]).
+    #[inline]
+    pub(crate) fn normal(&self, g: Vec3<R>, v: Vec3<R>) -> Option<Vec3<R>> {
+        let outward = crate::field::normal::outward(g, self.outside, self.no_normal_below);
+        outward.map(|n| {
+            let flip = match self.normal {
+                NormalDirection::Outward => false,
+                NormalDirection::Facing => n.dot(v) < R::ZERO,
+                NormalDirection::Inward => true,
+            };
+            // A product and no branch: along a ray the side is anyone's guess.
+            n * if flip { -R::ONE } else { R::ONE }
+        })
+    }
+}

@@ -1,0 +1,184 @@
+//! How samples are coloured, and how light falls on colours.
+
+use super::{Kappa, Mix, ShotError, SphereFrame, Transparency};
+use crate::space::Grid;
+use crate::tables::{LightDirection, Scene, Shading, SilhouetteShading, Surface, SurfaceLook, Tone, ToonShading};
+use crate::transfer::Function;
+use crate::view::View;
+use glam::DVec3;
+use serde::Serialize;
+
+/// From the attributes of a sample to its straight colour and its opacity per reference length.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Material {
+    /// Colours of the function's nodes.
+    Regular(Illumination),
+    /// Styles of the function's nodes (Bruckner and Gröller 2007).
+    Style(StyleParams),
+}
+
+/// How a colour is lit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Illumination {
+    /// How light is reflected.
+    pub lighting: Lighting,
+    /// The offset of the test (N·V)² + offset > ½, where silhouettes are black ([HATCH-15]); none: no silhouettes.
+    pub silhouette: Option<f64>,
+    /// s: how much more opaque samples are that are seen from the side ([HATCH-15]); 0: opacities are as they are.
+    pub view_opacity: f64,
+}
+
+/// How light is reflected.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Lighting {
+    /// Not at all.
+    Flat,
+    /// By Blinn and Phong ([STF-11]).
+    Phong(PhongParams),
+    /// In tones ([HATCH-15]).
+    Toon(ToonParams),
+}
+
+/// Blinn–Phong reflection.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PhongParams {
+    /// k_a.
+    pub ambient: f64,
+    /// k_d.
+    pub diffuse: f64,
+    /// k_s.
+    pub specular: f64,
+    /// The exponent s.
+    pub shininess: f64,
+    /// L: the unit vector towards the light, in world space.
+    pub light: DVec3,
+}
+
+/// Tones with hard steps.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ToonParams {
+    /// L: the unit vector towards the light, in world space.
+    pub light: DVec3,
+    /// What is added to L·N.
+    pub offset: f64,
+    /// What colours are multiplied by from each place in L·N + offset on, in ascending order. The first tone holds from −∞ on.
+    pub tones: Vec<Tone>,
+}
+
+/// What a function of styles has beside its nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct StyleParams {
+    /// How two styles mix ([STF-3]).
+    pub mix: Mix,
+    /// How α_u and α_d become α ([STF-9]).
+    pub transparency: Transparency,
+    /// The frame of the lit sphere ([STF-1]).
+    pub frame: SphereFrame,
+    /// Contours; none: none ([STF-7], [STF-8]).
+    pub contour: Option<ContourParams>,
+    /// How the level in mip-maps is found ([STF-10]); none: styles are read as they are.
+    pub level_of_detail: Option<LevelOfDetail>,
+}
+
+/// Style contours.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ContourParams {
+    /// T in world units.
+    pub thickness: f64,
+    /// Which κ, or which constant threshold.
+    pub kappa: Kappa,
+    /// Both ends in |g| between which contours fade in; none: they do not.
+    pub fade: Option<[f64; 2]>,
+}
+
+/// The level of detail of styles ([STF-10]).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LevelOfDetail {
+    /// b_κ; 0 where the picture has no κ.
+    pub curvature_bias: f64,
+    /// b_g.
+    pub gradient_bias: f64,
+    /// ω₀, in radians per voxel.
+    pub turn: f64,
+}
+
+impl Material {
+    /// The material of a scene.
+    pub(super) fn new(scene: &Scene, function: &Function, grid: &Grid, view: &View) -> Result<Self, ShotError> {
+        if matches!(function, Function::Regular(_)) {
+            return Ok(Self::Regular(match &scene.shading {
+                Some(shading) => Illumination::of_shading(shading, scene, view),
+                None => Illumination::FLAT,
+            }));
+        }
+        let contour = scene.contours.as_ref().map(|c| {
+            let thickness = c.thickness.world(grid).ok_or(ShotError::Length { key: "contours.thickness" })?;
+            Ok::<_, ShotError>(ContourParams { thickness, kappa: c.kappa, fade: c.fade })
+        });
+        let transfer = scene.transfer.as_ref();
+        Ok(Self::Style(StyleParams {
+            mix: transfer.map_or(Mix::Premultiplied, |t| t.mix),
+            transparency: transfer.map_or(Transparency::Illustrative, |t| t.transparency),
+            frame: transfer.map_or(SphereFrame::Eye, |t| t.sphere_frame),
+            contour: contour.transpose()?,
+            level_of_detail: scene.style_mipmaps.as_ref().map(|table| LevelOfDetail {
+                curvature_bias: table.measured_curvature_bias(scene),
+                gradient_bias: table.gradient_bias,
+                turn: table.turn,
+            }),
+        }))
+    }
+}
+
+impl Illumination {
+    /// Colours as they are.
+    pub const FLAT: Self = Self { lighting: Lighting::Flat, silhouette: None, view_opacity: 0.0 };
+
+    /// Whether it is reflection alone: no silhouettes, opacities as they are.
+    pub fn is_plain(&self) -> bool {
+        self.silhouette.is_none() && self.view_opacity <= 0.0
+    }
+
+    /// By a table `[shading]`.
+    fn of_shading(shading: &Shading, scene: &Scene, view: &View) -> Self {
+        let light = shading.light.unwrap_or(scene.light);
+        let lighting = match shading.tones() {
+            Some(tones) => Lighting::Toon(ToonParams::new(&tones, light, view)),
+            None => Lighting::Phong(PhongParams::new(shading, light, view)),
+        };
+        Self { lighting, silhouette: offset(shading.silhouette), view_opacity: shading.view_opacity }
+    }
+
+    /// By the look of an iso-surface, with the light and the constants of `[shading]` or their defaults.
+    pub(super) fn of_surface(surface: &Surface, scene: &Scene, view: &View) -> Self {
+        let light = scene.shading.as_ref().and_then(|shading| shading.light).unwrap_or(scene.light);
+        let lighting = match (surface.tones(), surface.look) {
+            (Some(tones), _) => Lighting::Toon(ToonParams::new(&tones, light, view)),
+            (None, SurfaceLook::Phong) => {
+                Lighting::Phong(PhongParams::new(&scene.shading.clone().unwrap_or_default(), light, view))
+            }
+            (None, _) => Lighting::Flat,
+        };
+        Self { lighting, silhouette: offset(surface.silhouette), view_opacity: 0.0 }
+    }
+}
+
+/// The offset of a table of silhouettes.
+fn offset(silhouette: Option<SilhouetteShading>) -> Option<f64> {
+    silhouette.map(|table| table.offset)
+}
+
+impl PhongParams {
+    fn new(shading: &Shading, light: LightDirection, view: &View) -> Self {
+        let &Shading { ambient, diffuse, specular, shininess, .. } = shading;
+        Self { ambient, diffuse, specular, shininess, light: view.towards(light) }
+    }
+}
+
+impl ToonParams {
+    fn new(table: &ToonShading, light: LightDirection, view: &View) -> Self {
+        Self { light: view.towards(light), offset: table.offset, tones: table.tones.clone() }
+    }
+}

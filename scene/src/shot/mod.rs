@@ -1,0 +1,255 @@
+//! One picture with nothing left to decide: what a renderer has to know of a scene.
+//!
+//! A [`Shot`] is plain data. Lengths are in world units, every `auto` is decided, and what a scene leaves out has its neutral
+//! value. A renderer reads the shot and the data that it names (voxels, labels, styles, pixels behind), and nothing else of a
+//! scene. Quantities that only voxels can tell, such as a quantile of ‖g‖, are named here and measured by the renderer.
+
+mod iso_surface;
+mod lattice;
+mod material;
+mod query;
+mod reconstruction;
+
+pub use crate::picture::LayerKind;
+pub use crate::tables::contours::Measured;
+pub use crate::tables::{
+    Axis, BlendSpace, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, LabelLookup, Mix, Number,
+    Outside, SphereFrame, StepAlong, Tone, Transparency,
+};
+pub use iso_surface::IsoSurface;
+pub use lattice::{Lattice, MOST_PLANES};
+pub use material::{
+    ContourParams, Illumination, LevelOfDetail, Lighting, Material, PhongParams, StyleParams, ToonParams,
+};
+pub use query::{KappaSource, SampleQuery};
+pub use reconstruction::{NotSmooth, Reconstruction, Rung};
+
+use crate::plan::{Pass, Plan, Quantity};
+use crate::space::Grid;
+use crate::tables::{Length, NormalSide, Scene, SignFlip};
+use crate::transfer::Function;
+use crate::view::View;
+use serde::Serialize;
+use std::sync::Arc;
+
+/// One picture of one camera.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shot {
+    /// The camera ([SPACE-3], [RAY-5]).
+    pub view: View,
+    /// Where samples lie on rays ([RAY-1]).
+    pub lattice: Lattice,
+    /// n of the n×n rays of a pixel ([RAY-6]).
+    pub samples: usize,
+    /// The number type of samples.
+    pub number: Number,
+    /// The volumes that are drawn.
+    pub objects: [Object; 1],
+    /// The opaque iso-surface; none: none ([HATCH-14]).
+    pub surface: Option<IsoSurface>,
+    /// Which numbers are composited ([VAL-3]).
+    pub blend_space: BlendSpace,
+    /// The opacity A at which a ray ends ([RAY-2]).
+    pub stop_at: f64,
+    /// Layers of the picture, at least one ([IO-6]).
+    pub layers: Vec<LayerKind>,
+}
+
+/// A volume with its transfer function and its look.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Object {
+    /// How the field is reconstructed from voxels.
+    pub reconstruction: Reconstruction,
+    /// What is asked of the field anywhere.
+    pub rung: Rung,
+    /// Whether bricks that can show nothing are skipped ([RAY-2]).
+    pub skip_empty: bool,
+    /// The transfer function over values of the volume ([STF-3], [STF-4]).
+    pub function: Arc<Function>,
+    /// Which label lies between voxels ([STF-13]).
+    pub label_lookup: LabelLookup,
+    /// Δ₀: the length that opacities are given for, in world units ([VAL-4]).
+    pub reference_length: f64,
+    /// What |g| = 1 stands for ([VAL-2]); none where nothing reads |g|.
+    pub gradient_range: Option<GradientRange>,
+    /// The direction of shading normals ([NORM-1]).
+    pub normal: NormalDirection,
+    /// The angle that κ along the ray is made of ([STF-5]).
+    pub turn: Turn,
+    /// What is evaluated at every visible sample.
+    pub query: SampleQuery,
+    /// What is evaluated beyond that at the first visible sample of a ray, for layers `first.*`; none: nothing.
+    pub first: Option<SampleQuery>,
+    /// How samples are coloured.
+    pub material: Material,
+}
+
+/// The direction of shading normals ([NORM-1]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NormalDirection {
+    /// Outwards.
+    Outward,
+    /// Outwards, flipped to N·v ≥ 0.
+    Facing,
+    /// Inwards.
+    Inward,
+}
+
+/// The angle between two normals that κ along the ray is made of ([STF-5]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Turn {
+    /// Between the normals, in [0, π].
+    OfNormals,
+    /// Between the lines that they span, in [0, π/2]: a normal that was flipped towards the eye has not turned.
+    OfLines,
+}
+
+/// What a shot has to know of the volume of its scene.
+#[derive(Clone, Copy, Debug)]
+pub struct VolumeFacts<'a> {
+    /// The voxels' places.
+    pub grid: &'a Grid,
+    /// Whether the file holds integers ([REC-3]).
+    pub is_integer: bool,
+}
+
+/// A scene that makes no shot.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ShotError {
+    /// A length of the scene has no size in the world.
+    #[error("{key} is a length on the page, not in the volume")]
+    Length {
+        /// The scene key.
+        key: &'static str,
+    },
+    /// The kernel has no second derivatives.
+    #[error(transparent)]
+    NotSmooth(#[from] NotSmooth),
+    /// The iso-value is still left to the volume.
+    #[error("surface.iso is \"auto\", and no value was found")]
+    NoIso,
+}
+
+impl Shot {
+    /// Decides what a scene leaves open: for a volume, a transfer function over its values, and a camera, which need not be the
+    /// scene's own.
+    ///
+    /// # Errors
+    /// A length on the page, a Hessian that the kernel does not have, an iso-value that was not found in the data yet.
+    pub fn resolve(
+        scene: &Scene,
+        plan: &Plan,
+        facts: VolumeFacts<'_>,
+        function: Arc<Function>,
+        view: View,
+    ) -> Result<Self, ShotError> {
+        let sampling = &scene.sampling;
+        let world = |length: Length, key| length.world(facts.grid).ok_or(ShotError::Length { key });
+        let step = world(sampling.step, "sampling.step")?;
+        let hessian = sampling.hessian.resolved(sampling.kernel, facts.is_integer)?;
+        let reconstruction = Reconstruction {
+            kernel: sampling.kernel,
+            gradient: sampling.gradient,
+            hessian,
+            scale: world(sampling.scale, "sampling.scale")?,
+            outside: scene.volume.outside,
+        };
+        let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
+        let (query, first) = query::of_samples(scene, plan, &function);
+        let object = Object {
+            reconstruction,
+            rung: Rung::of(plan),
+            skip_empty: plan.has_pass(Pass::Bricks),
+            label_lookup: scene.volume.label_lookup,
+            reference_length: world(sampling.reference_length, "sampling.reference_length")?,
+            gradient_range: plan.needs(Quantity::GradientMagnitudeRange).then_some(scene.volume.gradient_range),
+            normal: NormalDirection::new(sampling.normal, scene.volume.outside),
+            turn: Turn::new(sampling.normal, scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip)),
+            query,
+            first,
+            material: Material::new(scene, &function, facts.grid, &view)?,
+            function,
+        };
+        let layers = &scene.picture.layers;
+        Ok(Self {
+            lattice: Lattice { step, along: sampling.step_along, near },
+            samples: scene.picture.samples,
+            number: sampling.number,
+            objects: [object],
+            surface: IsoSurface::new(scene, plan, &view)?,
+            blend_space: scene.picture.blend_space,
+            stop_at: stop_at(sampling.stop_below, scene.picture.blend_space),
+            layers: if layers.is_empty() { vec![LayerKind::Beauty] } else { layers.clone() },
+            view,
+        })
+    }
+
+    /// The shot as JSON, for a person who writes another renderer.
+    ///
+    /// # Errors
+    /// A volume of the transfer function whose path is no text.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        serde_json::to_string_pretty(self)
+    }
+}
+
+impl NormalDirection {
+    /// The direction for a scene's setting. The gradient is the outward normal itself where values rise outwards.
+    fn new(normal: NormalSide, outside: Outside) -> Self {
+        match (normal, outside) {
+            (NormalSide::Outward, _) | (NormalSide::Gradient, Outside::High) => Self::Outward,
+            (NormalSide::Facing, _) => Self::Facing,
+            (NormalSide::Gradient, Outside::Low) => Self::Inward,
+        }
+    }
+}
+
+impl Turn {
+    /// The paper's plain angle, except where normals are flipped towards the eye and the scene does not ask for the literal
+    /// reading.
+    fn new(normal: NormalSide, flip: SignFlip) -> Self {
+        match (normal, flip) {
+            (NormalSide::Facing, SignFlip::TwoSided) => Self::OfLines,
+            _ => Self::OfNormals,
+        }
+    }
+}
+
+/// The A at which a ray ends, so that what is left out is at most ε·c_max in linear light ([RAY-2]).
+///
+/// What is left out of an encoded sum is at most the encoded c_max times its weight, and is decoded with the sum. The curve f of
+/// sRGB, of which shading can make the part above 1 count too, has c·f′(c) ≤ 2.4 f(c).
+fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
+    match blend_space {
+        BlendSpace::Linear => 1.0 - epsilon,
+        BlendSpace::Srgb => 1.0 - epsilon / 2.4,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_facing_normals_are_lines() {
+        for normal in [NormalSide::Outward, NormalSide::Gradient] {
+            assert_eq!(Turn::new(normal, SignFlip::TwoSided), Turn::OfNormals);
+        }
+        assert_eq!(Turn::new(NormalSide::Facing, SignFlip::TwoSided), Turn::OfLines);
+        assert_eq!(Turn::new(NormalSide::Facing, SignFlip::Literal), Turn::OfNormals);
+    }
+
+    #[test]
+    fn the_gradient_points_inwards_where_values_rise_inwards() {
+        let direction = |outside| NormalDirection::new(NormalSide::Gradient, outside);
+        assert_eq!([Outside::Low, Outside::High].map(direction), [NormalDirection::Inward, NormalDirection::Outward]);
+    }
+
+    #[test]
+    fn encoded_sums_end_later() {
+        assert_eq!(stop_at(0.25, BlendSpace::Linear), 0.75);
+        assert_eq!(stop_at(0.24, BlendSpace::Srgb), 1.0 - 0.24 / 2.4);
+    }
+}

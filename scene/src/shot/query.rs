@@ -1,0 +1,99 @@
+//! Which quantities a sample has to be asked for.
+
+use super::Measured;
+use crate::picture::LayerKind;
+use crate::plan::{Plan, Quantity};
+use crate::tables::contours::measured_curvature;
+use crate::tables::{Axis, Kappa, Scene};
+use crate::transfer::Function;
+use serde::Serialize;
+
+/// Quantities that a visible sample is asked for beyond its value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct SampleQuery {
+    /// The gradient g and the normal.
+    pub gradient: bool,
+    /// The Hessian H.
+    pub hessian: bool,
+    /// κ₁ and κ₂, for a layer or an axis.
+    pub principal: bool,
+    /// κ.
+    pub kappa: KappaSource,
+}
+
+/// Where κ comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum KappaSource {
+    /// Nothing asks for it.
+    None,
+    /// Two normals along the ray ([STF-5]).
+    AlongRay,
+    /// The Hessian ([CUR-2]).
+    Exact,
+}
+
+impl SampleQuery {
+    /// The value alone.
+    pub const VALUE: Self = Self { gradient: false, hessian: false, principal: false, kappa: KappaSource::None };
+    /// The normal, which comes with the gradient.
+    pub const NORMAL: Self = Self { gradient: true, ..Self::VALUE };
+
+    /// What both ask for. κ is the other's where both name one.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            gradient: self.gradient || other.gradient,
+            hessian: self.hessian || other.hessian,
+            principal: self.principal || other.principal,
+            kappa: if other.kappa == KappaSource::None { self.kappa } else { other.kappa },
+        }
+    }
+}
+
+/// The query of every visible sample, and what the first visible sample of a ray is asked for beyond that.
+pub(super) fn of_samples(scene: &Scene, plan: &Plan, function: &Function) -> (SampleQuery, Option<SampleQuery>) {
+    let kappa = |needs: &dyn Fn(Quantity) -> bool| {
+        if needs(Quantity::PreviousNormal) {
+            KappaSource::AlongRay
+        } else if needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
+            KappaSource::Exact
+        } else {
+            KappaSource::None
+        }
+    };
+    let asks_for = |layer| scene.picture.layers.contains(&layer);
+    let all = SampleQuery {
+        gradient: plan.needs(Quantity::Gradient),
+        hessian: plan.needs(Quantity::Hessian),
+        principal: asks_for(LayerKind::Curvature)
+            || function.nodes().2.is_some_and(|rows| rows.over.iter().any(Axis::is_principal)),
+        kappa: kappa(&|quantity| plan.needs(quantity)),
+    };
+    let principal = asks_for(LayerKind::FirstCurvature) && !all.principal;
+    let kappa = match all.kappa {
+        KappaSource::None => kappa(&|quantity| plan.needs_at_first(quantity)),
+        KappaSource::AlongRay | KappaSource::Exact => KappaSource::None,
+    };
+    let first = SampleQuery {
+        gradient: plan.needs_at_first(Quantity::Gradient) && !all.gradient,
+        hessian: principal || kappa == KappaSource::Exact,
+        principal,
+        kappa,
+    };
+    (all, (first.gradient || first.hessian || first.kappa != KappaSource::None).then_some(first))
+}
+
+/// The query of layers of normals, of curvatures, and of κ alone on an iso-surface.
+pub(super) fn of_layers(scene: &Scene, [normal, curvature, along_view]: [bool; 3]) -> SampleQuery {
+    let kappa = match measured_curvature(scene) {
+        _ if !(curvature || along_view) => KappaSource::None,
+        Measured::Exact => KappaSource::Exact,
+        Measured::AlongRay => KappaSource::AlongRay,
+    };
+    SampleQuery {
+        gradient: normal || curvature || along_view,
+        hessian: curvature || kappa == KappaSource::Exact,
+        principal: curvature,
+        kappa,
+    }
+}
