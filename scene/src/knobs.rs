@@ -18,10 +18,11 @@
 
 use crate::file::describe::Section;
 use crate::file::out::Out;
+use crate::file::set::steps;
 use crate::file::{Faults, Overrides, parse, write_full};
 use crate::plan::Plan;
 use crate::tables::Scene;
-use crate::tables::scene::ROOT;
+use crate::tables::scene::{ROOT, sections};
 use std::path::Path;
 
 /// What the settings of a knob converge to.
@@ -33,22 +34,25 @@ pub enum Limit {
     Finest,
 }
 
+/// Settings of a key from coarse to fine; none where the scene does not use the key.
+pub(crate) type Settings = &'static [&'static str];
+
 /// The settings of a key, as its description declares them.
 #[derive(Clone, Copy)]
 pub(crate) struct Ladder {
     limit: Limit,
-    /// From coarse to fine; none where the scene does not use the key.
-    settings: fn(&Scene, &Plan) -> &'static [&'static str],
+    /// The settings in a scene, for an item of a list of tables with its number.
+    settings: fn(&Scene, &Plan, Option<usize>) -> Settings,
 }
 
 impl Ladder {
     /// Of a key that decides how close the samples come to the field, or their sum to its integral.
-    pub(crate) const fn to_field(settings: fn(&Scene, &Plan) -> &'static [&'static str]) -> Self {
+    pub(crate) const fn to_field(settings: fn(&Scene, &Plan, Option<usize>) -> Settings) -> Self {
         Self { limit: Limit::Field, settings }
     }
 
     /// Of a key that is no matter of the field.
-    pub(crate) const fn to_finest(settings: fn(&Scene, &Plan) -> &'static [&'static str]) -> Self {
+    pub(crate) const fn to_finest(settings: fn(&Scene, &Plan, Option<usize>) -> Settings) -> Self {
         Self { limit: Limit::Finest, settings }
     }
 }
@@ -56,7 +60,7 @@ impl Ladder {
 /// A knob that a scene uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Knob {
-    /// Its scene key, such as `sampling.step`.
+    /// Its scene key, such as `sampling.step`; in an item of a list of tables `pen[0].width`.
     pub key: String,
     /// Its settings from coarse to fine, as `--set` takes them; at least two.
     pub settings: &'static [&'static str],
@@ -70,14 +74,17 @@ impl Knob {
         self.settings.last().copied().unwrap_or_default()
     }
 
-    /// What a scene has, as `--set` takes it; none where it has no such table.
+    /// The setting that a scene has, as `--set` takes it; none where the scene has no such table.
     pub fn of(&self, scene: &Scene) -> Option<String> {
-        let mut names = self.key.split('.');
-        let table = names.next()?;
+        let steps = steps(&self.key).ok()?;
+        let (table, inner) = steps.split_first()?;
         let mut value = ROOT.keys.iter().find(|key| key.name == table)?.field.write(scene)?;
-        for name in names {
-            let Out::Table(entries) = value else { return None };
-            value = entries.into_iter().find(|(key, _)| key == name)?.1;
+        for step in inner {
+            value = match value {
+                Out::Table(entries) => entries.into_iter().find(|(key, _)| key == step)?.1,
+                Out::List(items) => items.into_iter().nth(step.parse().ok()?)?,
+                _ => return None,
+            };
         }
         Some(match value {
             Out::Text(text) => text,
@@ -100,19 +107,23 @@ impl Knob {
 /// The knobs that a scene uses, in the order of the tables.
 pub fn knobs(scene: &Scene, plan: &Plan) -> Vec<Knob> {
     let mut knobs = Vec::new();
-    for table in ROOT.section().keys {
-        add(&mut knobs, table.name, table.shape.section(), (scene, plan));
+    for (at, section) in sections(scene).into_iter().filter(|(at, _)| !at.key.is_empty()) {
+        add(&mut knobs, &at.key, section, &|ladder| (ladder.settings)(scene, plan, at.item));
     }
     knobs
 }
 
-/// Those of a table and of the tables in it.
-fn add(knobs: &mut Vec<Knob>, table: &str, section: Option<Section>, (scene, plan): (&Scene, &Plan)) {
-    for key in section.into_iter().flat_map(|section| section.keys) {
+/// Adds the knobs of a table and of the tables in it.
+fn add(knobs: &mut Vec<Knob>, table: &str, section: Section, settings: &dyn Fn(Ladder) -> Settings) {
+    for key in section.keys {
         let name = format!("{table}.{}", key.name);
-        let settings = key.ladder.map_or(&[][..], |ladder| (ladder.settings)(scene, plan));
-        add(knobs, &name, key.shape.section(), (scene, plan));
-        if let Some(ladder) = key.ladder.filter(|_| settings.len() > 1) {
+        if let Some(section) = key.shape.section() {
+            add(knobs, &name, section, settings);
+        }
+        if let Some(ladder) = key.ladder
+            && let settings = settings(ladder)
+            && settings.len() > 1
+        {
             knobs.push(Knob { key: name, settings, limit: ladder.limit });
         }
     }
@@ -185,6 +196,19 @@ mod tests {
         assert_eq!(keys(&scene("[outlines]\n")), ["sampling.kernel"]);
         let all = keys(&scene(&format!("{REGULAR}[stipples]\n[hatching]\n"))).join(" ");
         assert_eq!(all, format!("{} {points} {strokes}", ALWAYS.join(" ")));
+    }
+
+    #[test]
+    fn a_knob_of_an_item_of_a_list_changes_that_item_alone() {
+        let scene = scene("[[pen]]\nname = \"a\"\n[[pen]]\nname = \"b\"\nwidth = \"1 mm\"\n");
+        let knob = Knob { key: "pen[1].width".into(), settings: &["2 mm", "0.5 mm"], limit: Limit::Finest };
+        assert_eq!(knob.of(&scene).as_deref(), Some("1 mm"));
+        let fine = knob.set(&scene, knob.finest()).unwrap();
+        assert_eq!(knob.of(&fine).as_deref(), Some("0.5 mm"));
+        assert_eq!((&fine.pens[0], &fine.pens[1].name), (&scene.pens[0], &scene.pens[1].name));
+        for none in ["pen[2].width", "pen.width", "pen[1].size"] {
+            assert_eq!(Knob { key: none.into(), ..knob.clone() }.of(&scene), None, "{none}");
+        }
     }
 
     #[test]

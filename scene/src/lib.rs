@@ -20,6 +20,7 @@ pub mod philox;
 pub mod picture;
 pub mod plan;
 pub mod points;
+mod quantity;
 pub mod shot;
 pub mod space;
 pub mod strokes;

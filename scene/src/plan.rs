@@ -5,115 +5,16 @@
 
 mod pass;
 
+pub use crate::quantity::Quantity;
 pub use pass::Pass;
 
 use crate::file::Place;
-use crate::file::describe::Section;
 use crate::space::Grid;
 use crate::tables::Scene;
 use crate::tables::scene::sections;
 use crate::tables::{GradientEstimator, Kernel};
 use crate::view::View;
 use std::fmt;
-
-/// What may have to be known at a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Quantity {
-    /// f.
-    Value,
-    /// g, with it the normal ([REC-2], [NORM-1]).
-    Gradient,
-    /// The normal of the sample before on the ray ([STF-5]).
-    PreviousNormal,
-    /// H, with the gradient of its own field ([REC-3], [CUR-1]).
-    Hessian,
-    /// |g|: ‖g‖ mapped to [0, 1] by its range ([VAL-2]).
-    GradientMagnitudeRange,
-    /// The id of the part that a sample belongs to ([STF-13]).
-    Label,
-    /// The distance to a point ([STF-4]).
-    Distance,
-    /// The distance to a label ([STF-4]).
-    LabelDistance,
-    /// The value of a further volume ([STF-4]).
-    FurtherVolume,
-    /// Where a ray first meets the iso-surface ([HATCH-14]).
-    Surface,
-    /// The normal there.
-    SurfaceNormal,
-}
-
-impl Quantity {
-    /// Every quantity.
-    pub const ALL: [Self; 11] = [
-        Self::Value,
-        Self::Gradient,
-        Self::PreviousNormal,
-        Self::Hessian,
-        Self::GradientMagnitudeRange,
-        Self::Label,
-        Self::Distance,
-        Self::LabelDistance,
-        Self::FurtherVolume,
-        Self::Surface,
-        Self::SurfaceNormal,
-    ];
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Value => "value",
-            Self::Gradient => "gradient",
-            Self::PreviousNormal => "previous normal",
-            Self::Hessian => "Hessian",
-            Self::GradientMagnitudeRange => "|g|",
-            Self::Label => "label",
-            Self::Distance => "distance",
-            Self::LabelDistance => "distance to a label",
-            Self::FurtherVolume => "further volume",
-            Self::Surface => "first root",
-            Self::SurfaceNormal => "its normal",
-        }
-    }
-
-    /// What it adds to a picture's work.
-    pub fn adds(self) -> &'static str {
-        match self {
-            Self::Value => "one reconstruction a sample",
-            Self::Gradient => "one gradient a visible sample",
-            Self::PreviousNormal => "one gradient where the sample before has none yet",
-            Self::Hessian => "one Hessian a visible sample",
-            Self::GradientMagnitudeRange => "a norm and a division a visible sample",
-            Self::Label => "one look at the labels a visible sample",
-            Self::Distance => "one norm a visible sample",
-            Self::LabelDistance | Self::FurtherVolume => "one trilinear reconstruction a visible sample",
-            Self::Surface => "one search a ray, through the bricks that can hold the value",
-            Self::SurfaceNormal => "one gradient a ray that meets the surface",
-        }
-    }
-
-    /// What it adds where only the first visible sample of each ray needs it.
-    fn adds_at_first(self) -> &'static str {
-        match self {
-            Self::Gradient | Self::PreviousNormal => "one gradient a ray",
-            Self::Hessian => "one Hessian a ray",
-            _ => self.adds(),
-        }
-    }
-
-    /// What it is made of.
-    fn prerequisite(self) -> Option<Self> {
-        match self {
-            Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume | Self::Surface => {
-                None
-            }
-            Self::SurfaceNormal => Some(Self::Surface),
-            Self::Gradient => Some(Self::Value),
-            // A sample without a normal has no curvature, and that is tested on `sampling.gradient` too ([PREC-3]).
-            Self::PreviousNormal | Self::Hessian | Self::GradientMagnitudeRange => Some(Self::Gradient),
-        }
-    }
-}
 
 /// A quantity that an effect needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,9 +25,12 @@ pub struct Need {
     pub first_only: bool,
     /// The effect that needs it.
     pub effect: String,
-    /// The key or table that asked.
+    /// The item that needs it, if the effect is one of a list of tables; items count from 0. Needs are closed for the
+    /// picture as a whole, so an item's prerequisites may stand with another item.
+    pub item: Option<usize>,
+    /// The key or table that asked, such as `contours.kappa` or `pen[0].width`.
     pub key: String,
-    /// Where the scene says it, or else the table around it; none for a default.
+    /// The place of the key in the scene, or else that of the table around it; none for a default.
     pub place: Option<Place>,
 }
 
@@ -146,16 +50,18 @@ pub struct PassNeed {
     pub integer_only: bool,
     /// The effect that needs it.
     pub effect: String,
-    /// The key or table that asked.
+    /// The item that needs it, if the effect is one of a list of tables; items count from 0.
+    pub item: Option<usize>,
+    /// The key or table that asked, such as `contours.kappa` or `pen[0].width`.
     pub key: String,
-    /// Where the scene says it, or else the table around it; none for a default.
+    /// The place of the key in the scene, or else that of the table around it; none for a default.
     pub place: Option<Place>,
 }
 
 /// A key or table that the scene says and that has no effect beside its neighbours ([SCN-4]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct IdleKey {
-    /// The key.
+    /// The key, such as `camera.fov` or `pen[0].tone`.
     pub key: String,
     /// Where the scene says it.
     pub place: Place,
@@ -212,21 +118,30 @@ impl Plan {
     }
 
     fn of(scene: &Scene, drawn: Drawn) -> Self {
-        let sections: Vec<Section> = sections().collect();
-        let mut asks = Asks { scene, drawn, needs: Vec::new(), passes: Vec::new() };
+        let sections = sections(scene);
+        let mut asks = Asks { scene, drawn, at: At::default(), needs: Vec::new(), passes: Vec::new() };
         if drawn.volume {
             asks.pass(Pass::Rays, "picture", "picture.samples");
         }
-        sections.iter().for_each(|section| (section.asks)(scene, &mut asks));
+        for (at, section) in &sections {
+            asks.at = at.clone();
+            (section.asks)(scene, &mut asks);
+        }
         asks.close();
-        sections.iter().for_each(|section| (section.serves)(scene, &mut asks));
+        for (at, section) in &sections {
+            asks.at = at.clone();
+            (section.serves)(scene, &mut asks);
+        }
         asks.close();
         asks.needs.sort_by_key(|need| need.quantity);
         asks.passes.sort_by_key(|need| need.pass);
         let (idle_keys, points, warnings) = (Vec::new(), None, Vec::new());
         let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys, points, warnings };
-        let mut idle = Idle { scene, keys: Vec::new() };
-        sections.iter().for_each(|section| (section.idle)(scene, &plan, &mut idle));
+        let mut idle = Idle { scene, at: At::default(), keys: Vec::new() };
+        for (at, section) in sections {
+            idle.at = at;
+            (section.idle)(scene, &plan, &mut idle);
+        }
         plan.idle_keys = idle.sorted();
         plan.warn_outlines(scene);
         plan
@@ -264,7 +179,7 @@ impl Plan {
             return;
         }
         self.passes.retain(|need| !need.integer_only);
-        let mut idle = Idle { scene, keys: std::mem::take(&mut self.idle_keys) };
+        let mut idle = Idle { scene, at: At::default(), keys: std::mem::take(&mut self.idle_keys) };
         idle.key("sampling.scale", "hessian = \"auto\" smooths integers only, and the file has none");
         self.idle_keys = idle.sorted();
     }
@@ -325,11 +240,29 @@ struct Drawn {
     strokes: bool,
 }
 
+/// A table of a scene, or an item of a list of tables.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct At {
+    /// Its key from the top, such as `contours` or `pen[0]`; empty for the top itself.
+    pub(crate) key: String,
+    /// Its number, if it is an item of a list of tables; items count from 0.
+    pub(crate) item: Option<usize>,
+}
+
+impl At {
+    /// A key of the table, from the top.
+    pub(crate) fn inner(&self, key: &str) -> String {
+        format!("{}.{key}", self.key)
+    }
+}
+
 /// Collects what the effects of a scene need.
 #[derive(Debug)]
 pub(crate) struct Asks<'a> {
     scene: &'a Scene,
     drawn: Drawn,
+    /// The table whose hook runs.
+    pub(crate) at: At,
     needs: Vec<Need>,
     passes: Vec<PassNeed>,
 }
@@ -343,7 +276,8 @@ impl Asks<'_> {
     /// An effect needs a quantity at the first visible sample of each ray alone, or at every one, because of a key.
     pub(crate) fn need_where(&mut self, quantity: Quantity, first_only: bool, effect: &str, key: &str) {
         let place = self.place(key);
-        self.needs.push(Need { quantity, first_only, effect: effect.into(), key: key.into(), place });
+        let item = self.at.item;
+        self.needs.push(Need { quantity, first_only, effect: effect.into(), item, key: key.into(), place });
     }
 
     /// An effect needs a pass, because of a key.
@@ -354,7 +288,8 @@ impl Asks<'_> {
     /// An effect needs a pass, if the file is of integers or in any case, because of a key.
     pub(crate) fn pass_where(&mut self, pass: Pass, integer_only: bool, effect: &str, key: &str) {
         let place = self.place(key);
-        self.passes.push(PassNeed { pass, integer_only, effect: effect.into(), key: key.into(), place });
+        let item = self.at.item;
+        self.passes.push(PassNeed { pass, integer_only, effect: effect.into(), item, key: key.into(), place });
     }
 
     /// Where the scene says a key, or else the table around it.
@@ -409,6 +344,8 @@ impl Asks<'_> {
 #[derive(Debug)]
 pub(crate) struct Idle<'a> {
     scene: &'a Scene,
+    /// The table whose hook runs.
+    pub(crate) at: At,
     keys: Vec<IdleKey>,
 }
 

@@ -108,7 +108,7 @@ impl On {
 
     /// What a knob of a scene changes: what its table draws, or the first that reads the field.
     fn of(knob: &Knob, plan: &Plan) -> Self {
-        match knob.key.split('.').next() {
+        match knob.key.split(['.', '[']).next() {
             Some("stipples") => Self::Dots,
             Some("hatching") => Self::Strokes,
             _ if plan.has_pass(Pass::Rays) => Self::Picture,

@@ -96,6 +96,16 @@ pub enum Problem {
     },
 }
 
+impl Problem {
+    /// The fault of an override that leads to an item which a list does not have.
+    pub(super) fn no_item(step: &str, len: usize) -> Self {
+        Self::Override {
+            what: format!("there is no item {step} in a list of {len}"),
+            remedy: "items count from 0".into(),
+        }
+    }
+}
+
 impl Fault {
     /// The first line: what is wrong.
     pub fn what(&self) -> String {

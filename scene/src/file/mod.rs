@@ -29,7 +29,7 @@ pub(crate) mod out;
 mod place;
 mod reference;
 mod schema;
-mod set;
+pub(crate) mod set;
 #[cfg(test)]
 mod tests;
 

@@ -55,7 +55,9 @@ impl Overrides {
             let applied = steps(key).and_then(|steps| {
                 if text == "off" {
                     is_known(&steps)?;
-                    put(document, &steps, None, &place)
+                    put(document, &steps, None, &place)?;
+                    take_empty_list(document, &steps);
+                    Ok(())
                 } else {
                     put(document, &steps, Some(Item::from_override(text, &place)), &place)
                 }
@@ -78,7 +80,7 @@ impl<K: Into<String>, V: Into<String>> FromIterator<(K, V)> for Overrides {
 const DEEPEST: usize = 16;
 
 /// The names and numbers of a key: `a."b c"[2].d` is `a`, `b c`, `2`, `d`.
-fn steps(key: &str) -> Result<Vec<String>, Problem> {
+pub(crate) fn steps(key: &str) -> Result<Vec<String>, Problem> {
     let mut steps = Vec::new();
     let mut rest = key;
     loop {
@@ -125,10 +127,7 @@ fn put(item: &mut Item, steps: &[String], new: Option<Item>, place: &Place) -> R
     if let Value::List(items) = &mut item.value {
         let number = step.parse().ok().filter(|i| *i < items.len());
         let Some(i) = number else {
-            return Err(Problem::Override {
-                what: format!("there is no item {step} in a list of {}", items.len()),
-                remedy: "items count from 0".into(),
-            });
+            return Err(Problem::no_item(step, items.len()));
         };
         return match (rest, new) {
             ([], Some(new)) => {
@@ -167,6 +166,16 @@ fn put(item: &mut Item, steps: &[String], new: Option<Item>, place: &Place) -> R
             };
             put(&mut entries.entry(step.clone()).or_insert_with(empty).item, rest, new, place)
         }
+    }
+}
+
+/// Takes away a list of tables at the top, such as `[[pen]]`, if its last table was taken away.
+fn take_empty_list(document: &mut Item, steps: &[String]) {
+    if let (Value::Table(entries), [list, _]) = (&mut document.value, steps)
+        && let Some(entry) = entries.get_mut(list)
+        && entry.item.list().is_some_and(<[Item]>::is_empty)
+    {
+        entry.item.value = Value::Off;
     }
 }
 

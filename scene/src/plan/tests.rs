@@ -178,15 +178,17 @@ fn every_need_names_the_line_that_asked() {
 /// What a key can call for is in its description, where documentation and plan both find it.
 #[test]
 fn every_need_is_one_that_the_description_of_its_key_lists() {
-    let listed: Vec<(String, &[Quantity])> = sections()
-        .flat_map(|section| {
-            let table = section.title.trim_matches(['[', ']']).to_owned();
-            section.keys.into_iter().map(move |key| match table.as_str() {
-                "a scene" => (key.name.to_owned(), key.needs),
-                _ => (format!("{table}.{}", key.name), key.needs),
+    let listed: Vec<(String, &[Quantity])> =
+        sections(&crate::tables::Scene::for_volume(crate::tables::VolumeSource::File { path: "a".into(), raw: None }))
+            .into_iter()
+            .flat_map(|(_, section)| {
+                let table = section.title.trim_matches(['[', ']']).to_owned();
+                section.keys.into_iter().map(move |key| match table.as_str() {
+                    "a scene" => (key.name.to_owned(), key.needs),
+                    _ => (format!("{table}.{}", key.name), key.needs),
+                })
             })
-        })
-        .collect();
+            .collect();
     let everything =
         "[contours]\nfade = [0, 1]\n[style_mipmaps]\n[picture]\nlayers = [\"normal\", \"gradient\", \"curvature\"]\n";
     let firsts = "[picture]\nlayers = [\"first.normal\", \"first.curvature\"]\n[transfer]\nkind = \"regular\"\n";
@@ -249,6 +251,48 @@ fn keys_without_effect_are_listed_not_refused() {
     assert!(keys("[picture]\ndpi = 72\nwidth = \"9 mm\"\nheight = \"9 mm\"\n").is_empty());
     assert_eq!(keys(&format!("{ILLUSTRATIVE}[styles]\nmine = \"m.png\"\nwax = \"w.png\"\n")), ["styles.mine"]);
     assert_eq!(keys("[transfer]\nunit = \"normalized\"\n"), ["transfer.unit"]);
+}
+
+const PENS: &str =
+    "[[pen]]\nname = \"a\"\ntone = \"a.csv\"\n[[pen]]\nname = \"b\"\n[[pen]]\nname = \"c\"\ntone = \"c.csv\"\n";
+
+#[test]
+fn hooks_run_for_each_item_of_a_list_of_tables() {
+    let idle = |rest: &str| {
+        let idle = plan(&format!("{PENS}{rest}")).idle_keys.into_iter();
+        idle.map(|idle| (idle.key, idle.place.line().unwrap())).collect::<Vec<_>>()
+    };
+    let (first, third) = (("pen[0].tone".to_owned(), 6), ("pen[2].tone".to_owned(), 11));
+    assert_eq!(idle("[stipples]\npen = \"c\"\n"), std::slice::from_ref(&first));
+    assert_eq!(idle("[stipples]\npen = \"a\"\n"), std::slice::from_ref(&third));
+    assert_eq!(idle(""), [first, third]);
+    assert_eq!(plan(PENS).to_string().lines().last().unwrap().split(':').next(), Some("  pen[2].tone (line 11)"));
+}
+
+#[test]
+fn what_an_item_needs_has_its_number_and_its_place() {
+    let text = format!("drypoint = 1\n[volume]\nfile = \"a\"\n{PENS}");
+    let scene = parse(&text, "s.toml".as_ref(), &[("pen.1.width", "1 mm")].into_iter().collect()).unwrap();
+    let (at, _) = sections(&scene).into_iter().rfind(|(at, _)| at.item == Some(1)).unwrap();
+    assert_eq!(at.key, "pen[1]");
+    let drawn = Drawn { volume: true, points: true, strokes: true };
+    let mut asks = Asks { scene: &scene, drawn, at: at.clone(), needs: Vec::new(), passes: Vec::new() };
+    for key in ["width", "color"] {
+        asks.need(Hessian, "pens", &at.inner(key));
+        asks.pass(Pass::Gaps, "pens", &at.inner(key));
+    }
+    asks.close();
+    let found: Vec<_> = asks.needs.iter().map(|n| (n.quantity, n.item, &*n.key, n.place.clone())).collect();
+    let set = Some(Place::Set("pen.1.width=1 mm".into()));
+    let default = Some(Place::File { line: 7, column: 1 });
+    let needs = [Hessian, Hessian, Gradient, Value];
+    let keys = ["width", "color", "width", "width"].map(|key| format!("pen[1].{key}"));
+    for ((found, quantity), key) in found.iter().zip(needs).zip(&keys) {
+        let place = if key.ends_with("width") { &set } else { &default };
+        assert_eq!(*found, (quantity, Some(1), &**key, place.clone()));
+    }
+    assert_eq!(found.len(), needs.len());
+    assert!(asks.passes.iter().all(|pass| pass.item == Some(1)));
 }
 
 #[test]

@@ -169,7 +169,7 @@ pub(crate) static TABLE: Table<Contours> = Table {
                 },
             )
             .needs(&[Quantity::PreviousNormal, Quantity::Hessian])
-            .knob(Ladder::to_field(|scene, _| if has_kappa(scene) { &["ray", "exact"] } else { &[] })),
+            .knob(Ladder::to_field(|scene, _, _| if has_kappa(scene) { &["ray", "exact"] } else { &[] })),
             Key::new(
                 "threshold",
                 "STF-6",

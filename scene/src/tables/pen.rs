@@ -27,7 +27,14 @@ impl Default for PenSettings {
 }
 
 /// The description of a pen.
-pub(crate) static TABLE: Table<PenSettings> = Table::new(
+pub(crate) static TABLE: Table<PenSettings> = Table {
+    idle: |scene, _, idle| {
+        let Some(pen) = idle.at.item.and_then(|i| scene.pens.get(i)) else { return };
+        if scene.stipples.as_ref().is_none_or(|stipples| stipples.pen.as_ref() != Some(&pen.name)) {
+            idle.key(&idle.at.inner("tone"), "only the pen that stipples.pen names prints by its table");
+        }
+    },
+    ..Table::new(
         "a pen",
         "What draws a layer of points and lines.",
         PenSettings::default,
@@ -71,7 +78,8 @@ pub(crate) static TABLE: Table<PenSettings> = Table::new(
             )
             .absent("discs of the nib"),
         ],
-    );
+    )
+};
 
 /// A pen is called by its name, so that no two may share one.
 pub(super) fn check_names(pens: &[PenSettings], check: &mut Check) {

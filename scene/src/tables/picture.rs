@@ -222,7 +222,7 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
                     set: |p, v| p.samples = v as usize,
                 },
             )
-            .knob(Ladder::to_finest(|_, plan| if plan.has_pass(Pass::Rays) { &["1", "2", "4"] } else { &[] })),
+            .knob(Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Rays) { &["1", "2", "4"] } else { &[] })),
             Key::new(
                 "background",
                 "IO-6",

@@ -276,7 +276,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                 "Δ, the distance between sample planes.",
                 &Slot { kind: WORLD_LENGTH, get: |s: &Sampling| Some(s.step), set: |s, v| s.step = v },
             )
-            .knob(Ladder::to_field(|_, plan| of_rays(plan, STEPS))),
+            .knob(Ladder::to_field(|_, plan, _| of_rays(plan, STEPS))),
             Key::new(
                 "step_along",
                 "RAY-1",
@@ -312,7 +312,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     set: |s, v| s.kernel = v,
                 },
             )
-            .knob(Ladder::to_field(kernels)),
+            .knob(Ladder::to_field(|scene, plan, _| kernels(scene, plan))),
             Key::new(
                 "gradient",
                 "REC-2",
@@ -339,7 +339,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     set: |s, v| s.gradient = v,
                 },
             )
-            .knob(Ladder::to_field(gradients)),
+            .knob(Ladder::to_field(|scene, plan, _| gradients(scene, plan))),
             Key::new(
                 "hessian",
                 "REC-3",
@@ -374,14 +374,14 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     set: |s, v| s.hessian = v,
                 },
             )
-            .knob(Ladder::to_field(hessians)),
+            .knob(Ladder::to_field(|scene, plan, _| hessians(scene, plan))),
             Key::new(
                 "scale",
                 "REC-3",
                 "σ of the Gaussian.",
                 &Slot { kind: WORLD_LENGTH, get: |s: &Sampling| Some(s.scale), set: |s, v| s.scale = v },
             )
-            .knob(Ladder::to_field(|_, plan| if plan.has_pass(Pass::SmoothedCoefficients) { SCALES } else { &[] })),
+            .knob(Ladder::to_field(|_, plan, _| if plan.has_pass(Pass::SmoothedCoefficients) { SCALES } else { &[] })),
             Key::new(
                 "normal",
                 "NORM-1",
@@ -415,7 +415,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     set: |s, v| s.number = v,
                 },
             )
-            .knob(Ladder::to_finest(|_, plan| of_rays(plan, &["f32", "f64"]))),
+            .knob(Ladder::to_finest(|_, plan, _| of_rays(plan, &["f32", "f64"]))),
             Key::new(
                 "skip_empty",
                 "RAY-2",
@@ -432,7 +432,7 @@ pub(crate) static TABLE: Table<Sampling> = Table {
                     set: |s, v| s.stop_below = v,
                 },
             )
-            .knob(Ladder::to_finest(|_, plan| {
+            .knob(Ladder::to_finest(|_, plan, _| {
                 of_rays(plan, &["0.5", "0.2", "0.1", "0.05", "0.02", "0.01", "0.001", "0"])
             })),
             Key::new(

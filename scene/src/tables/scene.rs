@@ -17,7 +17,7 @@ use crate::file::describe::{Key, Kind, Later, Section, Shape, Slot, Table};
 use crate::file::item::{Item, Value};
 use crate::file::kind::{ListOf, TableOf};
 use crate::file::out::Out;
-use crate::plan::{Pass, Quantity};
+use crate::plan::{At, Pass, Quantity};
 use serde_json::{Value as Json, json};
 use std::path::{Path, PathBuf};
 
@@ -422,9 +422,20 @@ pub(crate) static ROOT: Table<Scene> = Table {
     )
 };
 
-/// The top and each of its tables.
-pub(crate) fn sections() -> impl Iterator<Item = Section> {
-    let root = ROOT.section();
-    let tables: Vec<Section> = root.keys.iter().filter_map(|key| key.shape.section()).collect();
-    std::iter::once(root).chain(tables)
+/// The top of the file, each of its tables, and each item of its lists of tables.
+pub(crate) fn sections(scene: &Scene) -> Vec<(At, Section)> {
+    let mut sections = vec![(At::default(), ROOT.section())];
+    for key in ROOT.keys {
+        let shape = key.field.shape();
+        sections.extend(shape.section().map(|section| (At { key: key.name.into(), item: None }, section)));
+        let items = match key.field.write(scene) {
+            Some(Out::List(items)) => items.len(),
+            _ => 0,
+        };
+        sections.extend((0..items).filter_map(|i| {
+            let at = At { key: format!("{}[{i}]", key.name), item: Some(i) };
+            shape.item_section().map(|section| (at, section))
+        }));
+    }
+    sections
 }

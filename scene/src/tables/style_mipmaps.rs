@@ -93,7 +93,7 @@ pub(crate) static TABLE: Table<StyleMipmaps> = Table {
                 },
             )
             .needs(&[Quantity::PreviousNormal, Quantity::Hessian])
-            .knob(Ladder::to_finest(|scene, plan| if has_kappa(scene) { biases(scene, plan) } else { &[] })),
+            .knob(Ladder::to_finest(|scene, plan, _| if has_kappa(scene) { biases(scene, plan) } else { &[] })),
             Key::new(
                 "gradient_bias",
                 "STF-10",
@@ -101,7 +101,7 @@ pub(crate) static TABLE: Table<StyleMipmaps> = Table {
                 &Slot { kind: FACTOR, get: |m: &StyleMipmaps| Some(m.gradient_bias), set: |m, v| m.gradient_bias = v },
             )
             .needs(&[Quantity::GradientMagnitudeRange])
-            .knob(Ladder::to_finest(biases)),
+            .knob(Ladder::to_finest(|scene, plan, _| biases(scene, plan))),
             Key::new(
                 "turn",
                 "STF-10",

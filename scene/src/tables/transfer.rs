@@ -330,7 +330,7 @@ pub(crate) static TABLE: Description<Transfer> = Description {
                  graphics hardware does.",
                 &Slot { kind: Evaluation, get: |t: &Transfer| Some(t.table), set: |t, v| t.table = v },
             )
-            .knob(Ladder::to_finest(tables)),
+            .knob(Ladder::to_finest(|scene, plan, _| tables(scene, plan))),
         ],
     )
 };

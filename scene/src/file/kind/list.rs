@@ -2,7 +2,8 @@
 
 use crate::file::check::Check;
 use crate::file::describe::{Kind, Section, Shape};
-use crate::file::item::Item;
+use crate::file::fault::Problem;
+use crate::file::item::{Item, Value};
 use crate::file::out::Out;
 use serde_json::{Value as Json, json};
 
@@ -45,6 +46,36 @@ impl<K: Kind> Kind for ListOf<K> {
             }
             _ => check.wrong(item, self.expected()),
         }
+    }
+
+    /// Reads the items that overrides lead to, over those that a preset supplied.
+    fn read_over(&self, item: &Item, supplied: Vec<K::Of>, check: &mut Check) -> Option<Vec<K::Of>> {
+        let Value::Table(entries) = &item.value else { return self.read(item, check) };
+        for (step, entry) in entries {
+            if !matches!(step.parse::<usize>(), Ok(i) if i < supplied.len()) {
+                check.fault(&entry.name, Problem::no_item(step, supplied.len()));
+            }
+        }
+        let mut values = Vec::new();
+        for (i, supplied) in supplied.into_iter().enumerate() {
+            let value = match entries.get(&i.to_string()).map(|entry| &entry.item) {
+                None => Some(supplied),
+                Some(item) if item.value == Value::Off => continue,
+                Some(item) => check.within_item(i, |check| {
+                    check.note(&item.place);
+                    match item.is_way {
+                        true => self.each.read_over(item, supplied, check),
+                        false => self.each.read(item, check),
+                    }
+                }),
+            };
+            values.push(value);
+        }
+        // A list of tables at the top may lose its last one: it is then absent.
+        if values.is_empty() && check.key().contains('.') {
+            return check.wrong(item, self.expected());
+        }
+        values.into_iter().collect()
     }
 
     fn write(&self, value: &Vec<K::Of>) -> Out {

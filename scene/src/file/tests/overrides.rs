@@ -217,6 +217,49 @@ fn a_themes_folder_gives_the_names_of_its_styles() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
+/// Items of a list of tables at the top are set and removed by their numbers; without its last item the list is absent.
+#[test]
+fn items_of_a_list_of_tables_have_numbers() {
+    let pens = |text: &str, settings: &[(&str, &str)]| {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a\"\n{text}");
+        parse(&text, Path::new("s"), &settings.iter().copied().collect()).map(|scene| scene.pens)
+    };
+    let two = "[[pen]]\nname = \"a\"\n[[pen]]\nname = \"b\"\n";
+    let base = pens(two, &[]).unwrap();
+    for key in ["pen.1.width", "pen[1].width"] {
+        let set = pens(two, &[(key, "2 mm")]).unwrap();
+        assert_eq!((&set[0], &set[1].name, set[1].width), (&base[0], &base[1].name, Length::Millimetres(2.0)));
+    }
+    assert_eq!(pens(two, &[("pen.0", "off")]).unwrap(), base[1..]);
+    assert_eq!(pens(two, &[("pen.0", "off"), ("pen.0", "off")]).unwrap(), []);
+    let faults = |setting| pens(two, &[setting]).unwrap_err().to_string();
+    let none = "there is no item 2 in a list of 2\n  at --set pen.2.width=1 mm, key pen.2.width\n  items count from 0";
+    assert_eq!(faults(("pen.2.width", "1 mm")), none);
+    assert!(faults(("pen.1.width", "wide")).contains("pen[1].width cannot be \"wide\""));
+    assert!(pens("pen = []\n", &[]).is_err());
+}
+
+/// Overrides lead into a list that a preset supplies, as into a table.
+#[test]
+fn items_of_a_list_of_a_preset_have_numbers() {
+    let tones = |settings: &[(&str, &str)]| {
+        let text = "drypoint = 1\npreset = \"toon\"\n[volume]\nfile = \"a\"\n";
+        let scene = parse(text, Path::new("s"), &settings.iter().copied().collect());
+        scene.map(|scene| scene.surface.unwrap().toon.unwrap().tones).map_err(|faults| faults.to_string())
+    };
+    let base = tones(&[]).unwrap();
+    let set = tones(&[("surface.toon.tones.1", "[0.25, \"white\"]")]).unwrap();
+    assert_eq!((set.len(), set[0], set[2]), (3, base[0], base[2]));
+    assert_eq!(set[1], crate::tables::Tone { at: 0.25, color: [1.0; 4] });
+    let rest = tones(&[("surface.toon.tones[0]", "off"), ("surface.toon.tones[2]", "off")]).unwrap();
+    assert_eq!(rest, base[1..2], "the numbers are those of the preset's list");
+    let fault = tones(&[("surface.toon.tones.3", "[1, \"white\"]")]).unwrap_err();
+    assert!(fault.starts_with("there is no item 3 in a list of 3\n  at --set surface.toon.tones.3="), "{fault}");
+    let all = [0, 1, 2].map(|i| (format!("surface.toon.tones.{i}"), "off"));
+    let all: Vec<(&str, &str)> = all.iter().map(|(key, off)| (key.as_str(), *off)).collect();
+    assert!(tones(&all).unwrap_err().contains("surface.toon.tones cannot be a table"));
+}
+
 /// What a preset supplies is removed as what the file has: tables, tables in them, keys.
 #[test]
 fn off_removes_what_a_preset_supplies() {

@@ -130,7 +130,7 @@ pub(super) static DIRECTIONS: Table<Directions> = Table::new(
                 set: |d, v| d.rule = v,
             },
         )
-        .knob(Ladder::to_finest(|_, plan| if plan.has_pass(Pass::Strokes) { RULES } else { &[] })),
+        .knob(Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Strokes) { RULES } else { &[] })),
         Key::new(
             "from",
             "HATCH-4",
@@ -155,7 +155,7 @@ pub(super) static DIRECTIONS: Table<Directions> = Table::new(
                 set: |d, v| d.from = v,
             },
         )
-        .knob(Ladder::to_finest(|_, plan| if plan.has_pass(Pass::Strokes) { SOURCES } else { &[] })),
+        .knob(Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Strokes) { SOURCES } else { &[] })),
         Key::new(
             "interpolate",
             "HATCH-4",

@@ -129,7 +129,7 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 "How far a step of the integration may miss.",
                 &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.tolerance), set: |h, v| h.tolerance = v },
             )
-            .knob(Ladder::to_finest(|_, plan| of_strokes(plan, TOLERANCES))),
+            .knob(Ladder::to_finest(|_, plan, _| of_strokes(plan, TOLERANCES))),
             Key::new(
                 "seeds",
                 "HATCH-6",
@@ -281,7 +281,7 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 "c, the most that straight segments may leave a stroke by.",
                 &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.chord), set: |h, v| h.chord = v },
             )
-            .knob(Ladder::to_finest(|_, plan| of_strokes(plan, CHORDS))),
+            .knob(Ladder::to_finest(|_, plan, _| of_strokes(plan, CHORDS))),
             Key::new(
                 "beziers",
                 "HATCH-10",

@@ -104,11 +104,6 @@ pub(super) fn idle(scene: &Scene, idle: &mut Idle) {
         Some(CurvesTest::Literal) => idle.key("stipples.curves.c", "it is for test = \"two-sided\""),
         None => {}
     }
-    for (i, pen) in scene.pens.iter().enumerate() {
-        if pen.tone.is_some() && stipples.pen.as_ref() != Some(&pen.name) {
-            idle.key(&format!("pen.{i}.tone"), "only the pen that stipples.pen names prints by its table");
-        }
-    }
 }
 
 #[cfg(test)]

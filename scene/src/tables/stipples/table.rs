@@ -116,7 +116,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     set: |s, v| s.gradient = v,
                 },
             )
-            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["central", "regression"]))),
+            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["central", "regression"]))),
             Key::new(
                 "slab",
                 "STIP-4",
@@ -147,7 +147,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     set: |s, v| s.order = v,
                 },
             )
-            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["voxel", "neighbours"]))),
+            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["voxel", "neighbours"]))),
             Key::new(
                 "snap",
                 "STIP-4",
@@ -169,14 +169,14 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     set: |s, v| s.snap = v,
                 },
             )
-            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["none", "edge"]))),
+            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["none", "edge"]))),
             Key::new(
                 "thin",
                 "STIP-4",
                 "Whether only voxels whose ‖∇V‖ is largest along the normal get points: one layer a face.",
                 &Slot { kind: Flag, get: |s: &Stipples| Some(s.thin), set: |s, v| s.thin = v },
             )
-            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["false", "true"]))),
+            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["false", "true"]))),
             Key::new(
                 "factors",
                 "STIP-5",
@@ -249,7 +249,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     set: |s, v| s.even = v,
                 },
             )
-            .knob(Ladder::to_finest(|_, plan| of_points(plan, &["none", "page"]))),
+            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["none", "page"]))),
             Key::new(
                 "boundary",
                 "STIP-7",
