@@ -2,15 +2,15 @@
 
 /// What a name stands for in every theme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Role {
+pub(crate) struct Role {
     /// The name of the style.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// What it is for, whatever the theme.
-    pub purpose: &'static str,
+    pub(crate) purpose: &'static str,
 }
 
 /// All names, in alphabetical order.
-pub const ROLES: [Role; 28] = [
+pub(crate) const ROLES: [Role; 28] = [
     role("bone", "bone and teeth"),
     role("brain", "grey matter"),
     role("cartoon", "flat shapes: three tones and a stroke of light"),

@@ -4,7 +4,7 @@ use super::super::noise::{Draw, fractal, on_fibres};
 use super::super::paint::Paint;
 use super::body::MUSCLE;
 use super::tinted::Tinted;
-use crate::number::Vec3;
+use drypoint_reference::number::Vec3;
 
 /// The load of pigment varies in long fibres across the picture.
 pub(super) fn shade(n: Vec3<f64>) -> (Paint, f64) {

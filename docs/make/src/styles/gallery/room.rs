@@ -5,8 +5,8 @@
 
 use super::light::{KEY, edge, radius, smoothstep};
 use super::paint::{Linear, Paint};
-use crate::number::Vec3;
-use drypoint_scene::math;
+use drypoint::scene::math;
+use drypoint_reference::number::Vec3;
 
 /// A rectangular light with soft sides.
 struct Panel {

@@ -2,9 +2,9 @@
 
 use super::light::{BOUNCE, KEY};
 use super::*;
-use drypoint_scene::color::srgb_to_linear;
-use drypoint_scene::style::{Style, Theme, load};
-use drypoint_scene::tables::{StyleSource, Styles};
+use drypoint::scene::color::srgb_to_linear;
+use drypoint::scene::style::{Style, Theme, load};
+use drypoint::scene::tables::{StyleSource, Styles};
 use rayon::prelude::*;
 
 /// Every theme and style.

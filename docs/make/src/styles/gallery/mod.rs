@@ -10,7 +10,6 @@ mod light;
 mod naturalist;
 mod noise;
 mod paint;
-mod preview;
 mod roles;
 mod room;
 mod stroke;
@@ -18,27 +17,26 @@ mod studio;
 mod textbook;
 mod wash;
 
-pub use preview::preview;
-pub use roles::{ROLES, Role};
+pub(crate) use roles::ROLES;
 
-use crate::number::Vec3;
-use drypoint_scene::color::Rgba;
-use drypoint_scene::style::is_inside;
+use drypoint::scene::color::Rgba;
+use drypoint::scene::style::is_inside;
+use drypoint_reference::number::Vec3;
 use paint::Paint;
 
 /// The side of an embedded style's picture, in texels.
-pub const SIDE: usize = 192;
+pub(crate) const SIDE: usize = 192;
 
 /// A style as a formula: colour and opacity, of the unit normal (N_z ≥ 0).
 type Painter = fn(Vec3<f64>) -> (Paint, f64);
 
 /// A theme as formulas.
 #[derive(Clone, Copy, Debug)]
-pub struct GalleryTheme {
+pub(crate) struct GalleryTheme {
     /// The name that a scene gives it.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// What it looks like, in a sentence.
-    pub spirit: &'static str,
+    pub(crate) spirit: &'static str,
     painters: &'static [Painted],
 }
 
@@ -47,16 +45,16 @@ type Painted = (&'static str, &'static str, Painter);
 
 /// A style as a formula.
 #[derive(Clone, Copy, Debug)]
-pub struct GalleryStyle {
+pub(crate) struct GalleryStyle {
     /// The name that a scene gives it.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// How it is painted, in a line.
-    pub how: &'static str,
+    pub(crate) how: &'static str,
     painter: Painter,
 }
 
 /// The embedded themes; the first is a scene's own if it names none.
-pub const THEMES: [GalleryTheme; 3] = [
+pub(crate) const THEMES: [GalleryTheme; 3] = [
     GalleryTheme { name: "textbook", spirit: textbook::SPIRIT, painters: textbook::PAINTERS },
     GalleryTheme { name: "naturalist", spirit: naturalist::SPIRIT, painters: naturalist::PAINTERS },
     GalleryTheme { name: "studio", spirit: studio::SPIRIT, painters: studio::PAINTERS },
@@ -64,14 +62,14 @@ pub const THEMES: [GalleryTheme; 3] = [
 
 impl GalleryTheme {
     /// The styles, in alphabetical order.
-    pub fn styles(&self) -> impl Iterator<Item = GalleryStyle> {
+    pub(crate) fn styles(&self) -> impl Iterator<Item = GalleryStyle> {
         self.painters.iter().map(|&(name, how, painter)| GalleryStyle { name, how, painter })
     }
 }
 
 impl GalleryStyle {
     /// Straight sRGB and opacity of the normal whose first components are x and y; N_z follows, 0 beyond the disk.
-    pub fn shade(&self, x: f64, y: f64) -> Rgba {
+    pub(crate) fn shade(&self, x: f64, y: f64) -> Rgba {
         let z = (1.0 - x * x - y * y).max(0.0).sqrt();
         let (paint, alpha) = (self.painter)(Vec3::new(x, y, z));
         let [r, g, b] = paint.srgb();
@@ -80,7 +78,7 @@ impl GalleryStyle {
 
     /// The picture as S × S straight RGBA bytes, row by row from the top: what a style's file holds ([STF-1]). Texels
     /// whose centres lie outside the inscribed disk are transparent black.
-    pub fn rgba8(&self, side: usize) -> Vec<u8> {
+    pub(crate) fn rgba8(&self, side: usize) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(4 * side * side);
         let centre = |k: usize| (2 * k + 1) as f64 / side as f64 - 1.0;
         for j in 0..side {

@@ -4,7 +4,7 @@ use super::super::light::mirrored;
 use super::super::noise::{Draw, fractal, on_fibres};
 use super::super::paint::{Paint, linear};
 use super::super::room::{diffuse, exposed, flagged, room};
-use crate::number::Vec3;
+use drypoint_reference::number::Vec3;
 
 /// Threads run across the picture; a fold shines where the thread lies between light and eye.
 pub(super) fn muscle(n: Vec3<f64>) -> (Paint, f64) {

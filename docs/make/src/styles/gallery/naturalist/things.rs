@@ -6,7 +6,7 @@ use super::super::paint::Paint;
 use super::super::stroke::Hatching;
 use super::super::wash::{as_paint, paper, under};
 use super::tinted::{PAPER, bare, darkness, pen};
-use crate::number::Vec3;
+use drypoint_reference::number::Vec3;
 
 /// A metal of two pigments: its own, and what it takes from the dark of the room.
 struct Metal {

@@ -5,7 +5,7 @@ use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Paint, Ramp, linear};
 use super::super::stroke::Hatching;
 use super::super::wash::{Wash, as_paint, tooth, under};
-use crate::number::Vec3;
+use drypoint_reference::number::Vec3;
 
 /// The white of the page.
 const WHITE: u32 = 0xfefdfa;

@@ -1,7 +1,7 @@
 //! Colours as a painter mixes them: in OKLab (Ottosson 2020), where equal steps look equal and a mixture of two hues
 //! does not turn grey or bright on its way.
 
-use drypoint_scene::color::{linear_to_oklab, linear_to_srgb, srgb_to_linear};
+use drypoint::scene::color::{linear_to_oklab, linear_to_srgb, srgb_to_linear};
 use std::sync::LazyLock;
 
 /// Linear red, green and blue.

@@ -4,8 +4,8 @@ use super::super::light::{BOUNCE, KEY, dab, edge, mirrored, outline, radius, smo
 use super::super::noise::{Draw, fractal};
 use super::super::paint::{Paint, Ramp, linear};
 use super::super::room::{diffuse, exposed, flagged, fresnel, lamps, room};
-use crate::number::Vec3;
-use drypoint_scene::math;
+use drypoint::scene::math;
+use drypoint_reference::number::Vec3;
 
 /// A white ball between two gels: amber from the key, blue from the other side.
 pub(super) fn tone(n: Vec3<f64>) -> (Paint, f64) {

@@ -7,8 +7,8 @@
 use super::light::{KEY, radius, reflected, smoothstep};
 use super::noise::{Draw, fractal, on_form};
 use super::paint::{Linear, Paint, linear};
-use crate::number::Vec3;
-use drypoint_scene::math;
+use drypoint::scene::math;
+use drypoint_reference::number::Vec3;
 
 /// What white paper looks like under a layer of density D: Beer's law per channel, hex^D.
 pub(super) fn under(paper: Linear, pigment: u32, density: f64) -> Linear {

@@ -4,7 +4,7 @@ use super::super::light::{KEY, mirrored, smoothstep};
 use super::super::noise::{Draw, fractal};
 use super::super::paint::{Linear, Paint, linear};
 use super::super::room::{exposed, flagged, room};
-use crate::number::Vec3;
+use drypoint_reference::number::Vec3;
 
 /// What chrome shows of the room beyond its lights: a bright wall above, a hard dark horizon, a floor.
 fn stage(r: Vec3<f64>, blur: f64) -> Linear {

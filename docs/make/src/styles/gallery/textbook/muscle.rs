@@ -3,7 +3,7 @@
 use super::super::noise::{Draw, fractal, on_fibres};
 use super::super::paint::Paint;
 use super::tissue::MUSCLE;
-use crate::number::Vec3;
+use drypoint_reference::number::Vec3;
 
 /// Long fibres across the picture. Over a rounded muscle the normal turns across its length, so that whatever varies
 /// on the sphere becomes stripes along it.

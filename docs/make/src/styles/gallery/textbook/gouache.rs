@@ -3,8 +3,8 @@
 use super::super::light::{KEY, dab, highlight, outline, reflected, wrapped};
 use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Paint, Ramp};
-use crate::number::Vec3;
-use drypoint_scene::math;
+use drypoint::scene::math;
+use drypoint_reference::number::Vec3;
 use std::f64::consts::TAU;
 
 /// What one material looks like in gouache.

@@ -5,8 +5,8 @@ use super::super::light::{
 };
 use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Paint, Ramp};
-use crate::number::Vec3;
-use drypoint_scene::math;
+use drypoint::scene::math;
+use drypoint_reference::number::Vec3;
 
 /// What a polished ball reflects, painted in bands over the height of the mirrored ray.
 fn bands(n: Vec3<f64>, stops: &[(f64, u32)]) -> Paint {

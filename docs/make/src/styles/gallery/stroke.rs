@@ -2,8 +2,8 @@
 
 use super::light::smoothstep;
 use super::noise::{Draw, fractal, on_form};
-use crate::number::Vec3;
-use drypoint_scene::math;
+use drypoint::scene::math;
+use drypoint_reference::number::Vec3;
 use std::f64::consts::PI;
 
 /// A set of parallels.

@@ -4,7 +4,7 @@ use super::super::light::mirrored;
 use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Linear, Paint, linear};
 use super::super::room::{diffuse, exposed, flagged, fresnel, room};
-use crate::number::Vec3;
+use drypoint_reference::number::Vec3;
 
 /// A dull or translucent body under a coat.
 pub(super) struct Glossy {

@@ -6,8 +6,8 @@ use super::super::paint::{Paint, Ramp, linear};
 use super::super::stroke::Hatching;
 use super::super::wash::{Wash, as_paint, paper, tooth, under};
 use super::tinted::{INK, PAPER, bare, darkness, pen};
-use crate::number::Vec3;
-use drypoint_scene::math;
+use drypoint::scene::math;
+use drypoint_reference::number::Vec3;
 
 /// Iron-gall ink from a quill: parallels around two axes over a thin wash of the same ink.
 pub(super) fn ink(n: Vec3<f64>) -> (Paint, f64) {

@@ -4,8 +4,8 @@
 //! K. Perlin: Improving noise. ACM Transactions on Graphics 21(3), 2002, for the fade curve; the gradients are drawn
 //! from Philox at each corner of the grid instead of from a permutation.
 
-use crate::number::Vec3;
-use drypoint_scene::philox::uniforms;
+use drypoint::scene::philox::uniforms;
+use drypoint_reference::number::Vec3;
 
 /// The key of all noise of the gallery.
 const SEED: u64 = 0x5354_5946;

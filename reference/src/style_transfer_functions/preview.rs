@@ -1,6 +1,6 @@
-//! What a style looks like on a sphere.
+//! Picture of a style on a sphere.
 
-use super::super::SphereMap;
+use super::SphereMap;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::style::Style;
 

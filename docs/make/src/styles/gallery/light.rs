@@ -3,8 +3,8 @@
 //! N is the unit normal with N_z ≥ 0, x to the right, y up, the eye at +z.
 
 use super::paint::Paint;
-use crate::number::Vec3;
-use drypoint_scene::math;
+use drypoint::scene::math;
+use drypoint_reference::number::Vec3;
 
 /// Towards the key light: from the upper left and in front, as plates in books are lit.
 pub(super) const KEY: Vec3<f64> = Vec3 { x: -0.48, y: 0.64, z: 0.6 };

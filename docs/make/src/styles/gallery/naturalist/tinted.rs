@@ -6,7 +6,7 @@ use super::super::noise::{Draw, fractal, on_form};
 use super::super::paint::{Linear, Paint};
 use super::super::stroke::Hatching;
 use super::super::wash::{Wash, as_paint, paper, under};
-use crate::number::Vec3;
+use drypoint_reference::number::Vec3;
 
 /// The paper of the notebook: old rag, cream.
 pub(super) const PAPER: u32 = 0xfaf3e2;
