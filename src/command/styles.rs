@@ -8,7 +8,7 @@ use clap::{Args, Subcommand};
 use drypoint::output::png;
 use drypoint::output::read::Image;
 use drypoint::output::sheet::{Layout, sheet};
-use drypoint::reference::style_transfer_functions::gallery::preview;
+use drypoint::reference::style_transfer_functions::preview;
 use drypoint::scene::picture::Provenance;
 use drypoint::scene::style::{StyleError, Theme};
 use drypoint::scene::tables::StyleSource;

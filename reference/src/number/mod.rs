@@ -3,7 +3,6 @@
 mod arithmetic;
 pub(crate) mod lanes;
 mod mat3;
-pub(crate) mod quantile;
 mod real;
 mod sym3;
 mod vec3;

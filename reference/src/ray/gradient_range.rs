@@ -2,7 +2,7 @@
 
 use crate::field::{GradientEstimator, Sampler};
 use crate::number::Real;
-use crate::number::quantile::quantile_of_parts;
+use drypoint_scene::volume::quantile::quantile;
 use drypoint_scene::volume::{Mask, Volume};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
@@ -25,7 +25,7 @@ pub(crate) fn quantile_of_norms<R: Real, S: Sampler<R>>(
         let seen = norms.iter().enumerate().filter(|(x, norm)| **norm > no_normal_below && counts(*x, y, z));
         numbers.extend(seen.map(|(_, norm)| norm.to_f64()));
     };
-    let hi = quantile_of_parts(ny * nz, || (Vec::new(), vec![R::ZERO; nx]), norms, q);
+    let hi = quantile(ny * nz, || (Vec::new(), vec![R::ZERO; nx]), norms, q);
     let evaluated = match volume.mask() {
         None => (nx * ny * nz) as u64,
         Some(_) => {

@@ -11,14 +11,15 @@ pub mod contour;
 pub mod curvature_along_ray;
 pub mod extract;
 pub mod frame;
-pub mod gallery;
 pub(crate) mod lanes;
 pub mod lookup;
 pub mod mipmaps;
+mod preview;
 pub mod sphere_map;
 pub mod transparency;
 
 pub use contour::Contour;
 pub use lookup::{Blend, Blend2, Spheres, StyleIndex};
 pub use mipmaps::{Detail, Footprint, MipMap};
+pub use preview::preview;
 pub use sphere_map::SphereMap;

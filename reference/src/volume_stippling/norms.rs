@@ -1,9 +1,9 @@
 //! ‖g‖ at every voxel, and what |g| = 1 stands for, by the estimator that stippling uses ([STIP-1], [VAL-2]).
 
 use crate::field::{GradientEstimator, Sampler};
-use crate::number::quantile::quantile_of_parts;
 use crate::ray::touches_mask;
 use drypoint_scene::volume::Volume;
+use drypoint_scene::volume::quantile::quantile;
 use rayon::prelude::*;
 
 /// In place of ‖g‖ where the voxels that it is made of are not all valid.
@@ -30,14 +30,14 @@ pub(super) fn quantile_above(norms: &[f64], bound: f64, q: f64) -> Option<f64> {
     let above = |(): &mut (), i: usize, numbers: &mut Vec<f64>| {
         numbers.extend(chunks[i].iter().filter(|&&norm| norm > bound));
     };
-    quantile_of_parts(chunks.len(), || (), above, q)
+    quantile(chunks.len(), || (), above, q)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use drypoint_scene::philox;
-    use drypoint_scene::volume::histogram::quantile;
+    use drypoint_scene::volume::quantile::rank;
 
     #[test]
     fn the_quantile_of_sorted_copies() {
@@ -48,7 +48,9 @@ mod tests {
         for bound in [0.0, 1e-6, 1.0] {
             for q in [0.0, 0.1, 0.5, 0.999, 1.0] {
                 let mut above: Vec<f64> = norms.iter().copied().filter(|&norm| norm > bound).collect();
-                assert_eq!(quantile_above(&norms, bound, q), quantile(&mut above, q), "{bound} {q}");
+                above.sort_by(f64::total_cmp);
+                let want = (!above.is_empty()).then(|| above[rank(q, above.len())]);
+                assert_eq!(quantile_above(&norms, bound, q), want, "{bound} {q}");
             }
         }
         assert_eq!(quantile_above(&[], 0.0, 0.5), None);

@@ -1,6 +1,6 @@
 //! Histograms and quantiles of values.
 
-use super::bytes::Stored;
+use super::quantile::{rank, select};
 use super::{Access, Volume, Voxel};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -83,82 +83,21 @@ fn sums<A: Access>(
         .reduce(|| vec![0; bins], add)
 }
 
-/// The place, from 0, of the quantile q of n > 0 numbers in ascending order: the ⌈qn⌉-th, the first for q = 0
-/// ([VAL-2]). A product within rounding of a whole number is that number, so that q = 0.07 of 100 is the seventh.
-pub fn rank(q: f64, n: usize) -> usize {
-    let product = q * n as f64;
-    let whole = product.round();
-    // q and the product are each rounded once, by up to half an ε.
-    let place = if (product - whole).abs() <= f64::EPSILON * product { whole } else { product.ceil() };
-    (place as usize).clamp(1, n) - 1
-}
-
-/// The quantile q of numbers without NaN ([VAL-2]): the ⌈qn⌉-th in ascending order, no interpolation. None where there
-/// is no number. The numbers are left in another order.
-pub fn quantile(numbers: &mut [f64], q: f64) -> Option<f64> {
-    if numbers.is_empty() {
-        return None;
-    }
-    let place = rank(q, numbers.len());
-    Some(*numbers.select_nth_unstable_by(place, f64::total_cmp).1)
-}
-
 /// Quantiles of the values of a volume, after slope and intercept, masked voxels left out.
 pub fn quantiles(volume: &Volume, qs: &[f64]) -> Vec<f64> {
     let (slope, intercept) = (volume.slope(), volume.intercept());
-    let n = volume.grid().len() - volume.mask().map_or(0, |mask| mask.count());
-    let places = qs.iter().map(|&q| rank(q, n)).map(|place| if slope < 0.0 { n - 1 - place } else { place });
-    let places: Vec<u64> = places.map(|place| place as u64).collect();
+    let [nx, ny, nz] = volume.dims();
+    // A negative slope turns the order over.
+    let place = |q, n| if slope < 0.0 { n - 1 - rank(q, n) } else { rank(q, n) };
     with_access!(volume, |access| {
-        let stored = select(volume, access, &places);
+        let fill = |(): &mut (), row: usize, numbers: &mut Vec<_>| {
+            let (y, z) = (row % ny, row / ny);
+            let is_valid = |x: &usize| volume.mask().is_none_or(|mask| !mask.voxel([*x, y, z]));
+            numbers.extend((0..nx).filter(is_valid).map(|x| access.at(x, y, z)));
+        };
+        let stored = select(ny * nz, || (), fill, |n| qs.iter().map(|&q| place(q, n)).collect());
         stored.into_iter().map(|stored| slope * stored.to_f64() + intercept).collect()
     })
-}
-
-/// Bits of a number that are counted at a time.
-const DIGIT: u32 = 16;
-
-/// A number that is sought by its place in the ascending order: the upper bits of its key, as far as they are known, and its
-/// place among the numbers that begin with them.
-#[derive(Clone, Copy)]
-struct Sought {
-    prefix: u64,
-    place: u64,
-}
-
-/// The stored numbers at some places, from 0, of their ascending order; those that are masked do not count.
-///
-/// A radix selection: the numbers are counted by the upper 16 bits of their keys, then those that begin as a sought one by the
-/// next 16, and so on. Sorting would need a second volume.
-fn select<A: Access>(volume: &Volume, access: A, places: &[u64]) -> Vec<A::Voxel>
-where
-    A::Voxel: Stored,
-{
-    let mut sought: Vec<Sought> = places.iter().map(|&place| Sought { prefix: 0, place }).collect();
-    let bits = 8 * size_of::<A::Voxel>() as u32;
-    let digit = bits.min(DIGIT);
-    for below in (0..bits / digit).rev().map(|i| i * digit) {
-        let mut prefixes: Vec<u64> = sought.iter().map(|one| one.prefix).collect();
-        prefixes.sort_unstable();
-        prefixes.dedup();
-        let digits = 1 << digit;
-        let counts = sums(volume, access, prefixes.len() * digits, |stored| {
-            let upper = stored.key() >> below;
-            let block = prefixes.iter().position(|&prefix| prefix == upper >> digit)?;
-            Some(block * digits + upper as usize % digits)
-        });
-        for one in &mut sought {
-            let Ok(block) = prefixes.binary_search(&one.prefix) else { continue };
-            for (value, &count) in counts[block * digits..][..digits].iter().enumerate() {
-                if one.place < count {
-                    one.prefix = one.prefix << digit | value as u64;
-                    break;
-                }
-                one.place -= count;
-            }
-        }
-    }
-    sought.into_iter().map(|one| A::Voxel::of_key(one.prefix)).collect()
 }
 
 #[cfg(test)]
@@ -173,17 +112,10 @@ mod tests {
         Volume::new(grid, voxels, slope, intercept).unwrap()
     }
 
-    #[test]
-    fn quantiles_by_hand() {
-        let mut five = [30.0, 10.0, 50.0, 20.0, 40.0];
-        let wanted = [(0.0, 10.0), (0.2, 10.0), (0.2001, 20.0), (0.5, 30.0), (0.8, 40.0), (0.999, 50.0), (1.0, 50.0)];
-        for (q, want) in wanted {
-            assert_eq!(quantile(&mut five, q), Some(want), "{q}");
-        }
-        assert_eq!(quantile(&mut [], 0.5), None);
-        // 0.07 · 100 is 7.000000000000001 in f64.
-        assert_eq!(rank(0.07, 100), 6);
-        assert_eq!(rank(0.999, 1_000_000), 998_999);
+    /// The quantile of numbers that are sorted.
+    fn sorted(numbers: &mut [f64], q: f64) -> f64 {
+        numbers.sort_by(f64::total_cmp);
+        numbers[rank(q, numbers.len())]
     }
 
     #[test]
@@ -220,7 +152,7 @@ mod tests {
             for slope in [1.0, -0.5] {
                 let volume = volume(Voxels::from_f64(&numbers, voxel_type), slope, 2.0);
                 let mut values: Vec<f64> = (0..1000).map(|i| volume.value([i, 0, 0])).collect();
-                let expected: Vec<f64> = qs.iter().filter_map(|&q| quantile(&mut values, q)).collect();
+                let expected: Vec<f64> = qs.iter().map(|&q| sorted(&mut values, q)).collect();
                 assert_eq!(quantiles(&volume, &qs), expected, "{}, {slope}", voxel_type.name());
             }
         }
@@ -241,8 +173,7 @@ mod tests {
         ) {
             let mut values: Vec<f64> = v.iter().map(|&x| slope * f64::from(x) + 3.0).collect();
             let of_volume = quantiles(&volume(Voxels::I16(v), slope, 3.0), &[q]);
-            prop_assert_eq!(of_volume[0], quantile(&mut values, q).unwrap());
-            values.sort_by(f64::total_cmp);
+            prop_assert_eq!(of_volume[0], sorted(&mut values, q));
             // At least a share q of the numbers is not above the quantile; one less would not do.
             let below = values.iter().filter(|&&x| x < of_volume[0]).count() as f64;
             let not_above = values.iter().filter(|&&x| x <= of_volume[0]).count() as f64;

@@ -10,6 +10,7 @@ pub mod histogram;
 pub mod info;
 pub mod labels;
 mod mask;
+pub mod quantile;
 pub mod read;
 pub mod write;
 

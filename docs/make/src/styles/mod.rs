@@ -1,4 +1,6 @@
-//! The pictures of `data/themes`, from the formulas in `reference`; `docs/styles.md` and its sheets of spheres.
+//! The pictures of `data/themes`, painted by the formulas of [`gallery`]; `docs/styles.md` and its sheets of spheres.
+
+mod gallery;
 
 use crate::files;
 use drypoint::output::encode::{quantize, straight_srgb};
@@ -7,7 +9,8 @@ use drypoint::output::sheet::{Layout, sheet};
 use drypoint::scene::color::Rgba;
 use drypoint::scene::picture::Picture;
 use drypoint::scene::style::Style;
-use drypoint_reference::style_transfer_functions::gallery::{GalleryStyle, GalleryTheme, ROLES, SIDE, THEMES, preview};
+use drypoint_reference::style_transfer_functions::preview;
+use gallery::{GalleryStyle, GalleryTheme, ROLES, SIDE, THEMES};
 use rayon::prelude::*;
 use std::path::Path;
 
