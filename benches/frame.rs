@@ -1,9 +1,11 @@
-//! A frame: 256³ voxels, 512×512 pixels, steps of half a voxel; unshaded, Phong, style, and style with contours.
+//! A frame: 256³ voxels, 512×512 pixels, steps of half a voxel; unshaded, Phong, style, and style with contours; and the
+//! same ray by ray and plane by plane, without lanes.
 //!
 //! `cargo bench --bench frame`
 
 use divan::Bencher;
 use drypoint::job::Job;
+use drypoint::reference::ray::Renderer;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::phantom;
 use drypoint::scene::tables::VolumeSource;
@@ -62,8 +64,12 @@ fn job(effects: &[&str]) -> Job {
 }
 
 fn frame(bencher: Bencher, effects: &[&str]) {
+    frame_in_order(bencher, effects, |renderer| renderer);
+}
+
+fn frame_in_order(bencher: Bencher, effects: &[&str], order: fn(Renderer<'_>) -> Renderer<'_>) {
     let job = job(effects);
-    let renderer = job.renderer().expect("the scene above");
+    let renderer = order(job.renderer().expect("the scene above"));
     bencher.bench_local(|| renderer.frame(&|_| ()));
 }
 
@@ -85,4 +91,34 @@ fn style(bencher: Bencher) {
 #[divan::bench(sample_count = 15)]
 fn style_with_contours(bencher: Bencher) {
     frame(bencher, &[STYLES, "[contours]\n"]);
+}
+
+#[divan::bench(sample_count = 15)]
+fn unshaded_ray_by_ray(bencher: Bencher) {
+    frame_in_order(bencher, &[COLOURS], |renderer| renderer.ray_by_ray());
+}
+
+#[divan::bench(sample_count = 15)]
+fn unshaded_plane_by_plane(bencher: Bencher) {
+    frame_in_order(bencher, &[COLOURS], |renderer| renderer.plane_by_plane());
+}
+
+#[divan::bench(sample_count = 15)]
+fn phong_ray_by_ray(bencher: Bencher) {
+    frame_in_order(bencher, &[COLOURS, "[shading]\n"], |renderer| renderer.ray_by_ray());
+}
+
+#[divan::bench(sample_count = 15)]
+fn phong_plane_by_plane(bencher: Bencher) {
+    frame_in_order(bencher, &[COLOURS, "[shading]\n"], |renderer| renderer.plane_by_plane());
+}
+
+#[divan::bench(sample_count = 15)]
+fn style_with_contours_ray_by_ray(bencher: Bencher) {
+    frame_in_order(bencher, &[STYLES, "[contours]\n"], |renderer| renderer.ray_by_ray());
+}
+
+#[divan::bench(sample_count = 15)]
+fn style_with_contours_plane_by_plane(bencher: Bencher) {
+    frame_in_order(bencher, &[STYLES, "[contours]\n"], |renderer| renderer.plane_by_plane());
 }

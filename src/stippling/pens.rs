@@ -3,8 +3,8 @@
 use super::Dots;
 use crate::Failure;
 use crate::job::Job;
+use drypoint_reference::dot_colors::{Colors, Rgb, nearest, palette, split};
 use drypoint_reference::labels::Labels;
-use drypoint_reference::volume_stippling::{Colors, Rgb, nearest, palette, split};
 use drypoint_scene::color::{Rgba, linear_to_oklab, linear_to_srgb};
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::points::Points;

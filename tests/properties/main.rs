@@ -4,6 +4,7 @@
 mod common;
 
 mod along_ray;
+mod architecture;
 mod coverage;
 mod generator;
 mod lanes;

@@ -4,7 +4,6 @@
 //! each voxel's list as many as the factors say.
 
 mod area;
-mod colors;
 mod count;
 mod curves;
 mod elimination;
@@ -21,7 +20,6 @@ mod resolution;
 mod ridge;
 mod slab;
 
-pub use colors::{Colors, Rgb, nearest, palette, split};
 pub use curves::{Edges, Segment, exhaustive};
 pub use elimination::{Candidate, eliminate};
 pub use error::StippleError;

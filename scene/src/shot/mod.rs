@@ -221,6 +221,8 @@ impl Turn {
 ///
 /// What is left out of an encoded sum is at most the encoded c_max times its weight, and is decoded with the sum. The curve f of
 /// sRGB, of which shading can make the part above 1 count too, has c·f′(c) ≤ 2.4 f(c).
+///
+/// With ε = 0 a ray ends where A is 1 exactly: every later weight (1 − A)·α is 0, so no bit changes, only the count of samples.
 fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
     match blend_space {
         BlendSpace::Linear => 1.0 - epsilon,

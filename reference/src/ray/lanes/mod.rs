@@ -4,6 +4,14 @@
 //! widest registers that the processor has. Each lane takes the steps of its ray alone, in their order, with +, −, ×, ÷ and √
 //! only, which are the same in a vector; what branches or looks things up is done lane by lane. Rays visit the samples
 //! that they would visit alone, so the counts are the same too.
+//!
+//! A ray comes along through bricks where only its neighbours can see something. It sees nothing there, and the counts leave
+//! those samples out. A kernel of 64 voxels is as fast for one position as for eight, four voxels of a row in one register, so
+//! it is asked lane by lane, through a trait object: the loops are compiled once for all such kernels. Styles gain from that,
+//! and regular functions do not; these are cast ray by ray there.
+//!
+//! Lanes that are set one by one are put into an array of their own. A vector that is indexed does not stay in registers, nor
+//! does what stands in one variable with it.
 
 mod boxes;
 mod correct;

@@ -3,15 +3,15 @@
 mod attributes;
 mod evaluate;
 mod lit;
-mod material;
 pub(super) mod need;
 mod object;
 mod over_two;
+mod shader;
 
 pub use attributes::SampleAttributes;
 pub(super) use attributes::{EyeAxes, ViewDirs};
 pub(super) use evaluate::{Evaluator, Previous, Sample};
 pub(super) use lit::Lit;
-pub(super) use material::{Shader, Styled};
 pub(super) use object::PreparedObject;
 pub(super) use over_two::OverTwo;
+pub(super) use shader::{Shader, Styled};
