@@ -6,6 +6,7 @@ use crate::field::lanes::{LANES, whole};
 use crate::number::lanes::columns;
 use crate::number::{Arithmetic, Vec3, lanes};
 use crate::transfer::lanes::Places;
+use drypoint_scene::math;
 use drypoint_scene::tables::{Mix, Transparency};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
@@ -37,7 +38,8 @@ pub(crate) fn kappa<S: Simd>(
         Turn::OfLines => cosine.abs(),
     };
     let sine = n.cross(before).length();
-    mask64x8::from_bitmask(zero.simd, both).select(lanes::angle(sine, cosine) / delta_ray, zero)
+    mask64x8::from_bitmask(zero.simd, both)
+        .select(math::angle::angle(lanes::Eight(zero.simd), sine, cosine) / delta_ray, zero)
 }
 
 impl Contour<f64> {
