@@ -64,7 +64,7 @@ impl<R: Real> Phong<R> {
         }
         let n_h = n.dot(half).max(R::ZERO);
         let power = match self.shininess {
-            Exponent::Whole(s) => n_h.pow_whole(R::ONE, s),
+            Exponent::Whole(s) => n_h.pow_whole(s),
             Exponent::Other(s) => n_h.pow(s),
         };
         let (diffuse, specular) = (self.ambient + self.diffuse * n_l, self.specular * power);

@@ -1,6 +1,5 @@
 //! Eight numbers side by side: the width of the vector registers.
 
-use super::Vec3;
 use drypoint_scene::math::{self, Width};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, f64x8, mask64x8, u64x8};
@@ -117,16 +116,6 @@ pub(crate) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
         result[lane] = math::power(x[lane], y[lane]);
     }
     result
-}
-
-/// One vector or the other.
-#[inline(always)]
-pub(crate) fn select<S: Simd>(
-    lanes: fearless_simd::mask64x8<S>,
-    a: Vec3<f64x8<S>>,
-    b: Vec3<f64x8<S>>,
-) -> Vec3<f64x8<S>> {
-    Vec3::new(lanes.select(a.x, b.x), lanes.select(a.y, b.y), lanes.select(a.z, b.z))
 }
 
 /// From rows of four numbers, one a lane, to columns.

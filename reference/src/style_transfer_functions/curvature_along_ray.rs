@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn small_angles_keep_their_digits() {
-        let (a, b) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(1.0, 1e-12, 0.0));
+        let (a, b) = (Vec3::new(1.0f64, 0.0, 0.0), Vec3::new(1.0, 1e-12, 0.0));
         assert!((kappa(Turn::OfNormals, a, Some(b), 1.0) / 1e-12 - 1.0).abs() < 1e-12);
     }
 }

@@ -4,20 +4,11 @@ use super::curvature_along_ray::Turn;
 use super::{Contour, SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
 use crate::number::lanes::columns;
-use crate::number::{Arithmetic, Vec3, lanes};
+use crate::number::{Arithmetic, Elementary, Vec3, lanes};
 use crate::transfer::lanes::Places;
-use drypoint_scene::math;
 use drypoint_scene::tables::{Mix, Transparency};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
-
-/// [`Real::clamp_01`](crate::number::Real::clamp_01).
-#[inline(always)]
-pub(crate) fn clamp_01<S: Simd>(x: f64x8<S>) -> f64x8<S> {
-    let (zero, one) = (f64x8::splat(x.simd, 0.0), f64x8::splat(x.simd, 1.0));
-    let x = x.simd_lt(0.0).select(zero, x);
-    x.simd_gt(1.0).select(one, x)
-}
 
 /// [`curvature_along_ray::kappa`](super::curvature_along_ray::kappa) in the lanes that have `both` normals, 0 in the others.
 #[inline(always)]
@@ -35,11 +26,10 @@ pub(crate) fn kappa<S: Simd>(
     let cosine = n.dot(before);
     let cosine = match turn {
         Turn::OfNormals => cosine,
-        Turn::OfLines => cosine.abs(),
+        Turn::OfLines => Arithmetic::abs(cosine),
     };
     let sine = n.cross(before).length();
-    mask64x8::from_bitmask(zero.simd, both)
-        .select(math::angle::angle(lanes::Eight(zero.simd), sine, cosine) / delta_ray, zero)
+    mask64x8::from_bitmask(zero.simd, both).select(sine.angle(cosine) / delta_ray, zero)
 }
 
 impl Contour<f64> {
@@ -51,7 +41,7 @@ impl Contour<f64> {
         let tau = match self.threshold {
             Some(threshold) => f64x8::splat(simd, threshold),
             None => {
-                let t_kappa = kappa.abs() * self.thickness;
+                let t_kappa = Arithmetic::abs(kappa) * self.thickness;
                 let x = t_kappa.simd_gt(0.0).select(t_kappa, zero);
                 let x = x.simd_gt(1.0).select(one, x);
                 SimdFloat::sqrt(x * (one + one - x))
@@ -61,7 +51,7 @@ impl Contour<f64> {
         if lo == hi {
             return tau * g.simd_lt(lo).select(zero, one);
         }
-        let t = clamp_01((g - lo) / (hi - lo));
+        let t = ((g - lo) / (hi - lo)).clamp_01();
         tau * (t * t * (one + one + one - (t + t)))
     }
 }

@@ -17,7 +17,7 @@ pub fn share<R: Real>(transparency: Transparency, alpha_u: R, n_dot_v: R, tau: R
         return alpha_u;
     }
     let away_from_contour = (n_dot_v.abs() - tau).max(R::ZERO);
-    alpha_u.power(R::HALF + away_from_contour * (R::ONE - g))
+    alpha_u.power(R::HALF + away_from_contour * (R::ONE - g), true)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::normal::Normals;
 use super::walk::{Sample, Show, Walk};
 use super::{IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::Reader;
-use crate::number::{Arithmetic, Vec3};
+use crate::number::{Arithmetic, Elementary, Vec3};
 use crate::shading::{Exponent, Phong};
 use drypoint_scene::counts::Counts;
 use fearless_simd::prelude::*;
@@ -55,8 +55,8 @@ impl<'p, S: Simd> Shaded<'p, S> {
         let n_h = n.dot(self.half);
         let n_h = n_h.simd_lt(0.0).select(f64x8::splat(self.simd, 0.0), n_h);
         let power = match phong.shininess {
-            Exponent::Whole(s) => n_h.pow_whole(f64x8::splat(self.simd, 1.0), s),
-            Exponent::Other(s) => f64x8::from_fn(self.simd, |lane| crate::number::Real::pow(n_h[lane], s)),
+            Exponent::Whole(s) => n_h.pow_whole(s),
+            Exponent::Other(s) => n_h.pow(s),
         };
         let (diffuse, specular) = (n_l * phong.diffuse + phong.ambient, power * phong.specular);
         let mut rgb = c_u;

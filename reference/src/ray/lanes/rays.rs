@@ -60,7 +60,7 @@ impl<S: Simd> Rays<S> {
             let length = sum.length();
             let unit = sum * (one / length);
             let has = length.simd_gt(0.0);
-            half = crate::number::lanes::select(has, unit, half);
+            half = Vec3::select(has, unit, half);
         }
         Self {
             origin: apply(simd, &grid.inverse_axes(), origin - all(simd, grid.origin())),

@@ -5,8 +5,8 @@ use super::waiting::{Batch, Tile};
 use super::{Packet, RAYS, Row, of_rays};
 use crate::field::curvature;
 use crate::field::lanes::{LANES, Reader};
-use crate::number::Vec3;
-use crate::number::lanes::{columns, rows, select};
+use crate::number::lanes::{columns, rows};
+use crate::number::{Arithmetic, Vec3};
 use crate::ray::prepared::KappaSource;
 use crate::ray::sample::Styled;
 use crate::style_transfer_functions::{frame, lanes};
@@ -140,7 +140,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
             if fetched != 0 {
                 let g = tile.reader.gradients(&tile.reader.places(p), asked);
                 let fetched = Normals::new(tile.prepared, v, g);
-                n_before = select(asked, fetched.n, n_before);
+                n_before = Vec3::select(asked, fetched.n, n_before);
                 has_before |= asked & fetched.has;
             }
         }
@@ -185,11 +185,11 @@ impl<'p, S: Simd> InStyle<'p, S> {
         };
         let Normals { n, has, length } = Normals::new(prepared, v, g);
         let magnitude = match prepared.gradient_range {
-            Some((lo, width)) if width > 0.0 => lanes::clamp_01((length - lo) / width),
+            Some((lo, width)) if width > 0.0 => ((length - lo) / width).clamp_01(),
             _ => zero,
         };
         let [mut x, mut y] = self.on_sphere(&batch.rays, n, has);
-        let n_dot_v = has.select(n.dot(v).abs(), one);
+        let n_dot_v = has.select(Arithmetic::abs(n.dot(v)), one);
         let (mut tau, mut before, mut hessians) = (zero, 0, 0);
         if let Some(contour) = &styled.contour {
             let mut kappa = zero;
