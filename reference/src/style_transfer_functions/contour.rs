@@ -1,6 +1,6 @@
 //! Style contours (3.3): the threshold of eq. 1 ([STF-7]) and the push along the radius of the sphere ([STF-8]).
 
-use crate::number::Real;
+use crate::number::{Arithmetic, Mask, Real};
 use drypoint_scene::tables::Kappa;
 
 /// The contour threshold τ of a scene.
@@ -23,30 +23,35 @@ impl<R: Real> Contour<R> {
 
     /// τ, the one number that contour test, push and eq. 2 share: the constant threshold, or √(Tκ(2 − Tκ)) of |κ_v|
     /// in reciprocal world units; times the fade by |g| in [0, 1].
-    #[inline]
-    pub fn tau(&self, kappa: R, g: R) -> R {
-        let tau = self.threshold.unwrap_or_else(|| root(self.thickness * kappa.abs()));
+    #[inline(always)]
+    pub fn tau<A: Arithmetic<Number = R>>(&self, kappa: A, g: A) -> A {
+        let tau = match self.threshold {
+            Some(threshold) => kappa.constant(threshold),
+            None => root(kappa.abs() * kappa.constant(self.thickness)),
+        };
         self.fade.map_or(tau, |[lo, hi]| tau * fade(g, lo, hi))
     }
 }
 
 /// √(x(2 − x)), x = Tκ clamped to [0, 1]: past 1 the printed root falls again and past 2 it is not real, but a
 /// structure thinner than T is contour throughout. Clamped, the radicand is never negative ([CUR-3]).
-#[inline]
-pub fn root<R: Real>(t_kappa: R) -> R {
+#[inline(always)]
+pub fn root<A: Arithmetic>(t_kappa: A) -> A {
+    let one = t_kappa.one();
     // In this order of operands what is not a number (0 · ∞) counts as 0.
-    let x = R::ZERO.max(t_kappa).min(R::ONE);
-    (x * (R::ONE + R::ONE - x)).sqrt()
+    let x = t_kappa.zero().max(t_kappa).min(one);
+    (x * (one + one - x)).sqrt()
 }
 
 /// Smoothstep t²(3 − 2t) of t = clamp₀₁((|g| − lo)/(hi − lo)). For hi = lo a step, which |g| = lo has passed.
-#[inline]
-pub fn fade<R: Real>(g: R, lo: R, hi: R) -> R {
+#[inline(always)]
+pub fn fade<A: Arithmetic>(g: A, lo: A::Number, hi: A::Number) -> A {
+    let one = g.one();
     if lo == hi {
-        return if g < lo { R::ZERO } else { R::ONE };
+        return A::select(g.below(g.constant(lo)), g.zero(), one);
     }
-    let t = ((g - lo) / (hi - lo)).clamp_01();
-    t * t * (R::ONE + R::ONE + R::ONE - (t + t))
+    let t = ((g - g.constant(lo)) / g.constant(hi - lo)).clamp_01();
+    t * t * (one + one + one - (t + t))
 }
 
 /// Pushes (N_x, N_y) outwards along the radius if the sample is on a contour, |N·v| ≤ τ:
@@ -54,17 +59,19 @@ pub fn fade<R: Real>(g: R, lo: R, hi: R) -> R {
 ///
 /// δ falls from 1 at |N·v| = τ, where nothing moves, to 0 at the silhouette, where r' = 1. There is no push for τ = 0,
 /// and r = 0 stays 0: it has no direction to be pushed along.
-#[inline]
-pub fn push<R: Real>(nx: R, ny: R, n_dot_v: R, tau: R) -> (R, R) {
-    let d = n_dot_v.abs();
-    let r = (nx * nx + ny * ny).sqrt();
-    if d > tau || tau == R::ZERO || r == R::ZERO {
+#[inline(always)]
+pub fn push<A: Arithmetic>(nx: A, ny: A, n_dot_v: A, tau: A) -> (A, A) {
+    let (d, zero) = (n_dot_v.abs(), tau.zero());
+    let on_contour = d.at_most(tau) & !tau.equals(zero);
+    if !on_contour.any() {
         return (nx, ny);
     }
+    let r = (nx * nx + ny * ny).sqrt();
+    let pushed = on_contour & !r.equals(zero);
     // The printed δ, without its two cancellations.
     let delta = d / tau;
-    let scale = if r < delta { delta } else { r };
-    (nx / scale, ny / scale)
+    let scale = A::select(r.below(delta), delta, r);
+    (A::select(pushed, nx / scale, nx), A::select(pushed, ny / scale, ny))
 }
 
 #[cfg(test)]

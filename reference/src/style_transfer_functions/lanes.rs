@@ -1,7 +1,7 @@
 //! What one sample passes through, for eight of them side by side, to the same bits.
 
 use super::curvature_along_ray::Turn;
-use super::{Contour, SphereMap, Spheres, StyleIndex};
+use super::{SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
 use crate::number::lanes::columns;
 use crate::number::{Arithmetic, Elementary, Vec3, lanes};
@@ -30,44 +30,6 @@ pub(crate) fn kappa<S: Simd>(
     };
     let sine = n.cross(before).length();
     mask64x8::from_bitmask(zero.simd, both).select(sine.angle(cosine) / delta_ray, zero)
-}
-
-impl Contour<f64> {
-    /// [`tau`](Self::tau).
-    #[inline(always)]
-    pub(crate) fn tau_lanes<S: Simd>(&self, kappa: f64x8<S>, g: f64x8<S>) -> f64x8<S> {
-        let simd = kappa.simd;
-        let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
-        let tau = match self.threshold {
-            Some(threshold) => f64x8::splat(simd, threshold),
-            None => {
-                let t_kappa = Arithmetic::abs(kappa) * self.thickness;
-                let x = t_kappa.simd_gt(0.0).select(t_kappa, zero);
-                let x = x.simd_gt(1.0).select(one, x);
-                SimdFloat::sqrt(x * (one + one - x))
-            }
-        };
-        let Some([lo, hi]) = self.fade else { return tau };
-        if lo == hi {
-            return tau * g.simd_lt(lo).select(zero, one);
-        }
-        let t = ((g - lo) / (hi - lo)).clamp_01();
-        tau * (t * t * (one + one + one - (t + t)))
-    }
-}
-
-/// [`contour::push`](super::contour::push) in the lanes `on`.
-#[inline(always)]
-pub(crate) fn push<S: Simd>([x, y]: [f64x8<S>; 2], d: f64x8<S>, tau: f64x8<S>, on: mask64x8<S>) -> [f64x8<S>; 2] {
-    let on = on & d.simd_le(tau) & tau.simd_ne(0.0);
-    if on.all_false() {
-        return [x, y];
-    }
-    let r = SimdFloat::sqrt(x * x + y * y);
-    let on = on & r.simd_ne(0.0);
-    let delta = d / tau;
-    let scale = r.simd_lt(delta).select(delta, r);
-    [on.select(x / scale, x), on.select(y / scale, y)]
 }
 
 /// [`transparency::share`](super::transparency::share) of the visible lanes.
@@ -228,7 +190,7 @@ fn cell<S: Simd>(x: f64x8<S>, side: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Blend, contour, curvature_along_ray, transparency};
+    use super::super::{Blend, Contour, contour, curvature_along_ray, transparency};
     use super::*;
     use crate::transfer::Piecewise;
     use drypoint_scene::style::Style;
@@ -272,16 +234,14 @@ mod tests {
             let (kappa, g, d_v) = (column(&mut a).map(|k| 3.0 * k), column(&mut b), column(&mut c));
             let (x, y) = (column(&mut d), column(&mut a).map(|y| 0.5 - y));
             let (tau, [px, py]): ([f64; LANES], [[f64; LANES]; 2]) = dispatch!(level, simd => {
-                let tau = contour.tau_lanes(kappa.simd_into(simd), g.simd_into(simd));
-                let on = mask64x8::from_bitmask(simd, 0b1101_1111);
-                let [px, py] = push([x.simd_into(simd), y.simd_into(simd)], d_v.simd_into(simd), tau, on);
+                let (kappa, g): (f64x8<_>, f64x8<_>) = (kappa.simd_into(simd), g.simd_into(simd));
+                let tau = contour.tau(kappa, g);
+                let (x, y): (f64x8<_>, f64x8<_>) = (x.simd_into(simd), y.simd_into(simd));
+                let (px, py) = contour::push(x, y, d_v.simd_into(simd), tau);
                 (tau.into(), [px.into(), py.into()])
             });
             same(tau, |lane| contour.tau(kappa[lane], g[lane]));
-            let one = |lane: usize| match lane {
-                5 => (x[lane], y[lane]),
-                _ => contour::push(x[lane], y[lane], d_v[lane], tau[lane]),
-            };
+            let one = |lane: usize| contour::push(x[lane], y[lane], d_v[lane], tau[lane]);
             same(px, |lane| one(lane).0);
             same(py, |lane| one(lane).1);
         }

@@ -9,7 +9,7 @@ use crate::number::lanes::{columns, rows};
 use crate::number::{Arithmetic, Vec3};
 use crate::ray::prepared::KappaSource;
 use crate::ray::sample::Styled;
-use crate::style_transfer_functions::{frame, lanes};
+use crate::style_transfer_functions::{contour, frame, lanes};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::SphereFrame;
 use fearless_simd::prelude::*;
@@ -206,8 +206,9 @@ impl<'p, S: Simd> InStyle<'p, S> {
                 let along = curvature::along_view_lanes(g, h, v, prepared.outside, prepared.no_normal_below);
                 kappa = with_normal.select(along, zero);
             }
-            tau = contour.tau_lanes(kappa, magnitude);
-            [x, y] = lanes::push([x, y], n_dot_v, tau, asked & has);
+            tau = contour.tau(kappa, magnitude);
+            // With τ = 0 nothing is pushed.
+            (x, y) = contour::push(x, y, n_dot_v, (asked & has).select(tau, zero));
         }
         let blends = styled.index.blends(place, prepared.function.last());
         let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
