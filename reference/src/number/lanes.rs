@@ -101,7 +101,7 @@ impl<S: Simd> Width for Eight<S> {
 /// [`math::power`] of the lanes `asked`; whatever in the others. Tiny numbers, and one or two by themselves, are taken lane
 /// by lane.
 #[inline(always)]
-pub(crate) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
+pub(super) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
     let tiny = asked & x.simd_lt(math::power::LEAST).to_bitmask();
     let mut result = x;
     let mut alone = tiny;

@@ -4,9 +4,9 @@ use super::curvature_along_ray::Turn;
 use super::{SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
 use crate::number::lanes::columns;
-use crate::number::{Arithmetic, Elementary, Vec3, lanes};
+use crate::number::{Arithmetic, Elementary, Vec3};
 use crate::transfer::lanes::Places;
-use drypoint_scene::tables::{Mix, Transparency};
+use drypoint_scene::tables::Mix;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
 
@@ -30,28 +30,6 @@ pub(crate) fn kappa<S: Simd>(
     };
     let sine = n.cross(before).length();
     mask64x8::from_bitmask(zero.simd, both).select(sine.angle(cosine) / delta_ray, zero)
-}
-
-/// [`transparency::share`](super::transparency::share) of the visible lanes.
-#[inline(always)]
-pub(crate) fn share<S: Simd>(
-    transparency: Transparency,
-    place: &Places<S>,
-    n_dot_v: f64x8<S>,
-    tau: f64x8<S>,
-    g: f64x8<S>,
-) -> f64x8<S> {
-    let alpha_u = place.alpha_u;
-    let between = place.visible & alpha_u.simd_ne(1.0).to_bitmask();
-    if transparency == Transparency::Plain || between == 0 {
-        return alpha_u;
-    }
-    let zero = f64x8::splat(alpha_u.simd, 0.0);
-    let away = n_dot_v - tau;
-    let away = away.simd_lt(0.0).select(zero, away);
-    let exponent = away * (f64x8::splat(alpha_u.simd, 1.0) - g) + 0.5;
-    let power = lanes::power(alpha_u, exponent, between);
-    mask64x8::from_bitmask(alpha_u.simd, between).select(power, alpha_u)
 }
 
 /// The styles of each lane, as [`Blend`](super::Blend); w is that of the [`Places`] that they are made from.
@@ -194,7 +172,7 @@ mod tests {
     use super::*;
     use crate::transfer::Piecewise;
     use drypoint_scene::style::Style;
-    use drypoint_scene::tables::Kappa;
+    use drypoint_scene::tables::{Kappa, Transparency};
     use fearless_simd::{Level, dispatch};
 
     /// Numbers in [0, 1), a sequence for each seed, with the ends among them.
@@ -283,8 +261,8 @@ mod tests {
             let (s, n_dot_v, tau, g) = (column(&mut a), column(&mut b), column(&mut c), column(&mut d));
             let got: Option<(u64, [f64; LANES])> = dispatch!(level, simd => {
                 ramp.locate_lanes(s.simd_into(simd), mask64x8::from_bitmask(simd, 0b1111_0111)).map(|place| {
-                    let share = share(
-                        transparency, &place, n_dot_v.simd_into(simd), tau.simd_into(simd), g.simd_into(simd),
+                    let share = transparency::share(
+                        transparency, place.alpha_u, n_dot_v.simd_into(simd), tau.simd_into(simd), g.simd_into(simd),
                     );
                     (place.visible, share.into())
                 })

@@ -1,6 +1,6 @@
 //! Illustrative transparency (3.4, eq. 2; [STF-9]).
 
-use crate::number::Real;
+use crate::number::{Elementary, Mask};
 use drypoint_scene::tables::Transparency;
 
 /// α/α_d: what the style's premultiplied colour and directional opacity are multiplied by. All opacities here are per
@@ -11,13 +11,16 @@ use drypoint_scene::tables::Transparency;
 /// 1 and α_u = 0 gives 0, exactly: the paper's two constraints. Plain: α_u.
 ///
 /// α_u, τ and |g| are in [0, 1]; without contours τ = 0.
-#[inline]
-pub fn share<R: Real>(transparency: Transparency, alpha_u: R, n_dot_v: R, tau: R, g: R) -> R {
-    if transparency == Transparency::Plain || alpha_u == R::ZERO || alpha_u == R::ONE {
+#[inline(always)]
+pub fn share<A: Elementary>(transparency: Transparency, alpha_u: A, n_dot_v: A, tau: A, g: A) -> A {
+    let (zero, one) = (alpha_u.zero(), alpha_u.one());
+    let between = !(alpha_u.equals(zero) | alpha_u.equals(one));
+    if transparency == Transparency::Plain || !between.any() {
         return alpha_u;
     }
-    let away_from_contour = (n_dot_v.abs() - tau).max(R::ZERO);
-    alpha_u.power(R::HALF + away_from_contour * (R::ONE - g), true)
+    let away_from_contour = (n_dot_v.abs() - tau).max(zero);
+    let exponent = away_from_contour * (one - g) + one.half();
+    A::select(between, alpha_u.power(exponent, between), alpha_u)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::number::lanes::{columns, rows};
 use crate::number::{Arithmetic, Vec3};
 use crate::ray::prepared::KappaSource;
 use crate::ray::sample::Styled;
-use crate::style_transfer_functions::{contour, frame, lanes};
+use crate::style_transfer_functions::{contour, frame, lanes, transparency};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::SphereFrame;
 use fearless_simd::prelude::*;
@@ -212,7 +212,9 @@ impl<'p, S: Simd> InStyle<'p, S> {
         }
         let blends = styled.index.blends(place, prepared.function.last());
         let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
-        let share = lanes::share(styled.transparency, place, n_dot_v, tau, magnitude);
+        // Lanes without a sample count as α_u = 0, which needs no power.
+        let alpha_u = asked.select(place.alpha_u, zero);
+        let share = transparency::share(styled.transparency, alpha_u, n_dot_v, tau, magnitude);
         let counted = Counted { without_normal: !has.to_bitmask(), before, hessians, blends };
         let ratio = step / prepared.reference_length;
         let opaque = alpha_d.simd_eq(1.0) | !asked;
