@@ -365,7 +365,8 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
             }
             _ => None,
         };
-        curvature_along_ray::kappa(prepared.turn, n, before, R::from_f64(self.ray.step))
+        let (known, before) = (before.is_some(), before.unwrap_or(n));
+        curvature_along_ray::kappa(prepared.turn, n, before, known, R::from_f64(self.ray.step))
     }
 
     /// What needs the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]); `known`, as it is, where H's own field has no normal.

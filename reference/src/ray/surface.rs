@@ -225,7 +225,8 @@ impl<R: Real, S: Sampler<R>> Walk<'_, '_, R, S> {
                 self.sampler.gradient(position)
             });
             let before = before.and_then(|g| self.normal(g));
-            facts.kappa = curvature_along_ray::kappa(prepared.turn, n, before, R::from_f64(self.ray.step));
+            let (known, before) = (before.is_some(), before.unwrap_or(n));
+            facts.kappa = curvature_along_ray::kappa(prepared.turn, n, before, known, R::from_f64(self.ray.step));
         }
         facts
     }

@@ -196,7 +196,7 @@ mod tests {
             let before = p + Vec3::new(0.0, 0.0, self.delta);
             match kappa {
                 Kappa::Exact => 1.0 / p.length(),
-                _ => curvature_along_ray::kappa(Turn::OfNormals, unit(p), Some(unit(before)), self.delta),
+                _ => curvature_along_ray::kappa(Turn::OfNormals, unit(p), unit(before), true, self.delta),
             }
         }
 

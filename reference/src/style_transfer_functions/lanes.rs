@@ -1,36 +1,13 @@
-//! What one sample passes through, for eight of them side by side, to the same bits.
+//! The lookup of styles for eight samples side by side, to the same bits.
 
-use super::curvature_along_ray::Turn;
 use super::{SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
+use crate::number::Arithmetic;
 use crate::number::lanes::columns;
-use crate::number::{Arithmetic, Elementary, Vec3};
 use crate::transfer::lanes::Places;
 use drypoint_scene::tables::Mix;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
-
-/// [`curvature_along_ray::kappa`](super::curvature_along_ray::kappa) in the lanes that have `both` normals, 0 in the others.
-#[inline(always)]
-pub(crate) fn kappa<S: Simd>(
-    turn: Turn,
-    n: Vec3<f64x8<S>>,
-    before: Vec3<f64x8<S>>,
-    both: u64,
-    delta_ray: f64x8<S>,
-) -> f64x8<S> {
-    let zero = f64x8::splat(delta_ray.simd, 0.0);
-    if both == 0 {
-        return zero;
-    }
-    let cosine = n.dot(before);
-    let cosine = match turn {
-        Turn::OfNormals => cosine,
-        Turn::OfLines => Arithmetic::abs(cosine),
-    };
-    let sine = n.cross(before).length();
-    mask64x8::from_bitmask(zero.simd, both).select(sine.angle(cosine) / delta_ray, zero)
-}
 
 /// The styles of each lane, as [`Blend`](super::Blend); w is that of the [`Places`] that they are made from.
 pub(crate) struct Blends {
@@ -168,8 +145,10 @@ fn cell<S: Simd>(x: f64x8<S>, side: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::curvature_along_ray::Turn;
     use super::super::{Blend, Contour, contour, curvature_along_ray, transparency};
     use super::*;
+    use crate::number::Vec3;
     use crate::transfer::Piecewise;
     use drypoint_scene::style::Style;
     use drypoint_scene::tables::{Kappa, Transparency};
@@ -243,12 +222,10 @@ mod tests {
             let got: [f64; LANES] = dispatch!(level, simd => {
                 let [n, before] =
                     [n, before].map(|[x, y, z]| Vec3::new(x.simd_into(simd), y.simd_into(simd), z.simd_into(simd)));
-                kappa(turn, n, before, 0b0111_1111, f64x8::splat(simd, 0.3)).into()
+                let known = mask64x8::from_bitmask(simd, 0b0111_1111);
+                curvature_along_ray::kappa(turn, n, before, known, f64x8::splat(simd, 0.3)).into()
             });
-            same(got, |lane| {
-                let before = (lane < 7).then(|| vector(before, lane));
-                curvature_along_ray::kappa(turn, vector(n, lane), before, 0.3)
-            });
+            same(got, |lane| curvature_along_ray::kappa(turn, vector(n, lane), vector(before, lane), lane < 7, 0.3));
         }
     }
 

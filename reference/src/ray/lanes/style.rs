@@ -9,7 +9,7 @@ use crate::number::lanes::{columns, rows};
 use crate::number::{Arithmetic, Vec3};
 use crate::ray::prepared::KappaSource;
 use crate::ray::sample::Styled;
-use crate::style_transfer_functions::{contour, frame, lanes, transparency};
+use crate::style_transfer_functions::{contour, curvature_along_ray, frame, lanes, transparency};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::SphereFrame;
 use fearless_simd::prelude::*;
@@ -144,8 +144,8 @@ impl<'p, S: Simd> InStyle<'p, S> {
                 has_before |= asked & fetched.has;
             }
         }
-        let both = (asked & has & has_before).to_bitmask();
-        (lanes::kappa(tile.prepared.turn, n, n_before, both, step), fetched)
+        let both = asked & has & has_before;
+        (curvature_along_ray::kappa(tile.prepared.turn, n, n_before, both, step), fetched)
     }
 
     /// N in the frame of the sphere, of which two coordinates are looked up; N = v where there is none ([PREC-3]).
