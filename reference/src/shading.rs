@@ -1,6 +1,6 @@
 //! Blinn–Phong shading of a regular transfer function ([STF-11]).
 
-use crate::number::{Real, Vec3};
+use crate::number::{Arithmetic, Elementary, Mask, Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::tables::{LightDirection, Shading};
 use drypoint_scene::view::View;
@@ -8,12 +8,12 @@ use drypoint_scene::view::View;
 /// Material and light; the vectors are in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Phong<R> {
-    pub(crate) ambient: R,
-    pub(crate) diffuse: R,
-    pub(crate) specular: R,
-    pub(crate) shininess: Exponent<R>,
+    ambient: R,
+    diffuse: R,
+    specular: R,
+    shininess: Exponent<R>,
     /// L: the unit vector towards the light.
-    pub(crate) light: Vec3<R>,
+    light: Vec3<R>,
 }
 
 /// s, with whole numbers up to 64 told apart once and not at every sample ([PREC-4]).
@@ -48,27 +48,30 @@ impl<R: Real> Phong<R> {
     }
 
     /// Ĥ = (L + v)/‖L + v‖, 0 where L = −v. Both are constant along a ray.
-    pub fn half_vector(&self, v: Vec3<R>) -> Vec3<R> {
-        let half = self.light + v;
-        let length = half.length();
-        if length > R::ZERO { half * (R::ONE / length) } else { Vec3::zero() }
+    #[inline(always)]
+    pub fn half_vector<A: Arithmetic<Number = R>>(&self, v: Vec3<A>) -> Vec3<A> {
+        let half = Vec3::constant(v.x, self.light) + v;
+        let (length, zero) = (half.length(), v.x.zero());
+        Vec3::select(zero.below(length), half * (length.one() / length), Vec3::new(zero, zero, zero))
     }
 
     /// c = c_u·(k_a + k_d·max(0, N·L)) + k_s·max(0, N·Ĥ)^s, the specular term 0 where N·L ≤ 0; white light, straight
     /// colours, no clamp.
-    #[inline]
-    pub fn shade(&self, c_u: [R; 3], n: Vec3<R>, half: Vec3<R>) -> [R; 3] {
-        let n_l = n.dot(self.light);
-        if n_l <= R::ZERO {
-            return c_u.map(|c| c * self.ambient);
+    #[inline(always)]
+    pub fn shade<A: Elementary<Number = R>>(&self, c_u: [A; 3], n: Vec3<A>, half: Vec3<A>) -> [A; 3] {
+        let n_l = n.dot(Vec3::constant(n.x, self.light));
+        let [ambient, diffuse, specular] = [self.ambient, self.diffuse, self.specular].map(|k| n_l.constant(k));
+        let dark = n_l.at_most(n_l.zero());
+        if dark.all() {
+            return c_u.map(|c| c * ambient);
         }
-        let n_h = n.dot(half).max(R::ZERO);
+        let n_h = n.dot(half).max(n_l.zero());
         let power = match self.shininess {
             Exponent::Whole(s) => n_h.pow_whole(s),
             Exponent::Other(s) => n_h.pow(s),
         };
-        let (diffuse, specular) = (self.ambient + self.diffuse * n_l, self.specular * power);
-        c_u.map(|c| c * diffuse + specular)
+        let (lit, highlight) = (ambient + diffuse * n_l, specular * power);
+        c_u.map(|c| A::select(dark, c * ambient, c * lit + highlight))
     }
 }
 
