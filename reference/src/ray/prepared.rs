@@ -8,7 +8,7 @@ use super::sample::{EyeAxes, Look};
 use super::skip::Skip;
 use super::surface::Surface;
 use crate::field::Field;
-use crate::number::{Real, Vec3};
+use crate::number::{Arithmetic, Real, Vec3};
 use crate::style_transfer_functions::curvature_along_ray::Turn;
 use crate::transfer::{Piecewise, Table};
 use drypoint_scene::fragments::{Fragment, Fragments};
@@ -70,15 +70,15 @@ impl Side {
     }
 
     /// The shading normal for an outward one.
-    #[inline]
-    pub(super) fn turn<R: Real>(self, outward: Vec3<R>, v: Vec3<R>) -> Vec3<R> {
-        let flip = match self {
-            Self::Outward => false,
-            Self::Facing => outward.dot(v) < R::ZERO,
-            Self::Inward => true,
-        };
-        // A product and no branch: along a ray the side is anyone's guess.
-        outward * if flip { -R::ONE } else { R::ONE }
+    #[inline(always)]
+    pub(super) fn turn<A: Arithmetic>(self, outward: Vec3<A>, v: Vec3<A>) -> Vec3<A> {
+        let one = outward.x.one();
+        match self {
+            Self::Outward => outward,
+            // A product and no branch: along a ray the side is anyone's guess.
+            Self::Facing => outward * A::select(outward.dot(v).below(one.zero()), -one, one),
+            Self::Inward => outward * -one,
+        }
     }
 }
 

@@ -1,9 +1,10 @@
 //! Regular functions in lanes: colours as they are, and Blinn–Phong ([STF-11]).
 
-use super::normal::Normals;
+use super::normal::shading;
 use super::walk::{Sample, Show, Walk};
 use super::{IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::Reader;
+use crate::field::normal::Normal;
 use crate::number::Vec3;
 use crate::shading::Phong;
 use drypoint_scene::counts::Counts;
@@ -55,7 +56,7 @@ impl<S: Simd> Show<S> for Shaded<'_, S> {
         let rgb = place.color(self.colors);
         let g = walk.reader.gradients(&walk.places(sample.k), sample.seen);
         counts.gradients += u64::from(place.visible.count_ones());
-        let Normals { n, has, .. } = Normals::new(walk.prepared, self.v, g);
+        let Normal { n, has, .. } = shading(walk.prepared, self.v, g);
         counts.without_normal += u64::from((place.visible & !has.to_bitmask()).count_ones());
         let [r, g, b] = self.phong.shade(rgb, n, self.half);
         ([has.select(r, rgb[0]), has.select(g, rgb[1]), has.select(b, rgb[2])], place.alpha_u)

@@ -1,10 +1,11 @@
 //! Styles in lanes (Bruckner and Gröller 2007), with what a sample has to know of the one before it on its ray.
 
-use super::normal::Normals;
+use super::normal::shading;
 use super::waiting::{Batch, Tile};
 use super::{Packet, RAYS, Row, of_rays};
 use crate::field::curvature;
 use crate::field::lanes::{LANES, Reader};
+use crate::field::normal::Normal;
 use crate::number::lanes::{columns, rows};
 use crate::number::{Arithmetic, Vec3};
 use crate::ray::prepared::KappaSource;
@@ -139,7 +140,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
             fetched = asked.to_bitmask();
             if fetched != 0 {
                 let g = tile.reader.gradients(&tile.reader.places(p), asked);
-                let fetched = Normals::new(tile.prepared, v, g);
+                let fetched = shading(tile.prepared, v, g);
                 n_before = Vec3::select(asked, fetched.n, n_before);
                 has_before |= asked & fetched.has;
             }
@@ -183,7 +184,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
         } else {
             tile.reader.gradients(&batch.at, asked)
         };
-        let Normals { n, has, length } = Normals::new(prepared, v, g);
+        let Normal { n, has, length } = shading(prepared, v, g);
         let magnitude = match prepared.gradient_range {
             Some((lo, width)) if width > 0.0 => ((length - lo) / width).clamp_01(),
             _ => zero,
