@@ -27,7 +27,7 @@ impl<A: Arithmetic> Normal<A> {
 
 /// ∓1/‖g‖: what makes the outward normal of a gradient.
 #[inline(always)]
-fn outwards<A: Arithmetic>(length: A, outside: Outside) -> A {
+pub(super) fn outwards<A: Arithmetic>(length: A, outside: Outside) -> A {
     let inverse = length.one() / length;
     match outside {
         Outside::Low => -inverse,

@@ -204,8 +204,9 @@ impl<'p, S: Simd> InStyle<'p, S> {
                     Some(seconds) => seconds,
                     None => tile.reader.seconds(&batch.at, with_normal),
                 };
-                let along = curvature::along_view_lanes(g, h, v, prepared.outside, prepared.no_normal_below);
-                kappa = with_normal.select(along, zero);
+                // H's own field may have none where that of the normal has one.
+                let own = with_normal & g.length().simd_gt(prepared.no_normal_below);
+                kappa = own.select(curvature::along_view(g, h, v, prepared.outside), zero);
             }
             tau = contour.tau(kappa, magnitude);
             // With τ = 0 nothing is pushed.
