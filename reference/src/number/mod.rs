@@ -8,6 +8,7 @@ mod real;
 mod sym3;
 mod vec3;
 
+pub(crate) use arithmetic::Double;
 pub use arithmetic::{Arithmetic, Elementary, Mask};
 pub use mat3::Mat3;
 pub use real::Real;

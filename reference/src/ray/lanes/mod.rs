@@ -6,7 +6,6 @@
 //! that they would visit alone, so the counts are the same too.
 
 mod boxes;
-mod correct;
 mod normal;
 mod phong;
 mod rays;
