@@ -78,6 +78,10 @@ impl<R: Real> Phong<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::{column, numbers, same, side_by_side, units};
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Level, dispatch, f64x8};
 
     fn shade(light: DVec3, c_u: f64, n: Vec3<f64>) -> f64 {
         let phong = Phong {
@@ -107,5 +111,24 @@ mod tests {
         assert_eq!(shade(DVec3::Z, 1.0, -z), 0.3);
         // L = −v: N·L > 0 only for normals facing away; Ĥ = 0 there.
         assert!((shade(-DVec3::Z, 1.0, -z) - 0.9).abs() < 1e-15);
+    }
+
+    /// Lit and dark lanes, a whole and a broken exponent, and a light from behind.
+    #[test]
+    fn lanes_are_those_of_one() {
+        let level = Level::new();
+        let [mut a, mut b, mut c] = [1, 2, 3].map(numbers);
+        for shininess in [Exponent::Whole(10), Exponent::Other(10.25)].into_iter().cycle().take(1000) {
+            let (n, mut v, color) = (units(&mut a), units(&mut b), column(&mut c));
+            let phong = Phong { ambient: 0.3, diffuse: 0.6, specular: 0.25, shininess, light: -v[3] };
+            v[0] = n[0];
+            let [got, half]: [[f64; LANES]; 2] = dispatch!(level, simd => {
+                let half = phong.half_vector(side_by_side(simd, v));
+                let color: f64x8<_> = color.simd_into(simd);
+                [phong.shade([color; 3], side_by_side(simd, n), half)[0].into(), half.x.into()]
+            });
+            same(half, |lane| phong.half_vector(v[lane]).x);
+            same(got, |lane| phong.shade([color[lane]; 3], n[lane], phong.half_vector(v[lane]))[0]);
+        }
     }
 }

@@ -143,6 +143,50 @@ fn turned<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high), ac_high.zip_high(bd_high)]
 }
 
+/// What tests compare lanes with numbers by.
+#[cfg(test)]
+pub(crate) mod testing {
+    use super::*;
+    use crate::number::Vec3;
+
+    /// Numbers in [0, 1), a sequence for each seed, with the ends among them.
+    pub(crate) fn numbers(seed: u64) -> impl Iterator<Item = f64> {
+        (0u64..).map(move |i| match i % 11 {
+            0 if i % 3 == 0 => 0.0,
+            5 if i % 2 == 0 => 1.0,
+            _ => {
+                (i * 2 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15 ^ seed.wrapping_mul(0xff51_afd7_ed55_8ccd)) as f64
+                    / 2f64.powi(64)
+            }
+        })
+    }
+
+    pub(crate) fn column(numbers: &mut impl Iterator<Item = f64>) -> [f64; LANES] {
+        std::array::from_fn(|_| numbers.next().unwrap())
+    }
+
+    /// Unit vectors, one a lane.
+    pub(crate) fn units(numbers: &mut impl Iterator<Item = f64>) -> [Vec3<f64>; LANES] {
+        let mut next = || numbers.next().unwrap() - 0.4;
+        std::array::from_fn(|_| {
+            let v = Vec3::new(next(), next(), next());
+            v * (1.0 / v.length())
+        })
+    }
+
+    /// Vectors side by side.
+    pub(crate) fn side_by_side<S: Simd>(simd: S, v: [Vec3<f64>; LANES]) -> Vec3<f64x8<S>> {
+        Vec3::new(v.map(|v| v.x).simd_into(simd), v.map(|v| v.y).simd_into(simd), v.map(|v| v.z).simd_into(simd))
+    }
+
+    /// Compares lanes with the number that each would be alone, bit by bit.
+    pub(crate) fn same(got: [f64; LANES], want: impl Fn(usize) -> f64) {
+        for (lane, got) in got.into_iter().enumerate() {
+            assert_eq!(got.to_bits(), want(lane).to_bits(), "lane {lane}: {got} {}", want(lane));
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

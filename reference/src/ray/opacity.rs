@@ -53,6 +53,7 @@ impl Correction {
 mod tests {
     use super::*;
     use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::same;
     use fearless_simd::prelude::*;
     use fearless_simd::{Level, dispatch, f64x8};
 
@@ -111,14 +112,18 @@ mod tests {
         let by_exponent = (0..4096u64).map(|i| f64::from_bits(one / 4096 * i));
         let near_one = (0..64u64).map(|i| f64::from_bits(one - i));
         let opacities: Vec<f64> = even.chain(by_exponent).chain(near_one).collect();
-        for ratio in [1.0, 0.5, 0.487_3, 2.0, 1e-9, 700.0] {
+        let ratios = [1.0, 0.5, 0.487_3, 2.0, 1e-9, 700.0];
+        // The same in all lanes, then each its own.
+        let together = ratios.map(|ratio| [ratio; LANES]);
+        let apart: [[f64; LANES]; 6] =
+            std::array::from_fn(|turn| std::array::from_fn(|lane| ratios[(turn + lane) % 6]));
+        for ratio in together.into_iter().chain(apart) {
             for opacities in opacities.chunks_exact(LANES) {
                 let alpha: [f64; LANES] = std::array::from_fn(|lane| opacities[lane]);
                 let got: [f64; LANES] = dispatch!(level, simd => {
-                    super::correct::<f64x8<_>>(alpha.simd_into(simd), f64x8::splat(simd, ratio)).into()
+                    super::correct::<f64x8<_>>(alpha.simd_into(simd), ratio.simd_into(simd)).into()
                 });
-                let want = alpha.map(|a| Correction::new(ratio).apply(a));
-                assert_eq!(got.map(f64::to_bits), want.map(f64::to_bits), "{alpha:?} {ratio}");
+                same(got, |lane| correct(alpha[lane], ratio[lane]));
             }
         }
     }

@@ -78,7 +78,11 @@ pub fn push<A: Arithmetic>(nx: A, ny: A, n_dot_v: A, tau: A) -> (A, A) {
 mod tests {
     use super::*;
     use crate::number::Vec3;
+    use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::{column, numbers, same};
     use crate::style_transfer_functions::curvature_along_ray::{self, Turn};
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Level, dispatch, f64x8};
     use proptest::prelude::*;
 
     #[test]
@@ -272,5 +276,33 @@ mod tests {
     fn a_ball_thinner_than_the_thickness_is_contour_throughout() {
         let (width, reach) = Ball { radius: 1.5, delta: 0.01, shift: 0.0 }.ring(T, Kappa::Exact);
         assert!(width > 1.499 && reach > 1.499, "{width}, {reach}");
+    }
+
+    #[test]
+    fn lanes_are_those_of_one() {
+        let level = Level::new();
+        let [mut a, mut b, mut c, mut d] = [1, 2, 3, 4].map(numbers);
+        let contours = [
+            Contour::new(2.0, Kappa::Ray, None),
+            Contour::new(0.7, Kappa::Ray, Some([0.2, 0.6])),
+            Contour::new(0.7, Kappa::Ray, Some([0.5, 0.5])),
+            Contour::new(0.0, Kappa::Ray, None),
+            Contour::new(1.0, Kappa::None { threshold: 0.4 }, Some([0.0, 0.3])),
+        ];
+        for contour in contours.iter().cycle().take(2000) {
+            let (kappa, g, d_v) = (column(&mut a).map(|k| 3.0 * k), column(&mut b), column(&mut c));
+            let (x, y) = (column(&mut d), column(&mut a).map(|y| 0.5 - y));
+            let [tau, px, py]: [[f64; LANES]; 3] = dispatch!(level, simd => {
+                let (kappa, g): (f64x8<_>, f64x8<_>) = (kappa.simd_into(simd), g.simd_into(simd));
+                let tau = contour.tau(kappa, g);
+                let (x, y): (f64x8<_>, f64x8<_>) = (x.simd_into(simd), y.simd_into(simd));
+                let (px, py) = push(x, y, d_v.simd_into(simd), tau);
+                [tau.into(), px.into(), py.into()]
+            });
+            same(tau, |lane| contour.tau(kappa[lane], g[lane]));
+            let one = |lane: usize| push(x[lane], y[lane], d_v[lane], tau[lane]);
+            same(px, |lane| one(lane).0);
+            same(py, |lane| one(lane).1);
+        }
     }
 }

@@ -45,6 +45,10 @@ pub fn kappa<A: Elementary>(turn: Turn, n: Vec3<A>, before: Vec3<A>, known: A::M
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::{numbers, same, side_by_side, units};
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Level, dispatch, f64x8, mask64x8};
     use std::f64::consts::{FRAC_PI_2, PI};
 
     fn unit(x: f64, y: f64, z: f64) -> Vec3<f64> {
@@ -125,5 +129,20 @@ mod tests {
     fn small_angles_keep_their_digits() {
         let (a, b) = (Vec3::new(1.0f64, 0.0, 0.0), Vec3::new(1.0, 1e-12, 0.0));
         assert!((kappa(Turn::OfNormals, a, b, true, 1.0) / 1e-12 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn lanes_are_those_of_one() {
+        let level = Level::new();
+        let [mut a, mut b] = [1, 2].map(numbers);
+        for turn in [Turn::OfNormals, Turn::OfLines].into_iter().cycle().take(2000) {
+            let (n, before) = (units(&mut a), units(&mut b));
+            let got: [f64; LANES] = dispatch!(level, simd => {
+                let known = mask64x8::from_bitmask(simd, 0b0111_1111);
+                let (n, before) = (side_by_side(simd, n), side_by_side(simd, before));
+                kappa(turn, n, before, known, f64x8::splat(simd, 0.3)).into()
+            });
+            same(got, |lane| kappa(turn, n[lane], before[lane], lane < 7, 0.3));
+        }
     }
 }

@@ -145,112 +145,12 @@ fn cell<S: Simd>(x: f64x8<S>, side: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::curvature_along_ray::Turn;
-    use super::super::{Blend, Contour, contour, curvature_along_ray, transparency};
+    use super::super::Blend;
     use super::*;
-    use crate::number::Vec3;
+    use crate::number::lanes::testing::{column, numbers};
     use crate::transfer::Piecewise;
     use drypoint_scene::style::Style;
-    use drypoint_scene::tables::{Kappa, Transparency};
     use fearless_simd::{Level, dispatch};
-
-    /// Numbers in [0, 1), a sequence for each seed, with the ends among them.
-    fn numbers(seed: u64) -> impl Iterator<Item = f64> {
-        (0u64..).map(move |i| match i % 11 {
-            0 if i % 3 == 0 => 0.0,
-            5 if i % 2 == 0 => 1.0,
-            _ => {
-                (i * 2 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15 ^ seed.wrapping_mul(0xff51_afd7_ed55_8ccd)) as f64
-                    / 2f64.powi(64)
-            }
-        })
-    }
-
-    fn column(numbers: &mut impl Iterator<Item = f64>) -> [f64; LANES] {
-        std::array::from_fn(|_| numbers.next().unwrap())
-    }
-
-    fn same(got: [f64; LANES], want: impl Fn(usize) -> f64) {
-        for (lane, got) in got.into_iter().enumerate() {
-            assert_eq!(got.to_bits(), want(lane).to_bits(), "lane {lane}: {got} {}", want(lane));
-        }
-    }
-
-    #[test]
-    fn thresholds_and_pushes_are_those_of_one() {
-        let level = Level::new();
-        let [mut a, mut b, mut c, mut d] = [1, 2, 3, 4].map(numbers);
-        let contours = [
-            Contour::new(2.0, Kappa::Ray, None),
-            Contour::new(0.7, Kappa::Ray, Some([0.2, 0.6])),
-            Contour::new(0.7, Kappa::Ray, Some([0.5, 0.5])),
-            Contour::new(0.0, Kappa::Ray, None),
-            Contour::new(1.0, Kappa::None { threshold: 0.4 }, Some([0.0, 0.3])),
-        ];
-        for contour in contours.iter().cycle().take(2000) {
-            let (kappa, g, d_v) = (column(&mut a).map(|k| 3.0 * k), column(&mut b), column(&mut c));
-            let (x, y) = (column(&mut d), column(&mut a).map(|y| 0.5 - y));
-            let (tau, [px, py]): ([f64; LANES], [[f64; LANES]; 2]) = dispatch!(level, simd => {
-                let (kappa, g): (f64x8<_>, f64x8<_>) = (kappa.simd_into(simd), g.simd_into(simd));
-                let tau = contour.tau(kappa, g);
-                let (x, y): (f64x8<_>, f64x8<_>) = (x.simd_into(simd), y.simd_into(simd));
-                let (px, py) = contour::push(x, y, d_v.simd_into(simd), tau);
-                (tau.into(), [px.into(), py.into()])
-            });
-            same(tau, |lane| contour.tau(kappa[lane], g[lane]));
-            let one = |lane: usize| contour::push(x[lane], y[lane], d_v[lane], tau[lane]);
-            same(px, |lane| one(lane).0);
-            same(py, |lane| one(lane).1);
-        }
-    }
-
-    #[test]
-    fn curvatures_are_those_of_one() {
-        let level = Level::new();
-        let mut all: Vec<_> = (0..6).map(numbers).collect();
-        for turn in [Turn::OfNormals, Turn::OfLines].into_iter().cycle().take(2000) {
-            let mut unit = |i: usize| {
-                let [mut x, mut y, mut z] = [0, 1, 2].map(|a| column(&mut all[i + a]).map(|c| c - 0.4));
-                for lane in 0..LANES {
-                    let scale = 1.0 / Vec3::new(x[lane], y[lane], z[lane]).length();
-                    (x[lane], y[lane], z[lane]) = (x[lane] * scale, y[lane] * scale, z[lane] * scale);
-                }
-                [x, y, z]
-            };
-            let (n, before) = (unit(0), unit(3));
-            let vector = |[x, y, z]: [[f64; LANES]; 3], lane: usize| Vec3::new(x[lane], y[lane], z[lane]);
-            let got: [f64; LANES] = dispatch!(level, simd => {
-                let [n, before] =
-                    [n, before].map(|[x, y, z]| Vec3::new(x.simd_into(simd), y.simd_into(simd), z.simd_into(simd)));
-                let known = mask64x8::from_bitmask(simd, 0b0111_1111);
-                curvature_along_ray::kappa(turn, n, before, known, f64x8::splat(simd, 0.3)).into()
-            });
-            same(got, |lane| curvature_along_ray::kappa(turn, vector(n, lane), vector(before, lane), lane < 7, 0.3));
-        }
-    }
-
-    #[test]
-    fn opacities_are_those_of_one() {
-        let level = Level::new();
-        let ramp = Piecewise::<f64>::new(&[0.0, 1.0], &[0.0, 1.0]).unwrap();
-        let [mut a, mut b, mut c, mut d] = [5, 6, 7, 8].map(numbers);
-        for transparency in [Transparency::Illustrative, Transparency::Plain].into_iter().cycle().take(2000) {
-            let (s, n_dot_v, tau, g) = (column(&mut a), column(&mut b), column(&mut c), column(&mut d));
-            let got: Option<(u64, [f64; LANES])> = dispatch!(level, simd => {
-                ramp.locate_lanes(s.simd_into(simd), mask64x8::from_bitmask(simd, 0b1111_0111)).map(|place| {
-                    let share = transparency::share(
-                        transparency, place.alpha_u, n_dot_v.simd_into(simd), tau.simd_into(simd), g.simd_into(simd),
-                    );
-                    (place.visible, share.into())
-                })
-            });
-            let (visible, got) = got.unwrap();
-            for lane in (0..LANES).filter(|lane| visible >> lane & 1 == 1) {
-                let want = transparency::share(transparency, s[lane], n_dot_v[lane], tau[lane], g[lane]);
-                assert_eq!(got[lane].to_bits(), want.to_bits(), "{} {}", s[lane], got[lane]);
-            }
-        }
-    }
 
     #[test]
     fn lookups_are_those_of_one() {

@@ -26,7 +26,11 @@ pub fn share<A: Elementary>(transparency: Transparency, alpha_u: A, n_dot_v: A, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::{column, numbers, same};
     use Transparency::{Illustrative, Plain};
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Level, dispatch, f64x8};
     use proptest::prelude::*;
 
     fn illustrative(alpha_u: f64, n_dot_v: f64, tau: f64, g: f64) -> f64 {
@@ -75,6 +79,20 @@ mod tests {
             prop_assert!(illustrative(a, n_dot_v, tau, towards(g)) * slack >= here);
             prop_assert!(illustrative(a, towards(n_dot_v.abs()), tau, g) <= here * slack);
             prop_assert_eq!(illustrative(a, -n_dot_v, tau, g), here);
+        }
+    }
+
+    #[test]
+    fn lanes_are_those_of_one() {
+        let level = Level::new();
+        let [mut a, mut b, mut c, mut d] = [5, 6, 7, 8].map(numbers);
+        for transparency in [Illustrative, Plain].into_iter().cycle().take(2000) {
+            let (alpha_u, n_dot_v, tau, g) = (column(&mut a), column(&mut b), column(&mut c), column(&mut d));
+            let got: [f64; LANES] = dispatch!(level, simd => {
+                let (alpha_u, n_dot_v): (f64x8<_>, f64x8<_>) = (alpha_u.simd_into(simd), n_dot_v.simd_into(simd));
+                share(transparency, alpha_u, n_dot_v, tau.simd_into(simd), g.simd_into(simd)).into()
+            });
+            same(got, |lane| share(transparency, alpha_u[lane], n_dot_v[lane], tau[lane], g[lane]));
         }
     }
 }
