@@ -60,18 +60,23 @@ impl<R: Real> Phong<R> {
     #[inline(always)]
     pub fn shade<A: Elementary<Number = R>>(&self, c_u: [A; 3], n: Vec3<A>, half: Vec3<A>) -> [A; 3] {
         let n_l = n.dot(Vec3::constant(n.x, self.light));
-        let [ambient, diffuse, specular] = [self.ambient, self.diffuse, self.specular].map(|k| n_l.constant(k));
+        let ambient = n_l.constant(self.ambient);
         let dark = n_l.at_most(n_l.zero());
         if dark.all() {
-            return c_u.map(|c| c * ambient);
+            return [c_u[0] * ambient, c_u[1] * ambient, c_u[2] * ambient];
         }
         let n_h = n.dot(half).max(n_l.zero());
         let power = match self.shininess {
             Exponent::Whole(s) => n_h.pow_whole(s),
             Exponent::Other(s) => n_h.pow(s),
         };
-        let (lit, highlight) = (ambient + diffuse * n_l, specular * power);
-        c_u.map(|c| A::select(dark, c * ambient, c * lit + highlight))
+        let lit = ambient + n_l.constant(self.diffuse) * n_l;
+        let highlight = n_l.constant(self.specular) * power;
+        let mut rgb = c_u;
+        for c in &mut rgb {
+            *c = A::select(dark, *c * ambient, *c * lit + highlight);
+        }
+        rgb
     }
 }
 

@@ -10,23 +10,20 @@ use drypoint_scene::math::transmittance;
 pub(super) fn correct<A: Double>(alpha: A, ratio: A) -> A {
     let (zero, one, width) = (alpha.zero(), alpha.one(), alpha.width());
     let (clear, opaque) = (alpha.at_most(zero), one.at_most(alpha));
-    let ends = |between| A::select(clear, zero, A::select(opaque, one, between));
-    let whole = ratio.equals(one);
-    if (clear | opaque | whole).all() {
-        return ends(alpha);
-    }
+    let (whole, half) = (ratio.equals(one), ratio.equals(one.half()));
     // The logarithm is not finite where nothing passes.
-    let alpha_below_1 = A::select(opaque, zero, alpha);
-    let half = ratio.equals(one.half());
+    let between = A::select(opaque, zero, alpha);
     let mut corrected = alpha;
-    if !half.all() {
-        let ln = transmittance::ln_one_minus(width, alpha_below_1);
-        corrected = A::select(whole, alpha, transmittance::one_minus_exp(width, ratio * ln));
+    if !(clear | opaque | whole).all() {
+        if !half.all() {
+            let ln = transmittance::ln_one_minus(width, between);
+            corrected = A::select(whole, alpha, transmittance::one_minus_exp(width, ratio * ln));
+        }
+        if half.any() {
+            corrected = A::select(half, transmittance::one_minus_root(width, between), corrected);
+        }
     }
-    if half.any() {
-        corrected = A::select(half, transmittance::one_minus_root(width, alpha_below_1), corrected);
-    }
-    ends(corrected)
+    A::select(clear, zero, A::select(opaque, one, corrected))
 }
 
 /// The correction of one ray.

@@ -29,7 +29,10 @@ impl<R: Real> Contour<R> {
             Some(threshold) => kappa.constant(threshold),
             None => root(kappa.abs() * kappa.constant(self.thickness)),
         };
-        self.fade.map_or(tau, |[lo, hi]| tau * fade(g, lo, hi))
+        match self.fade {
+            Some([lo, hi]) => tau * fade(g, lo, hi),
+            None => tau,
+        }
     }
 }
 

@@ -54,13 +54,21 @@ pub fn angle<W: Width>(width: W, y: W::Number, x: W::Number) -> W::Number {
     let rest = d - d * d2 * ((d2 * -0.2 + 1.0 / 3.0) + d2 * d2 * (1.0 / 7.0));
     let rest = lo + rest;
     // Folded back: over the diagonal, then over the y axis.
-    let fold = |mask, [end, end_lo]: [f64; 2], hi, rest| {
-        let (end, end_lo) = (width.number(end), width.number(end_lo));
-        (width.select(mask, end - hi, hi), width.select(mask, end_lo - rest, rest))
-    };
-    let (hi, rest) = fold(steep, [FRAC_PI_2, FRAC_PI_2_LO], hi, rest);
-    let (hi, rest) = fold(behind, [PI, 2.0 * FRAC_PI_2_LO], hi, rest);
+    let (hi, rest) = folded(width, steep, [FRAC_PI_2, FRAC_PI_2_LO], [hi, rest]);
+    let (hi, rest) = folded(width, behind, [PI, 2.0 * FRAC_PI_2_LO], [hi, rest]);
     hi + rest
+}
+
+/// The angle from the other end of a quadrant or of a half turn, where the mask is true. Both are in two parts.
+#[inline(always)]
+fn folded<W: Width>(
+    width: W,
+    mask: W::Mask,
+    [end, end_lo]: [f64; 2],
+    [hi, lo]: [W::Number; 2],
+) -> (W::Number, W::Number) {
+    let (end, end_lo) = (width.number(end), width.number(end_lo));
+    (width.select(mask, end - hi, hi), width.select(mask, end_lo - lo, lo))
 }
 
 #[cfg(test)]
