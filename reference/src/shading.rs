@@ -1,17 +1,17 @@
 //! Blinn–Phong shading of a regular transfer function ([STF-11]).
 
-use crate::number::{Real, Vec3};
+use crate::number::{Arithmetic, Elementary, Mask, Real, Vec3};
 use drypoint_scene::shot::PhongParams;
 
 /// Material and light; the vectors are in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Phong<R> {
-    pub(crate) ambient: R,
-    pub(crate) diffuse: R,
-    pub(crate) specular: R,
-    pub(crate) shininess: Exponent<R>,
+    ambient: R,
+    diffuse: R,
+    specular: R,
+    shininess: Exponent<R>,
     /// L: the unit vector towards the light.
-    pub(crate) light: Vec3<R>,
+    light: Vec3<R>,
 }
 
 /// s, with whole numbers up to 64 told apart once and not at every sample ([PREC-4]).
@@ -36,34 +36,46 @@ impl<R: Real> Phong<R> {
     }
 
     /// Ĥ = (L + v)/‖L + v‖, 0 where L = −v. Both are constant along a ray.
-    pub fn half_vector(&self, v: Vec3<R>) -> Vec3<R> {
-        let half = self.light + v;
-        let length = half.length();
-        if length > R::ZERO { half * (R::ONE / length) } else { Vec3::zero() }
+    #[inline(always)]
+    pub fn half_vector<A: Arithmetic<Number = R>>(&self, v: Vec3<A>) -> Vec3<A> {
+        let half = Vec3::constant(v.x, self.light) + v;
+        let (length, zero) = (half.length(), v.x.zero());
+        Vec3::select(zero.below(length), half * (length.one() / length), Vec3::new(zero, zero, zero))
     }
 
     /// c = c_u·(k_a + k_d·max(0, N·L)) + k_s·max(0, N·Ĥ)^s, the specular term 0 where N·L ≤ 0; white light, straight
     /// colours, no clamp.
-    #[inline]
-    pub fn shade(&self, c_u: [R; 3], n: Vec3<R>, half: Vec3<R>) -> [R; 3] {
-        let n_l = n.dot(self.light);
-        if n_l <= R::ZERO {
-            return c_u.map(|c| c * self.ambient);
+    #[inline(always)]
+    pub fn shade<A: Elementary<Number = R>>(&self, c_u: [A; 3], n: Vec3<A>, half: Vec3<A>) -> [A; 3] {
+        let n_l = n.dot(Vec3::constant(n.x, self.light));
+        let ambient = n_l.constant(self.ambient);
+        let dark = n_l.at_most(n_l.zero());
+        if dark.all() {
+            return [c_u[0] * ambient, c_u[1] * ambient, c_u[2] * ambient];
         }
-        let n_h = n.dot(half).max(R::ZERO);
+        let n_h = n.dot(half).max(n_l.zero());
         let power = match self.shininess {
-            Exponent::Whole(s) => n_h.pow_whole(R::ONE, s),
+            Exponent::Whole(s) => n_h.pow_whole(s),
             Exponent::Other(s) => n_h.pow(s),
         };
-        let (diffuse, specular) = (self.ambient + self.diffuse * n_l, self.specular * power);
-        c_u.map(|c| c * diffuse + specular)
+        let lit = ambient + n_l.constant(self.diffuse) * n_l;
+        let highlight = n_l.constant(self.specular) * power;
+        let mut rgb = c_u;
+        for c in &mut rgb {
+            *c = A::select(dark, *c * ambient, *c * lit + highlight);
+        }
+        rgb
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::{column, numbers, same, side_by_side, units};
     use drypoint_scene::glam::DVec3;
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Level, dispatch, f64x8};
 
     fn shade(light: DVec3, c_u: f64, n: Vec3<f64>) -> f64 {
         let phong = Phong {
@@ -93,5 +105,24 @@ mod tests {
         assert_eq!(shade(DVec3::Z, 1.0, -z), 0.3);
         // L = −v: N·L > 0 only for normals facing away; Ĥ = 0 there.
         assert!((shade(-DVec3::Z, 1.0, -z) - 0.9).abs() < 1e-15);
+    }
+
+    /// Lit and dark lanes, a whole and a broken exponent, and a light from behind.
+    #[test]
+    fn lanes_are_those_of_one() {
+        let level = Level::new();
+        let [mut a, mut b, mut c] = [1, 2, 3].map(numbers);
+        for shininess in [Exponent::Whole(10), Exponent::Other(10.25)].into_iter().cycle().take(1000) {
+            let (n, mut v, color) = (units(&mut a), units(&mut b), column(&mut c));
+            let phong = Phong { ambient: 0.3, diffuse: 0.6, specular: 0.25, shininess, light: -v[3] };
+            v[0] = n[0];
+            let [got, half]: [[f64; LANES]; 2] = dispatch!(level, simd => {
+                let half = phong.half_vector(side_by_side(simd, v));
+                let color: f64x8<_> = color.simd_into(simd);
+                [phong.shade([color; 3], side_by_side(simd, n), half)[0].into(), half.x.into()]
+            });
+            same(half, |lane| phong.half_vector(v[lane]).x);
+            same(got, |lane| phong.shade([color[lane]; 3], n[lane], phong.half_vector(v[lane]))[0]);
+        }
     }
 }

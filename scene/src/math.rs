@@ -2,16 +2,49 @@
 //!
 //! All are those of the pure-Rust `libm` or our own over `+ − × ÷`, so that the same scene gives the same bits on every
 //! IEEE 754 machine. `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
+//!
+//! The series of our own are written once, over a [`Width`]: for one number, and for the vector registers of another crate.
+
+use std::ops::Mul;
 
 pub mod angle;
 mod double;
 pub mod power;
 pub mod transmittance;
+mod width;
 
-pub use angle::angle;
 pub use double::compare_products;
-pub use power::power;
-pub use transmittance::{ln_one_minus, one_minus_exp, one_minus_root};
+pub use width::{One, Width};
+
+/// [`angle::angle`] of one point.
+#[inline]
+pub fn angle(y: f64, x: f64) -> f64 {
+    angle::angle(One, y, x)
+}
+
+/// x^y for 0 < x ≤ 1 and 0 ≤ y ≤ 1.5 and a little, to less than an ulp: [`power::power`], and [`pow`] where x is tiny.
+#[inline]
+pub fn power(x: f64, y: f64) -> f64 {
+    if x < power::LEAST { pow(x, y) } else { power::power(One, x, y) }
+}
+
+/// [`transmittance::ln_one_minus`] of one number.
+#[inline]
+pub fn ln_one_minus(alpha: f64) -> f64 {
+    transmittance::ln_one_minus(One, alpha)
+}
+
+/// [`transmittance::one_minus_exp`] of one number.
+#[inline]
+pub fn one_minus_exp(y: f64) -> f64 {
+    transmittance::one_minus_exp(One, y)
+}
+
+/// [`transmittance::one_minus_root`] of one number.
+#[inline]
+pub fn one_minus_root(alpha: f64) -> f64 {
+    transmittance::one_minus_root(One, alpha)
+}
 
 /// e^x.
 pub fn exp(x: f64) -> f64 {
@@ -41,7 +74,7 @@ pub fn log2(x: f64) -> f64 {
 /// x^y. A whole exponent up to 64 in magnitude is repeated squaring in a fixed order ([PREC-4]).
 pub fn pow(x: f64, y: f64) -> f64 {
     if y == (y as i32) as f64 && y.abs() <= 64.0 {
-        let p = pow_whole(x, y.abs() as u32);
+        let p = pow_whole(x, 1.0, y.abs() as u32);
         if y < 0.0 { 1.0 / p } else { p }
     } else {
         libm::pow(x, y)
@@ -53,14 +86,15 @@ pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
 
-/// x^n by repeated squaring, lowest bit first.
-pub fn pow_whole(x: f64, mut n: u32) -> f64 {
-    let (mut result, mut square) = (1.0, x);
+/// x^n from `one`, by repeated squaring, lowest bit first ([PREC-4]).
+#[inline(always)]
+pub fn pow_whole<T: Copy + Mul<Output = T>>(x: T, one: T, mut n: u32) -> T {
+    let (mut result, mut square) = (one, x);
     while n > 0 {
         if n & 1 == 1 {
-            result *= square;
+            result = result * square;
         }
-        square *= square;
+        square = square * square;
         n >>= 1;
     }
     result
@@ -109,15 +143,8 @@ pub fn exponent(x: f64) -> i32 {
 /// x^y in f32; whole exponents as [`pow`].
 pub fn pow_f32(x: f32, y: f32) -> f32 {
     if y == (y as i32) as f32 && y.abs() <= 64.0 {
-        let (mut result, mut square, mut n) = (1.0, x, y.abs() as u32);
-        while n > 0 {
-            if n & 1 == 1 {
-                result *= square;
-            }
-            square *= square;
-            n >>= 1;
-        }
-        if y < 0.0 { 1.0 / result } else { result }
+        let p = pow_whole(x, 1.0, y.abs() as u32);
+        if y < 0.0 { 1.0 / p } else { p }
     } else {
         libm::powf(x, y)
     }

@@ -7,9 +7,8 @@
 //! there is no surface, and the caller does not ask.
 
 use super::Outside;
-use crate::number::{Arithmetic, Real, Sym3, Vec3};
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use super::normal::outwards;
+use crate::number::{Arithmetic, Mask, Real, Sym3, Vec3};
 
 /// Principal curvatures, in 1/(world unit), and their directions, orthonormal in the tangent plane; each direction is a
 /// line, its sign means nothing.
@@ -46,49 +45,44 @@ struct Shape<R> {
     scale: R,
 }
 
-impl<R: Arithmetic> Shape<R> {
+impl<A: Arithmetic> Shape<A> {
     #[inline(always)]
-    fn new(one: R, gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside) -> Self {
-        let inverse = one / gradient.length();
-        let scale = match outside {
-            Outside::Low => -inverse,
-            Outside::High => inverse,
-        };
+    fn new(gradient: Vec3<A>, hessian: Sym3<A>, outside: Outside) -> Self {
+        let scale = outwards(gradient.length(), outside);
         Self { n: gradient * scale, hessian, scale }
     }
 
     /// aᵀ G b of tangent vectors.
     #[inline(always)]
-    fn form(&self, a: Vec3<R>, b: Vec3<R>) -> R {
+    fn form(&self, a: Vec3<A>, b: Vec3<A>) -> A {
         self.scale * self.hessian.form(a, b)
     }
 
     /// tᵀ G t in the direction t = Pv/‖Pv‖, and ‖Pv‖.
     #[inline(always)]
-    fn along(&self, one: R, v: Vec3<R>) -> (R, R) {
+    fn along(&self, v: Vec3<A>) -> (A, A) {
         // n × (v × n) is Pv without the cancellation of v − n(n·v).
         let across = v.cross(self.n);
         let length = across.length();
-        let t = self.n.cross(across) * (one / length);
+        let t = self.n.cross(across) * (length.one() / length);
         (self.form(t, t), length)
     }
-}
 
-impl<R: Real> Shape<R> {
     /// An orthonormal tangent frame, t × u = n, without a square root (Duff et al., *Building an Orthonormal Basis,
     /// Revisited*, JCGT 6(1), 2017).
     #[inline(always)]
-    fn frame(&self) -> [Vec3<R>; 2] {
+    fn frame(&self) -> [Vec3<A>; 2] {
         let Vec3 { x, y, z } = self.n;
-        let sign = if z < R::ZERO { -R::ONE } else { R::ONE };
-        let a = -R::ONE / (sign + z);
+        let one = z.one();
+        let sign = A::select(z.below(z.zero()), -one, one);
+        let a = -one / (sign + z);
         let b = x * y * a;
-        [Vec3::new(R::ONE + sign * x * x * a, sign * b, -(sign * x)), Vec3::new(b, sign + y * y * a, -y)]
+        [Vec3::new(one + sign * x * x * a, sign * b, -(sign * x)), Vec3::new(b, sign + y * y * a, -y)]
     }
 
     /// The 2×2 block (a, b; b, c) of G in a frame.
     #[inline(always)]
-    fn block(&self, [t, u]: [Vec3<R>; 2]) -> [R; 3] {
+    fn block(&self, [t, u]: [Vec3<A>; 2]) -> [A; 3] {
         [self.form(t, t), self.form(t, u), self.form(u, u)]
     }
 }
@@ -99,7 +93,7 @@ impl<R: Real> Shape<R> {
 /// difference of the two keeps them. At an exact umbilic the directions are some frame.
 #[inline]
 pub fn principal<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside) -> Curvature<R> {
-    let shape = Shape::new(R::ONE, gradient, hessian, outside);
+    let shape = Shape::new(gradient, hessian, outside);
     let [t, u] = shape.frame();
     let [a, b, c] = shape.block([t, u]);
     let (m, h) = ((a + c) * R::HALF, (a - c) * R::HALF);
@@ -113,47 +107,24 @@ pub fn principal<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside)
 
 /// κ_v, the normal curvature in the direction of the unit vector v projected to the tangent plane: tᵀ G t, t = Pv/‖Pv‖;
 /// the mean curvature where the projection is lost to rounding, ‖Pv‖ ≤ 2⁻²⁶ ([CUR-2]).
-#[inline]
-pub fn along_view<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, v: Vec3<R>, outside: Outside) -> R {
-    let shape = Shape::new(R::ONE, gradient, hessian, outside);
-    let (kappa, length) = shape.along(R::ONE, v);
-    if length <= R::NO_DIRECTION {
-        let [a, _, c] = shape.block(shape.frame());
-        return (a + c) * R::HALF;
-    }
-    kappa
-}
-
-/// [`along_view`] in lanes; 0 in those that have no direction to look along, whose gradient is at most `no_normal_below`.
 #[inline(always)]
-pub(crate) fn along_view_lanes<S: Simd>(
-    g: Vec3<f64x8<S>>,
-    h: Sym3<f64x8<S>>,
-    v: Vec3<f64x8<S>>,
-    outside: Outside,
-    no_normal_below: f64,
-) -> f64x8<S> {
-    let simd = g.x.simd;
-    let has = g.length().simd_gt(no_normal_below);
-    let one = f64x8::splat(simd, 1.0);
-    let (kappa, length) = Shape::new(one, g, h, outside).along(one, v);
-    let mut kappa = has.select(kappa, f64x8::splat(simd, 0.0));
-    let mut along_normal = (has & length.simd_le(f64::NO_DIRECTION)).to_bitmask();
-    while along_normal != 0 {
-        let lane = along_normal.trailing_zeros() as usize;
-        along_normal &= along_normal - 1;
-        let vector = |a: Vec3<f64x8<S>>| Vec3::new(a.x[lane], a.y[lane], a.z[lane]);
-        let Sym3 { xx, xy, xz, yy, yz, zz } = h;
-        let h = Sym3 { xx: xx[lane], xy: xy[lane], xz: xz[lane], yy: yy[lane], yz: yz[lane], zz: zz[lane] };
-        kappa[lane] = along_view(vector(g), h, vector(v), outside);
+pub fn along_view<A: Arithmetic>(gradient: Vec3<A>, hessian: Sym3<A>, v: Vec3<A>, outside: Outside) -> A {
+    let shape = Shape::new(gradient, hessian, outside);
+    let (kappa, length) = shape.along(v);
+    let lost = length.at_most(length.constant(A::Number::NO_DIRECTION));
+    if !lost.any() {
+        return kappa;
     }
-    kappa
+    let [a, _, c] = shape.block(shape.frame());
+    A::select(lost, (a + c).half(), kappa)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::number::lanes::{LANES, wide};
+    use fearless_simd::f64x8;
+    use fearless_simd::prelude::*;
     use nalgebra::{Matrix3, SymmetricEigen, Vector3};
     use proptest::prelude::*;
 
@@ -239,7 +210,7 @@ mod tests {
         }
     }
 
-    /// Along the normal and past it, in every direction between, and 0 where there is no normal.
+    /// Along the normal and past it, in every direction between, whatever the other lanes are.
     #[test]
     fn lanes_have_the_bits_of_one() {
         let Some(simd) = wide() else { return };
@@ -260,10 +231,9 @@ mod tests {
             let (gradients, views): ([[f64; 3]; LANES], [[f64; 3]; LANES]) = (turned(gradients), turned(views));
             for outside in [Outside::Low, Outside::High] {
                 let all = Sym3 { xx, xy, xz, yy, yz, zz };
-                let got = along_view_lanes(columns(&gradients), all, columns(&views), outside, bound);
-                for lane in 0..LANES {
-                    let (g, v) = (vector(gradients[lane]), vector(views[lane]));
-                    let want = if g.length() > bound { along_view(g, sym(h), v, outside) } else { 0.0 };
+                let got = along_view(columns(&gradients), all, columns(&views), outside);
+                for lane in (0..LANES).filter(|&lane| vector(gradients[lane]).length() > bound) {
+                    let want = along_view(vector(gradients[lane]), sym(h), vector(views[lane]), outside);
                     assert_eq!(got[lane].to_bits(), want.to_bits(), "{:?} {:?} {want}", gradients[lane], views[lane]);
                 }
             }

@@ -1,32 +1,91 @@
-//! What one number and eight of them side by side have in common.
+//! What one number and several side by side have in common.
 
+use super::Real;
+use super::lanes::{self, Eight};
+use drypoint_scene::math::{self, One, Width};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4, f64x8};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use fearless_simd::{Simd, f64x4, f64x8, mask64x4, mask64x8};
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// A number, or a lane of numbers for each of which the same is computed. Formulas over it take the same steps in both, and
-/// so give the same bits.
+/// A truth value, or one for each lane.
+pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// Whether it is true in some lane. Where it is in none, both widths can leave out what is dear.
+    fn any(self) -> bool;
+
+    /// Whether it is true in all lanes.
+    fn all(self) -> bool;
+}
+
+/// A number, or a lane of numbers for each of which the same is computed.
+///
+/// A formula over it is written once. It takes the same steps at both widths, and so gives the same bits: where it branches,
+/// both sides are computed and [`select`](Self::select) takes one.
 pub trait Arithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
+    /// The number in a lane.
+    type Number: Real;
+    /// What a comparison gives.
+    type Mask: Mask;
+
+    /// x in as many lanes as `self` has.
+    fn constant(self, x: Self::Number) -> Self;
+
     /// x/2.
     fn half(self) -> Self;
 
     /// √x.
     fn sqrt(self) -> Self;
 
-    /// x^n from 1, by repeated squaring, lowest bit first ([PREC-4]).
+    /// |x|.
+    fn abs(self) -> Self;
+
+    /// self < other.
+    fn below(self, other: Self) -> Self::Mask;
+
+    /// self ≤ other.
+    fn at_most(self, other: Self) -> Self::Mask;
+
+    /// self = other.
+    fn equals(self, other: Self) -> Self::Mask;
+
+    /// a where the mask is true, else b.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// 0 in as many lanes.
     #[inline(always)]
-    fn pow_whole(self, one: Self, mut n: u32) -> Self {
-        let (mut result, mut square) = (one, self);
-        while n > 0 {
-            if n & 1 == 1 {
-                result = result * square;
-            }
-            square = square * square;
-            n >>= 1;
-        }
-        result
+    fn zero(self) -> Self {
+        self.constant(Self::Number::ZERO)
+    }
+
+    /// 1 in as many lanes.
+    #[inline(always)]
+    fn one(self) -> Self {
+        self.constant(Self::Number::ONE)
+    }
+
+    /// The smaller one; `self` where neither is.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(other.below(self), other, self)
+    }
+
+    /// The larger one; `self` where neither is.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(self.below(other), other, self)
+    }
+
+    /// Clamped to [0, 1].
+    #[inline(always)]
+    fn clamp_01(self) -> Self {
+        self.max(self.zero()).min(self.one())
+    }
+
+    /// x^n by repeated squaring, lowest bit first ([PREC-4]).
+    #[inline(always)]
+    fn pow_whole(self, n: u32) -> Self {
+        math::pow_whole(self, self.one(), n)
     }
 
     /// a + w(b − a), which returns a constant exactly ([REC-1]).
@@ -36,50 +95,221 @@ pub trait Arithmetic:
     }
 }
 
-impl Arithmetic for f64 {
+/// Numbers with the transcendental functions that samples need. All come from [`drypoint_scene::math`] ([PREC-4]).
+pub trait Elementary: Arithmetic {
+    /// The angle of (x, self), self ≥ 0, from the x axis.
+    fn angle(self, x: Self) -> Self;
+
+    /// x^y of opacities x in (0, 1], for y about 1, in the lanes `asked`; whatever in the others.
+    fn power(self, y: Self, asked: Self::Mask) -> Self;
+
+    /// x^y; whole y up to 64 by repeated squaring.
+    fn pow(self, y: Self::Number) -> Self;
+}
+
+/// Numbers in f64, of which the series of [`drypoint_scene::math`] are.
+pub(crate) trait Double: Arithmetic<Number = f64> {
+    /// Their width.
+    type Width: Width<Number = Self>;
+
+    /// The width of `self`.
+    fn width(self) -> Self::Width;
+}
+
+impl Mask for bool {
     #[inline(always)]
-    fn half(self) -> Self {
-        self * 0.5
+    fn any(self) -> bool {
+        self
     }
 
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
+    fn all(self) -> bool {
+        self
     }
 }
 
-impl Arithmetic for f32 {
-    #[inline(always)]
-    fn half(self) -> Self {
-        self * 0.5
-    }
+macro_rules! number {
+    ($number:ident) => {
+        impl Arithmetic for $number {
+            type Number = Self;
+            type Mask = bool;
+
+            #[inline(always)]
+            fn constant(self, x: Self) -> Self {
+                x
+            }
+
+            #[inline(always)]
+            fn half(self) -> Self {
+                self * 0.5
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.sqrt()
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.abs()
+            }
+
+            #[inline(always)]
+            fn below(self, other: Self) -> bool {
+                self < other
+            }
+
+            #[inline(always)]
+            fn at_most(self, other: Self) -> bool {
+                self <= other
+            }
+
+            #[inline(always)]
+            fn equals(self, other: Self) -> bool {
+                self == other
+            }
+
+            #[inline(always)]
+            fn select(mask: bool, a: Self, b: Self) -> Self {
+                if mask { a } else { b }
+            }
+        }
+    };
+}
+
+number!(f64);
+number!(f32);
+
+macro_rules! lanes {
+    ($lanes:ident, $mask:ident) => {
+        impl<S: Simd> Mask for $mask<S> {
+            #[inline(always)]
+            fn any(self) -> bool {
+                self.any_true()
+            }
+
+            #[inline(always)]
+            fn all(self) -> bool {
+                self.all_true()
+            }
+        }
+
+        impl<S: Simd> Arithmetic for $lanes<S> {
+            type Number = f64;
+            type Mask = $mask<S>;
+
+            #[inline(always)]
+            fn constant(self, x: f64) -> Self {
+                <Self as SimdBase<S>>::splat(self.simd, x)
+            }
+
+            #[inline(always)]
+            fn half(self) -> Self {
+                self * 0.5
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                SimdFloat::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                SimdBase::abs(self)
+            }
+
+            #[inline(always)]
+            fn below(self, other: Self) -> $mask<S> {
+                self.simd_lt(other)
+            }
+
+            #[inline(always)]
+            fn at_most(self, other: Self) -> $mask<S> {
+                self.simd_le(other)
+            }
+
+            #[inline(always)]
+            fn equals(self, other: Self) -> $mask<S> {
+                self.simd_eq(other)
+            }
+
+            #[inline(always)]
+            fn select(mask: $mask<S>, a: Self, b: Self) -> Self {
+                Select::select(mask, a, b)
+            }
+        }
+    };
+}
+
+lanes!(f64x4, mask64x4);
+lanes!(f64x8, mask64x8);
+
+impl Double for f64 {
+    type Width = One;
 
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
+    fn width(self) -> One {
+        One
     }
 }
 
-impl<S: Simd> Arithmetic for f64x4<S> {
-    #[inline(always)]
-    fn half(self) -> Self {
-        self * 0.5
-    }
+impl<S: Simd> Double for f64x8<S> {
+    type Width = Eight<S>;
 
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        SimdFloat::sqrt(self)
+    fn width(self) -> Eight<S> {
+        Eight(self.simd)
     }
 }
 
-impl<S: Simd> Arithmetic for f64x8<S> {
+impl Elementary for f64 {
+    #[inline]
+    fn angle(self, x: Self) -> Self {
+        math::angle(self, x)
+    }
+
+    #[inline]
+    fn power(self, y: Self, _: bool) -> Self {
+        math::power(self, y)
+    }
+
+    #[inline]
+    fn pow(self, y: Self) -> Self {
+        math::pow(self, y)
+    }
+}
+
+impl Elementary for f32 {
+    #[inline]
+    fn angle(self, x: Self) -> Self {
+        math::atan2_f32(self, x)
+    }
+
+    #[inline]
+    fn power(self, y: Self, _: bool) -> Self {
+        math::pow_f32(self, y)
+    }
+
+    #[inline]
+    fn pow(self, y: Self) -> Self {
+        math::pow_f32(self, y)
+    }
+}
+
+impl<S: Simd> Elementary for f64x8<S> {
     #[inline(always)]
-    fn half(self) -> Self {
-        self * 0.5
+    fn angle(self, x: Self) -> Self {
+        math::angle::angle(self.width(), self, x)
     }
 
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        SimdFloat::sqrt(self)
+    fn power(self, y: Self, asked: mask64x8<S>) -> Self {
+        lanes::power(self, y, asked.to_bitmask())
+    }
+
+    /// Lane by lane: shininess is rarely a fraction.
+    #[inline(always)]
+    fn pow(self, y: f64) -> Self {
+        f64x8::from_fn(self.simd, |lane| math::pow(self[lane], y))
     }
 }

@@ -1,13 +1,8 @@
-//! Functions of [`drypoint_scene::math`] of eight numbers side by side: the same steps, so the same bits ([PREC-4]).
+//! Eight numbers side by side: the width of the vector registers.
 
-use super::Vec3;
-use drypoint_scene::math;
-use drypoint_scene::math::angle::{ANGLES, FRAC_PI_2_LO, STEPS as ANGLE_STEPS};
-use drypoint_scene::math::power::{LEAST, TO_12_BITS, TO_28_BITS};
-use drypoint_scene::math::transmittance::{LN_2_HI, LN_2_LO, LOGARITHMS, POWERS, STEPS, STEPS_BITS, TO_WHOLE};
+use drypoint_scene::math::{self, Width};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4, f64x8};
-use std::f64::consts::{FRAC_PI_2, PI};
+use fearless_simd::{Simd, f64x4, f64x8, mask64x8, u64x8};
 
 /// Numbers side by side.
 pub(crate) const LANES: usize = 8;
@@ -41,37 +36,78 @@ pub(crate) fn widely<T>(compute: impl FnOnce() -> T) -> T {
     }
 }
 
-const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+/// The width of eight numbers, for the series of [`math`].
+#[derive(Clone, Copy)]
+pub(crate) struct Eight<S>(pub(crate) S);
 
-/// The rows of a table, turned into lanes; a row beyond the last is the last.
-#[inline(always)]
-pub(crate) fn look_up<S: Simd, const N: usize, const ROWS: usize>(
-    simd: S,
-    table: &[[f64; N]; ROWS],
-    rows: [u64; LANES],
-) -> [f64x8<S>; N] {
-    let mut columns = [[0.0; LANES]; N];
-    for lane in 0..LANES {
-        let row = &table[(rows[lane] as usize).min(ROWS - 1)];
-        for i in 0..N {
-            columns[i][lane] = row[i];
+impl<S: Simd> Width for Eight<S> {
+    type Number = f64x8<S>;
+    type Bits = u64x8<S>;
+    type Mask = mask64x8<S>;
+
+    #[inline(always)]
+    fn number(self, x: f64) -> f64x8<S> {
+        f64x8::splat(self.0, x)
+    }
+
+    #[inline(always)]
+    fn sqrt(self, x: f64x8<S>) -> f64x8<S> {
+        SimdFloat::sqrt(x)
+    }
+
+    #[inline(always)]
+    fn below(self, a: f64x8<S>, b: f64x8<S>) -> mask64x8<S> {
+        a.simd_lt(b)
+    }
+
+    #[inline(always)]
+    fn select(self, mask: mask64x8<S>, a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
+        mask.select(a, b)
+    }
+
+    #[inline(always)]
+    fn to_bits(self, x: f64x8<S>) -> u64x8<S> {
+        x.to_bits()
+    }
+
+    #[inline(always)]
+    fn from_bits(self, bits: u64x8<S>) -> f64x8<S> {
+        f64x8::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn scaled(self, x: f64x8<S>, exponent: u64x8<S>) -> f64x8<S> {
+        f64x8::from_bits(x.to_bits() + exponent)
+    }
+
+    /// The rows of a table, turned into lanes.
+    #[inline(always)]
+    fn look_up<const N: usize, const ROWS: usize>(self, table: &[[f64; N]; ROWS], row: u64x8<S>) -> [f64x8<S>; N] {
+        let rows: [u64; LANES] = row.into();
+        let mut columns = [[0.0; LANES]; N];
+        for lane in 0..LANES {
+            let row = &table[(rows[lane] as usize).min(ROWS - 1)];
+            for i in 0..N {
+                columns[i][lane] = row[i];
+            }
         }
+        let mut lanes = [f64x8::splat(self.0, 0.0); N];
+        for i in 0..N {
+            lanes[i] = columns[i].simd_into(self.0);
+        }
+        lanes
     }
-    let mut lanes = [f64x8::splat(simd, 0.0); N];
-    for i in 0..N {
-        lanes[i] = columns[i].simd_into(simd);
-    }
-    lanes
 }
 
-/// [`math::power`] of the lanes `asked`; whatever in the others.
+/// [`math::power`] of the lanes `asked`; whatever in the others. Tiny numbers, and one or two by themselves, are taken lane
+/// by lane.
 #[inline(always)]
-pub(crate) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
-    let tiny = asked & x.simd_lt(LEAST).to_bitmask();
+pub(super) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
+    let tiny = asked & x.simd_lt(math::power::LEAST).to_bitmask();
     let mut result = x;
     let mut alone = tiny;
     if (asked & !tiny).count_ones() > 2 {
-        result = power_in_reach(x, y);
+        result = math::power::power(Eight(x.simd), x, y);
     } else {
         alone = asked;
     }
@@ -81,73 +117,6 @@ pub(crate) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
         result[lane] = math::power(x[lane], y[lane]);
     }
     result
-}
-
-#[inline(always)]
-fn power_in_reach<S: Simd>(x: f64x8<S>, y: f64x8<S>) -> f64x8<S> {
-    let simd = x.simd;
-    let nearest = x.to_bits() + (1u64 << (MANTISSA_BITS - STEPS_BITS - 1));
-    let step = (nearest >> (MANTISSA_BITS - STEPS_BITS)) & (STEPS as u64 - 1);
-    // The exponent with its bias of 1023.
-    let exponent = nearest >> MANTISSA_BITS;
-    let whole = (1u64 << MANTISSA_BITS) as f64;
-    let n = f64x8::from_bits(exponent | whole.to_bits()) - (whole + 1023.0);
-    let scale = f64x8::from_bits(((exponent ^ 2047) - 1) << MANTISSA_BITS);
-    let c = f64x8::from_bits((step << (MANTISSA_BITS - STEPS_BITS)) | 1f64.to_bits());
-    let d = x * scale - c;
-    let [inverse, ln_hi, ln_lo] = look_up(simd, &LOGARITHMS, step.into());
-    let r = d * inverse;
-    let r2 = r * r;
-    let series = (r * (1.0 / 3.0) + -0.5) + r2 * ((r * 0.2 + -0.25) + r2 * (r * (1.0 / 7.0) + -1.0 / 6.0));
-    let h = n * LN_2_HI + ln_hi;
-    let l = r + ((n * LN_2_LO + ln_lo) + r2 * series);
-    let h1 = (h + TO_28_BITS) - TO_28_BITS;
-    let y1 = (y + TO_12_BITS) - TO_12_BITS;
-    let z = y1 * h1;
-    let tail = (y - y1) * h1 + y * ((h - h1) + l);
-    let whole = (z + tail) * (STEPS as f64 * std::f64::consts::LOG2_E) + TO_WHOLE;
-    let k = whole - TO_WHOLE;
-    let r = (z - k * (LN_2_HI / STEPS as f64)) + (tail - k * (LN_2_LO / STEPS as f64));
-    let r2 = r * r;
-    let series = (r * (1.0 / 6.0) + 0.5) + r2 * ((r * (1.0 / 120.0) + 1.0 / 24.0) + r2 * (1.0 / 720.0));
-    let grown = r + r2 * series;
-    let k = whole.to_bits();
-    let exponent = (k >> STEPS_BITS) << MANTISSA_BITS;
-    let [hi, lo] = look_up(simd, &POWERS, (k & (STEPS as u64 - 1)).into());
-    let scale = f64x8::from_bits(exponent + 1f64.to_bits());
-    (hi + (hi * grown + lo)) * scale
-}
-
-/// [`math::angle`].
-#[inline(always)]
-pub(crate) fn angle<S: Simd>(y: f64x8<S>, x: f64x8<S>) -> f64x8<S> {
-    let simd = x.simd;
-    let zero = f64x8::splat(simd, 0.0);
-    let behind = x.simd_lt(0.0);
-    let across = behind.select(-x, x);
-    let steep = y.simd_gt(across);
-    let (small, large) = (steep.select(across, y), steep.select(y, across));
-    let t = large.simd_gt(0.0).select(small / large, zero);
-    let whole = t * ANGLE_STEPS as f64 + TO_WHOLE;
-    let c = (whole - TO_WHOLE) * (1.0 / ANGLE_STEPS as f64);
-    let d = (t - c) / (t * c + 1.0);
-    let [hi, lo] = look_up(simd, &ANGLES, (whole.to_bits() & 127u64).into());
-    let d2 = d * d;
-    let rest = d - d * d2 * ((d2 * -0.2 + 1.0 / 3.0) + d2 * d2 * (1.0 / 7.0));
-    let rest = lo + rest;
-    let (hi, rest) = (steep.select(FRAC_PI_2 - hi, hi), steep.select(FRAC_PI_2_LO - rest, rest));
-    let (hi, rest) = (behind.select(PI - hi, hi), behind.select(2.0 * FRAC_PI_2_LO - rest, rest));
-    hi + rest
-}
-
-/// One vector or the other.
-#[inline(always)]
-pub(crate) fn select<S: Simd>(
-    lanes: fearless_simd::mask64x8<S>,
-    a: Vec3<f64x8<S>>,
-    b: Vec3<f64x8<S>>,
-) -> Vec3<f64x8<S>> {
-    Vec3::new(lanes.select(a.x, b.x), lanes.select(a.y, b.y), lanes.select(a.z, b.z))
 }
 
 /// From rows of four numbers, one a lane, to columns.
@@ -173,6 +142,50 @@ fn turned<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     let (ac, bd) = (a.zip_low(c), b.zip_low(d));
     let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));
     [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high), ac_high.zip_high(bd_high)]
+}
+
+/// What tests compare lanes with numbers by.
+#[cfg(test)]
+pub(crate) mod testing {
+    use super::*;
+    use crate::number::Vec3;
+
+    /// Numbers in [0, 1), a sequence for each seed, with the ends among them.
+    pub(crate) fn numbers(seed: u64) -> impl Iterator<Item = f64> {
+        (0u64..).map(move |i| match i % 11 {
+            0 if i % 3 == 0 => 0.0,
+            5 if i % 2 == 0 => 1.0,
+            _ => {
+                (i * 2 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15 ^ seed.wrapping_mul(0xff51_afd7_ed55_8ccd)) as f64
+                    / 2f64.powi(64)
+            }
+        })
+    }
+
+    pub(crate) fn column(numbers: &mut impl Iterator<Item = f64>) -> [f64; LANES] {
+        std::array::from_fn(|_| numbers.next().unwrap())
+    }
+
+    /// Unit vectors, one a lane.
+    pub(crate) fn units(numbers: &mut impl Iterator<Item = f64>) -> [Vec3<f64>; LANES] {
+        let mut next = || numbers.next().unwrap() - 0.4;
+        std::array::from_fn(|_| {
+            let v = Vec3::new(next(), next(), next());
+            v * (1.0 / v.length())
+        })
+    }
+
+    /// Vectors side by side.
+    pub(crate) fn side_by_side<S: Simd>(simd: S, v: [Vec3<f64>; LANES]) -> Vec3<f64x8<S>> {
+        Vec3::new(v.map(|v| v.x).simd_into(simd), v.map(|v| v.y).simd_into(simd), v.map(|v| v.z).simd_into(simd))
+    }
+
+    /// Compares lanes with the number that each would be alone, bit by bit.
+    pub(crate) fn same(got: [f64; LANES], want: impl Fn(usize) -> f64) {
+        for (lane, got) in got.into_iter().enumerate() {
+            assert_eq!(got.to_bits(), want(lane).to_bits(), "lane {lane}: {got} {}", want(lane));
+        }
+    }
 }
 
 #[cfg(test)]
@@ -213,7 +226,9 @@ mod tests {
         let y: Vec<f64> = sizes.into_iter().chain((0..700).map(|i| f64::from(i) / 699.0)).collect();
         let x: Vec<f64> = y.iter().flat_map(|&x| [x, -x]).collect();
         for [y, x] in pairs(&y, &x) {
-            let got: [f64; LANES] = dispatch!(level, simd => { angle(y.simd_into(simd), x.simd_into(simd)).into() });
+            let got: [f64; LANES] = dispatch!(level, simd => {
+                math::angle::angle(Eight(simd), y.simd_into(simd), x.simd_into(simd)).into()
+            });
             for lane in 0..LANES {
                 assert_eq!(got[lane].to_bits(), math::angle(y[lane], x[lane]).to_bits(), "{y:?} {x:?}");
             }

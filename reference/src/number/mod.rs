@@ -7,7 +7,8 @@ mod real;
 mod sym3;
 mod vec3;
 
-pub use arithmetic::Arithmetic;
+pub(crate) use arithmetic::Double;
+pub use arithmetic::{Arithmetic, Elementary, Mask};
 pub use mat3::Mat3;
 pub use real::Real;
 pub use sym3::Sym3;

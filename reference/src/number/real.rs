@@ -1,6 +1,6 @@
 //! The operations that the sample code asks of a number, and nothing more.
 
-use super::Arithmetic;
+use super::Elementary;
 use drypoint_scene::math;
 use drypoint_scene::volume::Voxel;
 use fearless_simd::{Simd, SimdBase, SimdElement, f32x4, f64x4};
@@ -9,7 +9,17 @@ use std::ops::{AddAssign, MulAssign, SubAssign};
 
 /// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `drypoint_scene::math` alone ([PREC-4]).
 pub trait Real:
-    Arithmetic + Debug + Default + PartialOrd + Send + Sync + 'static + AddAssign + SubAssign + MulAssign + SimdElement
+    Elementary<Number = Self, Mask = bool>
+    + Debug
+    + Default
+    + PartialOrd
+    + Send
+    + Sync
+    + 'static
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + SimdElement
 {
     /// Four of them in a register.
     type Four<S: Simd>: SimdBase<S, Element = Self, Array = [Self; 4]> + Into<[Self; 4]>;
@@ -45,36 +55,8 @@ pub trait Real:
     fn to_index(self) -> usize;
     /// The number i, up to 2³² (f32: 2²⁴).
     fn from_index(i: usize) -> Self;
-    /// |x|.
-    fn abs(self) -> Self;
-    /// x^y; whole y up to 64 by repeated squaring.
-    fn pow(self, y: Self) -> Self;
-    /// x^y of an opacity x in (0, 1], for y about 1.
-    fn power(self, y: Self) -> Self;
-
     /// The angle of (x, self) from the x axis.
     fn atan2(self, x: Self) -> Self;
-
-    /// The same for self ≥ 0.
-    fn angle(self, x: Self) -> Self;
-
-    /// The smaller one; `self` where neither is.
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if other < self { other } else { self }
-    }
-
-    /// The larger one; `self` where neither is.
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if other > self { other } else { self }
-    }
-
-    /// Clamped to [0, 1].
-    #[inline(always)]
-    fn clamp_01(self) -> Self {
-        self.max(Self::ZERO).min(Self::ONE)
-    }
 
     /// √(x² + y²) without overflow on the way.
     #[inline]
@@ -159,29 +141,9 @@ impl Real for f64 {
         i as u32 as f64
     }
 
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.abs()
-    }
-
-    #[inline]
-    fn pow(self, y: Self) -> Self {
-        math::pow(self, y)
-    }
-
-    #[inline]
-    fn power(self, y: Self) -> Self {
-        math::power(self, y)
-    }
-
     #[inline]
     fn atan2(self, x: Self) -> Self {
         math::atan2(self, x)
-    }
-
-    #[inline]
-    fn angle(self, x: Self) -> Self {
-        math::angle(self, x)
     }
 }
 
@@ -233,28 +195,8 @@ impl Real for f32 {
         i as u32 as f32
     }
 
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.abs()
-    }
-
-    #[inline]
-    fn pow(self, y: Self) -> Self {
-        math::pow_f32(self, y)
-    }
-
-    #[inline]
-    fn power(self, y: Self) -> Self {
-        math::pow_f32(self, y)
-    }
-
     #[inline]
     fn atan2(self, x: Self) -> Self {
-        math::atan2_f32(self, x)
-    }
-
-    #[inline]
-    fn angle(self, x: Self) -> Self {
         math::atan2_f32(self, x)
     }
 }
@@ -262,6 +204,7 @@ impl Real for f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::Arithmetic;
 
     #[test]
     fn split_is_floor_and_fraction() {
@@ -290,7 +233,7 @@ mod tests {
         for x in [1e-6f32, 0.3, 0.9, 0.999, 1.7, 100.0] {
             for y in [0.01f32, 0.3, 1.5, 10.25, 15.5] {
                 let exact = f64::from(x).pow(f64::from(y));
-                for got in [x.pow(y), x.power(y)].into_iter().filter(|got| got.is_normal()) {
+                for got in [x.pow(y), x.power(y, true)].into_iter().filter(|got| got.is_normal()) {
                     assert!(
                         (f64::from(got) - exact).abs() <= f64::from(f32::EPSILON) * exact,
                         "{x} {y}: {got} {exact}"

@@ -39,6 +39,18 @@ impl<R: Arithmetic> Vec3<R> {
     pub fn length(self) -> R {
         self.dot(self).sqrt()
     }
+
+    /// The vector a in as many lanes as x has.
+    #[inline(always)]
+    pub fn constant(x: R, a: Vec3<R::Number>) -> Self {
+        Self::new(x.constant(a.x), x.constant(a.y), x.constant(a.z))
+    }
+
+    /// a where the mask is true, else b.
+    #[inline(always)]
+    pub fn select(mask: R::Mask, a: Self, b: Self) -> Self {
+        Self::new(R::select(mask, a.x, b.x), R::select(mask, a.y, b.y), R::select(mask, a.z, b.z))
+    }
 }
 
 impl<R: Real> Vec3<R> {

@@ -1,10 +1,32 @@
 //! Opacity correction ([VAL-4]).
 
-use crate::number::Real;
-use drypoint_scene::math;
+use crate::number::{Double, Mask, Real};
+use drypoint_scene::math::transmittance;
 
 /// From an opacity α per reference length Δ₀ to that of one step: α(Δ) = 1 − (1 − α)^(Δ/Δ₀), as −expm1(Δ/Δ₀ · ln_1p(−α)):
-/// exact at α = 0 and α = 1 and without cancellation for tiny α. Half of Δ₀, a common step, needs a square root only.
+/// exact at α = 0 and α = 1 and without cancellation for tiny α. Half of Δ₀, a common step, needs a square root only, and
+/// a step of Δ₀ leaves α as it is.
+#[inline(always)]
+pub(super) fn correct<A: Double>(alpha: A, ratio: A) -> A {
+    let (zero, one, width) = (alpha.zero(), alpha.one(), alpha.width());
+    let (clear, opaque) = (alpha.at_most(zero), one.at_most(alpha));
+    let (whole, half) = (ratio.equals(one), ratio.equals(one.half()));
+    // The logarithm is not finite where nothing passes.
+    let between = A::select(opaque, zero, alpha);
+    let mut corrected = alpha;
+    if !(clear | opaque | whole).all() {
+        if !half.all() {
+            let ln = transmittance::ln_one_minus(width, between);
+            corrected = A::select(whole, alpha, transmittance::one_minus_exp(width, ratio * ln));
+        }
+        if half.any() {
+            corrected = A::select(half, transmittance::one_minus_root(width, between), corrected);
+        }
+    }
+    A::select(clear, zero, A::select(opaque, one, corrected))
+}
+
+/// The correction of one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correction {
     /// Δ/Δ₀.
@@ -17,30 +39,20 @@ impl Correction {
         Self { ratio }
     }
 
-    /// α(Δ). A step of Δ₀ leaves α as it is.
+    /// α(Δ). In f32 too it is computed in f64 and rounded once, at the end.
     #[inline]
     pub fn apply<R: Real>(self, alpha: R) -> R {
-        if alpha <= R::ZERO {
-            R::ZERO
-        } else if alpha >= R::ONE {
-            R::ONE
-        } else if self.ratio == 1.0 {
-            alpha
-        } else {
-            // In f32 too: rounded once, at the end.
-            let alpha = alpha.to_f64();
-            R::from_f64(if self.ratio == 0.5 {
-                math::one_minus_root(alpha)
-            } else {
-                math::one_minus_exp(self.ratio * math::ln_one_minus(alpha))
-            })
-        }
+        R::from_f64(correct(alpha.to_f64(), self.ratio))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::same;
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Level, dispatch, f64x8};
 
     fn correct(alpha: f64, ratio: f64) -> f64 {
         Correction::new(ratio).apply(alpha)
@@ -85,6 +97,31 @@ mod tests {
             // f32 is that, rounded.
             let alpha = alpha as f32;
             assert_eq!(Correction::new(0.53).apply(alpha), correct(f64::from(alpha), 0.53) as f32);
+        }
+    }
+
+    /// Opacities of all sizes, with the ends, at steps of all kinds: bit for bit what one opacity becomes alone.
+    #[test]
+    fn lanes_take_the_steps_of_one() {
+        let level = Level::new();
+        let one = 1f64.to_bits();
+        let even = (0..4096u64).map(|i| i as f64 / 4095.0);
+        let by_exponent = (0..4096u64).map(|i| f64::from_bits(one / 4096 * i));
+        let near_one = (0..64u64).map(|i| f64::from_bits(one - i));
+        let opacities: Vec<f64> = even.chain(by_exponent).chain(near_one).collect();
+        let ratios = [1.0, 0.5, 0.487_3, 2.0, 1e-9, 700.0];
+        // The same in all lanes, then each its own.
+        let together = ratios.map(|ratio| [ratio; LANES]);
+        let apart: [[f64; LANES]; 6] =
+            std::array::from_fn(|turn| std::array::from_fn(|lane| ratios[(turn + lane) % 6]));
+        for ratio in together.into_iter().chain(apart) {
+            for opacities in opacities.chunks_exact(LANES) {
+                let alpha: [f64; LANES] = std::array::from_fn(|lane| opacities[lane]);
+                let got: [f64; LANES] = dispatch!(level, simd => {
+                    super::correct::<f64x8<_>>(alpha.simd_into(simd), ratio.simd_into(simd)).into()
+                });
+                same(got, |lane| correct(alpha[lane], ratio[lane]));
+            }
         }
     }
 }

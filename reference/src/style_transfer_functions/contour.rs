@@ -1,6 +1,6 @@
 //! Style contours (3.3): the threshold of eq. 1 ([STF-7]) and the push along the radius of the sphere ([STF-8]).
 
-use crate::number::Real;
+use crate::number::{Arithmetic, Mask, Real};
 use drypoint_scene::tables::Kappa;
 
 /// The contour threshold τ of a scene.
@@ -23,30 +23,38 @@ impl<R: Real> Contour<R> {
 
     /// τ, the one number that contour test, push and eq. 2 share: the constant threshold, or √(Tκ(2 − Tκ)) of |κ_v|
     /// in reciprocal world units; times the fade by |g| in [0, 1].
-    #[inline]
-    pub fn tau(&self, kappa: R, g: R) -> R {
-        let tau = self.threshold.unwrap_or_else(|| root(self.thickness * kappa.abs()));
-        self.fade.map_or(tau, |[lo, hi]| tau * fade(g, lo, hi))
+    #[inline(always)]
+    pub fn tau<A: Arithmetic<Number = R>>(&self, kappa: A, g: A) -> A {
+        let tau = match self.threshold {
+            Some(threshold) => kappa.constant(threshold),
+            None => root(kappa.abs() * kappa.constant(self.thickness)),
+        };
+        match self.fade {
+            Some([lo, hi]) => tau * fade(g, lo, hi),
+            None => tau,
+        }
     }
 }
 
 /// √(x(2 − x)), x = Tκ clamped to [0, 1]: past 1 the printed root falls again and past 2 it is not real, but a
 /// structure thinner than T is contour throughout. Clamped, the radicand is never negative ([CUR-3]).
-#[inline]
-pub fn root<R: Real>(t_kappa: R) -> R {
+#[inline(always)]
+pub fn root<A: Arithmetic>(t_kappa: A) -> A {
+    let one = t_kappa.one();
     // In this order of operands what is not a number (0 · ∞) counts as 0.
-    let x = R::ZERO.max(t_kappa).min(R::ONE);
-    (x * (R::ONE + R::ONE - x)).sqrt()
+    let x = t_kappa.zero().max(t_kappa).min(one);
+    (x * (one + one - x)).sqrt()
 }
 
 /// Smoothstep t²(3 − 2t) of t = clamp₀₁((|g| − lo)/(hi − lo)). For hi = lo a step, which |g| = lo has passed.
-#[inline]
-pub fn fade<R: Real>(g: R, lo: R, hi: R) -> R {
+#[inline(always)]
+pub fn fade<A: Arithmetic>(g: A, lo: A::Number, hi: A::Number) -> A {
+    let one = g.one();
     if lo == hi {
-        return if g < lo { R::ZERO } else { R::ONE };
+        return A::select(g.below(g.constant(lo)), g.zero(), one);
     }
-    let t = ((g - lo) / (hi - lo)).clamp_01();
-    t * t * (R::ONE + R::ONE + R::ONE - (t + t))
+    let t = ((g - g.constant(lo)) / g.constant(hi - lo)).clamp_01();
+    t * t * (one + one + one - (t + t))
 }
 
 /// Pushes (N_x, N_y) outwards along the radius if the sample is on a contour, |N·v| ≤ τ:
@@ -54,25 +62,31 @@ pub fn fade<R: Real>(g: R, lo: R, hi: R) -> R {
 ///
 /// δ falls from 1 at |N·v| = τ, where nothing moves, to 0 at the silhouette, where r' = 1. There is no push for τ = 0,
 /// and r = 0 stays 0: it has no direction to be pushed along.
-#[inline]
-pub fn push<R: Real>(nx: R, ny: R, n_dot_v: R, tau: R) -> (R, R) {
-    let d = n_dot_v.abs();
-    let r = (nx * nx + ny * ny).sqrt();
-    if d > tau || tau == R::ZERO || r == R::ZERO {
+#[inline(always)]
+pub fn push<A: Arithmetic>(nx: A, ny: A, n_dot_v: A, tau: A) -> (A, A) {
+    let (d, zero) = (n_dot_v.abs(), tau.zero());
+    let on_contour = d.at_most(tau) & !tau.equals(zero);
+    if !on_contour.any() {
         return (nx, ny);
     }
+    let r = (nx * nx + ny * ny).sqrt();
+    let pushed = on_contour & !r.equals(zero);
     // The printed δ, without its two cancellations.
     let delta = d / tau;
-    let scale = if r < delta { delta } else { r };
-    (nx / scale, ny / scale)
+    let scale = A::select(r.below(delta), delta, r);
+    (A::select(pushed, nx / scale, nx), A::select(pushed, ny / scale, ny))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::number::Vec3;
+    use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::{column, numbers, same};
     use crate::style_transfer_functions::curvature_along_ray;
     use drypoint_scene::shot::Turn;
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Level, dispatch, f64x8};
     use proptest::prelude::*;
 
     #[test]
@@ -190,7 +204,7 @@ mod tests {
             let before = p + Vec3::new(0.0, 0.0, self.delta);
             match kappa {
                 Kappa::Exact => 1.0 / p.length(),
-                _ => curvature_along_ray::kappa(Turn::OfNormals, unit(p), Some(unit(before)), self.delta),
+                _ => curvature_along_ray::kappa(Turn::OfNormals, unit(p), unit(before), true, self.delta),
             }
         }
 
@@ -266,5 +280,33 @@ mod tests {
     fn a_ball_thinner_than_the_thickness_is_contour_throughout() {
         let (width, reach) = Ball { radius: 1.5, delta: 0.01, shift: 0.0 }.ring(T, Kappa::Exact);
         assert!(width > 1.499 && reach > 1.499, "{width}, {reach}");
+    }
+
+    #[test]
+    fn lanes_are_those_of_one() {
+        let level = Level::new();
+        let [mut a, mut b, mut c, mut d] = [1, 2, 3, 4].map(numbers);
+        let contours = [
+            Contour::new(2.0, Kappa::Ray, None),
+            Contour::new(0.7, Kappa::Ray, Some([0.2, 0.6])),
+            Contour::new(0.7, Kappa::Ray, Some([0.5, 0.5])),
+            Contour::new(0.0, Kappa::Ray, None),
+            Contour::new(1.0, Kappa::None { threshold: 0.4 }, Some([0.0, 0.3])),
+        ];
+        for contour in contours.iter().cycle().take(2000) {
+            let (kappa, g, d_v) = (column(&mut a).map(|k| 3.0 * k), column(&mut b), column(&mut c));
+            let (x, y) = (column(&mut d), column(&mut a).map(|y| 0.5 - y));
+            let [tau, px, py]: [[f64; LANES]; 3] = dispatch!(level, simd => {
+                let (kappa, g): (f64x8<_>, f64x8<_>) = (kappa.simd_into(simd), g.simd_into(simd));
+                let tau = contour.tau(kappa, g);
+                let (x, y): (f64x8<_>, f64x8<_>) = (x.simd_into(simd), y.simd_into(simd));
+                let (px, py) = push(x, y, d_v.simd_into(simd), tau);
+                [tau.into(), px.into(), py.into()]
+            });
+            same(tau, |lane| contour.tau(kappa[lane], g[lane]));
+            let one = |lane: usize| push(x[lane], y[lane], d_v[lane], tau[lane]);
+            same(px, |lane| one(lane).0);
+            same(py, |lane| one(lane).1);
+        }
     }
 }

@@ -138,7 +138,7 @@ mod tests {
         let side = 32;
         let centre = |k: usize| (2 * k + 1) as f64 / side as f64 - 1.0;
         let map = sphere(side, |i, j| [0.5 + 0.25 * centre(i) - 0.125 * centre(j), 0.0, 0.0, 1.0]);
-        for (nx, ny) in [(0.0, 0.0), (0.3, 0.4), (-0.61, 0.2), (0.05, -0.83)] {
+        for (nx, ny) in [(0.0f64, 0.0), (0.3, 0.4), (-0.61, 0.2), (0.05, -0.83)] {
             let expected = 0.5 + 0.25 * nx + 0.125 * ny;
             assert!((map.sample(nx, ny)[0] - expected).abs() < 4.0 * f64::EPSILON, "{nx}, {ny}");
         }

@@ -1,6 +1,6 @@
 //! Illustrative transparency (3.4, eq. 2; [STF-9]).
 
-use crate::number::Real;
+use crate::number::{Elementary, Mask};
 use drypoint_scene::tables::Transparency;
 
 /// α/α_d: what the style's premultiplied colour and directional opacity are multiplied by. All opacities here are per
@@ -11,19 +11,26 @@ use drypoint_scene::tables::Transparency;
 /// 1 and α_u = 0 gives 0, exactly: the paper's two constraints. Plain: α_u.
 ///
 /// α_u, τ and |g| are in [0, 1]; without contours τ = 0.
-#[inline]
-pub fn share<R: Real>(transparency: Transparency, alpha_u: R, n_dot_v: R, tau: R, g: R) -> R {
-    if transparency == Transparency::Plain || alpha_u == R::ZERO || alpha_u == R::ONE {
+#[inline(always)]
+pub fn share<A: Elementary>(transparency: Transparency, alpha_u: A, n_dot_v: A, tau: A, g: A) -> A {
+    let (zero, one) = (alpha_u.zero(), alpha_u.one());
+    let between = !(alpha_u.equals(zero) | alpha_u.equals(one));
+    if transparency == Transparency::Plain || !between.any() {
         return alpha_u;
     }
-    let away_from_contour = (n_dot_v.abs() - tau).max(R::ZERO);
-    alpha_u.power(R::HALF + away_from_contour * (R::ONE - g))
+    let away_from_contour = (n_dot_v.abs() - tau).max(zero);
+    let exponent = away_from_contour * (one - g) + one.half();
+    A::select(between, alpha_u.power(exponent, between), alpha_u)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::lanes::LANES;
+    use crate::number::lanes::testing::{column, numbers, same};
     use Transparency::{Illustrative, Plain};
+    use fearless_simd::prelude::*;
+    use fearless_simd::{Level, dispatch, f64x8};
     use proptest::prelude::*;
 
     fn illustrative(alpha_u: f64, n_dot_v: f64, tau: f64, g: f64) -> f64 {
@@ -72,6 +79,20 @@ mod tests {
             prop_assert!(illustrative(a, n_dot_v, tau, towards(g)) * slack >= here);
             prop_assert!(illustrative(a, towards(n_dot_v.abs()), tau, g) <= here * slack);
             prop_assert_eq!(illustrative(a, -n_dot_v, tau, g), here);
+        }
+    }
+
+    #[test]
+    fn lanes_are_those_of_one() {
+        let level = Level::new();
+        let [mut a, mut b, mut c, mut d] = [5, 6, 7, 8].map(numbers);
+        for transparency in [Illustrative, Plain].into_iter().cycle().take(2000) {
+            let (alpha_u, n_dot_v, tau, g) = (column(&mut a), column(&mut b), column(&mut c), column(&mut d));
+            let got: [f64; LANES] = dispatch!(level, simd => {
+                let (alpha_u, n_dot_v): (f64x8<_>, f64x8<_>) = (alpha_u.simd_into(simd), n_dot_v.simd_into(simd));
+                share(transparency, alpha_u, n_dot_v, tau.simd_into(simd), g.simd_into(simd)).into()
+            });
+            same(got, |lane| share(transparency, alpha_u[lane], n_dot_v[lane], tau[lane], g[lane]));
         }
     }
 }

@@ -1,19 +1,20 @@
 //! The angle of a point in the upper half plane, for angles between vectors ([CUR-3]).
 //!
-//! From + − × ÷ alone, without a branch, so that lanes can take the same steps to the same bits ([PREC-4]).
+//! From + − × ÷ alone, without a branch, at every [`Width`] ([PREC-4]).
 
+use super::Width;
 use super::double::Double;
 use super::transmittance::TO_WHOLE;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps of the tangent from 0 to 1.
-pub const STEPS: usize = 64;
+const STEPS: usize = 64;
 
 /// π/2 − [`FRAC_PI_2`].
-pub const FRAC_PI_2_LO: f64 = 6.123_233_995_736_766e-17;
+const FRAC_PI_2_LO: f64 = 6.123_233_995_736_766e-17;
 
 /// atan(i/64) in two parts.
-pub static ANGLES: [[f64; 2]; STEPS + 1] = {
+static ANGLES: [[f64; 2]; STEPS + 1] = {
     let mut table = [[0.0; 2]; STEPS + 1];
     let mut angle = Double::new(0.0);
     let mut i = 0;
@@ -36,28 +37,44 @@ pub static ANGLES: [[f64; 2]; STEPS + 1] = {
 
 /// The angle of (x, y), y ≥ 0, from the x axis, in [0, π], to less than two ulp; 0 at the origin. Small angles keep their
 /// digits.
-#[inline]
-pub fn angle(y: f64, x: f64) -> f64 {
-    let across = if x < 0.0 { -x } else { x };
-    let steep = y > across;
-    let (small, large) = if steep { (across, y) } else { (y, across) };
-    let t = if large > 0.0 { small / large } else { 0.0 };
+#[inline(always)]
+pub fn angle<W: Width>(width: W, y: W::Number, x: W::Number) -> W::Number {
+    let zero = width.number(0.0);
+    let behind = width.below(x, zero);
+    let across = width.select(behind, -x, x);
+    let steep = width.below(across, y);
+    let (small, large) = (width.select(steep, across, y), width.select(steep, y, across));
+    let t = width.select(width.below(zero, large), small / large, zero);
     // atan t = atan c + atan d, c the nearest step and d = (t − c)/(1 + tc).
     let whole = t * STEPS as f64 + TO_WHOLE;
     let c = (whole - TO_WHOLE) * (1.0 / STEPS as f64);
     let d = (t - c) / (t * c + 1.0);
-    let [hi, lo] = ANGLES[(whole.to_bits() as usize % 128).min(STEPS)];
+    let [hi, lo] = width.look_up(&ANGLES, width.to_bits(whole) & 127);
     let d2 = d * d;
     let rest = d - d * d2 * ((d2 * -0.2 + 1.0 / 3.0) + d2 * d2 * (1.0 / 7.0));
+    let rest = lo + rest;
     // Folded back: over the diagonal, then over the y axis.
-    let (hi, rest) = if steep { (FRAC_PI_2 - hi, FRAC_PI_2_LO - (lo + rest)) } else { (hi, lo + rest) };
-    let (hi, rest) = if x < 0.0 { (PI - hi, 2.0 * FRAC_PI_2_LO - rest) } else { (hi, rest) };
+    let (hi, rest) = folded(width, steep, [FRAC_PI_2, FRAC_PI_2_LO], [hi, rest]);
+    let (hi, rest) = folded(width, behind, [PI, 2.0 * FRAC_PI_2_LO], [hi, rest]);
     hi + rest
+}
+
+/// The angle from the other end of a quadrant or of a half turn, where the mask is true. Both are in two parts.
+#[inline(always)]
+fn folded<W: Width>(
+    width: W,
+    mask: W::Mask,
+    [end, end_lo]: [f64; 2],
+    [hi, lo]: [W::Number; 2],
+) -> (W::Number, W::Number) {
+    let (end, end_lo) = (width.number(end), width.number(end_lo));
+    (width.select(mask, end - hi, hi), width.select(mask, end_lo - lo, lo))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::angle;
 
     #[test]
     fn against_libm() {

@@ -1,65 +1,43 @@
 //! Powers of opacities, for illustrative transparency ([STF-9]).
 //!
-//! Written for the arguments that it has, x in (0, 1] and exponents about 1, from + − × alone and without a branch where x
-//! is not tiny, so that lanes can take the same steps to the same bits ([PREC-4]). Tables as in
-//! [`transmittance`](super::transmittance), whose they are; in half the time of `libm`'s `pow`.
+//! Written for the arguments that it has, x in (0, 1] and exponents about 1, from + − × alone and without a branch, at every
+//! [`Width`] ([PREC-4]). It uses the tables of [`transmittance`](super::transmittance), and takes half the time of `libm`'s
+//! `pow`.
 
-use super::transmittance::{LN_2_HI, LN_2_LO, LOGARITHMS, POWERS, STEPS, STEPS_BITS, TO_WHOLE};
-
-const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+use super::Width;
+use super::transmittance::{LN_2_HI, LN_2_LO, Octave, STEPS, grown, power_of_two, steps};
 
 /// 2⁻⁴⁰. Below it the product of a table's step and its logarithm would be rounded.
 pub const LEAST: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// 1.5 · 2²⁴: adding it rounds a small number to multiples of 2⁻²⁸.
-pub const TO_28_BITS: f64 = (3u64 << 23) as f64;
+const TO_28_BITS: f64 = (3u64 << 23) as f64;
 /// 1.5 · 2⁴⁰: the same, to multiples of 2⁻¹².
-pub const TO_12_BITS: f64 = (3u64 << 39) as f64;
+const TO_12_BITS: f64 = (3u64 << 39) as f64;
 
-/// x^y for 0 < x ≤ 1 and 0 ≤ y ≤ 1.5 and a little, to less than an ulp; x¹ is x.
-#[inline]
-pub fn power(x: f64, y: f64) -> f64 {
-    if x < LEAST {
-        return super::pow(x, y);
-    }
-    // ln x = h + l: x = 2ⁿ(c + d), c the nearest step, and d exact; ln(1 + r) with r = d/c goes to l.
-    let nearest = x.to_bits() + (1 << (MANTISSA_BITS - STEPS_BITS - 1));
-    let step = (nearest >> (MANTISSA_BITS - STEPS_BITS)) as usize % STEPS;
-    let n = (nearest >> MANTISSA_BITS) as i64 - 1023;
-    let scale = f64::from_bits(((1023 - n) as u64) << MANTISSA_BITS);
-    let c = f64::from_bits(1f64.to_bits() | (step as u64) << (MANTISSA_BITS - STEPS_BITS));
-    let d = x * scale - c;
-    let [inverse, ln_hi, ln_lo] = LOGARITHMS[step];
-    let n = n as f64;
-    let r = d * inverse;
-    let r2 = r * r;
-    let series = (r * (1.0 / 3.0) + -0.5) + r2 * ((r * 0.2 + -0.25) + r2 * (r * (1.0 / 7.0) + -1.0 / 6.0));
-    let h = n * LN_2_HI + ln_hi;
-    let l = r + ((n * LN_2_LO + ln_lo) + r2 * series);
+/// x^y for [`LEAST`] ≤ x ≤ 1 and 0 ≤ y ≤ 1.5 and a little, to less than an ulp; x¹ is x.
+#[inline(always)]
+pub fn power<W: Width>(width: W, x: W::Number, y: W::Number) -> W::Number {
+    // ln x = h + l: x = 2ⁿ(c + d), and d is exact.
+    let octave = Octave::new(width, x);
+    let [h, l] = octave.ln(width, x * octave.scale - octave.c);
     // y ln x = z + tail; z is the product of the first digits of both, and exact.
     let h1 = (h + TO_28_BITS) - TO_28_BITS;
     let y1 = (y + TO_12_BITS) - TO_12_BITS;
     let z = y1 * h1;
     let tail = (y - y1) * h1 + y * ((h - h1) + l);
-    // e^(z + tail) = 2^(k/128) e^r, |r| ≤ ln 2/256.
-    let whole = (z + tail) * (STEPS as f64 * std::f64::consts::LOG2_E) + TO_WHOLE;
-    let k = whole - TO_WHOLE;
-    let r = (z - k * (LN_2_HI / STEPS as f64)) + (tail - k * (LN_2_LO / STEPS as f64));
-    let r2 = r * r;
-    let series = (r * (1.0 / 6.0) + 0.5) + r2 * ((r * (1.0 / 120.0) + 1.0 / 24.0) + r2 * (1.0 / 720.0));
-    let grown = r + r2 * series;
-    let k = whole.to_bits();
-    let exponent = (k >> STEPS_BITS) << MANTISSA_BITS;
-    let [hi, lo] = POWERS[k as usize % STEPS];
-    let scale = f64::from_bits(1f64.to_bits().wrapping_add(exponent));
-    (hi + (hi * grown + lo)) * scale
+    // e^(z + tail) = 2^(k/128) e^r.
+    let (whole, k) = steps(z + tail);
+    let grown = grown((z - k * (LN_2_HI / STEPS as f64)) + (tail - k * (LN_2_LO / STEPS as f64)));
+    let ([hi, lo], exponent) = power_of_two(width, whole);
+    (hi + (hi * grown + lo)) * width.scaled(width.number(1.0), exponent)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::math::power;
 
-    /// Bases from all octaves down to [`LEAST`] and next to 1, with exponents of [STF-9] and beyond.
+    /// Bases from all octaves down to 2⁻⁴⁰ and next to 1, with exponents of [STF-9] and beyond.
     fn arguments() -> impl Iterator<Item = [f64; 2]> {
         let one = 1f64.to_bits();
         let octaves = (0..20_000u64).map(move |i| f64::from_bits(one - i * ((40 << 52) / 20_000)));

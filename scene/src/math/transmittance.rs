@@ -1,29 +1,30 @@
 //! The logarithm of a transmittance and the way back, for opacity correction ([VAL-4]).
 //!
-//! Written for the arguments that it has, 0 ≤ α < 1 and y ≤ 0, from + − × alone and without a branch, so that lanes can
-//! take the same steps to the same bits ([PREC-4]). What counts is how soon the result is there, since compositing waits
-//! for it: table steps of 2⁻⁷ leave polynomials so short that both together take half as long as `libm`'s `log1p` and
-//! `expm1`.
+//! Written for the arguments that it has, 0 ≤ α < 1 and y ≤ 0, from + − × alone and without a branch, at every [`Width`]
+//! ([PREC-4]). What counts is how soon the result is there, since compositing waits for it: table steps of 2⁻⁷ leave
+//! polynomials so short that both together take half as long as `libm`'s `log1p` and `expm1`.
 
+use super::Width;
 use super::double::Double;
+use std::ops::{Add, Mul, Sub};
 
 /// Steps of an octave in the tables.
-pub const STEPS: usize = 128;
+pub(super) const STEPS: usize = 128;
 /// Bits that count them.
-pub const STEPS_BITS: u32 = STEPS.trailing_zeros();
+const STEPS_BITS: u32 = STEPS.trailing_zeros();
 const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 
 /// ln 2 = [`LN_2_HI`] + [`LN_2_LO`]; the first has 40 bits, so that its product with a whole number below 2¹³ is exact.
-pub const LN_2_HI: f64 = 0.693_147_180_559_208_2;
+pub(super) const LN_2_HI: f64 = 0.693_147_180_559_208_2;
 /// What is left.
-pub const LN_2_LO: f64 = 7.371_002_565_167_799e-13;
+pub(super) const LN_2_LO: f64 = 7.371_002_565_167_799e-13;
 
 /// 1.5 · 2⁵²: a small number that is added leaves its nearest whole number in the low bits of the sum.
-pub const TO_WHOLE: f64 = (3u64 << 51) as f64;
+pub(super) const TO_WHOLE: f64 = (3u64 << 51) as f64;
 
 /// For c = 1 + i/128: 1/c and ln c in two parts, the first a multiple of 2⁻⁴⁴, so that adding multiples of ln 2's first
 /// part to it is exact.
-pub static LOGARITHMS: [[f64; 3]; STEPS] = {
+static LOGARITHMS: [[f64; 3]; STEPS] = {
     let mut table = [[0.0; 3]; STEPS];
     let mut i = 0;
     while i < STEPS {
@@ -39,7 +40,7 @@ pub static LOGARITHMS: [[f64; 3]; STEPS] = {
 };
 
 /// 2^(i/128) in two parts.
-pub static POWERS: [[f64; 2]; STEPS] = {
+static POWERS: [[f64; 2]; STEPS] = {
     let factor = Double::ln_ratio(2.0, 1.0).over(STEPS as f64).exp_m1().plus(Double::new(1.0));
     let mut table = [[0.0; 2]; STEPS];
     let mut power = Double::new(1.0);
@@ -52,55 +53,107 @@ pub static POWERS: [[f64; 2]; STEPS] = {
     table
 };
 
-/// ln(1 − α) for 0 ≤ α < 1, to less than an ulp; −α where α is tiny.
-#[inline]
-pub fn ln_one_minus(alpha: f64) -> f64 {
-    // 1 − α = 2ⁿ(c + d), c the nearest step, read off 1 − α rounded. 2⁻ⁿ − c has few bits and d is at most 2⁻⁸, so that
-    // 2⁻ⁿ − c − 2⁻ⁿα, computed from left to right, is d exactly.
-    let nearest = (1.0 - alpha).to_bits() + (1 << (MANTISSA_BITS - STEPS_BITS - 1));
-    let step = (nearest >> (MANTISSA_BITS - STEPS_BITS)) as usize % STEPS;
-    let n = (nearest >> MANTISSA_BITS) as i64 - 1023;
-    let scale = f64::from_bits(((1023 - n) as u64) << MANTISSA_BITS);
-    let c = f64::from_bits(1f64.to_bits() | (step as u64) << (MANTISSA_BITS - STEPS_BITS));
-    let d = (scale - c) - scale * alpha;
-    // n ln 2 + ln c + ln(1 + r), r = d/c. Up to α = 2⁻⁹ the first two are 0 and r = −α.
-    let [inverse, ln_hi, ln_lo] = LOGARITHMS[step];
-    let n = n as f64;
-    let r = d * inverse;
+/// The nearest step of the tables to positive normal numbers: c of 2ⁿc, read off their bits.
+pub(super) struct Octave<W: Width> {
+    n: W::Number,
+    /// 2⁻ⁿ.
+    pub(super) scale: W::Number,
+    pub(super) c: W::Number,
+    /// The row of c.
+    step: W::Bits,
+}
+
+impl<W: Width> Octave<W> {
+    #[inline(always)]
+    pub(super) fn new(width: W, x: W::Number) -> Self {
+        let nearest = width.to_bits(x) + (1 << (MANTISSA_BITS - STEPS_BITS - 1));
+        let step = (nearest >> (MANTISSA_BITS - STEPS_BITS)) & (STEPS as u64 - 1);
+        // The exponent with its bias of 1023: in the low bits of 2⁵² it is a number, and 2046 minus it is that of 2⁻ⁿ.
+        let exponent = nearest >> MANTISSA_BITS;
+        let whole = (1u64 << MANTISSA_BITS) as f64;
+        Self {
+            n: width.from_bits(exponent | whole.to_bits()) - (whole + 1023.0),
+            scale: width.from_bits(((exponent ^ 2047) - 1) << MANTISSA_BITS),
+            c: width.from_bits((step << (MANTISSA_BITS - STEPS_BITS)) | 1f64.to_bits()),
+            step,
+        }
+    }
+
+    /// ln(2ⁿ(c + d)) = n ln 2 + ln c + ln(1 + r), r = d/c, |d| ≤ 2⁻⁸, in two parts; the first is exact.
+    #[inline(always)]
+    pub(super) fn ln(&self, width: W, d: W::Number) -> [W::Number; 2] {
+        let [inverse, ln_hi, ln_lo] = width.look_up(&LOGARITHMS, self.step);
+        let r = d * inverse;
+        let r2 = r * r;
+        let series = (r * (1.0 / 3.0) + -0.5) + r2 * ((r * 0.2 + -0.25) + r2 * (r * (1.0 / 7.0) + -1.0 / 6.0));
+        [self.n * LN_2_HI + ln_hi, r + ((self.n * LN_2_LO + ln_lo) + r2 * series)]
+    }
+}
+
+/// The nearest k to 128y/ln 2: in the low bits of a number, and as a number. Then y = k ln 2/128 + r, |r| ≤ ln 2/256.
+#[inline(always)]
+pub(super) fn steps<N>(y: N) -> (N, N)
+where
+    N: Copy + Add<f64, Output = N> + Sub<f64, Output = N> + Mul<f64, Output = N>,
+{
+    let whole = y * (STEPS as f64 * std::f64::consts::LOG2_E) + TO_WHOLE;
+    (whole, whole - TO_WHOLE)
+}
+
+/// e^r − 1 for |r| ≤ ln 2/256.
+#[inline(always)]
+pub(super) fn grown<N>(r: N) -> N
+where
+    N: Copy + Add<Output = N> + Mul<Output = N> + Add<f64, Output = N> + Mul<f64, Output = N>,
+{
     let r2 = r * r;
-    let series = (-0.5 + r * (1.0 / 3.0)) + r2 * ((-0.25 + r * 0.2) + r2 * (-1.0 / 6.0 + r * (1.0 / 7.0)));
-    (n * LN_2_HI + ln_hi) + (r + ((n * LN_2_LO + ln_lo) + r2 * series))
+    let series = (r * (1.0 / 6.0) + 0.5) + r2 * ((r * (1.0 / 120.0) + 1.0 / 24.0) + r2 * (1.0 / 720.0));
+    r + r2 * series
+}
+
+/// 2^(k/128) for the k of [`steps`] in the low bits of a number: the two parts that its table has, and the exponent that they
+/// have to be scaled by.
+#[inline(always)]
+pub(super) fn power_of_two<W: Width>(width: W, whole: W::Number) -> ([W::Number; 2], W::Bits) {
+    let k = width.to_bits(whole);
+    (width.look_up(&POWERS, k & (STEPS as u64 - 1)), (k >> STEPS_BITS) << MANTISSA_BITS)
+}
+
+/// ln(1 − α) for 0 ≤ α < 1, to less than an ulp; −α where α is tiny.
+#[inline(always)]
+pub fn ln_one_minus<W: Width>(width: W, alpha: W::Number) -> W::Number {
+    // 1 − α = 2ⁿ(c + d), c the nearest step, read off 1 − α rounded. 2⁻ⁿ − c has few bits and d is at most 2⁻⁸, so that
+    // 2⁻ⁿ − c − 2⁻ⁿα, computed from left to right, is d exactly. Up to α = 2⁻⁹ n and ln c are 0 and r = −α.
+    let octave = Octave::new(width, width.number(1.0) - alpha);
+    let [hi, lo] = octave.ln(width, (octave.scale - octave.c) - octave.scale * alpha);
+    hi + lo
 }
 
 /// 1 − e^y for y ≤ 0, to less than two ulp; −y where y is tiny.
-#[inline]
-pub fn one_minus_exp(y: f64) -> f64 {
+#[inline(always)]
+pub fn one_minus_exp<W: Width>(width: W, y: W::Number) -> W::Number {
     // Beyond this the result is 1.
-    let y = if y > -64.0 { y } else { -64.0 };
-    // e^y = 2^(k/128) e^r, |r| ≤ ln 2/256.
-    let whole = y * (STEPS as f64 * std::f64::consts::LOG2_E) + TO_WHOLE;
-    let k = whole - TO_WHOLE;
-    let r = (y - k * (LN_2_HI / STEPS as f64)) - k * (LN_2_LO / STEPS as f64);
-    let r2 = r * r;
-    let grown = r + r2 * ((0.5 + r * (1.0 / 6.0)) + r2 * ((1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0)));
-    // k in the low bits of the sum: the table's step, and above it what goes to the exponent.
-    let k = whole.to_bits();
-    let exponent = (k >> STEPS_BITS) << MANTISSA_BITS;
-    let [hi, lo] = POWERS[k as usize % STEPS];
-    let hi = f64::from_bits(hi.to_bits().wrapping_add(exponent));
-    let scale = f64::from_bits(1f64.to_bits().wrapping_add(exponent));
-    (1.0 - hi) - (hi * grown + scale * lo)
+    let least = width.number(-64.0);
+    let y = width.select(width.below(least, y), y, least);
+    // e^y = 2^(k/128) e^r.
+    let (whole, k) = steps(y);
+    let grown = grown((y - k * (LN_2_HI / STEPS as f64)) - k * (LN_2_LO / STEPS as f64));
+    let ([hi, lo], exponent) = power_of_two(width, whole);
+    let (hi, one) = (width.scaled(hi, exponent), width.number(1.0));
+    (one - hi) - (hi * grown + width.scaled(one, exponent) * lo)
 }
 
 /// 1 − √(1 − α) for 0 ≤ α ≤ 1, as α/(1 + √(1 − α)): to less than two ulp, without cancellation.
-#[inline]
-pub fn one_minus_root(alpha: f64) -> f64 {
-    alpha / (1.0 + (1.0 - alpha).sqrt())
+#[inline(always)]
+pub fn one_minus_root<W: Width>(width: W, alpha: W::Number) -> W::Number {
+    let one = width.number(1.0);
+    alpha / (one + width.sqrt(one - alpha))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::{ln_one_minus, one_minus_exp, one_minus_root};
 
     /// N numbers in (0, 1) in ascending order: even steps through the bit patterns, which are steps of the logarithm
     /// down to the smallest number, even steps of the number itself, and of the logarithm of what is left to 1.

@@ -68,9 +68,9 @@ impl Hydrogen {
         let raw = Self { n, l, m, scale: 2.0 / (f64::from(n) * bohr), factor: 1.0 };
         // ψ² is a function of ρ times one of cos θ times cos² or sin² of mφ: its maximum is the product of theirs.
         // Beyond ρ = 4n the orbital only decays.
-        let radial = maximum(0.0, f64::from(4 * n), |r| (raw.radial(r) * math::pow_whole(r, l)).powi(2));
+        let radial = maximum(0.0, f64::from(4 * n), |r| (raw.radial(r) * math::pow_whole(r, 1.0, l)).powi(2));
         let polar =
-            maximum(-1.0, 1.0, |t| raw.legendre(t, 1.0).powi(2) * math::pow_whole(1.0 - t * t, m.unsigned_abs()));
+            maximum(-1.0, 1.0, |t| raw.legendre(t, 1.0).powi(2) * math::pow_whole(1.0 - t * t, 1.0, m.unsigned_abs()));
         Self { factor: high / (radial * polar), ..raw }
     }
 

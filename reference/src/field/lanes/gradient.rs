@@ -7,7 +7,6 @@ use crate::field::place::Place;
 use crate::field::stencil::Cross;
 use crate::field::tensor::{self, Rows};
 use crate::number::Vec3;
-use crate::number::lanes::select;
 use drypoint_scene::volume::Access;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, f64x8, mask64x8};
@@ -32,7 +31,8 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         let zero = f64x8::splat(self.simd, 0.0);
         let zero = Vec3::new(zero, zero, zero);
         let is_sobel = self.field.how.gradient == GradientEstimator::Sobel;
-        let start = self.offsets(select(asked & inside, Vec3::new(cell.x - 1.0, cell.y - 1.0, cell.z - 1.0), zero));
+        let start =
+            self.offsets(Vec3::select(asked & inside, Vec3::new(cell.x - 1.0, cell.y - 1.0, cell.z - 1.0), zero));
         // Together all eight are computed, wanted or not.
         let together = (asked & inside).to_bitmask().count_ones() > if is_sobel { FEW_SOBEL } else { FEW };
         let mut index = zero;

@@ -14,7 +14,6 @@
 //! does what stands in one variable with it.
 
 mod boxes;
-mod correct;
 mod normal;
 mod phong;
 mod rays;

@@ -1,14 +1,15 @@
 //! Regular functions in lanes: colours as they are, and Blinn–Phong ([STF-11]).
 
-use super::normal::Normals;
+use super::normal::shading;
 use super::walk::{Sample, Show, Walk};
 use super::{IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::Reader;
-use crate::number::{Arithmetic, Vec3};
-use crate::shading::{Exponent, Phong};
+use crate::field::normal::Normal;
+use crate::number::Vec3;
+use crate::shading::Phong;
 use drypoint_scene::counts::Counts;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::{Simd, f64x8};
 
 /// The colours of the function.
 pub(super) struct Unshaded<'p> {
@@ -29,41 +30,17 @@ impl<S: Simd> Show<S> for Unshaded<'_> {
 
 /// The same, shaded.
 pub(super) struct Shaded<'p, S: Simd> {
-    simd: S,
     colors: &'p [[f64; 3]],
     phong: &'p Phong<f64>,
     v: Vec3<f64x8<S>>,
     half: Vec3<f64x8<S>>,
-    light: Vec3<f64x8<S>>,
 }
 
 impl<'p, S: Simd> Shaded<'p, S> {
     #[inline(always)]
     pub(super) fn new(simd: S, packet: &Packet<'_, '_>, colors: &'p [[f64; 3]], phong: &'p Phong<f64>) -> Self {
-        let Vec3 { x, y, z } = phong.light;
-        let light = Vec3::new(f64x8::splat(simd, x), f64x8::splat(simd, y), f64x8::splat(simd, z));
         let [v_x, v_y, v_z, _] = of_rays(simd, &packet.sights, &IN_ORDER);
-        Self { simd, colors, phong, v: Vec3::new(v_x, v_y, v_z), half: vector(simd, packet.half), light }
-    }
-
-    /// [`Phong::shade`] where there is a normal.
-    #[inline(always)]
-    fn shade(&self, c_u: [f64x8<S>; 3], n: Vec3<f64x8<S>>, has: mask64x8<S>) -> [f64x8<S>; 3] {
-        let phong = self.phong;
-        let n_l = n.dot(self.light);
-        let dark = n_l.simd_le(0.0);
-        let n_h = n.dot(self.half);
-        let n_h = n_h.simd_lt(0.0).select(f64x8::splat(self.simd, 0.0), n_h);
-        let power = match phong.shininess {
-            Exponent::Whole(s) => n_h.pow_whole(f64x8::splat(self.simd, 1.0), s),
-            Exponent::Other(s) => f64x8::from_fn(self.simd, |lane| crate::number::Real::pow(n_h[lane], s)),
-        };
-        let (diffuse, specular) = (n_l * phong.diffuse + phong.ambient, power * phong.specular);
-        let mut rgb = c_u;
-        for c in &mut rgb {
-            *c = has.select(dark.select(*c * phong.ambient, *c * diffuse + specular), *c);
-        }
-        rgb
+        Self { colors, phong, v: Vec3::new(v_x, v_y, v_z), half: vector(simd, packet.half) }
     }
 }
 
@@ -79,8 +56,9 @@ impl<S: Simd> Show<S> for Shaded<'_, S> {
         let rgb = place.color(self.colors);
         let g = walk.reader.gradients(&walk.places(sample.k), sample.seen);
         counts.gradients += u64::from(place.visible.count_ones());
-        let Normals { n, has, .. } = Normals::new(walk.prepared, self.v, g);
+        let Normal { n, has, .. } = shading(walk.prepared, self.v, g);
         counts.without_normal += u64::from((place.visible & !has.to_bitmask()).count_ones());
-        (self.shade(rgb, n, has), place.alpha_u)
+        let [r, g, b] = self.phong.shade(rgb, n, self.half);
+        ([has.select(r, rgb[0]), has.select(g, rgb[1]), has.select(b, rgb[2])], place.alpha_u)
     }
 }

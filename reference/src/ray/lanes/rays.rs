@@ -56,11 +56,7 @@ impl<S: Simd> Rays<S> {
         let v = right * v_eye.x + up * v_eye.y - forward * v_eye.z;
         let mut half = Vec3::new(zero, zero, zero);
         if let Shader::Regular { phong: Some(phong), .. } = &prepared.object.shader {
-            let sum = all(simd, phong.light.to_glam()) + v;
-            let length = sum.length();
-            let unit = sum * (one / length);
-            let has = length.simd_gt(0.0);
-            half = crate::number::lanes::select(has, unit, half);
+            half = phong.half_vector(v);
         }
         Self {
             origin: apply(simd, &grid.inverse_axes(), origin - all(simd, grid.origin())),

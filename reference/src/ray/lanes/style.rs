@@ -1,14 +1,15 @@
 //! Styles in lanes (Bruckner and Gröller 2007), with what a sample has to know of the one before it on its ray.
 
-use super::normal::Normals;
+use super::normal::shading;
 use super::waiting::{Batch, Tile};
 use super::{Packet, RAYS, Row, of_rays};
 use crate::field::curvature;
 use crate::field::lanes::{LANES, Reader};
-use crate::number::Vec3;
-use crate::number::lanes::{columns, rows, select};
+use crate::field::normal::Normal;
+use crate::number::lanes::{columns, rows};
+use crate::number::{Arithmetic, Vec3};
 use crate::ray::sample::Styled;
-use crate::style_transfer_functions::{frame, lanes};
+use crate::style_transfer_functions::{contour, curvature_along_ray, frame, lanes, transparency};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{KappaSource, SphereFrame};
 use fearless_simd::prelude::*;
@@ -138,13 +139,13 @@ impl<'p, S: Simd> InStyle<'p, S> {
             fetched = asked.to_bitmask();
             if fetched != 0 {
                 let g = tile.reader.gradients(&tile.reader.places(p), asked);
-                let fetched = Normals::new(tile.prepared, v, g);
-                n_before = select(asked, fetched.n, n_before);
+                let fetched = shading(tile.prepared, v, g);
+                n_before = Vec3::select(asked, fetched.n, n_before);
                 has_before |= asked & fetched.has;
             }
         }
-        let both = (asked & has & has_before).to_bitmask();
-        (lanes::kappa(tile.prepared.object.turn, n, n_before, both, step), fetched)
+        let both = asked & has & has_before;
+        (curvature_along_ray::kappa(tile.prepared.object.turn, n, n_before, both, step), fetched)
     }
 
     /// N in the frame of the sphere, of which two coordinates are looked up; N = v where there is none ([PREC-3]).
@@ -182,13 +183,13 @@ impl<'p, S: Simd> InStyle<'p, S> {
         } else {
             tile.reader.gradients(&batch.at, asked)
         };
-        let Normals { n, has, length } = Normals::new(prepared, v, g);
+        let Normal { n, has, length } = shading(prepared, v, g);
         let magnitude = match prepared.object.gradient_range {
-            Some((lo, width)) if width > 0.0 => lanes::clamp_01((length - lo) / width),
+            Some((lo, width)) if width > 0.0 => ((length - lo) / width).clamp_01(),
             _ => zero,
         };
         let [mut x, mut y] = self.on_sphere(&batch.rays, n, has);
-        let n_dot_v = has.select(n.dot(v).abs(), one);
+        let n_dot_v = has.select(Arithmetic::abs(n.dot(v)), one);
         let (mut tau, mut before, mut hessians) = (zero, 0, 0);
         if let Some(contour) = &styled.contour {
             let mut kappa = zero;
@@ -202,16 +203,19 @@ impl<'p, S: Simd> InStyle<'p, S> {
                     Some(seconds) => seconds,
                     None => tile.reader.seconds(&batch.at, with_normal),
                 };
-                let along =
-                    curvature::along_view_lanes(g, h, v, prepared.object.outside, prepared.object.no_normal_below);
-                kappa = with_normal.select(along, zero);
+                // H's own field may have none where that of the normal has one.
+                let own = with_normal & g.length().simd_gt(prepared.object.no_normal_below);
+                kappa = own.select(curvature::along_view(g, h, v, prepared.object.outside), zero);
             }
-            tau = contour.tau_lanes(kappa, magnitude);
-            [x, y] = lanes::push([x, y], n_dot_v, tau, asked & has);
+            tau = contour.tau(kappa, magnitude);
+            // With τ = 0 nothing is pushed.
+            (x, y) = contour::push(x, y, n_dot_v, (asked & has).select(tau, zero));
         }
         let blends = styled.index.blends(place, prepared.object.function.last());
         let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
-        let share = lanes::share(styled.transparency, place, n_dot_v, tau, magnitude);
+        // Lanes without a sample count as α_u = 0, which needs no power.
+        let alpha_u = asked.select(place.alpha_u, zero);
+        let share = transparency::share(styled.transparency, alpha_u, n_dot_v, tau, magnitude);
         let counted = Counted { without_normal: !has.to_bitmask(), before, hessians, blends };
         let ratio = step / prepared.object.reference_length;
         let opaque = alpha_d.simd_eq(1.0) | !asked;

@@ -6,7 +6,6 @@
 //! that all seem to have ended are left for the next eight, and followed further only if what waited turns out to let light
 //! through.
 
-use super::correct::correct;
 use super::style::{InStyle, Looks};
 use super::walk::{AHEAD, Ahead, Asked, Walk};
 use super::{Packet, RAYS, vector};
@@ -14,7 +13,7 @@ use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::rows;
 use crate::ray::composite::Accumulator;
-use crate::ray::opacity::Correction;
+use crate::ray::opacity::{Correction, correct};
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::Styled;
 use crate::transfer;

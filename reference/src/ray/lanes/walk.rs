@@ -1,11 +1,10 @@
 //! From sample to sample, front to back, in lanes ([RAY-1], [RAY-2], [VAL-3]).
 
-use super::correct::correct;
 use super::{Column, IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
 use crate::ray::composite::Accumulator;
-use crate::ray::opacity::Correction;
+use crate::ray::opacity::{Correction, correct};
 use crate::ray::prepared::Prepared;
 use crate::transfer;
 use drypoint_scene::counts::Counts;

@@ -114,7 +114,13 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
                 self.sampler.gradient(position)
             });
             let before = before.and_then(|g| self.normal(g));
-            attributes.kappa = curvature_along_ray::kappa(self.object.turn, n, before, R::from_f64(self.ray.step));
+            attributes.kappa = curvature_along_ray::kappa(
+                self.object.turn,
+                n,
+                before.unwrap_or(n),
+                before.is_some(),
+                R::from_f64(self.ray.step),
+            );
         }
         attributes
     }
@@ -137,7 +143,13 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
             }
             _ => None,
         };
-        curvature_along_ray::kappa(self.object.turn, n, before, R::from_f64(self.ray.step))
+        curvature_along_ray::kappa(
+            self.object.turn,
+            n,
+            before.unwrap_or(n),
+            before.is_some(),
+            R::from_f64(self.ray.step),
+        )
     }
 
     /// Curvatures from the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]). Where the Hessian's own field has no normal, `known`

@@ -12,6 +12,6 @@ pub use attributes::SampleAttributes;
 pub(super) use attributes::{EyeAxes, ViewDirs};
 pub(super) use evaluate::{Evaluator, Previous, Sample};
 pub(super) use lit::Lit;
-pub(super) use object::PreparedObject;
+pub(super) use object::{PreparedObject, turned};
 pub(super) use over_two::OverTwo;
 pub(super) use shader::{Shader, Styled};

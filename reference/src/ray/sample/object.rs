@@ -3,7 +3,7 @@
 use super::need::Needs;
 use super::{OverTwo, Shader};
 use crate::field::Field;
-use crate::number::{Real, Vec3};
+use crate::number::{Arithmetic, Real, Vec3};
 use crate::transfer::{Piecewise, Table};
 use drypoint_scene::shot::{NormalDirection, Outside, SampleQuery, Turn};
 use drypoint_scene::volume::Volume;
@@ -43,14 +43,18 @@ impl<R: Real> PreparedObject<'_, R> {
     #[inline]
     pub(crate) fn normal(&self, g: Vec3<R>, v: Vec3<R>) -> Option<Vec3<R>> {
         let outward = crate::field::normal::outward(g, self.outside, self.no_normal_below);
-        outward.map(|n| {
-            let flip = match self.normal {
-                NormalDirection::Outward => false,
-                NormalDirection::Facing => n.dot(v) < R::ZERO,
-                NormalDirection::Inward => true,
-            };
-            // A product and no branch: along a ray the side is anyone's guess.
-            n * if flip { -R::ONE } else { R::ONE }
-        })
+        outward.map(|n| turned(self.normal, n, v))
+    }
+}
+
+/// The shading normal for an outward one, seen from v.
+#[inline(always)]
+pub(crate) fn turned<A: Arithmetic>(direction: NormalDirection, outward: Vec3<A>, v: Vec3<A>) -> Vec3<A> {
+    let one = outward.x.one();
+    match direction {
+        NormalDirection::Outward => outward,
+        // A product and no branch: along a ray the side is anyone's guess.
+        NormalDirection::Facing => outward * A::select(outward.dot(v).below(one.zero()), -one, one),
+        NormalDirection::Inward => outward * -one,
     }
 }
