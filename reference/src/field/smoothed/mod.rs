@@ -6,29 +6,23 @@
 //! each sample is one sum over its line, whose weights hold the continuation beyond the border too. So the samples around any
 //! cell can be had by themselves, whatever else was asked for and in whatever order.
 
+mod rows;
+mod sums;
+
+use super::Field;
 use super::hessian::gaussian;
-use super::interpolated::{Around, TAPS, taps};
-use super::stencil::beyond;
+use super::interpolated::{Around, TAPS};
 use super::voxel_hessian::{bends, slopes};
-use super::{Field, tensor};
-use crate::number::lanes::widely;
 use crate::number::{Sym3, Vec3};
+use rows::{Row, reads, responses, rows};
 use std::sync::OnceLock;
+use sums::Sums;
 
 /// Cells along the side of a brick, and of one of a σ beyond [`WIDE`]: there neighbouring bricks have more sums in common, which
 /// each makes by itself.
 const BRICK: usize = 16;
 const WIDE_BRICK: usize = 32;
 const WIDE: f64 = 1.5;
-
-/// Samples before the first of a cell that its second derivatives read.
-const PAD: usize = 2;
-
-/// Sums that are had side by side.
-const SUMS: usize = 16;
-
-/// The weights of one smoothed sample: the first stored one that has one, and its weight and those of the ones after it.
-type Row = (usize, Vec<f64>);
 
 /// First and second derivatives at one scale.
 #[derive(Debug)]
@@ -186,161 +180,6 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         }
         Region { first, sides, data: data.into_boxed_slice() }
     }
-}
-
-/// The sums of a region.
-struct Sums<'r> {
-    /// The rows of each axis.
-    axes: [&'r [Row]; 3],
-    sides: [usize; 3],
-    /// The stored numbers that rows read along each axis, from one up to another, and how many.
-    read: [[usize; 2]; 3],
-    lines: [usize; 3],
-}
-
-impl Sums<'_> {
-    /// Sums along z at every stored x and y: a plane for each. None where all numbers are 0.
-    fn along_z(&self, read: impl Fn([usize; 3], &mut [f64])) -> Option<Vec<f64>> {
-        let [nx, ny, nz] = self.lines;
-        let [x, y, z] = self.read.map(|[from, _]| from);
-        let mut sums = vec![0.0; self.sides[2] * ny * nx];
-        let mut lines = vec![0.0; nz * nx];
-        let mut is_empty = true;
-        for j in 0..ny {
-            for (k, line) in lines.chunks_mut(nx).enumerate() {
-                read([x, y + j, z + k], line);
-            }
-            // Around scans there is much of nothing.
-            if lines.iter().all(|c| *c == 0.0) {
-                continue;
-            }
-            is_empty = false;
-            widely(
-                #[inline(always)]
-                || {
-                    for (k, (first, weights)) in self.axes[2].iter().enumerate() {
-                        let to = &mut sums[(k * ny + j) * nx..][..nx];
-                        weighted(to, &lines[(first - z) * nx..], nx, weights);
-                    }
-                },
-            );
-        }
-        (!is_empty).then_some(sums)
-    }
-
-    /// Sums of planes along y, and of what that gives along x, turned so that sums lie side by side.
-    fn across(&self, along_z: &[f64], data: &mut [f64]) {
-        let [nx, ny, _] = self.lines;
-        let [sx, sy, _] = self.sides;
-        let [x, y, _] = self.read.map(|[from, _]| from);
-        let (mut line, mut turned, mut along_x) = (vec![0.0; nx], vec![0.0; nx * sy], vec![0.0; sy]);
-        for (plane, out) in along_z.chunks(ny * nx).zip(data.chunks_mut(sx * sy)) {
-            widely(
-                #[inline(always)]
-                || {
-                    for (j, (first, weights)) in self.axes[1].iter().enumerate() {
-                        weighted(&mut line, &plane[(first - y) * nx..], nx, weights);
-                        for (i, &sum) in line.iter().enumerate() {
-                            turned[i * sy + j] = sum;
-                        }
-                    }
-                    for (i, (first, weights)) in self.axes[0].iter().enumerate() {
-                        weighted(&mut along_x, &turned[(first - x) * sy..], sy, weights);
-                        for (j, &sum) in along_x.iter().enumerate() {
-                            out[j * sx + i] = sum;
-                        }
-                    }
-                },
-            );
-        }
-    }
-}
-
-/// Weighted sums of lines that lie `stride` apart, place by place.
-#[inline(always)]
-fn weighted(sums: &mut [f64], lines: &[f64], stride: usize, weights: &[f64]) {
-    let n = sums.len();
-    if n < SUMS {
-        for (i, sum) in sums.iter_mut().enumerate() {
-            *sum = weights.iter().enumerate().map(|(k, &w)| lines[k * stride + i] * w).fold(0.0, |a, b| a + b);
-        }
-        return;
-    }
-    // The last ones are had together too, some of them a second time.
-    for from in (0..n - SUMS).step_by(SUMS).chain([n - SUMS]) {
-        let mut sum = [0.0; SUMS];
-        for (k, &w) in weights.iter().enumerate() {
-            let line = &lines[k * stride + from..][..SUMS];
-            for i in 0..SUMS {
-                sum[i] += line[i] * w;
-            }
-        }
-        sums[from..][..SUMS].copy_from_slice(&sum);
-    }
-}
-
-/// The samples that rows read: the first, and the one after the last.
-fn reads(rows: &[Row]) -> [usize; 2] {
-    let first = rows.iter().map(|(first, _)| *first).min().unwrap_or(0);
-    [first, rows.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or(first)]
-}
-
-/// The rows of a line of n samples, smoothed with half taps, and of those beyond its ends, which continue three rows each as
-/// numbers are continued ([REC-1]).
-fn rows(n: usize, half: &[f64]) -> Vec<Row> {
-    let padded = n.max(2) + 2 * PAD;
-    let mut rows = vec![(0, Vec::new()); padded];
-    for i in 0..n {
-        let (first, weights) = if n == 1 { (0, vec![1.0]) } else { gaussian::row(half, i, n) };
-        rows[PAD + i] = shortened(first, &weights);
-    }
-    for i in PAD + n..padded {
-        rows[i] = continued(i - PAD, [1, 2, 3].map(|back| &rows[i.saturating_sub(back)]));
-    }
-    for i in (0..PAD).rev() {
-        rows[i] = continued(padded - i - 1, [1, 2, 3].map(|ahead| &rows[(i + ahead).min(padded - 1)]));
-    }
-    rows
-}
-
-/// The row next to so many of which these are the nearest ones.
-fn continued(n: usize, near: [&Row; 3]) -> Row {
-    let weights = || near.into_iter().filter(|(_, weights)| !weights.is_empty());
-    let first = weights().map(|(first, _)| *first).min().unwrap_or(0);
-    let end = weights().map(|(first, weights)| first + weights.len()).max().unwrap_or(0);
-    let sum = |j: usize| {
-        let [a, b, c] =
-            near.map(|(first, weights)| j.checked_sub(*first).and_then(|k| weights.get(k)).map_or(0.0, |w| *w));
-        beyond(n, a, b, c)
-    };
-    shortened(first, &(first..end).map(sum).collect::<Vec<f64>>())
-}
-
-/// The row of weights from `first` on, without the zeros at its ends.
-fn shortened(first: usize, weights: &[f64]) -> Row {
-    let from = weights.iter().position(|w| *w != 0.0).unwrap_or(0);
-    let end = weights.iter().rposition(|w| *w != 0.0).map_or(from, |last| last + 1);
-    (first + from, weights[from..end].to_vec())
-}
-
-/// For each of the n voxels of a line the root sums of squares of the weights that the stored ones have in its smoothed value
-/// and in the second derivative there.
-fn responses(rows: &[Row], n: usize) -> Vec<[f64; 2]> {
-    let tensor::Taps { value, second, .. } = taps(0.0);
-    let mut sum = Vec::new();
-    let mut root_sum = |rows: &[Row], taps: &[f64; TAPS]| {
-        let rows = &rows[..TAPS.min(rows.len())];
-        let [lowest, end] = reads(rows);
-        sum.clear();
-        sum.resize(end - lowest, 0.0);
-        for ((first, weights), tap) in rows.iter().zip(taps) {
-            for (sum, w) in sum[first - lowest..].iter_mut().zip(weights) {
-                *sum += w * tap;
-            }
-        }
-        sum.iter().map(|w| w * w).sum::<f64>().sqrt()
-    };
-    (0..n).map(|i| [root_sum(&rows[i..], &value), root_sum(&rows[i..], &second)]).collect()
 }
 
 #[cfg(test)]
