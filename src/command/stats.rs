@@ -1,6 +1,7 @@
 //! The JSON object of `--stats` ([PLAN-2]).
 
 use drypoint::Failure;
+use drypoint::cost::median;
 use drypoint::scene::counts::Counts;
 use serde_json::{Map, Value, json};
 
@@ -18,11 +19,6 @@ impl Times {
         wall.sort_by(f64::total_cmp);
         Self { wall, cpu }
     }
-
-    fn median(&self) -> f64 {
-        let n = self.wall.len();
-        (self.wall[(n - 1) / 2] + self.wall[n / 2]) / 2.0
-    }
 }
 
 /// The counts on one line, with `times` where frames were repeated. What was not done is 0, never left out.
@@ -36,7 +32,7 @@ pub(super) fn line(mut counts: Counts, times: Option<&Times>) -> Result<String, 
         _ => return Err(Failure::new("the counts cannot be written as JSON", "--stats", "leave --stats out")),
     };
     if let Some(times) = times {
-        object.insert("median_s".into(), json!(times.median()));
+        object.insert("median_s".into(), json!(median(&times.wall)));
         object.insert("min_s".into(), json!(times.wall[0]));
         object.insert("cpu_s".into(), json!(times.cpu.map(|all| all / times.wall.len() as f64)));
         object.insert("samples_M".into(), json!(samples / 1e6));
@@ -59,7 +55,7 @@ mod tests {
 
     #[test]
     fn medians_by_hand() {
-        let median = |wall: &[f64]| Times::new(wall.to_vec(), None).median();
+        let median = |wall: &[f64]| median(&Times::new(wall.to_vec(), None).wall);
         assert_eq!(median(&[3.0]), 3.0);
         assert_eq!(median(&[4.0, 1.0]), 2.5);
         assert_eq!(median(&[9.0, 1.0, 2.0]), 2.0);

@@ -43,6 +43,7 @@ mod variant;
 
 pub use form::Form;
 pub use front::front;
+pub use statistics::median;
 pub use table::{csv, markdown};
 
 use crate::job::{Job, Turned};
@@ -54,7 +55,7 @@ use drypoint_scene::picture::LayerKind;
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::tables::{Scene, VolumeSource};
 use error::{Error, error};
-use statistics::{median, quartiles};
+use statistics::quartiles;
 use std::fmt;
 use variant::{Made, Variant, take_turn, together};
 

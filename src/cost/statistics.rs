@@ -11,8 +11,8 @@ fn quantile(values: &[f64], share: f64) -> f64 {
     values[below] + (at - below as f64) * (values[above] - values[below])
 }
 
-/// The middle one.
-pub(super) fn median(values: &[f64]) -> f64 {
+/// The median of numbers, the mean of the middle two where their number is even; NaN where there is none.
+pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }
 

@@ -107,19 +107,25 @@ impl Comparison {
     }
 }
 
+/// Width and height of two pictures, which have to be the same and not 0.
+fn common_size(a: &Image, b: &Image) -> Result<[usize; 2], OutputError> {
+    let [size, other] = [a, b].map(|image| [image.width, image.height]);
+    if size != other {
+        return Err(OutputError::Sizes { a: size, b: other });
+    }
+    if size.contains(&0) {
+        return Err(OutputError::Layer { layer: "beauty".into(), fault: "the pictures have no pixels".into() });
+    }
+    Ok(size)
+}
+
 /// Compares the channels that both pictures have. A picture with colours and without α counts as opaque.
 ///
 /// # Errors
 /// [`OutputError::Sizes`], [`OutputError::Layer`] for pictures without pixels, [`OutputError::NothingInCommon`],
 /// [`OutputError::Viewing`], [`OutputError::NoRoom`].
 pub fn compare(a: &Image, b: &Image, options: &Options) -> Result<Comparison, OutputError> {
-    let (width, height) = (a.width, a.height);
-    if (b.width, b.height) != (width, height) {
-        return Err(OutputError::Sizes { a: [width, height], b: [b.width, b.height] });
-    }
-    if width * height == 0 {
-        return Err(OutputError::Layer { layer: "beauty".into(), fault: "the pictures have no pixels".into() });
-    }
+    let [width, height] = common_size(a, b)?;
     let flip = match (a.colors(), b.colors()) {
         (Some(_), Some(_)) => Some(flip::flip(a, b, options.pixels_per_degree)?.mean()),
         _ => None,

@@ -2,6 +2,7 @@
 
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::Page;
+use drypoint_scene::marks::frame::clipped;
 use drypoint_scene::view::View;
 
 /// From the world to a page.
@@ -112,18 +113,8 @@ impl Cut {
 
 /// The range from 0 to 1 in which a piece lies in a rectangle.
 fn inside([a, b]: [DVec2; 2], lo: DVec2, hi: DVec2) -> Option<[f64; 2]> {
-    let (mut from, mut to) = (0.0_f64, 1.0_f64);
-    for axis in 0..2 {
-        for (start, end) in [(a[axis] - lo[axis], b[axis] - lo[axis]), (hi[axis] - a[axis], hi[axis] - b[axis])] {
-            match (start >= 0.0, end >= 0.0) {
-                (true, true) => {}
-                (false, false) => return None,
-                (true, false) => to = to.min(start / (start - end)),
-                (false, true) => from = from.max(start / (start - end)),
-            }
-        }
-    }
-    (from < to).then_some([from, to])
+    let sides = |axis: usize| [(a[axis] - lo[axis], b[axis] - lo[axis]), (hi[axis] - a[axis], hi[axis] - b[axis])];
+    clipped((0..2).flat_map(sides))
 }
 
 #[cfg(test)]

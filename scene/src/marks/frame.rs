@@ -56,13 +56,19 @@ fn cut(page: &Page, line: Polyline) -> Vec<Polyline> {
 /// leaves one interval.
 fn range(page: &Page, a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
     let (lo, hi) = (page.margin - SLACK, page.size - page.margin + SLACK);
-    let (mut from, mut to) = (0.0_f64, 1.0_f64);
-    for (start, end) in [
+    clipped([
         (a.at.x - a.radius - lo, b.at.x - b.radius - lo),
         (a.at.y - a.radius - lo, b.at.y - b.radius - lo),
         (hi.x - a.at.x - a.radius, hi.x - b.at.x - b.radius),
         (hi.y - a.at.y - a.radius, hi.y - b.at.y - b.radius),
-    ] {
+    ])
+}
+
+/// The part of a segment, from 0 at its start to 1 at its end, that lies inside all of some lines. Each line is given by
+/// how far inside of it the start and the end lie, negative outside.
+pub fn clipped(distances: impl IntoIterator<Item = (f64, f64)>) -> Option<[f64; 2]> {
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
+    for (start, end) in distances {
         match (start >= 0.0, end >= 0.0) {
             (true, true) => {}
             (false, false) => return None,

@@ -13,7 +13,7 @@
 
 mod dot;
 mod fewer;
-mod frame;
+pub mod frame;
 mod loops;
 mod outline;
 mod page;

@@ -63,13 +63,7 @@ pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputE
     if !(1.0..=1000.0).contains(&pixels_per_degree) {
         return Err(OutputError::Viewing { pixels_per_degree });
     }
-    let (width, height) = (a.width, a.height);
-    if (b.width, b.height) != (width, height) {
-        return Err(OutputError::Sizes { a: [width, height], b: [b.width, b.height] });
-    }
-    if width * height == 0 {
-        return Err(OutputError::Layer { layer: "beauty".into(), fault: "the pictures have no pixels".into() });
-    }
+    let [width, height] = super::common_size(a, b)?;
     room(None, [width, height], PIXEL)?;
     let kernels = Kernels::new(pixels_per_degree);
     let [a, b] = [("the first picture", a), ("the second picture", b)].map(|(name, image)| {
