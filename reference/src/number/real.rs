@@ -47,6 +47,10 @@ pub trait Real:
     fn from_index(i: usize) -> Self;
     /// |x|.
     fn abs(self) -> Self;
+    /// The next larger number.
+    fn next_up(self) -> Self;
+    /// The next smaller number.
+    fn next_down(self) -> Self;
     /// x^y; whole y up to 64 by repeated squaring.
     fn pow(self, y: Self) -> Self;
     /// x^y of an opacity x in (0, 1], for y about 1.
@@ -164,6 +168,14 @@ impl Real for f64 {
         self.abs()
     }
 
+    fn next_up(self) -> Self {
+        self.next_up()
+    }
+
+    fn next_down(self) -> Self {
+        self.next_down()
+    }
+
     #[inline]
     fn pow(self, y: Self) -> Self {
         math::pow(self, y)
@@ -236,6 +248,14 @@ impl Real for f32 {
     #[inline(always)]
     fn abs(self) -> Self {
         self.abs()
+    }
+
+    fn next_up(self) -> Self {
+        self.next_up()
+    }
+
+    fn next_down(self) -> Self {
+        self.next_down()
     }
 
     #[inline]
