@@ -1,6 +1,7 @@
 //! Which file each frame of a scene goes to, and the frames drawn into them.
 
 use super::empty::warn_of_nothing;
+use super::input::{self, Over};
 use super::report::{Progress, note};
 use super::stats::{Times, cpu_seconds};
 use super::{Talk, target};
@@ -10,7 +11,7 @@ use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::picture::Picture;
 use drypoint::scene::tables::Scene;
-use drypoint::{Failure, Format};
+use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -119,8 +120,31 @@ pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Pictur
     frame.painted(job)
 }
 
+/// Loads a scene or a bare volume, and draws and writes every frame, `repeat` times each. `files` names the files, which are
+/// checked before anything is loaded.
+pub(super) fn load_and_draw(
+    input: Option<&Path>,
+    over: &Over,
+    files: impl FnOnce(&Scene) -> Result<Files, Failure>,
+    repeat: usize,
+    talk: Talk,
+) -> Result<Drawn, Failures> {
+    let start = Instant::now();
+    let (job, files) = {
+        let _loading = Progress::new(talk, "loading");
+        let found = input::find(input, over)?;
+        let files = files(&found.scene)?;
+        (found.load(over.wanted)?, files)
+    };
+    let loaded = start.elapsed().as_secs_f64();
+    input::tell(talk, &job);
+    let mut drawn = draw(&job, &files, repeat, talk)?;
+    drawn.counts.seconds.insert("load".into(), loaded);
+    Ok(drawn)
+}
+
 /// Draws every frame of a job, `repeat` times each, and writes them.
-pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Failure> {
+fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Failure> {
     room_for_page(job, &files.path(0))?;
     let mut counts = job.counts.clone();
     let marking = {

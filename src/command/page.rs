@@ -1,6 +1,6 @@
 //! What `points` and `strokes` have in common: a page of marks, of a scene, a bare volume or a saved list.
 
-use super::frames::{self, Drawn, Files};
+use super::frames::{self, Files};
 use super::input::{self, Flag, Over, Set};
 use super::raw::Raw;
 use super::report::{Progress, note, print};
@@ -10,6 +10,7 @@ use drypoint::job::Wanted;
 use drypoint::output::list;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::marks::{Layer, Marks, Page as Paper, Pen};
+use drypoint::scene::tables::Scene;
 use drypoint::stroking::Stroking;
 use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
@@ -43,18 +44,8 @@ impl Page {
         }
         target::format(&self.output, &Format::ALL)?;
         let over = self.over()?;
-        let start = Instant::now();
-        let (job, files) = {
-            let _loading = Progress::new(talk, "loading");
-            let found = input::find(Some(&self.input), &over)?;
-            let files = Files::of(&self.output, &found.scene)?;
-            (found.load(over.wanted)?, files)
-        };
-        let loaded = start.elapsed().as_secs_f64();
-        input::tell(talk, &job);
-        let Drawn { mut counts, .. } = frames::draw(&job, &files, 1, talk)?;
-        counts.seconds.insert("load".into(), loaded);
-        self.done(counts)
+        let files = |scene: &Scene| Files::of(&self.output, scene);
+        self.done(frames::load_and_draw(Some(&self.input), &over, files, 1, talk)?.counts)
     }
 
     /// The cells that strokes can begin in, as a table or as a picture ([HATCH-17]).

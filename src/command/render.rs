@@ -3,7 +3,7 @@
 use super::frames::{self, Drawn};
 use super::input::{self, Flag, Over, Set};
 use super::raw::Raw;
-use super::report::{Progress, note, print};
+use super::report::{note, print};
 use super::stats;
 use super::target::Target;
 use super::{Done, Outcome, Talk};
@@ -11,7 +11,6 @@ use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
 use drypoint::{Failure, Format};
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Render a scene or a bare volume to a picture; without either, the embedded scene.
 #[derive(Debug, Args)]
@@ -67,17 +66,8 @@ impl Render {
         let target = Target::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
         let mut over = Over::new(&self.set, self.flags()?)?;
         over.beauty_only = target.format != Format::Exr;
-        let start = Instant::now();
-        let (job, files) = {
-            let _loading = Progress::new(talk, "loading");
-            let found = input::find(self.input.as_deref(), &over)?;
-            let files = target.files(&found.scene)?;
-            (found.load(over.wanted)?, files)
-        };
-        let loaded = start.elapsed().as_secs_f64();
-        input::tell(talk, &job);
-        let Drawn { mut counts, times } = frames::draw(&job, &files, self.repeat.unwrap_or(1), talk)?;
-        counts.seconds.insert("load".into(), loaded);
+        let (input, files, repeat) = (self.input.as_deref(), |scene: &_| target.files(scene), self.repeat.unwrap_or(1));
+        let Drawn { counts, times } = frames::load_and_draw(input, &over, files, repeat, talk)?;
         let line = stats::line(counts, self.repeat.map(|_| &times))?;
         if self.stats {
             return print(&line);

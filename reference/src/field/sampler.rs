@@ -43,14 +43,15 @@ pub trait Sampler<R: Real>: Sync {
         self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64))))
     }
 
-    /// ‖g‖ at every voxel of a row, times 2^−e: the length of [`voxel_gradient`](Self::voxel_gradient). `rows` is memory to
-    /// work in, `norms` as long as the row.
+    /// ‖g‖² at every voxel of a row, times 4^−e: the product of [`voxel_gradient`](Self::voxel_gradient) with itself. `rows`
+    /// is memory to work in, `squares` as long as the row.
     ///
     /// # Panics
     /// As [`voxel_gradient`](Self::voxel_gradient).
-    fn voxel_norms(&self, [y, z]: [usize; 2], _rows: &mut Vec<R>, norms: &mut [R]) {
-        for (x, norm) in norms.iter_mut().enumerate() {
-            *norm = self.voxel_gradient([x, y, z]).length();
+    fn voxel_squares(&self, [y, z]: [usize; 2], _rows: &mut Vec<R>, squares: &mut [R]) {
+        for (x, square) in squares.iter_mut().enumerate() {
+            let gradient = self.voxel_gradient([x, y, z]);
+            *square = gradient.dot(gradient);
         }
     }
 
@@ -244,13 +245,19 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
         }
     }
 
-    fn voxel_norms(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, norms: &mut [R]) {
-        let norm = |x| self.voxel_gradient([x, y, z]).length();
-        if self.field.norms_inside([y, z], rows, norms) {
-            let last = norms.len() - 1;
-            (norms[0], norms[last]) = (norm(0), norm(last));
+    fn voxel_squares(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, squares: &mut [R]) {
+        if self.field.integer_squares([y, z], squares) {
+            return;
+        }
+        let square = |x| {
+            let gradient = self.voxel_gradient([x, y, z]);
+            gradient.dot(gradient)
+        };
+        if self.field.squares_inside([y, z], rows, squares) {
+            let last = squares.len() - 1;
+            (squares[0], squares[last]) = (square(0), square(last));
         } else {
-            norms.iter_mut().enumerate().for_each(|(x, at)| *at = norm(x));
+            squares.iter_mut().enumerate().for_each(|(x, at)| *at = square(x));
         }
     }
 

@@ -55,6 +55,10 @@ pub trait Real:
     fn to_index(self) -> usize;
     /// The number i, up to 2³² (f32: 2²⁴).
     fn from_index(i: usize) -> Self;
+    /// The next larger number.
+    fn next_up(self) -> Self;
+    /// The next smaller number.
+    fn next_down(self) -> Self;
     /// The angle of (x, self) from the x axis.
     fn atan2(self, x: Self) -> Self;
 
@@ -141,6 +145,14 @@ impl Real for f64 {
         i as u32 as f64
     }
 
+    fn next_up(self) -> Self {
+        self.next_up()
+    }
+
+    fn next_down(self) -> Self {
+        self.next_down()
+    }
+
     #[inline]
     fn atan2(self, x: Self) -> Self {
         math::atan2(self, x)
@@ -193,6 +205,14 @@ impl Real for f32 {
     #[inline(always)]
     fn from_index(i: usize) -> Self {
         i as u32 as f32
+    }
+
+    fn next_up(self) -> Self {
+        self.next_up()
+    }
+
+    fn next_down(self) -> Self {
+        self.next_down()
     }
 
     #[inline]

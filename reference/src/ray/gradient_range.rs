@@ -19,13 +19,23 @@ pub(crate) fn quantile_of_norms<R: Real, S: Sampler<R>>(
 ) -> (f64, u64) {
     let dims @ [nx, ny, nz] = volume.dims();
     let counts = |x: usize, y: usize, z: usize| !volume.mask().is_some_and(|m| touches(m, dims, [x, y, z], estimator));
-    let norms = |(rows, norms): &mut (Vec<R>, Vec<R>), row: usize, numbers: &mut Vec<f64>| {
+    // Roots keep the order, so the square of the quantile is selected and its root is taken once.
+    let least = square_of(no_normal_below);
+    let fill = |(rows, squares): &mut (Vec<R>, Vec<R>), row: usize, numbers: &mut Vec<f64>| {
         let (y, z) = (row % ny, row / ny);
-        sampler.voxel_norms([y, z], rows, norms);
-        let seen = norms.iter().enumerate().filter(|(x, norm)| **norm > no_normal_below && counts(*x, y, z));
-        numbers.extend(seen.map(|(_, norm)| norm.to_f64()));
+        sampler.voxel_squares([y, z], rows, squares);
+        // Each square is written behind the last that counts: without a branch, which would be guessed wrong at every edge
+        // of an object.
+        numbers.resize(nx, 0.0);
+        let mut kept = 0;
+        for (x, &square) in squares.iter().enumerate() {
+            numbers[kept] = square.to_f64();
+            kept += usize::from(square > least && counts(x, y, z));
+        }
+        numbers.truncate(kept);
     };
-    let hi = quantile(ny * nz, || (Vec::new(), vec![R::ZERO; nx]), norms, q);
+    let square = quantile(ny * nz, || (Vec::new(), vec![R::ZERO; nx]), fill, q);
+    let hi = square.map(|square| R::from_f64(square).sqrt().to_f64());
     let evaluated = match volume.mask() {
         None => (nx * ny * nz) as u64,
         Some(_) => {
@@ -34,6 +44,19 @@ pub(crate) fn quantile_of_norms<R: Real, S: Sampler<R>>(
         }
     };
     (hi.unwrap_or(0.0), evaluated)
+}
+
+/// The largest number whose root is not above a bound of at least 0: a number has a root above the bound exactly if it is
+/// larger.
+fn square_of<R: Real>(bound: R) -> R {
+    let mut square = bound * bound;
+    while square.next_up().sqrt() <= bound {
+        square = square.next_up();
+    }
+    while square.sqrt() > bound {
+        square = square.next_down();
+    }
+    square
 }
 
 /// Whether the gradient at a voxel reads a masked voxel, or the voxel is one.
@@ -99,6 +122,18 @@ mod tests {
         let unscaled =
             |g: Vec3<f64>| g.to_glam().to_array().map(|c| drypoint_scene::math::scale_by_power_of_two(c, exponent));
         voxels(dims).map(|v| Vec3::from_glam(unscaled(with_sampler!(field, |s| s.gradient(at(v)))).into())).collect()
+    }
+
+    #[test]
+    fn a_root_is_above_a_bound_where_the_number_is_above_its_square() {
+        fn check<R: Real>(bounds: &[f64]) {
+            for bound in bounds.iter().map(|&bound| R::from_f64(bound)) {
+                let square = square_of(bound);
+                assert!(square.sqrt() <= bound && square.next_up().sqrt() > bound, "{bound:?}");
+            }
+        }
+        check::<f64>(&[0.0, 1e-320, 1e-200, 0.1, 1.0, 3.0, 1.0 + f64::EPSILON, 1e150, 1e160]);
+        check::<f32>(&[0.0, 1e-44, 1e-20, 0.1, 1.0, 3.0, 1e18]);
     }
 
     /// A voxel is left out if its gradient depends on a masked one, or it is one: whatever the mask is filled with, what

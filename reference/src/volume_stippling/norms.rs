@@ -15,7 +15,8 @@ pub(super) fn norms<S: Sampler<f64>>(sampler: &S, volume: &Volume, estimator: Gr
     let mut norms = vec![0.0; volume.grid().len()];
     norms.par_chunks_mut(nx).enumerate().with_min_len(16).for_each_init(Vec::new, |rows, (row, norms)| {
         let (y, z) = (row % ny, row / ny);
-        sampler.voxel_norms([y, z], rows, norms);
+        sampler.voxel_squares([y, z], rows, norms);
+        norms.iter_mut().for_each(|norm| *norm = norm.sqrt());
         if let Some(mask) = volume.mask() {
             let touches = |x| touches_mask(mask, volume.dims(), [x, y, z], estimator);
             norms.iter_mut().enumerate().filter(|(x, _)| touches(*x)).for_each(|(_, norm)| *norm = INVALID);

@@ -3,9 +3,10 @@
 //! the derivative that each kernel has in its own file.
 
 pub(super) mod central;
-mod norms;
+mod integers;
 pub(super) mod regression;
 pub(super) mod sobel;
+mod squares;
 
 use super::{Field, GradientEstimator};
 use crate::number::{Real, Vec3};

@@ -243,6 +243,43 @@ fn gradients_at_voxels_are_the_interpolated_ones() {
     }
 }
 
+/// Squares by differences of integers are those of every voxel's gradient, at the border and on short axes too, in both
+/// number types; other voxels, estimators and axes of one voxel are left to others.
+#[test]
+fn squares_of_integers_are_those_of_their_gradients() {
+    fn check<R: Real>(v: &Volume, can: bool) {
+        let dims = v.dims();
+        let how = Reconstruction { gradient: GradientEstimator::Central, ..Reconstruction::default() };
+        let field = Field::<R>::new(v, how, Rung::Gradient).unwrap();
+        for (y, z) in (0..dims[1] * dims[2]).map(|row| (row % dims[1], row / dims[1])) {
+            let mut squares = vec![R::ZERO; dims[0]];
+            assert_eq!(field.integer_squares([y, z], &mut squares), can, "{dims:?}");
+            for x in (0..dims[0]).filter(|_| can) {
+                let gradient = with_sampler!(field, |s| s.voxel_gradient([x, y, z]));
+                assert_eq!(squares[x], gradient.dot(gradient), "{dims:?} at {x} {y} {z}");
+            }
+        }
+    }
+    for (dims, frame) in [([21, 4, 5], 2), ([2, 2, 2], 0), ([3, 2, 3], 1), ([9, 3, 4], 2), ([12, 1, 4], 0)] {
+        let grid = Grid::new(dims, frames()[frame], DVec3::ZERO).unwrap();
+        for &to in VoxelType::ALL {
+            // Both ends of the type occur.
+            let step = if to.bytes() == 1 { 1.5 } else { 600.0 };
+            let values: Vec<f64> = scatter(dims.iter().product()).into_iter().map(|v| (v - 80.0) * step).collect();
+            let v = Volume::new(grid.clone(), Voxels::from_f64(&values, to), 0.7, 0.1).unwrap();
+            let can =
+                !dims.contains(&1) && [VoxelType::U8, VoxelType::I8, VoxelType::U16, VoxelType::I16].contains(&to);
+            check::<f64>(&v, can);
+            check::<f32>(&v, can);
+        }
+    }
+    let grid = Grid::new([12, 4, 4], frames()[0], DVec3::ZERO).unwrap();
+    let v = Volume::new(grid, Voxels::U8(vec![7; 192]), 1.0, 0.0).unwrap();
+    let how = Reconstruction { gradient: GradientEstimator::Sobel, ..Reconstruction::default() };
+    let field = Field::<f64>::new(&v, how, Rung::Gradient).unwrap();
+    assert!(!field.integer_squares([1, 1], &mut [0.0; 12]));
+}
+
 /// A row's norms side by side are those of one voxel after the other: where values change, where they do not, and where the
 /// last eight overlap those before; rows at a border and short ones are left to others.
 #[test]
@@ -263,13 +300,13 @@ fn norms_of_a_row_are_those_of_its_voxels() {
                 let how = Reconstruction { gradient, ..Reconstruction::default() };
                 let field = Field::<f64>::new(&v, how, Rung::Gradient).unwrap();
                 for (y, z) in (0..dims[1] * dims[2]).map(|row| (row % dims[1], row / dims[1])) {
-                    let mut norms = vec![0.0; dims[0]];
+                    let mut squares = vec![0.0; dims[0]];
                     let is_inside = y > 0 && y + 1 < dims[1] && z > 0 && z + 1 < dims[2];
-                    let done = field.norms_inside([y, z], &mut Vec::new(), &mut norms);
+                    let done = field.squares_inside([y, z], &mut Vec::new(), &mut squares);
                     assert_eq!(done, can && is_inside && gradient != GradientEstimator::Analytic, "{dims:?} {y} {z}");
                     for x in (1..dims[0] - 1).filter(|_| done) {
                         let want = with_sampler!(field, |s| s.voxel_gradient([x, y, z])).length();
-                        assert_eq!(norms[x].to_bits(), want.to_bits(), "{to:?} at {x} {y} {z}");
+                        assert_eq!(squares[x].sqrt().to_bits(), want.to_bits(), "{to:?} at {x} {y} {z}");
                     }
                 }
             }

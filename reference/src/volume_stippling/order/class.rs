@@ -30,13 +30,19 @@ pub(super) fn by_class(cells: &[[u32; 3]]) -> (Vec<u32>, [usize; 9]) {
     (cells.iter().map(&mut place).collect(), starts)
 }
 
-/// The classes in the order of a rank: by random numbers.
-pub(super) fn class_order(seed: u64, rank: usize) -> [usize; 8] {
+/// The draw of the orders of ranks.
+pub(super) const OF_RANKS: u32 = u32::MAX;
+
+/// The draw of the orders of the sweeps that find the first points.
+pub(super) const OF_SWEEPS: u32 = u32::MAX - 1;
+
+/// N classes in the order of a round: by random numbers of a draw.
+pub(super) fn class_order<const N: usize>(seed: u64, round: u32, draw: u32) -> [usize; N] {
     /// No voxel has this place.
     const NOWHERE: u32 = u32::MAX;
-    let key = |class: u32| philox::uniform(seed, [rank as u32, class, NOWHERE], NOWHERE);
-    let mut order = [0, 1, 2, 3, 4, 5, 6, 7];
-    order.sort_by(|&a, &b| key(a as u32).total_cmp(&key(b as u32)));
+    let key = |class: usize| philox::uniform(seed, [round, class as u32, NOWHERE], draw);
+    let mut order = std::array::from_fn(|i| i);
+    order.sort_by(|&a, &b| key(a).total_cmp(&key(b)));
     order
 }
 
@@ -53,7 +59,7 @@ mod tests {
             assert_eq!(class(i), (cell[0] % 2 + 2 * (cell[1] % 2) + 4 * (cell[2] % 2)) as usize);
         }
         assert_eq!([13, 14, 16, 22, 0].map(parities), [0, 1, 2, 4, 7]);
-        let orders: Vec<[usize; 8]> = (0..40).map(|rank| class_order(1, rank)).collect();
+        let orders: Vec<[usize; 8]> = (0..40).map(|rank| class_order(1, rank, OF_RANKS)).collect();
         assert!(orders.iter().any(|order| order[0] != orders[0][0]));
         for mut order in orders {
             order.sort_unstable();

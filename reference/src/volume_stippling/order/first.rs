@@ -6,14 +6,13 @@
 //! 1 − min(u, u′) on, at which points are 1/√tone apart, and their distance counts in that measure. Points that are drawn
 //! early keep away from each other farther than from those that join them late, and every tone is even.
 
-use super::class::class_of;
+use super::class::{OF_SWEEPS, class_of, class_order};
 use super::groups::{Group, LANES, Lane, REACH as GROUP_REACH, Row, squared_distances, take_largest};
 use super::links::Rows;
 use super::pool::{Class, Site};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
 use drypoint_scene::blue_noise;
-use drypoint_scene::philox;
 use rayon::prelude::*;
 
 /// How often each voxel takes its first point.
@@ -79,7 +78,7 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
     let not_placed = |&cell: &[u32; 3]| Taken { at: [f32::NAN; 3], tone: (1.0 - blue_noise::at(cell)) as f32, slot: 0 };
     let mut taken: Vec<Taken> = cells.iter().map(not_placed).collect();
     for sweep in 0..SWEEPS {
-        for class in order(sites.seed, sweep) {
+        for class in class_order::<CLASSES>(sites.seed, sweep, OF_SWEEPS) {
             let take = |work: &mut Work, &i: &usize| {
                 let home = &classes[class_of(cells[i])];
                 let index = ids[i] as usize - home.start;
@@ -223,19 +222,10 @@ fn class([x, y, z]: [u32; 3]) -> usize {
     (x % side + side * (y % side) + side * side * (z % side)) as usize
 }
 
-/// The classes in the order of a sweep: by random numbers.
-fn order(seed: u64, sweep: u32) -> [usize; CLASSES] {
-    /// No voxel has this place.
-    const NOWHERE: u32 = u32::MAX;
-    let key = |class: usize| philox::uniform(seed, [sweep, class as u32, NOWHERE], NOWHERE - 1);
-    let mut order = std::array::from_fn(|i| i);
-    order.sort_by(|&a, &b| key(a).total_cmp(&key(b)));
-    order
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drypoint_scene::philox;
 
     #[test]
     fn voxels_of_a_class_do_not_see_each_other() {
@@ -255,8 +245,9 @@ mod tests {
                 assert_eq!(moved, cells[other.voxel as usize].map(|x| x as f32));
             }
         }
-        let mut sorted = order(1, 0);
-        assert_ne!(sorted, order(1, 1));
+        let order = |sweep| class_order::<CLASSES>(1, sweep, OF_SWEEPS);
+        let mut sorted = order(0);
+        assert_ne!(sorted, order(1));
         sorted.sort_unstable();
         assert_eq!(sorted, std::array::from_fn(|i| i));
     }

@@ -20,7 +20,7 @@ mod pool;
 
 use super::slab::Slab;
 use choice::{Seen, Step, take};
-use class::{by_class, class_of, class_order};
+use class::{OF_RANKS, by_class, class_of, class_order};
 use drypoint_scene::glam::{DMat3, DVec3};
 use groups::{Group, LANES, Row};
 use links::Links;
@@ -98,8 +98,8 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     }
     done(1);
     for rank in 1..each {
-        let order = class_order(sites.seed, rank);
-        let order_before = class_order(sites.seed, rank - 1);
+        let order = class_order::<8>(sites.seed, rank as u32, OF_RANKS);
+        let order_before = class_order::<8>(sites.seed, rank as u32 - 1, OF_RANKS);
         let [before, now] = &mut taken;
         std::mem::swap(before, now);
         for sweep in 0..sweeps(rank) {

@@ -1,4 +1,4 @@
-//! ‖g‖ by central differences, Sobel's operator and the fit at every voxel of a row, eight side by side: the operations of
+//! ‖g‖² by central differences, Sobel's operator and the fit at every voxel of a row, eight side by side: the operations of
 //! one voxel, so the same bits.
 
 use super::regression::Taps;
@@ -19,14 +19,14 @@ type Windows<R> = [[R; LANES + 2]; ROWS];
 type Lane<R> = [[R; LANES]; 3];
 
 impl<R: Real> Field<'_, R> {
-    /// ‖g‖ times 2^−e of the voxels of a row but for its first and last: the bits of
-    /// [`voxel_gradient`](crate::field::Sampler::voxel_gradient)'s length. `rows` is memory to work in, `norms` as long as the
-    /// row.
+    /// ‖g‖² times 4^−e of the voxels of a row but for its first and last: the bits of
+    /// [`voxel_gradient`](crate::field::Sampler::voxel_gradient) times itself. `rows` is memory to work in, `squares` as long
+    /// as the row.
     ///
     /// Returns whether it can. It cannot in rows at a border or shorter than ten voxels, where numbers are read with care,
     /// and with a kernel's own derivative.
-    pub(crate) fn norms_inside(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, norms: &mut [R]) -> bool {
-        let (nx, inside) = (norms.len(), norms.len().saturating_sub(2));
+    pub(crate) fn squares_inside(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, squares: &mut [R]) -> bool {
+        let (nx, inside) = (squares.len(), squares.len().saturating_sub(2));
         if inside < LANES || !self.stencils.surrounds([1, y, z]) {
             return false;
         }
@@ -44,20 +44,20 @@ impl<R: Real> Field<'_, R> {
         }
         let rows = rows.as_slice();
         match &self.regression {
-            _ if is_central => lengths(&self.to_world, norms, |start| central(rows, nx, start)),
+            _ if is_central => in_world(&self.to_world, squares, |start| central(rows, nx, start)),
             Some(regression) if self.how.gradient == GradientEstimator::Regression => {
                 let taps = regression.taps_inside();
-                lengths(&self.to_world, norms, |start| changing(rows, nx, start, |w, first| fitted(w, first, taps)));
+                in_world(&self.to_world, squares, |start| changing(rows, nx, start, |w, first| fitted(w, first, taps)));
             }
-            _ => lengths(&self.to_world, norms, |start| changing(rows, nx, start, sobel)),
+            _ => in_world(&self.to_world, squares, |start| changing(rows, nx, start, sobel)),
         }
         true
     }
 }
 
-/// The lengths of the gradients that `eight` gives for the eight voxels behind one.
-fn lengths<R: Real>(to_world: &Mat3<R>, norms: &mut [R], eight: impl Fn(usize) -> Lane<R>) {
-    let inside = norms.len() - 2;
+/// The squared lengths of the gradients that `eight` gives for the eight voxels behind one.
+fn in_world<R: Real>(to_world: &Mat3<R>, squares: &mut [R], eight: impl Fn(usize) -> Lane<R>) {
+    let inside = squares.len() - 2;
     widely(
         #[inline(always)]
         || {
@@ -65,9 +65,10 @@ fn lengths<R: Real>(to_world: &Mat3<R>, norms: &mut [R], eight: impl Fn(usize) -
                 // The last eight once more where the row ends in fewer.
                 let start = start.min(inside - LANES);
                 let [x, y, z] = eight(start);
-                let out = &mut norms[start + 1..][..LANES];
+                let out = &mut squares[start + 1..][..LANES];
                 for l in 0..LANES {
-                    out[l] = to_world.apply(Vec3::new(x[l], y[l], z[l])).length();
+                    let gradient = to_world.apply(Vec3::new(x[l], y[l], z[l]));
+                    out[l] = gradient.dot(gradient);
                 }
             }
         },
