@@ -1,8 +1,8 @@
 //! `[camera]`: from where the volume is seen ([RAY-5], [RAY-6]).
 
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, WORLD_LENGTH};
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::fault::Problem;
+use crate::document::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, WORLD_LENGTH};
 use crate::tables::Length;
 use glam::DVec3;
 
@@ -81,19 +81,6 @@ pub(crate) static TABLE: Table<Camera> = Table {
                     remedy: "move one of them, or give camera.direction".into(),
                 },
             );
-        }
-    },
-    idle: |scene, _, idle| {
-        let camera = &scene.camera;
-        match camera.projection {
-            Projection::Perspective { .. } => idle.key("camera.height", "the camera is perspective: fov counts"),
-            Projection::Orthographic { .. } => {
-                idle.key("camera.fov", "the camera is orthographic: height counts");
-                idle.key("camera.near", "the camera is orthographic: depths have any sign");
-            }
-        }
-        if camera.eye.is_some() && camera.direction_given && scene.orbit.is_none() {
-            idle.key("camera.target", "eye and direction say where the camera looks");
         }
     },
     ..Table::new(

@@ -1,11 +1,9 @@
 //! `[contours]`: style contours of controlled thickness ([STF-6] … [STF-8]).
 
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Lengths, Number, Numbers, On, Rule};
-use crate::knobs::Ladder;
-use crate::picture::LayerKind;
-use crate::plan::Quantity;
-use crate::tables::{Length, NormalSide, Scene, TransferKind};
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::kind::{Bounds, Choice, ChoiceOption, Lengths, Number, Numbers, On, Rule};
+use crate::quantity::Quantity;
+use crate::tables::{Length, Scene};
 
 /// The table `[contours]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,142 +76,97 @@ pub fn measured_curvature(scene: &Scene) -> Measured {
     }
 }
 
-/// Whether the scene's transfer function is one of styles, the only one that contours act on ([STF-8]).
-fn has_styles(scene: &Scene) -> bool {
-    scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Style)
-}
-
-/// Whether the scene's contours measure a κ_v.
-fn has_kappa(scene: &Scene) -> bool {
-    has_styles(scene) && scene.contours.as_ref().is_some_and(|c| matches!(c.kappa, Kappa::Ray | Kappa::Exact))
-}
-
 /// The description of `[contours]`.
-pub(crate) static TABLE: Table<Contours> = Table {
-    asks: |scene, asks| {
-        let Some(contours) = scene.contours.as_ref().filter(|_| asks.casts_rays() && has_styles(scene)) else { return };
-        match contours.kappa {
-            Kappa::Ray => asks.need(Quantity::PreviousNormal, "contours", "contours.kappa"),
-            Kappa::Exact => asks.need(Quantity::Hessian, "contours", "contours.kappa"),
-            Kappa::None { .. } => {}
-        }
-        if contours.fade.is_some() {
-            asks.need(Quantity::GradientMagnitudeRange, "fading contours", "contours.fade");
-        }
-    },
-    idle: |scene, _, idle| {
-        let Some(contours) = &scene.contours else { return };
-        if !has_styles(scene) {
-            let layers = &scene.picture.layers;
-            let shown = layers.contains(&LayerKind::Curvature) || layers.contains(&LayerKind::CurvatureAlongView);
-            let why = "contours act on styles, and the function is regular";
-            if shown {
-                idle.key("contours", &format!("{why}; only a layer reads its kappa"));
-            } else {
-                idle.key("contours", why);
-            }
-            return;
-        }
-        match contours.kappa {
-            Kappa::None { .. } => idle.key("contours.thickness", "kappa = \"none\": threshold counts"),
-            Kappa::Ray | Kappa::Exact => idle.key("contours.threshold", "kappa is not \"none\": thickness counts"),
-        }
-        if contours.kappa != Kappa::Ray || scene.sampling.normal != NormalSide::Facing {
-            idle.key("contours.sign_flip", "it acts with kappa = \"ray\" and sampling.normal = \"facing\"");
-        }
-    },
-    ..Table::new(
-        "[contours]",
-        "Style contours of controlled thickness. They act on a transfer function of styles.",
-        Contours::default,
-        &[
-            Key::new(
-                "thickness",
-                "STF-7",
-                "T, the width of a contour.",
-                &Slot {
-                    kind: Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
-                    get: |c: &Contours| Some(c.thickness),
-                    set: |c, v| c.thickness = v,
+pub(crate) static TABLE: Table<Contours> = Table::new(
+    "[contours]",
+    "Style contours of controlled thickness. They act on a transfer function of styles.",
+    Contours::default,
+    &[
+        Key::new(
+            "thickness",
+            "STF-7",
+            "T, the width of a contour.",
+            &Slot {
+                kind: Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
+                get: |c: &Contours| Some(c.thickness),
+                set: |c, v| c.thickness = v,
+            },
+        ),
+        Key::new(
+            "kappa",
+            "STF-6",
+            "The curvature along the view that thickness is controlled by.",
+            &Slot {
+                kind: Choice {
+                    options: &[
+                        ChoiceOption::new("ray", KappaName::Ray, "From two normals along the ray."),
+                        ChoiceOption::new("exact", KappaName::Exact, "From the Hessian."),
+                        ChoiceOption::new("none", KappaName::None, "None: a constant threshold."),
+                    ],
+                    later: &[],
                 },
-            ),
-            Key::new(
-                "kappa",
-                "STF-6",
-                "The curvature along the view that thickness is controlled by.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("ray", KappaName::Ray, "From two normals along the ray."),
-                            ChoiceOption::new("exact", KappaName::Exact, "From the Hessian."),
-                            ChoiceOption::new("none", KappaName::None, "None: a constant threshold."),
-                        ],
-                        later: &[],
-                    },
-                    get: |c: &Contours| {
-                        Some(match c.kappa {
-                            Kappa::Ray => KappaName::Ray,
-                            Kappa::Exact => KappaName::Exact,
-                            Kappa::None { .. } => KappaName::None,
-                        })
-                    },
-                    set: |c, name| {
-                        c.kappa = match name {
-                            KappaName::Ray => Kappa::Ray,
-                            KappaName::Exact => Kappa::Exact,
-                            KappaName::None => Kappa::None { threshold: THRESHOLD },
-                        }
-                    },
+                get: |c: &Contours| {
+                    Some(match c.kappa {
+                        Kappa::Ray => KappaName::Ray,
+                        Kappa::Exact => KappaName::Exact,
+                        Kappa::None { .. } => KappaName::None,
+                    })
                 },
-            )
-            .needs(&[Quantity::PreviousNormal, Quantity::Hessian])
-            .knob(Ladder::to_field(|scene, _, _| if has_kappa(scene) { &["ray", "exact"] } else { &[] })),
-            Key::new(
-                "threshold",
-                "STF-6",
-                "τ of kappa = \"none\": |N·v| up to which a contour reaches.",
-                &Slot {
-                    kind: Number { bounds: Bounds::UNIT, unit: "" },
-                    get: |c: &Contours| match c.kappa {
-                        Kappa::None { threshold } => Some(threshold),
-                        Kappa::Ray | Kappa::Exact => None,
-                    },
-                    set: |c, v| {
-                        if let Kappa::None { threshold } = &mut c.kappa {
-                            *threshold = v;
-                        }
-                    },
+                set: |c, name| {
+                    c.kappa = match name {
+                        KappaName::Ray => Kappa::Ray,
+                        KappaName::Exact => Kappa::Exact,
+                        KappaName::None => Kappa::None { threshold: THRESHOLD },
+                    }
                 },
-            )
-            .absent("0.3 with kappa = \"none\""),
-            Key::new(
-                "sign_flip",
-                "STF-5",
-                "What a flipped normal counts as, with kappa = \"ray\" and sampling.normal = \"facing\".",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("two-sided", SignFlip::TwoSided, "The angle between lines."),
-                            ChoiceOption::new("literal", SignFlip::Literal, "The plain angle."),
-                        ],
-                        later: &[],
-                    },
-                    get: |c: &Contours| Some(c.sign_flip),
-                    set: |c, v| c.sign_flip = v,
+            },
+        )
+        .needs(&[Quantity::PreviousNormal, Quantity::Hessian]),
+        Key::new(
+            "threshold",
+            "STF-6",
+            "τ of kappa = \"none\": |N·v| up to which a contour reaches.",
+            &Slot {
+                kind: Number { bounds: Bounds::UNIT, unit: "" },
+                get: |c: &Contours| match c.kappa {
+                    Kappa::None { threshold } => Some(threshold),
+                    Kappa::Ray | Kappa::Exact => None,
                 },
-            ),
-            Key::new(
-                "fade",
-                "STF-7",
-                "lo and hi, of |g|, between which contours fade in.",
-                &Slot {
-                    kind: Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending },
-                    get: |c: &Contours| c.fade,
-                    set: |c, v| c.fade = Some(v),
+                set: |c, v| {
+                    if let Kappa::None { threshold } = &mut c.kappa {
+                        *threshold = v;
+                    }
                 },
-            )
-            .absent("no fade")
-            .needs(&[Quantity::GradientMagnitudeRange]),
-        ],
-    )
-};
+            },
+        )
+        .absent("0.3 with kappa = \"none\""),
+        Key::new(
+            "sign_flip",
+            "STF-5",
+            "What a flipped normal counts as, with kappa = \"ray\" and sampling.normal = \"facing\".",
+            &Slot {
+                kind: Choice {
+                    options: &[
+                        ChoiceOption::new("two-sided", SignFlip::TwoSided, "The angle between lines."),
+                        ChoiceOption::new("literal", SignFlip::Literal, "The plain angle."),
+                    ],
+                    later: &[],
+                },
+                get: |c: &Contours| Some(c.sign_flip),
+                set: |c, v| c.sign_flip = v,
+            },
+        ),
+        Key::new(
+            "fade",
+            "STF-7",
+            "lo and hi, of |g|, between which contours fade in.",
+            &Slot {
+                kind: Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending },
+                get: |c: &Contours| c.fade,
+                set: |c, v| c.fade = Some(v),
+            },
+        )
+        .absent("no fade")
+        .needs(&[Quantity::GradientMagnitudeRange]),
+    ],
+);

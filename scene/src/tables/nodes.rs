@@ -1,14 +1,34 @@
 //! Nodes of a transfer function, in a line, on a full grid, or in rows of their own ([STF-3], [STF-4]).
 
+use super::LabelKey;
 use super::over::Label;
-use super::{LabelKey, Node, NodeColor};
-use crate::file::Problem;
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Section, Shape, Slot, Table};
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf, Text};
-use crate::file::out::Out;
+use crate::document::Problem;
+use crate::document::check::Check;
+use crate::document::describe::{Key, Kind, Section, Shape, Slot, Table};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf, Text};
+use crate::document::out::Out;
 use serde_json::{Value as Json, json};
+
+/// One node of a transfer function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// The value, or the first of two quantities.
+    pub at: f64,
+    /// Style or colour.
+    pub color: NodeColor,
+    /// α_u per reference length; an `#rrggbbaa` colour has already been multiplied in.
+    pub opacity: f64,
+}
+
+/// What a node shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NodeColor {
+    /// The name of a style.
+    Style(String),
+    /// Linear straight red, green, blue.
+    Color([f64; 3]),
+}
 
 /// A row of nodes of a function over two quantities: a function of its own over the first one ([STF-4]).
 #[derive(Clone, Debug, PartialEq)]

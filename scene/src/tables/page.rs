@@ -1,7 +1,7 @@
 //! `[page]`: the paper that points and lines are drawn on ([IO-7], [STIP-16]).
 
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Flag, Lengths, On};
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::kind::{Bounds, Flag, Lengths, On};
 use crate::tables::Length;
 
 /// The table `[page]`.

@@ -1,9 +1,7 @@
 //! `[[pen]]`: the pens that layers of points and lines are drawn with ([IO-7]).
 
-use crate::file::check::Check;
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::kind::{Bounds, Colors, Lengths, On, PathTo, Text};
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::kind::{Bounds, Colors, Lengths, On, PathTo, Text};
 use crate::tables::Length;
 use std::path::PathBuf;
 
@@ -27,14 +25,7 @@ impl Default for PenSettings {
 }
 
 /// The description of a pen.
-pub(crate) static TABLE: Table<PenSettings> = Table {
-    idle: |scene, _, idle| {
-        let Some(pen) = idle.at.item.and_then(|i| scene.pens.get(i)) else { return };
-        if scene.stipples.as_ref().is_none_or(|stipples| stipples.pen.as_ref() != Some(&pen.name)) {
-            idle.key(&idle.at.inner("tone"), "only the pen that stipples.pen names prints by its table");
-        }
-    },
-    ..Table::new(
+pub(crate) static TABLE: Table<PenSettings> = Table::new(
         "a pen",
         "What draws a layer of points and lines.",
         PenSettings::default,
@@ -78,19 +69,7 @@ pub(crate) static TABLE: Table<PenSettings> = Table {
             )
             .absent("discs of the nib"),
         ],
-    )
-};
-
-/// A pen is called by its name, so that no two may share one.
-pub(super) fn check_names(pens: &[PenSettings], check: &mut Check) {
-    for (i, pen) in pens.iter().enumerate() {
-        if let Some(first) = pens[..i].iter().position(|other| other.name == pen.name) {
-            let what = format!("pen[{first}] and pen[{i}] are both called {:?}", pen.name);
-            let remedy = "give each pen a name of its own".into();
-            check.fault_in(&format!("pen[{i}].name"), Problem::Contradiction { what, remedy });
-        }
-    }
-}
+    );
 
 #[cfg(test)]
 mod tests {

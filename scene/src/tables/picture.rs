@@ -1,18 +1,16 @@
 //! `[picture]`: what the picture is drawn on.
 
-use crate::file::check::Check;
-use crate::file::describe::{Instead, Key, Kind, Shape, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::item::Item;
-use crate::file::kind::{
+use crate::document::check::Check;
+use crate::document::describe::{Instead, Key, Kind, Shape, Slot, Table};
+use crate::document::fault::Problem;
+use crate::document::item::Item;
+use crate::document::kind::{
     Bounds, Choice, ChoiceOption, Colors, Lengths, ListOf, Number, On, Whole, Wholes, nearest_color, parse_color,
 };
-use crate::file::out::Out;
-use crate::knobs::Ladder;
+use crate::document::out::Out;
 use crate::picture::LayerKind;
-use crate::plan::{Pass, Quantity};
+use crate::quantity::Quantity;
 use crate::tables::Length;
-use crate::tables::contours::{Measured, measured_curvature};
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
@@ -130,39 +128,6 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
         }
         check_layers(&picture.layers, check);
     },
-    asks: |scene, asks| {
-        if !asks.casts_rays() {
-            return;
-        }
-        for (i, layer) in scene.picture.layers.iter().enumerate() {
-            let effect = format!("layer {layer}");
-            let key = format!("picture.layers[{i}]");
-            let along_view = match measured_curvature(scene) {
-                Measured::Exact => Quantity::Hessian,
-                Measured::AlongRay => Quantity::PreviousNormal,
-            };
-            let (needs, first_only): (&[Quantity], bool) = match layer {
-                LayerKind::Beauty | LayerKind::Z | LayerKind::Depth | LayerKind::First | LayerKind::Counts => continue,
-                LayerKind::Normal | LayerKind::Gradient => (&[Quantity::Gradient], false),
-                LayerKind::Curvature => (&[Quantity::Hessian, along_view], false),
-                LayerKind::CurvatureAlongView => (&[along_view], false),
-                LayerKind::FirstNormal => (&[Quantity::Gradient], true),
-                LayerKind::FirstCurvature => (&[Quantity::Hessian, along_view], true),
-                LayerKind::FirstCurvatureAlongView => (&[along_view], true),
-            };
-            needs.iter().for_each(|&quantity| asks.need_where(quantity, first_only, &effect, &key));
-        }
-    },
-    idle: |scene, plan, idle| {
-        if !plan.has_pass(Pass::Rays) {
-            for key in ["picture.samples", "picture.layers"] {
-                idle.key(key, "the volume itself is not drawn");
-            }
-        }
-        if !idle.says("picture.width") && !scene.has_marks() {
-            idle.key("picture.dpi", "nothing is in mm: size is in pixels");
-        }
-    },
     ..Table::new(
         "[picture]",
         "What the picture is drawn on.",
@@ -219,8 +184,7 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
                     get: |p: &PictureSettings| Some(p.samples as u64),
                     set: |p, v| p.samples = v as usize,
                 },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Rays) { &["1", "2", "4"] } else { &[] })),
+            ),
             Key::new(
                 "background",
                 "IO-6",

@@ -1,13 +1,12 @@
 //! `[surface]`: an opaque iso-surface in the picture ([HATCH-14], [HATCH-15]).
 
 use crate::color::Rgba;
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Shape, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Choice, ChoiceOption, Colors, TableOf};
-use crate::file::out::Out;
-use crate::plan::{Pass, Quantity};
+use crate::document::check::Check;
+use crate::document::describe::{Key, Kind, Shape, Slot, Table};
+use crate::document::fault::Problem;
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Choice, ChoiceOption, Colors, TableOf};
+use crate::document::out::Out;
 use crate::tables::toon::{SURFACE_SILHOUETTE, SURFACE_TOON, VIEW_OPACITY};
 use crate::tables::{SilhouetteShading, ToonShading};
 use serde_json::{Value as Json, json};
@@ -114,36 +113,6 @@ pub(crate) static TABLE: Table<Surface> = Table {
             check.fault_in("color", Problem::Contradiction { what, remedy });
         }
     },
-    asks: |scene, asks| {
-        let drawn = |surface: &Surface| surface.look != SurfaceLook::None && asks.casts_rays();
-        let Some(surface) = scene.surface.as_ref().filter(|surface| drawn(surface)) else { return };
-        asks.need(Quantity::Surface, "iso-surface", "surface");
-        if surface.iso == Iso::Auto {
-            asks.pass(Pass::AutomaticIso, "iso-surface", "surface.iso");
-        }
-        if surface.look == SurfaceLook::Phong {
-            asks.need(Quantity::SurfaceNormal, "lit iso-surface", "surface.look");
-        }
-        if surface.tones().is_some_and(|toon| toon.reads_normals()) {
-            asks.need(Quantity::SurfaceNormal, "iso-surface in tones", "surface.look");
-        }
-        if surface.silhouette.is_some() {
-            asks.need(Quantity::SurfaceNormal, "silhouettes of the iso-surface", "surface.silhouette");
-        }
-    },
-    idle: |scene, _, idle| {
-        let Some(surface) = &scene.surface else { return };
-        if surface.look == SurfaceLook::None && !scene.has_strokes() {
-            return idle.key("surface", "look = \"none\" hides strokes alone, and the scene has none");
-        }
-        if surface.look == SurfaceLook::White {
-            idle.key("surface.color", "look = \"white\" is white");
-        }
-        if surface.look != SurfaceLook::Toon {
-            idle.key("surface.toon", "look is not \"toon\"");
-        }
-        idle.key("surface.view_opacity", "the surface is opaque, and an opacity of 1 stays 1 from every side");
-    },
     ..Table::new(
         "[surface]",
         "An opaque iso-surface, where the field first has a value along each ray; what lies behind it is not seen. \
@@ -224,7 +193,8 @@ pub(crate) static TABLE: Table<Surface> = Table {
 mod tests {
     use super::*;
     use crate::file::{Overrides, parse};
-    use crate::plan::Plan;
+    use crate::plan::{Pass, Plan};
+    use crate::quantity::Quantity;
     use crate::tables::Scene;
     use std::path::Path;
 

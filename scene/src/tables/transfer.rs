@@ -1,16 +1,15 @@
 //! `[transfer]`: colours or styles, and opacities, over the values or over two quantities.
 
+pub use super::nodes::{Node, NodeColor};
 use super::nodes::{NodeList, Nodes, ROWS, Row};
-use super::over::{Axis, Over, OverKind};
+use super::over::{Over, OverKind};
 use super::transfer_rules as rules;
-use crate::file::check::Check;
-use crate::file::describe::{Instead, Key, Kind, Shape, Slot, Table as Description};
-use crate::file::item::Item;
-use crate::file::kind::{Choice, ChoiceOption, Whole};
-use crate::file::out::Out;
-use crate::knobs::Ladder;
-use crate::plan::{Pass, Plan, Quantity};
-use crate::tables::{Projection, Scene};
+use crate::document::check::Check;
+use crate::document::describe::{Instead, Key, Kind, Shape, Slot, Table as Description};
+use crate::document::item::Item;
+use crate::document::kind::{Choice, ChoiceOption, Whole};
+use crate::document::out::Out;
+use crate::quantity::Quantity;
 use serde_json::{Value as Json, json};
 
 /// The table `[transfer]`.
@@ -54,26 +53,6 @@ pub enum Unit {
     Normalized,
     /// The volume's percentiles.
     Percentile,
-}
-
-/// One node of a transfer function.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Node {
-    /// The value, or the first of two quantities.
-    pub at: f64,
-    /// Style or colour.
-    pub color: NodeColor,
-    /// α_u per reference length; an `#rrggbbaa` colour has already been multiplied in.
-    pub opacity: f64,
-}
-
-/// What a node shows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NodeColor {
-    /// The name of a style.
-    Style(String),
-    /// Linear straight red, green, blue.
-    Color([f64; 3]),
 }
 
 /// How α_u and α_d become α ([STF-9]).
@@ -142,8 +121,8 @@ impl Transfer {
 
 /// The description of `[transfer]`.
 pub(crate) static TABLE: Description<Transfer> = Description {
-    instead: &[Instead { one: "rows", others: &["nodes"] }],
-    check: |transfer, check| {
+instead: &[Instead { one: "rows", others: &["nodes"] }],
+check: |transfer, check| {
         if check.sound(&["kind"]) {
             rules::kind(transfer.kind, check);
         }
@@ -152,41 +131,7 @@ pub(crate) static TABLE: Description<Transfer> = Description {
             rules::percentiles(transfer, check);
         }
     },
-    asks: |scene, asks| {
-        let Some(transfer) = scene.transfer.as_ref().filter(|_| asks.casts_rays()) else { return };
-        asks.need(Quantity::Value, "transfer function", "transfer");
-        if transfer.is_automatic() {
-            asks.pass(Pass::AutomaticTransfer, "automatic function", "transfer.nodes");
-        }
-        if transfer.over != Over::Value {
-            transfer.over.axes().iter().for_each(|axis| axis.asks(scene, transfer.unit, asks));
-        }
-        if transfer.kind == TransferKind::Style {
-            asks.need(Quantity::Gradient, "styles", "transfer.kind");
-            if transfer.transparency == Transparency::Illustrative {
-                asks.need(Quantity::GradientMagnitudeRange, "illustrative transparency", "transfer.transparency");
-            }
-        }
-    },
-    idle: |scene, _, idle| {
-        let Some(transfer) = &scene.transfer else { return };
-        if transfer.is_automatic() {
-            idle.key("transfer.unit", "an automatic function has no nodes to measure");
-        } else if !transfer.over.axes().iter().any(|axis| matches!(axis, Axis::Value | Axis::GradientMagnitude)) {
-            idle.key("transfer.unit", "it measures values and gradient magnitudes, and the function is over others");
-        }
-        if transfer.over != Over::Value {
-            idle.key("transfer.table", "a function over two quantities is evaluated exactly");
-        }
-        if transfer.kind == TransferKind::Regular {
-            for key in ["transfer.transparency", "transfer.mix", "transfer.sphere_frame"] {
-                idle.key(key, "it acts on styles, and the function is regular");
-            }
-        } else if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
-            idle.key("transfer.sphere_frame", "both frames are the same in an orthographic picture");
-        }
-    },
-    ..Description::new(
+..Description::new(
         "[transfer]",
         "Colours or styles, and opacities, over the values or over two quantities. Without `nodes` and `rows` the \
          function is automatic.",
@@ -325,19 +270,10 @@ pub(crate) static TABLE: Description<Transfer> = Description {
                 "How the function is evaluated: exactly, or from a table of so many entries over the range of values, as \
                  graphics hardware does.",
                 &Slot { kind: Evaluation, get: |t: &Transfer| Some(t.table), set: |t, v| t.table = v },
-            )
-            .knob(Ladder::to_finest(|scene, plan, _| tables(scene, plan))),
+            ),
         ],
     )
 };
-
-/// Sizes that graphics hardware has, where the function is over one quantity.
-fn tables(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
-    match scene.transfer.as_ref().filter(|_| plan.has_pass(Pass::Rays)) {
-        Some(transfer) if transfer.over == Over::Value => &["64", "256", "1024", "4096", "exact"],
-        _ => &[],
-    }
-}
 
 /// `"exact"`, or a number of entries.
 struct Evaluation;

@@ -1,14 +1,8 @@
 //! `[hatching.directions]`: where a stroke's direction comes from ([HATCH-3], [HATCH-4]).
 
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule};
-use crate::knobs::Ladder;
-use crate::plan::Pass;
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule};
 use glam::DVec3;
-
-/// Settings of `rule` and of `from`.
-const RULES: &[&str] = &["raw", "scaled"];
-const SOURCES: &[&str] = &["stored", "hessian"];
 
 /// The table `[hatching.directions]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,8 +123,7 @@ pub(super) static DIRECTIONS: Table<Directions> = Table::new(
                 get: |d: &Directions| Some(d.rule),
                 set: |d, v| d.rule = v,
             },
-        )
-        .knob(Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Strokes) { RULES } else { &[] })),
+        ),
         Key::new(
             "from",
             "HATCH-4",
@@ -154,8 +147,7 @@ pub(super) static DIRECTIONS: Table<Directions> = Table::new(
                 get: |d: &Directions| Some(d.from),
                 set: |d, v| d.from = v,
             },
-        )
-        .knob(Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Strokes) { SOURCES } else { &[] })),
+        ),
         Key::new(
             "interpolate",
             "HATCH-4",

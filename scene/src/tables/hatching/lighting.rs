@@ -1,11 +1,11 @@
 //! `[hatching.lighting]`: light on lines ([HATCH-12]).
 
 use crate::color::{Rgba, srgb_to_linear};
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Shape, Slot, Table};
-use crate::file::item::Item;
-use crate::file::kind::{Bounds, Colors, Flag, Number, Whole};
-use crate::file::out::Out;
+use crate::document::check::Check;
+use crate::document::describe::{Key, Kind, Shape, Slot, Table};
+use crate::document::item::Item;
+use crate::document::kind::{Bounds, Colors, Flag, Number, Whole};
+use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 
 /// The table `[hatching.lighting]`.

@@ -3,7 +3,6 @@
 mod directions;
 mod lighting;
 mod presets;
-mod rules;
 mod stroke;
 mod table;
 

@@ -1,10 +1,10 @@
 //! `[hatching.stroke]`: how a stroke is drawn ([HATCH-13]).
 
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Shape, Slot, Table};
-use crate::file::item::Item;
-use crate::file::kind::{Bounds, Lengths, Number, On};
-use crate::file::out::Out;
+use crate::document::check::Check;
+use crate::document::describe::{Key, Kind, Shape, Slot, Table};
+use crate::document::item::Item;
+use crate::document::kind::{Bounds, Lengths, Number, On};
+use crate::document::out::Out;
 use crate::tables::shading::Light;
 use crate::tables::{Length, LightDirection};
 use serde_json::{Value as Json, json};

@@ -2,18 +2,15 @@
 
 use super::directions::DIRECTIONS;
 use super::lighting::LIGHTING;
-use super::rules;
 use super::stroke::STROKE;
 use super::{Family, HatchIso, HatchStyle, Hatching, Hidden, Measure, SeedsBy, Spacing};
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Shape, Slot, Table};
-use crate::file::item::Item;
-use crate::file::kind::{
+use crate::document::check::Check;
+use crate::document::describe::{Key, Kind, Shape, Slot, Table};
+use crate::document::item::Item;
+use crate::document::kind::{
     Bounds, Choice, ChoiceOption, Colors, End, Flag, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole,
 };
-use crate::file::out::Out;
-use crate::knobs::Ladder;
-use crate::plan::{Pass, Plan};
+use crate::document::out::Out;
 use crate::tables::surface::IsoKind;
 use serde_json::{Value as Json, json};
 
@@ -23,14 +20,6 @@ const TURN: Number = Number { bounds: Bounds { lo: End::Out(0.0), hi: End::In(18
 const SHARE: Number = Number { bounds: Bounds::UNIT, unit: "" };
 const PAGE_LENGTH: Lengths = Lengths { on: On::Page, bounds: Bounds::POSITIVE };
 const NOT_NEGATIVE: Lengths = Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE };
-
-/// Settings of `tolerance` and of `chord`.
-const TOLERANCES: &[&str] = &["0.1 voxels", "0.03 voxels", "0.01 voxels", "0.003 voxels", "0.001 voxels"];
-const CHORDS: &[&str] = &["0.4 voxels", "0.2 voxels", "0.1 voxels", "0.05 voxels", "0.01 voxels"];
-
-fn of_strokes(plan: &Plan, settings: &'static [&'static str]) -> &'static [&'static str] {
-    if plan.has_pass(Pass::Strokes) { settings } else { &[] }
-}
 
 /// A value of the volume, or what is in place of one.
 struct HatchIsoKind;
@@ -101,10 +90,7 @@ impl Kind for SpacingKind {
 }
 
 /// The description of `[hatching]`.
-pub(crate) static TABLE: Table<Hatching> = Table {
-    asks: rules::asks,
-    idle: rules::idle,
-    ..Table::new(
+pub(crate) static TABLE: Table<Hatching> = Table::new(
         "[hatching]",
         "Strokes along the lines of curvature of an iso-surface. What the surface of [surface], or else their own, hides is \
          not drawn.",
@@ -128,8 +114,7 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 "HATCH-8",
                 "How far a step of the integration may miss.",
                 &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.tolerance), set: |h, v| h.tolerance = v },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_strokes(plan, TOLERANCES))),
+            ),
             Key::new(
                 "seeds",
                 "HATCH-6",
@@ -280,8 +265,7 @@ pub(crate) static TABLE: Table<Hatching> = Table {
                 "HATCH-10",
                 "c, the most that straight segments may leave a stroke by.",
                 &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.chord), set: |h, v| h.chord = v },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_strokes(plan, CHORDS))),
+            ),
             Key::new(
                 "beziers",
                 "HATCH-10",
@@ -385,5 +369,4 @@ pub(crate) static TABLE: Table<Hatching> = Table {
             )
             .absent("`color` everywhere"),
         ],
-    )
-};
+    );

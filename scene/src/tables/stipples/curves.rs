@@ -1,8 +1,8 @@
 //! `[stipples.curves]`: silhouette curves ([STIP-13]).
 
 use super::kinds::{SHARE, SIGNED};
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Number};
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::kind::{Bounds, Choice, ChoiceOption, Number};
 
 /// The table `[stipples.curves]`.
 #[derive(Clone, Copy, Debug, PartialEq)]

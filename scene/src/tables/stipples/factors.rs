@@ -1,8 +1,8 @@
 //! The factors' tables: `[stipples.boundary]`, … ([STIP-7] … [STIP-12]).
 
 use super::kinds::{EXPONENT, SHARE, SIGNED};
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Flag, Number};
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::kind::{Bounds, Flag, Number};
 use crate::tables::LightDirection;
 use crate::tables::shading::Light;
 

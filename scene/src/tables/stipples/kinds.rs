@@ -1,11 +1,11 @@
 //! The types of value that `[stipples]` alone has.
 
 use super::{DotColor, PointsPerPixel, Threshold};
-use crate::file::check::Check;
-use crate::file::describe::{Kind, Shape};
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Colors, Number, nearest_color, parse_color};
-use crate::file::out::Out;
+use crate::document::check::Check;
+use crate::document::describe::{Kind, Shape};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Bounds, Colors, Number, nearest_color, parse_color};
+use crate::document::out::Out;
 use crate::tables::volume::quantile;
 use serde_json::{Value as Json, json};
 

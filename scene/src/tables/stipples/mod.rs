@@ -4,13 +4,11 @@ mod curves;
 mod factors;
 mod kinds;
 mod presets;
-mod rules;
 mod table;
 
 pub use curves::{Curves, CurvesTest};
 pub use factors::{Boundary, Distance, Interior, Lighting, Resolution, Silhouette};
 pub(crate) use presets::StipplePreset;
-pub(crate) use rules::check_colors;
 pub(crate) use table::TABLE;
 
 use crate::color::Rgba;

@@ -5,24 +5,13 @@ use super::{
     Even, FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples,
     curves::CURVES,
     factors::{BOUNDARY, DISTANCE, INTERIOR, LIGHTING, RESOLUTION, SILHOUETTE},
-    rules,
 };
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Flag, Lengths, On, TableOf, Text, Whole};
-use crate::knobs::Ladder;
-use crate::plan::{Pass, Plan};
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::kind::{Bounds, Choice, ChoiceOption, Flag, Lengths, On, TableOf, Text, Whole};
 use crate::tables::surface::IsoKind;
 
-/// Settings of what points are made by.
-fn of_points(plan: &Plan, settings: &'static [&'static str]) -> &'static [&'static str] {
-    if plan.has_pass(Pass::StipplePoints) { settings } else { &[] }
-}
-
 /// The description of `[stipples]`.
-pub(crate) static TABLE: Table<Stipples> = Table {
-    asks: rules::asks,
-    idle: |scene, _, idle| rules::idle(scene, idle),
-    ..Table::new(
+pub(crate) static TABLE: Table<Stipples> = Table::new(
         "[stipples]",
         "Volume stippling: points on the volume's boundaries, made once, of which each frame draws as many as the \
          factors below say. A factor without a table is 1.",
@@ -115,8 +104,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     get: |s: &Stipples| Some(s.gradient),
                     set: |s, v| s.gradient = v,
                 },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["central", "regression"]))),
+            ),
             Key::new(
                 "slab",
                 "STIP-4",
@@ -146,8 +134,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     get: |s: &Stipples| Some(s.order),
                     set: |s, v| s.order = v,
                 },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["voxel", "neighbours"]))),
+            ),
             Key::new(
                 "snap",
                 "STIP-4",
@@ -168,15 +155,13 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     get: |s: &Stipples| Some(s.snap),
                     set: |s, v| s.snap = v,
                 },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["none", "edge"]))),
+            ),
             Key::new(
                 "thin",
                 "STIP-4",
                 "Whether only voxels whose ‖∇V‖ is largest along the normal get points: one layer a face.",
                 &Slot { kind: Flag, get: |s: &Stipples| Some(s.thin), set: |s, v| s.thin = v },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["false", "true"]))),
+            ),
             Key::new(
                 "factors",
                 "STIP-5",
@@ -248,8 +233,7 @@ pub(crate) static TABLE: Table<Stipples> = Table {
                     get: |s: &Stipples| Some(s.even),
                     set: |s, v| s.even = v,
                 },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["none", "page"]))),
+            ),
             Key::new(
                 "boundary",
                 "STIP-7",
@@ -308,5 +292,4 @@ pub(crate) static TABLE: Table<Stipples> = Table {
             )
             .absent("no curves"),
         ],
-    )
-};
+    );

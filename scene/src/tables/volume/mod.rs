@@ -10,11 +10,10 @@ pub(crate) use gradient_range::quantile;
 pub use phantom::PhantomSource;
 pub use raw::RawLayout;
 
-use crate::file::describe::{Instead, Key, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Numbers, PathTo, Rule, TableOf};
-use crate::plan::{Pass, Quantity};
-use crate::tables::{NormalSide, Unit};
+use crate::document::describe::{Instead, Key, Slot, Table};
+use crate::document::fault::Problem;
+use crate::document::kind::{Bounds, Choice, ChoiceOption, Numbers, PathTo, Rule, TableOf};
+use crate::quantity::Quantity;
 use gradient_range::Quantile;
 use phantom::PHANTOM;
 use raw::RAW;
@@ -100,48 +99,14 @@ impl VolumeTable {
 
 /// The description of `[volume]`.
 pub(crate) static TABLE: Table<VolumeTable> = Table {
-    instead: &[Instead { one: "phantom", others: &["file"] }],
-    check: |_, check| {
+instead: &[Instead { one: "phantom", others: &["file"] }],
+check: |_, check| {
         if !check.has("file") && !check.has("phantom") {
             let expected = "file = \"…\", or phantom = { name = \"…\" }".into();
             check.fault_in("file", Problem::Missing { expected });
         }
     },
-    serves: |scene, asks| {
-        if let (GradientRange::Quantile(_), Some(need)) =
-            (scene.volume.gradient_range, asks.first(Quantity::GradientMagnitudeRange))
-        {
-            let effect = need.effect.clone();
-            asks.pass(Pass::GradientRange, &effect, "volume.gradient_range");
-        }
-    },
-    idle: |scene, plan, idle| {
-        if matches!(scene.volume.source, VolumeSource::Phantom(_)) {
-            idle.key("volume.raw", "a phantom has no file");
-        }
-        let stippled = scene.stipples.is_some();
-        if !stippled && scene.transfer.as_ref().is_some_and(|transfer| transfer.unit != Unit::Normalized) {
-            idle.key("volume.range", "only transfer.unit = \"normalized\" is measured in it");
-        }
-        let why = match scene.volume.labels {
-            Some(_) if plan.reads_labels() => None,
-            Some(_) => Some("nothing reads a label"),
-            None => Some("volume.labels names no label volume"),
-        };
-        if let Some(why) = why {
-            for key in ["volume.labels", "volume.label_names", "volume.label_lookup"] {
-                idle.key(key, why);
-            }
-        }
-        if !stippled && !plan.needs(Quantity::GradientMagnitudeRange) {
-            idle.key("volume.gradient_range", "nothing reads |g|");
-        }
-        let turned = scene.sampling.normal == NormalSide::Outward || plan.needs_at_first(Quantity::Hessian);
-        if !(stippled || scene.has_strokes() || turned && plan.reads_gradients()) {
-            idle.key("volume.outside", "nothing reads an outward normal or a signed curvature");
-        }
-    },
-    ..Table::new(
+..Table::new(
         "[volume]",
         "The data that is seen: a file, or a phantom of our own. A file that is not there is looked for in the folders \
          that DRYPOINT_DATA lists.",

@@ -1,31 +1,17 @@
 //! `phantom = { … }` of `[volume]`: a volume of our own ([IO-4]).
 
 use super::layout::{LONGEST_AXIS, SPACING, VOXEL_TYPE};
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Names, Shape, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::item::Item;
-use crate::file::kind::{Bounds, Number, TableOf, Whole, Wholes};
-use crate::file::out::Out;
+use crate::document::check::Check;
+use crate::document::describe::{Key, Kind, Names, Shape, Slot, Table};
+use crate::document::fault::Problem;
+use crate::document::item::Item;
+use crate::document::kind::{Bounds, Number, TableOf, Whole, Wholes};
+use crate::document::out::Out;
 use crate::nearest::nearest;
 use crate::phantom;
+pub use crate::phantom::PhantomSource;
 use crate::volume::VoxelType;
 use serde_json::{Value as Json, json};
-
-/// A phantom by name.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PhantomSource {
-    /// Which phantom.
-    pub name: String,
-    /// Voxels along x, y, z.
-    pub size: [usize; 3],
-    /// World units between voxels.
-    pub spacing: [f64; 3],
-    /// Stored type.
-    pub voxel_type: VoxelType,
-    /// Parameters by name; those not given have their defaults.
-    pub params: Vec<(String, f64)>,
-}
 
 /// Voxels of a phantom, at most: 32 GiB in its widest type.
 const LARGEST_PHANTOM: u64 = 1 << 32;
@@ -88,7 +74,7 @@ pub(super) static PHANTOM: Table<PhantomSource> = Table {
 fn check_phantom(source: &PhantomSource, check: &mut Check) {
     let Some(about) = phantom::describe().iter().find(|about| about.name == source.name) else { return };
     for (name, value) in &source.params {
-        let key = format!("param.{}", crate::file::out::key(name));
+        let key = format!("param.{}", crate::document::out::key(name));
         match about.params.iter().find(|param| param.name == name) {
             None => {
                 let known = about.params.iter().map(|param| param.name);

@@ -1,24 +1,10 @@
 //! `raw = { … }` of `[volume]`: voxels without a header ([IO-1]).
 
 use super::layout::{LONGEST_AXIS, SPACING, VOXEL_TYPE};
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Choice, ChoiceOption, Whole, Wholes};
+use crate::document::describe::{Key, Slot, Table};
+use crate::document::kind::{Choice, ChoiceOption, Whole, Wholes};
+pub use crate::volume::RawLayout;
 use crate::volume::VoxelType;
-
-/// Layout of raw voxels.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RawLayout {
-    /// Voxels along x, y, z.
-    pub size: [usize; 3],
-    /// Stored type.
-    pub voxel_type: VoxelType,
-    /// Whether the bytes of a number come highest first.
-    pub big_endian: bool,
-    /// World units between voxels.
-    pub spacing: [f64; 3],
-    /// Bytes before the first voxel.
-    pub skip: u64,
-}
 
 /// The description of `raw = { … }`.
 pub(super) static RAW: Table<RawLayout> = Table::new(
