@@ -37,7 +37,7 @@ impl<S> Table<S> {
 pub(crate) struct Key<S: 'static> {
     /// In snake_case.
     pub(crate) name: &'static str,
-    /// One or two sentences.
+    /// One or two sentences: the first paragraph.
     pub(crate) doc: &'static str,
     /// The rule that has it, such as `RAY-5`; empty for none.
     pub(crate) tag: &'static str,
@@ -60,6 +60,11 @@ impl<S> Key<S> {
         field: &'static dyn Field<S>,
     ) -> Self {
         Self { name, doc, tag, absent: "", required: false, needs: &[], field }
+    }
+
+    /// The same key by another name than that of its field.
+    pub(crate) const fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
     }
 
     /// The same key, with what holds where it is absent.
@@ -100,7 +105,7 @@ pub(crate) trait Shape: Sync {
     fn schema(&self) -> serde_json::Value;
 
     /// Its names with what each means, if it is one of several names.
-    fn options(&self) -> Vec<(&'static str, &'static str)> {
+    fn options(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
 
@@ -239,7 +244,7 @@ pub(crate) struct Section {
 /// A [`Key`] without its struct.
 pub(crate) struct SectionKey {
     pub(crate) name: &'static str,
-    pub(crate) doc: &'static str,
+    pub(crate) doc: String,
     pub(crate) tag: &'static str,
     pub(crate) absent: &'static str,
     pub(crate) required: bool,
@@ -255,7 +260,7 @@ impl<S> Table<S> {
         let empty = (self.empty)();
         let key = |key: &'static Key<S>| SectionKey {
             name: key.name,
-            doc: key.doc,
+            doc: first_paragraph(key.doc),
             tag: key.tag,
             absent: key.absent,
             required: key.required,
@@ -271,4 +276,10 @@ impl<S> Table<S> {
             later: self.later,
         }
     }
+}
+
+/// The first paragraph of a doc comment, on one line.
+pub(crate) fn first_paragraph(doc: &str) -> String {
+    let lines = doc.lines().map(str::trim).take_while(|line| !line.is_empty());
+    lines.collect::<Vec<_>>().join(" ")
 }

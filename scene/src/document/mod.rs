@@ -5,6 +5,7 @@
 
 pub(crate) mod check;
 mod css;
+pub(crate) mod declare;
 pub(crate) mod describe;
 pub(crate) mod fault;
 pub(crate) mod full;

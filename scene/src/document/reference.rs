@@ -56,7 +56,7 @@ fn row(key: &SectionKey) -> String {
         Some(value) => format!("`{}`", value.toml()),
     };
     let needs: Vec<String> = key.needs.iter().map(|need| escaped(need.name())).collect();
-    let (name, does, rule) = (key.name, escaped(key.doc), rule(key.tag));
+    let (name, does, rule) = (key.name, escaped(&key.doc), rule(key.tag));
     format!("| `{name}` | {values} | {default} | {does} | {} | {rule} |\n", needs.join(", "))
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn table(section: &Section) -> Value {
 }
 
 fn property(key: &SectionKey) -> Value {
-    let mut doc = key.doc.to_owned();
+    let mut doc = key.doc.clone();
     if !key.absent.is_empty() {
         doc += &format!(" Without the key: {}.", key.absent);
     }

@@ -1,8 +1,9 @@
 //! `[camera]`: from where the volume is seen ([RAY-5], [RAY-6]).
 
+use crate::document::declare::{choices, key};
 use crate::document::describe::{Key, Slot, Table};
 use crate::document::fault::Problem;
-use crate::document::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, WORLD_LENGTH};
+use crate::document::kind::{Bounds, Number, Numbers, Rule, WORLD_LENGTH};
 use crate::tables::Length;
 use glam::DVec3;
 
@@ -54,11 +55,15 @@ impl Default for Camera {
     }
 }
 
-/// `projection` without what belongs to each.
-#[derive(Clone, Copy, PartialEq)]
-enum Projected {
-    Perspective,
-    Orthographic,
+choices! {
+    /// `projection` without what belongs to each.
+    #[derive(Clone, Copy, PartialEq)]
+    enum Projected {
+        /// Through the eye.
+        Perspective = "perspective",
+        /// Along parallel rays.
+        Orthographic = "orthographic",
+    }
 }
 
 /// Vertical field of view of a first picture, in degrees.
@@ -93,13 +98,7 @@ pub(crate) static TABLE: Table<Camera> = Table {
                 "RAY-6",
                 "How points are projected.",
                 &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("perspective", Projected::Perspective, "Through the eye."),
-                            ChoiceOption::new("orthographic", Projected::Orthographic, "Along parallel rays."),
-                        ],
-                        later: &[],
-                    },
+                    kind: Projected::KIND,
                     get: |c: &Camera| {
                         Some(match c.projection {
                             Projection::Perspective { .. } => Projected::Perspective,
@@ -149,15 +148,11 @@ pub(crate) static TABLE: Table<Camera> = Table {
                 },
             )
             .absent("what shows the whole box of the volume"),
-            Key::new(
-                "eye",
-                "RAY-5",
+            key!(
+                Camera.eye,
                 "Where the camera stands, in world space. With `direction` beside it, `target` is unused.",
-                &Slot {
-                    kind: POINT,
-                    get: |c: &Camera| c.eye.map(|v| v.to_array()),
-                    set: |c, v| c.eye = Some(DVec3::from_array(v)),
-                },
+                "RAY-5",
+                POINT
             )
             .absent("so far from the target that the whole box is seen"),
             Key::new(
@@ -173,34 +168,11 @@ pub(crate) static TABLE: Table<Camera> = Table {
                     },
                 },
             ),
-            Key::new(
-                "target",
-                "RAY-5",
-                "What the camera looks at, in world space.",
-                &Slot {
-                    kind: POINT,
-                    get: |c: &Camera| c.target.map(|v| v.to_array()),
-                    set: |c, v| c.target = Some(DVec3::from_array(v)),
-                },
-            )
-            .absent("the centre of the volume's box"),
-            Key::new(
-                "up",
-                "RAY-6",
-                "Up in the picture, in world space.",
-                &Slot {
-                    kind: DIRECTION,
-                    get: |c: &Camera| Some(c.up.to_array()),
-                    set: |c, v| c.up = DVec3::from_array(v),
-                },
-            ),
-            Key::new(
-                "near",
-                "RAY-1",
-                "Smallest eye depth of a sample; perspective.",
-                &Slot { kind: WORLD_LENGTH, get: |c: &Camera| c.near, set: |c, v| c.near = Some(v) },
-            )
-            .absent("`sampling.step`"),
+            key!(Camera.target, "What the camera looks at, in world space.", "RAY-5", POINT)
+                .absent("the centre of the volume's box"),
+            key!(Camera.up, "Up in the picture, in world space.", "RAY-6", DIRECTION),
+            key!(Camera.near, "Smallest eye depth of a sample; perspective.", "RAY-1", WORLD_LENGTH)
+                .absent("`sampling.step`"),
         ],
     )
 };

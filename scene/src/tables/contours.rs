@@ -1,7 +1,8 @@
 //! `[contours]`: style contours of controlled thickness ([STF-6] … [STF-8]).
 
+use crate::document::declare::{choices, key};
 use crate::document::describe::{Key, Slot, Table};
-use crate::document::kind::{Bounds, Choice, ChoiceOption, Lengths, Number, Numbers, On, Rule};
+use crate::document::kind::{Bounds, Lengths, Number, Numbers, On, Rule};
 use crate::quantity::Quantity;
 use crate::tables::{Length, Scene};
 
@@ -32,13 +33,15 @@ pub enum Kappa {
     },
 }
 
-/// The angle between two normals ([STF-5]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SignFlip {
-    /// Between the lines that they span.
-    TwoSided,
-    /// Between the normals.
-    Literal,
+choices! {
+    /// The angle between two normals ([STF-5]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SignFlip {
+        /// The angle between lines.
+        TwoSided = "two-sided",
+        /// The plain angle.
+        Literal = "literal",
+    }
 }
 
 impl Default for Contours {
@@ -47,12 +50,17 @@ impl Default for Contours {
     }
 }
 
-/// `kappa` without what belongs to each.
-#[derive(Clone, Copy, PartialEq)]
-enum KappaName {
-    Ray,
-    Exact,
-    None,
+choices! {
+    /// `kappa` without what belongs to each.
+    #[derive(Clone, Copy, PartialEq)]
+    enum KappaName {
+        /// From two normals along the ray.
+        Ray = "ray",
+        /// From the Hessian.
+        Exact = "exact",
+        /// None: a constant threshold.
+        None = "none",
+    }
 }
 
 /// τ of `kappa = "none"` where the scene gives none.
@@ -82,29 +90,18 @@ pub(crate) static TABLE: Table<Contours> = Table::new(
     "Style contours of controlled thickness. They act on a transfer function of styles.",
     Contours::default,
     &[
-        Key::new(
-            "thickness",
-            "STF-7",
+        key!(
+            Contours.thickness,
             "T, the width of a contour.",
-            &Slot {
-                kind: Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
-                get: |c: &Contours| Some(c.thickness),
-                set: |c, v| c.thickness = v,
-            },
+            "STF-7",
+            Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE }
         ),
         Key::new(
             "kappa",
             "STF-6",
             "The curvature along the view that thickness is controlled by.",
             &Slot {
-                kind: Choice {
-                    options: &[
-                        ChoiceOption::new("ray", KappaName::Ray, "From two normals along the ray."),
-                        ChoiceOption::new("exact", KappaName::Exact, "From the Hessian."),
-                        ChoiceOption::new("none", KappaName::None, "None: a constant threshold."),
-                    ],
-                    later: &[],
-                },
+                kind: KappaName::KIND,
                 get: |c: &Contours| {
                     Some(match c.kappa {
                         Kappa::Ray => KappaName::Ray,
@@ -140,31 +137,17 @@ pub(crate) static TABLE: Table<Contours> = Table::new(
             },
         )
         .absent("0.3 with kappa = \"none\""),
-        Key::new(
-            "sign_flip",
-            "STF-5",
+        key!(
+            Contours.sign_flip,
             "What a flipped normal counts as, with kappa = \"ray\" and sampling.normal = \"facing\".",
-            &Slot {
-                kind: Choice {
-                    options: &[
-                        ChoiceOption::new("two-sided", SignFlip::TwoSided, "The angle between lines."),
-                        ChoiceOption::new("literal", SignFlip::Literal, "The plain angle."),
-                    ],
-                    later: &[],
-                },
-                get: |c: &Contours| Some(c.sign_flip),
-                set: |c, v| c.sign_flip = v,
-            },
+            "STF-5",
+            SignFlip::KIND
         ),
-        Key::new(
-            "fade",
-            "STF-7",
+        key!(
+            Contours.fade,
             "lo and hi, of |g|, between which contours fade in.",
-            &Slot {
-                kind: Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending },
-                get: |c: &Contours| c.fade,
-                set: |c, v| c.fade = Some(v),
-            },
+            "STF-7",
+            Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending }
         )
         .absent("no fade")
         .needs(&[Quantity::GradientMagnitudeRange]),

@@ -4,6 +4,7 @@ use super::LabelKey;
 use super::over::Label;
 use crate::document::Problem;
 use crate::document::check::Check;
+use crate::document::declare::key;
 use crate::document::describe::{Key, Kind, Section, Shape, Slot, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf, Text};
@@ -124,11 +125,11 @@ static NODE: Table<Written> = Table {
         "One node of a transfer function.",
         || Written { at: At::One(0.0), color: NodeColor::Style(String::new()), opacity: 1.0 },
         &[
-            Key::new(
-                "at",
-                "STF-3",
+            key!(
+                Written.at,
                 "The value; the two quantities in a grid over two; the first of them in a row.",
-                &Slot { kind: AtKind, get: |n: &Written| Some(n.at), set: |n, v| n.at = v },
+                "STF-3",
+                AtKind
             )
             .required(),
             Key::new(
@@ -144,15 +145,11 @@ static NODE: Table<Written> = Table {
                     set: |n, v| n.color = NodeColor::Style(v),
                 },
             ),
-            Key::new(
-                "opacity",
-                "VAL-4",
+            key!(
+                Written.opacity,
                 "Opacity for a `sampling.reference_length`.",
-                &Slot {
-                    kind: Number { bounds: Bounds::UNIT, unit: "" },
-                    get: |n: &Written| Some(n.opacity),
-                    set: |n, v| n.opacity = v,
-                },
+                "VAL-4",
+                Number { bounds: Bounds::UNIT, unit: "" }
             ),
             Key::new(
                 "color",
@@ -371,21 +368,16 @@ static ROW: Table<Row> = Table::new(
     "One row of nodes of a function over two quantities.",
     || Row { at: RowAt::Number(0.0), nodes: Vec::new() },
     &[
-        Key::new(
-            "at",
+        key!(
+            Row.at,
+            "Where the row stands: a number of the second quantity; for labels an id, a name of \
+                     `volume.label_names`, or a list of labels that share the row.",
             "STF-4",
-            "Where the row stands: a number of the second quantity; for labels an id, a name of `volume.label_names`, or a \
-             list of labels that share the row.",
-            &Slot { kind: RowAtKind, get: |r: &Row| Some(r.at.clone()), set: |r, v| r.at = v },
+            RowAtKind
         )
         .required(),
-        Key::new(
-            "nodes",
-            "STF-4",
-            "Nodes over the first quantity, in non-decreasing order of `at`.",
-            &Slot { kind: LineOfNodes, get: |r: &Row| Some(r.nodes.clone()), set: |r, v| r.nodes = v },
-        )
-        .required(),
+        key!(Row.nodes, "Nodes over the first quantity, in non-decreasing order of `at`.", "STF-4", LineOfNodes)
+            .required(),
     ],
 );
 

@@ -1,6 +1,7 @@
 //! `[picture]`: what the picture is drawn on.
 
 use crate::document::check::Check;
+use crate::document::declare::{choices, key};
 use crate::document::describe::{Instead, Key, Kind, Shape, Slot, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
@@ -47,13 +48,15 @@ pub enum Background {
     Picture(PathBuf),
 }
 
-/// Which numbers are composited ([VAL-3]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BlendSpace {
-    /// Linear light.
-    Linear,
-    /// sRGB-encoded values, as the papers' hardware did.
-    Srgb,
+choices! {
+    /// Which numbers are composited ([VAL-3]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum BlendSpace {
+        /// Linear light.
+        Linear = "linear",
+        /// sRGB-encoded values, to remake old figures.
+        Srgb = "srgb",
+    }
 }
 
 impl Default for PictureSettings {
@@ -133,15 +136,11 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
         "What the picture is drawn on.",
         PictureSettings::default,
         &[
-            Key::new(
-                "dpi",
-                "IO-7",
+            key!(
+                PictureSettings.dpi,
                 "Pixels per inch, which turns mm into pixels.",
-                &Slot {
-                    kind: Number { bounds: Bounds::POSITIVE, unit: "" },
-                    get: |p: &PictureSettings| Some(p.dpi),
-                    set: |p, v| p.dpi = v,
-                },
+                "IO-7",
+                Number { bounds: Bounds::POSITIVE, unit: "" }
             ),
             Key::new(
                 "size",
@@ -175,59 +174,17 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
                 },
             )
             .absent("`size`"),
-            Key::new(
-                "samples",
-                "RAY-6",
-                "n of the n×n rays a pixel.",
-                &Slot {
-                    kind: Whole { lo: 1, hi: 1024 },
-                    get: |p: &PictureSettings| Some(p.samples as u64),
-                    set: |p, v| p.samples = v as usize,
-                },
-            ),
-            Key::new(
-                "background",
-                "IO-6",
+            key!(PictureSettings.samples, "n of the n×n rays a pixel.", "RAY-6", Whole { lo: 1, hi: 1024 }),
+            key!(
+                PictureSettings.background,
                 "What lies behind: a colour, \"none\", or the path of a picture that is stretched to the frame.",
-                &Slot {
-                    kind: Behind,
-                    get: |p: &PictureSettings| Some(p.background.clone()),
-                    set: |p, v| p.background = v,
-                },
-            ),
-            Key::new(
-                "blend_space",
-                "VAL-3",
-                "Which numbers are composited.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("linear", BlendSpace::Linear, "Linear light."),
-                            ChoiceOption::new("srgb", BlendSpace::Srgb, "sRGB-encoded values, to remake old figures."),
-                        ],
-                        later: &[],
-                    },
-                    get: |p: &PictureSettings| Some(p.blend_space),
-                    set: |p, v| p.blend_space = v,
-                },
-            ),
-            Key::new(
-                "bits",
-                "IO-2",
-                "Bits a channel of a PNG.",
-                &Slot { kind: Bits, get: |p: &PictureSettings| Some(p.bits), set: |p, v| p.bits = v },
-            ),
-            Key::new(
-                "layers",
                 "IO-6",
-                "Layers of an EXR.",
-                &Slot {
-                    kind: ListOf { what: "a list of layers", each: LAYER },
-                    get: |p: &PictureSettings| Some(p.layers.clone()),
-                    set: |p, v| p.layers = v,
-                },
-            )
-            .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]),
+                Behind
+            ),
+            key!(PictureSettings.blend_space, "Which numbers are composited.", "VAL-3", BlendSpace::KIND),
+            key!(PictureSettings.bits, "Bits a channel of a PNG.", "IO-2", Bits),
+            key!(PictureSettings.layers, "Layers of an EXR.", "IO-6", ListOf { what: "a list of layers", each: LAYER })
+                .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]),
         ],
     )
 };

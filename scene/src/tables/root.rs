@@ -6,6 +6,7 @@ use super::{
     style_mipmaps, styles, surface, transfer, volume,
 };
 use crate::document::check::Check;
+use crate::document::declare::key;
 use crate::document::describe::{Key, Kind, Later, Shape, Slot, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{ListOf, TableOf};
@@ -87,57 +88,18 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 },
             )
             .absent("\"style\" where the scene draws nothing else"),
-            Key::new(
-                "light",
-                "STF-11",
+            key!(
+                Scene.light,
                 "Towards the light, for all that is lit; a table's own `light` wins.",
-                &Slot { kind: shading::Light, get: |s: &Scene| Some(s.light), set: |s, v| s.light = v },
+                "STF-11",
+                shading::Light
             ),
-            Key::new(
-                "volume",
-                "IO-1",
-                "The data that is seen.",
-                &Slot {
-                    kind: TableOf(&volume::TABLE),
-                    get: |s: &Scene| Some(s.volume.clone()),
-                    set: |s, v| s.volume = v,
-                },
-            )
-            .required(),
-            Key::new(
-                "camera",
-                "RAY-5",
-                "From where the volume is seen.",
-                &Slot {
-                    kind: TableOf(&camera::TABLE),
-                    get: |s: &Scene| Some(s.camera.clone()),
-                    set: |s, v| s.camera = v,
-                },
-            ),
-            Key::new(
-                "orbit",
-                "STIP-4",
-                "Several frames about the volume.",
-                &Slot { kind: TableOf(&orbit::TABLE), get: |s: &Scene| s.orbit, set: |s, v| s.orbit = Some(v) },
-            )
-            .absent("one frame"),
-            Key::new(
-                "picture",
-                "RAY-6",
-                "What the picture is drawn on.",
-                &Slot {
-                    kind: TableOf(&picture::TABLE),
-                    get: |s: &Scene| Some(s.picture.clone()),
-                    set: |s, v| s.picture = v,
-                },
-            ),
-            Key::new(
-                "page",
-                "IO-7",
-                "The paper that points and lines are drawn on.",
-                &Slot { kind: TableOf(&page::TABLE), get: |s: &Scene| s.page.clone(), set: |s, v| s.page = Some(v) },
-            )
-            .absent("no margin, no plotter"),
+            key!(Scene.volume, "The data that is seen.", "IO-1", TableOf(&volume::TABLE)).required(),
+            key!(Scene.camera, "From where the volume is seen.", "RAY-5", TableOf(&camera::TABLE)),
+            key!(Scene.orbit, "Several frames about the volume.", "STIP-4", TableOf(&orbit::TABLE)).absent("one frame"),
+            key!(Scene.picture, "What the picture is drawn on.", "RAY-6", TableOf(&picture::TABLE)),
+            key!(Scene.page, "The paper that points and lines are drawn on.", "IO-7", TableOf(&page::TABLE))
+                .absent("no margin, no plotter"),
             Key::new(
                 "pen",
                 "IO-7",
@@ -149,117 +111,57 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 },
             )
             .absent("none"),
-            Key::new(
-                "sampling",
-                "RAY-1",
+            key!(
+                Scene.sampling,
                 "How the field is reconstructed and where it is sampled.",
-                &Slot {
-                    kind: TableOf(&sampling::TABLE),
-                    get: |s: &Scene| Some(s.sampling.clone()),
-                    set: |s, v| s.sampling = v,
-                },
+                "RAY-1",
+                TableOf(&sampling::TABLE)
             ),
-            Key::new(
-                "transfer",
-                "STF-3",
+            key!(
+                Scene.transfer,
                 "Colours or styles, and opacities, over the values.",
-                &Slot {
-                    kind: TableOf(&transfer::TABLE),
-                    get: |s: &Scene| s.transfer.clone(),
-                    set: |s, v| s.transfer = Some(v),
-                },
+                "STF-3",
+                TableOf(&transfer::TABLE)
             )
             .absent("the preset's")
             .needs(&[Quantity::Value]),
-            Key::new(
-                "styles",
-                "STF-12",
+            key!(
+                Scene.styles,
                 "The lit-sphere pictures that a transfer function names.",
-                &Slot {
-                    kind: TableOf(&styles::TABLE),
-                    get: |s: &Scene| Some(s.styles.clone()),
-                    set: |s, v| s.styles = v,
-                },
+                "STF-12",
+                TableOf(&styles::TABLE)
             ),
-            Key::new(
-                "shading",
-                "STF-11",
+            key!(
+                Scene.shading,
                 "Light on a regular transfer function, and on a lit iso-surface.",
-                &Slot {
-                    kind: TableOf(&shading::TABLE),
-                    get: |s: &Scene| s.shading.clone(),
-                    set: |s, v| s.shading = Some(v),
-                },
+                "STF-11",
+                TableOf(&shading::TABLE)
             )
             .absent("unshaded")
             .needs(&[Quantity::Gradient]),
-            Key::new(
-                "contours",
-                "STF-6",
-                "Style contours of controlled thickness.",
-                &Slot {
-                    kind: TableOf(&contours::TABLE),
-                    get: |s: &Scene| s.contours.clone(),
-                    set: |s, v| s.contours = Some(v),
-                },
-            )
-            .absent("no contours"),
-            Key::new(
-                "style_mipmaps",
-                "STF-10",
+            key!(Scene.contours, "Style contours of controlled thickness.", "STF-6", TableOf(&contours::TABLE))
+                .absent("no contours"),
+            key!(
+                Scene.style_mipmaps,
                 "Styles read at the level of detail that the picture can show.",
-                &Slot {
-                    kind: TableOf(&style_mipmaps::TABLE),
-                    get: |s: &Scene| s.style_mipmaps.clone(),
-                    set: |s, v| s.style_mipmaps = Some(v),
-                },
+                "STF-10",
+                TableOf(&style_mipmaps::TABLE)
             )
             .absent("no mip-maps"),
-            Key::new(
-                "stipples",
-                "STIP-1",
-                "Stippling: dots on the volume's boundaries.",
-                &Slot {
-                    kind: TableOf(&stipples::TABLE),
-                    get: |s: &Scene| s.stipples.clone(),
-                    set: |s, v| s.stipples = Some(v),
-                },
-            )
-            .absent("no stipples"),
-            Key::new(
-                "hatching",
-                "HATCH-8",
+            key!(Scene.stipples, "Stippling: dots on the volume's boundaries.", "STIP-1", TableOf(&stipples::TABLE))
+                .absent("no stipples"),
+            key!(
+                Scene.hatching,
                 "Strokes along the lines of curvature of an iso-surface.",
-                &Slot {
-                    kind: TableOf(&hatching::TABLE),
-                    get: |s: &Scene| s.hatching.clone(),
-                    set: |s, v| s.hatching = Some(v),
-                },
+                "HATCH-8",
+                TableOf(&hatching::TABLE)
             )
             .absent("no hatching"),
-            Key::new(
-                "outlines",
-                "HATCH-18",
-                "Lines where an iso-surface turns away.",
-                &Slot {
-                    kind: TableOf(&outlines::TABLE),
-                    get: |s: &Scene| s.outlines.clone(),
-                    set: |s, v| s.outlines = Some(v),
-                },
-            )
-            .absent("no outlines"),
-            Key::new(
-                "surface",
-                "HATCH-14",
-                "An opaque iso-surface.",
-                &Slot {
-                    kind: TableOf(&surface::TABLE),
-                    get: |s: &Scene| s.surface.clone(),
-                    set: |s, v| s.surface = Some(v),
-                },
-            )
-            .absent("no surface")
-            .needs(&[Quantity::Surface]),
+            key!(Scene.outlines, "Lines where an iso-surface turns away.", "HATCH-18", TableOf(&outlines::TABLE))
+                .absent("no outlines"),
+            key!(Scene.surface, "An opaque iso-surface.", "HATCH-14", TableOf(&surface::TABLE))
+                .absent("no surface")
+                .needs(&[Quantity::Surface]),
         ],
     )
 };

@@ -1,45 +1,53 @@
 //! `[shading]`: light on a regular transfer function, Blinn–Phong ([STF-11]) or in tones ([HATCH-15]).
 
 use crate::document::check::Check;
+use crate::document::declare::{choices, table};
 use crate::document::describe::{Key, Kind, Later, Shape, Slot, Table};
 use crate::document::item::{Item, Value};
-use crate::document::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, TableOf};
+use crate::document::kind::{Bounds, Number, Numbers, Rule, TableOf};
 use crate::document::out::Out;
 use crate::tables::toon::{SHADING_SILHOUETTE, SHADING_TOON, VIEW_OPACITY};
 use crate::tables::{SilhouetteShading, ToonShading};
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 
-/// The table `[shading]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Shading {
-    /// How light is reflected.
-    pub model: ShadingModel,
-    /// k_a.
-    pub ambient: f64,
-    /// k_d.
-    pub diffuse: f64,
-    /// k_s.
-    pub specular: f64,
-    /// s, the exponent.
-    pub shininess: f64,
-    /// Towards the light; none: the scene's.
-    pub light: Option<LightDirection>,
-    /// The tones of [`ShadingModel::Toon`]; none: two, of L·N > ½.
-    pub toon: Option<ToonShading>,
-    /// Silhouettes; none: none.
-    pub silhouette: Option<SilhouetteShading>,
-    /// s of the view-dependent opacity; 0: opacities are as they are.
-    pub view_opacity: f64,
+table! {
+    /// The table `[shading]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Shading {
+        /// How light is reflected.
+        model: ShadingModel = ShadingModel::Phong, key("STF-11", ShadingModel::KIND);
+        /// k_a.
+        ambient: f64 = 0.3, key("STF-11", SHARE);
+        /// k_d.
+        diffuse: f64 = 0.6, key("STF-11", SHARE);
+        /// k_s.
+        specular: f64 = 0.3, key("STF-11", SHARE);
+        /// s, the exponent of the highlight.
+        shininess: f64 = 30.0, key("STF-11", SHARE);
+        /// Towards the light.
+        light: Option<LightDirection> = None, key("STF-11", Light).absent("the scene's `light`");
+        /// The tones of model = "toon".
+        toon: Option<ToonShading> = None,
+            key("HATCH-15", TableOf(&SHADING_TOON)).absent("offset 0 and two tones, `#404040` and white");
+        /// Black where the surface turns away from the eye, under any model.
+        silhouette: Option<SilhouetteShading> = None,
+            key("HATCH-15", TableOf(&SHADING_SILHOUETTE)).absent("no silhouettes");
+        /// s: opacities become 1 − (1 − α)^(1 + s(1/|N·V| − 1)), more opaque where the surface turns away from the eye.
+        view_opacity: f64 = 0.0, key("HATCH-15", VIEW_OPACITY);
+    }
 }
 
-/// How light is reflected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShadingModel {
-    /// Blinn–Phong.
-    Phong,
-    /// In tones.
-    Toon,
+choices! {
+    /// How light is reflected.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum ShadingModel {
+        /// Blinn–Phong.
+        Phong = "phong",
+        /// In tones with hard steps between them.
+        Toon = "toon",
+    }
+    later &[("lighting-function", "VS-5")]
 }
 
 /// Towards the light.
@@ -51,22 +59,6 @@ pub enum LightDirection {
     Eye(DVec3),
     /// World space, any length.
     World(DVec3),
-}
-
-impl Default for Shading {
-    fn default() -> Self {
-        Self {
-            model: ShadingModel::Phong,
-            ambient: 0.3,
-            diffuse: 0.6,
-            specular: 0.3,
-            shininess: 30.0,
-            light: None,
-            toon: None,
-            silhouette: None,
-            view_opacity: 0.0,
-        }
-    }
 }
 
 impl Shading {
@@ -87,84 +79,9 @@ pub(crate) static TABLE: Table<Shading> = Table {
         Later { name: "contour", tag: "VS-5" },
         Later { name: "divisor_floor", tag: "VS-5" },
     ],
-    ..Table::new(
+    ..Shading::table(
         "[shading]",
         "Light on a regular transfer function, and on a lit iso-surface. Without the table the function is unshaded.",
-        Shading::default,
-        &[
-            Key::new(
-                "model",
-                "STF-11",
-                "How light is reflected.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("phong", ShadingModel::Phong, "Blinn–Phong."),
-                            ChoiceOption::new("toon", ShadingModel::Toon, "In tones with hard steps between them."),
-                        ],
-                        later: &[("lighting-function", "VS-5")],
-                    },
-                    get: |s: &Shading| Some(s.model),
-                    set: |s, v| s.model = v,
-                },
-            ),
-            Key::new(
-                "ambient",
-                "STF-11",
-                "k_a.",
-                &Slot { kind: SHARE, get: |s: &Shading| Some(s.ambient), set: |s, v| s.ambient = v },
-            ),
-            Key::new(
-                "diffuse",
-                "STF-11",
-                "k_d.",
-                &Slot { kind: SHARE, get: |s: &Shading| Some(s.diffuse), set: |s, v| s.diffuse = v },
-            ),
-            Key::new(
-                "specular",
-                "STF-11",
-                "k_s.",
-                &Slot { kind: SHARE, get: |s: &Shading| Some(s.specular), set: |s, v| s.specular = v },
-            ),
-            Key::new(
-                "shininess",
-                "STF-11",
-                "s, the exponent of the highlight.",
-                &Slot { kind: SHARE, get: |s: &Shading| Some(s.shininess), set: |s, v| s.shininess = v },
-            ),
-            Key::new(
-                "light",
-                "STF-11",
-                "Towards the light.",
-                &Slot { kind: Light, get: |s: &Shading| s.light, set: |s, v| s.light = Some(v) },
-            )
-            .absent("the scene's `light`"),
-            Key::new(
-                "toon",
-                "HATCH-15",
-                "The tones of model = \"toon\".",
-                &Slot { kind: TableOf(&SHADING_TOON), get: |s: &Shading| s.toon.clone(), set: |s, v| s.toon = Some(v) },
-            )
-            .absent("offset 0 and two tones, `#404040` and white"),
-            Key::new(
-                "silhouette",
-                "HATCH-15",
-                "Black where the surface turns away from the eye, under any model.",
-                &Slot {
-                    kind: TableOf(&SHADING_SILHOUETTE),
-                    get: |s: &Shading| s.silhouette,
-                    set: |s, v| s.silhouette = Some(v),
-                },
-            )
-            .absent("no silhouettes"),
-            Key::new(
-                "view_opacity",
-                "HATCH-15",
-                "s: opacities become 1 − (1 − α)^(1 + s(1/|N·V| − 1)), more opaque where the surface turns away from \
-                 the eye.",
-                &Slot { kind: VIEW_OPACITY, get: |s: &Shading| Some(s.view_opacity), set: |s, v| s.view_opacity = v },
-            ),
-        ],
     )
 };
 

@@ -1,6 +1,7 @@
 //! `[styles]`: the lit-sphere pictures that a transfer function names.
 
 use crate::document::check::Check;
+use crate::document::declare::key;
 use crate::document::describe::{Key, Kind, Names, Shape, Slot, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Flag, PathTo, TableOf};
@@ -58,12 +59,7 @@ pub(crate) static TABLE: Table<Styles> = Table {
         "The lit-sphere pictures that a transfer function names: a theme first, single files over it. Exchanging the \
          theme changes no other line.",
         Styles::default,
-        &[Key::new(
-            "theme",
-            "STF-12",
-            "An embedded theme, or a folder of pictures named after their styles.",
-            &Slot { kind: Theme, get: |s: &Styles| Some(s.theme.clone()), set: |s, v| s.theme = v },
-        )],
+        &[key!(Styles.theme, "An embedded theme, or a folder of pictures named after their styles.", "STF-12", Theme)],
     )
 };
 
@@ -121,12 +117,7 @@ static FILE_TABLE: Table<StyleFile> = Table::new(
             &Slot { kind: FILE, get: |s: &StyleFile| Some(s.path.clone()), set: |s, v| s.path = v },
         )
         .required(),
-        Key::new(
-            "linear",
-            "VAL-3",
-            "Whether the colours are linear, not sRGB.",
-            &Slot { kind: Flag, get: |s: &StyleFile| Some(s.linear), set: |s, v| s.linear = v },
-        ),
+        key!(StyleFile.linear, "Whether the colours are linear, not sRGB.", "VAL-3", Flag),
     ],
 );
 

@@ -1,24 +1,28 @@
 //! `[shading.toon]`, `[shading.silhouette]`, and the same of `[surface]` ([HATCH-15]).
 
-use crate::color::{Rgba, srgb_to_linear};
+use crate::color::{Rgba, opaque};
 use crate::document::check::Check;
-use crate::document::describe::{Key, Kind, Shape, Slot, Table};
+use crate::document::declare::table;
+use crate::document::describe::{Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Colors, ListOf, Number};
 use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 
-/// A table `toon`: tones with hard steps between them.
-///
-/// The tone of x = L·N + offset is the last one whose `at` is below x, and the first one where none is. So `at` of the
-/// first says nothing, and the two tones of the default are those of L·N + offset > ½.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ToonShading {
-    /// What is added to L·N.
-    pub offset: f64,
-    /// At least one, in ascending order of `at`.
-    pub tones: Vec<Tone>,
+table! {
+    /// A table `toon`: tones with hard steps between them.
+    ///
+    /// The tone of x = L·N + offset is the last one whose `at` is below x, and the first one where none is. So `at` of the
+    /// first says nothing, and the two tones of the default are those of L·N + offset > ½.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct ToonShading {
+        /// Added to L·N. With the two default tones, 0 ends the light at 60° from it, 0.5 at 90°.
+        offset: f64 = 0.0, key("HATCH-15", OFFSET);
+        /// What colours are multiplied by, each tone where L·N + offset is above its `at`; the first also below.
+        tones: Vec<Tone> = vec![Tone { at: 0.0, color: opaque([64.0; 3]) }, Tone { at: 0.5, color: [1.0; 4] }],
+            key("HATCH-15", ListOf { what: "a list of tones", each: ToneKind });
+    }
 }
 
 /// One tone.
@@ -30,18 +34,12 @@ pub struct Tone {
     pub color: Rgba,
 }
 
-/// A table `silhouette`: black where (N·V)² + offset ≤ ½.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SilhouetteShading {
-    /// What is added to (N·V)².
-    pub offset: f64,
-}
-
-impl Default for ToonShading {
-    fn default() -> Self {
-        let dark = srgb_to_linear(64.0 / 255.0);
-        let tones = vec![Tone { at: 0.0, color: [dark, dark, dark, 1.0] }, Tone { at: 0.5, color: [1.0; 4] }];
-        Self { offset: 0.0, tones }
+table! {
+    /// A table `silhouette`: black where (N·V)² + offset ≤ ½.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct SilhouetteShading {
+        /// Black where (N·V)² + offset ≤ 0.5: of a sphere's disc the share 0.5 − offset.
+        offset: f64 = 0.45, key("HATCH-15", OFFSET);
     }
 }
 
@@ -49,12 +47,6 @@ impl ToonShading {
     /// Whether the tone can depend on the normal: not of one tone.
     pub fn reads_normals(&self) -> bool {
         self.tones.len() > 1
-    }
-}
-
-impl Default for SilhouetteShading {
-    fn default() -> Self {
-        Self { offset: 0.45 }
     }
 }
 
@@ -96,41 +88,12 @@ impl Kind for ToneKind {
     }
 }
 
-static TOON_KEYS: [Key<ToonShading>; 2] = [
-    Key::new(
-        "offset",
-        "HATCH-15",
-        "Added to L·N. With the two default tones, 0 ends the light at 60° from it, 0.5 at 90°.",
-        &Slot { kind: OFFSET, get: |t: &ToonShading| Some(t.offset), set: |t, v| t.offset = v },
-    ),
-    Key::new(
-        "tones",
-        "HATCH-15",
-        "What colours are multiplied by, each tone where L·N + offset is above its `at`; the first also below.",
-        &Slot {
-            kind: ListOf { what: "a list of tones", each: ToneKind },
-            get: |t: &ToonShading| Some(t.tones.clone()),
-            set: |t, v| t.tones = v,
-        },
-    ),
-];
-
-static SILHOUETTE_KEYS: [Key<SilhouetteShading>; 1] = [Key::new(
-    "offset",
-    "HATCH-15",
-    "Black where (N·V)² + offset ≤ 0.5: of a sphere's disc the share 0.5 − offset.",
-    &Slot { kind: OFFSET, get: |t: &SilhouetteShading| Some(t.offset), set: |t, v| t.offset = v },
-)];
-
 const fn toon(title: &'static str) -> Table<ToonShading> {
-    Table {
-        check: check_tones,
-        ..Table::new(title, "Tones with hard steps, by the angle to the light.", ToonShading::default, &TOON_KEYS)
-    }
+    Table { check: check_tones, ..ToonShading::table(title, "Tones with hard steps, by the angle to the light.") }
 }
 
 const fn silhouette(title: &'static str) -> Table<SilhouetteShading> {
-    Table::new(title, "Black where the surface turns away from the eye.", SilhouetteShading::default, &SILHOUETTE_KEYS)
+    SilhouetteShading::table(title, "Black where the surface turns away from the eye.")
 }
 
 /// The description of `[shading.toon]`.

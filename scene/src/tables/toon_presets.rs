@@ -1,6 +1,6 @@
 //! The presets that draw an automatic iso-surface in tones ([HATCH-15]).
 
-use crate::color::srgb_to_linear;
+use crate::color::opaque;
 use crate::tables::{LightDirection, Shading, SilhouetteShading, Surface, SurfaceLook, Tone, ToonShading};
 use glam::DVec3;
 
@@ -17,11 +17,7 @@ impl ToonPreset {
     /// The tables `[surface]` and `[shading]`, whose light comes from the upper left: under a head light no tone tells left
     /// from right. Judged on real volumes, on a white page.
     pub(crate) fn tables(self) -> (Surface, Shading) {
-        let color = |bytes: [f64; 3]| {
-            let [r, g, b] = bytes.map(|byte| srgb_to_linear(byte / 255.0));
-            [r, g, b, 1.0]
-        };
-        let grey = |at: f64, byte: f64| Tone { at, color: color([byte; 3]) };
+        let grey = |at: f64, byte: f64| Tone { at, color: opaque([byte; 3]) };
         let (paint, toon, silhouette) = match self {
             // The light, a half-tone for walls that it grazes, and a shadow; lines so thin that floors seen at a slant stay.
             Self::Plain => {
@@ -36,7 +32,7 @@ impl ToonPreset {
         };
         let surface = Surface {
             look: SurfaceLook::Toon,
-            color: color(paint),
+            color: opaque(paint),
             toon: Some(toon),
             silhouette: Some(silhouette),
             ..Surface::default()

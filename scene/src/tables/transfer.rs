@@ -5,9 +5,10 @@ use super::nodes::{NodeList, Nodes, ROWS, Row};
 use super::over::{Over, OverKind};
 use super::transfer_rules as rules;
 use crate::document::check::Check;
+use crate::document::declare::{choices, key};
 use crate::document::describe::{Instead, Key, Kind, Shape, Slot, Table as Description};
 use crate::document::item::Item;
-use crate::document::kind::{Choice, ChoiceOption, Whole};
+use crate::document::kind::Whole;
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use serde_json::{Value as Json, json};
@@ -35,51 +36,61 @@ pub struct Transfer {
     pub table: Table,
 }
 
-/// What a node carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TransferKind {
-    /// A style ([STF-3]).
-    Style,
-    /// A colour ([STF-11]).
-    Regular,
+choices! {
+    /// What a node carries.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum TransferKind {
+        /// A style.
+        Style = "style",
+        /// A colour.
+        Regular = "regular",
+    }
 }
 
-/// What the values of the nodes are measured in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unit {
-    /// Data values, after slope and intercept ([VAL-1]).
-    Value,
-    /// The volume's range mapped to [0, 1] ([VAL-1]).
-    Normalized,
-    /// The volume's percentiles.
-    Percentile,
+choices! {
+    /// What the values of the nodes are measured in.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Unit {
+        /// Data values, as the file gives them.
+        Value = "value",
+        /// The volume's range mapped to 0 … 1.
+        Normalized = "normalized",
+        /// The volume's percentiles, 0 … 100.
+        Percentile = "percentile",
+    }
 }
 
-/// How α_u and α_d become α ([STF-9]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Transparency {
-    /// Eq. 2.
-    Illustrative,
-    /// α_d · α_u.
-    Plain,
+choices! {
+    /// How α_u and α_d become α ([STF-9]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Transparency {
+        /// Faces turned to the eye become clearer than rims.
+        Illustrative = "illustrative",
+        /// Their product.
+        Plain = "plain",
+    }
 }
 
-/// How two styles mix ([STF-3]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mix {
-    /// Premultiplied.
-    Premultiplied,
-    /// Straight RGBA, as printed in 4.1.
-    Printed,
+choices! {
+    /// How two styles mix ([STF-3]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Mix {
+        /// Colours weighted by opacity.
+        Premultiplied = "premultiplied",
+        /// Straight colours, as printed.
+        Printed = "printed",
+    }
 }
 
-/// Frame of the lit sphere ([STF-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SphereFrame {
-    /// Eye space; the paper's.
-    Eye,
-    /// Eye space turned so that v is +z.
-    View,
+choices! {
+    /// Frame of the lit sphere ([STF-1]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SphereFrame {
+        /// Eye space.
+        Eye = "eye",
+        /// Turned so that silhouettes lie on the rim.
+        View = "view",
+    }
 }
 
 /// How the transfer function is evaluated ([STF-3]).
@@ -121,8 +132,8 @@ impl Transfer {
 
 /// The description of `[transfer]`.
 pub(crate) static TABLE: Description<Transfer> = Description {
-instead: &[Instead { one: "rows", others: &["nodes"] }],
-check: |transfer, check| {
+    instead: &[Instead { one: "rows", others: &["nodes"] }],
+    check: |transfer, check| {
         if check.sound(&["kind"]) {
             rules::kind(transfer.kind, check);
         }
@@ -131,37 +142,22 @@ check: |transfer, check| {
             rules::percentiles(transfer, check);
         }
     },
-..Description::new(
+    ..Description::new(
         "[transfer]",
         "Colours or styles, and opacities, over the values or over two quantities. Without `nodes` and `rows` the \
          function is automatic.",
         || Transfer::automatic(TransferKind::Style),
         &[
-            Key::new(
-                "kind",
-                "STF-3",
-                "What a node carries.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("style", TransferKind::Style, "A style."),
-                            ChoiceOption::new("regular", TransferKind::Regular, "A colour."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.kind),
-                    set: |t, v| t.kind = v,
-                },
-            )
-            .needs(&[Quantity::Gradient]),
-            Key::new(
-                "over",
+            key!(Transfer.kind, "What a node carries.", "STF-3", TransferKind::KIND).needs(&[Quantity::Gradient]),
+            key!(
+                Transfer.over,
+                "What the function is over: the value, or two quantities, such as [\"value\", \
+                     \"gradient-magnitude\"]. Quantities: \"value\"; \"gradient-magnitude\", in value per world unit; \
+                     \"label\", the id of the part; \"k1\", \"k2\", \"mean\", \"gaussian\" and \"kv\", curvatures in \
+                     reciprocal world units; or a table with one of the keys below. Of two \"value\" is best one: it \
+                     tells what space is empty.",
                 "STF-4",
-                "What the function is over: the value, or two quantities, such as [\"value\", \"gradient-magnitude\"]. \
-                 Quantities: \"value\"; \"gradient-magnitude\", in value per world unit; \"label\", the id of the part; \
-                 \"k1\", \"k2\", \"mean\", \"gaussian\" and \"kv\", curvatures in reciprocal world units; or a table with \
-                 one of the keys below. Of two \"value\" is best one: it tells what space is empty.",
-                &Slot { kind: OverKind, get: |t: &Transfer| Some(t.over.clone()), set: |t, v| t.over = v },
+                OverKind
             )
             .needs(&[
                 Quantity::Gradient,
@@ -170,23 +166,12 @@ check: |transfer, check| {
                 Quantity::Hessian,
                 Quantity::Label,
             ]),
-            Key::new(
-                "unit",
-                "VS-11",
+            key!(
+                Transfer.unit,
                 "What `at` of values is measured in; with \"normalized\" gradient magnitudes are |g|, by \
-                 `volume.gradient_range`.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("value", Unit::Value, "Data values, as the file gives them."),
-                            ChoiceOption::new("normalized", Unit::Normalized, "The volume's range mapped to 0 … 1."),
-                            ChoiceOption::new("percentile", Unit::Percentile, "The volume's percentiles, 0 … 100."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.unit),
-                    set: |t, v| t.unit = v,
-                },
+                     `volume.gradient_range`.",
+                "VS-11",
+                Unit::KIND
             ),
             Key::new(
                 "nodes",
@@ -203,73 +188,29 @@ check: |transfer, check| {
                 },
             )
             .absent("`rows`, or an automatic function"),
-            Key::new(
-                "rows",
-                "STF-4",
+            key!(
+                Transfer.rows,
                 "Nodes over two quantities: each row has its own over the first one. Between rows the function is \
-                 interpolated; a label without a row shows nothing.",
-                &Slot { kind: ROWS, get: |t: &Transfer| t.rows.clone(), set: |t, v| t.rows = Some(v) },
+                     interpolated; a label without a row shows nothing.",
+                "STF-4",
+                ROWS
             )
             .absent("`nodes`"),
-            Key::new(
-                "transparency",
-                "STF-9",
+            key!(
+                Transfer.transparency,
                 "How a style's opacity and the node's become one.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new(
-                                "illustrative",
-                                Transparency::Illustrative,
-                                "Faces turned to the eye become clearer than rims.",
-                            ),
-                            ChoiceOption::new("plain", Transparency::Plain, "Their product."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.transparency),
-                    set: |t, v| t.transparency = v,
-                },
+                "STF-9",
+                Transparency::KIND
             )
             .needs(&[Quantity::GradientMagnitudeRange]),
-            Key::new(
-                "mix",
+            key!(Transfer.mix, "How two styles mix.", "STF-3", Mix::KIND),
+            key!(Transfer.sphere_frame, "Frame of the lit sphere.", "STF-1", SphereFrame::KIND),
+            key!(
+                Transfer.table,
+                "How the function is evaluated: exactly, or from a table of so many entries over the range of \
+                     values, as graphics hardware does.",
                 "STF-3",
-                "How two styles mix.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("premultiplied", Mix::Premultiplied, "Colours weighted by opacity."),
-                            ChoiceOption::new("printed", Mix::Printed, "Straight colours, as printed."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.mix),
-                    set: |t, v| t.mix = v,
-                },
-            ),
-            Key::new(
-                "sphere_frame",
-                "STF-1",
-                "Frame of the lit sphere.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("eye", SphereFrame::Eye, "Eye space."),
-                            ChoiceOption::new("view", SphereFrame::View, "Turned so that silhouettes lie on the rim."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.sphere_frame),
-                    set: |t, v| t.sphere_frame = v,
-                },
-            ),
-            Key::new(
-                "table",
-                "STF-3",
-                "How the function is evaluated: exactly, or from a table of so many entries over the range of values, as \
-                 graphics hardware does.",
-                &Slot { kind: Evaluation, get: |t: &Transfer| Some(t.table), set: |t, v| t.table = v },
+                Evaluation
             ),
         ],
     )

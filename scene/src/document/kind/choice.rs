@@ -1,7 +1,7 @@
 //! One of several names.
 
 use crate::document::check::Check;
-use crate::document::describe::{Kind, Shape};
+use crate::document::describe::{Kind, Shape, first_paragraph};
 use crate::document::item::Item;
 use crate::document::out::Out;
 use crate::nearest::nearest;
@@ -45,12 +45,12 @@ impl<T: Sync> Shape for Choice<T> {
 
     fn schema(&self) -> Json {
         let options: Vec<Json> =
-            self.options.iter().map(|o| json!({ "const": o.name, "description": o.doc })).collect();
+            self.options.iter().map(|o| json!({ "const": o.name, "description": first_paragraph(o.doc) })).collect();
         json!({ "type": "string", "oneOf": options })
     }
 
-    fn options(&self) -> Vec<(&'static str, &'static str)> {
-        self.options.iter().map(|option| (option.name, option.doc)).collect()
+    fn options(&self) -> Vec<(&'static str, String)> {
+        self.options.iter().map(|option| (option.name, first_paragraph(option.doc))).collect()
     }
 }
 

@@ -10,9 +10,10 @@ pub(crate) use gradient_range::quantile;
 pub use phantom::PhantomSource;
 pub use raw::RawLayout;
 
+use crate::document::declare::{choices, key};
 use crate::document::describe::{Instead, Key, Slot, Table};
 use crate::document::fault::Problem;
-use crate::document::kind::{Bounds, Choice, ChoiceOption, Numbers, PathTo, Rule, TableOf};
+use crate::document::kind::{Bounds, Numbers, PathTo, Rule, TableOf};
 use crate::quantity::Quantity;
 use gradient_range::Quantile;
 use phantom::PHANTOM;
@@ -54,31 +55,37 @@ pub enum VolumeSource {
     Phantom(PhantomSource),
 }
 
-/// What the values of a volume mean.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ids {
-    /// A quantity: between two values lie all that are between them.
-    Values,
-    /// Ids of parts, between which nothing lies: what has an id above 0 is 1, all else 0.
-    Mask,
+choices! {
+    /// What the values of a volume mean.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Ids {
+        /// Each value stands for itself.
+        Values = "values",
+        /// Every value above 0 counts as 1, every other as 0; the surface lies at 0.5.
+        Mask = "mask",
+    }
 }
 
-/// Which label lies between voxels ([STF-13]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LabelLookup {
-    /// That of the nearest voxel.
-    Nearest,
-    /// That with the highest sum of trilinear weights among the eight voxels around.
-    Smooth,
+choices! {
+    /// Which label lies between voxels ([STF-13]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum LabelLookup {
+        /// That of the nearest voxel.
+        Nearest = "nearest",
+        /// That with the highest sum of trilinear weights among the eight voxels around: borders are not blocky.
+        Smooth = "smooth",
+    }
 }
 
-/// Which values lie outside ([NORM-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outside {
-    /// Values fall towards the outside: N = −g/‖g‖.
-    Low,
-    /// Values rise towards the outside: N = +g/‖g‖.
-    High,
+choices! {
+    /// Which values lie outside ([NORM-1]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Outside {
+        /// Values fall towards the outside.
+        Low = "low",
+        /// Values rise towards the outside.
+        High = "high",
+    }
 }
 
 impl VolumeTable {
@@ -99,14 +106,14 @@ impl VolumeTable {
 
 /// The description of `[volume]`.
 pub(crate) static TABLE: Table<VolumeTable> = Table {
-instead: &[Instead { one: "phantom", others: &["file"] }],
-check: |_, check| {
+    instead: &[Instead { one: "phantom", others: &["file"] }],
+    check: |_, check| {
         if !check.has("file") && !check.has("phantom") {
             let expected = "file = \"…\", or phantom = { name = \"…\" }".into();
             check.fault_in("file", Problem::Missing { expected });
         }
     },
-..Table::new(
+    ..Table::new(
         "[volume]",
         "The data that is seen: a file, or a phantom of our own. A file that is not there is looked for in the folders \
          that DRYPOINT_DATA lists.",
@@ -158,109 +165,44 @@ check: |_, check| {
                 },
             )
             .absent("the file's header, or FILE.toml beside it"),
-            Key::new(
-                "ids",
-                "STF-13",
+            key!(
+                VolumeTable.ids,
                 "What the values mean: quantities, or the ids of parts that are shown as one.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("values", Ids::Values, "Each value stands for itself."),
-                            ChoiceOption::new(
-                                "mask",
-                                Ids::Mask,
-                                "Every value above 0 counts as 1, every other as 0; the surface lies at 0.5.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &VolumeTable| Some(t.ids),
-                    set: |t, v| t.ids = v,
-                },
-            ),
-            Key::new(
-                "labels",
                 "STF-13",
-                "A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on \
-                 another grid; outside its box the label is 0.",
-                &Slot {
-                    kind: PathTo { what: "a label volume" },
-                    get: |t: &VolumeTable| t.labels.clone(),
-                    set: |t, path| t.labels = Some(path),
-                },
+                Ids::KIND
+            ),
+            key!(
+                VolumeTable.labels,
+                "A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may \
+                     lie on another grid; outside its box the label is 0.",
+                "STF-13",
+                PathTo { what: "a label volume" }
             )
             .absent("no labels"),
-            Key::new(
-                "label_names",
-                "STF-13",
+            key!(
+                VolumeTable.label_names,
                 "The names of the labels: a CSV file with an id and a name on each line.",
-                &Slot {
-                    kind: PathTo { what: "a table of names" },
-                    get: |t: &VolumeTable| t.label_names.clone(),
-                    set: |t, path| t.label_names = Some(path),
-                },
+                "STF-13",
+                PathTo { what: "a table of names" }
             )
             .absent("labels have no names"),
-            Key::new(
-                "label_lookup",
-                "STF-13",
-                "Which label lies between voxels.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("nearest", LabelLookup::Nearest, "That of the nearest voxel."),
-                            ChoiceOption::new(
-                                "smooth",
-                                LabelLookup::Smooth,
-                                "That with the highest sum of trilinear weights among the eight voxels around: borders \
-                                 are not blocky.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &VolumeTable| Some(t.label_lookup),
-                    set: |t, v| t.label_lookup = v,
-                },
-            )
-            .needs(&[Quantity::Label]),
-            Key::new(
-                "range",
-                "VAL-1",
+            key!(VolumeTable.label_lookup, "Which label lies between voxels.", "STF-13", LabelLookup::KIND)
+                .needs(&[Quantity::Label]),
+            key!(
+                VolumeTable.range,
                 "The values that `unit = \"normalized\"` maps to 0 and 1.",
-                &Slot {
-                    kind: Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending },
-                    get: |t: &VolumeTable| t.range,
-                    set: |t, v| t.range = Some(v),
-                },
+                "VAL-1",
+                Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending }
             )
             .absent("the volume's own"),
-            Key::new(
-                "gradient_range",
-                "VAL-2",
+            key!(
+                VolumeTable.gradient_range,
                 "What |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per \
-                 world unit.",
-                &Slot {
-                    kind: Quantile,
-                    get: |t: &VolumeTable| Some(t.gradient_range),
-                    set: |t, v| t.gradient_range = v,
-                },
+                     world unit.",
+                "VAL-2",
+                Quantile
             ),
-            Key::new(
-                "outside",
-                "NORM-1",
-                "Which values lie outside a surface.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("low", Outside::Low, "Values fall towards the outside."),
-                            ChoiceOption::new("high", Outside::High, "Values rise towards the outside."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &VolumeTable| Some(t.outside),
-                    set: |t, v| t.outside = v,
-                },
-            ),
+            key!(VolumeTable.outside, "Which values lie outside a surface.", "NORM-1", Outside::KIND),
         ],
     )
 };

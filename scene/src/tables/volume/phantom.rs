@@ -2,6 +2,7 @@
 
 use super::layout::{LONGEST_AXIS, SPACING, VOXEL_TYPE};
 use crate::document::check::Check;
+use crate::document::declare::key;
 use crate::document::describe::{Key, Kind, Names, Shape, Slot, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
@@ -30,25 +31,9 @@ pub(super) static PHANTOM: Table<PhantomSource> = Table {
             params: Vec::new(),
         },
         &[
-            Key::new(
-                "name",
-                "IO-4",
-                "Which phantom.",
-                &Slot { kind: PhantomName, get: |t: &PhantomSource| Some(t.name.clone()), set: |t, v| t.name = v },
-            )
-            .required(),
-            Key::new(
-                "size",
-                "IO-4",
-                "Voxels along x, y, z, or one number for all three.",
-                &Slot { kind: PhantomSize, get: |t: &PhantomSource| Some(t.size), set: |t, v| t.size = v },
-            ),
-            Key::new(
-                "spacing",
-                "SPACE-2",
-                "World units between voxels.",
-                &Slot { kind: SPACING, get: |t: &PhantomSource| Some(t.spacing), set: |t, v| t.spacing = v },
-            ),
+            key!(PhantomSource.name, "Which phantom.", "IO-4", PhantomName).required(),
+            key!(PhantomSource.size, "Voxels along x, y, z, or one number for all three.", "IO-4", PhantomSize),
+            key!(PhantomSource.spacing, "World units between voxels.", "SPACE-2", SPACING),
             Key::new(
                 "type",
                 "IO-4",
