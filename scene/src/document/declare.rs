@@ -64,22 +64,39 @@ impl Holds<[f64; 3]> for Option<DVec3> {
     }
 }
 
-/// A key that has the name of its field: `key!(Camera.up, "Up in the picture.", "RAY-5", DIRECTION)`. A value that is not
-/// in the field alone has a way out and a way in, two closures after the kind.
-macro_rules! key {
-    ($table:ident.$field:ident, $doc:expr, $tag:literal, $kind:expr) => {
-        $crate::document::declare::key!(
-            $table.$field,
+/// The keys of a table, each with its documentation, its rule and the kind of its value. A key without closures is the
+/// field of the same name. Any other key has two closures: one reads its value from the table, one writes it there.
+/// Methods of [`Key`](super::describe::Key) follow.
+///
+/// ```text
+/// keys! { Camera {
+///     /// Up in the picture, in world space.
+///     up: key("RAY-6", DIRECTION);
+///     /// The way the camera looks.
+///     direction: key("RAY-5", DIRECTION, |c| …, |c, v| …).absent("towards the volume");
+/// } }
+/// ```
+macro_rules! keys {
+    ($table:ty { $($(#[doc = $doc:literal])+ $name:ident: key($($how:tt)+)$(.$more:ident($($with:tt)*))*;)+ }) => {
+        const {
+            &[$($crate::document::declare::keys!(key $table, $name, concat!($($doc, "\n"),+), $($how)+)
+                $(.$more($($with)*))*),+]
+        }
+    };
+    (key $table:ty, $name:ident, $doc:expr, $tag:literal, $kind:expr) => {
+        $crate::document::declare::keys!(
+            key $table,
+            $name,
             $doc,
             $tag,
             $kind,
-            |table| $crate::document::declare::Holds::get(&table.$field),
-            |table, value| $crate::document::declare::Holds::set(&mut table.$field, value)
+            |table| $crate::document::declare::Holds::get(&table.$name),
+            |table, value| $crate::document::declare::Holds::set(&mut table.$name, value)
         )
     };
-    ($table:ident.$field:ident, $doc:expr, $tag:literal, $kind:expr, $get:expr, $set:expr) => {
+    (key $table:ty, $name:ident, $doc:expr, $tag:literal, $kind:expr, $get:expr, $set:expr) => {
         $crate::document::describe::Key::new(
-            stringify!($field),
+            stringify!($name),
             $tag,
             $doc,
             const { &$crate::document::describe::Slot::<$table, _> { kind: $kind, get: $get, set: $set } },
@@ -87,15 +104,25 @@ macro_rules! key {
     };
 }
 
-/// The struct of a table with its defaults and its description, a key for each field, in their order. A field says its
-/// type, its default, and as `key` the rule and the kind of its value; what a [`Key`](super::describe::Key) says beyond
-/// that follows.
+/// The struct of a table, its defaults, and its description with a key for each field, in their order. A field has its
+/// type, its default, and its key as in [`keys!`](keys).
+///
+/// ```text
+/// table! {
+///     /// The table `[page]`.
+///     #[derive(Clone, Debug, PartialEq)]
+///     pub struct PageSettings {
+///         /// Whether a pen plotter draws it: one nib a layer, paths in the order of a short way.
+///         plotter: bool = false, key("IO-7", Flag);
+///     }
+/// }
+/// ```
 macro_rules! table {
     (
         $(#[$meta:meta])*
         pub struct $table:ident {
-            $($(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr,
-                key($($how:tt)+)$(.$more:ident($($with:tt)*))*;)+
+            $($(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr, key($($how:tt)+)
+                $(.$more:ident($($with:tt)*))*;)+
         }
     ) => {
         $(#[$meta])*
@@ -112,17 +139,28 @@ macro_rules! table {
 
         impl $table {
             /// The description of a table with these keys and no more to say of itself.
-            const fn table(title: &'static str, doc: &'static str) -> $crate::document::describe::Table<Self> {
-                $crate::document::describe::Table::new(title, doc, Self::default, const { &[
-                    $($crate::document::declare::key!($table.$field, concat!($($doc, "\n"),+), $($how)+)
-                        $(.$more($($with)*))*),+
-                ] })
+            const fn description(title: &'static str, doc: &'static str) -> $crate::document::describe::Table<Self> {
+                let keys = $crate::document::declare::keys! { $table {
+                    $($(#[doc = $doc])+ $field: key($($how)+)$(.$more($($with)*))*;)+
+                } };
+                $crate::document::describe::Table::new(title, doc, Self::default, keys)
             }
         }
     };
 }
 
-/// An enum whose values have names in scene files, and their `KIND`. Names of values that are not built yet follow it.
+/// An enum whose values have names in scene files, and their `KIND`. After `later` stand names that are not built yet.
+///
+/// ```text
+/// choices! {
+///     /// The distance that `step` is measured along.
+///     #[derive(Clone, Copy, PartialEq)]
+///     pub enum StepAlong {
+///         /// View-aligned planes.
+///         Plane = "plane",
+///     }
+/// }
+/// ```
 macro_rules! choices {
     (
         $(#[$meta:meta])*
@@ -149,4 +187,4 @@ macro_rules! choices {
     (later) => { &[] };
 }
 
-pub(crate) use {choices, key, table};
+pub(crate) use {choices, keys, table};

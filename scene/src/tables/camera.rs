@@ -1,7 +1,7 @@
 //! `[camera]`: from where the volume is seen ([RAY-5], [RAY-6]).
 
-use crate::document::declare::{choices, key};
-use crate::document::describe::{Key, Slot, Table};
+use crate::document::declare::{choices, keys};
+use crate::document::describe::Table;
 use crate::document::fault::Problem;
 use crate::document::kind::{Bounds, Number, Numbers, Rule, WORLD_LENGTH};
 use crate::tables::Length;
@@ -92,87 +92,58 @@ pub(crate) static TABLE: Table<Camera> = Table {
         "[camera]",
         "From where the volume is seen: along `direction` at the target, or from `eye`.",
         Camera::default,
-        &[
-            Key::new(
-                "projection",
-                "RAY-6",
-                "How points are projected.",
-                &Slot {
-                    kind: Projected::KIND,
-                    get: |c: &Camera| {
-                        Some(match c.projection {
-                            Projection::Perspective { .. } => Projected::Perspective,
-                            Projection::Orthographic { .. } => Projected::Orthographic,
-                        })
-                    },
-                    set: |c, projected| {
-                        c.projection = match projected {
-                            Projected::Perspective => Projection::Perspective { fov: FOV },
-                            Projected::Orthographic => Projection::Orthographic { height: None },
-                        }
-                    },
+        keys! { Camera {
+            /// How points are projected.
+            projection: key("RAY-6", Projected::KIND,
+                |c| {
+                    Some(match c.projection {
+                        Projection::Perspective { .. } => Projected::Perspective,
+                        Projection::Orthographic { .. } => Projected::Orthographic,
+                    })
                 },
-            ),
-            Key::new(
-                "fov",
-                "RAY-6",
-                "Vertical field of view in degrees; perspective.",
-                &Slot {
-                    kind: Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" },
-                    get: |c: &Camera| match c.projection {
-                        Projection::Perspective { fov } => Some(fov),
-                        Projection::Orthographic { .. } => None,
-                    },
-                    set: |c, v| {
-                        if let Projection::Perspective { fov } = &mut c.projection {
-                            *fov = v;
-                        }
-                    },
+                |c, projected| {
+                    c.projection = match projected {
+                        Projected::Perspective => Projection::Perspective { fov: FOV },
+                        Projected::Orthographic => Projection::Orthographic { height: None },
+                    }
+                });
+            /// Vertical field of view in degrees; perspective.
+            fov: key("RAY-6", Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" },
+                |c| match c.projection {
+                    Projection::Perspective { fov } => Some(fov),
+                    Projection::Orthographic { .. } => None,
                 },
-            ),
-            Key::new(
-                "height",
-                "RAY-5",
-                "From the bottom to the top of the picture; orthographic.",
-                &Slot {
-                    kind: WORLD_LENGTH,
-                    get: |c: &Camera| match c.projection {
-                        Projection::Perspective { .. } => None,
-                        Projection::Orthographic { height } => height,
-                    },
-                    set: |c, v| {
-                        if let Projection::Orthographic { height } = &mut c.projection {
-                            *height = Some(v);
-                        }
-                    },
+                |c, v| {
+                    if let Projection::Perspective { fov } = &mut c.projection {
+                        *fov = v;
+                    }
+                });
+            /// From the bottom to the top of the picture; orthographic.
+            height: key("RAY-5", WORLD_LENGTH,
+                |c| match c.projection {
+                    Projection::Perspective { .. } => None,
+                    Projection::Orthographic { height } => height,
                 },
-            )
-            .absent("what shows the whole box of the volume"),
-            key!(
-                Camera.eye,
-                "Where the camera stands, in world space. With `direction` beside it, `target` is unused.",
-                "RAY-5",
-                POINT
-            )
-            .absent("so far from the target that the whole box is seen"),
-            Key::new(
-                "direction",
-                "RAY-5",
-                "The way the camera looks, in world space, of any length.",
-                &Slot {
-                    kind: DIRECTION,
-                    get: |c: &Camera| (c.eye.is_none() || c.direction_given).then(|| c.direction.to_array()),
-                    set: |c, v| {
-                        c.direction = DVec3::from_array(v);
-                        c.direction_given = c.eye.is_some();
-                    },
-                },
-            ),
-            key!(Camera.target, "What the camera looks at, in world space.", "RAY-5", POINT)
-                .absent("the centre of the volume's box"),
-            key!(Camera.up, "Up in the picture, in world space.", "RAY-6", DIRECTION),
-            key!(Camera.near, "Smallest eye depth of a sample; perspective.", "RAY-1", WORLD_LENGTH)
-                .absent("`sampling.step`"),
-        ],
+                |c, v| {
+                    if let Projection::Orthographic { height } = &mut c.projection {
+                        *height = Some(v);
+                    }
+                }).absent("what shows the whole box of the volume");
+            /// Where the camera stands, in world space. With `direction` beside it, `target` is unused.
+            eye: key("RAY-5", POINT).absent("so far from the target that the whole box is seen");
+            /// The way the camera looks, in world space, of any length.
+            direction: key("RAY-5", DIRECTION,
+                |c| (c.eye.is_none() || c.direction_given).then(|| c.direction.to_array()),
+                |c, v| {
+                    c.direction = DVec3::from_array(v);
+                    c.direction_given = c.eye.is_some();
+                });
+            /// What the camera looks at, in world space.
+            target: key("RAY-5", POINT).absent("the centre of the volume's box");
+            /// Up in the picture, in world space.
+            up: key("RAY-6", DIRECTION);
+            /// Smallest eye depth of a sample; perspective.
+            near: key("RAY-1", WORLD_LENGTH).absent("`sampling.step`");
+        } },
     )
 };

@@ -1,7 +1,7 @@
 //! `[contours]`: style contours of controlled thickness ([STF-6] … [STF-8]).
 
-use crate::document::declare::{choices, key};
-use crate::document::describe::{Key, Slot, Table};
+use crate::document::declare::{choices, keys};
+use crate::document::describe::Table;
 use crate::document::kind::{Bounds, Lengths, Number, Numbers, On, Rule};
 use crate::quantity::Quantity;
 use crate::tables::{Length, Scene};
@@ -89,67 +89,40 @@ pub(crate) static TABLE: Table<Contours> = Table::new(
     "[contours]",
     "Style contours of controlled thickness. They act on a transfer function of styles.",
     Contours::default,
-    &[
-        key!(
-            Contours.thickness,
-            "T, the width of a contour.",
-            "STF-7",
-            Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE }
-        ),
-        Key::new(
-            "kappa",
-            "STF-6",
-            "The curvature along the view that thickness is controlled by.",
-            &Slot {
-                kind: KappaName::KIND,
-                get: |c: &Contours| {
-                    Some(match c.kappa {
-                        Kappa::Ray => KappaName::Ray,
-                        Kappa::Exact => KappaName::Exact,
-                        Kappa::None { .. } => KappaName::None,
-                    })
-                },
-                set: |c, name| {
-                    c.kappa = match name {
-                        KappaName::Ray => Kappa::Ray,
-                        KappaName::Exact => Kappa::Exact,
-                        KappaName::None => Kappa::None { threshold: THRESHOLD },
-                    }
-                },
+    keys! { Contours {
+        /// T, the width of a contour.
+        thickness: key("STF-7", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE });
+        /// The curvature along the view that thickness is controlled by.
+        kappa: key("STF-6", KappaName::KIND,
+            |c| {
+                Some(match c.kappa {
+                    Kappa::Ray => KappaName::Ray,
+                    Kappa::Exact => KappaName::Exact,
+                    Kappa::None { .. } => KappaName::None,
+                })
             },
-        )
-        .needs(&[Quantity::PreviousNormal, Quantity::Hessian]),
-        Key::new(
-            "threshold",
-            "STF-6",
-            "τ of kappa = \"none\": |N·v| up to which a contour reaches.",
-            &Slot {
-                kind: Number { bounds: Bounds::UNIT, unit: "" },
-                get: |c: &Contours| match c.kappa {
-                    Kappa::None { threshold } => Some(threshold),
-                    Kappa::Ray | Kappa::Exact => None,
-                },
-                set: |c, v| {
-                    if let Kappa::None { threshold } = &mut c.kappa {
-                        *threshold = v;
-                    }
-                },
+            |c, name| {
+                c.kappa = match name {
+                    KappaName::Ray => Kappa::Ray,
+                    KappaName::Exact => Kappa::Exact,
+                    KappaName::None => Kappa::None { threshold: THRESHOLD },
+                }
+            }).needs(&[Quantity::PreviousNormal, Quantity::Hessian]);
+        /// τ of kappa = "none": |N·v| up to which a contour reaches.
+        threshold: key("STF-6", Number { bounds: Bounds::UNIT, unit: "" },
+            |c| match c.kappa {
+                Kappa::None { threshold } => Some(threshold),
+                Kappa::Ray | Kappa::Exact => None,
             },
-        )
-        .absent("0.3 with kappa = \"none\""),
-        key!(
-            Contours.sign_flip,
-            "What a flipped normal counts as, with kappa = \"ray\" and sampling.normal = \"facing\".",
-            "STF-5",
-            SignFlip::KIND
-        ),
-        key!(
-            Contours.fade,
-            "lo and hi, of |g|, between which contours fade in.",
-            "STF-7",
-            Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending }
-        )
-        .absent("no fade")
-        .needs(&[Quantity::GradientMagnitudeRange]),
-    ],
+            |c, v| {
+                if let Kappa::None { threshold } = &mut c.kappa {
+                    *threshold = v;
+                }
+            }).absent("0.3 with kappa = \"none\"");
+        /// What a flipped normal counts as, with kappa = "ray" and sampling.normal = "facing".
+        sign_flip: key("STF-5", SignFlip::KIND);
+        /// lo and hi, of |g|, between which contours fade in.
+        fade: key("STF-7", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
+            .absent("no fade").needs(&[Quantity::GradientMagnitudeRange]);
+    } },
 );

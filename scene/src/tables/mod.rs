@@ -1,8 +1,8 @@
 //! The tables of a scene file ([SCN-1] … [SCN-4]), one file each, and the scene that they make.
 //!
-//! A file holds the struct and, beside it, the description of the table as data: keys, kinds, ranges, defaults, docs.
-//! Checking, `--full`, the schema and the reference page are made from it. What a table asks of the plan, and its knobs,
-//! stand beside the plan (`plan::rules`), since they read the whole scene.
+//! A file declares its keys once, with the macros of `document::declare`: field, default, doc comment, rule and kind.
+//! Checking, `--full`, the schema and the reference page are made from that. The needs of a table and its knobs stand
+//! beside the plan (`plan::rules`), since they read the whole scene.
 
 pub mod camera;
 pub mod contours;

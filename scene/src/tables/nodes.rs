@@ -4,8 +4,8 @@ use super::LabelKey;
 use super::over::Label;
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::document::declare::key;
-use crate::document::describe::{Key, Kind, Section, Shape, Slot, Table};
+use crate::document::declare::keys;
+use crate::document::describe::{Kind, Section, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf, Text};
 use crate::document::out::Out;
@@ -124,50 +124,29 @@ static NODE: Table<Written> = Table {
         "a node",
         "One node of a transfer function.",
         || Written { at: At::One(0.0), color: NodeColor::Style(String::new()), opacity: 1.0 },
-        &[
-            key!(
-                Written.at,
-                "The value; the two quantities in a grid over two; the first of them in a row.",
-                "STF-3",
-                AtKind
-            )
-            .required(),
-            Key::new(
-                "style",
-                "STF-3",
-                "The name of a style; in a style function.",
-                &Slot {
-                    kind: StyleName,
-                    get: |n: &Written| match &n.color {
-                        NodeColor::Style(name) => Some(name.clone()).filter(|name| !name.is_empty()),
-                        NodeColor::Color(_) => None,
-                    },
-                    set: |n, v| n.color = NodeColor::Style(v),
+        keys! { Written {
+            /// The value; the two quantities in a grid over two; the first of them in a row.
+            at: key("STF-3", AtKind).required();
+            /// The name of a style; in a style function.
+            style: key("STF-3", StyleName,
+                |n| match &n.color {
+                    NodeColor::Style(name) => Some(name.clone()).filter(|name| !name.is_empty()),
+                    NodeColor::Color(_) => None,
                 },
-            ),
-            key!(
-                Written.opacity,
-                "Opacity for a `sampling.reference_length`.",
-                "VAL-4",
-                Number { bounds: Bounds::UNIT, unit: "" }
-            ),
-            Key::new(
-                "color",
-                "VAL-3",
-                "A colour; in a regular function. Its own opacity multiplies `opacity`.",
-                &Slot {
-                    kind: Colors,
-                    get: |n: &Written| match n.color {
-                        NodeColor::Style(_) => None,
-                        NodeColor::Color([r, g, b]) => Some([r, g, b, 1.0]),
-                    },
-                    set: |n, [r, g, b, a]| {
-                        n.color = NodeColor::Color([r, g, b]);
-                        n.opacity *= a;
-                    },
+                |n, v| n.color = NodeColor::Style(v));
+            /// Opacity for a `sampling.reference_length`.
+            opacity: key("VAL-4", Number { bounds: Bounds::UNIT, unit: "" });
+            /// A colour; in a regular function. Its own opacity multiplies `opacity`.
+            color: key("VAL-3", Colors,
+                |n| match n.color {
+                    NodeColor::Style(_) => None,
+                    NodeColor::Color([r, g, b]) => Some([r, g, b, 1.0]),
                 },
-            ),
-        ],
+                |n, [r, g, b, a]| {
+                    n.color = NodeColor::Color([r, g, b]);
+                    n.opacity *= a;
+                });
+        } },
     )
 };
 
@@ -367,18 +346,13 @@ static ROW: Table<Row> = Table::new(
     "a row",
     "One row of nodes of a function over two quantities.",
     || Row { at: RowAt::Number(0.0), nodes: Vec::new() },
-    &[
-        key!(
-            Row.at,
-            "Where the row stands: a number of the second quantity; for labels an id, a name of \
-                     `volume.label_names`, or a list of labels that share the row.",
-            "STF-4",
-            RowAtKind
-        )
-        .required(),
-        key!(Row.nodes, "Nodes over the first quantity, in non-decreasing order of `at`.", "STF-4", LineOfNodes)
-            .required(),
-    ],
+    keys! { Row {
+        /// Where the row stands: a number of the second quantity; for labels an id, a name of `volume.label_names`, or
+        /// a list of labels that share the row.
+        at: key("STF-4", RowAtKind).required();
+        /// Nodes over the first quantity, in non-decreasing order of `at`.
+        nodes: key("STF-4", LineOfNodes).required();
+    } },
 );
 
 /// Where a row stands: a number, a name, or several labels.

@@ -21,7 +21,7 @@ table! {
 const MOST_FRAMES: u64 = 1_000_000;
 
 /// The description of `[orbit]`.
-pub(crate) static TABLE: Table<Orbit> = Orbit::table(
+pub(crate) static TABLE: Table<Orbit> = Orbit::description(
     "[orbit]",
     "Several frames: the camera turns about `camera.up` through `camera.target`, to the right as seen by itself. The \
      frames are numbered from 0, which is the camera of the scene, and end one step before `degrees`, so that a full \

@@ -32,7 +32,7 @@ table! {
 }
 
 /// The description of `[outlines]`.
-pub(crate) static TABLE: Table<Outlines> = Outlines::table(
+pub(crate) static TABLE: Table<Outlines> = Outlines::description(
     "[outlines]",
     "Lines where an iso-surface turns away from the eye and where it meets the volume's box, without what the surface \
          of [surface], or else their own, hides.",

@@ -5,7 +5,8 @@
 
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::document::describe::{Key, Kind, Section, Shape, Slot, Table};
+use crate::document::declare::keys;
+use crate::document::describe::{Key, Kind, Section, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, ListOf, Numbers, PathTo, Rule, TableOf, Text, Whole};
 use crate::document::out::Out;
@@ -107,54 +108,33 @@ static OF: Table<Option<Axis>> = Table {
         "a quantity of something",
         "A quantity of a transfer function that has more than a name: one of these keys.",
         || None,
-        &[
-            Key::new(
-                "distance",
-                "STF-4",
-                "The distance to this point, in world units.",
-                &Slot {
-                    kind: Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free },
-                    get: |axis: &Option<Axis>| match axis {
-                        Some(Axis::Distance(p)) => Some(p.to_array()),
-                        _ => None,
-                    },
-                    set: |axis, p| *axis = Some(Axis::Distance(p.into())),
+        keys! { Option<Axis> {
+            /// The distance to this point, in world units.
+            distance: key("STF-4", Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free },
+                |axis| match axis {
+                    Some(Axis::Distance(p)) => Some(p.to_array()),
+                    _ => None,
                 },
-            )
-            .absent("another quantity")
-            .needs(&[Quantity::Distance]),
-            Key::new(
-                "distance_to_label",
-                "STF-4",
-                "The distance to the nearest voxel centre of this label, in world units; 0 inside.",
-                &Slot {
-                    kind: Label,
-                    get: |axis: &Option<Axis>| match axis {
-                        Some(Axis::DistanceToLabel(label)) => Some(label.clone()),
-                        _ => None,
-                    },
-                    set: |axis, label| *axis = Some(Axis::DistanceToLabel(label)),
+                |axis, p| *axis = Some(Axis::Distance(p.into())))
+                .absent("another quantity").needs(&[Quantity::Distance]);
+            /// The distance to the nearest voxel centre of this label, in world units; 0 inside.
+            distance_to_label: key("STF-4", Label,
+                |axis| match axis {
+                    Some(Axis::DistanceToLabel(label)) => Some(label.clone()),
+                    _ => None,
                 },
-            )
-            .absent("another quantity")
-            .needs(&[Quantity::LabelDistance]),
-            Key::new(
-                "volume",
-                "STF-4",
-                "The value of this volume at the same place in the world, trilinear, whatever its grid. Outside its box \
-                 and beside voxels without a value it counts as the lowest of its values.",
-                &Slot {
-                    kind: PathTo { what: "a volume" },
-                    get: |axis: &Option<Axis>| match axis {
-                        Some(Axis::Volume(path)) => Some(path.clone()),
-                        _ => None,
-                    },
-                    set: |axis, path| *axis = Some(Axis::Volume(path)),
+                |axis, label| *axis = Some(Axis::DistanceToLabel(label)))
+                .absent("another quantity").needs(&[Quantity::LabelDistance]);
+            /// The value of this volume at the same place in the world, trilinear, whatever its grid. Outside its box
+            /// and beside voxels without a value it counts as the lowest of its values.
+            volume: key("STF-4", PathTo { what: "a volume" },
+                |axis| match axis {
+                    Some(Axis::Volume(path)) => Some(path.clone()),
+                    _ => None,
                 },
-            )
-            .absent("another quantity")
-            .needs(&[Quantity::FurtherVolume]),
-        ],
+                |axis, path| *axis = Some(Axis::Volume(path)))
+                .absent("another quantity").needs(&[Quantity::FurtherVolume]);
+        } },
     )
 };
 

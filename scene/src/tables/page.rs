@@ -21,4 +21,4 @@ table! {
 
 /// The description of `[page]`.
 pub(crate) static TABLE: Table<PageSettings> =
-    PageSettings::table("[page]", "The paper of SVG, PDF and lists: the picture with a margin all around.");
+    PageSettings::description("[page]", "The paper of SVG, PDF and lists: the picture with a margin all around.");

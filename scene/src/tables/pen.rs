@@ -27,7 +27,8 @@ table! {
 }
 
 /// The description of a pen.
-pub(crate) static TABLE: Table<PenSettings> = PenSettings::table("a pen", "What draws a layer of points and lines.");
+pub(crate) static TABLE: Table<PenSettings> =
+    PenSettings::description("a pen", "What draws a layer of points and lines.");
 
 #[cfg(test)]
 mod tests {

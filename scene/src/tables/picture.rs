@@ -1,8 +1,8 @@
 //! `[picture]`: what the picture is drawn on.
 
 use crate::document::check::Check;
-use crate::document::declare::{choices, key};
-use crate::document::describe::{Instead, Key, Kind, Shape, Slot, Table};
+use crate::document::declare::{choices, keys};
+use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
 use crate::document::kind::{
@@ -135,57 +135,31 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
         "[picture]",
         "What the picture is drawn on.",
         PictureSettings::default,
-        &[
-            key!(
-                PictureSettings.dpi,
-                "Pixels per inch, which turns mm into pixels.",
-                "IO-7",
-                Number { bounds: Bounds::POSITIVE, unit: "" }
-            ),
-            Key::new(
-                "size",
-                "RAY-6",
-                "Width and height in pixels.",
-                &Slot {
-                    kind: SIZE,
-                    get: |p: &PictureSettings| p.extent().is_none().then_some(p.size),
-                    set: |p, v| p.size = v,
-                },
-            ),
-            Key::new(
-                "width",
-                "IO-7",
-                "Width on the page, with `height` in place of `size`.",
-                &Slot {
-                    kind: EXTENT,
-                    get: |p: &PictureSettings| p.extent().map(|[length, _]| length),
-                    set: |p, v| (p.lengths[0], p.size[0]) = (Some(v), pixels(v, p.dpi)),
-                },
-            )
-            .absent("`size`"),
-            Key::new(
-                "height",
-                "IO-7",
-                "Height on the page, with `width` in place of `size`.",
-                &Slot {
-                    kind: EXTENT,
-                    get: |p: &PictureSettings| p.extent().map(|[_, length]| length),
-                    set: |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi)),
-                },
-            )
-            .absent("`size`"),
-            key!(PictureSettings.samples, "n of the n×n rays a pixel.", "RAY-6", Whole { lo: 1, hi: 1024 }),
-            key!(
-                PictureSettings.background,
-                "What lies behind: a colour, \"none\", or the path of a picture that is stretched to the frame.",
-                "IO-6",
-                Behind
-            ),
-            key!(PictureSettings.blend_space, "Which numbers are composited.", "VAL-3", BlendSpace::KIND),
-            key!(PictureSettings.bits, "Bits a channel of a PNG.", "IO-2", Bits),
-            key!(PictureSettings.layers, "Layers of an EXR.", "IO-6", ListOf { what: "a list of layers", each: LAYER })
-                .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]),
-        ],
+        keys! { PictureSettings {
+            /// Pixels per inch, which turns mm into pixels.
+            dpi: key("IO-7", Number { bounds: Bounds::POSITIVE, unit: "" });
+            /// Width and height in pixels.
+            size: key("RAY-6", SIZE, |p| p.extent().is_none().then_some(p.size), |p, v| p.size = v);
+            /// Width on the page, with `height` in place of `size`.
+            width: key("IO-7", EXTENT,
+                |p| p.extent().map(|[length, _]| length),
+                |p, v| (p.lengths[0], p.size[0]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
+            /// Height on the page, with `width` in place of `size`.
+            height: key("IO-7", EXTENT,
+                |p| p.extent().map(|[_, length]| length),
+                |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
+            /// n of the n×n rays a pixel.
+            samples: key("RAY-6", Whole { lo: 1, hi: 1024 });
+            /// What lies behind: a colour, "none", or the path of a picture that is stretched to the frame.
+            background: key("IO-6", Behind);
+            /// Which numbers are composited.
+            blend_space: key("VAL-3", BlendSpace::KIND);
+            /// Bits a channel of a PNG.
+            bits: key("IO-2", Bits);
+            /// Layers of an EXR.
+            layers: key("IO-6", ListOf { what: "a list of layers", each: LAYER })
+                .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]);
+        } },
     )
 };
 

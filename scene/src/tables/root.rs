@@ -6,8 +6,8 @@ use super::{
     style_mipmaps, styles, surface, transfer, volume,
 };
 use crate::document::check::Check;
-use crate::document::declare::key;
-use crate::document::describe::{Key, Kind, Later, Shape, Slot, Table};
+use crate::document::declare::keys;
+use crate::document::describe::{Kind, Later, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{ListOf, TableOf};
 use crate::document::out::Out;
@@ -68,100 +68,51 @@ pub(crate) static ROOT: Table<Scene> = Table {
          computed. Lengths are numbers in world units or texts with a unit, angles are in degrees, colours sRGB, and \
          paths relative to the scene file.",
         || Scene::without_effects(VolumeSource::File { path: PathBuf::new(), raw: None }),
-        &[
-            Key::new(
-                "drypoint",
-                "",
-                "Version of the format.",
-                &Slot { kind: Version, get: |_| Some(()), set: |_, ()| {} },
-            )
-            .required(),
-            Key::new(
-                "preset",
-                "SCN-3",
-                "Whole tables for a scene that lacks them.",
-                &Slot {
-                    kind: PRESETS,
-                    get: |_| None,
-                    // It is read before the tables, of which each that the file has takes the place of the preset's.
-                    set: |scene: &mut Scene, preset| preset.supply(scene),
-                },
-            )
-            .absent("\"style\" where the scene draws nothing else"),
-            key!(
-                Scene.light,
-                "Towards the light, for all that is lit; a table's own `light` wins.",
-                "STF-11",
-                shading::Light
-            ),
-            key!(Scene.volume, "The data that is seen.", "IO-1", TableOf(&volume::TABLE)).required(),
-            key!(Scene.camera, "From where the volume is seen.", "RAY-5", TableOf(&camera::TABLE)),
-            key!(Scene.orbit, "Several frames about the volume.", "STIP-4", TableOf(&orbit::TABLE)).absent("one frame"),
-            key!(Scene.picture, "What the picture is drawn on.", "RAY-6", TableOf(&picture::TABLE)),
-            key!(Scene.page, "The paper that points and lines are drawn on.", "IO-7", TableOf(&page::TABLE))
-                .absent("no margin, no plotter"),
-            Key::new(
-                "pen",
-                "IO-7",
-                "The pens that points and lines are drawn with; layers are numbered in their order.",
-                &Slot {
-                    kind: ListOf { what: "a list of pens", each: TableOf(&pen::TABLE) },
-                    get: |s: &Scene| (!s.pens.is_empty()).then(|| s.pens.clone()),
-                    set: |s, v| s.pens = v,
-                },
-            )
-            .absent("none"),
-            key!(
-                Scene.sampling,
-                "How the field is reconstructed and where it is sampled.",
-                "RAY-1",
-                TableOf(&sampling::TABLE)
-            ),
-            key!(
-                Scene.transfer,
-                "Colours or styles, and opacities, over the values.",
-                "STF-3",
-                TableOf(&transfer::TABLE)
-            )
-            .absent("the preset's")
-            .needs(&[Quantity::Value]),
-            key!(
-                Scene.styles,
-                "The lit-sphere pictures that a transfer function names.",
-                "STF-12",
-                TableOf(&styles::TABLE)
-            ),
-            key!(
-                Scene.shading,
-                "Light on a regular transfer function, and on a lit iso-surface.",
-                "STF-11",
-                TableOf(&shading::TABLE)
-            )
-            .absent("unshaded")
-            .needs(&[Quantity::Gradient]),
-            key!(Scene.contours, "Style contours of controlled thickness.", "STF-6", TableOf(&contours::TABLE))
-                .absent("no contours"),
-            key!(
-                Scene.style_mipmaps,
-                "Styles read at the level of detail that the picture can show.",
-                "STF-10",
-                TableOf(&style_mipmaps::TABLE)
-            )
-            .absent("no mip-maps"),
-            key!(Scene.stipples, "Stippling: dots on the volume's boundaries.", "STIP-1", TableOf(&stipples::TABLE))
-                .absent("no stipples"),
-            key!(
-                Scene.hatching,
-                "Strokes along the lines of curvature of an iso-surface.",
-                "HATCH-8",
-                TableOf(&hatching::TABLE)
-            )
-            .absent("no hatching"),
-            key!(Scene.outlines, "Lines where an iso-surface turns away.", "HATCH-18", TableOf(&outlines::TABLE))
-                .absent("no outlines"),
-            key!(Scene.surface, "An opaque iso-surface.", "HATCH-14", TableOf(&surface::TABLE))
-                .absent("no surface")
-                .needs(&[Quantity::Surface]),
-        ],
+        keys! { Scene {
+            /// Version of the format.
+            drypoint: key("", Version, |_| Some(()), |_, ()| {}).required();
+            /// Whole tables for a scene that lacks them.
+            preset: key("SCN-3", PRESETS,
+                |_| None,
+                // It is read before the tables, of which each that the file has takes the place of the preset's.
+                |scene, preset| preset.supply(scene))
+                .absent("\"style\" where the scene draws nothing else");
+            /// Towards the light, for all that is lit; a table's own `light` wins.
+            light: key("STF-11", shading::Light);
+            /// The data that is seen.
+            volume: key("IO-1", TableOf(&volume::TABLE)).required();
+            /// From where the volume is seen.
+            camera: key("RAY-5", TableOf(&camera::TABLE));
+            /// Several frames about the volume.
+            orbit: key("STIP-4", TableOf(&orbit::TABLE)).absent("one frame");
+            /// What the picture is drawn on.
+            picture: key("RAY-6", TableOf(&picture::TABLE));
+            /// The paper that points and lines are drawn on.
+            page: key("IO-7", TableOf(&page::TABLE)).absent("no margin, no plotter");
+            /// The pens that points and lines are drawn with; layers are numbered in their order.
+            pen: key("IO-7", ListOf { what: "a list of pens", each: TableOf(&pen::TABLE) },
+                |s| (!s.pens.is_empty()).then(|| s.pens.clone()),
+                |s, v| s.pens = v).absent("none");
+            /// How the field is reconstructed and where it is sampled.
+            sampling: key("RAY-1", TableOf(&sampling::TABLE));
+            /// Colours or styles, and opacities, over the values.
+            transfer: key("STF-3", TableOf(&transfer::TABLE)).absent("the preset's").needs(&[Quantity::Value]);
+            /// The lit-sphere pictures that a transfer function names.
+            styles: key("STF-12", TableOf(&styles::TABLE));
+            /// Light on a regular transfer function, and on a lit iso-surface.
+            shading: key("STF-11", TableOf(&shading::TABLE)).absent("unshaded").needs(&[Quantity::Gradient]);
+            /// Style contours of controlled thickness.
+            contours: key("STF-6", TableOf(&contours::TABLE)).absent("no contours");
+            /// Styles read at the level of detail that the picture can show.
+            style_mipmaps: key("STF-10", TableOf(&style_mipmaps::TABLE)).absent("no mip-maps");
+            /// Stippling: dots on the volume's boundaries.
+            stipples: key("STIP-1", TableOf(&stipples::TABLE)).absent("no stipples");
+            /// Strokes along the lines of curvature of an iso-surface.
+            hatching: key("HATCH-8", TableOf(&hatching::TABLE)).absent("no hatching");
+            /// Lines where an iso-surface turns away.
+            outlines: key("HATCH-18", TableOf(&outlines::TABLE)).absent("no outlines");
+            /// An opaque iso-surface.
+            surface: key("HATCH-14", TableOf(&surface::TABLE)).absent("no surface").needs(&[Quantity::Surface]);
+        } },
     )
 };

@@ -140,5 +140,5 @@ pub(crate) static TABLE: Table<Sampling> = Table {
             );
         }
     },
-    ..Sampling::table("[sampling]", "How the field is reconstructed and where it is sampled.")
+    ..Sampling::description("[sampling]", "How the field is reconstructed and where it is sampled.")
 };

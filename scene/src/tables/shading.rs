@@ -1,8 +1,8 @@
 //! `[shading]`: light on a regular transfer function, Blinn–Phong ([STF-11]) or in tones ([HATCH-15]).
 
 use crate::document::check::Check;
-use crate::document::declare::{choices, table};
-use crate::document::describe::{Key, Kind, Later, Shape, Slot, Table};
+use crate::document::declare::{choices, keys, table};
+use crate::document::describe::{Kind, Later, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, Number, Numbers, Rule, TableOf};
 use crate::document::out::Out;
@@ -79,7 +79,7 @@ pub(crate) static TABLE: Table<Shading> = Table {
         Later { name: "contour", tag: "VS-5" },
         Later { name: "divisor_floor", tag: "VS-5" },
     ],
-    ..Shading::table(
+    ..Shading::description(
         "[shading]",
         "Light on a regular transfer function, and on a lit iso-surface. Without the table the function is unshaded.",
     )
@@ -96,13 +96,10 @@ static WORLD: Table<[f64; 3]> = Table::new(
     "light",
     "A light that stands in the world.",
     || [0.0, 0.0, 1.0],
-    &[Key::new(
-        "world",
-        "STF-11",
-        "Towards the light, in world space.",
-        &Slot { kind: DIRECTION, get: |v: &[f64; 3]| Some(*v), set: |v, new| *v = new },
-    )
-    .required()],
+    keys! { [f64; 3] {
+        /// Towards the light, in world space.
+        world: key("STF-11", DIRECTION, |v| Some(*v), |v, new| *v = new).required();
+    } },
 );
 
 impl Shape for Light {

@@ -24,7 +24,7 @@ table! {
 const FACTOR: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
 
 /// The description of `[style_mipmaps]`.
-pub(crate) static TABLE: Table<StyleMipmaps> = StyleMipmaps::table(
+pub(crate) static TABLE: Table<StyleMipmaps> = StyleMipmaps::description(
     "[style_mipmaps]",
     "Styles with more detail than the picture can show are read from their mip-maps. Without the table each lookup \
          reads the style itself.",

@@ -1,8 +1,8 @@
 //! `[styles]`: the lit-sphere pictures that a transfer function names.
 
 use crate::document::check::Check;
-use crate::document::declare::key;
-use crate::document::describe::{Key, Kind, Names, Shape, Slot, Table};
+use crate::document::declare::keys;
+use crate::document::describe::{Kind, Names, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Flag, PathTo, TableOf};
 use crate::document::out::Out;
@@ -59,7 +59,10 @@ pub(crate) static TABLE: Table<Styles> = Table {
         "The lit-sphere pictures that a transfer function names: a theme first, single files over it. Exchanging the \
          theme changes no other line.",
         Styles::default,
-        &[key!(Styles.theme, "An embedded theme, or a folder of pictures named after their styles.", "STF-12", Theme)],
+        keys! { Styles {
+            /// An embedded theme, or a folder of pictures named after their styles.
+            theme: key("STF-12", Theme);
+        } },
     )
 };
 
@@ -109,16 +112,12 @@ static FILE_TABLE: Table<StyleFile> = Table::new(
     "a style",
     "A picture whose colours may be linear.",
     || StyleFile { path: PathBuf::new(), linear: false },
-    &[
-        Key::new(
-            "file",
-            "STF-1",
-            "A square picture of a lit sphere.",
-            &Slot { kind: FILE, get: |s: &StyleFile| Some(s.path.clone()), set: |s, v| s.path = v },
-        )
-        .required(),
-        key!(StyleFile.linear, "Whether the colours are linear, not sRGB.", "VAL-3", Flag),
-    ],
+    keys! { StyleFile {
+        /// A square picture of a lit sphere.
+        file: key("STF-1", FILE, |s| Some(s.path.clone()), |s, v| s.path = v).required();
+        /// Whether the colours are linear, not sRGB.
+        linear: key("VAL-3", Flag);
+    } },
 );
 
 impl Shape for Picture {

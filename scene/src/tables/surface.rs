@@ -109,7 +109,7 @@ pub(crate) static TABLE: Table<Surface> = Table {
             check.fault_in("color", Problem::Contradiction { what, remedy });
         }
     },
-    ..Surface::table(
+    ..Surface::description(
         "[surface]",
         "An opaque iso-surface, where the field first has a value along each ray; what lies behind it is not seen. \
          Without [transfer] it is drawn alone.",

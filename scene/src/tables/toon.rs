@@ -89,11 +89,11 @@ impl Kind for ToneKind {
 }
 
 const fn toon(title: &'static str) -> Table<ToonShading> {
-    Table { check: check_tones, ..ToonShading::table(title, "Tones with hard steps, by the angle to the light.") }
+    Table { check: check_tones, ..ToonShading::description(title, "Tones with hard steps, by the angle to the light.") }
 }
 
 const fn silhouette(title: &'static str) -> Table<SilhouetteShading> {
-    SilhouetteShading::table(title, "Black where the surface turns away from the eye.")
+    SilhouetteShading::description(title, "Black where the surface turns away from the eye.")
 }
 
 /// The description of `[shading.toon]`.

@@ -5,36 +5,62 @@ use super::nodes::{NodeList, Nodes, ROWS, Row};
 use super::over::{Over, OverKind};
 use super::transfer_rules as rules;
 use crate::document::check::Check;
-use crate::document::declare::{choices, key};
-use crate::document::describe::{Instead, Key, Kind, Shape, Slot, Table as Description};
+use crate::document::declare::{choices, table};
+use crate::document::describe::{Instead, Kind, Shape, Table as Description};
 use crate::document::item::Item;
 use crate::document::kind::Whole;
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use serde_json::{Value as Json, json};
 
-/// The table `[transfer]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Transfer {
-    /// Styles or colours.
-    pub kind: TransferKind,
-    /// The value, or two quantities ([STF-4]).
-    pub over: Over,
-    /// What `at` of values is measured in; `normalized` for gradient magnitudes too.
-    pub unit: Unit,
-    /// Nodes over the value in non-decreasing order of `at`; with no rows either: an automatic function.
-    pub nodes: Option<Vec<Node>>,
-    /// Nodes over two quantities; a full grid is as many rows with the same places.
-    pub rows: Option<Vec<Row>>,
-    /// How styles become opacity ([STF-9]).
-    pub transparency: Transparency,
-    /// How two styles mix ([STF-3]).
-    pub mix: Mix,
-    /// Frame of the lit sphere ([STF-1]).
-    pub sphere_frame: SphereFrame,
-    /// Exact evaluation or a table ([STF-3]).
-    pub table: Table,
+table! {
+    /// The table `[transfer]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Transfer {
+        /// What a node carries.
+        kind: TransferKind = TransferKind::Style, key("STF-3", TransferKind::KIND).needs(&[Quantity::Gradient]);
+        /// What the function is over: the value, or two quantities, such as ["value", "gradient-magnitude"].
+        /// Quantities: "value"; "gradient-magnitude", in value per world unit; "label", the id of the part; "k1",
+        /// "k2", "mean", "gaussian" and "kv", curvatures in reciprocal world units; or a table with one of the keys
+        /// below. Of two "value" is best one: it tells what space is empty.
+        over: Over = Over::Value, key("STF-4", OverKind).needs(NEEDS);
+        /// What `at` of values is measured in; with "normalized" gradient magnitudes are |g|, by
+        /// `volume.gradient_range`.
+        unit: Unit = Unit::Value, key("VS-11", Unit::KIND);
+        /// Nodes in non-decreasing order of `at`. Of two at one value the later one holds at the value itself. Over
+        /// two quantities each has at = [x, y], and they form a full grid, row by row.
+        ///
+        /// A full grid is kept as rows. With no rows either the function is automatic.
+        nodes: Option<Vec<Node>> = None, key("STF-3", Nodes,
+            |t| t.nodes.clone().map(NodeList::Line),
+            |t, list| match list {
+                NodeList::Line(nodes) => t.nodes = Some(nodes),
+                NodeList::Grid(rows) => t.rows = Some(rows),
+            }).absent("`rows`, or an automatic function");
+        /// Nodes over two quantities: each row has its own over the first one. Between rows the function is
+        /// interpolated; a label without a row shows nothing.
+        rows: Option<Vec<Row>> = None, key("STF-4", ROWS).absent("`nodes`");
+        /// How a style's opacity and the node's become one.
+        transparency: Transparency = Transparency::Illustrative,
+            key("STF-9", Transparency::KIND).needs(&[Quantity::GradientMagnitudeRange]);
+        /// How two styles mix.
+        mix: Mix = Mix::Premultiplied, key("STF-3", Mix::KIND);
+        /// Frame of the lit sphere.
+        sphere_frame: SphereFrame = SphereFrame::Eye, key("STF-1", SphereFrame::KIND);
+        /// How the function is evaluated: exactly, or from a table of so many entries over the range of values, as
+        /// graphics hardware does.
+        table: Table = Table::Exact, key("STF-3", Evaluation);
+    }
 }
+
+/// What the quantities of `over` can need.
+const NEEDS: &[Quantity] = &[
+    Quantity::Gradient,
+    Quantity::GradientMagnitudeRange,
+    Quantity::PreviousNormal,
+    Quantity::Hessian,
+    Quantity::Label,
+];
 
 choices! {
     /// What a node carries.
@@ -105,17 +131,7 @@ pub enum Table {
 impl Transfer {
     /// An automatic function of that kind.
     pub fn automatic(kind: TransferKind) -> Self {
-        Self {
-            kind,
-            over: Over::Value,
-            unit: Unit::Value,
-            nodes: None,
-            rows: None,
-            transparency: Transparency::Illustrative,
-            mix: Mix::Premultiplied,
-            sphere_frame: SphereFrame::Eye,
-            table: Table::Exact,
-        }
+        Self { kind, ..Self::default() }
     }
 
     /// Whether the function is left to be found from the data.
@@ -142,77 +158,10 @@ pub(crate) static TABLE: Description<Transfer> = Description {
             rules::percentiles(transfer, check);
         }
     },
-    ..Description::new(
+    ..Transfer::description(
         "[transfer]",
         "Colours or styles, and opacities, over the values or over two quantities. Without `nodes` and `rows` the \
          function is automatic.",
-        || Transfer::automatic(TransferKind::Style),
-        &[
-            key!(Transfer.kind, "What a node carries.", "STF-3", TransferKind::KIND).needs(&[Quantity::Gradient]),
-            key!(
-                Transfer.over,
-                "What the function is over: the value, or two quantities, such as [\"value\", \
-                     \"gradient-magnitude\"]. Quantities: \"value\"; \"gradient-magnitude\", in value per world unit; \
-                     \"label\", the id of the part; \"k1\", \"k2\", \"mean\", \"gaussian\" and \"kv\", curvatures in \
-                     reciprocal world units; or a table with one of the keys below. Of two \"value\" is best one: it \
-                     tells what space is empty.",
-                "STF-4",
-                OverKind
-            )
-            .needs(&[
-                Quantity::Gradient,
-                Quantity::GradientMagnitudeRange,
-                Quantity::PreviousNormal,
-                Quantity::Hessian,
-                Quantity::Label,
-            ]),
-            key!(
-                Transfer.unit,
-                "What `at` of values is measured in; with \"normalized\" gradient magnitudes are |g|, by \
-                     `volume.gradient_range`.",
-                "VS-11",
-                Unit::KIND
-            ),
-            Key::new(
-                "nodes",
-                "STF-3",
-                "Nodes in non-decreasing order of `at`. Of two at one value the later one holds at the value itself. \
-                 Over two quantities each has at = [x, y], and they form a full grid, row by row.",
-                &Slot {
-                    kind: Nodes,
-                    get: |t: &Transfer| t.nodes.clone().map(NodeList::Line),
-                    set: |t, list| match list {
-                        NodeList::Line(nodes) => t.nodes = Some(nodes),
-                        NodeList::Grid(rows) => t.rows = Some(rows),
-                    },
-                },
-            )
-            .absent("`rows`, or an automatic function"),
-            key!(
-                Transfer.rows,
-                "Nodes over two quantities: each row has its own over the first one. Between rows the function is \
-                     interpolated; a label without a row shows nothing.",
-                "STF-4",
-                ROWS
-            )
-            .absent("`nodes`"),
-            key!(
-                Transfer.transparency,
-                "How a style's opacity and the node's become one.",
-                "STF-9",
-                Transparency::KIND
-            )
-            .needs(&[Quantity::GradientMagnitudeRange]),
-            key!(Transfer.mix, "How two styles mix.", "STF-3", Mix::KIND),
-            key!(Transfer.sphere_frame, "Frame of the lit sphere.", "STF-1", SphereFrame::KIND),
-            key!(
-                Transfer.table,
-                "How the function is evaluated: exactly, or from a table of so many entries over the range of \
-                     values, as graphics hardware does.",
-                "STF-3",
-                Evaluation
-            ),
-        ],
     )
 };
 

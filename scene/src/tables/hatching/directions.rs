@@ -101,7 +101,7 @@ choices! {
 }
 
 /// The description of `[hatching.directions]`.
-pub(super) static DIRECTIONS: Table<Directions> = Directions::table(
+pub(super) static DIRECTIONS: Table<Directions> = Directions::description(
     "[hatching.directions]",
     "Where surfaces have principal directions, and which way strokes run along them. With rule = \"scaled\" derivatives are \
      Gaussian, at σ = 1, 2, 4 voxels, and the first σ counts at which the two curvatures differ by more than their share, \

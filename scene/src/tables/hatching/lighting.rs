@@ -73,7 +73,7 @@ impl Kind for TableKind {
 const NUMBER: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
 
 /// The description of `[hatching.lighting]`.
-pub(super) static LIGHTING: Table<LineLighting> = LineLighting::table(
+pub(super) static LIGHTING: Table<LineLighting> = LineLighting::description(
     "[hatching.lighting]",
     "Light on strokes as on lines, from `hatching.stroke.light`: diffuse · (√(1−(L·T)²))^p of each colour, and specular · \
      max(0, √(1−(L·T)²)√(1−(V·T)²) − (L·T)(V·T))^s in white; front and back mixed by ½ + ½N·V.",

@@ -77,7 +77,7 @@ impl Kind for DashKind {
 }
 
 /// The description of `[hatching.stroke]`.
-pub(super) static STROKE: Table<StrokeStyle> = StrokeStyle::table(
+pub(super) static STROKE: Table<StrokeStyle> = StrokeStyle::description(
     "[hatching.stroke]",
     "How a stroke is drawn: width · τ^tone · taper(u), τ = 1 − clamp₀₁(ambient + N·L), taper(u) = min(1, u/b, (1 − u)/b) \
      along its length. With a pen, or where the tone is in the spacing, it has one width.",

@@ -266,7 +266,7 @@ impl Kind for SpacingKind {
 }
 
 /// The description of `[hatching]`.
-pub(crate) static TABLE: Table<Hatching> = Hatching::table(
+pub(crate) static TABLE: Table<Hatching> = Hatching::description(
     "[hatching]",
     "Strokes along the lines of curvature of an iso-surface. What the surface of [surface], or else their own, hides is \
          not drawn.",

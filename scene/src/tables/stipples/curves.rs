@@ -34,7 +34,7 @@ choices! {
 }
 
 /// The description of `[stipples.curves]`.
-pub(super) static CURVES: Table<Curves> = Curves::table(
+pub(super) static CURVES: Table<Curves> = Curves::description(
     "[stipples.curves]",
     "Lines where surfaces turn away: a segment through every voxel with V·LoG(V) < log, ‖∇V‖ > grad and a normal \
      across the view.",

@@ -79,32 +79,32 @@ table! {
 
 /// The description of `[stipples.boundary]`.
 pub(super) static BOUNDARY: Table<Boundary> =
-    Boundary::table("[stipples.boundary]", "More points where the gradient is large: T_b = V (gc + gs ‖∇V‖^ge).");
+    Boundary::description("[stipples.boundary]", "More points where the gradient is large: T_b = V (gc + gs ‖∇V‖^ge).");
 
 /// The description of `[stipples.silhouette]`.
-pub(super) static SILHOUETTE: Table<Silhouette> = Silhouette::table(
+pub(super) static SILHOUETTE: Table<Silhouette> = Silhouette::description(
     "[stipples.silhouette]",
     "More points where surfaces turn away: T_s = V (sc + ss (1 − |n·E|)^se).",
 );
 
 /// The description of `[stipples.resolution]`.
-pub(super) static RESOLUTION: Table<Resolution> = Resolution::table(
+pub(super) static RESOLUTION: Table<Resolution> = Resolution::description(
     "[stipples.resolution]",
     "Fewer and smaller points where the volume is far away: T_r = min(1, (D₀/D)^re), one number a frame.",
 );
 
 /// The description of `[stipples.distance]`.
-pub(super) static DISTANCE: Table<Distance> = Distance::table(
+pub(super) static DISTANCE: Table<Distance> = Distance::description(
     "[stipples.distance]",
     "Fewer and smaller points in the volume's far parts: T_d = ½(1 + sign(de) sign(z) |z/a|^|de|).",
 );
 
 /// The description of `[stipples.interior]`.
 pub(super) static INTERIOR: Table<Interior> =
-    Interior::table("[stipples.interior]", "Transparency of what has a small gradient: T_t = ‖∇V‖^te.");
+    Interior::description("[stipples.interior]", "Transparency of what has a small gradient: T_t = ‖∇V‖^te.");
 
 /// The description of `[stipples.lighting]`.
-pub(super) static LIGHTING: Table<Lighting> = Lighting::table(
+pub(super) static LIGHTING: Table<Lighting> = Lighting::description(
     "[stipples.lighting]",
     "Fewer points where light falls: T_l = 1 − max(0, L·n)^le, and none on what faces away from the eye.",
 );

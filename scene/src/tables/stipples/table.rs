@@ -145,7 +145,7 @@ choices! {
 }
 
 /// The description of `[stipples]`.
-pub(crate) static TABLE: Table<Stipples> = Stipples::table(
+pub(crate) static TABLE: Table<Stipples> = Stipples::description(
     "[stipples]",
     "Volume stippling: points on the volume's boundaries, made once, of which each frame draws as many as the \
          factors below say. A factor without a table is 1.",

@@ -10,8 +10,8 @@ pub(crate) use gradient_range::quantile;
 pub use phantom::PhantomSource;
 pub use raw::RawLayout;
 
-use crate::document::declare::{choices, key};
-use crate::document::describe::{Instead, Key, Slot, Table};
+use crate::document::declare::{choices, keys};
+use crate::document::describe::{Instead, Table};
 use crate::document::fault::Problem;
 use crate::document::kind::{Bounds, Numbers, PathTo, Rule, TableOf};
 use crate::quantity::Quantity;
@@ -118,91 +118,49 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
         "The data that is seen: a file, or a phantom of our own. A file that is not there is looked for in the folders \
          that DRYPOINT_DATA lists.",
         || VolumeTable::new(VolumeSource::File { path: PathBuf::new(), raw: None }),
-        &[
-            Key::new(
-                "file",
-                "IO-1",
-                "A volume file: NRRD, NIfTI, MetaImage or raw voxels.",
-                &Slot {
-                    kind: PathTo { what: "a volume" },
-                    get: |t: &VolumeTable| match &t.source {
-                        VolumeSource::File { path, .. } => Some(path.clone()).filter(|path| path.as_os_str() != ""),
-                        VolumeSource::Phantom(_) => None,
-                    },
-                    set: |t, path| t.source = VolumeSource::File { path, raw: None },
+        keys! { VolumeTable {
+            /// A volume file: NRRD, NIfTI, MetaImage or raw voxels.
+            file: key("IO-1", PathTo { what: "a volume" },
+                |t| match &t.source {
+                    VolumeSource::File { path, .. } => Some(path.clone()).filter(|path| path.as_os_str() != ""),
+                    VolumeSource::Phantom(_) => None,
                 },
-            )
-            .absent("`phantom` in its place"),
-            Key::new(
-                "phantom",
-                "IO-4",
-                "A volume with known truth, made by the program.",
-                &Slot {
-                    kind: TableOf(&PHANTOM),
-                    get: |t: &VolumeTable| match &t.source {
-                        VolumeSource::File { .. } => None,
-                        VolumeSource::Phantom(phantom) => Some(phantom.clone()),
-                    },
-                    set: |t, phantom| t.source = VolumeSource::Phantom(phantom),
+                |t, path| t.source = VolumeSource::File { path, raw: None }).absent("`phantom` in its place");
+            /// A volume with known truth, made by the program.
+            phantom: key("IO-4", TableOf(&PHANTOM),
+                |t| match &t.source {
+                    VolumeSource::File { .. } => None,
+                    VolumeSource::Phantom(phantom) => Some(phantom.clone()),
                 },
-            )
-            .absent("`file` in its place"),
-            Key::new(
-                "raw",
-                "IO-1",
-                "Layout of a file without a header. FILE.toml beside it may hold the same.",
-                &Slot {
-                    kind: TableOf(&RAW),
-                    get: |t: &VolumeTable| match &t.source {
-                        VolumeSource::File { raw, .. } => raw.clone(),
-                        VolumeSource::Phantom(_) => None,
-                    },
-                    set: |t, layout| {
-                        if let VolumeSource::File { raw, .. } = &mut t.source {
-                            *raw = Some(layout);
-                        }
-                    },
+                |t, phantom| t.source = VolumeSource::Phantom(phantom)).absent("`file` in its place");
+            /// Layout of a file without a header. FILE.toml beside it may hold the same.
+            raw: key("IO-1", TableOf(&RAW),
+                |t| match &t.source {
+                    VolumeSource::File { raw, .. } => raw.clone(),
+                    VolumeSource::Phantom(_) => None,
                 },
-            )
-            .absent("the file's header, or FILE.toml beside it"),
-            key!(
-                VolumeTable.ids,
-                "What the values mean: quantities, or the ids of parts that are shown as one.",
-                "STF-13",
-                Ids::KIND
-            ),
-            key!(
-                VolumeTable.labels,
-                "A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may \
-                     lie on another grid; outside its box the label is 0.",
-                "STF-13",
-                PathTo { what: "a label volume" }
-            )
-            .absent("no labels"),
-            key!(
-                VolumeTable.label_names,
-                "The names of the labels: a CSV file with an id and a name on each line.",
-                "STF-13",
-                PathTo { what: "a table of names" }
-            )
-            .absent("labels have no names"),
-            key!(VolumeTable.label_lookup, "Which label lies between voxels.", "STF-13", LabelLookup::KIND)
-                .needs(&[Quantity::Label]),
-            key!(
-                VolumeTable.range,
-                "The values that `unit = \"normalized\"` maps to 0 and 1.",
-                "VAL-1",
-                Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending }
-            )
-            .absent("the volume's own"),
-            key!(
-                VolumeTable.gradient_range,
-                "What |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per \
-                     world unit.",
-                "VAL-2",
-                Quantile
-            ),
-            key!(VolumeTable.outside, "Which values lie outside a surface.", "NORM-1", Outside::KIND),
-        ],
+                |t, layout| {
+                    if let VolumeSource::File { raw, .. } = &mut t.source {
+                        *raw = Some(layout);
+                    }
+                }).absent("the file's header, or FILE.toml beside it");
+            /// What the values mean: quantities, or the ids of parts that are shown as one.
+            ids: key("STF-13", Ids::KIND);
+            /// A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on
+            /// another grid; outside its box the label is 0.
+            labels: key("STF-13", PathTo { what: "a label volume" }).absent("no labels");
+            /// The names of the labels: a CSV file with an id and a name on each line.
+            label_names: key("STF-13", PathTo { what: "a table of names" }).absent("labels have no names");
+            /// Which label lies between voxels.
+            label_lookup: key("STF-13", LabelLookup::KIND).needs(&[Quantity::Label]);
+            /// The values that `unit = "normalized"` maps to 0 and 1.
+            range: key("VAL-1", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
+                .absent("the volume's own");
+            /// What |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per world
+            /// unit.
+            gradient_range: key("VAL-2", Quantile);
+            /// Which values lie outside a surface.
+            outside: key("NORM-1", Outside::KIND);
+        } },
     )
 };

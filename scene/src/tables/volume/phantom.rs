@@ -2,8 +2,8 @@
 
 use super::layout::{LONGEST_AXIS, SPACING, VOXEL_TYPE};
 use crate::document::check::Check;
-use crate::document::declare::key;
-use crate::document::describe::{Key, Kind, Names, Shape, Slot, Table};
+use crate::document::declare::keys;
+use crate::document::describe::{Kind, Names, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Number, TableOf, Whole, Wholes};
@@ -30,28 +30,20 @@ pub(super) static PHANTOM: Table<PhantomSource> = Table {
             voxel_type: VoxelType::U8,
             params: Vec::new(),
         },
-        &[
-            key!(PhantomSource.name, "Which phantom.", "IO-4", PhantomName).required(),
-            key!(PhantomSource.size, "Voxels along x, y, z, or one number for all three.", "IO-4", PhantomSize),
-            key!(PhantomSource.spacing, "World units between voxels.", "SPACE-2", SPACING),
-            Key::new(
-                "type",
-                "IO-4",
-                "Stored type of a voxel; values are rounded to it.",
-                &Slot { kind: VOXEL_TYPE, get: |t: &PhantomSource| Some(t.voxel_type), set: |t, v| t.voxel_type = v },
-            ),
-            Key::new(
-                "param",
-                "IO-4",
-                "Parameters of the phantom by name.",
-                &Slot {
-                    kind: TableOf(&PARAMS),
-                    get: |t: &PhantomSource| Some(t.params.clone()).filter(|params| !params.is_empty()),
-                    set: |t, v| t.params = v,
-                },
-            )
-            .absent("the phantom's own"),
-        ],
+        keys! { PhantomSource {
+            /// Which phantom.
+            name: key("IO-4", PhantomName).required();
+            /// Voxels along x, y, z, or one number for all three.
+            size: key("IO-4", PhantomSize);
+            /// World units between voxels.
+            spacing: key("SPACE-2", SPACING);
+            /// Stored type of a voxel; values are rounded to it.
+            type: key("IO-4", VOXEL_TYPE, |t| Some(t.voxel_type), |t, v| t.voxel_type = v);
+            /// Parameters of the phantom by name.
+            param: key("IO-4", TableOf(&PARAMS),
+                |t| Some(t.params.clone()).filter(|params| !params.is_empty()),
+                |t, v| t.params = v).absent("the phantom's own");
+        } },
     )
 };
 
