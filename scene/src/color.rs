@@ -43,6 +43,12 @@ pub fn unpremultiply([r, g, b, a]: Rgba) -> Rgba {
     if a == 0.0 { [0.0; 4] } else { [r / a, g / a, b / a, a] }
 }
 
+/// The colour of three sRGB bytes: linear, opaque.
+pub(crate) fn opaque(bytes: [f64; 3]) -> Rgba {
+    let [r, g, b] = bytes.map(|byte| srgb_to_linear(byte / 255.0));
+    [r, g, b, 1.0]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

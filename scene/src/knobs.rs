@@ -1,7 +1,7 @@
 //! The knobs of a scene: keys that trade accuracy for time ([COST-1]).
 //!
-//! A knob is declared in one line beside its key's description: its settings from coarse to fine, as far as the scene
-//! uses it, and what they converge to. [`knobs`] finds them all by walking the description of the tables.
+//! A knob is declared in one line of its table's rules (`plan::rules`): its settings from coarse to fine, as far as the
+//! scene uses it, and what they converge to. [`knobs`] finds them all there.
 //!
 //! ```
 //! use drypoint_scene::file::{Overrides, parse};
@@ -16,46 +16,15 @@
 //! # Ok::<(), drypoint_scene::file::Faults>(())
 //! ```
 
-use crate::file::describe::Section;
-use crate::file::out::Out;
-use crate::file::set::steps;
+use crate::document::out::Out;
+use crate::document::set::steps;
 use crate::file::{Faults, Overrides, parse, write_full};
+pub use crate::plan::Limit;
 use crate::plan::Plan;
+use crate::plan::rules::rules;
 use crate::tables::Scene;
-use crate::tables::scene::{ROOT, sections};
+use crate::tables::root::ROOT;
 use std::path::Path;
-
-/// What the settings of a knob converge to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// The picture of the field itself, which is known where the field is a formula ([COST-2]).
-    Field,
-    /// The picture at the finest setting, whatever the field is.
-    Finest,
-}
-
-/// Settings of a key from coarse to fine; none where the scene does not use the key.
-pub(crate) type Settings = &'static [&'static str];
-
-/// The settings of a key, as its description declares them.
-#[derive(Clone, Copy)]
-pub(crate) struct Ladder {
-    limit: Limit,
-    /// The settings in a scene, for an item of a list of tables with its number.
-    settings: fn(&Scene, &Plan, Option<usize>) -> Settings,
-}
-
-impl Ladder {
-    /// Of a key that decides how close the samples come to the field, or their sum to its integral.
-    pub(crate) const fn to_field(settings: fn(&Scene, &Plan, Option<usize>) -> Settings) -> Self {
-        Self { limit: Limit::Field, settings }
-    }
-
-    /// Of a key that is no matter of the field.
-    pub(crate) const fn to_finest(settings: fn(&Scene, &Plan, Option<usize>) -> Settings) -> Self {
-        Self { limit: Limit::Finest, settings }
-    }
-}
 
 /// A knob that a scene uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -107,26 +76,15 @@ impl Knob {
 /// The knobs that a scene uses, in the order of the tables.
 pub fn knobs(scene: &Scene, plan: &Plan) -> Vec<Knob> {
     let mut knobs = Vec::new();
-    for (at, section) in sections(scene).into_iter().filter(|(at, _)| !at.key.is_empty()) {
-        add(&mut knobs, &at.key, section, &|ladder| (ladder.settings)(scene, plan, at.item));
+    for (at, rules) in rules(scene) {
+        for (key, ladder) in rules.knobs {
+            let settings = (ladder.settings)(scene, plan, at.item);
+            if settings.len() > 1 {
+                knobs.push(Knob { key: at.inner(key), settings, limit: ladder.limit });
+            }
+        }
     }
     knobs
-}
-
-/// Adds the knobs of a table and of the tables in it.
-fn add(knobs: &mut Vec<Knob>, table: &str, section: Section, settings: &dyn Fn(Ladder) -> Settings) {
-    for key in section.keys {
-        let name = format!("{table}.{}", key.name);
-        if let Some(section) = key.shape.section() {
-            add(knobs, &name, section, settings);
-        }
-        if let Some(ladder) = key.ladder
-            && let settings = settings(ladder)
-            && settings.len() > 1
-        {
-            knobs.push(Knob { key: name, settings, limit: ladder.limit });
-        }
-    }
 }
 
 #[cfg(test)]

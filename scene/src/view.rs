@@ -1,5 +1,7 @@
 //! The camera in numbers: eye space, pixels and sample planes ([SPACE-3], [RAY-1], [RAY-5], [RAY-6]).
 
+mod orbit;
+
 use crate::math;
 use crate::space::Grid;
 use crate::tables::{Camera, LightDirection, Projection};

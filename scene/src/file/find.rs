@@ -1,10 +1,10 @@
 //! Finding the files that a scene names ([SCN-2]).
 
-use super::check::Check;
-use super::fault::Problem;
-use super::names;
-use super::place::Place;
+use crate::document::check::Check;
+use crate::document::out;
+use crate::document::{Place, Problem};
 use crate::nearest::nearest;
+use crate::tables::styles::THEMES;
 use crate::tables::{Axis, Background, Over, Scene, StyleSource, VolumeSource};
 use std::path::{Path, PathBuf};
 
@@ -45,14 +45,14 @@ pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
         must_exist(path, "picture.background", check);
     }
     for (name, file) in &scene.styles.files {
-        let key = format!("styles.{}", super::out::key(name));
+        let key = format!("styles.{}", out::key(name));
         must_exist(&file.path, &key, check);
     }
     if let StyleSource::Folder(path) = &scene.styles.theme
         && !path.is_dir()
         && let Some(place) = sound(check, "styles.theme")
     {
-        let known: Vec<String> = names::themes().into_iter().map(Into::into).collect();
+        let known: Vec<String> = THEMES.map(Into::into).to_vec();
         let name = check.unresolved(path, &place).to_string_lossy().into_owned();
         let nearest = nearest(&name, known.iter().map(String::as_str)).map(Into::into);
         let problem = Problem::Reference { what: "theme or folder".into(), name, nearest, known };

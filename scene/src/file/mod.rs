@@ -1,8 +1,7 @@
 //! Scene files: parsing with places, checking, overrides, schema ([IO-3], [SCN-1] … [SCN-4]).
 //!
-//! A document is walked with its places against the description of the tables (`describe`), which stands with the
-//! tables themselves. All faults are collected, and a [`Scene`] is built only from what passed. The same description
-//! makes the scene with every default filled in, the JSON Schema and the reference page.
+//! A document is walked with its places against the description of the tables, which stands with the tables
+//! themselves. All faults are collected, and a [`Scene`] is built only from what passed.
 //!
 //! ```
 //! use drypoint_scene::file::{Overrides, parse};
@@ -15,39 +14,53 @@
 //! # Ok::<(), drypoint_scene::file::Faults>(())
 //! ```
 
-pub(crate) mod check;
-mod css;
-pub(crate) mod describe;
+mod checks;
 mod embedded;
-pub(crate) mod fault;
 mod find;
-mod full;
-pub(crate) mod item;
-pub(crate) mod kind;
-pub(crate) mod names;
-pub(crate) mod out;
-mod place;
-mod reference;
-mod schema;
-pub(crate) mod set;
 #[cfg(test)]
 mod tests;
 
+pub use crate::document::{Fault, Faults, Given, Overrides, Place, Problem};
 pub use embedded::DEFAULT_SCENE;
-pub use fault::{Fault, Faults, Problem};
 pub use find::data_folders;
-pub use full::{differences, identity, write_full};
-pub use place::{Given, Place};
-pub use reference::reference_markdown;
-pub use schema::schema;
-pub use set::Overrides;
 
+use crate::document::check::Check;
+use crate::document::item::Item;
+use crate::document::{full, reference, schema};
 use crate::memory;
-use crate::tables::scene::ROOT;
+use crate::tables::root::ROOT;
 use crate::tables::{Scene, Transfer, TransferKind};
-use check::Check;
-use item::Item;
 use std::path::Path;
+
+/// The scene with every default filled in, as the text of a scene file ([SCN-3]). Reading it gives the scene again; a
+/// scene that was not read from a file may have colours between those that a file can say, which are rounded. Relative
+/// paths are those of the scene, from the working directory.
+pub fn write_full(scene: &Scene) -> String {
+    full::write(&ROOT, scene, |out| out)
+}
+
+/// The text of [`write_full`] with every path cut to its last name, so that the same scene gives the same text in
+/// every folder and on every machine: what a picture's metadata holds a hash of ([IO-2]).
+pub fn identity(scene: &Scene) -> String {
+    full::write(&ROOT, scene, full::without_folders)
+}
+
+/// The keys, such as `contours.kappa`, whose values are not those of another scene, and the tables that have them.
+pub fn differences(scene: &Scene, other: &Scene) -> Vec<String> {
+    full::differences(&ROOT, scene, other)
+}
+
+/// The JSON Schema (2020-12) of a scene file, with the documentation and the default of every key. What is not built
+/// yet is not in it.
+pub fn schema() -> serde_json::Value {
+    schema::document("Drypoint scene", &ROOT.section())
+}
+
+/// A page of Markdown with every table and key: what may stand there, the default, what it does, what it can make a
+/// picture compute ([PLAN-1]), and the rule, which `rules.md` explains.
+pub fn reference_markdown() -> String {
+    reference::page("Scene file reference", &ROOT.section())
+}
 
 /// Reads a scene from the text of a file. Relative paths are resolved against the folder of `file_name`, those of
 /// overrides against the working directory. Of the files that the scene names only the folder of a theme is looked at, for
@@ -95,8 +108,9 @@ fn read(text: &str, overrides: &Overrides, check: &mut Check) -> Option<Scene> {
             return None;
         }
     };
-    overrides.apply(&mut document, check);
+    overrides.apply(&ROOT, &mut document, check);
     let mut scene = check.table(&ROOT, &document)?;
+    checks::check(&scene, check);
     if scene.transfer.is_none() && scene.surface.is_none() && !scene.has_marks() {
         // The preset `style`, for a scene that would draw nothing ([SCN-3]).
         scene.transfer = Some(Transfer::automatic(TransferKind::Style));

@@ -40,6 +40,7 @@ mod saddle;
 mod sample;
 mod shells;
 mod shepp_logan;
+mod source;
 mod specimen;
 mod sphere;
 #[cfg(test)]
@@ -53,9 +54,9 @@ pub use error::PhantomError;
 pub use jet::Jet;
 pub use params::{About, Allowed, Param, Preset};
 pub use sample::{generate, sample, sample_labels};
+pub use source::PhantomSource;
 
 use crate::space::Grid;
-use crate::tables::PhantomSource;
 use crate::volume::VoxelType;
 use glam::{DMat3, DVec3};
 

@@ -1,9 +1,9 @@
 //! A phantom on a grid.
 
+use super::PhantomSource;
 use super::{Phantom, PhantomError, of_source};
 use crate::memory;
 use crate::space::Grid;
-use crate::tables::PhantomSource;
 use crate::volume::{Volume, VoxelType, Voxels};
 use glam::DVec3;
 use rayon::prelude::*;

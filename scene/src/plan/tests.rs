@@ -1,7 +1,8 @@
 //! Which scene needs what, and why.
 
 use super::*;
-use crate::file::{Overrides, parse};
+use crate::file::{Overrides, Place, parse};
+use crate::tables::root::ROOT;
 use Quantity::{Gradient, GradientMagnitudeRange, Hessian, PreviousNormal, Value};
 
 fn plan(rest: &str) -> Plan {
@@ -178,17 +179,16 @@ fn every_need_names_the_line_that_asked() {
 /// What a key can call for is in its description, where documentation and plan both find it.
 #[test]
 fn every_need_is_one_that_the_description_of_its_key_lists() {
-    let listed: Vec<(String, &[Quantity])> =
-        sections(&crate::tables::Scene::for_volume(crate::tables::VolumeSource::File { path: "a".into(), raw: None }))
-            .into_iter()
-            .flat_map(|(_, section)| {
-                let table = section.title.trim_matches(['[', ']']).to_owned();
-                section.keys.into_iter().map(move |key| match table.as_str() {
-                    "a scene" => (key.name.to_owned(), key.needs),
-                    _ => (format!("{table}.{}", key.name), key.needs),
-                })
-            })
-            .collect();
+    let listed: Vec<(String, &[Quantity])> = ROOT
+        .section()
+        .keys
+        .into_iter()
+        .flat_map(|table| {
+            let keys = table.shape.section().map_or(Vec::new(), |section| section.keys);
+            let keys = keys.into_iter().map(move |key| (format!("{}.{}", table.name, key.name), key.needs));
+            std::iter::once((table.name.to_owned(), table.needs)).chain(keys)
+        })
+        .collect();
     let everything =
         "[contours]\nfade = [0, 1]\n[style_mipmaps]\n[picture]\nlayers = [\"normal\", \"gradient\", \"curvature\"]\n";
     let firsts = "[picture]\nlayers = [\"first.normal\", \"first.curvature\"]\n[transfer]\nkind = \"regular\"\n";
@@ -273,7 +273,7 @@ fn hooks_run_for_each_item_of_a_list_of_tables() {
 fn what_an_item_needs_has_its_number_and_its_place() {
     let text = format!("drypoint = 1\n[volume]\nfile = \"a\"\n{PENS}");
     let scene = parse(&text, "s.toml".as_ref(), &[("pen.1.width", "1 mm")].into_iter().collect()).unwrap();
-    let (at, _) = sections(&scene).into_iter().rfind(|(at, _)| at.item == Some(1)).unwrap();
+    let (at, _) = rules(&scene).find(|(at, _)| at.item == Some(1)).unwrap();
     assert_eq!(at.key, "pen[1]");
     let drawn = Drawn { volume: true, points: true, strokes: true };
     let mut asks = Asks { scene: &scene, drawn, at: at.clone(), needs: Vec::new(), passes: Vec::new() };

@@ -77,6 +77,11 @@ mod tests {
     }
 
     #[test]
+    fn the_format_knows_the_embedded_themes() {
+        assert!(Theme::embedded_names().eq(crate::tables::styles::THEMES));
+    }
+
+    #[test]
     fn the_textbook_theme_is_there_and_square() {
         let names: Vec<String> = Theme::open(&Styles::default().theme).unwrap().names().map(Into::into).collect();
         assert!(names.len() >= 6 && names.contains(&"wax".into()) && names.contains(&"metal".into()));

@@ -1,8 +1,9 @@
 //! `[camera]`: from where the volume is seen ([RAY-5], [RAY-6]).
 
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, WORLD_LENGTH};
+use crate::document::declare::{choices, keys};
+use crate::document::describe::Table;
+use crate::document::fault::Problem;
+use crate::document::kind::{Bounds, Number, Numbers, Rule, WORLD_LENGTH};
 use crate::tables::Length;
 use glam::DVec3;
 
@@ -54,11 +55,15 @@ impl Default for Camera {
     }
 }
 
-/// `projection` without what belongs to each.
-#[derive(Clone, Copy, PartialEq)]
-enum Projected {
-    Perspective,
-    Orthographic,
+choices! {
+    /// `projection` without what belongs to each.
+    #[derive(Clone, Copy, PartialEq)]
+    enum Projected {
+        /// Through the eye.
+        Perspective = "perspective",
+        /// Along parallel rays.
+        Orthographic = "orthographic",
+    }
 }
 
 /// Vertical field of view of a first picture, in degrees.
@@ -83,137 +88,62 @@ pub(crate) static TABLE: Table<Camera> = Table {
             );
         }
     },
-    idle: |scene, _, idle| {
-        let camera = &scene.camera;
-        match camera.projection {
-            Projection::Perspective { .. } => idle.key("camera.height", "the camera is perspective: fov counts"),
-            Projection::Orthographic { .. } => {
-                idle.key("camera.fov", "the camera is orthographic: height counts");
-                idle.key("camera.near", "the camera is orthographic: depths have any sign");
-            }
-        }
-        if camera.eye.is_some() && camera.direction_given && scene.orbit.is_none() {
-            idle.key("camera.target", "eye and direction say where the camera looks");
-        }
-    },
     ..Table::new(
         "[camera]",
         "From where the volume is seen: along `direction` at the target, or from `eye`.",
         Camera::default,
-        &[
-            Key::new(
-                "projection",
-                "RAY-6",
-                "How points are projected.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("perspective", Projected::Perspective, "Through the eye."),
-                            ChoiceOption::new("orthographic", Projected::Orthographic, "Along parallel rays."),
-                        ],
-                        later: &[],
-                    },
-                    get: |c: &Camera| {
-                        Some(match c.projection {
-                            Projection::Perspective { .. } => Projected::Perspective,
-                            Projection::Orthographic { .. } => Projected::Orthographic,
-                        })
-                    },
-                    set: |c, projected| {
-                        c.projection = match projected {
-                            Projected::Perspective => Projection::Perspective { fov: FOV },
-                            Projected::Orthographic => Projection::Orthographic { height: None },
-                        }
-                    },
+        keys! { Camera {
+            /// How points are projected.
+            projection: key("RAY-6", Projected::KIND,
+                |c| {
+                    Some(match c.projection {
+                        Projection::Perspective { .. } => Projected::Perspective,
+                        Projection::Orthographic { .. } => Projected::Orthographic,
+                    })
                 },
-            ),
-            Key::new(
-                "fov",
-                "RAY-6",
-                "Vertical field of view in degrees; perspective.",
-                &Slot {
-                    kind: Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" },
-                    get: |c: &Camera| match c.projection {
-                        Projection::Perspective { fov } => Some(fov),
-                        Projection::Orthographic { .. } => None,
-                    },
-                    set: |c, v| {
-                        if let Projection::Perspective { fov } = &mut c.projection {
-                            *fov = v;
-                        }
-                    },
+                |c, projected| {
+                    c.projection = match projected {
+                        Projected::Perspective => Projection::Perspective { fov: FOV },
+                        Projected::Orthographic => Projection::Orthographic { height: None },
+                    }
+                });
+            /// Vertical field of view in degrees; perspective.
+            fov: key("RAY-6", Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" },
+                |c| match c.projection {
+                    Projection::Perspective { fov } => Some(fov),
+                    Projection::Orthographic { .. } => None,
                 },
-            ),
-            Key::new(
-                "height",
-                "RAY-5",
-                "From the bottom to the top of the picture; orthographic.",
-                &Slot {
-                    kind: WORLD_LENGTH,
-                    get: |c: &Camera| match c.projection {
-                        Projection::Perspective { .. } => None,
-                        Projection::Orthographic { height } => height,
-                    },
-                    set: |c, v| {
-                        if let Projection::Orthographic { height } = &mut c.projection {
-                            *height = Some(v);
-                        }
-                    },
+                |c, v| {
+                    if let Projection::Perspective { fov } = &mut c.projection {
+                        *fov = v;
+                    }
+                });
+            /// From the bottom to the top of the picture; orthographic.
+            height: key("RAY-5", WORLD_LENGTH,
+                |c| match c.projection {
+                    Projection::Perspective { .. } => None,
+                    Projection::Orthographic { height } => height,
                 },
-            )
-            .absent("what shows the whole box of the volume"),
-            Key::new(
-                "eye",
-                "RAY-5",
-                "Where the camera stands, in world space. With `direction` beside it, `target` is unused.",
-                &Slot {
-                    kind: POINT,
-                    get: |c: &Camera| c.eye.map(|v| v.to_array()),
-                    set: |c, v| c.eye = Some(DVec3::from_array(v)),
-                },
-            )
-            .absent("so far from the target that the whole box is seen"),
-            Key::new(
-                "direction",
-                "RAY-5",
-                "The way the camera looks, in world space, of any length.",
-                &Slot {
-                    kind: DIRECTION,
-                    get: |c: &Camera| (c.eye.is_none() || c.direction_given).then(|| c.direction.to_array()),
-                    set: |c, v| {
-                        c.direction = DVec3::from_array(v);
-                        c.direction_given = c.eye.is_some();
-                    },
-                },
-            ),
-            Key::new(
-                "target",
-                "RAY-5",
-                "What the camera looks at, in world space.",
-                &Slot {
-                    kind: POINT,
-                    get: |c: &Camera| c.target.map(|v| v.to_array()),
-                    set: |c, v| c.target = Some(DVec3::from_array(v)),
-                },
-            )
-            .absent("the centre of the volume's box"),
-            Key::new(
-                "up",
-                "RAY-6",
-                "Up in the picture, in world space.",
-                &Slot {
-                    kind: DIRECTION,
-                    get: |c: &Camera| Some(c.up.to_array()),
-                    set: |c, v| c.up = DVec3::from_array(v),
-                },
-            ),
-            Key::new(
-                "near",
-                "RAY-1",
-                "Smallest eye depth of a sample; perspective.",
-                &Slot { kind: WORLD_LENGTH, get: |c: &Camera| c.near, set: |c, v| c.near = Some(v) },
-            )
-            .absent("`sampling.step`"),
-        ],
+                |c, v| {
+                    if let Projection::Orthographic { height } = &mut c.projection {
+                        *height = Some(v);
+                    }
+                }).absent("what shows the whole box of the volume");
+            /// Where the camera stands, in world space. With `direction` beside it, `target` is unused.
+            eye: key("RAY-5", POINT).absent("so far from the target that the whole box is seen");
+            /// The way the camera looks, in world space, of any length.
+            direction: key("RAY-5", DIRECTION,
+                |c| (c.eye.is_none() || c.direction_given).then(|| c.direction.to_array()),
+                |c, v| {
+                    c.direction = DVec3::from_array(v);
+                    c.direction_given = c.eye.is_some();
+                });
+            /// What the camera looks at, in world space.
+            target: key("RAY-5", POINT).absent("the centre of the volume's box");
+            /// Up in the picture, in world space.
+            up: key("RAY-6", DIRECTION);
+            /// Smallest eye depth of a sample; perspective.
+            near: key("RAY-1", WORLD_LENGTH).absent("`sampling.step`");
+        } },
     )
 };

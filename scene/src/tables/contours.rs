@@ -1,11 +1,10 @@
 //! `[contours]`: style contours of controlled thickness ([STF-6] … [STF-8]).
 
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Lengths, Number, Numbers, On, Rule};
-use crate::knobs::Ladder;
-use crate::picture::LayerKind;
-use crate::plan::Quantity;
-use crate::tables::{Length, NormalSide, Scene, TransferKind};
+use crate::document::declare::{choices, keys};
+use crate::document::describe::Table;
+use crate::document::kind::{Bounds, Lengths, Number, Numbers, On, Rule};
+use crate::quantity::Quantity;
+use crate::tables::{Length, Scene};
 use serde::Serialize;
 
 /// The table `[contours]`.
@@ -36,13 +35,15 @@ pub enum Kappa {
     },
 }
 
-/// The angle between two normals ([STF-5]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SignFlip {
-    /// Between the lines that they span.
-    TwoSided,
-    /// Between the normals.
-    Literal,
+choices! {
+    /// The angle between two normals ([STF-5]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SignFlip {
+        /// The angle between lines.
+        TwoSided = "two-sided",
+        /// The plain angle.
+        Literal = "literal",
+    }
 }
 
 impl Default for Contours {
@@ -51,12 +52,17 @@ impl Default for Contours {
     }
 }
 
-/// `kappa` without what belongs to each.
-#[derive(Clone, Copy, PartialEq)]
-enum KappaName {
-    Ray,
-    Exact,
-    None,
+choices! {
+    /// `kappa` without what belongs to each.
+    #[derive(Clone, Copy, PartialEq)]
+    enum KappaName {
+        /// From two normals along the ray.
+        Ray = "ray",
+        /// From the Hessian.
+        Exact = "exact",
+        /// None: a constant threshold.
+        None = "none",
+    }
 }
 
 /// τ of `kappa = "none"` where the scene gives none.
@@ -80,142 +86,45 @@ pub fn measured_curvature(scene: &Scene) -> Measured {
     }
 }
 
-/// Whether the scene's transfer function is one of styles, the only one that contours act on ([STF-8]).
-fn has_styles(scene: &Scene) -> bool {
-    scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Style)
-}
-
-/// Whether the scene's contours measure a κ_v.
-fn has_kappa(scene: &Scene) -> bool {
-    has_styles(scene) && scene.contours.as_ref().is_some_and(|c| matches!(c.kappa, Kappa::Ray | Kappa::Exact))
-}
-
 /// The description of `[contours]`.
-pub(crate) static TABLE: Table<Contours> = Table {
-    asks: |scene, asks| {
-        let Some(contours) = scene.contours.as_ref().filter(|_| asks.casts_rays() && has_styles(scene)) else { return };
-        match contours.kappa {
-            Kappa::Ray => asks.need(Quantity::PreviousNormal, "contours", "contours.kappa"),
-            Kappa::Exact => asks.need(Quantity::Hessian, "contours", "contours.kappa"),
-            Kappa::None { .. } => {}
-        }
-        if contours.fade.is_some() {
-            asks.need(Quantity::GradientMagnitudeRange, "fading contours", "contours.fade");
-        }
-    },
-    idle: |scene, _, idle| {
-        let Some(contours) = &scene.contours else { return };
-        if !has_styles(scene) {
-            let layers = &scene.picture.layers;
-            let shown = layers.contains(&LayerKind::Curvature) || layers.contains(&LayerKind::CurvatureAlongView);
-            let why = "contours act on styles, and the function is regular";
-            if shown {
-                idle.key("contours", &format!("{why}; only a layer reads its kappa"));
-            } else {
-                idle.key("contours", why);
-            }
-            return;
-        }
-        match contours.kappa {
-            Kappa::None { .. } => idle.key("contours.thickness", "kappa = \"none\": threshold counts"),
-            Kappa::Ray | Kappa::Exact => idle.key("contours.threshold", "kappa is not \"none\": thickness counts"),
-        }
-        if contours.kappa != Kappa::Ray || scene.sampling.normal != NormalSide::Facing {
-            idle.key("contours.sign_flip", "it acts with kappa = \"ray\" and sampling.normal = \"facing\"");
-        }
-    },
-    ..Table::new(
-        "[contours]",
-        "Style contours of controlled thickness. They act on a transfer function of styles.",
-        Contours::default,
-        &[
-            Key::new(
-                "thickness",
-                "STF-7",
-                "T, the width of a contour.",
-                &Slot {
-                    kind: Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
-                    get: |c: &Contours| Some(c.thickness),
-                    set: |c, v| c.thickness = v,
-                },
-            ),
-            Key::new(
-                "kappa",
-                "STF-6",
-                "The curvature along the view that thickness is controlled by.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("ray", KappaName::Ray, "From two normals along the ray."),
-                            ChoiceOption::new("exact", KappaName::Exact, "From the Hessian."),
-                            ChoiceOption::new("none", KappaName::None, "None: a constant threshold."),
-                        ],
-                        later: &[],
-                    },
-                    get: |c: &Contours| {
-                        Some(match c.kappa {
-                            Kappa::Ray => KappaName::Ray,
-                            Kappa::Exact => KappaName::Exact,
-                            Kappa::None { .. } => KappaName::None,
-                        })
-                    },
-                    set: |c, name| {
-                        c.kappa = match name {
-                            KappaName::Ray => Kappa::Ray,
-                            KappaName::Exact => Kappa::Exact,
-                            KappaName::None => Kappa::None { threshold: THRESHOLD },
-                        }
-                    },
-                },
-            )
-            .needs(&[Quantity::PreviousNormal, Quantity::Hessian])
-            .knob(Ladder::to_field(|scene, _, _| if has_kappa(scene) { &["ray", "exact"] } else { &[] })),
-            Key::new(
-                "threshold",
-                "STF-6",
-                "τ of kappa = \"none\": |N·v| up to which a contour reaches.",
-                &Slot {
-                    kind: Number { bounds: Bounds::UNIT, unit: "" },
-                    get: |c: &Contours| match c.kappa {
-                        Kappa::None { threshold } => Some(threshold),
-                        Kappa::Ray | Kappa::Exact => None,
-                    },
-                    set: |c, v| {
-                        if let Kappa::None { threshold } = &mut c.kappa {
-                            *threshold = v;
-                        }
-                    },
-                },
-            )
-            .absent("0.3 with kappa = \"none\""),
-            Key::new(
-                "sign_flip",
-                "STF-5",
-                "What a flipped normal counts as, with kappa = \"ray\" and sampling.normal = \"facing\".",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("two-sided", SignFlip::TwoSided, "The angle between lines."),
-                            ChoiceOption::new("literal", SignFlip::Literal, "The plain angle."),
-                        ],
-                        later: &[],
-                    },
-                    get: |c: &Contours| Some(c.sign_flip),
-                    set: |c, v| c.sign_flip = v,
-                },
-            ),
-            Key::new(
-                "fade",
-                "STF-7",
-                "lo and hi, of |g|, between which contours fade in.",
-                &Slot {
-                    kind: Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending },
-                    get: |c: &Contours| c.fade,
-                    set: |c, v| c.fade = Some(v),
-                },
-            )
-            .absent("no fade")
-            .needs(&[Quantity::GradientMagnitudeRange]),
-        ],
-    )
-};
+pub(crate) static TABLE: Table<Contours> = Table::new(
+    "[contours]",
+    "Style contours of controlled thickness. They act on a transfer function of styles.",
+    Contours::default,
+    keys! { Contours {
+        /// T, the width of a contour.
+        thickness: key("STF-7", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE });
+        /// The curvature along the view that thickness is controlled by.
+        kappa: key("STF-6", KappaName::KIND,
+            |c| {
+                Some(match c.kappa {
+                    Kappa::Ray => KappaName::Ray,
+                    Kappa::Exact => KappaName::Exact,
+                    Kappa::None { .. } => KappaName::None,
+                })
+            },
+            |c, name| {
+                c.kappa = match name {
+                    KappaName::Ray => Kappa::Ray,
+                    KappaName::Exact => Kappa::Exact,
+                    KappaName::None => Kappa::None { threshold: THRESHOLD },
+                }
+            }).needs(&[Quantity::PreviousNormal, Quantity::Hessian]);
+        /// τ of kappa = "none": |N·v| up to which a contour reaches.
+        threshold: key("STF-6", Number { bounds: Bounds::UNIT, unit: "" },
+            |c| match c.kappa {
+                Kappa::None { threshold } => Some(threshold),
+                Kappa::Ray | Kappa::Exact => None,
+            },
+            |c, v| {
+                if let Kappa::None { threshold } = &mut c.kappa {
+                    *threshold = v;
+                }
+            }).absent("0.3 with kappa = \"none\"");
+        /// What a flipped normal counts as, with kappa = "ray" and sampling.normal = "facing".
+        sign_flip: key("STF-5", SignFlip::KIND);
+        /// lo and hi, of |g|, between which contours fade in.
+        fade: key("STF-7", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
+            .absent("no fade").needs(&[Quantity::GradientMagnitudeRange]);
+    } },
+);

@@ -1,12 +1,12 @@
 //! The tables of a scene file ([SCN-1] … [SCN-4]), one file each, and the scene that they make.
 //!
-//! A file holds the struct and, beside it, the description of the table as data: keys, kinds, ranges, defaults, docs,
-//! what the plan needs. Checking, `--full`, the schema and the reference page are made from it.
+//! A file declares its keys once, with the macros of `document::declare`: field, default, doc comment, rule and kind.
+//! Checking, `--full`, the schema and the reference page are made from that. The needs of a table and its knobs stand
+//! beside the plan (`plan::rules`), since they read the whole scene.
 
 pub mod camera;
 pub mod contours;
 pub mod hatching;
-pub mod length;
 pub mod nodes;
 pub mod orbit;
 pub mod outlines;
@@ -15,6 +15,7 @@ pub mod page;
 pub mod pen;
 pub mod picture;
 mod preset;
+pub(crate) mod root;
 pub mod sampling;
 pub mod scene;
 pub mod shading;
@@ -23,17 +24,18 @@ pub mod style_mipmaps;
 pub mod styles;
 pub mod surface;
 pub mod toon;
+mod toon_presets;
 pub mod transfer;
 mod transfer_rules;
 pub mod volume;
 
+pub use crate::length::Length;
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use hatching::{
     DirectionRule, DirectionSource, Directions, Family, HatchIso, HatchStyle, Hatching, Hidden, Interpolate,
     LineLighting, Measure, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,
 };
-pub use length::Length;
 pub use nodes::{Row, RowAt, Stand};
 pub use orbit::Orbit;
 pub use outlines::Outlines;

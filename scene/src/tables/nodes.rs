@@ -1,14 +1,35 @@
 //! Nodes of a transfer function, in a line, on a full grid, or in rows of their own ([STF-3], [STF-4]).
 
+use super::LabelKey;
 use super::over::Label;
-use super::{LabelKey, Node, NodeColor};
-use crate::file::Problem;
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Section, Shape, Slot, Table};
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf, Text};
-use crate::file::out::Out;
+use crate::document::Problem;
+use crate::document::check::Check;
+use crate::document::declare::keys;
+use crate::document::describe::{Kind, Section, Shape, Table};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf, Text};
+use crate::document::out::Out;
 use serde_json::{Value as Json, json};
+
+/// One node of a transfer function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// The value, or the first of two quantities.
+    pub at: f64,
+    /// Style or colour.
+    pub color: NodeColor,
+    /// α_u per reference length; an `#rrggbbaa` colour has already been multiplied in.
+    pub opacity: f64,
+}
+
+/// What a node shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NodeColor {
+    /// The name of a style.
+    Style(String),
+    /// Linear straight red, green, blue.
+    Color([f64; 3]),
+}
 
 /// A row of nodes of a function over two quantities: a function of its own over the first one ([STF-4]).
 #[derive(Clone, Debug, PartialEq)]
@@ -103,54 +124,29 @@ static NODE: Table<Written> = Table {
         "a node",
         "One node of a transfer function.",
         || Written { at: At::One(0.0), color: NodeColor::Style(String::new()), opacity: 1.0 },
-        &[
-            Key::new(
-                "at",
-                "STF-3",
-                "The value; the two quantities in a grid over two; the first of them in a row.",
-                &Slot { kind: AtKind, get: |n: &Written| Some(n.at), set: |n, v| n.at = v },
-            )
-            .required(),
-            Key::new(
-                "style",
-                "STF-3",
-                "The name of a style; in a style function.",
-                &Slot {
-                    kind: StyleName,
-                    get: |n: &Written| match &n.color {
-                        NodeColor::Style(name) => Some(name.clone()).filter(|name| !name.is_empty()),
-                        NodeColor::Color(_) => None,
-                    },
-                    set: |n, v| n.color = NodeColor::Style(v),
+        keys! { Written {
+            /// The value; the two quantities in a grid over two; the first of them in a row.
+            at: key("STF-3", AtKind).required();
+            /// The name of a style; in a style function.
+            style: key("STF-3", StyleName,
+                |n| match &n.color {
+                    NodeColor::Style(name) => Some(name.clone()).filter(|name| !name.is_empty()),
+                    NodeColor::Color(_) => None,
                 },
-            ),
-            Key::new(
-                "opacity",
-                "VAL-4",
-                "Opacity for a `sampling.reference_length`.",
-                &Slot {
-                    kind: Number { bounds: Bounds::UNIT, unit: "" },
-                    get: |n: &Written| Some(n.opacity),
-                    set: |n, v| n.opacity = v,
+                |n, v| n.color = NodeColor::Style(v));
+            /// Opacity for a `sampling.reference_length`.
+            opacity: key("VAL-4", Number { bounds: Bounds::UNIT, unit: "" });
+            /// A colour; in a regular function. Its own opacity multiplies `opacity`.
+            color: key("VAL-3", Colors,
+                |n| match n.color {
+                    NodeColor::Style(_) => None,
+                    NodeColor::Color([r, g, b]) => Some([r, g, b, 1.0]),
                 },
-            ),
-            Key::new(
-                "color",
-                "VAL-3",
-                "A colour; in a regular function. Its own opacity multiplies `opacity`.",
-                &Slot {
-                    kind: Colors,
-                    get: |n: &Written| match n.color {
-                        NodeColor::Style(_) => None,
-                        NodeColor::Color([r, g, b]) => Some([r, g, b, 1.0]),
-                    },
-                    set: |n, [r, g, b, a]| {
-                        n.color = NodeColor::Color([r, g, b]);
-                        n.opacity *= a;
-                    },
-                },
-            ),
-        ],
+                |n, [r, g, b, a]| {
+                    n.color = NodeColor::Color([r, g, b]);
+                    n.opacity *= a;
+                });
+        } },
     )
 };
 
@@ -350,23 +346,13 @@ static ROW: Table<Row> = Table::new(
     "a row",
     "One row of nodes of a function over two quantities.",
     || Row { at: RowAt::Number(0.0), nodes: Vec::new() },
-    &[
-        Key::new(
-            "at",
-            "STF-4",
-            "Where the row stands: a number of the second quantity; for labels an id, a name of `volume.label_names`, or a \
-             list of labels that share the row.",
-            &Slot { kind: RowAtKind, get: |r: &Row| Some(r.at.clone()), set: |r, v| r.at = v },
-        )
-        .required(),
-        Key::new(
-            "nodes",
-            "STF-4",
-            "Nodes over the first quantity, in non-decreasing order of `at`.",
-            &Slot { kind: LineOfNodes, get: |r: &Row| Some(r.nodes.clone()), set: |r, v| r.nodes = v },
-        )
-        .required(),
-    ],
+    keys! { Row {
+        /// Where the row stands: a number of the second quantity; for labels an id, a name of `volume.label_names`, or
+        /// a list of labels that share the row.
+        at: key("STF-4", RowAtKind).required();
+        /// Nodes over the first quantity, in non-decreasing order of `at`.
+        nodes: key("STF-4", LineOfNodes).required();
+    } },
 );
 
 /// Where a row stands: a number, a name, or several labels.

@@ -2,110 +2,41 @@
 
 use super::surface::IsoKind;
 use crate::color::Rgba;
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Colors, Lengths, On, Text};
-use crate::plan::Pass;
-use crate::tables::{Iso, Length, SurfaceLook};
+use crate::document::declare::table;
+use crate::document::describe::Table;
+use crate::document::kind::{Bounds, Colors, Lengths, On, Text};
+use crate::tables::{Iso, Length};
 
-/// The table `[outlines]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outlines {
-    /// Of which surface.
-    pub iso: Iso,
-    /// Of the lines, in mm or px.
-    pub width: Length,
-    /// Linear, straight.
-    pub color: Rgba,
-    /// A pen of `[[pen]]`, which draws in place of `width` and `color`.
-    pub pen: Option<String>,
-    /// Lines that are seen for less are not drawn; in mm or px.
-    pub min_length: Length,
-}
-
-impl Default for Outlines {
-    fn default() -> Self {
-        Self {
-            iso: Iso::Auto,
-            width: Length::Millimetres(0.35),
-            color: [0.0, 0.0, 0.0, 1.0],
-            pen: None,
-            min_length: Length::Millimetres(2.0),
-        }
+table! {
+    /// The table `[outlines]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Outlines {
+        /// The value of the surface; by itself that which an automatic transfer function makes opaque.
+        iso: Iso = Iso::Auto, key("HATCH-18", IsoKind);
+        /// Of the lines.
+        ///
+        /// In mm or px.
+        width: Length = Length::Millimetres(0.35), key("HATCH-18", Lengths { on: On::Page, bounds: Bounds::POSITIVE });
+        /// Of the lines.
+        ///
+        /// Linear, straight.
+        color: Rgba = [0.0, 0.0, 0.0, 1.0], key("HATCH-18", Colors);
+        /// The pen of `[[pen]]` that draws the lines: its nib is their width.
+        pen: Option<String> = None, key("HATCH-18", Text { what: "the name of a pen" }).absent("`color` and `width`");
+        /// The length on the page below which what is seen of a line is left out: noise has many small ones.
+        ///
+        /// In mm or px.
+        min_length: Length = Length::Millimetres(2.0),
+            key("HATCH-18", Lengths { on: On::Page, bounds: Bounds::NOT_NEGATIVE });
     }
 }
 
 /// The description of `[outlines]`.
-pub(crate) static TABLE: Table<Outlines> = Table {
-    asks: |scene, asks| {
-        let Some(outlines) = scene.outlines.as_ref().filter(|_| asks.draws_strokes()) else { return };
-        asks.pass(Pass::Outlines, "outlines", "outlines");
-        asks.pass(Pass::HiddenStrokes, "hidden strokes", if scene.surface.is_some() { "surface" } else { "outlines" });
-        if outlines.iso == Iso::Auto {
-            asks.pass(Pass::AutomaticIso, "outlines", "outlines.iso");
-        }
-        let drawn = |look| look != SurfaceLook::None && asks.casts_rays();
-        if scene.surface.as_ref().is_some_and(|surface| surface.iso == Iso::Auto && !drawn(surface.look)) {
-            asks.pass(Pass::AutomaticIso, "hidden strokes", "surface.iso");
-        }
-    },
-    idle: |scene, _, idle| {
-        if scene.outlines.as_ref().is_some_and(|outlines| outlines.pen.is_some()) {
-            idle.key("outlines.color", "outlines.pen says the colour");
-            idle.key("outlines.width", "the nib of outlines.pen is the width");
-        }
-    },
-    ..Table::new(
-        "[outlines]",
-        "Lines where an iso-surface turns away from the eye and where it meets the volume's box, without what the surface \
+pub(crate) static TABLE: Table<Outlines> = Outlines::description(
+    "[outlines]",
+    "Lines where an iso-surface turns away from the eye and where it meets the volume's box, without what the surface \
          of [surface], or else their own, hides.",
-        Outlines::default,
-        &[
-            Key::new(
-                "iso",
-                "HATCH-18",
-                "The value of the surface; by itself that which an automatic transfer function makes opaque.",
-                &Slot { kind: IsoKind, get: |o: &Outlines| Some(o.iso), set: |o, v| o.iso = v },
-            ),
-            Key::new(
-                "width",
-                "HATCH-18",
-                "Of the lines.",
-                &Slot {
-                    kind: Lengths { on: On::Page, bounds: Bounds::POSITIVE },
-                    get: |o: &Outlines| Some(o.width),
-                    set: |o, v| o.width = v,
-                },
-            ),
-            Key::new(
-                "color",
-                "HATCH-18",
-                "Of the lines.",
-                &Slot { kind: Colors, get: |o: &Outlines| Some(o.color), set: |o, v| o.color = v },
-            ),
-            Key::new(
-                "pen",
-                "HATCH-18",
-                "The pen of `[[pen]]` that draws the lines: its nib is their width.",
-                &Slot {
-                    kind: Text { what: "the name of a pen" },
-                    get: |o: &Outlines| o.pen.clone(),
-                    set: |o, v| o.pen = Some(v),
-                },
-            )
-            .absent("`color` and `width`"),
-            Key::new(
-                "min_length",
-                "HATCH-18",
-                "The length on the page below which what is seen of a line is left out: noise has many small ones.",
-                &Slot {
-                    kind: Lengths { on: On::Page, bounds: Bounds::NOT_NEGATIVE },
-                    get: |o: &Outlines| Some(o.min_length),
-                    set: |o, v| o.min_length = v,
-                },
-            ),
-        ],
-    )
-};
+);
 
 #[cfg(test)]
 mod tests {

@@ -3,16 +3,15 @@
 //! The list of quantities is open. Another one is a variant of [`Axis`], a line in the list of names or in the table of
 //! quantities of something, and a measure in the renderer.
 
-use super::contours::{Measured, measured_curvature};
-use super::{Scene, Stand, Unit};
-use crate::file::Problem;
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Section, Shape, Slot, Table};
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, ListOf, Numbers, PathTo, Rule, TableOf, Text, Whole};
-use crate::file::out::Out;
+use crate::document::Problem;
+use crate::document::check::Check;
+use crate::document::declare::keys;
+use crate::document::describe::{Key, Kind, Section, Shape, Table};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Bounds, ListOf, Numbers, PathTo, Rule, TableOf, Text, Whole};
+use crate::document::out::Out;
 use crate::nearest::nearest;
-use crate::plan::{Asks, Pass, Quantity};
+use crate::quantity::Quantity;
 use glam::DVec3;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
@@ -111,54 +110,33 @@ static OF: Table<Option<Axis>> = Table {
         "a quantity of something",
         "A quantity of a transfer function that has more than a name: one of these keys.",
         || None,
-        &[
-            Key::new(
-                "distance",
-                "STF-4",
-                "The distance to this point, in world units.",
-                &Slot {
-                    kind: Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free },
-                    get: |axis: &Option<Axis>| match axis {
-                        Some(Axis::Distance(p)) => Some(p.to_array()),
-                        _ => None,
-                    },
-                    set: |axis, p| *axis = Some(Axis::Distance(p.into())),
+        keys! { Option<Axis> {
+            /// The distance to this point, in world units.
+            distance: key("STF-4", Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free },
+                |axis| match axis {
+                    Some(Axis::Distance(p)) => Some(p.to_array()),
+                    _ => None,
                 },
-            )
-            .absent("another quantity")
-            .needs(&[Quantity::Distance]),
-            Key::new(
-                "distance_to_label",
-                "STF-4",
-                "The distance to the nearest voxel centre of this label, in world units; 0 inside.",
-                &Slot {
-                    kind: Label,
-                    get: |axis: &Option<Axis>| match axis {
-                        Some(Axis::DistanceToLabel(label)) => Some(label.clone()),
-                        _ => None,
-                    },
-                    set: |axis, label| *axis = Some(Axis::DistanceToLabel(label)),
+                |axis, p| *axis = Some(Axis::Distance(p.into())))
+                .absent("another quantity").needs(&[Quantity::Distance]);
+            /// The distance to the nearest voxel centre of this label, in world units; 0 inside.
+            distance_to_label: key("STF-4", Label,
+                |axis| match axis {
+                    Some(Axis::DistanceToLabel(label)) => Some(label.clone()),
+                    _ => None,
                 },
-            )
-            .absent("another quantity")
-            .needs(&[Quantity::LabelDistance]),
-            Key::new(
-                "volume",
-                "STF-4",
-                "The value of this volume at the same place in the world, trilinear, whatever its grid. Outside its box \
-                 and beside voxels without a value it counts as the lowest of its values.",
-                &Slot {
-                    kind: PathTo { what: "a volume" },
-                    get: |axis: &Option<Axis>| match axis {
-                        Some(Axis::Volume(path)) => Some(path.clone()),
-                        _ => None,
-                    },
-                    set: |axis, path| *axis = Some(Axis::Volume(path)),
+                |axis, label| *axis = Some(Axis::DistanceToLabel(label)))
+                .absent("another quantity").needs(&[Quantity::LabelDistance]);
+            /// The value of this volume at the same place in the world, trilinear, whatever its grid. Outside its box
+            /// and beside voxels without a value it counts as the lowest of its values.
+            volume: key("STF-4", PathTo { what: "a volume" },
+                |axis| match axis {
+                    Some(Axis::Volume(path)) => Some(path.clone()),
+                    _ => None,
                 },
-            )
-            .absent("another quantity")
-            .needs(&[Quantity::FurtherVolume]),
-        ],
+                |axis, path| *axis = Some(Axis::Volume(path)))
+                .absent("another quantity").needs(&[Quantity::FurtherVolume]);
+        } },
     )
 };
 
@@ -169,6 +147,11 @@ impl Over {
             Self::Value => None,
             Self::Two([_, second]) => Some(second),
         }
+    }
+
+    /// Whether there is a row of values for each label.
+    pub(crate) fn is_over_labels(&self) -> bool {
+        matches!(self, Self::Two([Axis::Value, Axis::Label]))
     }
 
     /// The quantities, one or two.
@@ -219,31 +202,6 @@ impl Axis {
         })
     }
 
-    /// Says to a plan what the axis needs of the samples.
-    pub(super) fn asks(&self, scene: &Scene, unit: Unit, asks: &mut Asks) {
-        let key = "transfer.over";
-        let effect = format!("function over {}", self.name());
-        let mut need = |quantity| asks.need(quantity, &effect, key);
-        match self {
-            // Every transfer function needs it.
-            Self::Value => {}
-            Self::GradientMagnitude if unit == Unit::Normalized => need(Quantity::GradientMagnitudeRange),
-            Self::GradientMagnitude => need(Quantity::Gradient),
-            Self::Label => need(Quantity::Label),
-            Self::K1 | Self::K2 | Self::Mean | Self::Gaussian => need(Quantity::Hessian),
-            Self::AlongView => need(match measured_curvature(scene) {
-                Measured::AlongRay => Quantity::PreviousNormal,
-                Measured::Exact => Quantity::Hessian,
-            }),
-            Self::Distance(_) => need(Quantity::Distance),
-            Self::DistanceToLabel(_) => {
-                need(Quantity::LabelDistance);
-                asks.pass(Pass::LabelDistances, &effect, key);
-            }
-            Self::Volume(_) => need(Quantity::FurtherVolume),
-        }
-    }
-
     /// Its name, or the key that says what it is of.
     pub fn name(&self) -> &'static str {
         let named = NAMED.iter().find(|named| named.axis == *self).map(|named| named.name);
@@ -252,41 +210,6 @@ impl Axis {
             Self::DistanceToLabel(_) => "distance_to_label",
             _ => "volume",
         })
-    }
-}
-
-/// What reads labels needs a label volume, and names of labels a table of them.
-pub(super) fn check_labels(scene: &Scene, check: &mut Check) {
-    let Some(transfer) = &scene.transfer else { return };
-    if !check.sound(&["transfer.over", "volume"]) {
-        return;
-    }
-    let mut lacks = |key: &str, what: String, remedy: &str| {
-        check.fault_in(key, Problem::Contradiction { what, remedy: remedy.into() });
-    };
-    if scene.volume.labels.is_none() {
-        if let Some(axis) = transfer.over.axes().iter().find(|axis| axis.reads_labels()) {
-            let what = format!("the function is over {:?}, and the scene has no labels", axis.name());
-            lacks("transfer.over", what, "add the label volume: volume.labels = \"…\"");
-        }
-        return;
-    }
-    if scene.volume.label_names.is_some() {
-        return;
-    }
-    let remedy = "write an id, or add the table of names: volume.label_names = \"…\"";
-    let without = |name: &str| format!("{name:?} is the name of a label, and the scene has no names of them");
-    for axis in transfer.over.axes() {
-        if let Axis::DistanceToLabel(LabelKey::Name(name)) = axis {
-            lacks("transfer.over", without(name), remedy);
-        }
-    }
-    for (i, row) in transfer.rows.iter().flatten().enumerate() {
-        for at in row.at.each() {
-            if let Stand::Name(name) = at {
-                lacks(&format!("transfer.rows[{i}].at"), without(name), remedy);
-            }
-        }
     }
 }
 

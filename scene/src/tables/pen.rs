@@ -1,96 +1,34 @@
 //! `[[pen]]`: the pens that layers of points and lines are drawn with ([IO-7]).
 
-use crate::file::check::Check;
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::kind::{Bounds, Colors, Lengths, On, PathTo, Text};
+use crate::document::declare::table;
+use crate::document::describe::Table;
+use crate::document::kind::{Bounds, Colors, Lengths, On, PathTo, Text};
 use crate::tables::Length;
 use std::path::PathBuf;
 
-/// One table `[[pen]]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PenSettings {
-    /// What other tables call it by.
-    pub name: String,
-    /// Across the nib, in mm or px.
-    pub width: Length,
-    /// Linear, straight.
-    pub color: [f64; 4],
-    /// A measured step wedge ([STIP-17]); none: its dots are discs.
-    pub tone: Option<PathBuf>,
-}
-
-impl Default for PenSettings {
-    fn default() -> Self {
-        Self { name: String::new(), width: Length::Millimetres(0.3), color: [0.0, 0.0, 0.0, 1.0], tone: None }
+table! {
+    /// One table `[[pen]]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct PenSettings {
+        /// What other tables call it by; it is in the layer's name.
+        name: String = String::new(), key("IO-7", Text { what: "the name of a pen" }).required();
+        /// Across the nib.
+        ///
+        /// In mm or px.
+        width: Length = Length::Millimetres(0.3), key("IO-7", Lengths { on: On::Page, bounds: Bounds::POSITIVE });
+        /// Of its ink.
+        ///
+        /// Linear, straight.
+        color: [f64; 4] = [0.0, 0.0, 0.0, 1.0], key("IO-7", Colors);
+        /// What it prints: a step wedge as CSV with the columns `wanted` and `measured`, which the command `wedge`
+        /// draws.
+        tone: Option<PathBuf> = None, key("STIP-17", PathTo { what: "a step wedge" }).absent("discs of the nib");
     }
 }
 
 /// The description of a pen.
-pub(crate) static TABLE: Table<PenSettings> = Table {
-    idle: |scene, _, idle| {
-        let Some(pen) = idle.at.item.and_then(|i| scene.pens.get(i)) else { return };
-        if scene.stipples.as_ref().is_none_or(|stipples| stipples.pen.as_ref() != Some(&pen.name)) {
-            idle.key(&idle.at.inner("tone"), "only the pen that stipples.pen names prints by its table");
-        }
-    },
-    ..Table::new(
-        "a pen",
-        "What draws a layer of points and lines.",
-        PenSettings::default,
-        &[
-            Key::new(
-                "name",
-                "IO-7",
-                "What other tables call it by; it is in the layer's name.",
-                &Slot {
-                    kind: Text { what: "the name of a pen" },
-                    get: |p: &PenSettings| Some(p.name.clone()),
-                    set: |p, v| p.name = v,
-                },
-            )
-            .required(),
-            Key::new(
-                "width",
-                "IO-7",
-                "Across the nib.",
-                &Slot {
-                    kind: Lengths { on: On::Page, bounds: Bounds::POSITIVE },
-                    get: |p: &PenSettings| Some(p.width),
-                    set: |p, v| p.width = v,
-                },
-            ),
-            Key::new(
-                "color",
-                "IO-7",
-                "Of its ink.",
-                &Slot { kind: Colors, get: |p: &PenSettings| Some(p.color), set: |p, v| p.color = v },
-            ),
-            Key::new(
-                "tone",
-                "STIP-17",
-                "What it prints: a step wedge as CSV with the columns `wanted` and `measured`, which the command `wedge` draws.",
-                &Slot {
-                    kind: PathTo { what: "a step wedge" },
-                    get: |p: &PenSettings| p.tone.clone(),
-                    set: |p, v| p.tone = Some(v),
-                },
-            )
-            .absent("discs of the nib"),
-        ],
-    )
-};
-
-/// A pen is called by its name, so that no two may share one.
-pub(super) fn check_names(pens: &[PenSettings], check: &mut Check) {
-    for (i, pen) in pens.iter().enumerate() {
-        if let Some(first) = pens[..i].iter().position(|other| other.name == pen.name) {
-            let what = format!("pen[{first}] and pen[{i}] are both called {:?}", pen.name);
-            let remedy = "give each pen a name of its own".into();
-            check.fault_in(&format!("pen[{i}].name"), Problem::Contradiction { what, remedy });
-        }
-    }
-}
+pub(crate) static TABLE: Table<PenSettings> =
+    PenSettings::description("a pen", "What draws a layer of points and lines.");
 
 #[cfg(test)]
 mod tests {

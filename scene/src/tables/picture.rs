@@ -1,19 +1,17 @@
 //! `[picture]`: what the picture is drawn on.
 
-use crate::file::check::Check;
-use crate::file::describe::{Instead, Key, Kind, Shape, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::item::Item;
-use crate::file::kind::{
+use crate::document::check::Check;
+use crate::document::declare::{choices, keys};
+use crate::document::describe::{Instead, Kind, Shape, Table};
+use crate::document::fault::Problem;
+use crate::document::item::Item;
+use crate::document::kind::{
     Bounds, Choice, ChoiceOption, Colors, Lengths, ListOf, Number, On, Whole, Wholes, nearest_color, parse_color,
 };
-use crate::file::out::Out;
-use crate::knobs::Ladder;
+use crate::document::out::Out;
 use crate::picture::LayerKind;
-use crate::plan::{Pass, Quantity};
+use crate::quantity::Quantity;
 use crate::tables::Length;
-use crate::tables::contours::{Measured, measured_curvature};
-use serde::Serialize;
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
@@ -50,14 +48,15 @@ pub enum Background {
     Picture(PathBuf),
 }
 
-/// Which numbers are composited ([VAL-3]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum BlendSpace {
-    /// Linear light.
-    Linear,
-    /// sRGB-encoded values, as the papers' hardware did.
-    Srgb,
+choices! {
+    /// Which numbers are composited ([VAL-3]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum BlendSpace {
+        /// Linear light.
+        Linear = "linear",
+        /// sRGB-encoded values, to remake old figures.
+        Srgb = "srgb",
+    }
 }
 
 impl Default for PictureSettings {
@@ -132,141 +131,35 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
         }
         check_layers(&picture.layers, check);
     },
-    asks: |scene, asks| {
-        if !asks.casts_rays() {
-            return;
-        }
-        for (i, layer) in scene.picture.layers.iter().enumerate() {
-            let effect = format!("layer {layer}");
-            let key = format!("picture.layers[{i}]");
-            let along_view = match measured_curvature(scene) {
-                Measured::Exact => Quantity::Hessian,
-                Measured::AlongRay => Quantity::PreviousNormal,
-            };
-            let (needs, first_only): (&[Quantity], bool) = match layer {
-                LayerKind::Beauty | LayerKind::Z | LayerKind::Depth | LayerKind::First | LayerKind::Counts => continue,
-                LayerKind::Normal | LayerKind::Gradient => (&[Quantity::Gradient], false),
-                LayerKind::Curvature => (&[Quantity::Hessian, along_view], false),
-                LayerKind::CurvatureAlongView => (&[along_view], false),
-                LayerKind::FirstNormal => (&[Quantity::Gradient], true),
-                LayerKind::FirstCurvature => (&[Quantity::Hessian, along_view], true),
-                LayerKind::FirstCurvatureAlongView => (&[along_view], true),
-            };
-            needs.iter().for_each(|&quantity| asks.need_where(quantity, first_only, &effect, &key));
-        }
-    },
-    idle: |scene, plan, idle| {
-        if !plan.has_pass(Pass::Rays) {
-            for key in ["picture.samples", "picture.layers"] {
-                idle.key(key, "the volume itself is not drawn");
-            }
-        }
-        if !idle.says("picture.width") && !scene.has_marks() {
-            idle.key("picture.dpi", "nothing is in mm: size is in pixels");
-        }
-    },
     ..Table::new(
         "[picture]",
         "What the picture is drawn on.",
         PictureSettings::default,
-        &[
-            Key::new(
-                "dpi",
-                "IO-7",
-                "Pixels per inch, which turns mm into pixels.",
-                &Slot {
-                    kind: Number { bounds: Bounds::POSITIVE, unit: "" },
-                    get: |p: &PictureSettings| Some(p.dpi),
-                    set: |p, v| p.dpi = v,
-                },
-            ),
-            Key::new(
-                "size",
-                "RAY-6",
-                "Width and height in pixels.",
-                &Slot {
-                    kind: SIZE,
-                    get: |p: &PictureSettings| p.extent().is_none().then_some(p.size),
-                    set: |p, v| p.size = v,
-                },
-            ),
-            Key::new(
-                "width",
-                "IO-7",
-                "Width on the page, with `height` in place of `size`.",
-                &Slot {
-                    kind: EXTENT,
-                    get: |p: &PictureSettings| p.extent().map(|[length, _]| length),
-                    set: |p, v| (p.lengths[0], p.size[0]) = (Some(v), pixels(v, p.dpi)),
-                },
-            )
-            .absent("`size`"),
-            Key::new(
-                "height",
-                "IO-7",
-                "Height on the page, with `width` in place of `size`.",
-                &Slot {
-                    kind: EXTENT,
-                    get: |p: &PictureSettings| p.extent().map(|[_, length]| length),
-                    set: |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi)),
-                },
-            )
-            .absent("`size`"),
-            Key::new(
-                "samples",
-                "RAY-6",
-                "n of the n×n rays a pixel.",
-                &Slot {
-                    kind: Whole { lo: 1, hi: 1024 },
-                    get: |p: &PictureSettings| Some(p.samples as u64),
-                    set: |p, v| p.samples = v as usize,
-                },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Rays) { &["1", "2", "4"] } else { &[] })),
-            Key::new(
-                "background",
-                "IO-6",
-                "What lies behind: a colour, \"none\", or the path of a picture that is stretched to the frame.",
-                &Slot {
-                    kind: Behind,
-                    get: |p: &PictureSettings| Some(p.background.clone()),
-                    set: |p, v| p.background = v,
-                },
-            ),
-            Key::new(
-                "blend_space",
-                "VAL-3",
-                "Which numbers are composited.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("linear", BlendSpace::Linear, "Linear light."),
-                            ChoiceOption::new("srgb", BlendSpace::Srgb, "sRGB-encoded values, to remake old figures."),
-                        ],
-                        later: &[],
-                    },
-                    get: |p: &PictureSettings| Some(p.blend_space),
-                    set: |p, v| p.blend_space = v,
-                },
-            ),
-            Key::new(
-                "bits",
-                "IO-2",
-                "Bits a channel of a PNG.",
-                &Slot { kind: Bits, get: |p: &PictureSettings| Some(p.bits), set: |p, v| p.bits = v },
-            ),
-            Key::new(
-                "layers",
-                "IO-6",
-                "Layers of an EXR.",
-                &Slot {
-                    kind: ListOf { what: "a list of layers", each: LAYER },
-                    get: |p: &PictureSettings| Some(p.layers.clone()),
-                    set: |p, v| p.layers = v,
-                },
-            )
-            .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]),
-        ],
+        keys! { PictureSettings {
+            /// Pixels per inch, which turns mm into pixels.
+            dpi: key("IO-7", Number { bounds: Bounds::POSITIVE, unit: "" });
+            /// Width and height in pixels.
+            size: key("RAY-6", SIZE, |p| p.extent().is_none().then_some(p.size), |p, v| p.size = v);
+            /// Width on the page, with `height` in place of `size`.
+            width: key("IO-7", EXTENT,
+                |p| p.extent().map(|[length, _]| length),
+                |p, v| (p.lengths[0], p.size[0]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
+            /// Height on the page, with `width` in place of `size`.
+            height: key("IO-7", EXTENT,
+                |p| p.extent().map(|[_, length]| length),
+                |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
+            /// n of the n×n rays a pixel.
+            samples: key("RAY-6", Whole { lo: 1, hi: 1024 });
+            /// What lies behind: a colour, "none", or the path of a picture that is stretched to the frame.
+            background: key("IO-6", Behind);
+            /// Which numbers are composited.
+            blend_space: key("VAL-3", BlendSpace::KIND);
+            /// Bits a channel of a PNG.
+            bits: key("IO-2", Bits);
+            /// Layers of an EXR.
+            layers: key("IO-6", ListOf { what: "a list of layers", each: LAYER })
+                .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]);
+        } },
     )
 };
 

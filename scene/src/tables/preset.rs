@@ -2,9 +2,9 @@
 
 use super::hatching::HatchPreset;
 use super::stipples::StipplePreset;
-use super::toon::ToonPreset;
+use super::toon_presets::ToonPreset;
 use super::{Outlines, Scene, Transfer, TransferKind};
-use crate::file::kind::{Choice, ChoiceOption};
+use crate::document::kind::{Choice, ChoiceOption};
 
 /// What `preset` names.
 #[derive(Clone, Copy, PartialEq)]

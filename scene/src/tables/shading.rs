@@ -1,46 +1,53 @@
 //! `[shading]`: light on a regular transfer function, Blinn–Phong ([STF-11]) or in tones ([HATCH-15]).
 
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Later, Shape, Slot, Table};
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Number, Numbers, Rule, TableOf};
-use crate::file::out::Out;
-use crate::plan::{Idle, Quantity};
+use crate::document::check::Check;
+use crate::document::declare::{choices, keys, table};
+use crate::document::describe::{Kind, Later, Shape, Table};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Bounds, Number, Numbers, Rule, TableOf};
+use crate::document::out::Out;
 use crate::tables::toon::{SHADING_SILHOUETTE, SHADING_TOON, VIEW_OPACITY};
-use crate::tables::{Scene, SilhouetteShading, SurfaceLook, ToonShading, TransferKind};
+use crate::tables::{SilhouetteShading, ToonShading};
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 
-/// The table `[shading]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Shading {
-    /// How light is reflected.
-    pub model: ShadingModel,
-    /// k_a.
-    pub ambient: f64,
-    /// k_d.
-    pub diffuse: f64,
-    /// k_s.
-    pub specular: f64,
-    /// s, the exponent.
-    pub shininess: f64,
-    /// Towards the light; none: the scene's.
-    pub light: Option<LightDirection>,
-    /// The tones of [`ShadingModel::Toon`]; none: two, of L·N > ½.
-    pub toon: Option<ToonShading>,
-    /// Silhouettes; none: none.
-    pub silhouette: Option<SilhouetteShading>,
-    /// s of the view-dependent opacity; 0: opacities are as they are.
-    pub view_opacity: f64,
+table! {
+    /// The table `[shading]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Shading {
+        /// How light is reflected.
+        model: ShadingModel = ShadingModel::Phong, key("STF-11", ShadingModel::KIND);
+        /// k_a.
+        ambient: f64 = 0.3, key("STF-11", SHARE);
+        /// k_d.
+        diffuse: f64 = 0.6, key("STF-11", SHARE);
+        /// k_s.
+        specular: f64 = 0.3, key("STF-11", SHARE);
+        /// s, the exponent of the highlight.
+        shininess: f64 = 30.0, key("STF-11", SHARE);
+        /// Towards the light.
+        light: Option<LightDirection> = None, key("STF-11", Light).absent("the scene's `light`");
+        /// The tones of model = "toon".
+        toon: Option<ToonShading> = None,
+            key("HATCH-15", TableOf(&SHADING_TOON)).absent("offset 0 and two tones, `#404040` and white");
+        /// Black where the surface turns away from the eye, under any model.
+        silhouette: Option<SilhouetteShading> = None,
+            key("HATCH-15", TableOf(&SHADING_SILHOUETTE)).absent("no silhouettes");
+        /// s: opacities become 1 − (1 − α)^(1 + s(1/|N·V| − 1)), more opaque where the surface turns away from the eye.
+        view_opacity: f64 = 0.0, key("HATCH-15", VIEW_OPACITY);
+    }
 }
 
-/// How light is reflected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShadingModel {
-    /// Blinn–Phong.
-    Phong,
-    /// In tones.
-    Toon,
+choices! {
+    /// How light is reflected.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum ShadingModel {
+        /// Blinn–Phong.
+        Phong = "phong",
+        /// In tones with hard steps between them.
+        Toon = "toon",
+    }
+    later &[("lighting-function", "VS-5")]
 }
 
 /// Towards the light.
@@ -54,65 +61,10 @@ pub enum LightDirection {
     World(DVec3),
 }
 
-impl Default for Shading {
-    fn default() -> Self {
-        Self {
-            model: ShadingModel::Phong,
-            ambient: 0.3,
-            diffuse: 0.6,
-            specular: 0.3,
-            shininess: 30.0,
-            light: None,
-            toon: None,
-            silhouette: None,
-            view_opacity: 0.0,
-        }
-    }
-}
-
 impl Shading {
     /// The tones of [`ShadingModel::Toon`]; none under another model.
     pub fn tones(&self) -> Option<ToonShading> {
         (self.model == ShadingModel::Toon).then(|| self.toon.clone().unwrap_or_default())
-    }
-}
-
-/// Whether the scene has an iso-surface that is lit.
-pub(super) fn lit_surface(scene: &Scene) -> bool {
-    let lit = |look| matches!(look, SurfaceLook::Phong | SurfaceLook::Toon);
-    scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
-}
-
-/// Whether its transfer function has colours, which light falls on.
-fn is_regular(scene: &Scene) -> bool {
-    scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular)
-}
-
-/// Whether a scene has something that `[shading]` acts on.
-pub(super) fn lit(scene: &Scene) -> bool {
-    is_regular(scene) || lit_surface(scene)
-}
-
-/// Which keys say nothing although something is lit.
-fn idle_keys(scene: &Scene, shading: &Shading, idle: &mut Idle) {
-    let regular = is_regular(scene);
-    let toon = shading.model == ShadingModel::Toon;
-    let glossy = scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
-    if glossy || (regular && !toon) {
-        if shading.specular == 0.0 {
-            idle.key("shading.shininess", "specular is 0");
-        }
-    } else {
-        for key in ["shading.ambient", "shading.diffuse", "shading.specular", "shading.shininess"] {
-            idle.key(key, "nothing is lit by Blinn–Phong: tones are the table toon's");
-        }
-    }
-    if !regular {
-        for key in ["shading.model", "shading.toon", "shading.silhouette", "shading.view_opacity"] {
-            idle.key(key, "it acts on a regular function; a surface has keys of its own");
-        }
-    } else if !toon {
-        idle.key("shading.toon", "model is \"phong\"");
     }
 }
 
@@ -127,109 +79,9 @@ pub(crate) static TABLE: Table<Shading> = Table {
         Later { name: "contour", tag: "VS-5" },
         Later { name: "divisor_floor", tag: "VS-5" },
     ],
-    asks: |scene, asks| {
-        let Some(shading) = scene.shading.as_ref().filter(|_| is_regular(scene) && asks.casts_rays()) else { return };
-        match shading.tones() {
-            None => asks.need(Quantity::Gradient, "shading", "shading"),
-            Some(toon) if toon.reads_normals() => asks.need(Quantity::Gradient, "toon shading", "shading.model"),
-            Some(_) => {}
-        }
-        if shading.silhouette.is_some() {
-            asks.need(Quantity::Gradient, "silhouettes", "shading.silhouette");
-        }
-        if shading.view_opacity > 0.0 {
-            asks.need(Quantity::Gradient, "view-dependent opacity", "shading.view_opacity");
-        }
-    },
-    idle: |scene, _, idle| {
-        let Some(shading) = &scene.shading else { return };
-        let kind = scene.transfer.as_ref().map(|transfer| transfer.kind);
-        if !lit_surface(scene) && kind == Some(TransferKind::Style) {
-            idle.key("shading", "styles carry their own light: shading acts on a regular function");
-        } else if !lit(scene) && scene.surface.is_some() {
-            idle.key("shading", "nothing is lit: it acts on a regular function, and on a surface with a lit look");
-        } else {
-            idle_keys(scene, shading, idle);
-        }
-    },
-    ..Table::new(
+    ..Shading::description(
         "[shading]",
         "Light on a regular transfer function, and on a lit iso-surface. Without the table the function is unshaded.",
-        Shading::default,
-        &[
-            Key::new(
-                "model",
-                "STF-11",
-                "How light is reflected.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("phong", ShadingModel::Phong, "Blinn–Phong."),
-                            ChoiceOption::new("toon", ShadingModel::Toon, "In tones with hard steps between them."),
-                        ],
-                        later: &[("lighting-function", "VS-5")],
-                    },
-                    get: |s: &Shading| Some(s.model),
-                    set: |s, v| s.model = v,
-                },
-            ),
-            Key::new(
-                "ambient",
-                "STF-11",
-                "k_a.",
-                &Slot { kind: SHARE, get: |s: &Shading| Some(s.ambient), set: |s, v| s.ambient = v },
-            ),
-            Key::new(
-                "diffuse",
-                "STF-11",
-                "k_d.",
-                &Slot { kind: SHARE, get: |s: &Shading| Some(s.diffuse), set: |s, v| s.diffuse = v },
-            ),
-            Key::new(
-                "specular",
-                "STF-11",
-                "k_s.",
-                &Slot { kind: SHARE, get: |s: &Shading| Some(s.specular), set: |s, v| s.specular = v },
-            ),
-            Key::new(
-                "shininess",
-                "STF-11",
-                "s, the exponent of the highlight.",
-                &Slot { kind: SHARE, get: |s: &Shading| Some(s.shininess), set: |s, v| s.shininess = v },
-            ),
-            Key::new(
-                "light",
-                "STF-11",
-                "Towards the light.",
-                &Slot { kind: Light, get: |s: &Shading| s.light, set: |s, v| s.light = Some(v) },
-            )
-            .absent("the scene's `light`"),
-            Key::new(
-                "toon",
-                "HATCH-15",
-                "The tones of model = \"toon\".",
-                &Slot { kind: TableOf(&SHADING_TOON), get: |s: &Shading| s.toon.clone(), set: |s, v| s.toon = Some(v) },
-            )
-            .absent("offset 0 and two tones, `#404040` and white"),
-            Key::new(
-                "silhouette",
-                "HATCH-15",
-                "Black where the surface turns away from the eye, under any model.",
-                &Slot {
-                    kind: TableOf(&SHADING_SILHOUETTE),
-                    get: |s: &Shading| s.silhouette,
-                    set: |s, v| s.silhouette = Some(v),
-                },
-            )
-            .absent("no silhouettes"),
-            Key::new(
-                "view_opacity",
-                "HATCH-15",
-                "s: opacities become 1 − (1 − α)^(1 + s(1/|N·V| − 1)), more opaque where the surface turns away from \
-                 the eye.",
-                &Slot { kind: VIEW_OPACITY, get: |s: &Shading| Some(s.view_opacity), set: |s, v| s.view_opacity = v },
-            ),
-        ],
     )
 };
 
@@ -244,13 +96,10 @@ static WORLD: Table<[f64; 3]> = Table::new(
     "light",
     "A light that stands in the world.",
     || [0.0, 0.0, 1.0],
-    &[Key::new(
-        "world",
-        "STF-11",
-        "Towards the light, in world space.",
-        &Slot { kind: DIRECTION, get: |v: &[f64; 3]| Some(*v), set: |v, new| *v = new },
-    )
-    .required()],
+    keys! { [f64; 3] {
+        /// Towards the light, in world space.
+        world: key("STF-11", DIRECTION, |v| Some(*v), |v, new| *v = new).required();
+    } },
 );
 
 impl Shape for Light {

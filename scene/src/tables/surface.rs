@@ -1,32 +1,38 @@
 //! `[surface]`: an opaque iso-surface in the picture ([HATCH-14], [HATCH-15]).
 
 use crate::color::Rgba;
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Shape, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Choice, ChoiceOption, Colors, TableOf};
-use crate::file::out::Out;
-use crate::plan::{Pass, Quantity};
+use crate::document::check::Check;
+use crate::document::declare::{choices, table};
+use crate::document::describe::{Kind, Shape, Table};
+use crate::document::fault::Problem;
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Colors, TableOf};
+use crate::document::out::Out;
 use crate::tables::toon::{SURFACE_SILHOUETTE, SURFACE_TOON, VIEW_OPACITY};
 use crate::tables::{SilhouetteShading, ToonShading};
 use serde_json::{Value as Json, json};
 
-/// The table `[surface]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
-    /// Where it lies.
-    pub iso: Iso,
-    /// How it is drawn.
-    pub look: SurfaceLook,
-    /// Of a lit surface: linear, opaque.
-    pub color: Rgba,
-    /// The tones of [`SurfaceLook::Toon`]; none: two, of L·N > ½.
-    pub toon: Option<ToonShading>,
-    /// Silhouettes on any look; none: none.
-    pub silhouette: Option<SilhouetteShading>,
-    /// s of the view-dependent opacity, which leaves an opacity of 1 as it is.
-    pub view_opacity: f64,
+table! {
+    /// The table `[surface]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Surface {
+        /// The value; by itself that of the surface which an automatic transfer function makes opaque.
+        iso: Iso = Iso::Auto, key("HATCH-14", IsoKind);
+        /// How it is drawn.
+        look: SurfaceLook = SurfaceLook::White, key("HATCH-14", SurfaceLook::KIND);
+        /// Of a lit surface.
+        ///
+        /// Linear, opaque.
+        color: Rgba = [1.0; 4], key("HATCH-14", Colors);
+        /// The tones of look = "toon".
+        toon: Option<ToonShading> = None,
+            key("HATCH-15", TableOf(&SURFACE_TOON)).absent("offset 0 and two tones, `#404040` and white");
+        /// Black where the surface turns away from the eye, on any look.
+        silhouette: Option<SilhouetteShading> = None,
+            key("HATCH-15", TableOf(&SURFACE_SILHOUETTE)).absent("no silhouettes");
+        /// s of shading.view_opacity; the surface is opaque, and its opacity stays 1 for every s.
+        view_opacity: f64 = 0.0, key("HATCH-15", VIEW_OPACITY);
+    }
 }
 
 /// A value of the field.
@@ -38,29 +44,18 @@ pub enum Iso {
     Value(f64),
 }
 
-/// How an iso-surface is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SurfaceLook {
-    /// White everywhere, under any light.
-    White,
-    /// Blinn–Phong.
-    Phong,
-    /// In tones ([HATCH-15]).
-    Toon,
-    /// Not at all.
-    None,
-}
-
-impl Default for Surface {
-    fn default() -> Self {
-        Self {
-            iso: Iso::Auto,
-            look: SurfaceLook::White,
-            color: [1.0; 4],
-            toon: None,
-            silhouette: None,
-            view_opacity: 0.0,
-        }
+choices! {
+    /// How an iso-surface is drawn.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SurfaceLook {
+        /// White, unlit: it hides, and lines are drawn on it.
+        White = "white",
+        /// Lit, with the constants of [shading] or their defaults.
+        Phong = "phong",
+        /// In tones with hard steps between them, under the light of [shading] or the scene's.
+        Toon = "toon",
+        /// Not at all: it hides strokes alone.
+        None = "none",
     }
 }
 
@@ -114,109 +109,10 @@ pub(crate) static TABLE: Table<Surface> = Table {
             check.fault_in("color", Problem::Contradiction { what, remedy });
         }
     },
-    asks: |scene, asks| {
-        let drawn = |surface: &Surface| surface.look != SurfaceLook::None && asks.casts_rays();
-        let Some(surface) = scene.surface.as_ref().filter(|surface| drawn(surface)) else { return };
-        asks.need(Quantity::Surface, "iso-surface", "surface");
-        if surface.iso == Iso::Auto {
-            asks.pass(Pass::AutomaticIso, "iso-surface", "surface.iso");
-        }
-        if surface.look == SurfaceLook::Phong {
-            asks.need(Quantity::SurfaceNormal, "lit iso-surface", "surface.look");
-        }
-        if surface.tones().is_some_and(|toon| toon.reads_normals()) {
-            asks.need(Quantity::SurfaceNormal, "iso-surface in tones", "surface.look");
-        }
-        if surface.silhouette.is_some() {
-            asks.need(Quantity::SurfaceNormal, "silhouettes of the iso-surface", "surface.silhouette");
-        }
-    },
-    idle: |scene, _, idle| {
-        let Some(surface) = &scene.surface else { return };
-        if surface.look == SurfaceLook::None && !scene.has_strokes() {
-            return idle.key("surface", "look = \"none\" hides strokes alone, and the scene has none");
-        }
-        if surface.look == SurfaceLook::White {
-            idle.key("surface.color", "look = \"white\" is white");
-        }
-        if surface.look != SurfaceLook::Toon {
-            idle.key("surface.toon", "look is not \"toon\"");
-        }
-        idle.key("surface.view_opacity", "the surface is opaque, and an opacity of 1 stays 1 from every side");
-    },
-    ..Table::new(
+    ..Surface::description(
         "[surface]",
         "An opaque iso-surface, where the field first has a value along each ray; what lies behind it is not seen. \
          Without [transfer] it is drawn alone.",
-        Surface::default,
-        &[
-            Key::new(
-                "iso",
-                "HATCH-14",
-                "The value; by itself that of the surface which an automatic transfer function makes opaque.",
-                &Slot { kind: IsoKind, get: |s: &Surface| Some(s.iso), set: |s, v| s.iso = v },
-            ),
-            Key::new(
-                "look",
-                "HATCH-14",
-                "How it is drawn.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new(
-                                "white",
-                                SurfaceLook::White,
-                                "White, unlit: it hides, and lines are drawn on it.",
-                            ),
-                            ChoiceOption::new(
-                                "phong",
-                                SurfaceLook::Phong,
-                                "Lit, with the constants of [shading] or their defaults.",
-                            ),
-                            ChoiceOption::new(
-                                "toon",
-                                SurfaceLook::Toon,
-                                "In tones with hard steps between them, under the light of [shading] or the scene's.",
-                            ),
-                            ChoiceOption::new("none", SurfaceLook::None, "Not at all: it hides strokes alone."),
-                        ],
-                        later: &[],
-                    },
-                    get: |s: &Surface| Some(s.look),
-                    set: |s, v| s.look = v,
-                },
-            ),
-            Key::new(
-                "color",
-                "HATCH-14",
-                "Of a lit surface.",
-                &Slot { kind: Colors, get: |s: &Surface| Some(s.color), set: |s, v| s.color = v },
-            ),
-            Key::new(
-                "toon",
-                "HATCH-15",
-                "The tones of look = \"toon\".",
-                &Slot { kind: TableOf(&SURFACE_TOON), get: |s: &Surface| s.toon.clone(), set: |s, v| s.toon = Some(v) },
-            )
-            .absent("offset 0 and two tones, `#404040` and white"),
-            Key::new(
-                "silhouette",
-                "HATCH-15",
-                "Black where the surface turns away from the eye, on any look.",
-                &Slot {
-                    kind: TableOf(&SURFACE_SILHOUETTE),
-                    get: |s: &Surface| s.silhouette,
-                    set: |s, v| s.silhouette = Some(v),
-                },
-            )
-            .absent("no silhouettes"),
-            Key::new(
-                "view_opacity",
-                "HATCH-15",
-                "s of shading.view_opacity; the surface is opaque, and its opacity stays 1 for every s.",
-                &Slot { kind: VIEW_OPACITY, get: |s: &Surface| Some(s.view_opacity), set: |s, v| s.view_opacity = v },
-            ),
-        ],
     )
 };
 
@@ -224,7 +120,8 @@ pub(crate) static TABLE: Table<Surface> = Table {
 mod tests {
     use super::*;
     use crate::file::{Overrides, parse};
-    use crate::plan::Plan;
+    use crate::plan::{Pass, Plan};
+    use crate::quantity::Quantity;
     use crate::tables::Scene;
     use std::path::Path;
 

@@ -1,27 +1,29 @@
 //! `[shading.toon]`, `[shading.silhouette]`, and the same of `[surface]` ([HATCH-15]).
 
-use crate::color::{Rgba, srgb_to_linear};
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Shape, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::item::Item;
-use crate::file::kind::{Bounds, Colors, ListOf, Number};
-use crate::file::out::Out;
-use crate::tables::{LightDirection, Shading, Surface, SurfaceLook};
-use glam::DVec3;
+use crate::color::{Rgba, opaque};
+use crate::document::check::Check;
+use crate::document::declare::table;
+use crate::document::describe::{Kind, Shape, Table};
+use crate::document::fault::Problem;
+use crate::document::item::Item;
+use crate::document::kind::{Bounds, Colors, ListOf, Number};
+use crate::document::out::Out;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-/// A table `toon`: tones with hard steps between them.
-///
-/// The tone of x = L·N + offset is the last one whose `at` is below x, and the first one where none is. So `at` of the
-/// first says nothing, and the two tones of the default are those of L·N + offset > ½.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ToonShading {
-    /// What is added to L·N.
-    pub offset: f64,
-    /// At least one, in ascending order of `at`.
-    pub tones: Vec<Tone>,
+table! {
+    /// A table `toon`: tones with hard steps between them.
+    ///
+    /// The tone of x = L·N + offset is the last one whose `at` is below x, and the first one where none is. So `at` of the
+    /// first says nothing, and the two tones of the default are those of L·N + offset > ½.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct ToonShading {
+        /// Added to L·N. With the two default tones, 0 ends the light at 60° from it, 0.5 at 90°.
+        offset: f64 = 0.0, key("HATCH-15", OFFSET);
+        /// What colours are multiplied by, each tone where L·N + offset is above its `at`; the first also below.
+        tones: Vec<Tone> = vec![Tone { at: 0.0, color: opaque([64.0; 3]) }, Tone { at: 0.5, color: [1.0; 4] }],
+            key("HATCH-15", ListOf { what: "a list of tones", each: ToneKind });
+    }
 }
 
 /// One tone.
@@ -33,18 +35,12 @@ pub struct Tone {
     pub color: Rgba,
 }
 
-/// A table `silhouette`: black where (N·V)² + offset ≤ ½.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SilhouetteShading {
-    /// What is added to (N·V)².
-    pub offset: f64,
-}
-
-impl Default for ToonShading {
-    fn default() -> Self {
-        let dark = srgb_to_linear(64.0 / 255.0);
-        let tones = vec![Tone { at: 0.0, color: [dark, dark, dark, 1.0] }, Tone { at: 0.5, color: [1.0; 4] }];
-        Self { offset: 0.0, tones }
+table! {
+    /// A table `silhouette`: black where (N·V)² + offset ≤ ½.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct SilhouetteShading {
+        /// Black where (N·V)² + offset ≤ 0.5: of a sphere's disc the share 0.5 − offset.
+        offset: f64 = 0.45, key("HATCH-15", OFFSET);
     }
 }
 
@@ -52,54 +48,6 @@ impl ToonShading {
     /// Whether the tone can depend on the normal: not of one tone.
     pub fn reads_normals(&self) -> bool {
         self.tones.len() > 1
-    }
-}
-
-impl Default for SilhouetteShading {
-    fn default() -> Self {
-        Self { offset: 0.45 }
-    }
-}
-
-/// A preset that draws an automatic iso-surface in tones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ToonPreset {
-    /// A first picture.
-    Plain,
-    /// Fig. 2.
-    Fig2,
-}
-
-impl ToonPreset {
-    /// The tables `[surface]` and `[shading]`, whose light comes from the upper left: under a head light no tone tells left
-    /// from right. Judged on real volumes, on a white page.
-    pub(crate) fn tables(self) -> (Surface, Shading) {
-        let color = |bytes: [f64; 3]| {
-            let [r, g, b] = bytes.map(|byte| srgb_to_linear(byte / 255.0));
-            [r, g, b, 1.0]
-        };
-        let grey = |at: f64, byte: f64| Tone { at, color: color([byte; 3]) };
-        let (paint, toon, silhouette) = match self {
-            // The light, a half-tone for walls that it grazes, and a shadow; lines so thin that floors seen at a slant stay.
-            Self::Plain => {
-                let tones = vec![grey(0.0, 116.0), grey(0.05, 198.0), grey(0.45, 255.0)];
-                ([231.0, 191.0, 133.0], ToonShading { offset: 0.0, tones }, SilhouetteShading { offset: 0.47 })
-            }
-            // "Half-level": the light ends at 90°.
-            Self::Fig2 => {
-                let toon = ToonShading { offset: 0.5, ..ToonShading::default() };
-                ([232.0, 224.0, 208.0], toon, SilhouetteShading::default())
-            }
-        };
-        let surface = Surface {
-            look: SurfaceLook::Toon,
-            color: color(paint),
-            toon: Some(toon),
-            silhouette: Some(silhouette),
-            ..Surface::default()
-        };
-        let light = Some(LightDirection::Eye(DVec3::new(-1.0, 1.5, 0.8)));
-        (surface, Shading { light, ..Shading::default() })
     }
 }
 
@@ -141,41 +89,12 @@ impl Kind for ToneKind {
     }
 }
 
-static TOON_KEYS: [Key<ToonShading>; 2] = [
-    Key::new(
-        "offset",
-        "HATCH-15",
-        "Added to L·N. With the two default tones, 0 ends the light at 60° from it, 0.5 at 90°.",
-        &Slot { kind: OFFSET, get: |t: &ToonShading| Some(t.offset), set: |t, v| t.offset = v },
-    ),
-    Key::new(
-        "tones",
-        "HATCH-15",
-        "What colours are multiplied by, each tone where L·N + offset is above its `at`; the first also below.",
-        &Slot {
-            kind: ListOf { what: "a list of tones", each: ToneKind },
-            get: |t: &ToonShading| Some(t.tones.clone()),
-            set: |t, v| t.tones = v,
-        },
-    ),
-];
-
-static SILHOUETTE_KEYS: [Key<SilhouetteShading>; 1] = [Key::new(
-    "offset",
-    "HATCH-15",
-    "Black where (N·V)² + offset ≤ 0.5: of a sphere's disc the share 0.5 − offset.",
-    &Slot { kind: OFFSET, get: |t: &SilhouetteShading| Some(t.offset), set: |t, v| t.offset = v },
-)];
-
 const fn toon(title: &'static str) -> Table<ToonShading> {
-    Table {
-        check: check_tones,
-        ..Table::new(title, "Tones with hard steps, by the angle to the light.", ToonShading::default, &TOON_KEYS)
-    }
+    Table { check: check_tones, ..ToonShading::description(title, "Tones with hard steps, by the angle to the light.") }
 }
 
 const fn silhouette(title: &'static str) -> Table<SilhouetteShading> {
-    Table::new(title, "Black where the surface turns away from the eye.", SilhouetteShading::default, &SILHOUETTE_KEYS)
+    SilhouetteShading::description(title, "Black where the surface turns away from the eye.")
 }
 
 /// The description of `[shading.toon]`.

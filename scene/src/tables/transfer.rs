@@ -1,110 +1,122 @@
 //! `[transfer]`: colours or styles, and opacities, over the values or over two quantities.
 
+pub use super::nodes::{Node, NodeColor};
 use super::nodes::{NodeList, Nodes, ROWS, Row};
-use super::over::{Axis, Over, OverKind};
+use super::over::{Over, OverKind};
 use super::transfer_rules as rules;
-use crate::file::check::Check;
-use crate::file::describe::{Instead, Key, Kind, Shape, Slot, Table as Description};
-use crate::file::item::Item;
-use crate::file::kind::{Choice, ChoiceOption, Whole};
-use crate::file::out::Out;
-use crate::knobs::Ladder;
-use crate::plan::{Pass, Plan, Quantity};
-use crate::tables::{Projection, Scene};
-use serde::Serialize;
+use crate::document::check::Check;
+use crate::document::declare::{choices, table};
+use crate::document::describe::{Instead, Kind, Shape, Table as Description};
+use crate::document::item::Item;
+use crate::document::kind::Whole;
+use crate::document::out::Out;
+use crate::quantity::Quantity;
 use serde_json::{Value as Json, json};
 
-/// The table `[transfer]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Transfer {
-    /// Styles or colours.
-    pub kind: TransferKind,
-    /// The value, or two quantities ([STF-4]).
-    pub over: Over,
-    /// What `at` of values is measured in; `normalized` for gradient magnitudes too.
-    pub unit: Unit,
-    /// Nodes over the value in non-decreasing order of `at`; with no rows either: an automatic function.
-    pub nodes: Option<Vec<Node>>,
-    /// Nodes over two quantities; a full grid is as many rows with the same places.
-    pub rows: Option<Vec<Row>>,
-    /// How styles become opacity ([STF-9]).
-    pub transparency: Transparency,
+table! {
+    /// The table `[transfer]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Transfer {
+        /// What a node carries.
+        kind: TransferKind = TransferKind::Style, key("STF-3", TransferKind::KIND).needs(&[Quantity::Gradient]);
+        /// What the function is over: the value, or two quantities, such as ["value", "gradient-magnitude"].
+        /// Quantities: "value"; "gradient-magnitude", in value per world unit; "label", the id of the part; "k1",
+        /// "k2", "mean", "gaussian" and "kv", curvatures in reciprocal world units; or a table with one of the keys
+        /// below. Of two "value" is best one: it tells what space is empty.
+        over: Over = Over::Value, key("STF-4", OverKind).needs(NEEDS);
+        /// What `at` of values is measured in; with "normalized" gradient magnitudes are |g|, by
+        /// `volume.gradient_range`.
+        unit: Unit = Unit::Value, key("VS-11", Unit::KIND);
+        /// Nodes in non-decreasing order of `at`. Of two at one value the later one holds at the value itself. Over
+        /// two quantities each has at = [x, y], and they form a full grid, row by row.
+        ///
+        /// A full grid is kept as rows. With no rows either the function is automatic.
+        nodes: Option<Vec<Node>> = None, key("STF-3", Nodes,
+            |t| t.nodes.clone().map(NodeList::Line),
+            |t, list| match list {
+                NodeList::Line(nodes) => t.nodes = Some(nodes),
+                NodeList::Grid(rows) => t.rows = Some(rows),
+            }).absent("`rows`, or an automatic function");
+        /// Nodes over two quantities: each row has its own over the first one. Between rows the function is
+        /// interpolated; a label without a row shows nothing.
+        rows: Option<Vec<Row>> = None, key("STF-4", ROWS).absent("`nodes`");
+        /// How a style's opacity and the node's become one.
+        transparency: Transparency = Transparency::Illustrative,
+            key("STF-9", Transparency::KIND).needs(&[Quantity::GradientMagnitudeRange]);
+        /// How two styles mix.
+        mix: Mix = Mix::Premultiplied, key("STF-3", Mix::KIND);
+        /// Frame of the lit sphere.
+        sphere_frame: SphereFrame = SphereFrame::Eye, key("STF-1", SphereFrame::KIND);
+        /// How the function is evaluated: exactly, or from a table of so many entries over the range of values, as
+        /// graphics hardware does.
+        table: Table = Table::Exact, key("STF-3", Evaluation);
+    }
+}
+
+/// What the quantities of `over` can need.
+const NEEDS: &[Quantity] = &[
+    Quantity::Gradient,
+    Quantity::GradientMagnitudeRange,
+    Quantity::PreviousNormal,
+    Quantity::Hessian,
+    Quantity::Label,
+];
+
+choices! {
+    /// What a node carries.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum TransferKind {
+        /// A style.
+        Style = "style",
+        /// A colour.
+        Regular = "regular",
+    }
+}
+
+choices! {
+    /// What the values of the nodes are measured in.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Unit {
+        /// Data values, as the file gives them.
+        Value = "value",
+        /// The volume's range mapped to 0 … 1.
+        Normalized = "normalized",
+        /// The volume's percentiles, 0 … 100.
+        Percentile = "percentile",
+    }
+}
+
+choices! {
+    /// How α_u and α_d become α ([STF-9]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Transparency {
+        /// Faces turned to the eye become clearer than rims.
+        Illustrative = "illustrative",
+        /// Their product.
+        Plain = "plain",
+    }
+}
+
+choices! {
     /// How two styles mix ([STF-3]).
-    pub mix: Mix,
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Mix {
+        /// Colours weighted by opacity.
+        Premultiplied = "premultiplied",
+        /// Straight colours, as printed.
+        Printed = "printed",
+    }
+}
+
+choices! {
     /// Frame of the lit sphere ([STF-1]).
-    pub sphere_frame: SphereFrame,
-    /// Exact evaluation or a table ([STF-3]).
-    pub table: Table,
-}
-
-/// What a node carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TransferKind {
-    /// A style ([STF-3]).
-    Style,
-    /// A colour ([STF-11]).
-    Regular,
-}
-
-/// What the values of the nodes are measured in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unit {
-    /// Data values, after slope and intercept ([VAL-1]).
-    Value,
-    /// The volume's range mapped to [0, 1] ([VAL-1]).
-    Normalized,
-    /// The volume's percentiles.
-    Percentile,
-}
-
-/// One node of a transfer function.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Node {
-    /// The value, or the first of two quantities.
-    pub at: f64,
-    /// Style or colour.
-    pub color: NodeColor,
-    /// α_u per reference length; an `#rrggbbaa` colour has already been multiplied in.
-    pub opacity: f64,
-}
-
-/// What a node shows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NodeColor {
-    /// The name of a style.
-    Style(String),
-    /// Linear straight red, green, blue.
-    Color([f64; 3]),
-}
-
-/// How α_u and α_d become α ([STF-9]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Transparency {
-    /// Eq. 2.
-    Illustrative,
-    /// α_d · α_u.
-    Plain,
-}
-
-/// How two styles mix ([STF-3]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Mix {
-    /// Premultiplied.
-    Premultiplied,
-    /// Straight RGBA, as printed in 4.1.
-    Printed,
-}
-
-/// Frame of the lit sphere ([STF-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SphereFrame {
-    /// Eye space; the paper's.
-    Eye,
-    /// Eye space turned so that v is +z.
-    View,
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SphereFrame {
+        /// Eye space.
+        Eye = "eye",
+        /// Turned so that silhouettes lie on the rim.
+        View = "view",
+    }
 }
 
 /// How the transfer function is evaluated ([STF-3]).
@@ -119,17 +131,7 @@ pub enum Table {
 impl Transfer {
     /// An automatic function of that kind.
     pub fn automatic(kind: TransferKind) -> Self {
-        Self {
-            kind,
-            over: Over::Value,
-            unit: Unit::Value,
-            nodes: None,
-            rows: None,
-            transparency: Transparency::Illustrative,
-            mix: Mix::Premultiplied,
-            sphere_frame: SphereFrame::Eye,
-            table: Table::Exact,
-        }
+        Self { kind, ..Self::default() }
     }
 
     /// Whether the function is left to be found from the data.
@@ -156,192 +158,12 @@ pub(crate) static TABLE: Description<Transfer> = Description {
             rules::percentiles(transfer, check);
         }
     },
-    asks: |scene, asks| {
-        let Some(transfer) = scene.transfer.as_ref().filter(|_| asks.casts_rays()) else { return };
-        asks.need(Quantity::Value, "transfer function", "transfer");
-        if transfer.is_automatic() {
-            asks.pass(Pass::AutomaticTransfer, "automatic function", "transfer.nodes");
-        }
-        if transfer.over != Over::Value {
-            transfer.over.axes().iter().for_each(|axis| axis.asks(scene, transfer.unit, asks));
-        }
-        if transfer.kind == TransferKind::Style {
-            asks.need(Quantity::Gradient, "styles", "transfer.kind");
-            if transfer.transparency == Transparency::Illustrative {
-                asks.need(Quantity::GradientMagnitudeRange, "illustrative transparency", "transfer.transparency");
-            }
-        }
-    },
-    idle: |scene, _, idle| {
-        let Some(transfer) = &scene.transfer else { return };
-        if transfer.is_automatic() {
-            idle.key("transfer.unit", "an automatic function has no nodes to measure");
-        } else if !transfer.over.axes().iter().any(|axis| matches!(axis, Axis::Value | Axis::GradientMagnitude)) {
-            idle.key("transfer.unit", "it measures values and gradient magnitudes, and the function is over others");
-        }
-        if transfer.over != Over::Value {
-            idle.key("transfer.table", "a function over two quantities is evaluated exactly");
-        }
-        if transfer.kind == TransferKind::Regular {
-            for key in ["transfer.transparency", "transfer.mix", "transfer.sphere_frame"] {
-                idle.key(key, "it acts on styles, and the function is regular");
-            }
-        } else if matches!(scene.camera.projection, Projection::Orthographic { .. }) {
-            idle.key("transfer.sphere_frame", "both frames are the same in an orthographic picture");
-        }
-    },
-    ..Description::new(
+    ..Transfer::description(
         "[transfer]",
         "Colours or styles, and opacities, over the values or over two quantities. Without `nodes` and `rows` the \
          function is automatic.",
-        || Transfer::automatic(TransferKind::Style),
-        &[
-            Key::new(
-                "kind",
-                "STF-3",
-                "What a node carries.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("style", TransferKind::Style, "A style."),
-                            ChoiceOption::new("regular", TransferKind::Regular, "A colour."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.kind),
-                    set: |t, v| t.kind = v,
-                },
-            )
-            .needs(&[Quantity::Gradient]),
-            Key::new(
-                "over",
-                "STF-4",
-                "What the function is over: the value, or two quantities, such as [\"value\", \"gradient-magnitude\"]. \
-                 Quantities: \"value\"; \"gradient-magnitude\", in value per world unit; \"label\", the id of the part; \
-                 \"k1\", \"k2\", \"mean\", \"gaussian\" and \"kv\", curvatures in reciprocal world units; or a table with \
-                 one of the keys below. Of two \"value\" is best one: it tells what space is empty.",
-                &Slot { kind: OverKind, get: |t: &Transfer| Some(t.over.clone()), set: |t, v| t.over = v },
-            )
-            .needs(&[
-                Quantity::Gradient,
-                Quantity::GradientMagnitudeRange,
-                Quantity::PreviousNormal,
-                Quantity::Hessian,
-                Quantity::Label,
-            ]),
-            Key::new(
-                "unit",
-                "VS-11",
-                "What `at` of values is measured in; with \"normalized\" gradient magnitudes are |g|, by \
-                 `volume.gradient_range`.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("value", Unit::Value, "Data values, as the file gives them."),
-                            ChoiceOption::new("normalized", Unit::Normalized, "The volume's range mapped to 0 … 1."),
-                            ChoiceOption::new("percentile", Unit::Percentile, "The volume's percentiles, 0 … 100."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.unit),
-                    set: |t, v| t.unit = v,
-                },
-            ),
-            Key::new(
-                "nodes",
-                "STF-3",
-                "Nodes in non-decreasing order of `at`. Of two at one value the later one holds at the value itself. \
-                 Over two quantities each has at = [x, y], and they form a full grid, row by row.",
-                &Slot {
-                    kind: Nodes,
-                    get: |t: &Transfer| t.nodes.clone().map(NodeList::Line),
-                    set: |t, list| match list {
-                        NodeList::Line(nodes) => t.nodes = Some(nodes),
-                        NodeList::Grid(rows) => t.rows = Some(rows),
-                    },
-                },
-            )
-            .absent("`rows`, or an automatic function"),
-            Key::new(
-                "rows",
-                "STF-4",
-                "Nodes over two quantities: each row has its own over the first one. Between rows the function is \
-                 interpolated; a label without a row shows nothing.",
-                &Slot { kind: ROWS, get: |t: &Transfer| t.rows.clone(), set: |t, v| t.rows = Some(v) },
-            )
-            .absent("`nodes`"),
-            Key::new(
-                "transparency",
-                "STF-9",
-                "How a style's opacity and the node's become one.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new(
-                                "illustrative",
-                                Transparency::Illustrative,
-                                "Faces turned to the eye become clearer than rims.",
-                            ),
-                            ChoiceOption::new("plain", Transparency::Plain, "Their product."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.transparency),
-                    set: |t, v| t.transparency = v,
-                },
-            )
-            .needs(&[Quantity::GradientMagnitudeRange]),
-            Key::new(
-                "mix",
-                "STF-3",
-                "How two styles mix.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("premultiplied", Mix::Premultiplied, "Colours weighted by opacity."),
-                            ChoiceOption::new("printed", Mix::Printed, "Straight colours, as printed."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.mix),
-                    set: |t, v| t.mix = v,
-                },
-            ),
-            Key::new(
-                "sphere_frame",
-                "STF-1",
-                "Frame of the lit sphere.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("eye", SphereFrame::Eye, "Eye space."),
-                            ChoiceOption::new("view", SphereFrame::View, "Turned so that silhouettes lie on the rim."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &Transfer| Some(t.sphere_frame),
-                    set: |t, v| t.sphere_frame = v,
-                },
-            ),
-            Key::new(
-                "table",
-                "STF-3",
-                "How the function is evaluated: exactly, or from a table of so many entries over the range of values, as \
-                 graphics hardware does.",
-                &Slot { kind: Evaluation, get: |t: &Transfer| Some(t.table), set: |t, v| t.table = v },
-            )
-            .knob(Ladder::to_finest(|scene, plan, _| tables(scene, plan))),
-        ],
     )
 };
-
-/// Sizes that graphics hardware has, where the function is over one quantity.
-fn tables(scene: &Scene, plan: &Plan) -> &'static [&'static str] {
-    match scene.transfer.as_ref().filter(|_| plan.has_pass(Pass::Rays)) {
-        Some(transfer) if transfer.over == Over::Value => &["64", "256", "1024", "4096", "exact"],
-        _ => &[],
-    }
-}
 
 /// `"exact"`, or a number of entries.
 struct Evaluation;

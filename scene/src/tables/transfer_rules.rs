@@ -3,8 +3,8 @@
 use super::nodes::{Row, RowAt, Stand};
 use super::over::{Axis, Over};
 use super::transfer::{Transfer, TransferKind, Unit};
-use crate::file::Problem;
-use crate::file::check::Check;
+use crate::document::Problem;
+use crate::document::check::Check;
 
 /// The keys of every node that the document has, such as `nodes[2]` or `rows[0].nodes[1]`.
 fn keys_of_nodes(check: &Check) -> Vec<String> {

@@ -11,11 +11,13 @@ pub mod info;
 pub mod labels;
 mod mask;
 pub mod quantile;
+mod raw_layout;
 pub mod read;
 pub mod write;
 
 pub use bricks::{BRICK, BrickRow, Bricks};
 pub use mask::Mask;
+pub use raw_layout::RawLayout;
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 
 use crate::space::Grid;

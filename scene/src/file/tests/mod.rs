@@ -9,7 +9,7 @@ mod round_trip;
 mod schema;
 
 use super::*;
-use crate::file::describe::{Section, SectionKey};
+use crate::document::describe::{Section, SectionKey};
 
 /// A scene file's first lines.
 const HEAD: &str = "drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n";

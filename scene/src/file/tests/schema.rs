@@ -66,7 +66,7 @@ fn every_key_is_in_the_schema_with_its_documentation_and_default() {
             }
         }
         let doc = at["description"].as_str().unwrap_or_else(|| panic!("{path} is not in the schema"));
-        assert!(doc.starts_with(key.doc), "{path}: {doc}");
+        assert!(doc.starts_with(&key.doc), "{path}: {doc}");
         if let Some(default) = at.get("default") {
             assert!(valid(at, default), "{path}: its default {default} is not as {at}");
         }

@@ -1,7 +1,7 @@
 //! The presets of hatching ([HATCH-17]).
 
 use super::{Hatching, Hidden, LineLighting, SeedsBy, Spacing, StrokeStyle};
-use crate::color::{Rgba, srgb_to_linear};
+use crate::color::opaque;
 use crate::tables::{Length, LightDirection, Outlines, Shading, Surface, SurfaceLook};
 use glam::DVec3;
 
@@ -28,7 +28,7 @@ impl HatchPreset {
 
     /// The surface under it, with its shading.
     pub(crate) fn surface(self) -> Option<(Surface, Shading)> {
-        let surface = Surface { look: SurfaceLook::Phong, color: color([228.0, 220.0, 203.0]), ..Surface::default() };
+        let surface = Surface { look: SurfaceLook::Phong, color: opaque([228.0, 220.0, 203.0]), ..Surface::default() };
         let shading = Shading { light: Some(upper_left()), ..Shading::default() };
         (self == Self::Fig4).then_some((surface, shading))
     }
@@ -43,8 +43,8 @@ impl HatchPreset {
         // Seen on a white page.
         let bright = LineLighting {
             diffuse: 1.0,
-            front: color([48.0, 96.0, 224.0]),
-            back: color([216.0, 168.0, 24.0]),
+            front: opaque([48.0, 96.0, 224.0]),
+            back: opaque([216.0, 168.0, 24.0]),
             ..LineLighting::default()
         };
         match self {
@@ -74,10 +74,4 @@ impl HatchPreset {
 /// Light from over the left shoulder, in eye space.
 fn upper_left() -> LightDirection {
     LightDirection::Eye(DVec3::new(-1.0, 1.5, 0.8))
-}
-
-/// Of sRGB's bytes.
-fn color(bytes: [f64; 3]) -> Rgba {
-    let [r, g, b] = bytes.map(|byte| srgb_to_linear(byte / 255.0));
-    [r, g, b, 1.0]
 }

@@ -2,20 +2,193 @@
 
 use super::directions::DIRECTIONS;
 use super::lighting::LIGHTING;
-use super::rules;
 use super::stroke::STROKE;
-use super::{Family, HatchIso, HatchStyle, Hatching, Hidden, Measure, SeedsBy, Spacing};
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Shape, Slot, Table};
-use crate::file::item::Item;
-use crate::file::kind::{
-    Bounds, Choice, ChoiceOption, Colors, End, Flag, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole,
-};
-use crate::file::out::Out;
-use crate::knobs::Ladder;
-use crate::plan::{Pass, Plan};
+use super::{Directions, LineLighting, StrokeStyle};
+use crate::color::Rgba;
+use crate::document::check::Check;
+use crate::document::declare::{choices, table};
+use crate::document::describe::{Kind, Shape, Table};
+use crate::document::item::Item;
+use crate::document::kind::{Bounds, Colors, End, Flag, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole};
+use crate::document::out::Out;
 use crate::tables::surface::IsoKind;
+use crate::tables::{Iso, Length};
 use serde_json::{Value as Json, json};
+
+table! {
+    /// The table `[hatching]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Hatching {
+        /// The value of the surface; by itself that which an automatic transfer function makes opaque. "transfer":
+        /// strokes wherever [transfer] shows something, as opaque as that, each on the surface through its seed.
+        iso: HatchIso = HatchIso::Surface(Iso::Auto), key("HATCH-6", HatchIsoKind);
+        /// Of a stroke.
+        ///
+        /// In the world.
+        length: Length = Length::Voxels(40.0), key("HATCH-8", WORLD_LENGTH);
+        /// How far a step of the integration may miss.
+        ///
+        /// In the world.
+        tolerance: Length = Length::Voxels(0.01), key("HATCH-8", WORLD_LENGTH);
+        /// In which cells of the surface strokes begin.
+        seeds: SeedsBy = SeedsBy::Curvature, key("HATCH-6", SeedsBy::KIND);
+        /// Key of the random numbers.
+        seed: u64 = 1, key("RAY-4", Whole { lo: 0, hi: i64::MAX as u64 });
+        /// The angle between normal and light beyond which a second stroke crosses the first; where the tone is in the
+        /// spacing, a tone above 0.6 does.
+        ///
+        /// In degrees.
+        cross: Option<f64> = None, key("HATCH-11", ANGLE).absent("no stroke is crossed");
+        /// Its length, as a share of `length`.
+        cross_length: f64 = 0.5, key("HATCH-11", SHARE);
+        /// Of the widest strokes.
+        ///
+        /// In mm or px.
+        width: Length = Length::Millimetres(0.25), key("HATCH-13", PAGE_LENGTH);
+        /// Of the strokes.
+        ///
+        /// Linear, straight.
+        color: Rgba = [0.0, 0.0, 0.0, 1.0], key("HATCH-13", Colors);
+        /// The pen of `[[pen]]` that draws the strokes: its nib is their width.
+        pen: Option<String> = None,
+            key("HATCH-13", Text { what: "the name of a pen" }).absent("`color`, in strokes of any width");
+        /// The pen of `[[pen]]` that draws what crosses.
+        cross_pen: Option<String> = None,
+            key("HATCH-11", Text { what: "the name of a pen" })
+                .absent("what draws the others; without a `pen` a layer of its own, `cross`");
+        /// What κ of p is, times the smallest spacing and at most 1.
+        measure: Measure = Measure::Mean, key("HATCH-6", Measure::KIND);
+        /// C₀: p = 0 where κ is not above it.
+        min_curvature: f64 = 0.02, key("HATCH-6", SHARE);
+        /// C₁: p = 0 where |∇| is not above it.
+        min_gradient: f64 = 0.05, key("HATCH-6", SHARE);
+        /// Which of the two directions a stroke follows, from end to end.
+        family: Family = Family::Larger, key("HATCH-8", Family::KIND);
+        /// How far a stroke may turn from its first direction; 180 is any way.
+        ///
+        /// In degrees.
+        max_angle: f64 = 90.0, key("HATCH-8", TURN);
+        /// The smallest step; a stroke that needs a smaller one ends.
+        ///
+        /// In the world.
+        min_step: Length = Length::Voxels(0.01), key("HATCH-8", WORLD_LENGTH);
+        /// δ, how far strokes lie before the surface.
+        ///
+        /// In the world.
+        offset: Length = Length::Voxels(0.15), key("HATCH-7", NOT_NEGATIVE);
+        /// c, the most that straight segments may leave a stroke by.
+        ///
+        /// In the world.
+        chord: Length = Length::Voxels(0.1), key("HATCH-10", WORLD_LENGTH);
+        /// Whether SVG and PDF have all lines of the page as cubic Béziers, smooth through the ends of their straight
+        /// segments, instead of these.
+        beziers: bool = false, key("HATCH-10", Flag);
+        /// How far strokes are apart on the page: as their seeds fall; so far that their width over it is the tone; or
+        /// the same everywhere. On the mean: two may come as near as 0.6 of it.
+        spacing: Spacing = Spacing::Random, key("HATCH-19", SpacingKind);
+        /// How far strokes end before a nearer line that crosses them, from middle to middle; outlines of the same page
+        /// count, and are not cut themselves.
+        ///
+        /// In mm or px.
+        gap: Option<Length> = None, key("HATCH-20", PAGE_LENGTH).absent("no gaps");
+        /// How much nearer to the eye that line has to be.
+        ///
+        /// In the world.
+        gap_depth: Length = Length::Voxels(2.0), key("HATCH-20", NOT_NEGATIVE);
+        /// What becomes of what a surface hides of strokes.
+        hidden: Hidden = Hidden::Cut, key("HATCH-14", Hidden::KIND);
+        /// What strokes look like; the keys of [hatching.stroke] go over it.
+        style: HatchStyle = HatchStyle::Ink, key("HATCH-13", HatchStyle::KIND);
+        /// How a stroke is drawn.
+        stroke: StrokeStyle = StrokeStyle::default(), key("HATCH-13", TableOf(&STROKE));
+        /// Where surfaces have directions.
+        directions: Directions = Directions::default(), key("HATCH-3", TableOf(&DIRECTIONS));
+        /// Light on the strokes, in two colours.
+        lighting: Option<LineLighting> = None, key("HATCH-12", TableOf(&LIGHTING)).absent("`color` everywhere");
+    }
+}
+
+/// `iso` ([HATCH-16]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HatchIso {
+    /// Strokes lie on one surface.
+    Surface(Iso),
+    /// They lie wherever the transfer function shows something, each on the surface through its seed.
+    Transfer,
+}
+
+choices! {
+    /// `seeds` ([HATCH-6]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SeedsBy {
+        /// By chance: p = ½(κ + |∇|), of their 2×2×2 cells.
+        Curvature = "curvature",
+        /// In every one.
+        Dense = "dense",
+    }
+}
+
+choices! {
+    /// `measure` ([HATCH-6]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Measure {
+        /// |κ₁ + κ₂|/2: the paper's.
+        Mean = "mean",
+        /// √((κ₁² + κ₂²)/2), which minimal surfaces have, too.
+        Curvedness = "curvedness",
+    }
+}
+
+choices! {
+    /// `family` ([HATCH-8]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Family {
+        /// That of the larger |κ| where it begins.
+        Larger = "larger",
+        /// That of the larger κ, by value.
+        Max = "max",
+        /// That of the smaller κ.
+        Min = "min",
+    }
+}
+
+choices! {
+    /// `hidden` ([HATCH-14]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Hidden {
+        /// It is cut off.
+        Cut = "cut",
+        /// It is drawn, too: the nearer strokes over the others, as in Fig. 5.
+        Drawn = "drawn",
+        /// It is seen as far as what lies before it lets light through: strokes are inside the picture of the volume,
+        /// each at its depth.
+        Merged = "merged",
+    }
+}
+
+choices! {
+    /// `style` ([HATCH-13]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum HatchStyle {
+        /// As wide as the shade is dark, with thin ends.
+        Ink = "ink",
+        /// As dense as the shade is dark, on grainy paper: opacity τ times a random grain.
+        Pencil = "pencil",
+        /// As wide as the shade is dark, with blunt ends.
+        Engraving = "engraving",
+    }
+}
+
+/// `spacing` ([HATCH-19]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spacing {
+    /// As the seeds fall: the paper's.
+    Random,
+    /// A pen's width over the tone.
+    Tone,
+    /// The same everywhere, on the page.
+    Length(Length),
+}
 
 /// Degrees of an angle between two directions.
 const ANGLE: Number = Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" };
@@ -23,14 +196,6 @@ const TURN: Number = Number { bounds: Bounds { lo: End::Out(0.0), hi: End::In(18
 const SHARE: Number = Number { bounds: Bounds::UNIT, unit: "" };
 const PAGE_LENGTH: Lengths = Lengths { on: On::Page, bounds: Bounds::POSITIVE };
 const NOT_NEGATIVE: Lengths = Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE };
-
-/// Settings of `tolerance` and of `chord`.
-const TOLERANCES: &[&str] = &["0.1 voxels", "0.03 voxels", "0.01 voxels", "0.003 voxels", "0.001 voxels"];
-const CHORDS: &[&str] = &["0.4 voxels", "0.2 voxels", "0.1 voxels", "0.05 voxels", "0.01 voxels"];
-
-fn of_strokes(plan: &Plan, settings: &'static [&'static str]) -> &'static [&'static str] {
-    if plan.has_pass(Pass::Strokes) { settings } else { &[] }
-}
 
 /// A value of the volume, or what is in place of one.
 struct HatchIsoKind;
@@ -101,289 +266,8 @@ impl Kind for SpacingKind {
 }
 
 /// The description of `[hatching]`.
-pub(crate) static TABLE: Table<Hatching> = Table {
-    asks: rules::asks,
-    idle: rules::idle,
-    ..Table::new(
-        "[hatching]",
-        "Strokes along the lines of curvature of an iso-surface. What the surface of [surface], or else their own, hides is \
+pub(crate) static TABLE: Table<Hatching> = Hatching::description(
+    "[hatching]",
+    "Strokes along the lines of curvature of an iso-surface. What the surface of [surface], or else their own, hides is \
          not drawn.",
-        Hatching::default,
-        &[
-            Key::new(
-                "iso",
-                "HATCH-6",
-                "The value of the surface; by itself that which an automatic transfer function makes opaque. \"transfer\": \
-                 strokes wherever [transfer] shows something, as opaque as that, each on the surface through its seed.",
-                &Slot { kind: HatchIsoKind, get: |h: &Hatching| Some(h.iso), set: |h, v| h.iso = v },
-            ),
-            Key::new(
-                "length",
-                "HATCH-8",
-                "Of a stroke.",
-                &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.length), set: |h, v| h.length = v },
-            ),
-            Key::new(
-                "tolerance",
-                "HATCH-8",
-                "How far a step of the integration may miss.",
-                &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.tolerance), set: |h, v| h.tolerance = v },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_strokes(plan, TOLERANCES))),
-            Key::new(
-                "seeds",
-                "HATCH-6",
-                "In which cells of the surface strokes begin.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new(
-                                "curvature",
-                                SeedsBy::Curvature,
-                                "By chance: p = ½(κ + |∇|), of their 2×2×2 cells.",
-                            ),
-                            ChoiceOption::new("dense", SeedsBy::Dense, "In every one."),
-                        ],
-                        later: &[],
-                    },
-                    get: |h: &Hatching| Some(h.seeds),
-                    set: |h, v| h.seeds = v,
-                },
-            ),
-            Key::new(
-                "seed",
-                "RAY-4",
-                "Key of the random numbers.",
-                &Slot {
-                    kind: Whole { lo: 0, hi: i64::MAX as u64 },
-                    get: |h: &Hatching| Some(h.seed),
-                    set: |h, v| h.seed = v,
-                },
-            ),
-            Key::new(
-                "cross",
-                "HATCH-11",
-                "The angle between normal and light beyond which a second stroke crosses the first; where the tone is in the \
-                 spacing, a tone above 0.6 does.",
-                &Slot { kind: ANGLE, get: |h: &Hatching| h.cross, set: |h, v| h.cross = Some(v) },
-            )
-            .absent("no stroke is crossed"),
-            Key::new(
-                "cross_length",
-                "HATCH-11",
-                "Its length, as a share of `length`.",
-                &Slot { kind: SHARE, get: |h: &Hatching| Some(h.cross_length), set: |h, v| h.cross_length = v },
-            ),
-            Key::new(
-                "width",
-                "HATCH-13",
-                "Of the widest strokes.",
-                &Slot { kind: PAGE_LENGTH, get: |h: &Hatching| Some(h.width), set: |h, v| h.width = v },
-            ),
-            Key::new(
-                "color",
-                "HATCH-13",
-                "Of the strokes.",
-                &Slot { kind: Colors, get: |h: &Hatching| Some(h.color), set: |h, v| h.color = v },
-            ),
-            Key::new(
-                "pen",
-                "HATCH-13",
-                "The pen of `[[pen]]` that draws the strokes: its nib is their width.",
-                &Slot {
-                    kind: Text { what: "the name of a pen" },
-                    get: |h: &Hatching| h.pen.clone(),
-                    set: |h, v| h.pen = Some(v),
-                },
-            )
-            .absent("`color`, in strokes of any width"),
-            Key::new(
-                "cross_pen",
-                "HATCH-11",
-                "The pen of `[[pen]]` that draws what crosses.",
-                &Slot {
-                    kind: Text { what: "the name of a pen" },
-                    get: |h: &Hatching| h.cross_pen.clone(),
-                    set: |h, v| h.cross_pen = Some(v),
-                },
-            )
-            .absent("what draws the others; without a `pen` a layer of its own, `cross`"),
-            Key::new(
-                "measure",
-                "HATCH-6",
-                "What κ of p is, times the smallest spacing and at most 1.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("mean", Measure::Mean, "|κ₁ + κ₂|/2: the paper's."),
-                            ChoiceOption::new(
-                                "curvedness",
-                                Measure::Curvedness,
-                                "√((κ₁² + κ₂²)/2), which minimal surfaces have, too.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |h: &Hatching| Some(h.measure),
-                    set: |h, v| h.measure = v,
-                },
-            ),
-            Key::new(
-                "min_curvature",
-                "HATCH-6",
-                "C₀: p = 0 where κ is not above it.",
-                &Slot { kind: SHARE, get: |h: &Hatching| Some(h.min_curvature), set: |h, v| h.min_curvature = v },
-            ),
-            Key::new(
-                "min_gradient",
-                "HATCH-6",
-                "C₁: p = 0 where |∇| is not above it.",
-                &Slot { kind: SHARE, get: |h: &Hatching| Some(h.min_gradient), set: |h, v| h.min_gradient = v },
-            ),
-            Key::new(
-                "family",
-                "HATCH-8",
-                "Which of the two directions a stroke follows, from end to end.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("larger", Family::Larger, "That of the larger |κ| where it begins."),
-                            ChoiceOption::new("max", Family::Max, "That of the larger κ, by value."),
-                            ChoiceOption::new("min", Family::Min, "That of the smaller κ."),
-                        ],
-                        later: &[],
-                    },
-                    get: |h: &Hatching| Some(h.family),
-                    set: |h, v| h.family = v,
-                },
-            ),
-            Key::new(
-                "max_angle",
-                "HATCH-8",
-                "How far a stroke may turn from its first direction; 180 is any way.",
-                &Slot { kind: TURN, get: |h: &Hatching| Some(h.max_angle), set: |h, v| h.max_angle = v },
-            ),
-            Key::new(
-                "min_step",
-                "HATCH-8",
-                "The smallest step; a stroke that needs a smaller one ends.",
-                &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.min_step), set: |h, v| h.min_step = v },
-            ),
-            Key::new(
-                "offset",
-                "HATCH-7",
-                "δ, how far strokes lie before the surface.",
-                &Slot { kind: NOT_NEGATIVE, get: |h: &Hatching| Some(h.offset), set: |h, v| h.offset = v },
-            ),
-            Key::new(
-                "chord",
-                "HATCH-10",
-                "c, the most that straight segments may leave a stroke by.",
-                &Slot { kind: WORLD_LENGTH, get: |h: &Hatching| Some(h.chord), set: |h, v| h.chord = v },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_strokes(plan, CHORDS))),
-            Key::new(
-                "beziers",
-                "HATCH-10",
-                "Whether SVG and PDF have all lines of the page as cubic Béziers, smooth through the ends of their straight \
-                 segments, instead of these.",
-                &Slot { kind: Flag, get: |h: &Hatching| Some(h.beziers), set: |h, v| h.beziers = v },
-            ),
-            Key::new(
-                "spacing",
-                "HATCH-19",
-                "How far strokes are apart on the page: as their seeds fall; so far that their width over it is the tone; or \
-                 the same everywhere. On the mean: two may come as near as 0.6 of it.",
-                &Slot { kind: SpacingKind, get: |h: &Hatching| Some(h.spacing), set: |h, v| h.spacing = v },
-            ),
-            Key::new(
-                "gap",
-                "HATCH-20",
-                "How far strokes end before a nearer line that crosses them, from middle to middle; outlines of the same page \
-                 count, and are not cut themselves.",
-                &Slot { kind: PAGE_LENGTH, get: |h: &Hatching| h.gap, set: |h, v| h.gap = Some(v) },
-            )
-            .absent("no gaps"),
-            Key::new(
-                "gap_depth",
-                "HATCH-20",
-                "How much nearer to the eye that line has to be.",
-                &Slot { kind: NOT_NEGATIVE, get: |h: &Hatching| Some(h.gap_depth), set: |h, v| h.gap_depth = v },
-            ),
-            Key::new(
-                "hidden",
-                "HATCH-14",
-                "What becomes of what a surface hides of strokes.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("cut", Hidden::Cut, "It is cut off."),
-                            ChoiceOption::new(
-                                "drawn",
-                                Hidden::Drawn,
-                                "It is drawn, too: the nearer strokes over the others, as in Fig. 5.",
-                            ),
-                            ChoiceOption::new(
-                                "merged",
-                                Hidden::Merged,
-                                "It is seen as far as what lies before it lets light through: strokes are inside the \
-                                 picture of the volume, each at its depth.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |h: &Hatching| Some(h.hidden),
-                    set: |h, v| h.hidden = v,
-                },
-            ),
-            Key::new(
-                "style",
-                "HATCH-13",
-                "What strokes look like; the keys of [hatching.stroke] go over it.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("ink", HatchStyle::Ink, "As wide as the shade is dark, with thin ends."),
-                            ChoiceOption::new(
-                                "pencil",
-                                HatchStyle::Pencil,
-                                "As dense as the shade is dark, on grainy paper: opacity τ times a random grain.",
-                            ),
-                            ChoiceOption::new(
-                                "engraving",
-                                HatchStyle::Engraving,
-                                "As wide as the shade is dark, with blunt ends.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |h: &Hatching| Some(h.style),
-                    set: |h, v| h.style = v,
-                },
-            ),
-            Key::new(
-                "stroke",
-                "HATCH-13",
-                "How a stroke is drawn.",
-                &Slot { kind: TableOf(&STROKE), get: |h: &Hatching| Some(h.stroke), set: |h, v| h.stroke = v },
-            ),
-            Key::new(
-                "directions",
-                "HATCH-3",
-                "Where surfaces have directions.",
-                &Slot {
-                    kind: TableOf(&DIRECTIONS),
-                    get: |h: &Hatching| Some(h.directions),
-                    set: |h, v| h.directions = v,
-                },
-            ),
-            Key::new(
-                "lighting",
-                "HATCH-12",
-                "Light on the strokes, in two colours.",
-                &Slot { kind: TableOf(&LIGHTING), get: |h: &Hatching| h.lighting, set: |h, v| h.lighting = Some(v) },
-            )
-            .absent("`color` everywhere"),
-        ],
-    )
-};
+);

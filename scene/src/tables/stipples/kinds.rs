@@ -1,13 +1,42 @@
 //! The types of value that `[stipples]` alone has.
 
-use super::{DotColor, PointsPerPixel, Threshold};
-use crate::file::check::Check;
-use crate::file::describe::{Kind, Shape};
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Colors, Number, nearest_color, parse_color};
-use crate::file::out::Out;
+use crate::color::Rgba;
+use crate::document::check::Check;
+use crate::document::describe::{Kind, Shape};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Bounds, Colors, Number, nearest_color, parse_color};
+use crate::document::out::Out;
 use crate::tables::volume::quantile;
 use serde_json::{Value as Json, json};
+
+/// `k_max` ([STIP-3], [STIP-17]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointsPerPixel {
+    /// Points of a voxel for each pixel, or square of side S_max, of its projection.
+    Number(f64),
+    /// As many as print the coverage 0.9 where T = 1.
+    Auto,
+}
+
+/// `threshold` ([STIP-4]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Threshold {
+    /// A ‖∇V‖ of [VAL-2].
+    Magnitude(f64),
+    /// The quantile of ‖g‖ over the voxels with a normal.
+    Quantile(f64),
+}
+
+/// `color` ([STIP-16]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DotColor {
+    /// One colour: linear, straight.
+    Fixed(Rgba),
+    /// That of the transfer function at the voxel's V; of a style where it faces the eye.
+    Transfer,
+    /// That of the voxel's label: of the most opaque node of its row in the transfer function.
+    Label,
+}
 
 /// A share that a factor has, k_gc and the like.
 pub(super) const SHARE: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };

@@ -1,312 +1,152 @@
 //! The description of `[stipples]`.
 
-use super::kinds::{DotColors, PointsPerPixelKind, ThresholdKind};
-use super::{
-    Even, FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples,
-    curves::CURVES,
-    factors::{BOUNDARY, DISTANCE, INTERIOR, LIGHTING, RESOLUTION, SILHOUETTE},
-    rules,
+use super::curves::{CURVES, Curves};
+use super::factors::{
+    BOUNDARY, Boundary, DISTANCE, Distance, INTERIOR, Interior, LIGHTING, Lighting, RESOLUTION, Resolution, SILHOUETTE,
+    Silhouette,
 };
-use crate::file::describe::{Key, Slot, Table};
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Flag, Lengths, On, TableOf, Text, Whole};
-use crate::knobs::Ladder;
-use crate::plan::{Pass, Plan};
+use super::kinds::{DotColor, DotColors, PointsPerPixel, PointsPerPixelKind, Threshold, ThresholdKind};
+use crate::document::declare::{choices, table};
+use crate::document::describe::Table;
+use crate::document::kind::{Bounds, Flag, Lengths, On, TableOf, Text, Whole};
 use crate::tables::surface::IsoKind;
+use crate::tables::{Iso, Length};
 
-/// Settings of what points are made by.
-fn of_points(plan: &Plan, settings: &'static [&'static str]) -> &'static [&'static str] {
-    if plan.has_pass(Pass::StipplePoints) { settings } else { &[] }
+table! {
+    /// The table `[stipples]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Stipples {
+        /// ‖∇V‖ above which a voxel gets points; a quantile is one of ‖g‖ over the voxels with a normal.
+        threshold: Threshold = Threshold::Magnitude(0.1), key("STIP-4", ThresholdKind);
+        /// Points of a voxel for each pixel, or square of side `size`, of its projection; "auto": as many as print a
+        /// coverage of 0.9 where all factors are 1 (STIP-17).
+        k_max: PointsPerPixel = PointsPerPixel::Number(1.0), key("STIP-3", PointsPerPixelKind);
+        /// S_max, the diameter of the largest dots.
+        ///
+        /// In mm or px.
+        size: Length = Length::Millimetres(0.35), key("STIP-6", Lengths { on: On::Page, bounds: Bounds::POSITIVE });
+        /// Key of the random numbers.
+        seed: u64 = 1, key("RAY-4", Whole { lo: 0, hi: i64::MAX as u64 });
+        /// Voxels along the side of the boxes that points are made in; an axis has two boxes at least. Larger ones have
+        /// more dots each, and show patterns; smaller ones keep what is thin.
+        box_side: Option<u64> = None,
+            key("STIP-2", Whole { lo: 1, hi: 1 << 20 })
+                .named("box").absent("as many as a projection of 5×5 pixels, or squares of side `size`, asks for");
+        /// What the dots are drawn in. `"transfer"`: the colour of `[transfer]` at their voxel's value, of a style
+        /// where it faces the eye; `"label"`: that of their label's row. With `[[pen]]` each dot goes to the pen of the
+        /// nearest colour; without, to one of at most 16 layers.
+        color: DotColor = DotColor::Fixed([0.0, 0.0, 0.0, 1.0]), key("STIP-16", DotColors);
+        /// The pen of `[[pen]]` that draws: dots have its colour and its nib's size, and where they should be smaller
+        /// there are fewer.
+        pen: Option<String> = None,
+            key("STIP-6", Text { what: "the name of a pen" }).absent("`color`, in dots of any size");
+        /// How V and ∇V of a voxel are estimated.
+        gradient: StippleGradient = StippleGradient::Regression, key("STIP-1", StippleGradient::KIND);
+        /// How far from the tangent plane through the voxel's centre points that do not snap may lie.
+        ///
+        /// In the world.
+        slab: Length = Length::Voxels(0.5), key("STIP-4", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE });
+        /// Which points are seen when a voxel's are spread and put in order.
+        order: StippleOrder = StippleOrder::Neighbours, key("STIP-4", StippleOrder::KIND);
+        /// Whether points leave their voxel for the edge.
+        snap: Snap = Snap::None, key("STIP-4", Snap::KIND);
+        /// Whether only voxels whose ‖∇V‖ is largest along the normal get points: one layer a face.
+        thin: bool = false, key("STIP-4", Flag);
+        /// How factors are brought into [0, 1].
+        factors: FactorRange = FactorRange::Clamp, key("STIP-5", FactorRange::KIND);
+        /// What becomes of a fraction of a point.
+        ink: Ink = Ink::Fade, key("STIP-5", Ink::KIND);
+        /// An iso-value: points behind that surface are not drawn.
+        hide_behind: Option<Iso> = None, key("STIP-15", IsoKind).absent("points are transparent");
+        /// Which points are drawn where there is a choice.
+        even: Even = Even::None, key("STIP-19", Even::KIND);
+        /// T_b.
+        boundary: Option<Boundary> = None, key("STIP-7", TableOf(&BOUNDARY)).absent("1");
+        /// T_s.
+        silhouette: Option<Silhouette> = None, key("STIP-8", TableOf(&SILHOUETTE)).absent("1");
+        /// T_r.
+        resolution: Option<Resolution> = None, key("STIP-9", TableOf(&RESOLUTION)).absent("1");
+        /// T_d.
+        distance: Option<Distance> = None, key("STIP-10", TableOf(&DISTANCE)).absent("1");
+        /// T_t.
+        interior: Option<Interior> = None, key("STIP-11", TableOf(&INTERIOR)).absent("1");
+        /// T_l.
+        lighting: Option<Lighting> = None, key("STIP-12", TableOf(&LIGHTING)).absent("1");
+        /// Silhouette curves.
+        curves: Option<Curves> = None, key("STIP-13", TableOf(&CURVES)).absent("no curves");
+    }
+}
+
+choices! {
+    /// `gradient` ([STIP-1]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum StippleGradient {
+        /// A linear fit to the 3×3×3 voxels around it.
+        Regression = "regression",
+        /// Central differences, and the voxel's own value.
+        Central = "central",
+    }
+}
+
+choices! {
+    /// `order` ([STIP-4]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum StippleOrder {
+        /// Its own and those of the 26 voxels around it.
+        Neighbours = "neighbours",
+        /// Its own: the paper's.
+        Voxel = "voxel",
+    }
+}
+
+choices! {
+    /// `snap` ([STIP-4]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Snap {
+        /// They stay in the voxel: the paper's.
+        None = "none",
+        /// They lie where ‖∇V‖ is largest along the normal within one voxel: no stairs on oblique faces.
+        Edge = "edge",
+    }
+}
+
+choices! {
+    /// `factors` ([STIP-5]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum FactorRange {
+        /// What lies above 1 is 1.
+        Clamp = "clamp",
+        /// boundary over gc + gs and silhouette over sc + ss, where the sum is above 1.
+        Normalize = "normalize",
+    }
+}
+
+choices! {
+    /// `ink` ([STIP-5]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Ink {
+        /// The opacity of the next point: the paper's.
+        Fade = "fade",
+        /// A whole point in that share of the voxels, for pens and 1-bit print.
+        Opaque = "opaque",
+    }
+}
+
+choices! {
+    /// `even` ([STIP-19]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Even {
+        /// The first of each voxel's list: the paper's, and what moving pictures need.
+        None = "none",
+        /// Of four times as many those that lie evenly on the page, over all faces that are seen there; all are drawn
+        /// whole.
+        Page = "page",
+    }
 }
 
 /// The description of `[stipples]`.
-pub(crate) static TABLE: Table<Stipples> = Table {
-    asks: rules::asks,
-    idle: |scene, _, idle| rules::idle(scene, idle),
-    ..Table::new(
-        "[stipples]",
-        "Volume stippling: points on the volume's boundaries, made once, of which each frame draws as many as the \
+pub(crate) static TABLE: Table<Stipples> = Stipples::description(
+    "[stipples]",
+    "Volume stippling: points on the volume's boundaries, made once, of which each frame draws as many as the \
          factors below say. A factor without a table is 1.",
-        Stipples::default,
-        &[
-            Key::new(
-                "threshold",
-                "STIP-4",
-                "‖∇V‖ above which a voxel gets points; a quantile is one of ‖g‖ over the voxels with a normal.",
-                &Slot { kind: ThresholdKind, get: |s: &Stipples| Some(s.threshold), set: |s, v| s.threshold = v },
-            ),
-            Key::new(
-                "k_max",
-                "STIP-3",
-                "Points of a voxel for each pixel, or square of side `size`, of its projection; \"auto\": as many as print a \
-                 coverage of 0.9 where all factors are 1 (STIP-17).",
-                &Slot { kind: PointsPerPixelKind, get: |s: &Stipples| Some(s.k_max), set: |s, v| s.k_max = v },
-            ),
-            Key::new(
-                "size",
-                "STIP-6",
-                "S_max, the diameter of the largest dots.",
-                &Slot {
-                    kind: Lengths { on: On::Page, bounds: Bounds::POSITIVE },
-                    get: |s: &Stipples| Some(s.size),
-                    set: |s, v| s.size = v,
-                },
-            ),
-            Key::new(
-                "seed",
-                "RAY-4",
-                "Key of the random numbers.",
-                &Slot {
-                    kind: Whole { lo: 0, hi: i64::MAX as u64 },
-                    get: |s: &Stipples| Some(s.seed),
-                    set: |s, v| s.seed = v,
-                },
-            ),
-            Key::new(
-                "box",
-                "STIP-2",
-                "Voxels along the side of the boxes that points are made in; an axis has two boxes at least. Larger ones have \
-                 more dots each, and show patterns; smaller ones keep what is thin.",
-                &Slot {
-                    kind: Whole { lo: 1, hi: 1 << 20 },
-                    get: |s: &Stipples| s.box_side,
-                    set: |s, v| s.box_side = Some(v),
-                },
-            )
-            .absent("as many as a projection of 5×5 pixels, or squares of side `size`, asks for"),
-            Key::new(
-                "color",
-                "STIP-16",
-                "What the dots are drawn in. `\"transfer\"`: the colour of `[transfer]` at their voxel's value, of a style \
-                 where it faces the eye; `\"label\"`: that of their label's row. With `[[pen]]` each dot goes to the pen of \
-                 the nearest colour; without, to one of at most 16 layers.",
-                &Slot { kind: DotColors, get: |s: &Stipples| Some(s.color), set: |s, v| s.color = v },
-            ),
-            Key::new(
-                "pen",
-                "STIP-6",
-                "The pen of `[[pen]]` that draws: dots have its colour and its nib's size, and where they should be smaller there are fewer.",
-                &Slot {
-                    kind: Text { what: "the name of a pen" },
-                    get: |s: &Stipples| s.pen.clone(),
-                    set: |s, v| s.pen = Some(v),
-                },
-            )
-            .absent("`color`, in dots of any size"),
-            Key::new(
-                "gradient",
-                "STIP-1",
-                "How V and ∇V of a voxel are estimated.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new(
-                                "regression",
-                                StippleGradient::Regression,
-                                "A linear fit to the 3×3×3 voxels around it.",
-                            ),
-                            ChoiceOption::new(
-                                "central",
-                                StippleGradient::Central,
-                                "Central differences, and the voxel's own value.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |s: &Stipples| Some(s.gradient),
-                    set: |s, v| s.gradient = v,
-                },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["central", "regression"]))),
-            Key::new(
-                "slab",
-                "STIP-4",
-                "How far from the tangent plane through the voxel's centre points that do not snap may lie.",
-                &Slot {
-                    kind: Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
-                    get: |s: &Stipples| Some(s.slab),
-                    set: |s, v| s.slab = v,
-                },
-            ),
-            Key::new(
-                "order",
-                "STIP-4",
-                "Which points are seen when a voxel's are spread and put in order.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new(
-                                "neighbours",
-                                StippleOrder::Neighbours,
-                                "Its own and those of the 26 voxels around it.",
-                            ),
-                            ChoiceOption::new("voxel", StippleOrder::Voxel, "Its own: the paper's."),
-                        ],
-                        later: &[],
-                    },
-                    get: |s: &Stipples| Some(s.order),
-                    set: |s, v| s.order = v,
-                },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["voxel", "neighbours"]))),
-            Key::new(
-                "snap",
-                "STIP-4",
-                "Whether points leave their voxel for the edge.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("none", Snap::None, "They stay in the voxel: the paper's."),
-                            ChoiceOption::new(
-                                "edge",
-                                Snap::Edge,
-                                "They lie where ‖∇V‖ is largest along the normal within one voxel: no stairs on \
-                                 oblique faces.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |s: &Stipples| Some(s.snap),
-                    set: |s, v| s.snap = v,
-                },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["none", "edge"]))),
-            Key::new(
-                "thin",
-                "STIP-4",
-                "Whether only voxels whose ‖∇V‖ is largest along the normal get points: one layer a face.",
-                &Slot { kind: Flag, get: |s: &Stipples| Some(s.thin), set: |s, v| s.thin = v },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["false", "true"]))),
-            Key::new(
-                "factors",
-                "STIP-5",
-                "How factors are brought into [0, 1].",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("clamp", FactorRange::Clamp, "What lies above 1 is 1."),
-                            ChoiceOption::new(
-                                "normalize",
-                                FactorRange::Normalize,
-                                "boundary over gc + gs and silhouette over sc + ss, where the sum is above 1.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |s: &Stipples| Some(s.factors),
-                    set: |s, v| s.factors = v,
-                },
-            ),
-            Key::new(
-                "ink",
-                "STIP-5",
-                "What becomes of a fraction of a point.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("fade", Ink::Fade, "The opacity of the next point: the paper's."),
-                            ChoiceOption::new(
-                                "opaque",
-                                Ink::Opaque,
-                                "A whole point in that share of the voxels, for pens and 1-bit print.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |s: &Stipples| Some(s.ink),
-                    set: |s, v| s.ink = v,
-                },
-            ),
-            Key::new(
-                "hide_behind",
-                "STIP-15",
-                "An iso-value: points behind that surface are not drawn.",
-                &Slot { kind: IsoKind, get: |s: &Stipples| s.hide_behind, set: |s, v| s.hide_behind = Some(v) },
-            )
-            .absent("points are transparent"),
-            Key::new(
-                "even",
-                "STIP-19",
-                "Which points are drawn where there is a choice.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new(
-                                "none",
-                                Even::None,
-                                "The first of each voxel's list: the paper's, and what moving pictures need.",
-                            ),
-                            ChoiceOption::new(
-                                "page",
-                                Even::Page,
-                                "Of four times as many those that lie evenly on the page, over all faces that are seen \
-                                 there; all are drawn whole.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |s: &Stipples| Some(s.even),
-                    set: |s, v| s.even = v,
-                },
-            )
-            .knob(Ladder::to_finest(|_, plan, _| of_points(plan, &["none", "page"]))),
-            Key::new(
-                "boundary",
-                "STIP-7",
-                "T_b.",
-                &Slot { kind: TableOf(&BOUNDARY), get: |s: &Stipples| s.boundary, set: |s, v| s.boundary = Some(v) },
-            )
-            .absent("1"),
-            Key::new(
-                "silhouette",
-                "STIP-8",
-                "T_s.",
-                &Slot {
-                    kind: TableOf(&SILHOUETTE),
-                    get: |s: &Stipples| s.silhouette,
-                    set: |s, v| s.silhouette = Some(v),
-                },
-            )
-            .absent("1"),
-            Key::new(
-                "resolution",
-                "STIP-9",
-                "T_r.",
-                &Slot {
-                    kind: TableOf(&RESOLUTION),
-                    get: |s: &Stipples| s.resolution,
-                    set: |s, v| s.resolution = Some(v),
-                },
-            )
-            .absent("1"),
-            Key::new(
-                "distance",
-                "STIP-10",
-                "T_d.",
-                &Slot { kind: TableOf(&DISTANCE), get: |s: &Stipples| s.distance, set: |s, v| s.distance = Some(v) },
-            )
-            .absent("1"),
-            Key::new(
-                "interior",
-                "STIP-11",
-                "T_t.",
-                &Slot { kind: TableOf(&INTERIOR), get: |s: &Stipples| s.interior, set: |s, v| s.interior = Some(v) },
-            )
-            .absent("1"),
-            Key::new(
-                "lighting",
-                "STIP-12",
-                "T_l.",
-                &Slot { kind: TableOf(&LIGHTING), get: |s: &Stipples| s.lighting, set: |s, v| s.lighting = Some(v) },
-            )
-            .absent("1"),
-            Key::new(
-                "curves",
-                "STIP-13",
-                "Silhouette curves.",
-                &Slot { kind: TableOf(&CURVES), get: |s: &Stipples| s.curves, set: |s, v| s.curves = Some(v) },
-            )
-            .absent("no curves"),
-        ],
-    )
-};
+);

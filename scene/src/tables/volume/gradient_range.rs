@@ -1,10 +1,10 @@
 //! `gradient_range` of `[volume]`, and quantiles, which other tables have too.
 
-use crate::file::check::Check;
-use crate::file::describe::{Kind, Shape};
-use crate::file::item::{Item, Value};
-use crate::file::kind::{Bounds, Numbers, Rule};
-use crate::file::out::Out;
+use crate::document::check::Check;
+use crate::document::describe::{Kind, Shape};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Bounds, Numbers, Rule};
+use crate::document::out::Out;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 

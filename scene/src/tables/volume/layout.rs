@@ -1,6 +1,6 @@
 //! What phantoms and raw voxels share: types, spacings and how many there may be.
 
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Numbers, Rule};
+use crate::document::kind::{Bounds, Choice, ChoiceOption, Numbers, Rule};
 use crate::volume::VoxelType;
 
 /// Voxels along an axis of a phantom or of raw data, at most: the product of three stays below 2⁶⁴.

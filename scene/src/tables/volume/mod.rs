@@ -10,15 +10,14 @@ pub(crate) use gradient_range::quantile;
 pub use phantom::PhantomSource;
 pub use raw::RawLayout;
 
-use crate::file::describe::{Instead, Key, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::kind::{Bounds, Choice, ChoiceOption, Numbers, PathTo, Rule, TableOf};
-use crate::plan::{Pass, Quantity};
-use crate::tables::{NormalSide, Unit};
+use crate::document::declare::{choices, keys};
+use crate::document::describe::{Instead, Table};
+use crate::document::fault::Problem;
+use crate::document::kind::{Bounds, Numbers, PathTo, Rule, TableOf};
+use crate::quantity::Quantity;
 use gradient_range::Quantile;
 use phantom::PHANTOM;
 use raw::RAW;
-use serde::Serialize;
 use std::path::PathBuf;
 
 /// The table `[volume]`.
@@ -56,33 +55,37 @@ pub enum VolumeSource {
     Phantom(PhantomSource),
 }
 
-/// What the values of a volume mean.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ids {
-    /// A quantity: between two values lie all that are between them.
-    Values,
-    /// Ids of parts, between which nothing lies: what has an id above 0 is 1, all else 0.
-    Mask,
+choices! {
+    /// What the values of a volume mean.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Ids {
+        /// Each value stands for itself.
+        Values = "values",
+        /// Every value above 0 counts as 1, every other as 0; the surface lies at 0.5.
+        Mask = "mask",
+    }
 }
 
-/// Which label lies between voxels ([STF-13]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LabelLookup {
-    /// That of the nearest voxel.
-    Nearest,
-    /// That with the highest sum of trilinear weights among the eight voxels around.
-    Smooth,
+choices! {
+    /// Which label lies between voxels ([STF-13]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum LabelLookup {
+        /// That of the nearest voxel.
+        Nearest = "nearest",
+        /// That with the highest sum of trilinear weights among the eight voxels around: borders are not blocky.
+        Smooth = "smooth",
+    }
 }
 
-/// Which values lie outside ([NORM-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Outside {
-    /// Values fall towards the outside: N = −g/‖g‖.
-    Low,
-    /// Values rise towards the outside: N = +g/‖g‖.
-    High,
+choices! {
+    /// Which values lie outside ([NORM-1]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Outside {
+        /// Values fall towards the outside.
+        Low = "low",
+        /// Values rise towards the outside.
+        High = "high",
+    }
 }
 
 impl VolumeTable {
@@ -110,195 +113,54 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
             check.fault_in("file", Problem::Missing { expected });
         }
     },
-    serves: |scene, asks| {
-        if let (GradientRange::Quantile(_), Some(need)) =
-            (scene.volume.gradient_range, asks.first(Quantity::GradientMagnitudeRange))
-        {
-            let effect = need.effect.clone();
-            asks.pass(Pass::GradientRange, &effect, "volume.gradient_range");
-        }
-    },
-    idle: |scene, plan, idle| {
-        if matches!(scene.volume.source, VolumeSource::Phantom(_)) {
-            idle.key("volume.raw", "a phantom has no file");
-        }
-        let stippled = scene.stipples.is_some();
-        if !stippled && scene.transfer.as_ref().is_some_and(|transfer| transfer.unit != Unit::Normalized) {
-            idle.key("volume.range", "only transfer.unit = \"normalized\" is measured in it");
-        }
-        let why = match scene.volume.labels {
-            Some(_) if plan.reads_labels() => None,
-            Some(_) => Some("nothing reads a label"),
-            None => Some("volume.labels names no label volume"),
-        };
-        if let Some(why) = why {
-            for key in ["volume.labels", "volume.label_names", "volume.label_lookup"] {
-                idle.key(key, why);
-            }
-        }
-        if !stippled && !plan.needs(Quantity::GradientMagnitudeRange) {
-            idle.key("volume.gradient_range", "nothing reads |g|");
-        }
-        let turned = scene.sampling.normal == NormalSide::Outward || plan.needs_at_first(Quantity::Hessian);
-        if !(stippled || scene.has_strokes() || turned && plan.reads_gradients()) {
-            idle.key("volume.outside", "nothing reads an outward normal or a signed curvature");
-        }
-    },
     ..Table::new(
         "[volume]",
         "The data that is seen: a file, or a phantom of our own. A file that is not there is looked for in the folders \
          that DRYPOINT_DATA lists.",
         || VolumeTable::new(VolumeSource::File { path: PathBuf::new(), raw: None }),
-        &[
-            Key::new(
-                "file",
-                "IO-1",
-                "A volume file: NRRD, NIfTI, MetaImage or raw voxels.",
-                &Slot {
-                    kind: PathTo { what: "a volume" },
-                    get: |t: &VolumeTable| match &t.source {
-                        VolumeSource::File { path, .. } => Some(path.clone()).filter(|path| path.as_os_str() != ""),
-                        VolumeSource::Phantom(_) => None,
-                    },
-                    set: |t, path| t.source = VolumeSource::File { path, raw: None },
+        keys! { VolumeTable {
+            /// A volume file: NRRD, NIfTI, MetaImage or raw voxels.
+            file: key("IO-1", PathTo { what: "a volume" },
+                |t| match &t.source {
+                    VolumeSource::File { path, .. } => Some(path.clone()).filter(|path| path.as_os_str() != ""),
+                    VolumeSource::Phantom(_) => None,
                 },
-            )
-            .absent("`phantom` in its place"),
-            Key::new(
-                "phantom",
-                "IO-4",
-                "A volume with known truth, made by the program.",
-                &Slot {
-                    kind: TableOf(&PHANTOM),
-                    get: |t: &VolumeTable| match &t.source {
-                        VolumeSource::File { .. } => None,
-                        VolumeSource::Phantom(phantom) => Some(phantom.clone()),
-                    },
-                    set: |t, phantom| t.source = VolumeSource::Phantom(phantom),
+                |t, path| t.source = VolumeSource::File { path, raw: None }).absent("`phantom` in its place");
+            /// A volume with known truth, made by the program.
+            phantom: key("IO-4", TableOf(&PHANTOM),
+                |t| match &t.source {
+                    VolumeSource::File { .. } => None,
+                    VolumeSource::Phantom(phantom) => Some(phantom.clone()),
                 },
-            )
-            .absent("`file` in its place"),
-            Key::new(
-                "raw",
-                "IO-1",
-                "Layout of a file without a header. FILE.toml beside it may hold the same.",
-                &Slot {
-                    kind: TableOf(&RAW),
-                    get: |t: &VolumeTable| match &t.source {
-                        VolumeSource::File { raw, .. } => raw.clone(),
-                        VolumeSource::Phantom(_) => None,
-                    },
-                    set: |t, layout| {
-                        if let VolumeSource::File { raw, .. } = &mut t.source {
-                            *raw = Some(layout);
-                        }
-                    },
+                |t, phantom| t.source = VolumeSource::Phantom(phantom)).absent("`file` in its place");
+            /// Layout of a file without a header. FILE.toml beside it may hold the same.
+            raw: key("IO-1", TableOf(&RAW),
+                |t| match &t.source {
+                    VolumeSource::File { raw, .. } => raw.clone(),
+                    VolumeSource::Phantom(_) => None,
                 },
-            )
-            .absent("the file's header, or FILE.toml beside it"),
-            Key::new(
-                "ids",
-                "STF-13",
-                "What the values mean: quantities, or the ids of parts that are shown as one.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("values", Ids::Values, "Each value stands for itself."),
-                            ChoiceOption::new(
-                                "mask",
-                                Ids::Mask,
-                                "Every value above 0 counts as 1, every other as 0; the surface lies at 0.5.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &VolumeTable| Some(t.ids),
-                    set: |t, v| t.ids = v,
-                },
-            ),
-            Key::new(
-                "labels",
-                "STF-13",
-                "A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on \
-                 another grid; outside its box the label is 0.",
-                &Slot {
-                    kind: PathTo { what: "a label volume" },
-                    get: |t: &VolumeTable| t.labels.clone(),
-                    set: |t, path| t.labels = Some(path),
-                },
-            )
-            .absent("no labels"),
-            Key::new(
-                "label_names",
-                "STF-13",
-                "The names of the labels: a CSV file with an id and a name on each line.",
-                &Slot {
-                    kind: PathTo { what: "a table of names" },
-                    get: |t: &VolumeTable| t.label_names.clone(),
-                    set: |t, path| t.label_names = Some(path),
-                },
-            )
-            .absent("labels have no names"),
-            Key::new(
-                "label_lookup",
-                "STF-13",
-                "Which label lies between voxels.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("nearest", LabelLookup::Nearest, "That of the nearest voxel."),
-                            ChoiceOption::new(
-                                "smooth",
-                                LabelLookup::Smooth,
-                                "That with the highest sum of trilinear weights among the eight voxels around: borders \
-                                 are not blocky.",
-                            ),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &VolumeTable| Some(t.label_lookup),
-                    set: |t, v| t.label_lookup = v,
-                },
-            )
-            .needs(&[Quantity::Label]),
-            Key::new(
-                "range",
-                "VAL-1",
-                "The values that `unit = \"normalized\"` maps to 0 and 1.",
-                &Slot {
-                    kind: Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending },
-                    get: |t: &VolumeTable| t.range,
-                    set: |t, v| t.range = Some(v),
-                },
-            )
-            .absent("the volume's own"),
-            Key::new(
-                "gradient_range",
-                "VAL-2",
-                "What |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per \
-                 world unit.",
-                &Slot {
-                    kind: Quantile,
-                    get: |t: &VolumeTable| Some(t.gradient_range),
-                    set: |t, v| t.gradient_range = v,
-                },
-            ),
-            Key::new(
-                "outside",
-                "NORM-1",
-                "Which values lie outside a surface.",
-                &Slot {
-                    kind: Choice {
-                        options: &[
-                            ChoiceOption::new("low", Outside::Low, "Values fall towards the outside."),
-                            ChoiceOption::new("high", Outside::High, "Values rise towards the outside."),
-                        ],
-                        later: &[],
-                    },
-                    get: |t: &VolumeTable| Some(t.outside),
-                    set: |t, v| t.outside = v,
-                },
-            ),
-        ],
+                |t, layout| {
+                    if let VolumeSource::File { raw, .. } = &mut t.source {
+                        *raw = Some(layout);
+                    }
+                }).absent("the file's header, or FILE.toml beside it");
+            /// What the values mean: quantities, or the ids of parts that are shown as one.
+            ids: key("STF-13", Ids::KIND);
+            /// A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on
+            /// another grid; outside its box the label is 0.
+            labels: key("STF-13", PathTo { what: "a label volume" }).absent("no labels");
+            /// The names of the labels: a CSV file with an id and a name on each line.
+            label_names: key("STF-13", PathTo { what: "a table of names" }).absent("labels have no names");
+            /// Which label lies between voxels.
+            label_lookup: key("STF-13", LabelLookup::KIND).needs(&[Quantity::Label]);
+            /// The values that `unit = "normalized"` maps to 0 and 1.
+            range: key("VAL-1", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
+                .absent("the volume's own");
+            /// What |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per world
+            /// unit.
+            gradient_range: key("VAL-2", Quantile);
+            /// Which values lie outside a surface.
+            outside: key("NORM-1", Outside::KIND);
+        } },
     )
 };

@@ -1,31 +1,18 @@
 //! `phantom = { … }` of `[volume]`: a volume of our own ([IO-4]).
 
 use super::layout::{LONGEST_AXIS, SPACING, VOXEL_TYPE};
-use crate::file::check::Check;
-use crate::file::describe::{Key, Kind, Names, Shape, Slot, Table};
-use crate::file::fault::Problem;
-use crate::file::item::Item;
-use crate::file::kind::{Bounds, Number, TableOf, Whole, Wholes};
-use crate::file::out::Out;
+use crate::document::check::Check;
+use crate::document::declare::keys;
+use crate::document::describe::{Kind, Names, Shape, Table};
+use crate::document::fault::Problem;
+use crate::document::item::Item;
+use crate::document::kind::{Bounds, Number, TableOf, Whole, Wholes};
+use crate::document::out::Out;
 use crate::nearest::nearest;
 use crate::phantom;
+pub use crate::phantom::PhantomSource;
 use crate::volume::VoxelType;
 use serde_json::{Value as Json, json};
-
-/// A phantom by name.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PhantomSource {
-    /// Which phantom.
-    pub name: String,
-    /// Voxels along x, y, z.
-    pub size: [usize; 3],
-    /// World units between voxels.
-    pub spacing: [f64; 3],
-    /// Stored type.
-    pub voxel_type: VoxelType,
-    /// Parameters by name; those not given have their defaults.
-    pub params: Vec<(String, f64)>,
-}
 
 /// Voxels of a phantom, at most: 32 GiB in its widest type.
 const LARGEST_PHANTOM: u64 = 1 << 32;
@@ -43,44 +30,20 @@ pub(super) static PHANTOM: Table<PhantomSource> = Table {
             voxel_type: VoxelType::U8,
             params: Vec::new(),
         },
-        &[
-            Key::new(
-                "name",
-                "IO-4",
-                "Which phantom.",
-                &Slot { kind: PhantomName, get: |t: &PhantomSource| Some(t.name.clone()), set: |t, v| t.name = v },
-            )
-            .required(),
-            Key::new(
-                "size",
-                "IO-4",
-                "Voxels along x, y, z, or one number for all three.",
-                &Slot { kind: PhantomSize, get: |t: &PhantomSource| Some(t.size), set: |t, v| t.size = v },
-            ),
-            Key::new(
-                "spacing",
-                "SPACE-2",
-                "World units between voxels.",
-                &Slot { kind: SPACING, get: |t: &PhantomSource| Some(t.spacing), set: |t, v| t.spacing = v },
-            ),
-            Key::new(
-                "type",
-                "IO-4",
-                "Stored type of a voxel; values are rounded to it.",
-                &Slot { kind: VOXEL_TYPE, get: |t: &PhantomSource| Some(t.voxel_type), set: |t, v| t.voxel_type = v },
-            ),
-            Key::new(
-                "param",
-                "IO-4",
-                "Parameters of the phantom by name.",
-                &Slot {
-                    kind: TableOf(&PARAMS),
-                    get: |t: &PhantomSource| Some(t.params.clone()).filter(|params| !params.is_empty()),
-                    set: |t, v| t.params = v,
-                },
-            )
-            .absent("the phantom's own"),
-        ],
+        keys! { PhantomSource {
+            /// Which phantom.
+            name: key("IO-4", PhantomName).required();
+            /// Voxels along x, y, z, or one number for all three.
+            size: key("IO-4", PhantomSize);
+            /// World units between voxels.
+            spacing: key("SPACE-2", SPACING);
+            /// Stored type of a voxel; values are rounded to it.
+            type: key("IO-4", VOXEL_TYPE, |t| Some(t.voxel_type), |t, v| t.voxel_type = v);
+            /// Parameters of the phantom by name.
+            param: key("IO-4", TableOf(&PARAMS),
+                |t| Some(t.params.clone()).filter(|params| !params.is_empty()),
+                |t, v| t.params = v).absent("the phantom's own");
+        } },
     )
 };
 
@@ -88,7 +51,7 @@ pub(super) static PHANTOM: Table<PhantomSource> = Table {
 fn check_phantom(source: &PhantomSource, check: &mut Check) {
     let Some(about) = phantom::describe().iter().find(|about| about.name == source.name) else { return };
     for (name, value) in &source.params {
-        let key = format!("param.{}", crate::file::out::key(name));
+        let key = format!("param.{}", crate::document::out::key(name));
         match about.params.iter().find(|param| param.name == name) {
             None => {
                 let known = about.params.iter().map(|param| param.name);

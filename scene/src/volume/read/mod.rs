@@ -21,7 +21,7 @@ pub use error::{Fault, ReadError};
 
 use super::{Anatomy, Volume, VolumeError, Voxels};
 use crate::space::{Grid, SpaceError};
-use crate::tables::RawLayout;
+use crate::volume::RawLayout;
 use glam::{DMat3, DVec3};
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -12,7 +12,7 @@ use super::data::Payload;
 use super::error::{Fault, ReadError};
 use super::limits::Encoding;
 use super::{grid_of, header, volume_of, with_suffix};
-use crate::tables::RawLayout;
+use crate::volume::RawLayout;
 use crate::volume::{Volume, VoxelType};
 use glam::{DMat3, DVec3};
 use serde::Deserialize;

@@ -1,0 +1,198 @@
+//! One declaration for a key of a table: its field, its default, its documentation and its description.
+//!
+//! The first paragraph of a field's or name's doc comment is also the text of the schema and of the reference page;
+//! further paragraphs tell what only code has to know, such as units.
+
+use glam::DVec3;
+
+/// A field that holds the value of a key.
+pub(crate) trait Holds<T> {
+    /// The key's value; none where it has none.
+    fn get(&self) -> Option<T>;
+    /// Takes a value.
+    fn set(&mut self, value: T);
+}
+
+impl<T: Clone> Holds<T> for T {
+    fn get(&self) -> Option<T> {
+        Some(self.clone())
+    }
+
+    fn set(&mut self, value: T) {
+        *self = value;
+    }
+}
+
+/// The field of a key without default.
+impl<T: Clone> Holds<T> for Option<T> {
+    fn get(&self) -> Option<T> {
+        self.clone()
+    }
+
+    fn set(&mut self, value: T) {
+        *self = Some(value);
+    }
+}
+
+impl Holds<u64> for usize {
+    fn get(&self) -> Option<u64> {
+        Some(*self as u64)
+    }
+
+    fn set(&mut self, value: u64) {
+        *self = value as Self;
+    }
+}
+
+impl Holds<[f64; 3]> for DVec3 {
+    fn get(&self) -> Option<[f64; 3]> {
+        Some(self.to_array())
+    }
+
+    fn set(&mut self, value: [f64; 3]) {
+        *self = Self::from_array(value);
+    }
+}
+
+impl Holds<[f64; 3]> for Option<DVec3> {
+    fn get(&self) -> Option<[f64; 3]> {
+        self.map(|v| v.to_array())
+    }
+
+    fn set(&mut self, value: [f64; 3]) {
+        *self = Some(DVec3::from_array(value));
+    }
+}
+
+/// The keys of a table, each with its documentation, its rule and the kind of its value. A key without closures is the
+/// field of the same name. Any other key has two closures: one reads its value from the table, one writes it there.
+/// Methods of [`Key`](super::describe::Key) follow.
+///
+/// ```text
+/// keys! { Camera {
+///     /// Up in the picture, in world space.
+///     up: key("RAY-6", DIRECTION);
+///     /// The way the camera looks.
+///     direction: key("RAY-5", DIRECTION, |c| …, |c, v| …).absent("towards the volume");
+/// } }
+/// ```
+macro_rules! keys {
+    ($table:ty { $($(#[doc = $doc:literal])+ $name:ident: key($($how:tt)+)$(.$more:ident($($with:tt)*))*;)+ }) => {
+        const {
+            &[$($crate::document::declare::keys!(key $table, $name, concat!($($doc, "\n"),+), $($how)+)
+                $(.$more($($with)*))*),+]
+        }
+    };
+    (key $table:ty, $name:ident, $doc:expr, $tag:literal, $kind:expr) => {
+        $crate::document::declare::keys!(
+            key $table,
+            $name,
+            $doc,
+            $tag,
+            $kind,
+            |table| $crate::document::declare::Holds::get(&table.$name),
+            |table, value| $crate::document::declare::Holds::set(&mut table.$name, value)
+        )
+    };
+    (key $table:ty, $name:ident, $doc:expr, $tag:literal, $kind:expr, $get:expr, $set:expr) => {
+        $crate::document::describe::Key::new(
+            stringify!($name),
+            $tag,
+            $doc,
+            const { &$crate::document::describe::Slot::<$table, _> { kind: $kind, get: $get, set: $set } },
+        )
+    };
+}
+
+/// The struct of a table, its defaults, and its description with a key for each field, in their order. A field has its
+/// type, its default, and its key as in [`keys!`](keys).
+///
+/// ```text
+/// table! {
+///     /// The table `[page]`.
+///     #[derive(Clone, Debug, PartialEq)]
+///     pub struct PageSettings {
+///         /// Whether a pen plotter draws it: one nib a layer, paths in the order of a short way.
+///         plotter: bool = false, key("IO-7", Flag);
+///     }
+/// }
+/// ```
+macro_rules! table {
+    (
+        $(#[$meta:meta])*
+        pub struct $table:ident {
+            $($(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr, key($($how:tt)+)
+                $(.$more:ident($($with:tt)*))*;)+
+        }
+    ) => {
+        $(#[$meta])*
+        #[allow(rustdoc::broken_intra_doc_links, reason = "[name] is a table of a scene file")]
+        pub struct $table {
+            $($(#[doc = $doc])+ pub $field: $type,)+
+        }
+
+        impl Default for $table {
+            fn default() -> Self {
+                Self { $($field: $default),+ }
+            }
+        }
+
+        impl $table {
+            /// The description of a table with these keys and no more to say of itself.
+            const fn description(title: &'static str, doc: &'static str) -> $crate::document::describe::Table<Self> {
+                let keys = $crate::document::declare::keys! { $table {
+                    $($(#[doc = $doc])+ $field: key($($how)+)$(.$more($($with)*))*;)+
+                } };
+                $crate::document::describe::Table::new(title, doc, Self::default, keys)
+            }
+        }
+    };
+}
+
+/// An enum whose values have names in scene files, which are its serialization, and their `KIND`. After `later` stand names that are not built yet.
+///
+/// ```text
+/// choices! {
+///     /// The distance that `step` is measured along.
+///     #[derive(Clone, Copy, PartialEq)]
+///     pub enum StepAlong {
+///         /// View-aligned planes.
+///         Plane = "plane",
+///     }
+/// }
+/// ```
+macro_rules! choices {
+    (
+        $(#[$meta:meta])*
+        $visible:vis enum $choice:ident { $($(#[doc = $doc:literal])+ $value:ident = $name:literal,)+ }
+        $(later $later:expr)?
+    ) => {
+        $(#[$meta])*
+        #[allow(rustdoc::broken_intra_doc_links, reason = "[name] is a table of a scene file")]
+        $visible enum $choice { $($(#[doc = $doc])+ $value,)+ }
+
+        impl serde::Serialize for $choice {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str(match self {
+                    $(Self::$value => $name,)+
+                })
+            }
+        }
+
+        impl $choice {
+            /// The values by name.
+            pub(crate) const KIND: $crate::document::kind::Choice<Self> = $crate::document::kind::Choice {
+                options: &[$($crate::document::kind::ChoiceOption::new(
+                    $name,
+                    Self::$value,
+                    concat!($($doc, "\n"),+),
+                )),+],
+                later: $crate::document::declare::choices!(later $($later)?),
+            };
+        }
+    };
+    (later $later:expr) => { $later };
+    (later) => { &[] };
+}
+
+pub(crate) use {choices, keys, table};

@@ -1,0 +1,285 @@
+//! What a table of a scene file is, as data. Checking, `--full`, the schema and the reference page are all made from
+//! these descriptions, and each stands in the file of its table.
+
+use super::check::Check;
+use super::item::Item;
+use super::out::Out;
+use crate::quantity::Quantity;
+
+/// A table whose content becomes an `S`.
+pub(crate) struct Table<S: 'static> {
+    /// What messages call it: `[camera]`, `a node`.
+    pub(crate) title: &'static str,
+    /// One or two sentences.
+    pub(crate) doc: &'static str,
+    /// The table as it is before its first key: every default.
+    pub(crate) empty: fn() -> S,
+    /// In the order in which they are read, written and documented.
+    pub(crate) keys: &'static [Key<S>],
+    /// Keys that the user names, if the table has such.
+    pub(crate) open: Option<&'static dyn Named<S>>,
+    /// What the format has and this version has not.
+    pub(crate) later: &'static [Later],
+    /// Keys that stand in each other's place.
+    pub(crate) instead: &'static [Instead],
+    /// What only the keys together can tell.
+    pub(crate) check: fn(&S, &mut Check),
+}
+
+impl<S> Table<S> {
+    /// A table with these keys and no more to say of itself.
+    pub(crate) const fn new(title: &'static str, doc: &'static str, empty: fn() -> S, keys: &'static [Key<S>]) -> Self {
+        Self { title, doc, empty, keys, open: None, later: &[], instead: &[], check: |_, _| {} }
+    }
+}
+
+/// One key of a table.
+pub(crate) struct Key<S: 'static> {
+    /// In snake_case.
+    pub(crate) name: &'static str,
+    /// One or two sentences: the first paragraph.
+    pub(crate) doc: &'static str,
+    /// The rule that has it, such as `RAY-5`; empty for none.
+    pub(crate) tag: &'static str,
+    /// What holds without the key, where the default is no value that could be written.
+    pub(crate) absent: &'static str,
+    /// Whether the table is wrong without it.
+    pub(crate) required: bool,
+    /// What the key can make samples or passes need ([PLAN-1]); whether it does depends on its neighbours.
+    pub(crate) needs: &'static [Quantity],
+    /// How it is read and written.
+    pub(crate) field: &'static dyn Field<S>,
+}
+
+impl<S> Key<S> {
+    /// A key with a default that can be written, and which needs nothing.
+    pub(crate) const fn new(
+        name: &'static str,
+        tag: &'static str,
+        doc: &'static str,
+        field: &'static dyn Field<S>,
+    ) -> Self {
+        Self { name, doc, tag, absent: "", required: false, needs: &[], field }
+    }
+
+    /// The same key by another name than that of its field.
+    pub(crate) const fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+
+    /// The same key, with what holds where it is absent.
+    pub(crate) const fn absent(self, absent: &'static str) -> Self {
+        Self { absent, ..self }
+    }
+
+    /// The same key, which must be there.
+    pub(crate) const fn required(self) -> Self {
+        Self { required: true, ..self }
+    }
+
+    /// The same key, with what it can make a plan need.
+    pub(crate) const fn needs(self, needs: &'static [Quantity]) -> Self {
+        Self { needs, ..self }
+    }
+}
+
+/// Part of the format that is not built yet.
+pub(crate) struct Later {
+    pub(crate) name: &'static str,
+    pub(crate) tag: &'static str,
+}
+
+/// Keys that exclude each other: `one` in place of all of `others`. What the command line says drives the other out;
+/// both in the file, or both on the command line, are a fault.
+pub(crate) struct Instead {
+    pub(crate) one: &'static str,
+    pub(crate) others: &'static [&'static str],
+}
+
+/// A type of value: what may stand after `key =`.
+pub(crate) trait Shape: Sync {
+    /// What may stand there, for the third line of a message.
+    fn expected(&self) -> String;
+
+    /// As JSON Schema.
+    fn schema(&self) -> serde_json::Value;
+
+    /// Its names with what each means, if it is one of several names.
+    fn options(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
+
+    /// The table that the value is, if it is one.
+    fn section(&self) -> Option<Section> {
+        None
+    }
+
+    /// The table that each item of the list is, if the value is a list of tables.
+    fn item_section(&self) -> Option<Section> {
+        None
+    }
+}
+
+/// A [`Shape`] with the Rust type that it stands for.
+pub(crate) trait Kind: Shape {
+    /// What the value becomes.
+    type Of;
+
+    /// Reads an item; none where it is at fault, which has then been said.
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Self::Of>;
+
+    /// Reads an item that overrides lead into, over what a preset supplied.
+    fn read_over(&self, item: &Item, supplied: Self::Of, check: &mut Check) -> Option<Self::Of> {
+        let _ = supplied;
+        self.read(item, check)
+    }
+
+    /// Writes a value so that reading it gives the value again.
+    fn write(&self, value: &Self::Of) -> Out;
+}
+
+/// A key's way into a table's struct and back, whatever type lies between.
+pub(crate) trait Field<S>: Sync {
+    /// Reads an item into the struct, or says what is wrong with it.
+    fn read(&self, item: &Item, into: &mut S, check: &mut Check);
+    /// The key's value; none where it has none.
+    fn write(&self, from: &S) -> Option<Out>;
+    /// Puts the key's value, where it has one, into another struct.
+    fn copy(&self, from: &S, into: &mut S);
+    /// What may stand there.
+    fn shape(&self) -> &dyn Shape;
+}
+
+/// The way of one key: its kind, and the place in the struct.
+pub(crate) struct Slot<S, K: Kind> {
+    pub(crate) kind: K,
+    pub(crate) get: fn(&S) -> Option<K::Of>,
+    pub(crate) set: fn(&mut S, K::Of),
+}
+
+impl<S, K: Kind> Field<S> for Slot<S, K> {
+    fn read(&self, item: &Item, into: &mut S, check: &mut Check) {
+        let value = match (self.get)(into) {
+            Some(supplied) if item.is_way => self.kind.read_over(item, supplied, check),
+            _ => self.kind.read(item, check),
+        };
+        if let Some(value) = value {
+            (self.set)(into, value);
+        }
+    }
+
+    fn write(&self, from: &S) -> Option<Out> {
+        (self.get)(from).map(|value| self.kind.write(&value))
+    }
+
+    fn copy(&self, from: &S, into: &mut S) {
+        if let Some(value) = (self.get)(from) {
+            (self.set)(into, value);
+        }
+    }
+
+    fn shape(&self) -> &dyn Shape {
+        &self.kind
+    }
+}
+
+/// The keys of a table that the user names.
+pub(crate) trait Named<S>: Sync {
+    /// Reads one of them.
+    fn read(&self, name: &str, item: &Item, into: &mut S, check: &mut Check);
+    /// All of them.
+    fn write(&self, from: &S) -> Vec<(String, Out)>;
+    /// Adds all of them to another struct.
+    fn copy(&self, from: &S, into: &mut S);
+    /// What may stand after each.
+    fn shape(&self) -> &dyn Shape;
+    /// What such a name is.
+    fn doc(&self) -> &'static str;
+}
+
+/// Values with the names that the user gave them.
+pub(crate) type NamedValues<K> = Vec<(String, <K as Kind>::Of)>;
+
+/// The way of the keys that the user names.
+pub(crate) struct Names<S, K: Kind> {
+    pub(crate) kind: K,
+    pub(crate) doc: &'static str,
+    pub(crate) list: fn(&S) -> NamedValues<K>,
+    pub(crate) add: fn(&mut S, String, K::Of),
+}
+
+impl<S, K: Kind> Named<S> for Names<S, K> {
+    fn read(&self, name: &str, item: &Item, into: &mut S, check: &mut Check) {
+        if let Some(value) = self.kind.read(item, check) {
+            (self.add)(into, name.to_owned(), value);
+        }
+    }
+
+    fn write(&self, from: &S) -> Vec<(String, Out)> {
+        (self.list)(from).into_iter().map(|(name, value)| (name, self.kind.write(&value))).collect()
+    }
+
+    fn copy(&self, from: &S, into: &mut S) {
+        (self.list)(from).into_iter().for_each(|(name, value)| (self.add)(into, name, value));
+    }
+
+    fn shape(&self) -> &dyn Shape {
+        &self.kind
+    }
+
+    fn doc(&self) -> &'static str {
+        self.doc
+    }
+}
+
+/// A [`Table`] without its struct: what schema and documentation read.
+pub(crate) struct Section {
+    pub(crate) title: &'static str,
+    pub(crate) doc: &'static str,
+    pub(crate) keys: Vec<SectionKey>,
+    pub(crate) open: Option<(&'static str, &'static dyn Shape)>,
+    pub(crate) later: &'static [Later],
+}
+
+/// A [`Key`] without its struct.
+pub(crate) struct SectionKey {
+    pub(crate) name: &'static str,
+    pub(crate) doc: String,
+    pub(crate) tag: &'static str,
+    pub(crate) absent: &'static str,
+    pub(crate) required: bool,
+    pub(crate) needs: &'static [Quantity],
+    /// What the table has without the key.
+    pub(crate) default: Option<Out>,
+    pub(crate) shape: &'static dyn Shape,
+}
+
+impl<S> Table<S> {
+    /// The description alone.
+    pub(crate) fn section(&'static self) -> Section {
+        let empty = (self.empty)();
+        let key = |key: &'static Key<S>| SectionKey {
+            name: key.name,
+            doc: first_paragraph(key.doc),
+            tag: key.tag,
+            absent: key.absent,
+            required: key.required,
+            needs: key.needs,
+            default: if key.required { None } else { key.field.write(&empty) },
+            shape: key.field.shape(),
+        };
+        Section {
+            title: self.title,
+            doc: self.doc,
+            keys: self.keys.iter().map(key).collect(),
+            open: self.open.map(|open| (open.doc(), open.shape())),
+            later: self.later,
+        }
+    }
+}
+
+/// The first paragraph of a doc comment, on one line.
+pub(crate) fn first_paragraph(doc: &str) -> String {
+    let lines = doc.lines().map(str::trim).take_while(|line| !line.is_empty());
+    lines.collect::<Vec<_>>().join(" ")
+}

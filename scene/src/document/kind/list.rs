@@ -1,0 +1,84 @@
+//! Lists of any length.
+
+use crate::document::check::Check;
+use crate::document::describe::{Kind, Section, Shape};
+use crate::document::fault::Problem;
+use crate::document::item::{Item, Value};
+use crate::document::out::Out;
+use serde_json::{Value as Json, json};
+
+/// A list with at least one item.
+pub(crate) struct ListOf<K> {
+    /// What the list is: `a list of layers`.
+    pub(crate) what: &'static str,
+    pub(crate) each: K,
+}
+
+impl<K: Shape> Shape for ListOf<K> {
+    fn expected(&self) -> String {
+        format!("{} with at least one, each {}", self.what, self.each.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "type": "array", "items": self.each.schema(), "minItems": 1 })
+    }
+
+    fn item_section(&self) -> Option<Section> {
+        self.each.section()
+    }
+}
+
+impl<K: Kind> Kind for ListOf<K> {
+    type Of = Vec<K::Of>;
+
+    /// None if any item is at fault; the faults of all are said.
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Vec<K::Of>> {
+        match item.list() {
+            Some(items) if !items.is_empty() => {
+                let read = |(i, item): (usize, &Item)| {
+                    check.within_item(i, |check| {
+                        check.note(&item.place);
+                        self.each.read(item, check)
+                    })
+                };
+                let values: Vec<Option<K::Of>> = items.iter().enumerate().map(read).collect();
+                values.into_iter().collect()
+            }
+            _ => check.wrong(item, self.expected()),
+        }
+    }
+
+    /// Reads the items that overrides lead to, over those that a preset supplied.
+    fn read_over(&self, item: &Item, supplied: Vec<K::Of>, check: &mut Check) -> Option<Vec<K::Of>> {
+        let Value::Table(entries) = &item.value else { return self.read(item, check) };
+        for (step, entry) in entries {
+            if !matches!(step.parse::<usize>(), Ok(i) if i < supplied.len()) {
+                check.fault(&entry.name, Problem::no_item(step, supplied.len()));
+            }
+        }
+        let mut values = Vec::new();
+        for (i, supplied) in supplied.into_iter().enumerate() {
+            let value = match entries.get(&i.to_string()).map(|entry| &entry.item) {
+                None => Some(supplied),
+                Some(item) if item.value == Value::Off => continue,
+                Some(item) => check.within_item(i, |check| {
+                    check.note(&item.place);
+                    match item.is_way {
+                        true => self.each.read_over(item, supplied, check),
+                        false => self.each.read(item, check),
+                    }
+                }),
+            };
+            values.push(value);
+        }
+        // A list of tables at the top may lose its last one: it is then absent.
+        if values.is_empty() && check.key().contains('.') {
+            return check.wrong(item, self.expected());
+        }
+        values.into_iter().collect()
+    }
+
+    fn write(&self, value: &Vec<K::Of>) -> Out {
+        Out::List(value.iter().map(|v| self.each.write(v)).collect())
+    }
+}

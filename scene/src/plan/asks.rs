@@ -1,0 +1,143 @@
+//! Collectors that the rules of a table write to: needs, and keys without effect.
+
+use super::{IdleKey, Need, Pass, PassNeed};
+use crate::document::Place;
+use crate::quantity::Quantity;
+use crate::tables::Scene;
+
+/// What of a scene is drawn, as far as it has it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drawn {
+    pub(super) volume: bool,
+    pub(super) points: bool,
+    pub(super) strokes: bool,
+}
+
+/// A table of a scene, or an item of a list of tables.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct At {
+    /// Its key from the top, such as `contours` or `pen[0]`; empty for the top itself.
+    pub(crate) key: String,
+    /// Its number, if it is an item of a list of tables; items count from 0.
+    pub(crate) item: Option<usize>,
+}
+
+impl At {
+    /// A key of the table, from the top.
+    pub(crate) fn inner(&self, key: &str) -> String {
+        format!("{}.{key}", self.key)
+    }
+}
+
+/// Collects what the effects of a scene need.
+#[derive(Debug)]
+pub(crate) struct Asks<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) drawn: Drawn,
+    /// The table whose hook runs.
+    pub(crate) at: At,
+    pub(super) needs: Vec<Need>,
+    pub(super) passes: Vec<PassNeed>,
+}
+
+impl Asks<'_> {
+    /// An effect needs a quantity at every visible sample, because of a key.
+    pub(crate) fn need(&mut self, quantity: Quantity, effect: &str, key: &str) {
+        self.need_where(quantity, false, effect, key);
+    }
+
+    /// An effect needs a quantity at the first visible sample of each ray alone, or at every one, because of a key.
+    pub(crate) fn need_where(&mut self, quantity: Quantity, first_only: bool, effect: &str, key: &str) {
+        let place = self.place(key);
+        let item = self.at.item;
+        self.needs.push(Need { quantity, first_only, effect: effect.into(), item, key: key.into(), place });
+    }
+
+    /// An effect needs a pass, because of a key.
+    pub(crate) fn pass(&mut self, pass: Pass, effect: &str, key: &str) {
+        self.pass_where(pass, false, effect, key);
+    }
+
+    /// An effect needs a pass, if the file is of integers or in any case, because of a key.
+    pub(crate) fn pass_where(&mut self, pass: Pass, integer_only: bool, effect: &str, key: &str) {
+        let place = self.place(key);
+        let item = self.at.item;
+        self.passes.push(PassNeed { pass, integer_only, effect: effect.into(), item, key: key.into(), place });
+    }
+
+    /// Where the scene says a key, or else the table around it.
+    fn place(&self, key: &str) -> Option<Place> {
+        let outer = key.rsplit_once(['.', '[']).map(|(outer, _)| outer);
+        let given = &self.scene.given;
+        let said = given.place(key).or_else(|| outer.and_then(|outer| given.place(outer)));
+        said.cloned().or_else(|| given.is_chosen(key).then_some(Place::Chosen))
+    }
+
+    /// Whether the volume itself is drawn.
+    pub(crate) fn casts_rays(&self) -> bool {
+        self.passes.iter().any(|need| need.pass == Pass::Rays)
+    }
+
+    /// Whether stipples are drawn, if the scene has some.
+    pub(crate) fn draws_points(&self) -> bool {
+        self.drawn.points
+    }
+
+    /// Whether strokes are drawn, if the scene has some.
+    pub(crate) fn draws_strokes(&self) -> bool {
+        self.drawn.strokes
+    }
+
+    /// Whether someone needed a pass.
+    pub(crate) fn has_pass(&self, pass: Pass) -> bool {
+        self.passes.iter().any(|need| need.pass == pass)
+    }
+
+    /// The first that needed a quantity, if anyone does.
+    pub(crate) fn first(&self, quantity: Quantity) -> Option<&Need> {
+        self.needs.iter().find(|need| need.quantity == quantity)
+    }
+
+    /// Adds what the needed quantities are made of, for whoever needed them first: where they are needed.
+    pub(super) fn close(&mut self) {
+        for (quantity, first_only) in Quantity::ALL.into_iter().rev().flat_map(|q| [(q, false), (q, true)]) {
+            let is = |need: &Need, quantity| need.quantity == quantity && need.first_only == first_only;
+            let need = self.needs.iter().find(|need| is(need, quantity));
+            if let (Some(need), Some(prerequisite)) = (need, quantity.prerequisite())
+                && !self.needs.iter().any(|n| is(n, prerequisite) || (n.quantity == prerequisite && !n.first_only))
+            {
+                let need = Need { quantity: prerequisite, ..need.clone() };
+                self.needs.push(need);
+            }
+        }
+    }
+}
+
+/// Collects keys without effect.
+#[derive(Debug)]
+pub(crate) struct Idle<'a> {
+    pub(super) scene: &'a Scene,
+    /// The table whose hook runs.
+    pub(crate) at: At,
+    pub(super) keys: Vec<IdleKey>,
+}
+
+impl Idle<'_> {
+    /// Whether the scene says a key or table.
+    pub(crate) fn says(&self, key: &str) -> bool {
+        self.scene.given.contains(key)
+    }
+
+    /// In the order of the scene.
+    pub(super) fn sorted(mut self) -> Vec<IdleKey> {
+        self.keys.sort_by(|a, b| (&a.place, &a.key).cmp(&(&b.place, &b.key)));
+        self.keys
+    }
+
+    /// Lists a key or table that has no effect, if the scene says it.
+    pub(crate) fn key(&mut self, key: &str, why: &str) {
+        if let Some(place) = self.scene.given.place(key) {
+            self.keys.push(IdleKey { key: key.into(), place: place.clone(), why: why.into() });
+        }
+    }
+}

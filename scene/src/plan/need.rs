@@ -1,0 +1,199 @@
+//! The content of a plan: needs, passes, keys without effect.
+
+use super::Pass;
+use crate::document::Place;
+use crate::quantity::Quantity;
+use crate::space::Grid;
+use crate::view::View;
+use std::fmt;
+
+/// A quantity that an effect needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Need {
+    /// What is needed.
+    pub quantity: Quantity,
+    /// Whether only the first visible sample of each ray needs it: layers `first.*` ([IO-6]).
+    pub first_only: bool,
+    /// The effect that needs it.
+    pub effect: String,
+    /// The item that needs it, if the effect is one of a list of tables; items count from 0. Needs are closed for the
+    /// picture as a whole, so an item's prerequisites may stand with another item.
+    pub item: Option<usize>,
+    /// The key or table that asked, such as `contours.kappa` or `pen[0].width`.
+    pub key: String,
+    /// The place of the key in the scene, or else that of the table around it; none for a default.
+    pub place: Option<Place>,
+}
+
+impl Need {
+    /// What it adds to a picture's work.
+    pub fn adds(&self) -> &'static str {
+        if self.first_only { self.quantity.adds_at_first() } else { self.quantity.adds() }
+    }
+}
+
+/// A pass that an effect needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassNeed {
+    /// What is needed.
+    pub pass: Pass,
+    /// Whether only a volume of integers needs it: the scene leaves it to the volume ([`Plan::settle`]).
+    pub integer_only: bool,
+    /// The effect that needs it.
+    pub effect: String,
+    /// The item that needs it, if the effect is one of a list of tables; items count from 0.
+    pub item: Option<usize>,
+    /// The key or table that asked, such as `contours.kappa` or `pen[0].width`.
+    pub key: String,
+    /// The place of the key in the scene, or else that of the table around it; none for a default.
+    pub place: Option<Place>,
+}
+
+/// A key or table that the scene says and that has no effect beside its neighbours ([SCN-4]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct IdleKey {
+    /// The key, such as `camera.fov` or `pen[0].tone`.
+    pub key: String,
+    /// Where the scene says it.
+    pub place: Place,
+    /// Why it has no effect.
+    pub why: String,
+}
+
+/// What a scene calls for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Quantities at samples, ordered by quantity.
+    pub needs: Vec<Need>,
+    /// Passes, in their order.
+    pub passes: Vec<PassNeed>,
+    /// Keys without effect.
+    pub idle_keys: Vec<IdleKey>,
+    /// The points of stipples, where they have been counted.
+    pub points: Option<PointsPlan>,
+    /// What the picture may lack.
+    pub warnings: Vec<String>,
+}
+
+/// How many points stipples have, which takes a look at the volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PointsPlan {
+    /// Voxels above the threshold.
+    pub voxels: u64,
+    /// Points of each: N_max, and more in thin layers of voxels that are not cubes ([STIP-3], [STIP-4]).
+    pub each: u64,
+    /// Bytes while they are made: points, voxels, order.
+    pub bytes: u64,
+}
+
+impl Plan {
+    /// Whether an effect of the scene needs that quantity at every visible sample.
+    pub fn needs(&self, quantity: Quantity) -> bool {
+        self.needs.iter().any(|need| need.quantity == quantity && !need.first_only)
+    }
+
+    /// Whether an effect of the scene needs that quantity at the first visible sample of a ray, or at every one.
+    pub fn needs_at_first(&self, quantity: Quantity) -> bool {
+        self.needs.iter().any(|need| need.quantity == quantity)
+    }
+
+    /// Whether an effect of the scene reads a gradient anywhere: at samples, or on the iso-surface.
+    pub fn reads_gradients(&self) -> bool {
+        self.needs_at_first(Quantity::Gradient) || self.needs(Quantity::SurfaceNormal)
+    }
+
+    /// Whether something reads the labels of `volume.labels`.
+    pub fn reads_labels(&self) -> bool {
+        self.needs(Quantity::Label) || self.needs(Quantity::LabelDistance) || self.has_pass(Pass::DotLabels)
+    }
+
+    /// Whether an effect of the scene needs that pass.
+    pub fn has_pass(&self, pass: Pass) -> bool {
+        self.passes.iter().any(|need| need.pass == pass)
+    }
+
+    /// Effects, what they need, and the keys that asked, one a line: the plan as a picture's metadata has it ([IO-2]).
+    /// Without places and notes for the author, so that every file that says the same scene has the same.
+    pub fn summary(&self) -> String {
+        let needs = self.needs.iter().map(|n| (&n.effect, n.quantity.name(), &n.key));
+        let passes = self.passes.iter().map(|p| (&p.effect, p.pass.name(), &p.key));
+        let lines = needs.chain(passes).map(|(effect, needs, key)| format!("{effect}: {needs}, because of {key}\n"));
+        lines.collect()
+    }
+
+    /// Warns where the eye of a perspective view lies in the box of the volume: nobody sees what is behind it.
+    pub fn warn_eye(&mut self, view: &View, grid: &Grid) {
+        let [lo, hi] = grid.index_box();
+        let eye = grid.to_index(view.eye);
+        if view.perspective && eye.cmpge(lo).all() && eye.cmple(hi).all() {
+            let why = "the camera is inside the volume: what lies behind it is not seen; move camera.eye away, or leave \
+                       it out for a view of the whole";
+            self.warnings.push(why.into());
+        }
+    }
+
+    /// Warns where the longest distance between samples along a ray exceeds a voxel ([RAY-1]), both in world units.
+    pub fn warn_step(&mut self, longest_step: f64, voxel: f64) {
+        if longest_step > voxel {
+            // Digits of a length that nobody means are no help.
+            let length = |x: f64| if x < 1e6 { format!("{x:.4}") } else { format!("{x:.4e}") };
+            self.warnings.push(format!(
+                "samples are up to {} apart along a ray, further than a voxel ({}): structures between them are missed; \
+                 make sampling.step smaller",
+                length(longest_step),
+                length(voxel)
+            ));
+        }
+    }
+}
+
+impl fmt::Display for Plan {
+    /// Effect, what it needs, what that adds, and which line of the scene asked.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let because = |key: &str, place: &Option<Place>| match place {
+            Some(Place::File { line, .. }) => format!("{key} (line {line})"),
+            Some(Place::Set(_)) => format!("{key} (--set)"),
+            Some(Place::Chosen) => format!("{key} (chosen for this volume)"),
+            None => format!("{key} (default)"),
+        };
+        let head = ["effect", "needs", "adds", "because of"].map(String::from);
+        let needs = self
+            .needs
+            .iter()
+            .map(|n| [n.effect.clone(), n.quantity.name().into(), n.adds().into(), because(&n.key, &n.place)]);
+        let passes = self
+            .passes
+            .iter()
+            .map(|p| [p.effect.clone(), p.pass.name().into(), p.pass.adds().into(), because(&p.key, &p.place)]);
+        let rows: Vec<[String; 4]> = std::iter::once(head).chain(needs).chain(passes).collect();
+        let width: [usize; 4] =
+            std::array::from_fn(|i| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0));
+        for [effect, needs, adds, because] in &rows {
+            let [a, b, c, _] = width;
+            writeln!(f, "{effect:a$}  {needs:b$}  {adds:c$}  {because}")?;
+        }
+        if let Some(PointsPlan { voxels, each, bytes }) = self.points {
+            let points = voxels.saturating_mul(each);
+            writeln!(
+                f,
+                "\npoints\n  {voxels} voxels with {each} each: {points} points, {bytes} bytes while they are made"
+            )?;
+        }
+        let idle = self.idle_keys.iter().map(|key| {
+            let place = Some(key.place.clone());
+            format!("  {}: {}", because(&key.key, &place), key.why)
+        });
+        list(f, "without effect", idle)?;
+        list(f, "warnings", self.warnings.iter().map(|warning| format!("  {warning}")))
+    }
+}
+
+fn list(f: &mut fmt::Formatter<'_>, title: &str, lines: impl Iterator<Item = String>) -> fmt::Result {
+    for (i, line) in lines.enumerate() {
+        if i == 0 {
+            writeln!(f, "\n{title}")?;
+        }
+        writeln!(f, "{line}")?;
+    }
+    Ok(())
+}

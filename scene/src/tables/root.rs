@@ -1,0 +1,118 @@
+//! The description of a whole scene file ([SCN-1], [SCN-3]).
+
+use super::preset::PRESETS;
+use super::{
+    Scene, VolumeSource, camera, contours, hatching, orbit, outlines, page, pen, picture, sampling, shading, stipples,
+    style_mipmaps, styles, surface, transfer, volume,
+};
+use crate::document::check::Check;
+use crate::document::declare::keys;
+use crate::document::describe::{Kind, Later, Shape, Table};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{ListOf, TableOf};
+use crate::document::out::Out;
+use crate::quantity::Quantity;
+use serde_json::{Value as Json, json};
+use std::path::PathBuf;
+
+/// The version of the format.
+const VERSION: i64 = 1;
+
+/// `drypoint = 1`.
+struct Version;
+
+impl Shape for Version {
+    fn expected(&self) -> String {
+        format!("{VERSION}, the version of the format that this program reads")
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "const": VERSION })
+    }
+}
+
+impl Kind for Version {
+    type Of = ();
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<()> {
+        if item.value == Value::Whole(VERSION) { Some(()) } else { check.wrong(item, self.expected()) }
+    }
+
+    fn write(&self, (): &()) -> Out {
+        Out::Whole(VERSION as u64)
+    }
+}
+
+/// A part of the format that is not built yet.
+const fn later(name: &'static str, tag: &'static str) -> Later {
+    Later { name, tag }
+}
+
+/// The whole file.
+pub(crate) static ROOT: Table<Scene> = Table {
+    later: &[
+        later("halo", "HALO-1"),
+        later("combine", "VS-3"),
+        later("object", "VS-2"),
+        later("intersection", "VS-4"),
+        later("mesh", "VS-12"),
+        later("box", "VS-8"),
+        later("arrow", "VS-8"),
+        later("fan", "VS-10"),
+        later("label", "VS-10"),
+        later("conventions", "GPU-6"),
+    ],
+    ..Table::new(
+        "a scene",
+        "A scene file is TOML. A table is an effect: what has no table does not exist for the picture and is not \
+         computed. Lengths are numbers in world units or texts with a unit, angles are in degrees, colours sRGB, and \
+         paths relative to the scene file.",
+        || Scene::without_effects(VolumeSource::File { path: PathBuf::new(), raw: None }),
+        keys! { Scene {
+            /// Version of the format.
+            drypoint: key("", Version, |_| Some(()), |_, ()| {}).required();
+            /// Whole tables for a scene that lacks them.
+            preset: key("SCN-3", PRESETS,
+                |_| None,
+                // It is read before the tables, of which each that the file has takes the place of the preset's.
+                |scene, preset| preset.supply(scene))
+                .absent("\"style\" where the scene draws nothing else");
+            /// Towards the light, for all that is lit; a table's own `light` wins.
+            light: key("STF-11", shading::Light);
+            /// The data that is seen.
+            volume: key("IO-1", TableOf(&volume::TABLE)).required();
+            /// From where the volume is seen.
+            camera: key("RAY-5", TableOf(&camera::TABLE));
+            /// Several frames about the volume.
+            orbit: key("STIP-4", TableOf(&orbit::TABLE)).absent("one frame");
+            /// What the picture is drawn on.
+            picture: key("RAY-6", TableOf(&picture::TABLE));
+            /// The paper that points and lines are drawn on.
+            page: key("IO-7", TableOf(&page::TABLE)).absent("no margin, no plotter");
+            /// The pens that points and lines are drawn with; layers are numbered in their order.
+            pen: key("IO-7", ListOf { what: "a list of pens", each: TableOf(&pen::TABLE) },
+                |s| (!s.pens.is_empty()).then(|| s.pens.clone()),
+                |s, v| s.pens = v).absent("none");
+            /// How the field is reconstructed and where it is sampled.
+            sampling: key("RAY-1", TableOf(&sampling::TABLE));
+            /// Colours or styles, and opacities, over the values.
+            transfer: key("STF-3", TableOf(&transfer::TABLE)).absent("the preset's").needs(&[Quantity::Value]);
+            /// The lit-sphere pictures that a transfer function names.
+            styles: key("STF-12", TableOf(&styles::TABLE));
+            /// Light on a regular transfer function, and on a lit iso-surface.
+            shading: key("STF-11", TableOf(&shading::TABLE)).absent("unshaded").needs(&[Quantity::Gradient]);
+            /// Style contours of controlled thickness.
+            contours: key("STF-6", TableOf(&contours::TABLE)).absent("no contours");
+            /// Styles read at the level of detail that the picture can show.
+            style_mipmaps: key("STF-10", TableOf(&style_mipmaps::TABLE)).absent("no mip-maps");
+            /// Stippling: dots on the volume's boundaries.
+            stipples: key("STIP-1", TableOf(&stipples::TABLE)).absent("no stipples");
+            /// Strokes along the lines of curvature of an iso-surface.
+            hatching: key("HATCH-8", TableOf(&hatching::TABLE)).absent("no hatching");
+            /// Lines where an iso-surface turns away.
+            outlines: key("HATCH-18", TableOf(&outlines::TABLE)).absent("no outlines");
+            /// An opaque iso-surface.
+            surface: key("HATCH-14", TableOf(&surface::TABLE)).absent("no surface").needs(&[Quantity::Surface]);
+        } },
+    )
+};
