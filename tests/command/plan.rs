@@ -113,20 +113,20 @@ fn a_preset_of_a_bare_volume() {
 #[test]
 fn json_is_the_picture_with_nothing_left_to_decide() {
     let folder = Folder::new();
-    let shot = |more: &str| -> serde_json::Value {
+    let shot = |more: &str, set: &str| -> serde_json::Value {
         folder.scene(more);
-        let text = folder.good("plan scene.toml --json");
+        let text = folder.good(&format!("plan scene.toml --json {set}"));
         assert!(!text.contains("auto"), "{text}");
         serde_json::from_str(&text).unwrap()
     };
-    let plain = shot("[sampling]\nstep = \"0.25 voxels\"\n[picture]\nlayers = [\"beauty\", \"first.normal\"]\n");
+    let plain = shot("[sampling]\nstep = \"0.25 voxels\"\n", "--set picture.layers=[\"beauty\",\"first.normal\"]");
     assert_eq!(plain["lattice"]["along"], "plane");
     assert_eq!(plain["lattice"]["step"], plain["lattice"]["near"]);
     assert_eq!(plain["layers"], serde_json::json!(["beauty", "first.normal"]));
     assert_eq!(plain["stop_at"], 1.0);
     let object = &plain["objects"][0];
-    // A phantom's voxels are sampled as floats here, and the trilinear kernel has no second derivatives.
-    assert_eq!([&object["reconstruction"]["hessian"], &object["reconstruction"]["kernel"]], ["central", "trilinear"]);
+    // The phantom is a file of integers.
+    assert_eq!([&object["reconstruction"]["hessian"], &object["reconstruction"]["kernel"]], ["gaussian", "trilinear"]);
     assert_eq!(object["rung"], "gradient");
     assert_eq!(
         object["query"],
@@ -135,7 +135,8 @@ fn json_is_the_picture_with_nothing_left_to_decide() {
     assert!(object["material"]["style"]["contour"].is_null());
     assert!(object["function"]["style"]["nodes"]["at"].as_array().unwrap().len() > 1);
     // A step twice as long, in a world twice as large a voxel, and contours by the Hessian.
-    let exact = shot("[sampling]\nstep = \"0.5 voxels\"\n[contours]\nkappa = \"exact\"\nthickness = \"2 voxels\"\n");
+    let exact =
+        shot("[sampling]\nstep = \"0.5 voxels\"\n[contours]\nkappa = \"exact\"\nthickness = \"2 voxels\"\n", "");
     let step = |shot: &serde_json::Value| shot["lattice"]["step"].as_f64().unwrap();
     assert_eq!(step(&exact), 2.0 * step(&plain));
     let object = &exact["objects"][0];

@@ -102,7 +102,7 @@ pub(super) fn prepare<'a, R: Real>(
         collects,
         layers: shot.layers.clone(),
         eye_axes: EyeAxes::new(&shot.view),
-        rays_across: shot.samples,
+        rays_across: shot.rays_across,
     })
 }
 
@@ -125,7 +125,7 @@ fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
     if planes >= MOST_PLANES {
         return Err(RenderError::TooManyPlanes { planes });
     }
-    let samples = samples_in(lattice, view, grid) * (shot.samples * shot.samples) as f64;
+    let samples = samples_in(lattice, view, grid) * (shot.rays_across * shot.rays_across) as f64;
     if samples > MOST_SAMPLES { Err(RenderError::Endless { samples }) } else { Ok(()) }
 }
 

@@ -40,7 +40,7 @@ pub struct Shot {
     /// Where samples lie on rays ([RAY-1]).
     pub lattice: Lattice,
     /// n of the n×n rays of a pixel ([RAY-6]).
-    pub samples: usize,
+    pub rays_across: usize,
     /// The number type of samples.
     pub number: Number,
     /// The volumes that are drawn.
@@ -175,7 +175,7 @@ impl Shot {
         let layers = &scene.picture.layers;
         Ok(Self {
             lattice: Lattice { step, along: sampling.step_along, near },
-            samples: scene.picture.samples,
+            rays_across: scene.picture.samples,
             number: sampling.number,
             objects: [object],
             surface: IsoSurface::new(scene, plan, &view)?,

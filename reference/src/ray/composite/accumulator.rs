@@ -20,8 +20,8 @@ impl<T: Arithmetic> Accumulator<T> {
 
     /// Lays a straight colour c of opacity α behind what is there: w = (1 − A)·α, C ← C + w·c, A ← A + w. Returns w.
     #[inline(always)]
-    pub(crate) fn over(&mut self, one: T, rgb: [T; 3], alpha: T) -> T {
-        let w = (one - self.opacity) * alpha;
+    pub(crate) fn over(&mut self, rgb: [T; 3], alpha: T) -> T {
+        let w = (self.opacity.one() - self.opacity) * alpha;
         self.add(rgb, w);
         self.opacity = self.opacity + w;
         w
@@ -29,10 +29,10 @@ impl<T: Arithmetic> Accumulator<T> {
 
     /// Lays an opaque colour behind what is there, after which A is 1 exactly. Returns w = 1 − A.
     #[inline(always)]
-    pub(crate) fn end(&mut self, one: T, rgb: [T; 3]) -> T {
-        let w = one - self.opacity;
+    pub(crate) fn end(&mut self, rgb: [T; 3]) -> T {
+        let w = self.opacity.one() - self.opacity;
         self.add(rgb, w);
-        self.opacity = one;
+        self.opacity = self.opacity.one();
         w
     }
 
@@ -50,11 +50,11 @@ mod tests {
     #[test]
     fn over_by_hand() {
         let mut front = Accumulator::empty(0.0);
-        assert_eq!(front.over(1.0, [1.0, 0.5, 0.0], 0.5), 0.5);
+        assert_eq!(front.over([1.0, 0.5, 0.0], 0.5), 0.5);
         assert_eq!(front, Accumulator { rgb: [0.5, 0.25, 0.0], opacity: 0.5 });
-        assert_eq!(front.over(1.0, [0.0, 1.0, 1.0], 0.5), 0.25);
+        assert_eq!(front.over([0.0, 1.0, 1.0], 0.5), 0.25);
         assert_eq!(front, Accumulator { rgb: [0.5, 0.5, 0.25], opacity: 0.75 });
-        assert_eq!(front.end(1.0, [1.0; 3]), 0.25);
+        assert_eq!(front.end([1.0; 3]), 0.25);
         assert_eq!(front, Accumulator { rgb: [0.75, 0.75, 0.5], opacity: 1.0 });
     }
 
@@ -63,8 +63,8 @@ mod tests {
     fn opaque_is_opaque() {
         for i in 0..1000 {
             let mut front = Accumulator::empty(0.0);
-            front.over(1.0, [0.3; 3], f64::from(i) / 999.0);
-            front.end(1.0, [0.3; 3]);
+            front.over([0.3; 3], f64::from(i) / 999.0);
+            front.end([0.3; 3]);
             assert_eq!(front.opacity, 1.0);
             assert!((front.rgb[0] - 0.3).abs() < 1e-16 * 2.0);
         }

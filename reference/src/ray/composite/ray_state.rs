@@ -131,10 +131,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     pub(crate) fn lay_behind(&mut self, rgb: [R; 3], alpha: R) -> bool {
         let rgb = self.in_blend_space(rgb);
         if alpha >= R::ONE {
-            self.front.accumulator.end(R::ONE, rgb);
+            self.front.accumulator.end(rgb);
             return false;
         }
-        self.front.accumulator.over(R::ONE, rgb, alpha);
+        self.front.accumulator.over(rgb, alpha);
         self.is_open()
     }
 
@@ -153,7 +153,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         counts.without_normal += u64::from(query.gradient && attributes.normal.is_none());
         let v = self.evaluator.dirs.v;
         let rgb = surface.lit.color(surface.rgb, attributes.normal, [v, surface.lit.half_vector(v)]);
-        let w = self.front.accumulator.end(R::ONE, self.in_blend_space(rgb));
+        let w = self.front.accumulator.end(self.in_blend_space(rgb));
         if prepared.collects {
             self.add_to_layers([w, R::ONE], depth, surface.roots.iso(), &attributes);
         }
@@ -327,7 +327,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             rgb = hook.before(sample, rgb, &attributes);
         }
         let rgb = if N::MORE { self.in_blend_space(rgb) } else { rgb };
-        let w = front.accumulator.over(R::ONE, rgb, front.corrected[1]);
+        let w = front.accumulator.over(rgb, front.corrected[1]);
         if N::MORE && prepared.collects && alpha > R::ZERO {
             self.collect(sample, [w, front.accumulator.opacity], attributes, counts);
         }

@@ -302,7 +302,7 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
             shown |= 1 << lane;
             let [r, g, b, _] = rows[lane].into();
             let front = &mut fronts.of_ray[ray];
-            front.over(1.0, [r, g, b], corrected[lane]);
+            front.over([r, g, b], corrected[lane]);
             if front.opacity >= self.prepared.stop_at {
                 fronts.farthest[ray] = k[lane];
             }

@@ -232,7 +232,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
             corrected.correct(fresh, alpha, self.ratio);
         }
         let mut with = *front;
-        with.over(f64x8::splat(simd, 1.0), rgb, corrected.0[1]);
+        with.over(rgb, corrected.0[1]);
         for (c, with) in front.rgb.iter_mut().zip(with.rgb) {
             *c = seen.select(with, *c);
         }

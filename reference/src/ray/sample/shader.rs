@@ -165,7 +165,7 @@ impl<R: Real> Styled<R> {
         Self {
             index: StyleIndex::new(of_node),
             spheres: if has_levels { spheres.with_mipmaps(styles) } else { spheres },
-            detail: style.level_of_detail.map(|level| Detail::new(&level, &shot.view, shot.samples, voxel)),
+            detail: style.level_of_detail.map(|level| Detail::new(&level, &shot.view, shot.rays_across, voxel)),
             contour: style.contour.map(|c| Contour::new(c.thickness, c.kappa, c.fade)),
             transparency: style.transparency,
             frame: style.frame,
