@@ -1,11 +1,11 @@
 //! The rays of a picture, tile by tile.
 
+use super::brick_occupancy::{Beam, RayIntervals};
 use super::composite::plane_order::TileRays;
 use super::composite::{Cast, Sums, pooled};
 use super::lattice::IndexRay;
 use super::prepared::Prepared;
 use super::render::Backdrop;
-use super::skip::{Beam, Boxes};
 use crate::number::Real;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
@@ -17,7 +17,7 @@ use std::borrow::Cow;
 const BATCH: usize = 1 << 20;
 
 /// The channels of a tile, pixel by pixel as [`in_blocks`] orders them.
-struct Tile {
+struct TilePixels {
     x: usize,
     y: usize,
     size: [usize; 2],
@@ -31,8 +31,8 @@ pub(super) struct TileWork<'a> {
     pub(super) tile: usize,
     /// Points of the picture that the rays go through, in pixels from the top left corner.
     pub(super) points: &'a [[f64; 2]],
-    /// Boxes of visible bricks that they can meet; none where nothing is skipped.
-    pub(super) boxes: Option<&'a mut Boxes>,
+    /// RayIntervals of visible bricks that they can meet; none where nothing is skipped.
+    pub(super) boxes: Option<&'a mut RayIntervals>,
     pub(super) counts: &'a mut Counts,
     /// What comes out of each is appended, in the order of the points.
     pub(super) casts: &'a mut Vec<Cast>,
@@ -61,7 +61,7 @@ pub(super) fn draw<R: Real>(
     let mut channels = vec![vec![0.0; width * height]; per_pixel];
     let whole = in_blocks([tile; 2]);
     for first in (0..across * down).step_by(batch) {
-        let tiles: Vec<Tile> = (first..(first + batch).min(across * down))
+        let tiles: Vec<TilePixels> = (first..(first + batch).min(across * down))
             .into_par_iter()
             .map(|t| {
                 let drawn = draw_tile(prepared, cast_all, background, TilePlace::new(prepared, t, tile), &whole);
@@ -97,9 +97,9 @@ fn draw_tile<R: Real>(
     background: Backdrop<'_>,
     place: TilePlace,
     whole: &[[usize; 2]],
-) -> Tile {
+) -> TilePixels {
     let TilePlace { index, at: [x, y], size } = place;
-    let mut tile = Tile { x, y, size, pixels: Vec::new(), counts: Counts::default() };
+    let mut tile = TilePixels { x, y, size, pixels: Vec::new(), counts: Counts::default() };
     let mut boxes = place.boxes(prepared);
     let blocks = blocks_of(size, whole);
     let everywhere = match background {
@@ -179,7 +179,7 @@ impl TilePlace {
     }
 
     /// The boxes of visible bricks that its rays can meet; none where nothing is skipped.
-    fn boxes<R: Real>(&self, prepared: &Prepared<'_, R>) -> Option<Boxes> {
+    fn boxes<R: Real>(&self, prepared: &Prepared<'_, R>) -> Option<RayIntervals> {
         prepared.skip.as_ref().map(|skip| {
             let corner = |i: usize, j: usize| {
                 let ray = prepared.view.ray(i as f64, j as f64);

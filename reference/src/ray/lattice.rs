@@ -1,6 +1,6 @@
 //! Rays in index space, and the samples on them ([RAY-1]).
 
-use super::skip::Boxes;
+use super::brick_occupancy::RayIntervals;
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::shot::{Lattice, StepAlong};
@@ -101,7 +101,7 @@ impl<R: Real> IndexRay<R> {
         [first, last]
     }
 
-    /// The samples that can lie in visible bricks, whose depths are [`Boxes::intervals`]; without those all samples. Closed
+    /// The samples that can lie in visible bricks, whose depths are [`RayIntervals::intervals`]; without those all samples. Closed
     /// ranges first..=last, in order.
     ///
     /// Bounds of neighbouring intervals are rounded outwards to samples and can overlap: no sample is in two ranges, and
@@ -155,7 +155,7 @@ impl<R: Real> IndexRay<R> {
 
     /// The depths at which the ray is in visible bricks.
     #[inline(always)]
-    pub(super) fn intervals<'b>(&self, boxes: Option<&'b mut Boxes>) -> Option<&'b [[f64; 2]]> {
+    pub(super) fn intervals<'b>(&self, boxes: Option<&'b mut RayIntervals>) -> Option<&'b [[f64; 2]]> {
         boxes.map(|boxes| boxes.intervals(self.line(), R::EPSILON.to_f64()))
     }
 

@@ -1,19 +1,19 @@
 //! Casting rays through the field.
 
-mod cells;
+pub mod brick_occupancy;
+mod cell_mask;
 mod composite;
 mod draw;
 mod gradient_range;
-mod iso_surface;
 mod lanes;
 pub mod lattice;
 mod merged;
 pub mod opacity;
 mod prepare;
 mod prepared;
+mod prepared_surface;
 mod render;
 mod sample;
-pub mod skip;
 
 pub use composite::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};
 pub(crate) use gradient_range::{quantile_of_norms, touches as touches_mask};

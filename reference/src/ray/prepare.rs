@@ -1,14 +1,14 @@
 //! From a shot and its data to what samples need: everything that is measured or made once a picture.
 
-use super::cells::Cells;
+use super::brick_occupancy::BrickOccupancy;
+use super::cell_mask::CellMask;
 use super::gradient_range::quantile_of_norms;
-use super::iso_surface::PreparedSurface;
 use super::lattice::{MOST_SAMPLES, samples_in};
 use super::prepared::Prepared;
+use super::prepared_surface::PreparedSurface;
 use super::render::{Inputs, RenderError};
 use super::sample::need::Needs;
 use super::sample::{EyeAxes, Lit, OverTwo, PreparedObject, Shader};
-use super::skip::Skip;
 use crate::field::{Field, Sampler};
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
@@ -38,7 +38,7 @@ pub(super) fn prepare<'a, R: Real>(
     }
     let surface = shot.surface.as_ref().map(|s| PreparedSurface::new(s, &field, bricks.as_ref(), counts));
     let skip = bricks.as_ref().map(|bricks| skip::<R>(bricks, object, inputs));
-    let cells = bricks.as_ref().and_then(|bricks| Cells::new(bricks, object.reconstruction.kernel, function));
+    let cells = bricks.as_ref().and_then(|bricks| CellMask::new(bricks, object.reconstruction.kernel, function));
     if let Some(cells) = &cells {
         counts.bytes.insert("cells".into(), cells.bytes() as u64);
     }
@@ -130,7 +130,7 @@ fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
 }
 
 /// Marks the bricks in which the function can show something.
-fn skip<R: Real>(bricks: &Bricks, object: &Object, inputs: &Inputs<'_>) -> Skip {
+fn skip<R: Real>(bricks: &Bricks, object: &Object, inputs: &Inputs<'_>) -> BrickOccupancy {
     let labels = labels_of(object, inputs);
     // The cells of the volume; an axis of length 1 has one.
     let cells = inputs.volume.dims().map(|n| n.max(2) - 1);
@@ -141,7 +141,7 @@ fn skip<R: Real>(bricks: &Bricks, object: &Object, inputs: &Inputs<'_>) -> Skip 
     let rounded = |at| R::from_f64(at).to_f64();
     // What labels occur takes a look at each voxel, so it is asked last.
     let can_be = |range, among: Option<&[u32]>| object.function.can_be_visible(range, among, rounded);
-    Skip::new(bricks, |brick, range| can_be(range, None) && can_be(range, occurring(brick).as_deref()))
+    BrickOccupancy::new(bricks, |brick, range| can_be(range, None) && can_be(range, occurring(brick).as_deref()))
 }
 
 /// lo and hi − lo of |g| ([VAL-2]), times the power of two of [SPACE-4].

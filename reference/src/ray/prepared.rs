@@ -1,9 +1,9 @@
 //! A shot prepared for casting: everything that is decided once a picture, not at samples.
 
-use super::cells::Cells;
-use super::iso_surface::PreparedSurface;
+use super::brick_occupancy::BrickOccupancy;
+use super::cell_mask::CellMask;
+use super::prepared_surface::PreparedSurface;
 use super::sample::{EyeAxes, PreparedObject};
-use super::skip::Skip;
 use drypoint_scene::fragments::{Fragment, Fragments};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::Lattice;
@@ -14,9 +14,9 @@ pub(super) struct Prepared<'v, R> {
     pub(super) object: PreparedObject<'v, R>,
     pub(super) view: View,
     pub(super) lattice: Lattice,
-    pub(super) skip: Option<Skip>,
+    pub(super) skip: Option<BrickOccupancy>,
     /// None: values are so cheap that all in visible bricks are computed, or nothing is skipped.
-    pub(super) cells: Option<Cells>,
+    pub(super) cells: Option<CellMask>,
     /// Lines on the rays, at their depths; none: none.
     pub(super) lines: Option<Fragments>,
     /// An opaque iso-surface; none: none.

@@ -8,9 +8,9 @@ use super::plane_effect::{Hook, LayBehind, PlaneEffect, RayOnPlane};
 use super::ray_state::{Cast, RayState};
 use crate::field::Sampler;
 use crate::number::Real;
+use crate::ray::brick_occupancy::RayIntervals;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need, Needs};
-use crate::ray::skip::Boxes;
 use drypoint_scene::counts::Counts;
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ use rayon::prelude::*;
 pub(crate) struct TileRays {
     pub(crate) points: Vec<[f64; 2]>,
     pub(crate) places: Vec<[usize; 2]>,
-    pub(crate) boxes: Option<Boxes>,
+    pub(crate) boxes: Option<RayIntervals>,
 }
 
 /// A ray that waits for its next plane.

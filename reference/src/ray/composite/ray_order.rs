@@ -4,10 +4,10 @@ use super::path::{self, Step};
 use super::ray_state::RayState;
 use crate::field::Sampler;
 use crate::number::Real;
+use crate::ray::brick_occupancy::RayIntervals;
 use crate::ray::draw::TileWork;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need, Needs};
-use crate::ray::skip::Boxes;
 
 /// Casts rays of a tile one by one.
 pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {
@@ -36,7 +36,7 @@ fn cast_with<N: Need, R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sample
 
 impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
     /// Appends the steps of the ray, which goes through a point of the picture.
-    pub(crate) fn path(&self, point: [f64; 2], boxes: Option<&mut Boxes>, steps: &mut Vec<Step<'p>>) {
+    pub(crate) fn path(&self, point: [f64; 2], boxes: Option<&mut RayIntervals>, steps: &mut Vec<Step<'p>>) {
         let (prepared, ray) = (self.prepared, &self.evaluator.ray);
         let lines = prepared.lines_at(point);
         let Some(surface) = &prepared.surface else {

@@ -6,7 +6,7 @@ use super::path::Step;
 use super::plane_effect::Hook;
 use crate::field::{Place, Sampler};
 use crate::number::{Real, Vec3};
-use crate::ray::cells::Cells;
+use crate::ray::cell_mask::CellMask;
 use crate::ray::lattice::IndexRay;
 use crate::ray::opacity::Correction;
 use crate::ray::prepared::Prepared;
@@ -227,7 +227,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let mut open = true;
         for k in first..=last {
             let at = self.evaluator.sampler.place(self.evaluator.ray.position(k));
-            let can_show = |cells: &Cells| cells.can_show(&object.field, at.cell);
+            let can_show = |cells: &CellMask| cells.can_show(&object.field, at.cell);
             if !prepared.cells.as_ref().is_none_or(can_show) || self.is_masked(at, counts) {
                 continue;
             }

@@ -13,25 +13,25 @@
 //! Lanes that are set one by one are put into an array of their own. A vector that is indexed does not stay in registers, nor
 //! does what stands in one variable with it.
 
-mod boxes;
+mod intervals;
 mod normal;
 mod phong;
+mod ray_lanes;
 mod rays;
+mod sample_queue;
 mod style;
-mod waiting;
-mod walk;
 
-use self::phong::{Shaded, Unshaded};
+use self::phong::{FlatShader, PhongShader};
+use self::ray_lanes::{Asked, RayLanes};
 use self::rays::Rays;
-use self::waiting::cast_waiting;
-use self::walk::{Asked, Walk};
+use self::sample_queue::cast_waiting;
+use super::brick_occupancy::{RayIntervals, merge};
 use super::composite::Cast;
 use super::draw::TileWork;
 use super::lattice::IndexRay;
 use super::prepared::Prepared;
 use super::sample::Shader;
 use super::sample::need::Needs;
-use super::skip::{Boxes, merge};
 use crate::field::AnySampler;
 use crate::field::lanes::{Each, EachReader, LANES, LaneReader, Packed, Reader};
 use crate::number::Vec3;
@@ -156,12 +156,12 @@ fn walk<S: Simd, F: Reader<S>>(
         return cast_waiting(simd, packets, styled, reader, counts);
     }
     for packet in packets {
-        let walk = Walk::new(simd, packet, reader);
+        let walk = RayLanes::new(simd, packet, reader);
         match &prepared.object.shader {
             Shader::Regular { colors, phong: Some(phong) } if prepared.object.needs == Needs::Normal => {
-                walk.run(packet, &mut Shaded::new(simd, packet, colors, phong), counts);
+                walk.run(packet, &mut PhongShader::new(simd, packet, colors, phong), counts);
             }
-            Shader::Regular { colors, .. } => walk.run(packet, &mut Unshaded { colors }, counts),
+            Shader::Regular { colors, .. } => walk.run(packet, &mut FlatShader { colors }, counts),
             Shader::Style(_) | Shader::Illustrated(_) => unreachable!("lanes serve regular functions and styles alone"),
         }
     }
@@ -231,7 +231,13 @@ impl<'p, 'v> Packet<'p, 'v> {
     /// Takes the rays through other points, past the boxes of visible bricks, with whether all of these are farther than half
     /// a voxel from the end of the volume.
     #[inline(always)]
-    fn aim<S: Simd>(&mut self, simd: S, points: &[[f64; 2]], boxes: Option<(&Boxes, bool)>, intervals: &mut Intervals) {
+    fn aim<S: Simd>(
+        &mut self,
+        simd: S,
+        points: &[[f64; 2]],
+        boxes: Option<(&RayIntervals, bool)>,
+        intervals: &mut Intervals,
+    ) {
         let prepared = self.prepared;
         self.visits.clear();
         self.asked.clear();
@@ -248,7 +254,7 @@ impl<'p, 'v> Packet<'p, 'v> {
             (self.sights[lane], self.eyes[lane]) = (sights[lane].into(), eyes[lane].into());
         }
         if let Some((boxes, _)) = boxes {
-            boxes::intervals(simd, boxes, &rays, points.len(), intervals);
+            intervals::intervals(simd, boxes, &rays, points.len(), intervals);
         }
         for (lane, intervals) in intervals.iter_mut().enumerate().take(points.len()) {
             let ray = self.ray(lane);

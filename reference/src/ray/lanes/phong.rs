@@ -1,7 +1,7 @@
 //! Regular functions in lanes: colours as they are, and Blinn–Phong ([STF-11]).
 
 use super::normal::shading;
-use super::walk::{Sample, Show, Walk};
+use super::ray_lanes::{LaneSamples, RayLanes, ShadeLanes};
 use super::{IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::Reader;
 use crate::field::normal::Normal;
@@ -12,16 +12,16 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
 /// The colours of the function.
-pub(super) struct Unshaded<'p> {
+pub(super) struct FlatShader<'p> {
     pub(super) colors: &'p [[f64; 3]],
 }
 
-impl<S: Simd> Show<S> for Unshaded<'_> {
+impl<S: Simd> ShadeLanes<S> for FlatShader<'_> {
     #[inline(always)]
     fn show<F: Reader<S>>(
         &mut self,
-        _: &Walk<'_, '_, S, F>,
-        sample: &Sample<S>,
+        _: &RayLanes<'_, '_, S, F>,
+        sample: &LaneSamples<S>,
         _: &mut Counts,
     ) -> ([f64x8<S>; 3], f64x8<S>) {
         (sample.place.color(self.colors), sample.place.alpha_u)
@@ -29,14 +29,14 @@ impl<S: Simd> Show<S> for Unshaded<'_> {
 }
 
 /// The same, shaded.
-pub(super) struct Shaded<'p, S: Simd> {
+pub(super) struct PhongShader<'p, S: Simd> {
     colors: &'p [[f64; 3]],
     phong: &'p Phong<f64>,
     v: Vec3<f64x8<S>>,
     half: Vec3<f64x8<S>>,
 }
 
-impl<'p, S: Simd> Shaded<'p, S> {
+impl<'p, S: Simd> PhongShader<'p, S> {
     #[inline(always)]
     pub(super) fn new(simd: S, packet: &Packet<'_, '_>, colors: &'p [[f64; 3]], phong: &'p Phong<f64>) -> Self {
         let [v_x, v_y, v_z, _] = of_rays(simd, &packet.sights, &IN_ORDER);
@@ -44,12 +44,12 @@ impl<'p, S: Simd> Shaded<'p, S> {
     }
 }
 
-impl<S: Simd> Show<S> for Shaded<'_, S> {
+impl<S: Simd> ShadeLanes<S> for PhongShader<'_, S> {
     #[inline(always)]
     fn show<F: Reader<S>>(
         &mut self,
-        walk: &Walk<'_, '_, S, F>,
-        sample: &Sample<S>,
+        walk: &RayLanes<'_, '_, S, F>,
+        sample: &LaneSamples<S>,
         counts: &mut Counts,
     ) -> ([f64x8<S>; 3], f64x8<S>) {
         let place = &sample.place;

@@ -1,7 +1,7 @@
 //! Styles in lanes (Bruckner and Gröller 2007), with what a sample has to know of the one before it on its ray.
 
 use super::normal::shading;
-use super::waiting::{Batch, Tile};
+use super::sample_queue::{Batch, Packets};
 use super::{Packet, RAYS, Row, of_rays};
 use crate::field::curvature;
 use crate::field::lanes::{LANES, Reader};
@@ -16,7 +16,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, f64x8, mask64x8};
 
 /// The styles of a function.
-pub(super) struct InStyle<'p, S: Simd> {
+pub(super) struct StyleShader<'p, S: Simd> {
     simd: S,
     styled: &'p Styled<f64>,
     /// v and Δ_ray of each ray.
@@ -27,11 +27,11 @@ pub(super) struct InStyle<'p, S: Simd> {
     turns: Option<[Row; RAYS]>,
     /// From world to eye space.
     axes: [Vec3<f64x8<S>>; 3],
-    previous: Previous,
+    previous: PreviousNormals,
 }
 
 /// The last sample of each ray that was asked for a normal.
-struct Previous {
+struct PreviousNormals {
     /// Which one; NaN where there was none.
     k: [f64; RAYS],
     /// N, and 1 where there is one, else 0.
@@ -39,18 +39,18 @@ struct Previous {
 }
 
 /// What samples look like.
-pub(super) struct Looks<S: Simd> {
+pub(super) struct ShadedLanes<S: Simd> {
     /// Straight colours.
     pub(super) rgb: [f64x8<S>; 3],
     /// Opacities per reference length.
     pub(super) alpha: f64x8<S>,
     /// Δ/Δ₀.
     pub(super) ratio: f64x8<S>,
-    pub(super) counted: Counted,
+    pub(super) counted: BatchCounts,
 }
 
 /// What a batch has done, by lanes.
-pub(super) struct Counted {
+pub(super) struct BatchCounts {
     without_normal: u64,
     /// Lanes that had to have the gradient of the sample before too.
     before: u64,
@@ -59,7 +59,7 @@ pub(super) struct Counted {
     blends: lanes::Blends,
 }
 
-impl Counted {
+impl BatchCounts {
     /// Counts it for the lanes that are shown.
     #[inline(always)]
     pub(super) fn add(&self, shown: u64, counts: &mut Counts) {
@@ -70,7 +70,7 @@ impl Counted {
     }
 }
 
-impl<'p, S: Simd> InStyle<'p, S> {
+impl<'p, S: Simd> StyleShader<'p, S> {
     #[inline(always)]
     pub(super) fn new(simd: S, packets: &[Packet<'_, '_>], styled: &'p Styled<f64>) -> Self {
         let (mut sights, mut eyes) = ([[0.0; 4]; RAYS], [[0.0; 4]; RAYS]);
@@ -96,7 +96,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
             eyes,
             turns,
             axes,
-            previous: Previous { k: [f64::NAN; RAYS], n: [[0.0; 4]; RAYS] },
+            previous: PreviousNormals { k: [f64::NAN; RAYS], n: [[0.0; 4]; RAYS] },
         }
     }
 
@@ -104,7 +104,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
     #[inline(always)]
     fn kappa<F: Reader<S>>(
         &mut self,
-        tile: &Tile<'_, '_, S, F>,
+        tile: &Packets<'_, '_, S, F>,
         batch: &Batch<S>,
         v: Vec3<f64x8<S>>,
         step: f64x8<S>,
@@ -170,7 +170,7 @@ impl<'p, S: Simd> InStyle<'p, S> {
 
     /// What the samples of a batch look like; whatever in the other lanes.
     #[inline(always)]
-    pub(super) fn show<F: Reader<S>>(&mut self, tile: &Tile<'_, '_, S, F>, batch: &Batch<S>) -> Looks<S> {
+    pub(super) fn show<F: Reader<S>>(&mut self, tile: &Packets<'_, '_, S, F>, batch: &Batch<S>) -> ShadedLanes<S> {
         let (prepared, styled, place) = (tile.prepared, self.styled, &batch.place);
         let (zero, one) = (f64x8::splat(self.simd, 0.0), f64x8::splat(self.simd, 1.0));
         let asked = mask64x8::from_bitmask(self.simd, batch.asked);
@@ -216,18 +216,18 @@ impl<'p, S: Simd> InStyle<'p, S> {
         // Lanes without a sample count as α_u = 0, which needs no power.
         let alpha_u = asked.select(place.alpha_u, zero);
         let share = transparency::share(styled.transparency, alpha_u, n_dot_v, tau, magnitude);
-        let counted = Counted { without_normal: !has.to_bitmask(), before, hessians, blends };
+        let counted = BatchCounts { without_normal: !has.to_bitmask(), before, hessians, blends };
         let ratio = step / prepared.object.reference_length;
         let opaque = alpha_d.simd_eq(1.0) | !asked;
         if opaque.all_true() {
-            return Looks { rgb: [r, g, b], alpha: share, ratio, counted };
+            return ShadedLanes { rgb: [r, g, b], alpha: share, ratio, counted };
         }
         let clear = alpha_d.simd_eq(0.0);
         let mut rgb = [r, g, b];
         for c in &mut rgb {
             *c = clear.select(zero, *c / alpha_d);
         }
-        Looks { rgb, alpha: clear.select(zero, alpha_d * share), ratio, counted }
+        ShadedLanes { rgb, alpha: clear.select(zero, alpha_d * share), ratio, counted }
     }
 }
 

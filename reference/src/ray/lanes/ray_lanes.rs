@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
 /// Eight rays on their way.
-pub(super) struct Walk<'p, 'v, S: Simd, F> {
+pub(super) struct RayLanes<'p, 'v, S: Simd, F> {
     pub(super) simd: S,
     pub(super) prepared: &'p Prepared<'v, f64>,
     pub(super) reader: F,
@@ -28,7 +28,7 @@ pub(super) struct Walk<'p, 'v, S: Simd, F> {
 pub(super) const AHEAD: usize = 4;
 
 /// Values of samples on some planes.
-pub(super) struct Ahead<S: Simd> {
+pub(super) struct Lookahead<S: Simd> {
     first: i64,
     s: [f64x8<S>; AHEAD],
     /// The lanes whose values were asked for.
@@ -40,7 +40,7 @@ pub(super) struct Ahead<S: Simd> {
 /// A plane of a packet on which values were dear, and the lanes that asked for one.
 pub(super) type Asked = (i64, u64);
 
-impl<S: Simd> Ahead<S> {
+impl<S: Simd> Lookahead<S> {
     #[inline(always)]
     pub(super) fn new(simd: S) -> Self {
         Self { first: 0, s: [f64x8::splat(simd, 0.0); AHEAD], asked: [0; AHEAD], seen: 0 }
@@ -59,7 +59,7 @@ impl<S: Simd> Ahead<S> {
 }
 
 /// Samples of one plane that can be seen.
-pub(super) struct Sample<S: Simd> {
+pub(super) struct LaneSamples<S: Simd> {
     /// k.
     pub(super) k: f64,
     /// Between which nodes their values lie; its lanes are the ones that count.
@@ -69,12 +69,12 @@ pub(super) struct Sample<S: Simd> {
 }
 
 /// What samples look like.
-pub(super) trait Show<S: Simd> {
+pub(super) trait ShadeLanes<S: Simd> {
     /// Straight colours and opacities per reference length of the lanes that are seen.
     fn show<F: Reader<S>>(
         &mut self,
-        walk: &Walk<'_, '_, S, F>,
-        sample: &Sample<S>,
+        walk: &RayLanes<'_, '_, S, F>,
+        sample: &LaneSamples<S>,
         counts: &mut Counts,
     ) -> ([f64x8<S>; 3], f64x8<S>);
 }
@@ -104,7 +104,7 @@ impl<S: Simd> Corrected<S> {
     }
 }
 
-impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
+impl<'p, 'v, S: Simd, F: Reader<S>> RayLanes<'p, 'v, S, F> {
     #[inline(always)]
     pub(super) fn new(simd: S, packet: &Packet<'p, 'v>, reader: F) -> Self {
         let [_, _, _, step] = of_rays(simd, &packet.sights, &IN_ORDER);
@@ -121,12 +121,12 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
 
     /// Visits all samples, the nearest plane first.
     #[inline(always)]
-    pub(super) fn run(&self, packet: &mut Packet<'_, '_>, look: &mut impl Show<S>, counts: &mut Counts) {
+    pub(super) fn run(&self, packet: &mut Packet<'_, '_>, look: &mut impl ShadeLanes<S>, counts: &mut Counts) {
         let zero = f64x8::splat(self.simd, 0.0);
         let (mut front, mut corrected) = (Accumulator::empty(zero), Corrected([zero; 2]));
         let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
         let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
-        let mut ahead = Ahead::new(self.simd);
+        let mut ahead = Lookahead::new(self.simd);
         // Nothing dear is cast here.
         let mut asked = Vec::new();
         'rays: for &[first, last] in &packet.together {
@@ -156,7 +156,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
     #[inline(always)]
     pub(super) fn look_ahead(
         &self,
-        ahead: &mut Ahead<S>,
+        ahead: &mut Lookahead<S>,
         [first, last]: [i64; 2],
         open: mask64x8<S>,
         nearest: f64x8<S>,
@@ -215,7 +215,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
         k: f64,
         s: f64x8<S>,
         active: mask64x8<S>,
-        look: &mut impl Show<S>,
+        look: &mut impl ShadeLanes<S>,
         front: &mut Accumulator<f64x8<S>>,
         corrected: &mut Corrected<S>,
         counts: &mut Counts,
@@ -225,7 +225,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> Walk<'p, 'v, S, F> {
             return mask64x8::splat(simd, false);
         };
         let seen = mask64x8::from_bitmask(simd, place.visible);
-        let sample = Sample { k, place, seen };
+        let sample = LaneSamples { k, place, seen };
         let (rgb, alpha) = look.show(self, &sample, counts);
         let fresh = (seen & alpha.simd_ne(corrected.0[0])).to_bitmask();
         if fresh != 0 {

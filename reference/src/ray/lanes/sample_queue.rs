@@ -6,8 +6,8 @@
 //! that all seem to have ended are left for the next eight, and followed further only if what waited turns out to let light
 //! through.
 
-use super::style::{InStyle, Looks};
-use super::walk::{AHEAD, Ahead, Asked, Walk};
+use super::ray_lanes::{AHEAD, Asked, Lookahead, RayLanes};
+use super::style::{ShadedLanes, StyleShader};
 use super::{Packet, RAYS, vector};
 use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
@@ -28,7 +28,7 @@ const NUMBERS: usize = 9;
 const ROOM: usize = 2 * LANES;
 
 /// Samples in the order in which they were found.
-struct Waiting {
+struct SampleQueue {
     len: usize,
     numbers: [[f64; ROOM]; NUMBERS],
     nodes: [u32; ROOM],
@@ -46,7 +46,7 @@ pub(super) struct Batch<S: Simd> {
     pub(super) place: transfer::lanes::Places<S>,
 }
 
-impl Waiting {
+impl SampleQueue {
     fn new() -> Self {
         Self { len: 0, numbers: [[0.0; ROOM]; NUMBERS], nodes: [0; ROOM], rays: [0; ROOM] }
     }
@@ -164,8 +164,8 @@ pub(super) fn cast_waiting<S: Simd, F: Reader<S>>(
 ) {
     let mut fronts = Fronts::new(packets);
     if let [Packet { prepared, .. }, ..] = &*packets {
-        let mut look = InStyle::new(simd, packets, styled);
-        Tile { simd, prepared, packets, reader }.run(&mut fronts, &mut look, counts);
+        let mut look = StyleShader::new(simd, packets, styled);
+        Packets { simd, prepared, packets, reader }.run(&mut fronts, &mut look, counts);
     }
     fronts.hand_over(packets);
 }
@@ -174,18 +174,18 @@ pub(super) fn cast_waiting<S: Simd, F: Reader<S>>(
 type Next = (usize, i64);
 
 /// Packets whose samples wait for each other.
-pub(super) struct Tile<'p, 'v, S: Simd, F> {
+pub(super) struct Packets<'p, 'v, S: Simd, F> {
     simd: S,
     pub(super) prepared: &'p Prepared<'v, f64>,
     packets: &'p [Packet<'p, 'v>],
     pub(super) reader: F,
 }
 
-impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
+impl<S: Simd, F: Reader<S>> Packets<'_, '_, S, F> {
     /// Visits all samples and shows what is seen eight at a time.
     #[inline(always)]
-    fn run(&self, fronts: &mut Fronts, look: &mut InStyle<'_, S>, counts: &mut Counts) {
-        let mut waiting = Waiting::new();
+    fn run(&self, fronts: &mut Fronts, look: &mut StyleShader<'_, S>, counts: &mut Counts) {
+        let mut waiting = SampleQueue::new();
         let mut next = [Some((0, i64::MIN)); RAYS / LANES];
         let on_their_way = &mut next[..self.packets.len()];
         while on_their_way.iter().any(Option::is_some) {
@@ -207,9 +207,9 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
         &self,
         packet: usize,
         (first_range, earliest): Next,
-        waiting: &mut Waiting,
+        waiting: &mut SampleQueue,
         fronts: &mut Fronts,
-        look: &mut InStyle<'_, S>,
+        look: &mut StyleShader<'_, S>,
         counts: &mut Counts,
     ) -> Option<Next> {
         let simd = self.simd;
@@ -217,12 +217,12 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
             return None;
         }
         let rays = &self.packets[packet];
-        let walk = Walk::new(simd, rays, self.reader);
+        let walk = RayLanes::new(simd, rays, self.reader);
         let one = f64x8::splat(simd, 1.0);
         let nearest: f64x8<S> = rays.ends[0].simd_into(simd);
         // About what a ray lets through when all that waits is shown. Below the limit it may have ended by then.
         let (mut through, limit) = (one - fronts.opacity(simd, packet), 1.0 - self.prepared.stop_at);
-        let mut ahead = Ahead::new(simd);
+        let mut ahead = Lookahead::new(simd);
         // What lay beyond where it stopped is asked for once more.
         while fronts.asked[packet].pop_if(|&mut (k, _)| k >= earliest).is_some() {}
         for (range, &[first, last]) in rays.together.iter().enumerate().skip(first_range) {
@@ -279,9 +279,9 @@ impl<S: Simd, F: Reader<S>> Tile<'_, '_, S, F> {
 
     /// Shows samples and lays them behind what is in front of them.
     #[inline(always)]
-    fn show_batch(&self, batch: &Batch<S>, look: &mut InStyle<'_, S>, fronts: &mut Fronts, counts: &mut Counts) {
+    fn show_batch(&self, batch: &Batch<S>, look: &mut StyleShader<'_, S>, fronts: &mut Fronts, counts: &mut Counts) {
         let simd = self.simd;
-        let Looks { rgb: [r, g, b], alpha, ratio, counted } = look.show(self, batch);
+        let ShadedLanes { rgb: [r, g, b], alpha, ratio, counted } = look.show(self, batch);
         let corrected: [f64; LANES] = if batch.asked.count_ones() > 2 {
             correct(alpha, ratio).into()
         } else {

@@ -11,7 +11,7 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 ///
 /// No position in a visible brick is outside the intervals of its ray that the BVH gives. A position in an invisible
 /// one may be inside them: its sample is evaluated, shows nothing, and changes no bit.
-pub struct Skip {
+pub struct BrickOccupancy {
     nodes: Vec<Node>,
     /// A bound on the coordinates inside the volume, for the rounding of positions.
     reach: f64,
@@ -34,7 +34,7 @@ struct Block {
     hi: [usize; 3],
 }
 
-impl Skip {
+impl BrickOccupancy {
     /// Marks the bricks for which `can_see` holds, of their place and range, and builds the tree over them.
     pub fn new(bricks: &Bricks, can_see: impl Fn([usize; 3], [f64; 2]) -> bool) -> Self {
         let [nx, ny, _] = bricks.dims;
@@ -53,8 +53,8 @@ impl Skip {
 
     /// The boxes of visible bricks that a beam of rays can meet: one walk through the tree serves all of them. Nearer boxes
     /// mostly come before farther ones.
-    pub fn boxes_in(&self, beam: &Beam) -> Boxes {
-        let mut boxes = Boxes { reach: self.reach, ..Boxes::default() };
+    pub fn boxes_in(&self, beam: &Beam) -> RayIntervals {
+        let mut boxes = RayIntervals { reach: self.reach, ..RayIntervals::default() };
         let mut open: Vec<&Node> = self.nodes.first().into_iter().filter(|root| beam.can_meet(&root.ends)).collect();
         while let Some(node) = open.pop() {
             if node.children == 0 {
@@ -70,15 +70,15 @@ impl Skip {
     }
 }
 
-/// Boxes of visible bricks, in index space, and what the last line met of them.
+/// RayIntervals of visible bricks, in index space, and what the last line met of them.
 #[derive(Clone, Debug, Default)]
-pub struct Boxes {
+pub struct RayIntervals {
     ends: Vec<[[f64; 2]; 3]>,
     intervals: Vec<[f64; 2]>,
     reach: f64,
 }
 
-impl Boxes {
+impl RayIntervals {
     /// Whether there is none.
     pub(super) fn is_empty(&self) -> bool {
         self.ends.is_empty()
@@ -250,7 +250,7 @@ pub(super) fn add(intervals: &mut Vec<[f64; 2]>, [from, to]: [f64; 2]) {
     }
 }
 
-/// Sorts intervals and joins those that touch. Boxes come nearly in the order of a ray, and so do these.
+/// Sorts intervals and joins those that touch. RayIntervals come nearly in the order of a ray, and so do these.
 pub(super) fn merge(intervals: &mut Vec<[f64; 2]>) {
     for i in 1..intervals.len() {
         let interval = intervals[i];
@@ -368,7 +368,7 @@ mod tests {
             between in prop::array::uniform2(0.0..1.0f64),
             width in prop_oneof![Just(0.0), 1e-9..1e-6f64, 0.01..1.0f64],
         ) {
-            let skip = Skip::new(&bricks([5, 4, 3], &visible), |_, r| r[1] > 0.5);
+            let skip = BrickOccupancy::new(&bricks([5, 4, 3], &visible), |_, r| r[1] > 0.5);
             let (from, mut along) = (DVec3::from_array(from), DVec3::from_array(to) - DVec3::from_array(from));
             if axis_parallel < 3 {
                 along[axis_parallel] = 0.0;
@@ -435,7 +435,7 @@ mod tests {
         let visible: Vec<bool> = (0..60).map(|i| i == 27).collect();
         let [lo, hi] = [DVec3::new(8.0, 4.0, 4.0), DVec3::new(12.0, 8.0, 8.0)];
         let within = |p: DVec3| p.cmpge(lo).all() && p.cmplt(hi).all();
-        let skip = Skip::new(&bricks([5, 4, 3], &visible), |_, r| r[1] > 0.5);
+        let skip = BrickOccupancy::new(&bricks([5, 4, 3], &visible), |_, r| r[1] > 0.5);
         let mut boxes = skip.boxes_in(&everything());
         let f32s = |v: DVec3| v.to_array().map(|x| x as f32);
         let mut moved = 0;
@@ -460,7 +460,7 @@ mod tests {
 
     #[test]
     fn nothing_visible_is_no_interval() {
-        let skip = Skip::new(&bricks([1, 1, 1], &[false]), |_, r| r[1] > 0.5);
+        let skip = BrickOccupancy::new(&bricks([1, 1, 1], &[false]), |_, r| r[1] > 0.5);
         assert!(skip.boxes_in(&everything()).intervals([DVec3::ZERO, DVec3::X], f64::EPSILON).is_empty());
     }
 }

@@ -4,7 +4,7 @@ use super::Column;
 use super::rays::Rays;
 use crate::field::lanes::LANES;
 use crate::number::Vec3;
-use crate::ray::skip::{Boxes, LEAST_ALONG, add};
+use crate::ray::brick_occupancy::{LEAST_ALONG, RayIntervals, add};
 use drypoint_scene::glam::DVec3;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
@@ -13,7 +13,7 @@ use fearless_simd::{Simd, f64x8, mask64x8};
 #[inline(always)]
 pub(super) fn intervals<S: Simd>(
     simd: S,
-    boxes: &Boxes,
+    boxes: &RayIntervals,
     rays: &Rays<S>,
     n: usize,
     intervals: &mut [Vec<[f64; 2]>; LANES],

@@ -7,7 +7,7 @@ use drypoint_scene::volume::{BRICK, Bricks};
 use std::sync::{Arc, OnceLock};
 
 /// Which cells a transfer function can see. A brick is looked at when the first ray comes there.
-pub(super) struct Cells {
+pub(super) struct CellMask {
     function: Arc<Function>,
     /// Bricks along x, y, z.
     dims: [usize; 3],
@@ -17,7 +17,7 @@ pub(super) struct Cells {
 
 const _: () = assert!(CELLS == u64::BITS as usize);
 
-impl Cells {
+impl CellMask {
     /// Where bricks are skipped and a value is of more than eight voxels; nothing is looked at yet.
     pub(super) fn new(bricks: &Bricks, kernel: Kernel, function: &Arc<Function>) -> Option<Self> {
         let seen = || bricks.ranges.iter().map(|_| OnceLock::new()).collect();
