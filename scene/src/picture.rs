@@ -131,7 +131,7 @@ impl Picture {
     }
 }
 
-/// What a picture file says of its origin ([IO-2]): no date, so that the same scene gives the same bytes.
+/// The origin of a picture as its file says it ([IO-2]): no date, so that the same scene gives the same bytes.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Provenance {
     /// Name and version of the program.

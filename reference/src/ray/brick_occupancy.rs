@@ -208,9 +208,9 @@ pub(super) struct Line {
     inverse: [f64; 3],
     /// Which end of a box the line meets first.
     first: [usize; 3],
-    /// What is taken from an end of a box times `inverse` to give the depth there, (end − origin)/along: too much by the
-    /// margin where the line enters, so that it does so earlier, too little where it leaves.
+    /// origin · `inverse` plus the margin. A line enters a box at the depth end · `inverse` − `enter`, a little early.
     enter: [f64; 3],
+    /// origin · `inverse` minus the margin. A line leaves a box at the depth end · `inverse` − `leave`, a little late.
     leave: [f64; 3],
 }
 
@@ -404,7 +404,7 @@ mod tests {
         Beam::new([[Vec3::<f64>::from_glam(DVec3::ZERO); 2]; 4])
     }
 
-    /// The same distance, and tiles no wider than its rounding: each ray has been rounded for itself, and what lies at its
+    /// Tiles at that distance that are no wider than its rounding: each ray has been rounded for itself, and what lies at its
     /// positions is in the beam of the corner rays.
     #[test]
     fn rays_that_are_rounded_out_of_their_tile_are_in_its_beam() {

@@ -18,7 +18,7 @@ pub(super) struct CellMask {
 const _: () = assert!(CELLS == u64::BITS as usize);
 
 impl CellMask {
-    /// Where bricks are skipped and a value is of more than eight voxels; nothing is looked at yet.
+    /// A mask in which no cell is looked at yet; none for the trilinear kernel, whose values are cheap.
     pub(super) fn new(bricks: &Bricks, kernel: Kernel, function: &Arc<Function>) -> Option<Self> {
         let seen = || bricks.ranges.iter().map(|_| OnceLock::new()).collect();
         (kernel != Kernel::Trilinear).then(|| Self { function: function.clone(), dims: bricks.dims, seen: seen() })

@@ -34,7 +34,7 @@ pub(super) struct TileWork<'a> {
     /// RayIntervals of visible bricks that they can meet; none where nothing is skipped.
     pub(super) boxes: Option<&'a mut RayIntervals>,
     pub(super) counts: &'a mut Counts,
-    /// What comes out of each is appended, in the order of the points.
+    /// Results, appended in the order of the points.
     pub(super) casts: &'a mut Vec<Cast>,
 }
 
@@ -154,7 +154,7 @@ fn tiles_across<R: Real>(prepared: &Prepared<'_, R>, side: usize) -> [usize; 2] 
     prepared.view.size.map(|n| n.div_ceil(side))
 }
 
-/// Where a tile lies in the picture.
+/// The place of a tile in the picture.
 #[derive(Clone, Copy)]
 struct TilePlace {
     index: usize,

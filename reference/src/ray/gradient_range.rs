@@ -1,4 +1,4 @@
-//! What |g| = 1 stands for ([VAL-2]).
+//! The range of ‖g‖ that |g| from 0 to 1 stands for ([VAL-2]).
 
 use crate::field::{GradientEstimator, Sampler};
 use crate::number::Real;

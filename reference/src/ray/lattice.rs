@@ -164,7 +164,7 @@ impl<R: Real> IndexRay<R> {
         self.rounded().map(|v| v.to_glam())
     }
 
-    /// The same, in the numbers of positions.
+    /// Origin and displacement for one unit of depth, in the numbers of positions.
     pub(super) fn rounded(&self) -> [Vec3<R>; 2] {
         [self.origin, self.along]
     }

@@ -14,11 +14,11 @@ pub(super) struct PreparedSurface<R> {
     /// Linear.
     pub(super) rgb: [R; 3],
     pub(super) lit: Lit<R>,
-    /// What a place on it is asked for.
+    /// The query of a place on the surface.
     pub(super) query: SampleQuery,
-    /// What a place is asked for beyond that where nothing lies before it, for the layers `first.*`.
+    /// The query of a place beyond that where nothing lies before it, for the layers `first.*`.
     pub(super) first: SampleQuery,
-    /// Whether it is drawn alone, without the volume.
+    /// Whether the surface is drawn alone, without the volume.
     pub(super) alone: bool,
 }
 

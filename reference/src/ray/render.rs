@@ -37,11 +37,11 @@ pub struct Inputs<'a> {
     pub further: [Option<&'a Volume>; 2],
     /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names).
     pub styles: &'a [Style],
-    /// What lies behind.
+    /// The background.
     pub background: Backdrop<'a>,
 }
 
-/// What lies behind the volume, linear.
+/// The background of a picture, linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Backdrop<'a> {
     /// Nothing.
@@ -144,7 +144,7 @@ impl<'a> Renderer<'a> {
     /// labels and further quantities belong.
     ///
     /// # Errors
-    /// As [`Renderer::new`].
+    /// See [`Renderer::new`].
     pub fn exact(shot: &Shot, inputs: Inputs<'a>, phantom: &'a dyn Phantom) -> Result<Self, RenderError> {
         let start = Instant::now();
         let mut counts = Counts::default();
@@ -173,19 +173,18 @@ impl<'a> Renderer<'a> {
         Self { ready, background: inputs.background, counts, tile: TILE, order }
     }
 
-    /// The same with tiles of another side, from 1 to 1024 pixels; it shows nowhere ([RAY-3]).
+    /// Sets the side of tiles, from 1 to 1024 pixels. It shows nowhere ([RAY-3]).
     pub fn with_tiles(self, side: usize) -> Self {
         Self { tile: side.clamp(1, 1024), ..self }
     }
 
-    /// The same with each ray cast alone, as where the processor has no wide registers; it shows nowhere, neither in the
-    /// picture nor in the counts.
+    /// Casts each ray alone, as on a processor without wide registers. It shows neither in the picture nor in the counts.
     pub fn ray_by_ray(self) -> Self {
         Self { order: Order::Rays, ..self }
     }
 
-    /// The same with all rays together, plane by plane, as effects need that read what lies on the planes before; it shows
-    /// nowhere, neither in the picture nor in the counts.
+    /// Casts all rays together, plane by plane, as effects need that read what lies on the planes before. It shows neither
+    /// in the picture nor in the counts.
     pub fn plane_by_plane(self) -> Self {
         Self { order: Order::Planes, ..self }
     }
@@ -226,7 +225,7 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// What preparing took and keeps; it is in the counts of each [`frame`](Self::frame).
+    /// The counts of preparing, which are among those of each [`frame`](Self::frame).
     pub fn prepared(&self) -> &Counts {
         &self.counts
     }
@@ -238,7 +237,7 @@ impl<'a> Renderer<'a> {
         (picture, counts)
     }
 
-    /// The same with what the frame itself took: a further one, prepared with the first.
+    /// Renders a further frame, with the counts of the frame alone.
     pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         self.draw_frame(None, progress)
     }

@@ -16,9 +16,9 @@ pub struct IsoSurface {
     pub rgb: [f64; 3],
     /// How the colour is lit.
     pub lit: Illumination,
-    /// What a place on it is asked for.
+    /// The query of a place on the surface.
     pub query: SampleQuery,
-    /// What a place is asked for beyond that where nothing lies before it, for layers `first.*`.
+    /// The query of a place beyond that where nothing lies before it, for layers `first.*`.
     pub first: SampleQuery,
     /// Whether it is drawn alone, without the volume.
     pub alone: bool,

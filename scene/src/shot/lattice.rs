@@ -1,4 +1,4 @@
-//! Where the samples of rays lie ([RAY-1]).
+//! The planes on which the samples of rays lie ([RAY-1]).
 
 use super::StepAlong;
 use crate::space::Grid;
@@ -13,7 +13,7 @@ use serde::Serialize;
 pub struct Lattice {
     /// Δ in world units.
     pub step: f64,
-    /// What Δ is measured along.
+    /// The direction that Δ is measured along.
     pub along: StepAlong,
     /// Smallest depth (radius, for shells) of a sample in perspective, in world units.
     pub near: f64,

@@ -61,13 +61,13 @@ pub struct PhongParams {
 pub struct ToonParams {
     /// L: the unit vector towards the light, in world space.
     pub light: DVec3,
-    /// What is added to L·N.
+    /// The offset that is added to L·N.
     pub offset: f64,
-    /// What colours are multiplied by from each place in L·N + offset on, in ascending order. The first tone holds from −∞ on.
+    /// Factors of colours, each from its place in L·N + offset on, in ascending order. The first tone holds from −∞ on.
     pub tones: Vec<Tone>,
 }
 
-/// What a function of styles has beside its nodes.
+/// The parameters of a function of styles beside its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StyleParams {
     /// How two styles mix ([STF-3]).

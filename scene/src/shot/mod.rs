@@ -37,7 +37,7 @@ use std::sync::Arc;
 pub struct Shot {
     /// The camera ([SPACE-3], [RAY-5]).
     pub view: View,
-    /// Where samples lie on rays ([RAY-1]).
+    /// The planes of samples ([RAY-1]).
     pub lattice: Lattice,
     /// n of the n×n rays of a pixel ([RAY-6]).
     pub rays_across: usize,
@@ -60,7 +60,7 @@ pub struct Shot {
 pub struct Object {
     /// How the field is reconstructed from voxels.
     pub reconstruction: Reconstruction,
-    /// What is asked of the field anywhere.
+    /// The highest derivative that is asked of the field anywhere.
     pub rung: Rung,
     /// Whether bricks that can show nothing are skipped ([RAY-2]).
     pub skip_empty: bool,
@@ -70,15 +70,15 @@ pub struct Object {
     pub label_lookup: LabelLookup,
     /// Δ₀: the length that opacities are given for, in world units ([VAL-4]).
     pub reference_length: f64,
-    /// What |g| = 1 stands for ([VAL-2]); none where nothing reads |g|.
+    /// The range of ‖g‖ that |g| from 0 to 1 stands for ([VAL-2]); none where nothing reads |g|.
     pub gradient_range: Option<GradientRange>,
     /// The direction of shading normals ([NORM-1]).
     pub normal: NormalDirection,
     /// The angle that κ along the ray is made of ([STF-5]).
     pub turn: Turn,
-    /// What is evaluated at every visible sample.
+    /// The query of every visible sample.
     pub query: SampleQuery,
-    /// What is evaluated beyond that at the first visible sample of a ray, for layers `first.*`; none: nothing.
+    /// The query of the first visible sample of a ray beyond that, for layers `first.*`; none: nothing.
     pub first: Option<SampleQuery>,
     /// How samples are coloured.
     pub material: Material,
@@ -106,7 +106,7 @@ pub enum Turn {
     OfLines,
 }
 
-/// What a shot has to know of the volume of its scene.
+/// Facts of a volume that a shot depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct VolumeFacts<'a> {
     /// The voxels' places.
@@ -219,8 +219,8 @@ impl Turn {
 
 /// The A at which a ray ends, so that what is left out is at most ε·c_max in linear light ([RAY-2]).
 ///
-/// What is left out of an encoded sum is at most the encoded c_max times its weight, and is decoded with the sum. The curve f of
-/// sRGB, of which shading can make the part above 1 count too, has c·f′(c) ≤ 2.4 f(c).
+/// The part that is left out of an encoded sum is at most the encoded c_max times its weight, and is decoded with the sum.
+/// The curve f of sRGB has c·f′(c) ≤ 2.4 f(c), also above 1, where shading can lead.
 ///
 /// With ε = 0 a ray ends where A is 1 exactly: every later weight (1 − A)·α is 0, so no bit changes, only the count of samples.
 fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {

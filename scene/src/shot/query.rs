@@ -21,7 +21,7 @@ pub struct SampleQuery {
     pub kappa: KappaSource,
 }
 
-/// Where κ comes from.
+/// The source of κ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum KappaSource {
@@ -39,7 +39,7 @@ impl SampleQuery {
     /// The normal, which comes with the gradient.
     pub const NORMAL: Self = Self { gradient: true, ..Self::VALUE };
 
-    /// What both ask for. κ is the other's where both name one.
+    /// The quantities of both queries. κ is the other's where both name one.
     pub fn and(self, other: Self) -> Self {
         Self {
             gradient: self.gradient || other.gradient,

@@ -31,7 +31,7 @@ impl Default for Reconstruction {
     }
 }
 
-/// What will be asked of a field. What is not asked for is not allocated ([PLAN-1]).
+/// The highest derivative that will be asked of a field. The others are not allocated ([PLAN-1]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rung {
@@ -44,7 +44,7 @@ pub enum Rung {
 }
 
 impl Rung {
-    /// What the effects of a plan ask for.
+    /// The rung that the effects of a plan ask for.
     pub fn of(plan: &Plan) -> Self {
         if plan.needs_at_first(Quantity::Hessian) {
             Self::Hessian

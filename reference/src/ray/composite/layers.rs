@@ -1,4 +1,4 @@
-//! What a ray leaves in the layers of a picture ([IO-6]).
+//! Layers of a picture, from the samples of its rays ([IO-6]).
 
 use drypoint_scene::math;
 use drypoint_scene::picture::LayerKind;

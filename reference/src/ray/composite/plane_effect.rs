@@ -30,7 +30,7 @@ pub struct SampleOnPlane<'a> {
     pub value: f64,
     /// Opacity per reference length; 0 before it was composited.
     pub alpha: f64,
-    /// What was evaluated.
+    /// Its attributes.
     pub attributes: &'a SampleAttributes<f64>,
 }
 
@@ -42,7 +42,7 @@ pub struct RayOnPlane<'a> {
     pub is_open: bool,
     /// The ray's numbers.
     pub own: &'a mut [f64],
-    /// What lies in front.
+    /// The ray, to lay something behind its front.
     pub front: &'a mut dyn LayBehind,
 }
 

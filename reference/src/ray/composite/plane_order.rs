@@ -31,7 +31,7 @@ struct WaitingRay<'p, 'v, R: Real, S> {
     at: usize,
     /// The plane that comes next; the largest number where the ray has ended.
     next: i64,
-    /// What an effect keeps.
+    /// The numbers that an effect keeps.
     own: Vec<f64>,
 }
 
@@ -116,7 +116,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
         self.next = next;
     }
 
-    /// What comes out of its rays.
+    /// Ends the rays and returns their results.
     fn finish(mut self) -> (Vec<Cast>, Counts) {
         let own = |ray: &WaitingRay<'_, '_, R, S>| size_of_val(ray.path.as_slice()) + size_of_val(ray.own.as_slice());
         let bytes = size_of_val(self.rays.as_slice()) + self.rays.iter().map(own).sum::<usize>();

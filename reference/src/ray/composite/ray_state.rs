@@ -17,7 +17,7 @@ use crate::transfer::over::Here;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
 
-/// What comes out of one ray.
+/// The result of one ray.
 pub(crate) struct Cast {
     /// Premultiplied colour and opacity in the blend space, without the background.
     pub(crate) rgba: [f64; 4],
@@ -45,7 +45,7 @@ pub(crate) struct RayState<'p, 'v, R: Real, S> {
     pub(crate) samples: u64,
 }
 
-/// What lies in front on a ray. The loop over samples holds it in registers.
+/// Colour and opacity in front on a ray. The loop over samples holds them in registers.
 #[derive(Clone, Copy)]
 pub(crate) struct Front<R> {
     pub(crate) accumulator: Accumulator<R>,
@@ -78,7 +78,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
     }
 
-    /// What comes out of the ray.
+    /// Ends the ray and returns its result.
     pub(crate) fn finish(self, counts: &mut Counts) -> Cast {
         counts.rays += 1;
         counts.rays_skipped += u64::from(self.samples == 0);

@@ -1,4 +1,4 @@
-//! Where eight rays meet the boxes of visible bricks ([RAY-2]).
+//! The depths at which eight rays meet the boxes of visible bricks ([RAY-2]).
 
 use super::Column;
 use super::rays::Rays;

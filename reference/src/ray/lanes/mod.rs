@@ -1,6 +1,6 @@
 //! Eight rays side by side: the pictures that are asked for most, unshaded, Phong and styles, to the same bits sooner.
 //!
-//! What [`cast`](super::cast) does sample by sample is done here plane by plane for neighbouring rays, in vectors of the
+//! Neighbouring rays take the samples of [`ray_order`](super::composite::ray_order) plane by plane here, in vectors of the
 //! widest registers that the processor has. Each lane takes the steps of its ray alone, in their order, with +, −, ×, ÷ and √
 //! only, which are the same in a vector; what branches or looks things up is done lane by lane. Rays visit the samples
 //! that they would visit alone, so the counts are the same too.
@@ -192,16 +192,16 @@ struct Packet<'p, 'v> {
     /// v in eye space, and the smallest sample beyond `near`.
     eyes: [Row; LANES],
     half: [Column; 3],
-    /// What the rays have to visit, one ray after the other: first and last sample of each interval.
+    /// The visits of the rays, one ray after the other: first and last sample of each interval.
     visits: Vec<[i64; 2]>,
-    /// Which of them are a ray's.
+    /// The range of each ray's visits among them.
     of_ray: [[usize; 2]; LANES],
-    /// What one ray or another has to visit, in order and without overlap. Where a ray has nothing to visit beside its
-    /// neighbours it sees nothing, so it may come along.
+    /// The union of all visits, in order and without overlap. A ray sees nothing between its own visits, so it may come
+    /// along with its neighbours.
     together: Vec<[i64; 2]>,
     /// First and last sample of each ray, and after the walk the one where it ended.
     ends: [Column; 2],
-    /// Where values are dear, the planes for which some were asked for.
+    /// The planes for which values were asked for, where values are dear.
     asked: Vec<Asked>,
     rgba: [[f64; 4]; LANES],
 }
@@ -360,7 +360,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// What is in some range, in whichever order they come, is in one of the ranges, and these neither meet nor hold more.
+        /// United ranges hold what the ranges hold, in whichever order these come. They neither meet nor hold more.
         #[test]
         fn united_ranges_hold_what_they_are_made_of(
             rays in prop::collection::vec(prop::collection::vec((0i64..9, 0i64..9), 0..6), 0..5),

@@ -28,7 +28,7 @@ impl<S: Simd> ShadeLanes<S> for FlatShader<'_> {
     }
 }
 
-/// The same, shaded.
+/// The colours of the function under Blinn–Phong.
 pub(super) struct PhongShader<'p, S: Simd> {
     colors: &'p [[f64; 3]],
     phong: &'p Phong<f64>,

@@ -64,11 +64,11 @@ pub(super) struct LaneSamples<S: Simd> {
     pub(super) k: f64,
     /// Between which nodes their values lie; its lanes are the ones that count.
     pub(super) place: transfer::lanes::Places<S>,
-    /// The same lanes.
+    /// The lanes of `place` as a mask.
     pub(super) seen: mask64x8<S>,
 }
 
-/// What samples look like.
+/// A shader of eight samples of one plane.
 pub(super) trait ShadeLanes<S: Simd> {
     /// Straight colours and opacities per reference length of the lanes that are seen.
     fn show<F: Reader<S>>(

@@ -12,7 +12,7 @@ use fearless_simd::{Simd, f64x8};
 
 /// Eight rays. Lanes beyond the last point repeat it.
 pub(super) struct Rays<S: Simd> {
-    /// Of index space.
+    /// Origin in index space.
     pub(super) origin: Vec3<f64x8<S>>,
     /// In index space, for one unit of depth.
     pub(super) along: Vec3<f64x8<S>>,

@@ -1,7 +1,7 @@
 //! Samples that wait until eight of them can be shown together.
 //!
-//! Of eight neighbouring rays often one or two alone see something, and what a style asks of a sample is as dear for one as
-//! for eight. So samples that are seen wait, and are shown eight at a time, whichever rays of a tile they lie on. A ray may
+//! Often only one or two of eight neighbouring rays see something, and a style's sample is as dear for one ray as for
+//! eight. So samples that are seen wait, and are shown eight at a time, whichever rays of a tile they lie on. A ray may
 //! so be followed a little beyond the sample where it ends; what was done there is neither shown nor counted. Eight rays
 //! that all seem to have ended are left for the next eight, and followed further only if what waited turns out to let light
 //! through.
@@ -105,7 +105,7 @@ impl SampleQueue {
 struct Fronts {
     of_ray: [Accumulator<f64>; RAYS],
     farthest: [f64; RAYS],
-    /// Of each packet.
+    /// The planes of each packet on which values were dear.
     asked: [Vec<Asked>; RAYS / LANES],
 }
 
@@ -142,7 +142,7 @@ impl Fronts {
         f64x8::from_slice(simd, &self.farthest[LANES * packet..][..LANES]).simd_ge(k)
     }
 
-    /// What has come together on each ray of a packet.
+    /// The opacity in front on each ray of a packet.
     #[inline(always)]
     fn opacity<S: Simd>(&self, simd: S, packet: usize) -> f64x8<S> {
         let mut opacity = [0.0; LANES];
@@ -170,7 +170,7 @@ pub(super) fn cast_waiting<S: Simd, F: Reader<S>>(
     fronts.hand_over(packets);
 }
 
-/// Where a packet goes on: in which of the ranges that it visits, and at which sample at the earliest.
+/// The place at which a packet goes on: which of its ranges, and the earliest sample.
 type Next = (usize, i64);
 
 /// Packets whose samples wait for each other.

@@ -38,7 +38,7 @@ struct PreviousNormals {
     n: [Row; RAYS],
 }
 
-/// What samples look like.
+/// Colours and opacities of a batch.
 pub(super) struct ShadedLanes<S: Simd> {
     /// Straight colours.
     pub(super) rgb: [f64x8<S>; 3],
@@ -49,7 +49,7 @@ pub(super) struct ShadedLanes<S: Simd> {
     pub(super) counted: BatchCounts,
 }
 
-/// What a batch has done, by lanes.
+/// The work of a batch, by lanes.
 pub(super) struct BatchCounts {
     without_normal: u64,
     /// Lanes that had to have the gradient of the sample before too.
@@ -168,7 +168,7 @@ impl<'p, S: Simd> StyleShader<'p, S> {
         }
     }
 
-    /// What the samples of a batch look like; whatever in the other lanes.
+    /// Shades the samples of a batch. Other lanes hold anything.
     #[inline(always)]
     pub(super) fn show<F: Reader<S>>(&mut self, tile: &Packets<'_, '_, S, F>, batch: &Batch<S>) -> ShadedLanes<S> {
         let (prepared, styled, place) = (tile.prepared, self.styled, &batch.place);

@@ -1,6 +1,6 @@
-//! What the samples of a scene need beyond their value.
+//! The needs of samples beyond their value.
 //!
-//! The loop over samples is compiled for each of three needs: what few scenes ask for would cost the others the registers
+//! The loop over samples is compiled for each of three needs: quantities of few scenes would cost the others the registers
 //! that they compute in.
 
 use super::PreparedObject;
@@ -45,7 +45,7 @@ pub(crate) enum Value {}
 /// The normal: a shaded picture.
 pub(crate) enum Normal {}
 
-/// Whatever a scene can call for.
+/// Everything that a scene can call for.
 pub(crate) enum Anything {}
 
 impl Need for Value {

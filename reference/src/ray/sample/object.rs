@@ -23,7 +23,7 @@ pub(crate) struct PreparedObject<'v, R> {
     pub(crate) shader: Shader<R>,
     pub(crate) query: SampleQuery,
     pub(crate) needs: Needs,
-    /// What the first visible sample of a ray is asked for beyond that, for the layers `first.*`; none: nothing.
+    /// The query of the first visible sample of a ray beyond that, for the layers `first.*`; none: nothing.
     pub(crate) first: Option<SampleQuery>,
     /// lo and hi − lo of [VAL-2], times the power of two of [SPACE-4]; none where nothing reads |g|.
     pub(crate) gradient_range: Option<(R, R)>,

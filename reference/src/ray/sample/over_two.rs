@@ -15,9 +15,9 @@ use drypoint_scene::transfer::Rows;
 pub(crate) struct OverTwo<'v, R> {
     plane: Plane<R>,
     measures: [Box<dyn Measure<R> + 'v>; 2],
-    /// What the quantities need of a sample, asked before α_u is known.
+    /// The query of the two quantities, before α_u is known.
     pub(crate) first: SampleQuery,
-    /// What else a visible sample is asked for.
+    /// The rest of the query of a visible sample.
     pub(crate) rest: SampleQuery,
 }
 
@@ -55,7 +55,7 @@ impl<'v, R: Real> OverTwo<'v, R> {
         Ok(Self { plane, measures, first, rest })
     }
 
-    /// Where a sample falls between the nodes; none where it is transparent.
+    /// The place of a sample between the nodes; none where it is transparent.
     #[inline]
     pub(crate) fn locate(&self, here: &Here<R>) -> Option<Patch<R>> {
         let [x, y] = &self.measures;
@@ -63,7 +63,7 @@ impl<'v, R: Real> OverTwo<'v, R> {
     }
 }
 
-/// What measures a quantity.
+/// The measure of a quantity.
 fn measure<'v, R: Real>(
     axis: &Axis<u32>,
     which: usize,

@@ -37,7 +37,7 @@ pub(crate) struct Illustrated<R> {
     pub(crate) view_opacity: Option<ViewOpacity>,
 }
 
-/// What a style transfer function needs.
+/// A style transfer function ready for samples.
 pub(crate) struct Styled<R> {
     /// ift.
     pub(crate) index: StyleIndex,
