@@ -134,6 +134,11 @@ fn json_is_the_picture_with_nothing_left_to_decide() {
     );
     assert!(object["material"]["style"]["contour"].is_null());
     assert!(object["function"]["style"]["nodes"]["at"].as_array().unwrap().len() > 1);
+    // The page of formats has every field.
+    let page = include_str!("../../docs/formats.md");
+    let keys = |value: &serde_json::Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    let fields = keys(&plain).into_iter().chain(keys(object).into_iter().map(|key| format!(".{key}")));
+    assert_eq!(fields.filter(|field| !page.contains(&format!("`{field}`"))).collect::<Vec<_>>(), [""; 0]);
     // A step twice as long, in a world twice as large a voxel, and contours by the Hessian.
     let exact =
         shot("[sampling]\nstep = \"0.5 voxels\"\n[contours]\nkappa = \"exact\"\nthickness = \"2 voxels\"\n", "");
