@@ -7,7 +7,7 @@ use crate::document::kind::{Bounds, Numbers, Rule};
 use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 
-/// What |g| = 1 stands for ([VAL-2]).
+/// The gradient that |g| = 1 stands for ([VAL-2]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GradientRange {
     /// lo = 0, hi the quantile of ‖g‖ over the voxels with a normal; `"max"` is the quantile 1.
