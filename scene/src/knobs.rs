@@ -33,7 +33,7 @@ pub struct Knob {
     pub key: String,
     /// Its settings from coarse to fine, as `--set` takes them; at least two.
     pub settings: &'static [&'static str],
-    /// What they converge to.
+    /// The picture that they converge to.
     pub limit: Limit,
 }
 
@@ -100,7 +100,7 @@ mod tests {
         knobs(scene, &Plan::new(scene)).into_iter().map(|knob| knob.key).collect()
     }
 
-    /// What a scene uses whatever it shows.
+    /// Knobs of every scene that draws its volume.
     const ALWAYS: [&str; 6] = [
         "picture.samples",
         "sampling.step",
@@ -154,6 +154,23 @@ mod tests {
         assert_eq!(keys(&scene("[outlines]\n")), ["sampling.kernel"]);
         let all = keys(&scene(&format!("{REGULAR}[stipples]\n[hatching]\n"))).join(" ");
         assert_eq!(all, format!("{} {points} {strokes}", ALWAYS.join(" ")));
+    }
+
+    /// Rules name keys that stand elsewhere, so that a slip would go unseen.
+    #[test]
+    fn every_knob_is_a_key_of_its_table() {
+        let scene = scene("[[pen]]\nname = \"a\"\n");
+        for (at, rules) in rules(&scene) {
+            for (key, _) in rules.knobs {
+                let steps = steps(&at.inner(key)).unwrap();
+                let mut section = Some(ROOT.section());
+                for step in steps.iter().filter(|step| step.parse::<usize>().is_err()) {
+                    let keys = section.unwrap().keys;
+                    let key = keys.into_iter().find(|key| key.name == step).unwrap_or_else(|| panic!("{steps:?}"));
+                    section = key.shape.section().or_else(|| key.shape.item_section());
+                }
+            }
+        }
     }
 
     #[test]

@@ -74,7 +74,7 @@ impl Check {
         self.given.insert(self.path.clone(), place.clone());
     }
 
-    /// Where the scene says a key, given from the top.
+    /// Returns the place of a key in the scene; the key is given from the top.
     pub(crate) fn place(&self, key: &str) -> Option<&Place> {
         self.given.place(key)
     }
@@ -271,12 +271,12 @@ impl Check {
     }
 }
 
-/// What a table has beside its own keys.
+/// Returns the entries that are none of the table's keys.
 fn others<'a, S>(table: &Table<S>, entries: &'a Entries) -> impl Iterator<Item = (&'a String, &'a Entry)> {
     entries.iter().filter(|(name, entry)| !entry.item.takes_away() && table.keys.iter().all(|key| key.name != *name))
 }
 
-/// The same with a key as it is where nothing says it.
+/// Returns the table with one key at its default.
 fn without<S>(table: &Table<S>, out: &Key<S>, from: &S) -> S {
     let mut rest = (table.empty)();
     for key in table.keys.iter().filter(|key| key.name != out.name) {
@@ -288,7 +288,7 @@ fn without<S>(table: &Table<S>, out: &Key<S>, from: &S) -> S {
     rest
 }
 
-/// What stands where a table is expected.
+/// Returns the words for a table where one is expected.
 pub(crate) fn table_expected<S>(table: &Table<S>) -> String {
     let names: Vec<&str> = table.keys.iter().map(|key| key.name).collect();
     match names[..] {

@@ -1,4 +1,4 @@
-//! What a table of a scene file is, as data. Checking, `--full`, the schema and the reference page are all made from
+//! Descriptions of the tables of a document, as data. Checking, `--full`, the schema and the reference page are all made from
 //! these descriptions, and each stands in the file of its table.
 
 use super::check::Check;
@@ -8,7 +8,7 @@ use crate::quantity::Quantity;
 
 /// A table whose content becomes an `S`.
 pub(crate) struct Table<S: 'static> {
-    /// What messages call it: `[camera]`, `a node`.
+    /// Name in messages: `[camera]`, `a node`.
     pub(crate) title: &'static str,
     /// One or two sentences.
     pub(crate) doc: &'static str,
@@ -18,11 +18,11 @@ pub(crate) struct Table<S: 'static> {
     pub(crate) keys: &'static [Key<S>],
     /// Keys that the user names, if the table has such.
     pub(crate) open: Option<&'static dyn Named<S>>,
-    /// What the format has and this version has not.
+    /// Keys of the format that this version does not have.
     pub(crate) later: &'static [Later],
     /// Keys that stand in each other's place.
     pub(crate) instead: &'static [Instead],
-    /// What only the keys together can tell.
+    /// Checks the keys together.
     pub(crate) check: fn(&S, &mut Check),
 }
 
@@ -41,11 +41,11 @@ pub(crate) struct Key<S: 'static> {
     pub(crate) doc: &'static str,
     /// The rule that has it, such as `RAY-5`; empty for none.
     pub(crate) tag: &'static str,
-    /// What holds without the key, where the default is no value that could be written.
+    /// Default in words, where it is no value that could be written.
     pub(crate) absent: &'static str,
     /// Whether the table is wrong without it.
     pub(crate) required: bool,
-    /// What the key can make samples or passes need ([PLAN-1]); whether it does depends on its neighbours.
+    /// Quantities that the key can make samples or passes need ([PLAN-1]); whether it does depends on its neighbours.
     pub(crate) needs: &'static [Quantity],
     /// How it is read and written.
     pub(crate) field: &'static dyn Field<S>,
@@ -62,22 +62,22 @@ impl<S> Key<S> {
         Self { name, doc, tag, absent: "", required: false, needs: &[], field }
     }
 
-    /// The same key by another name than that of its field.
+    /// Returns the key with another name than that of its field.
     pub(crate) const fn named(self, name: &'static str) -> Self {
         Self { name, ..self }
     }
 
-    /// The same key, with what holds where it is absent.
+    /// Returns the key with its default in words.
     pub(crate) const fn absent(self, absent: &'static str) -> Self {
         Self { absent, ..self }
     }
 
-    /// The same key, which must be there.
+    /// Returns the key as one that must be there.
     pub(crate) const fn required(self) -> Self {
         Self { required: true, ..self }
     }
 
-    /// The same key, with what it can make a plan need.
+    /// Returns the key with the quantities that it can make a plan need.
     pub(crate) const fn needs(self, needs: &'static [Quantity]) -> Self {
         Self { needs, ..self }
     }
@@ -98,10 +98,10 @@ pub(crate) struct Instead {
 
 /// A type of value: what may stand after `key =`.
 pub(crate) trait Shape: Sync {
-    /// What may stand there, for the third line of a message.
+    /// Returns the values that may stand there, for the third line of a message.
     fn expected(&self) -> String;
 
-    /// As JSON Schema.
+    /// Returns the values that may stand there as JSON Schema.
     fn schema(&self) -> serde_json::Value;
 
     /// Its names with what each means, if it is one of several names.
@@ -122,7 +122,7 @@ pub(crate) trait Shape: Sync {
 
 /// A [`Shape`] with the Rust type that it stands for.
 pub(crate) trait Kind: Shape {
-    /// What the value becomes.
+    /// The Rust type of the value.
     type Of;
 
     /// Reads an item; none where it is at fault, which has then been said.
@@ -146,7 +146,7 @@ pub(crate) trait Field<S>: Sync {
     fn write(&self, from: &S) -> Option<Out>;
     /// Puts the key's value, where it has one, into another struct.
     fn copy(&self, from: &S, into: &mut S);
-    /// What may stand there.
+    /// Returns the type of value.
     fn shape(&self) -> &dyn Shape;
 }
 
@@ -191,9 +191,9 @@ pub(crate) trait Named<S>: Sync {
     fn write(&self, from: &S) -> Vec<(String, Out)>;
     /// Adds all of them to another struct.
     fn copy(&self, from: &S, into: &mut S);
-    /// What may stand after each.
+    /// Returns the type of their values.
     fn shape(&self) -> &dyn Shape;
-    /// What such a name is.
+    /// Returns the documentation of such a name.
     fn doc(&self) -> &'static str;
 }
 
@@ -249,7 +249,7 @@ pub(crate) struct SectionKey {
     pub(crate) absent: &'static str,
     pub(crate) required: bool,
     pub(crate) needs: &'static [Quantity],
-    /// What the table has without the key.
+    /// The value of a table without the key.
     pub(crate) default: Option<Out>,
     pub(crate) shape: &'static dyn Shape,
 }

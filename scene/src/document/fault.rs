@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, in the three lines of the command line's errors: what, where, what to do.
+//! Faults of a scene, in the three lines of the command line's errors: what, where, what to do.
 
 use super::place::{Place, position};
 use std::fmt;
@@ -9,30 +9,30 @@ use std::path::PathBuf;
 pub struct Fault {
     /// The scene file, as it was named.
     pub file: PathBuf,
-    /// Where in it, or on the command line.
+    /// Place in the file, or on the command line.
     pub place: Place,
     /// The key from the top, such as `transfer.nodes[2].style`; empty for a fault of the file as a whole.
     pub key: String,
-    /// What is wrong.
+    /// The kind of fault.
     pub problem: Problem,
 }
 
-/// What is wrong.
+/// The kinds of fault.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
     /// The file cannot be read.
     Unreadable {
-        /// What the system says.
+        /// Message of the system.
         reason: String,
     },
     /// Not TOML.
     Syntax {
-        /// What was found and expected.
+        /// Message of the parser.
         message: String,
     },
     /// A key or table that does not exist.
     UnknownKey {
-        /// What it stands in, such as `[camera]`.
+        /// The table around it, such as `[camera]`.
         table: String,
         /// The key as written.
         name: String,
@@ -45,21 +45,21 @@ pub enum Problem {
     NotBuilt {
         /// It, in words.
         what: String,
-        /// Where the specification has it.
+        /// Rule of the specification.
         tag: String,
     },
     /// A value of the wrong type, unit, range or name.
     Value {
         /// The value, in words.
         found: String,
-        /// What may stand there.
+        /// The values that may stand there, in words.
         expected: String,
         /// The known name that was probably meant.
         nearest: Option<String>,
     },
     /// A name of something that is not there.
     Reference {
-        /// What it should name, such as `style`.
+        /// Kind of thing that it should name, such as `style`.
         what: String,
         /// The name as written.
         name: String,
@@ -70,28 +70,28 @@ pub enum Problem {
     },
     /// A key that must be there and is not.
     Missing {
-        /// What may stand there.
+        /// The values that may stand there, in words.
         expected: String,
     },
     /// Keys that are right alone and wrong together.
     Contradiction {
-        /// What does not go together.
+        /// The contradiction, in words.
         what: String,
-        /// What to do.
+        /// Advice.
         remedy: String,
     },
     /// A file or folder that the scene names and that is not there.
     NoFile {
         /// The path.
         path: PathBuf,
-        /// Where it was looked for, or what to do.
+        /// Folders that were searched, or advice.
         remedy: String,
     },
     /// An override that leads nowhere.
     Override {
-        /// What is wrong with it.
+        /// The mistake, in words.
         what: String,
-        /// What to do.
+        /// Advice.
         remedy: String,
     },
 }

@@ -1,10 +1,10 @@
-//! Where in a scene a thing was said.
+//! Places in a scene file or on the command line.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Where a key or a value stands.
+/// Place of a key or a value.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Place {
     /// In the scene file. Both numbers count from 1; columns are characters, not bytes.
@@ -89,7 +89,7 @@ impl Given {
         self.keys.contains_key(key)
     }
 
-    /// Where the scene said it.
+    /// Place at which the scene said a key.
     pub fn place(&self, key: &str) -> Option<&Place> {
         self.keys.get(key)
     }
@@ -104,7 +104,7 @@ impl Given {
         self.keys.iter().map(|(key, place)| (key.as_str(), place))
     }
 
-    /// Where a message says that a key stands: file, line and column as far as they are known, and the key.
+    /// Place of a key as messages write it: file, line and column as far as they are known, and the key.
     pub fn position(&self, key: &str) -> String {
         position(&self.file, self.place(key), key)
     }

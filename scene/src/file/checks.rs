@@ -45,7 +45,7 @@ fn pens(pens: &[PenSettings], check: &mut Check) {
     }
 }
 
-/// What reads labels needs a label volume, and names of labels a table of them.
+/// A function over labels needs a label volume, and names of labels need a table of names.
 fn labels(scene: &Scene, check: &mut Check) {
     let Some(transfer) = &scene.transfer else { return };
     if !check.sound(&["transfer.over", "volume"]) {

@@ -5,7 +5,7 @@ use crate::document::Place;
 use crate::quantity::Quantity;
 use crate::tables::Scene;
 
-/// What of a scene is drawn, as far as it has it.
+/// The parts of a scene that are drawn, if it has them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawn {
     pub(super) volume: bool,
@@ -65,7 +65,7 @@ impl Asks<'_> {
         self.passes.push(PassNeed { pass, integer_only, effect: effect.into(), item, key: key.into(), place });
     }
 
-    /// Where the scene says a key, or else the table around it.
+    /// Returns the place of a key in the scene, or else that of the table around it.
     fn place(&self, key: &str) -> Option<Place> {
         let outer = key.rsplit_once(['.', '[']).map(|(outer, _)| outer);
         let given = &self.scene.given;

@@ -3,7 +3,7 @@
 use super::Plan;
 use crate::tables::Scene;
 
-/// What the settings of a knob converge to.
+/// The picture that the settings of a knob converge to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
     /// The picture of the field itself, which is known where the field is a formula ([COST-2]).
@@ -24,12 +24,12 @@ pub(crate) struct Ladder {
 }
 
 impl Ladder {
-    /// Of a key that decides how close the samples come to the field, or their sum to its integral.
+    /// Returns the settings of a key that decides how close the samples come to the field, or their sum to its integral.
     pub(crate) const fn to_field(settings: fn(&Scene, &Plan, Option<usize>) -> Settings) -> Self {
         Self { limit: Limit::Field, settings }
     }
 
-    /// Of a key that is no matter of the field.
+    /// Returns the settings of a key that does not concern the field.
     pub(crate) const fn to_finest(settings: fn(&Scene, &Plan, Option<usize>) -> Settings) -> Self {
         Self { limit: Limit::Finest, settings }
     }

@@ -10,7 +10,7 @@ use std::fmt;
 /// A quantity that an effect needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Need {
-    /// What is needed.
+    /// The quantity.
     pub quantity: Quantity,
     /// Whether only the first visible sample of each ray needs it: layers `first.*` ([IO-6]).
     pub first_only: bool,
@@ -26,7 +26,7 @@ pub struct Need {
 }
 
 impl Need {
-    /// What it adds to a picture's work.
+    /// Returns the work that the need adds to a picture.
     pub fn adds(&self) -> &'static str {
         if self.first_only { self.quantity.adds_at_first() } else { self.quantity.adds() }
     }
@@ -35,7 +35,7 @@ impl Need {
 /// A pass that an effect needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassNeed {
-    /// What is needed.
+    /// The pass.
     pub pass: Pass,
     /// Whether only a volume of integers needs it: the scene leaves it to the volume ([`Plan::settle`]).
     pub integer_only: bool,
@@ -54,13 +54,13 @@ pub struct PassNeed {
 pub struct IdleKey {
     /// The key, such as `camera.fov` or `pen[0].tone`.
     pub key: String,
-    /// Where the scene says it.
+    /// Place of the key in the scene.
     pub place: Place,
     /// Why it has no effect.
     pub why: String,
 }
 
-/// What a scene calls for.
+/// The needs of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Quantities at samples, ordered by quantity.
@@ -71,7 +71,7 @@ pub struct Plan {
     pub idle_keys: Vec<IdleKey>,
     /// The points of stipples, where they have been counted.
     pub points: Option<PointsPlan>,
-    /// What the picture may lack.
+    /// Flaws that the picture may have.
     pub warnings: Vec<String>,
 }
 

@@ -176,7 +176,7 @@ fn every_need_names_the_line_that_asked() {
     assert_eq!(line(GradientMagnitudeRange), ("illustrative transparency", "transfer.transparency", Some(4)));
 }
 
-/// What a key can call for is in its description, where documentation and plan both find it.
+/// The description of a key lists every quantity that the key can call for.
 #[test]
 fn every_need_is_one_that_the_description_of_its_key_lists() {
     let listed: Vec<(String, &[Quantity])> = ROOT

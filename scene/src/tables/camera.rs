@@ -14,11 +14,11 @@ pub struct Camera {
     pub projection: Projection,
     /// The way the camera looks, any length; used where `eye` is none.
     pub direction: DVec3,
-    /// Where the camera stands, in world space; none: [RAY-5]'s default from `direction`.
+    /// Place of the camera, in world space; none: [RAY-5]'s default from `direction`.
     pub eye: Option<DVec3>,
     /// Whether the scene gave `direction` beside `eye`: it then replaces `target`. False without `eye`.
     pub direction_given: bool,
-    /// What the camera looks at, in world space; none: the centre of the volume's box.
+    /// Point that the camera looks at, in world space; none: the centre of the volume's box.
     pub target: Option<DVec3>,
     /// Up in the picture.
     pub up: DVec3,
@@ -93,7 +93,7 @@ pub(crate) static TABLE: Table<Camera> = Table {
         "From where the volume is seen: along `direction` at the target, or from `eye`.",
         Camera::default,
         keys! { Camera {
-            /// How points are projected.
+            /// Projection of points.
             projection: key("RAY-6", Projected::KIND,
                 |c| {
                     Some(match c.projection {
@@ -129,7 +129,7 @@ pub(crate) static TABLE: Table<Camera> = Table {
                         *height = Some(v);
                     }
                 }).absent("what shows the whole box of the volume");
-            /// Where the camera stands, in world space. With `direction` beside it, `target` is unused.
+            /// Place of the camera, in world space. With `direction` beside it, `target` is unused.
             eye: key("RAY-5", POINT).absent("so far from the target that the whole box is seen");
             /// The way the camera looks, in world space, of any length.
             direction: key("RAY-5", DIRECTION,
@@ -138,7 +138,7 @@ pub(crate) static TABLE: Table<Camera> = Table {
                     c.direction = DVec3::from_array(v);
                     c.direction_given = c.eye.is_some();
                 });
-            /// What the camera looks at, in world space.
+            /// Point that the camera looks at, in world space.
             target: key("RAY-5", POINT).absent("the centre of the volume's box");
             /// Up in the picture, in world space.
             up: key("RAY-6", DIRECTION);

@@ -14,7 +14,7 @@ pub struct Contours {
     pub thickness: Length,
     /// κ_v.
     pub kappa: Kappa,
-    /// What a flipped normal counts as, with `normal = "facing"` ([STF-5]).
+    /// The angle of a flipped normal, with `normal = "facing"` ([STF-5]).
     pub sign_flip: SignFlip,
     /// lo and hi, of |g|, between which contours fade in; none: no fade ([STF-7]).
     pub fade: Option<[f64; 2]>,
@@ -121,7 +121,7 @@ pub(crate) static TABLE: Table<Contours> = Table::new(
                     *threshold = v;
                 }
             }).absent("0.3 with kappa = \"none\"");
-        /// What a flipped normal counts as, with kappa = "ray" and sampling.normal = "facing".
+        /// The angle of a flipped normal, with kappa = "ray" and sampling.normal = "facing".
         sign_flip: key("STF-5", SignFlip::KIND);
         /// lo and hi, of |g|, between which contours fade in.
         fade: key("STF-7", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })

@@ -22,7 +22,7 @@ pub struct Node {
     pub opacity: f64,
 }
 
-/// What a node shows.
+/// The look of a node.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NodeColor {
     /// The name of a style.
@@ -34,13 +34,13 @@ pub enum NodeColor {
 /// A row of nodes of a function over two quantities: a function of its own over the first one ([STF-4]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Where it stands on the axis of the second quantity.
+    /// Place of the row on the axis of the second quantity.
     pub at: RowAt,
     /// Nodes over the first quantity, in non-decreasing order of `at`.
     pub nodes: Vec<Node>,
 }
 
-/// Where a row stands.
+/// Place of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RowAt {
     /// At a number; for labels, an id.
@@ -75,7 +75,7 @@ impl RowAt {
     }
 }
 
-/// What `nodes` can be.
+/// The two forms of `nodes`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum NodeList {
     /// Each `at` is a number.
@@ -84,7 +84,7 @@ pub(super) enum NodeList {
     Grid(Vec<Row>),
 }
 
-/// Where a node stands, as the scene writes it.
+/// Place of a node, as the scene writes it.
 #[derive(Clone, Copy, PartialEq)]
 enum At {
     One(f64),
@@ -150,7 +150,7 @@ static NODE: Table<Written> = Table {
     )
 };
 
-/// Where a node stands: a number, or a pair of them.
+/// Place of a node: a number, or a pair of them.
 struct AtKind;
 
 const ONE: Number = Number { bounds: Bounds::ANY, unit: "" };
@@ -283,7 +283,7 @@ impl Kind for Nodes {
     }
 }
 
-/// Where the node that an item writes stands, if it says so.
+/// Returns the place of the node that an item writes, if it has one.
 fn at_of(node: &Item) -> Option<At> {
     let Value::Table(entries) = &node.value else { return None };
     let at = &entries.get("at")?.item;
@@ -347,7 +347,7 @@ static ROW: Table<Row> = Table::new(
     "One row of nodes of a function over two quantities.",
     || Row { at: RowAt::Number(0.0), nodes: Vec::new() },
     keys! { Row {
-        /// Where the row stands: a number of the second quantity; for labels an id, a name of `volume.label_names`, or
+        /// Place of the row: a number of the second quantity; for labels an id, a name of `volume.label_names`, or
         /// a list of labels that share the row.
         at: key("STF-4", RowAtKind).required();
         /// Nodes over the first quantity, in non-decreasing order of `at`.
@@ -355,7 +355,7 @@ static ROW: Table<Row> = Table::new(
     } },
 );
 
-/// Where a row stands: a number, a name, or several labels.
+/// Place of a row: a number, a name, or several labels.
 struct RowAtKind;
 
 const ROW_NAME: Text = Text { what: "the name of a label" };

@@ -10,7 +10,7 @@ table! {
     pub struct Orbit {
         /// Number of frames.
         frames: usize = 36, key("STIP-4", Whole { lo: 1, hi: MOST_FRAMES });
-        /// What the camera turns by over all frames; below 0 to the left.
+        /// Angle by which the camera turns over all frames; below 0 to the left.
         ///
         /// In degrees.
         degrees: f64 = 360.0, key("STIP-4", Number { bounds: Bounds::ANY, unit: ", in degrees" });

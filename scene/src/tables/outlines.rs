@@ -13,11 +13,11 @@ table! {
     pub struct Outlines {
         /// The value of the surface; by itself that which an automatic transfer function makes opaque.
         iso: Iso = Iso::Auto, key("HATCH-18", IsoKind);
-        /// Of the lines.
+        /// Width of the lines.
         ///
         /// In mm or px.
         width: Length = Length::Millimetres(0.35), key("HATCH-18", Lengths { on: On::Page, bounds: Bounds::POSITIVE });
-        /// Of the lines.
+        /// Colour of the lines.
         ///
         /// Linear, straight.
         color: Rgba = [0.0, 0.0, 0.0, 1.0], key("HATCH-18", Colors);

@@ -1,4 +1,4 @@
-//! What a transfer function is over: the value, or two quantities ([STF-4], 4.2).
+//! The quantities of a transfer function: the value, or two quantities ([STF-4], 4.2).
 //!
 //! The list of quantities is open. Another one is a variant of [`Axis`], a line in the list of names or in the table of
 //! quantities of something, and a measure in the renderer.
@@ -17,7 +17,7 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
-/// What a transfer function is over.
+/// The quantities that a transfer function is over.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Over {
     /// The value alone: one line of nodes.
@@ -181,7 +181,7 @@ impl<L> Axis<L> {
 }
 
 impl Axis {
-    /// The same with the id of a label in place of its name.
+    /// Returns the axis with the id of a label in place of its name.
     ///
     /// # Errors
     /// A name that `id_of` does not know.

@@ -10,17 +10,17 @@ table! {
     /// One table `[[pen]]`.
     #[derive(Clone, Debug, PartialEq)]
     pub struct PenSettings {
-        /// What other tables call it by; it is in the layer's name.
+        /// Name by which other tables call the pen; the layer's name contains it.
         name: String = String::new(), key("IO-7", Text { what: "the name of a pen" }).required();
-        /// Across the nib.
+        /// Width of the nib.
         ///
         /// In mm or px.
         width: Length = Length::Millimetres(0.3), key("IO-7", Lengths { on: On::Page, bounds: Bounds::POSITIVE });
-        /// Of its ink.
+        /// Colour of its ink.
         ///
         /// Linear, straight.
         color: [f64; 4] = [0.0, 0.0, 0.0, 1.0], key("IO-7", Colors);
-        /// What it prints: a step wedge as CSV with the columns `wanted` and `measured`, which the command `wedge`
+        /// Tones that the pen prints: a step wedge as CSV with the columns `wanted` and `measured`, which the command `wedge`
         /// draws.
         tone: Option<PathBuf> = None, key("STIP-17", PathTo { what: "a step wedge" }).absent("discs of the nib");
     }

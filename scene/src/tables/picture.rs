@@ -27,7 +27,7 @@ pub struct PictureSettings {
     pub dpi: f64,
     /// n of the n×n rays a pixel ([RAY-6]).
     pub samples: usize,
-    /// What lies behind.
+    /// Background of the picture.
     pub background: Background,
     /// Light that is composited ([VAL-3]).
     pub blend_space: BlendSpace,
@@ -37,7 +37,7 @@ pub struct PictureSettings {
     pub layers: Vec<LayerKind>,
 }
 
-/// What lies behind the volume.
+/// Background of the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Background {
     /// Nothing: A is the coverage.
@@ -150,9 +150,9 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
                 |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
             /// n of the n×n rays a pixel.
             samples: key("RAY-6", Whole { lo: 1, hi: 1024 });
-            /// What lies behind: a colour, "none", or the path of a picture that is stretched to the frame.
+            /// Background: a colour, "none", or the path of a picture that is stretched to the frame.
             background: key("IO-6", Behind);
-            /// Which numbers are composited.
+            /// Encoding of the numbers that are composited.
             blend_space: key("VAL-3", BlendSpace::KIND);
             /// Bits a channel of a PNG.
             bits: key("IO-2", Bits);
@@ -243,7 +243,7 @@ impl Shape for Behind {
 impl Kind for Behind {
     type Of = Background;
 
-    /// What has a point or a separator of folders in it is a path, unless it begins with `#`.
+    /// Reads a text with a point or a separator of folders as a path, unless it begins with `#`.
     fn read(&self, item: &Item, check: &mut Check) -> Option<Background> {
         match item.text() {
             Some("none") => Some(Background::None),

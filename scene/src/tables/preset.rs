@@ -6,7 +6,7 @@ use super::toon_presets::ToonPreset;
 use super::{Outlines, Scene, Transfer, TransferKind};
 use crate::document::kind::{Choice, ChoiceOption};
 
-/// What `preset` names.
+/// The presets that `preset` names.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Preset {
     /// An automatic style transfer function.

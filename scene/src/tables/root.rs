@@ -81,11 +81,11 @@ pub(crate) static ROOT: Table<Scene> = Table {
             light: key("STF-11", shading::Light);
             /// The data that is seen.
             volume: key("IO-1", TableOf(&volume::TABLE)).required();
-            /// From where the volume is seen.
+            /// The view of the volume.
             camera: key("RAY-5", TableOf(&camera::TABLE));
             /// Several frames about the volume.
             orbit: key("STIP-4", TableOf(&orbit::TABLE)).absent("one frame");
-            /// What the picture is drawn on.
+            /// Size, resolution and background of the picture.
             picture: key("RAY-6", TableOf(&picture::TABLE));
             /// The paper that points and lines are drawn on.
             page: key("IO-7", TableOf(&page::TABLE)).absent("no margin, no plotter");

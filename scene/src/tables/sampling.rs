@@ -12,7 +12,7 @@ table! {
     pub struct Sampling {
         /// Δ, the distance between sample planes.
         step: Length = Length::Voxels(0.5), key("RAY-1", WORLD_LENGTH);
-        /// What the step is measured along.
+        /// Lines along which the step is measured.
         step_along: StepAlong = StepAlong::Plane, key("RAY-1", StepAlong::KIND);
         /// Reconstruction of values between voxels.
         kernel: Kernel = Kernel::Trilinear, key("REC-1", Kernel::KIND);
@@ -36,7 +36,7 @@ table! {
 }
 
 choices! {
-    /// What the distance between samples is measured along.
+    /// Lines along which the distance between samples is measured.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum StepAlong {
         /// View-aligned planes.

@@ -14,17 +14,17 @@ use std::path::{Path, PathBuf};
 pub struct Scene {
     /// Towards the light, for all that is lit and says nothing else.
     pub light: LightDirection,
-    /// What is seen.
+    /// The data that is seen.
     pub volume: VolumeTable,
-    /// From where.
+    /// The view.
     pub camera: Camera,
     /// Several frames; none: one.
     pub orbit: Option<Orbit>,
-    /// On what.
+    /// Size, resolution and background of the picture.
     pub picture: PictureSettings,
     /// The paper of points and lines; none: without a margin, and not for a plotter.
     pub page: Option<PageSettings>,
-    /// What draws them, in the order of their layers' numbers.
+    /// The pens of points and lines, in the order of their layers' numbers.
     pub pens: Vec<PenSettings>,
     /// How the field is sampled.
     pub sampling: Sampling,

@@ -18,7 +18,7 @@ pub struct Styles {
     pub files: Vec<(String, StyleFile)>,
 }
 
-/// Where a theme comes from.
+/// Source of a theme.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StyleSource {
     /// Part of the program.

@@ -18,9 +18,9 @@ table! {
     pub struct Surface {
         /// The value; by itself that of the surface which an automatic transfer function makes opaque.
         iso: Iso = Iso::Auto, key("HATCH-14", IsoKind);
-        /// How it is drawn.
+        /// Look of the surface.
         look: SurfaceLook = SurfaceLook::White, key("HATCH-14", SurfaceLook::KIND);
-        /// Of a lit surface.
+        /// Colour of a lit surface.
         ///
         /// Linear, opaque.
         color: Rgba = [1.0; 4], key("HATCH-14", Colors);

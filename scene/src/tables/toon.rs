@@ -20,7 +20,7 @@ table! {
     pub struct ToonShading {
         /// Added to L·N. With the two default tones, 0 ends the light at 60° from it, 0.5 at 90°.
         offset: f64 = 0.0, key("HATCH-15", OFFSET);
-        /// What colours are multiplied by, each tone where L·N + offset is above its `at`; the first also below.
+        /// Factors of colours, each tone where L·N + offset is above its `at`; the first also below.
         tones: Vec<Tone> = vec![Tone { at: 0.0, color: opaque([64.0; 3]) }, Tone { at: 0.5, color: [1.0; 4] }],
             key("HATCH-15", ListOf { what: "a list of tones", each: ToneKind });
     }
@@ -29,9 +29,9 @@ table! {
 /// One tone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tone {
-    /// Where it begins, in x = L·N + offset; this x itself still has the tone before.
+    /// Start of the tone, in x = L·N + offset; this x itself still has the tone before.
     pub at: f64,
-    /// What the colour is multiplied by: linear, opaque.
+    /// Factor of the colour: linear, opaque.
     pub color: Rgba,
 }
 

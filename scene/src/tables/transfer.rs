@@ -17,14 +17,14 @@ table! {
     /// The table `[transfer]`.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Transfer {
-        /// What a node carries.
+        /// Whether nodes carry styles or colours.
         kind: TransferKind = TransferKind::Style, key("STF-3", TransferKind::KIND).needs(&[Quantity::Gradient]);
-        /// What the function is over: the value, or two quantities, such as ["value", "gradient-magnitude"].
+        /// Quantities that the function is over: the value, or two quantities, such as ["value", "gradient-magnitude"].
         /// Quantities: "value"; "gradient-magnitude", in value per world unit; "label", the id of the part; "k1",
         /// "k2", "mean", "gaussian" and "kv", curvatures in reciprocal world units; or a table with one of the keys
         /// below. Of two "value" is best one: it tells what space is empty.
         over: Over = Over::Value, key("STF-4", OverKind).needs(NEEDS);
-        /// What `at` of values is measured in; with "normalized" gradient magnitudes are |g|, by
+        /// Unit of `at` of values; with "normalized" gradient magnitudes are |g|, by
         /// `volume.gradient_range`.
         unit: Unit = Unit::Value, key("VS-11", Unit::KIND);
         /// Nodes in non-decreasing order of `at`. Of two at one value the later one holds at the value itself. Over
@@ -53,7 +53,7 @@ table! {
     }
 }
 
-/// What the quantities of `over` can need.
+/// Needs of the quantities of `over`.
 const NEEDS: &[Quantity] = &[
     Quantity::Gradient,
     Quantity::GradientMagnitudeRange,
@@ -63,7 +63,7 @@ const NEEDS: &[Quantity] = &[
 ];
 
 choices! {
-    /// What a node carries.
+    /// Whether nodes carry styles or colours.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum TransferKind {
         /// A style.
@@ -74,7 +74,7 @@ choices! {
 }
 
 choices! {
-    /// What the values of the nodes are measured in.
+    /// Unit of the values of the nodes.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Unit {
         /// Data values, as the file gives them.

@@ -1,4 +1,4 @@
-//! What only the keys of `[transfer]` together can tell.
+//! Checks of the keys of `[transfer]` together.
 
 use super::nodes::{Row, RowAt, Stand};
 use super::over::{Axis, Over};
@@ -33,7 +33,7 @@ pub(super) fn kind(kind: TransferKind, check: &mut Check) {
     }
 }
 
-/// Where the document says the `at` of rows and of nodes, in rows or on a grid.
+/// Places of the `at` of rows and of nodes in the document, in rows or on a grid.
 struct Places {
     in_rows: bool,
 }

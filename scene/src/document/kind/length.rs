@@ -15,7 +15,7 @@ pub(crate) struct Lengths {
     pub(crate) bounds: Bounds,
 }
 
-/// What a length is measured on.
+/// The space that a length is measured in.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum On {
     /// The world: bare numbers, and voxels.
@@ -27,7 +27,7 @@ pub(crate) enum On {
 /// A length in the world above 0.
 pub(crate) const WORLD_LENGTH: Lengths = Lengths { on: On::World, bounds: Bounds::POSITIVE };
 
-/// What a number in a unit is.
+/// Returns the length that a number in a unit is.
 type Unit = fn(f64) -> Length;
 
 /// The units by name.

@@ -9,7 +9,7 @@ use serde_json::{Value as Json, json};
 
 /// A list with at least one item.
 pub(crate) struct ListOf<K> {
-    /// What the list is: `a list of layers`.
+    /// The list in words: `a list of layers`.
     pub(crate) what: &'static str,
     pub(crate) each: K,
 }

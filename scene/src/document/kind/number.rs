@@ -6,7 +6,7 @@ use crate::document::item::{Item, Value};
 use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 
-/// Where a number may lie. NaN and ±∞ lie nowhere.
+/// Interval of numbers. NaN and ±∞ lie in none.
 #[derive(Clone, Copy)]
 pub(crate) struct Bounds {
     pub(crate) lo: End,
@@ -74,7 +74,7 @@ impl Bounds {
         }
     }
 
-    /// As JSON Schema.
+    /// Returns the bounds as JSON Schema.
     pub(crate) fn schema(&self) -> Json {
         let mut schema = json!({ "type": "number" });
         let ends = [(self.lo, "minimum", "exclusiveMinimum"), (self.hi, "maximum", "exclusiveMaximum")];

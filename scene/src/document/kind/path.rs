@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// A path, relative to the scene's folder.
 pub(crate) struct PathTo {
-    /// What lies there: `a volume`.
+    /// The file in words: `a volume`.
     pub(crate) what: &'static str,
 }
 

@@ -8,7 +8,7 @@ use serde_json::{Value as Json, json};
 
 /// A text that is not empty.
 pub(crate) struct Text {
-    /// What it is: `the name of a style`.
+    /// The value in words: `the name of a style`.
     pub(crate) what: &'static str,
 }
 

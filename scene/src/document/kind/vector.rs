@@ -9,13 +9,13 @@ use serde_json::{Value as Json, json};
 
 /// `N` numbers.
 pub(crate) struct Numbers<const N: usize> {
-    /// What they are: `a point [x, y, z]`.
+    /// The value in words: `a point [x, y, z]`.
     pub(crate) what: &'static str,
     pub(crate) bounds: Bounds,
     pub(crate) rule: Rule,
 }
 
-/// What `N` numbers must be together.
+/// A rule for `N` numbers together.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Rule {
     /// Anything.
@@ -73,12 +73,12 @@ impl<const N: usize> Kind for Numbers<N> {
 
 /// `N` whole numbers whose product is bounded too, so that what is allocated for them is.
 pub(crate) struct Wholes<const N: usize> {
-    /// What they are: `a size [width, height]`.
+    /// The value in words: `a size [width, height]`.
     pub(crate) what: &'static str,
     pub(crate) each: Whole,
     /// Largest product.
     pub(crate) product: u64,
-    /// What the product counts: `pixels`.
+    /// The things that the product counts: `pixels`.
     pub(crate) of_what: &'static str,
 }
 

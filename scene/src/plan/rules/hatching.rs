@@ -87,7 +87,7 @@ fn has_plotter(scene: &Scene) -> bool {
     scene.page.as_ref().is_some_and(|page| page.plotter)
 }
 
-/// What is made once, and what a frame does.
+/// Asks for passes that run once, and for those of a frame.
 fn asks(scene: &Scene, asks: &mut Asks) {
     let Some(hatching) = scene.hatching.as_ref().filter(|_| asks.draws_strokes()) else { return };
     if hatching.iso == HatchIso::Transfer {

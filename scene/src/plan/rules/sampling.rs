@@ -96,7 +96,7 @@ fn of_rays(plan: &Plan, settings: Settings) -> Settings {
     if plan.has_pass(Pass::Rays) { settings } else { &[] }
 }
 
-/// What reads the field between voxels: points and lines without a surface lie on the voxels alone.
+/// Passes that read the field between voxels: points and lines without a surface lie on the voxels alone.
 const BETWEEN_VOXELS: [Pass; 4] = [Pass::Rays, Pass::HiddenPoints, Pass::Outlines, Pass::Strokes];
 
 /// Settings of `kernel`: where the Hessian is the kernel's own, those that have one.

@@ -23,7 +23,7 @@ fn of_points(plan: &Plan, settings: Settings) -> Settings {
     if plan.has_pass(Pass::StipplePoints) { settings } else { &[] }
 }
 
-/// What is made once, and what a frame does.
+/// Asks for passes that run once, and for those of a frame.
 fn asks(scene: &Scene, asks: &mut Asks) {
     let Some(stipples) = scene.stipples.as_ref().filter(|_| asks.draws_points()) else { return };
     asks.pass(Pass::StippleGradients, "stipples", "stipples.gradient");

@@ -9,21 +9,21 @@ table! {
     /// The table `[hatching.directions]`.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Directions {
-        /// Where there is a direction.
+        /// The rule by which a place has a direction.
         rule: DirectionRule = DirectionRule::Scaled, key("HATCH-3", DirectionRule::KIND);
-        /// Where a stroke has its direction from.
+        /// Source of a stroke's direction.
         from: DirectionSource = DirectionSource::Hessian, key("HATCH-4", DirectionSource::KIND);
-        /// What stored directions make between voxels.
+        /// Interpolation of stored directions between voxels.
         interpolate: Interpolate = Interpolate::Tensor, key("HATCH-4", Interpolate::KIND);
         /// At which voxels directions are stored.
         grid: StoredAt = StoredAt::Visited, key("HATCH-5", StoredAt::KIND);
         /// Which way strokes run, so that neighbours taper alike.
         reference: Reference = Reference::Cylindrical, key("HATCH-4", Reference::KIND);
-        /// In world space.
+        /// Axis of the reference, in world space.
         axis: Option<DVec3> = None,
             key("HATCH-4", Numbers::<3> { what: "a direction [x, y, z]", bounds: Bounds::ANY, rule: Rule::Direction })
                 .absent("the volume's longest axis");
-        /// In world space.
+        /// Centre of the reference, in world space.
         center: Option<DVec3> = None,
             key("HATCH-4", Numbers::<3> { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free })
                 .absent("the volume's centre");
@@ -47,7 +47,7 @@ choices! {
     /// `rule` ([HATCH-3]).
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum DirectionRule {
-        /// Where the data have one.
+        /// Only where the data are sure of one.
         Scaled = "scaled",
         /// The formula with the scene's own derivatives, wherever the curvatures differ at all: the paper's.
         Raw = "raw",

@@ -21,11 +21,11 @@ table! {
         specular: f64 = 0.3, key("HATCH-12", NUMBER);
         /// Exponent of the specular term: the higher, the smaller highlights are.
         s: f64 = 20.0, key("HATCH-12", NUMBER);
-        /// Of strokes on what faces the eye.
+        /// Colour of strokes on surfaces that face the eye.
         ///
         /// Linear, straight.
         front: Rgba = opaque([32.0, 64.0, 160.0]), key("HATCH-12", Colors);
-        /// Of strokes on what turns away.
+        /// Colour of strokes on surfaces that turn away.
         ///
         /// Linear, straight.
         back: Rgba = opaque([192.0, 160.0, 32.0]), key("HATCH-12", Colors);

@@ -24,7 +24,7 @@ table! {
         /// taper(u) = min(1, u/b, (1 − u)/b).
         taper: Option<f64> = None,
             key("HATCH-13", Number { bounds: Bounds::UNIT, unit: "" }).absent("0.15; of engraving 0");
-        /// Where it would be thinner, a stroke is cut.
+        /// Smallest width: where it would be thinner, a stroke is cut.
         ///
         /// In mm or px.
         min_width: Length = Length::Millimetres(0.05),

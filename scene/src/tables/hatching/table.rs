@@ -22,11 +22,11 @@ table! {
         /// The value of the surface; by itself that which an automatic transfer function makes opaque. "transfer":
         /// strokes wherever [transfer] shows something, as opaque as that, each on the surface through its seed.
         iso: HatchIso = HatchIso::Surface(Iso::Auto), key("HATCH-6", HatchIsoKind);
-        /// Of a stroke.
+        /// Length of a stroke.
         ///
         /// In the world.
         length: Length = Length::Voxels(40.0), key("HATCH-8", WORLD_LENGTH);
-        /// How far a step of the integration may miss.
+        /// Largest error of a step of the integration.
         ///
         /// In the world.
         tolerance: Length = Length::Voxels(0.01), key("HATCH-8", WORLD_LENGTH);
@@ -41,11 +41,11 @@ table! {
         cross: Option<f64> = None, key("HATCH-11", ANGLE).absent("no stroke is crossed");
         /// Its length, as a share of `length`.
         cross_length: f64 = 0.5, key("HATCH-11", SHARE);
-        /// Of the widest strokes.
+        /// Width of the widest strokes.
         ///
         /// In mm or px.
         width: Length = Length::Millimetres(0.25), key("HATCH-13", PAGE_LENGTH);
-        /// Of the strokes.
+        /// Colour of the strokes.
         ///
         /// Linear, straight.
         color: Rgba = [0.0, 0.0, 0.0, 1.0], key("HATCH-13", Colors);
@@ -56,7 +56,7 @@ table! {
         cross_pen: Option<String> = None,
             key("HATCH-11", Text { what: "the name of a pen" })
                 .absent("what draws the others; without a `pen` a layer of its own, `cross`");
-        /// What κ of p is, times the smallest spacing and at most 1.
+        /// The κ in p, times the smallest spacing and at most 1.
         measure: Measure = Measure::Mean, key("HATCH-6", Measure::KIND);
         /// C₀: p = 0 where κ is not above it.
         min_curvature: f64 = 0.02, key("HATCH-6", SHARE);
@@ -64,7 +64,7 @@ table! {
         min_gradient: f64 = 0.05, key("HATCH-6", SHARE);
         /// Which of the two directions a stroke follows, from end to end.
         family: Family = Family::Larger, key("HATCH-8", Family::KIND);
-        /// How far a stroke may turn from its first direction; 180 is any way.
+        /// The largest turn of a stroke from its first direction; 180 is any way.
         ///
         /// In degrees.
         max_angle: f64 = 90.0, key("HATCH-8", TURN);
@@ -83,11 +83,11 @@ table! {
         /// Whether SVG and PDF have all lines of the page as cubic Béziers, smooth through the ends of their straight
         /// segments, instead of these.
         beziers: bool = false, key("HATCH-10", Flag);
-        /// How far strokes are apart on the page: as their seeds fall; so far that their width over it is the tone; or
+        /// Distance of strokes on the page: as their seeds fall; so far that their width over it is the tone; or
         /// the same everywhere. On the mean: two may come as near as 0.6 of it.
         spacing: Spacing = Spacing::Random, key("HATCH-19", SpacingKind);
-        /// How far strokes end before a nearer line that crosses them, from middle to middle; outlines of the same page
-        /// count, and are not cut themselves.
+        /// Distance at which strokes end before a nearer line that crosses them, from middle to middle; outlines of the
+        /// same page count, and are not cut themselves.
         ///
         /// In mm or px.
         gap: Option<Length> = None, key("HATCH-20", PAGE_LENGTH).absent("no gaps");
@@ -95,13 +95,13 @@ table! {
         ///
         /// In the world.
         gap_depth: Length = Length::Voxels(2.0), key("HATCH-20", NOT_NEGATIVE);
-        /// What becomes of what a surface hides of strokes.
+        /// Treatment of the parts of strokes that a surface hides.
         hidden: Hidden = Hidden::Cut, key("HATCH-14", Hidden::KIND);
-        /// What strokes look like; the keys of [hatching.stroke] go over it.
+        /// Look of strokes; the keys of [hatching.stroke] go over it.
         style: HatchStyle = HatchStyle::Ink, key("HATCH-13", HatchStyle::KIND);
         /// How a stroke is drawn.
         stroke: StrokeStyle = StrokeStyle::default(), key("HATCH-13", TableOf(&STROKE));
-        /// Where surfaces have directions.
+        /// Directions on surfaces.
         directions: Directions = Directions::default(), key("HATCH-3", TableOf(&DIRECTIONS));
         /// Light on the strokes, in two colours.
         lighting: Option<LineLighting> = None, key("HATCH-12", TableOf(&LIGHTING)).absent("`color` everywhere");
@@ -170,11 +170,11 @@ choices! {
     /// `style` ([HATCH-13]).
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum HatchStyle {
-        /// As wide as the shade is dark, with thin ends.
+        /// Width follows the darkness of the shade; thin ends.
         Ink = "ink",
-        /// As dense as the shade is dark, on grainy paper: opacity τ times a random grain.
+        /// Density follows the darkness of the shade, on grainy paper: opacity τ times a random grain.
         Pencil = "pencil",
-        /// As wide as the shade is dark, with blunt ends.
+        /// Width follows the darkness of the shade; blunt ends.
         Engraving = "engraving",
     }
 }
@@ -182,11 +182,11 @@ choices! {
 /// `spacing` ([HATCH-19]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spacing {
-    /// As the seeds fall: the paper's.
+    /// Left to the seeds: the paper's.
     Random,
     /// A pen's width over the tone.
     Tone,
-    /// The same everywhere, on the page.
+    /// One distance everywhere, on the page.
     Length(Length),
 }
 

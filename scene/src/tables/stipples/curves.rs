@@ -9,9 +9,9 @@ table! {
     /// The table `[stipples.curves]`.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Curves {
-        /// What a normal across the view is.
+        /// The test for a normal across the view.
         test: CurvesTest = CurvesTest::TwoSided, key("STIP-13", CurvesTest::KIND);
-        /// How far to either side a line of test = "two-sided" reaches, in voxels.
+        /// Reach of a line of test = "two-sided" to either side, in voxels.
         c: f64 = 0.75, key("STIP-13", Number { bounds: Bounds::POSITIVE, unit: "" });
         /// Th_eye of test = "literal"; 0 keeps the half that faces away.
         eye: f64 = 0.0, key("STIP-13", SIGNED);

@@ -14,7 +14,7 @@ use serde_json::{Value as Json, json};
 pub enum PointsPerPixel {
     /// Points of a voxel for each pixel, or square of side S_max, of its projection.
     Number(f64),
-    /// As many as print the coverage 0.9 where T = 1.
+    /// The number that prints a coverage of 0.9 where T = 1.
     Auto,
 }
 
@@ -48,7 +48,7 @@ pub(super) const SIGNED: Number = Number { bounds: Bounds::ANY, unit: "" };
 /// A colour, or where colours are taken from.
 pub(super) struct DotColors;
 
-/// What stands in place of a colour.
+/// Words in place of a colour.
 const SOURCES: [(&str, DotColor); 2] = [("transfer", DotColor::Transfer), ("label", DotColor::Label)];
 
 impl Shape for DotColors {

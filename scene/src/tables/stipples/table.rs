@@ -32,7 +32,7 @@ table! {
         box_side: Option<u64> = None,
             key("STIP-2", Whole { lo: 1, hi: 1 << 20 })
                 .named("box").absent("as many as a projection of 5×5 pixels, or squares of side `size`, asks for");
-        /// What the dots are drawn in. `"transfer"`: the colour of `[transfer]` at their voxel's value, of a style
+        /// Colour of the dots. `"transfer"`: the colour of `[transfer]` at their voxel's value, of a style
         /// where it faces the eye; `"label"`: that of their label's row. With `[[pen]]` each dot goes to the pen of the
         /// nearest colour; without, to one of at most 16 layers.
         color: DotColor = DotColor::Fixed([0.0, 0.0, 0.0, 1.0]), key("STIP-16", DotColors);
@@ -42,7 +42,7 @@ table! {
             key("STIP-6", Text { what: "the name of a pen" }).absent("`color`, in dots of any size");
         /// How V and ∇V of a voxel are estimated.
         gradient: StippleGradient = StippleGradient::Regression, key("STIP-1", StippleGradient::KIND);
-        /// How far from the tangent plane through the voxel's centre points that do not snap may lie.
+        /// The largest distance of points that do not snap from the tangent plane through the voxel's centre.
         ///
         /// In the world.
         slab: Length = Length::Voxels(0.5), key("STIP-4", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE });
@@ -54,7 +54,7 @@ table! {
         thin: bool = false, key("STIP-4", Flag);
         /// How factors are brought into [0, 1].
         factors: FactorRange = FactorRange::Clamp, key("STIP-5", FactorRange::KIND);
-        /// What becomes of a fraction of a point.
+        /// Treatment of a fraction of a point.
         ink: Ink = Ink::Fade, key("STIP-5", Ink::KIND);
         /// An iso-value: points behind that surface are not drawn.
         hide_behind: Option<Iso> = None, key("STIP-15", IsoKind).absent("points are transparent");
@@ -114,7 +114,7 @@ choices! {
     /// `factors` ([STIP-5]).
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum FactorRange {
-        /// What lies above 1 is 1.
+        /// Values above 1 become 1.
         Clamp = "clamp",
         /// boundary over gc + gs and silhouette over sc + ss, where the sum is above 1.
         Normalize = "normalize",
@@ -138,7 +138,7 @@ choices! {
     pub enum Even {
         /// The first of each voxel's list: the paper's, and what moving pictures need.
         None = "none",
-        /// Of four times as many those that lie evenly on the page, over all faces that are seen there; all are drawn
+        /// The most evenly spread of four times as many, over all faces that are seen on the page; all are drawn
         /// whole.
         Page = "page",
     }

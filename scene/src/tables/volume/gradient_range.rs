@@ -8,7 +8,7 @@ use crate::document::out::Out;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-/// What |g| = 1 stands for ([VAL-2]).
+/// The gradient that |g| = 1 stands for ([VAL-2]).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum GradientRange {

@@ -1,4 +1,4 @@
-//! What phantoms and raw voxels share: types, spacings and how many there may be.
+//! Kinds that phantoms and raw voxels share: types, spacings and how many there may be.
 
 use crate::document::kind::{Bounds, Choice, ChoiceOption, Numbers, Rule};
 use crate::volume::VoxelType;

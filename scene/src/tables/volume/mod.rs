@@ -23,9 +23,9 @@ use std::path::PathBuf;
 /// The table `[volume]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeTable {
-    /// Where the voxels come from.
+    /// Source of the voxels.
     pub source: VolumeSource,
-    /// What the values mean.
+    /// Meaning of the values.
     pub ids: Ids,
     /// The file of the label volume beside the data, resolved as the volume's ([STF-13]).
     pub labels: Option<PathBuf>,
@@ -41,7 +41,7 @@ pub struct VolumeTable {
     pub outside: Outside,
 }
 
-/// Where the voxels come from.
+/// Source of the voxels.
 #[derive(Clone, Debug, PartialEq)]
 pub enum VolumeSource {
     /// A volume file, already resolved against the scene's folder.
@@ -56,7 +56,7 @@ pub enum VolumeSource {
 }
 
 choices! {
-    /// What the values of a volume mean.
+    /// Meaning of the values of a volume.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Ids {
         /// Each value stands for itself.
@@ -144,7 +144,7 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
                         *raw = Some(layout);
                     }
                 }).absent("the file's header, or FILE.toml beside it");
-            /// What the values mean: quantities, or the ids of parts that are shown as one.
+            /// Meaning of the values: quantities, or the ids of parts that are shown as one.
             ids: key("STF-13", Ids::KIND);
             /// A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on
             /// another grid; outside its box the label is 0.
@@ -156,7 +156,7 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
             /// The values that `unit = "normalized"` maps to 0 and 1.
             range: key("VAL-1", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
                 .absent("the volume's own");
-            /// What |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per world
+            /// The gradient that |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per world
             /// unit.
             gradient_range: key("VAL-2", Quantile);
             /// Which values lie outside a surface.
