@@ -15,8 +15,7 @@ pub(crate) struct Normal<A: Arithmetic> {
 }
 
 impl<A: Arithmetic> Normal<A> {
-    /// N, the unit normal that points outwards, in world space: −g/‖g‖ for `outside = "low"`, g/‖g‖ for `"high"`; none
-    /// where ‖g‖ ≤ `no_normal_below`.
+    /// The formula of [`outward`].
     #[inline(always)]
     pub(crate) fn outward(gradient: Vec3<A>, outside: Outside, no_normal_below: A::Number) -> Self {
         let length = gradient.length();
@@ -35,8 +34,9 @@ pub(super) fn outwards<A: Arithmetic>(length: A, outside: Outside) -> A {
     }
 }
 
-/// [`Normal::outward`] of one gradient. The bound is [`Field::no_normal_below`](super::Field::no_normal_below) for gradients
-/// as a field gives them.
+/// N, the unit normal that points outwards, in world space: −g/‖g‖ for `outside = "low"`, g/‖g‖ for `"high"`; none
+/// where ‖g‖ ≤ `no_normal_below`, which is [`Field::no_normal_below`](super::Field::no_normal_below) for gradients as
+/// a field gives them.
 #[inline(always)]
 pub fn outward<R: Real>(gradient: Vec3<R>, outside: Outside, no_normal_below: R) -> Option<Vec3<R>> {
     let Normal { n, has, .. } = Normal::outward(gradient, outside, no_normal_below);

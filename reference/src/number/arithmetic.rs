@@ -19,7 +19,8 @@ pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output
 /// A number, or a lane of numbers for each of which the same is computed.
 ///
 /// A formula over it is written once. It takes the same steps at both widths, and so gives the same bits: where it branches,
-/// both sides are computed and [`select`](Self::select) takes one.
+/// both sides are computed and [`select`](Self::select) takes one. A formula is `#[inline(always)]` and has no closures, which
+/// would be compiled without the vector registers.
 pub trait Arithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {

@@ -66,12 +66,12 @@ impl<S: Simd> Width for Eight<S> {
     }
 
     #[inline(always)]
-    fn to_bits(self, x: f64x8<S>) -> u64x8<S> {
+    fn bits(self, x: f64x8<S>) -> u64x8<S> {
         x.to_bits()
     }
 
     #[inline(always)]
-    fn from_bits(self, bits: u64x8<S>) -> f64x8<S> {
+    fn of_bits(self, bits: u64x8<S>) -> f64x8<S> {
         f64x8::from_bits(bits)
     }
 

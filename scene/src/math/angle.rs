@@ -49,7 +49,7 @@ pub fn angle<W: Width>(width: W, y: W::Number, x: W::Number) -> W::Number {
     let whole = t * STEPS as f64 + TO_WHOLE;
     let c = (whole - TO_WHOLE) * (1.0 / STEPS as f64);
     let d = (t - c) / (t * c + 1.0);
-    let [hi, lo] = width.look_up(&ANGLES, width.to_bits(whole) & 127);
+    let [hi, lo] = width.look_up(&ANGLES, width.bits(whole) & 127);
     let d2 = d * d;
     let rest = d - d * d2 * ((d2 * -0.2 + 1.0 / 3.0) + d2 * d2 * (1.0 / 7.0));
     let rest = lo + rest;

@@ -66,15 +66,15 @@ pub(super) struct Octave<W: Width> {
 impl<W: Width> Octave<W> {
     #[inline(always)]
     pub(super) fn new(width: W, x: W::Number) -> Self {
-        let nearest = width.to_bits(x) + (1 << (MANTISSA_BITS - STEPS_BITS - 1));
+        let nearest = width.bits(x) + (1 << (MANTISSA_BITS - STEPS_BITS - 1));
         let step = (nearest >> (MANTISSA_BITS - STEPS_BITS)) & (STEPS as u64 - 1);
         // The exponent with its bias of 1023: in the low bits of 2⁵² it is a number, and 2046 minus it is that of 2⁻ⁿ.
         let exponent = nearest >> MANTISSA_BITS;
         let whole = (1u64 << MANTISSA_BITS) as f64;
         Self {
-            n: width.from_bits(exponent | whole.to_bits()) - (whole + 1023.0),
-            scale: width.from_bits(((exponent ^ 2047) - 1) << MANTISSA_BITS),
-            c: width.from_bits((step << (MANTISSA_BITS - STEPS_BITS)) | 1f64.to_bits()),
+            n: width.of_bits(exponent | whole.to_bits()) - (whole + 1023.0),
+            scale: width.of_bits(((exponent ^ 2047) - 1) << MANTISSA_BITS),
+            c: width.of_bits((step << (MANTISSA_BITS - STEPS_BITS)) | 1f64.to_bits()),
             step,
         }
     }
@@ -115,7 +115,7 @@ where
 /// have to be scaled by.
 #[inline(always)]
 pub(super) fn power_of_two<W: Width>(width: W, whole: W::Number) -> ([W::Number; 2], W::Bits) {
-    let k = width.to_bits(whole);
+    let k = width.bits(whole);
     (width.look_up(&POWERS, k & (STEPS as u64 - 1)), (k >> STEPS_BITS) << MANTISSA_BITS)
 }
 

@@ -38,9 +38,9 @@ pub trait Width: Copy {
     /// a where the mask is true, else b.
     fn select(self, mask: Self::Mask, a: Self::Number, b: Self::Number) -> Self::Number;
     /// The bits of numbers.
-    fn to_bits(self, x: Self::Number) -> Self::Bits;
+    fn bits(self, x: Self::Number) -> Self::Bits;
     /// Numbers of given bits.
-    fn from_bits(self, bits: Self::Bits) -> Self::Number;
+    fn of_bits(self, bits: Self::Bits) -> Self::Number;
     /// x·2^e for e in the bits of an exponent, modulo their number, as long as the result is normal.
     fn scaled(self, x: Self::Number, exponent: Self::Bits) -> Self::Number;
     /// The columns of a table, each in the row of its number. Rows beyond the last are the last.
@@ -78,12 +78,12 @@ impl Width for One {
     }
 
     #[inline(always)]
-    fn to_bits(self, x: f64) -> u64 {
+    fn bits(self, x: f64) -> u64 {
         x.to_bits()
     }
 
     #[inline(always)]
-    fn from_bits(self, bits: u64) -> f64 {
+    fn of_bits(self, bits: u64) -> f64 {
         f64::from_bits(bits)
     }
 
