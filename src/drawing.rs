@@ -1,9 +1,9 @@
 //! What a scene draws, frame by frame: the volume, points and lines over it, or either alone; and the files of that.
 
-mod paper;
+mod frame_writer;
 
 use crate::Failure;
-use crate::job::{Job, Wanted, provenance, render_failure};
+use crate::job::{Job, RenderTarget, provenance, render_failure};
 use crate::marking::{MarkFrames, Marking};
 use drypoint_output::paint::fragments;
 use drypoint_reference::ray::Renderer;
@@ -14,7 +14,7 @@ use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::tables::{Orbit, Scene};
 use drypoint_scene::view::View;
-use paper::Paper;
+use frame_writer::FrameWriter;
 use std::path::Path;
 
 /// A job made ready for any number of frames.
@@ -28,11 +28,11 @@ pub struct Drawing<'a> {
 
 /// What a file has, and how it will be drawn.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Written {
+pub struct WriteReport {
     /// Dots, and lines: with a plotter those that it draws, a dot that is larger than the nib among the dots.
     pub marks: [usize; 2],
     /// What a plotter will do, a sentence a layer.
-    pub said: Vec<String>,
+    pub notes: Vec<String>,
 }
 
 /// One frame.
@@ -92,7 +92,7 @@ impl<'a> Drawing<'a> {
         match (&mut self.marks, &mut self.renderer) {
             (Some(frames), Some(renderer)) => {
                 let [over, merged] = frames.draw_apart(&view, &mut counts)?;
-                inside = paper::sums(&merged)[1];
+                inside = frame_writer::sums(&merged)[1];
                 if inside > 0 {
                     let lines = fragments(&merged, &view, scene.picture.samples);
                     counts.preprocess.insert("places of lines on rays".into(), lines.len() as u64);
@@ -125,36 +125,36 @@ impl<'a> Drawing<'a> {
 impl Frame {
     /// Dots, and lines.
     pub fn marks(&self) -> [usize; 2] {
-        let [dots, lines] = self.marks.as_ref().map(paper::sums).unwrap_or_default();
+        let [dots, lines] = self.marks.as_ref().map(frame_writer::sums).unwrap_or_default();
         [dots, lines + self.inside]
     }
 
     /// The frame in pixels, with its points and lines painted over the layer `beauty`: the page with its margin where points
-    /// and lines are all that is wanted, and else a picture of the scene's size.
+    /// and lines are all that is target, and else a picture of the scene's size.
     ///
     /// # Errors
     /// A picture of no or too many pixels.
     pub fn painted(self, job: &Job) -> Result<Picture, Failure> {
-        Paper::of(job, self.number).painted(self.picture, self.marks.as_ref())
+        FrameWriter::of(job, self.number).painted(self.picture, self.marks.as_ref())
     }
 
-    /// Writes the frame by the suffix; the file appears whole or not at all. A list has the dots, or where strokes are wanted the lines, as they are, whatever draws them.
+    /// Writes the frame by the suffix; the file appears whole or not at all. A list has the dots, or where strokes are target the lines, as they are, whatever draws them.
     ///
     /// # Errors
     /// What the operating system refuses, or a picture of no or too many pixels.
-    pub fn write(self, job: &Job, path: &Path) -> Result<Written, Failure> {
-        Paper::of(job, self.number).write(self, path)
+    pub fn write(self, job: &Job, path: &Path) -> Result<WriteReport, Failure> {
+        FrameWriter::of(job, self.number).write(self, path)
     }
 }
 
-/// Writes marks on the page of a scene, as [`Frame::write`] does; a list has strokes where those are wanted, else dots.
+/// Writes marks on the page of a scene, as [`Frame::write`] does; a list has strokes where those are target, else dots.
 ///
 /// # Errors
 /// As [`Frame::write`].
-pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> Result<Written, Failure> {
+pub fn write_page(marks: Marks, scene: &Scene, target: RenderTarget, path: &Path) -> Result<WriteReport, Failure> {
     let provenance = provenance(scene, &Plan::of_marks(scene));
     let frame = Frame { number: 0, picture: None, marks: Some(marks), inside: 0 };
-    Paper { scene, wanted, provenance }.write(frame, path)
+    FrameWriter { scene, target, provenance }.write(frame, path)
 }
 
 /// Checks that the memory budget allows the pixels of a file, before anything is drawn for it. A vector file has none.
@@ -163,7 +163,7 @@ pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> R
 /// A page of no or too many pixels.
 pub fn room_for_page(job: &Job, path: &Path) -> Result<(), Failure> {
     // Where rays draw, preparing them asks for their picture.
-    if job.draws_volume() { Ok(()) } else { Paper::of(job, 0).room(path) }
+    if job.draws_volume() { Ok(()) } else { FrameWriter::of(job, 0).room(path) }
 }
 
 /// Writes frames as one SVG that shows them in turn, over and over. Each frame is drawn by `draw` when its turn to be
@@ -177,7 +177,7 @@ pub fn write_animation(
     path: &Path,
     draw: impl FnMut(usize) -> Result<Frame, Failure>,
 ) -> Result<(), Failure> {
-    Paper::of(job, 0).write_animation(frames, path, draw)
+    FrameWriter::of(job, 0).write_animation(frames, path, draw)
 }
 
 /// Premultiplied pixels as a picture.

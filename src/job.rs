@@ -29,7 +29,7 @@ mod iso;
 mod load;
 mod room;
 
-use crate::labels::Named;
+use crate::labels::SceneLabels;
 use crate::{Failure, Failures, Format};
 use drypoint_output::{exr, png};
 use drypoint_reference::field::FieldError;
@@ -66,7 +66,7 @@ pub struct Job {
     pub volume: Volume,
     /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
     pub counts: Counts,
-    wanted: Wanted,
+    target: RenderTarget,
     /// The scene's camera in numbers.
     view: Result<View, ViewError>,
     /// What the volume is drawn in, or what dots take their colours from.
@@ -77,9 +77,9 @@ pub struct Job {
     background: Option<Vec<Rgba>>,
 }
 
-/// What of a scene is wanted.
+/// What of a scene is target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wanted {
+pub enum RenderTarget {
     /// All that it draws.
     #[default]
     Picture,
@@ -91,7 +91,7 @@ pub enum Wanted {
     Strokes,
 }
 
-impl Wanted {
+impl RenderTarget {
     /// Whether stipples are drawn, where the scene has some.
     pub fn has_points(self) -> bool {
         self != Self::Strokes
@@ -104,7 +104,7 @@ impl Wanted {
 }
 
 /// A scene with other knobs, and what follows from them.
-pub struct Turned {
+pub struct KnobVariant {
     /// The scene.
     pub scene: Scene,
     /// What it calls for.
@@ -119,23 +119,23 @@ impl Job {
     /// # Errors
     /// All that cannot be read, does not exist, or draws nothing.
     pub fn load(scene: Scene) -> Result<Self, Failures> {
-        Self::load_for(scene, Wanted::Picture)
+        Self::load_for(scene, RenderTarget::Picture)
     }
 
-    /// The same of what is wanted.
+    /// The same of what is target.
     ///
     /// # Errors
     /// As [`Job::load`].
-    pub fn load_for(scene: Scene, wanted: Wanted) -> Result<Self, Failures> {
+    pub fn load_for(scene: Scene, target: RenderTarget) -> Result<Self, Failures> {
         match load_volume(&scene.volume, &scene.given) {
-            Ok(volume) => Self::with_volume_for(scene, volume, wanted),
+            Ok(volume) => Self::with_volume_for(scene, volume, target),
             Err(failure) => {
                 // What else is wrong does not wait for the volume.
                 let mut others = Vec::new();
-                if calls_for_function(&plan_for(&scene, wanted)) {
+                if calls_for_function(&plan_for(&scene, target)) {
                     styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
                 }
-                background(&scene, wanted, &mut others);
+                background(&scene, target, &mut others);
                 Err(Failures::new(failure, others))
             }
         }
@@ -146,20 +146,20 @@ impl Job {
     /// # Errors
     /// As [`Job::load`].
     pub fn with_volume(scene: Scene, volume: Volume) -> Result<Self, Failures> {
-        Self::with_volume_for(scene, volume, Wanted::Picture)
+        Self::with_volume_for(scene, volume, RenderTarget::Picture)
     }
 
-    /// The same of what is wanted.
+    /// The same of what is target.
     ///
     /// # Errors
     /// As [`Job::load`].
-    pub fn with_volume_for(mut scene: Scene, volume: Volume, wanted: Wanted) -> Result<Self, Failures> {
+    pub fn with_volume_for(mut scene: Scene, volume: Volume, target: RenderTarget) -> Result<Self, Failures> {
         let volume = match scene.volume.ids {
             Ids::Values => volume,
             Ids::Mask => volume.present(),
         };
         // Of the scene as it was given: that its function was found in the data is part of the plan.
-        let mut plan = plan_for(&scene, wanted);
+        let mut plan = plan_for(&scene, target);
         plan.settle(&scene, is_integer(&volume));
         let view = View::new(&scene.camera, volume.grid(), scene.picture.size);
         if let Ok(view) = &view {
@@ -174,9 +174,10 @@ impl Job {
             };
             plan.warn_step(step * stretch, volume.grid().voxel());
         }
-        something_is_drawn(&scene, wanted)?;
+        something_is_drawn(&scene, target)?;
         let mut failures = Vec::new();
-        let labels = if plan.reads_labels() { Named::load(&scene.volume, &mut failures) } else { Named::default() };
+        let labels =
+            if plan.reads_labels() { SceneLabels::load(&scene.volume, &mut failures) } else { SceneLabels::default() };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
         let mut counts = Counts::default();
         find_iso_values(&mut scene, &plan, &volume, &mut counts);
@@ -202,7 +203,7 @@ impl Job {
             None if calls_for_function => styles(&scene, scene.transfer.iter().flat_map(named), &mut failures),
             Some(Function::Regular(_)) | None => Vec::new(),
         };
-        let background = background(&scene, wanted, &mut failures);
+        let background = background(&scene, target, &mut failures);
         let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
         Failures::check(failures)?;
         if calls_for_function && function.is_none() {
@@ -210,7 +211,7 @@ impl Job {
             return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
         }
         let (function, labels) = (function.map(Arc::new), labels.volume);
-        Ok(Self { scene, plan, volume, counts, wanted, view, function, labels, further, styles, background })
+        Ok(Self { scene, plan, volume, counts, target, view, function, labels, further, styles, background })
     }
 
     /// Whether the volume itself is drawn, by rays.
@@ -224,9 +225,9 @@ impl Job {
         !self.draws_volume() || layers.is_empty() || layers.contains(&LayerKind::Beauty)
     }
 
-    /// What of the scene is wanted.
-    pub fn wanted(&self) -> Wanted {
-        self.wanted
+    /// What of the scene is target.
+    pub fn target(&self) -> RenderTarget {
+        self.target
     }
 
     /// What dots take their colours from, where they do.
@@ -283,21 +284,21 @@ impl Job {
     }
 
     /// Another scene over what this one has loaded: one that differs in its knobs alone ([COST-1]).
-    pub fn turned(&self, scene: Scene) -> Turned {
+    pub fn variant(&self, scene: Scene) -> KnobVariant {
         let plan = self.plan_of(&scene);
         let range = scene.volume.range.unwrap_or_else(|| self.volume.range());
         // Over two quantities, labels among them, no knob changes the function.
         let over_value = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none());
         let function = over_value.and_then(|t| Function::new(t, range, &self.volume, &|_| None).ok().flatten());
-        Turned { function: function.map(Arc::new).or_else(|| self.function.clone()), scene, plan }
+        KnobVariant { function: function.map(Arc::new).or_else(|| self.function.clone()), scene, plan }
     }
 
     /// The same with other knobs.
     ///
     /// # Errors
     /// As [`Job::renderer`].
-    pub fn renderer_of<'a>(&'a self, turned: &'a Turned) -> Result<Renderer<'a>, Failure> {
-        self.made_ready(&turned.scene, &turned.plan, &self.shot_of(turned)?, Renderer::new)
+    pub fn renderer_of<'a>(&'a self, variant: &'a KnobVariant) -> Result<Renderer<'a>, Failure> {
+        self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, Renderer::new)
     }
 
     /// The same of a phantom's own formula in place of the voxels ([COST-2]).
@@ -306,21 +307,21 @@ impl Job {
     /// As [`Job::renderer`].
     pub fn exact_renderer_of<'a>(
         &'a self,
-        turned: &'a Turned,
+        variant: &'a KnobVariant,
         phantom: &'a dyn Phantom,
     ) -> Result<Renderer<'a>, Failure> {
         let make = |shot: &Shot, inputs| Renderer::exact(shot, inputs, phantom);
-        self.made_ready(&turned.scene, &turned.plan, &self.shot_of(turned)?, make)
+        self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, make)
     }
 
     /// The shot of a scene with other knobs, none of which is the camera's.
-    fn shot_of(&self, turned: &Turned) -> Result<Shot, Failure> {
-        self.resolve(&turned.scene, &turned.plan, turned.function.as_ref(), self.view()?)
+    fn shot_of(&self, variant: &KnobVariant) -> Result<Shot, Failure> {
+        self.resolve(&variant.scene, &variant.plan, variant.function.as_ref(), self.view()?)
     }
 
     /// The plan of a scene over what this job has loaded.
     fn plan_of(&self, scene: &Scene) -> Plan {
-        let mut plan = plan_for(scene, self.wanted);
+        let mut plan = plan_for(scene, self.target);
         plan.settle(scene, is_integer(&self.volume));
         plan
     }
@@ -475,13 +476,13 @@ pub fn bare_for(preset: &Scene, path: PathBuf, volume: &Volume, size: [usize; 2]
     suggest::fill(Scene { transfer, surface, ..Scene::for_volume(source) }, volume, size, counts)
 }
 
-/// What is wanted of a scene calls for this.
-fn plan_for(scene: &Scene, wanted: Wanted) -> Plan {
-    match wanted {
-        Wanted::Picture => Plan::new(scene),
-        Wanted::Marks => Plan::of_marks(scene),
-        Wanted::Points => Plan::of_points(scene),
-        Wanted::Strokes => Plan::of_strokes(scene),
+/// What is target of a scene calls for this.
+fn plan_for(scene: &Scene, target: RenderTarget) -> Plan {
+    match target {
+        RenderTarget::Picture => Plan::new(scene),
+        RenderTarget::Marks => Plan::of_marks(scene),
+        RenderTarget::Points => Plan::of_points(scene),
+        RenderTarget::Strokes => Plan::of_strokes(scene),
     }
 }
 
@@ -490,21 +491,21 @@ fn calls_for_function(plan: &Plan) -> bool {
     [Pass::Rays, Pass::DotColors, Pass::SeenCells].into_iter().any(|pass| plan.has_pass(pass))
 }
 
-/// Whether the scene draws what is wanted.
-fn something_is_drawn(scene: &Scene, wanted: Wanted) -> Result<(), Failure> {
+/// Whether the scene draws what is target.
+fn something_is_drawn(scene: &Scene, target: RenderTarget) -> Result<(), Failure> {
     let at = |key| scene.given.position(key);
-    match wanted {
-        Wanted::Marks | Wanted::Points
-            if wanted == Wanted::Points && scene.stipples.is_none() || !scene.has_marks() =>
+    match target {
+        RenderTarget::Marks | RenderTarget::Points
+            if target == RenderTarget::Points && scene.stipples.is_none() || !scene.has_marks() =>
         {
             let remedy = "add a table [stipples], or write preset = \"stipple\"";
             Err(Failure::new("the scene has no stipples", at("stipples"), remedy))
         }
-        Wanted::Strokes if !scene.has_strokes() => {
+        RenderTarget::Strokes if !scene.has_strokes() => {
             let remedy = "add a table [hatching] or [outlines], or write preset = \"hatch\"";
             Err(Failure::new("the scene has no strokes", at("outlines"), remedy))
         }
-        Wanted::Picture if !scene.has_marks() && !scene.draws_volume() => Err(Failure::new(
+        RenderTarget::Picture if !scene.has_marks() && !scene.draws_volume() => Err(Failure::new(
             "the scene draws nothing",
             at("transfer"),
             "add a [transfer] table, or a [surface] with a look",

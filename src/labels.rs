@@ -9,14 +9,14 @@ use std::path::Path;
 
 /// Labels and their names.
 #[derive(Clone, Debug, Default)]
-pub struct Named {
+pub struct SceneLabels {
     /// The label volume, if the scene has one.
     pub volume: Option<LabelVolume>,
     /// The names; none where the scene gives no table of them.
     pub names: LabelNames,
 }
 
-impl Named {
+impl SceneLabels {
     /// Loads what a scene's `[volume]` names; what is wrong goes to `failures`. To be asked only where an effect reads
     /// labels ([PLAN-1]).
     pub fn load(table: &VolumeTable, failures: &mut Vec<Failure>) -> Self {
@@ -69,7 +69,7 @@ mod tests {
         (table.labels, table.label_names) = (Some(labels.clone()), Some(names.clone()));
         let load = || {
             let mut failures = Vec::new();
-            let named = Named::load(&table, &mut failures);
+            let named = SceneLabels::load(&table, &mut failures);
             (named, failures)
         };
         write_nrrd(&row(0.0, Voxels::F32(vec![0.0, 2.0, 2.5])), &labels).unwrap();

@@ -2,8 +2,8 @@
 //! ([HATCH-18]). What no camera changes is made once.
 
 use crate::Failure;
-use crate::job::{Job, Wanted, room_for_passes};
-use crate::stippling::{DotFrames, PointsMade, Stippling};
+use crate::job::{Job, RenderTarget, room_for_passes};
+use crate::stippling::{DotFrames, PointsProgress, Stippling};
 use crate::stroking::{StrokeFrames, Stroking};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page};
@@ -30,26 +30,26 @@ impl<'a> Marking<'a> {
     ///
     /// # Errors
     /// As [`Stippling::new`] and [`Stroking::new`].
-    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsMade) + Sync)) -> Result<Self, Failure> {
-        let wanted = job.wanted();
-        let shown = wanted != Wanted::Picture || job.shows_beauty();
-        let wanted = shown.then_some(wanted);
-        Self::of(job, &job.scene, wanted, (counts, progress))
+    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsProgress) + Sync)) -> Result<Self, Failure> {
+        let target = job.target();
+        let shown = target != RenderTarget::Picture || job.shows_beauty();
+        let target = shown.then_some(target);
+        Self::of(job, &job.scene, target, (counts, progress))
     }
 
-    /// The same of a scene that differs from the job's in its knobs alone ([COST-1]), of which something or nothing is wanted.
+    /// The same of a scene that differs from the job's in its knobs alone ([COST-1]), of which something or nothing is target.
     ///
     /// # Errors
     /// As [`Stippling::new`] and [`Stroking::new`].
     pub(crate) fn of(
         job: &'a Job,
         scene: &'a Scene,
-        wanted: Option<Wanted>,
-        (counts, progress): (&mut Counts, &(dyn Fn(PointsMade) + Sync)),
+        target: Option<RenderTarget>,
+        (counts, progress): (&mut Counts, &(dyn Fn(PointsProgress) + Sync)),
     ) -> Result<Self, Failure> {
         room_for_passes(job, &job.plan)?;
-        let stippled = wanted.is_some_and(Wanted::has_points) && scene.stipples.is_some();
-        let stroked = wanted.is_some_and(Wanted::has_strokes) && scene.has_strokes();
+        let stippled = target.is_some_and(RenderTarget::has_points) && scene.stipples.is_some();
+        let stroked = target.is_some_and(RenderTarget::has_strokes) && scene.has_strokes();
         Ok(Self {
             page: Page::of(scene),
             stippling: if stippled { Some(Stippling::of(job, scene, counts, progress)?) } else { None },

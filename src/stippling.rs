@@ -26,8 +26,8 @@ use std::time::Instant;
 
 /// Points of a scene, made once from its first camera.
 pub struct Stippling<'a> {
-    setting: Setting<'a>,
-    layers: Vec<Dots>,
+    setting: StippleSetup<'a>,
+    layers: Vec<PenDots>,
     /// What draws lines: one of the layers' pens, or one of its own.
     line_pen: Pen,
     edges: Option<Edges>,
@@ -41,7 +41,7 @@ pub struct Stippling<'a> {
 
 /// Progress in making the points of a scene.
 #[derive(Clone, Copy, Debug)]
-pub struct PointsMade {
+pub struct PointsProgress {
     /// The share that is made, in [0, 1].
     pub share: f64,
     /// Points in all.
@@ -49,7 +49,7 @@ pub struct PointsMade {
 }
 
 /// The points of one pen.
-struct Dots {
+struct PenDots {
     pen: Pen,
     /// Of a pen of `[[pen]]`, which has one size ([STIP-6]).
     nib: Option<f64>,
@@ -66,7 +66,7 @@ pub struct DotFrames<'a> {
 }
 
 /// What is known before the points are.
-struct Setting<'a> {
+struct StippleSetup<'a> {
     job: &'a Job,
     scene: &'a Scene,
     /// As they are drawn: for a plotter in opaque ink.
@@ -89,7 +89,7 @@ impl<'a> Stippling<'a> {
     /// # Errors
     /// No stipples, a pen that there is not, a camera without direction, lengths of the wrong space, more points than there
     /// is memory for.
-    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsMade) + Sync)) -> Result<Self, Failure> {
+    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsProgress) + Sync)) -> Result<Self, Failure> {
         Self::of(job, &job.scene, counts, progress)
     }
 
@@ -101,10 +101,10 @@ impl<'a> Stippling<'a> {
         job: &'a Job,
         scene: &'a Scene,
         counts: &mut Counts,
-        progress: &(dyn Fn(PointsMade) + Sync),
+        progress: &(dyn Fn(PointsProgress) + Sync),
     ) -> Result<Self, Failure> {
         let start = Instant::now();
-        let setting = Setting::new(job, scene)?;
+        let setting = StippleSetup::new(job, scene)?;
         let pens = Pens::new(scene, &setting.stipples, &setting.page)?;
         let wrong = |error: StippleError| failure(job, &error);
         let preprocess = Preprocess::new(setting.inputs()).map_err(wrong)?;
@@ -114,7 +114,7 @@ impl<'a> Stippling<'a> {
             Failure::new(what, place, "make k_max smaller, or threshold larger")
         })?;
         let (ranks, points) = (preprocess.each.max(1) as f64, preprocess.len());
-        let made = |made: usize| progress(PointsMade { share: made as f64 / ranks, points });
+        let made = |made: usize| progress(PointsProgress { share: made as f64 / ranks, points });
         let points = preprocess.points(counts, &made).map_err(wrong)?;
         let edges = preprocess.edges(counts).map_err(wrong)?;
         let grid = points.grid.clone();
@@ -130,7 +130,7 @@ impl<'a> Stippling<'a> {
     /// # Errors
     /// As [`Stippling::new`].
     pub fn planned(job: &Job) -> Result<PointsPlan, Failure> {
-        let setting = Setting::new(job, &job.scene)?;
+        let setting = StippleSetup::new(job, &job.scene)?;
         let preprocess = Preprocess::new(setting.inputs()).map_err(|error| failure(job, &error))?;
         let each = preprocess.each as u64;
         Ok(PointsPlan { voxels: preprocess.len() / each.max(1), each, bytes: preprocess.bytes() })
@@ -143,13 +143,13 @@ impl<'a> Stippling<'a> {
 
     /// Makes ready what no camera changes.
     pub fn frames(&self) -> DotFrames<'_> {
-        let Setting { job, scene, stipples, first, near, size, .. } = &self.setting;
+        let StippleSetup { job, scene, stipples, first, near, size, .. } = &self.setting;
         let (near, size, light, grid, reference) = (*near, *size, scene.light, job.volume.grid(), first);
         let surface = self.hiding.as_ref().map(|(field, iso)| Arc::new(IsoSurface::new(field, *iso)));
         let [ink, layers] = self.ink;
         let measured = self.setting.tone.as_ref().filter(|_| self.setting.pen_tone().is_some());
         let tone = measured.map(|tone| PenTone { tone, ink, layers });
-        let layers = self.layers.iter().map(|&Dots { nib, ref points, .. }| {
+        let layers = self.layers.iter().map(|&PenDots { nib, ref points, .. }| {
             let surface = surface.clone();
             Frames::new(FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone })
         });
@@ -164,7 +164,7 @@ impl DotFrames<'_> {
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Marks {
         let start = Instant::now();
         let Stippling { setting, line_pen, edges, grid, .. } = self.stippling;
-        let Setting { page, near, stipples, .. } = setting;
+        let StippleSetup { page, near, stipples, .. } = setting;
         let mut layers = Vec::with_capacity(self.layers.len());
         for (frames, drawn) in self.layers.iter().zip(&mut self.drawn) {
             frames.draw(view, page, drawn);
@@ -204,7 +204,7 @@ impl DotFrames<'_> {
     }
 }
 
-impl<'a> Setting<'a> {
+impl<'a> StippleSetup<'a> {
     fn new(job: &'a Job, scene: &'a Scene) -> Result<Self, Failure> {
         let at = |key: &str| scene.given.position(key);
         let Some(mut stipples) = scene.stipples.clone() else {

@@ -5,7 +5,7 @@ mod hatching;
 mod outlining;
 mod sample;
 mod seeding;
-mod shown;
+mod visible_values;
 
 use crate::Failure;
 use crate::job::{Job, render_failure};
@@ -18,7 +18,7 @@ use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Iso, Length, Scene};
 use drypoint_scene::view::View;
-use hatching::{Hatched, Hatching};
+use hatching::{GrownHatching, HatchingSetup};
 use outlining::Outlining;
 use std::time::Instant;
 
@@ -31,7 +31,7 @@ pub struct Stroking<'a> {
     near: f64,
     /// The value of the surface that hides, where there is one for all.
     hides: Option<f64>,
-    hatching: Option<Hatching<'a>>,
+    hatching: Option<HatchingSetup<'a>>,
     outlining: Option<Outlining>,
 }
 
@@ -40,11 +40,11 @@ pub struct StrokeFrames<'a> {
     stroking: &'a Stroking<'a>,
     /// The surfaces that strokes lie on and that hide them.
     surfaces: Vec<IsoSurface<'a, 'a>>,
-    hatched: Option<Hatched<'a>>,
+    hatched: Option<GrownHatching<'a>>,
 }
 
 /// What every stroke of a frame has to know.
-struct Frame<'a> {
+struct StrokeCamera<'a> {
     view: &'a View,
     page: &'a Page,
     near: f64,
@@ -52,7 +52,7 @@ struct Frame<'a> {
     hides: Option<&'a IsoSurface<'a, 'a>>,
 }
 
-impl<'a> Frame<'a> {
+impl<'a> StrokeCamera<'a> {
     /// The camera for strokes that lie in front of the surface themselves, or are asked for at some distance in front of it.
     fn sight(&self, offset: f64) -> Sight<'a> {
         Sight { view: self.view, page: self.page, near: self.near, surface: self.hides, offset }
@@ -114,7 +114,7 @@ impl<'a> Stroking<'a> {
         let hatching = match &scene.hatching {
             Some(table) => {
                 let scale = largest_scale(&job.view()?, &page, near, grid);
-                Some(Hatching::new((scene, job.function()), table, grid, (&page, scale), job.draws_volume())?)
+                Some(HatchingSetup::new((scene, job.function()), table, grid, (&page, scale), job.draws_volume())?)
             }
             None => None,
         };
@@ -131,9 +131,9 @@ impl<'a> Stroking<'a> {
 
     /// The surfaces that strokes lie on and that hide them.
     fn surfaces(&self) -> Vec<IsoSurface<'_, '_>> {
-        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut()).and_then(Hatching::iso);
+        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut()).and_then(HatchingSetup::iso);
         let outlined = self.outlining.as_ref().map(Outlining::iso);
-        let is_cut = self.hatching.as_ref().is_some_and(Hatching::is_cut);
+        let is_cut = self.hatching.as_ref().is_some_and(HatchingSetup::is_cut);
         let hides = self.hides.filter(|_| is_cut || outlined.is_some());
         let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
         for iso in [cut, outlined, hides].into_iter().flatten() {
@@ -157,7 +157,7 @@ impl StrokeFrames<'_> {
         let mut layers = Vec::new();
         if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref()) {
             let hides = hides.or(hatching.iso()).and_then(surface).filter(|_| hatching.is_cut());
-            layers = hatched.draw(&Frame { view, page, near: *near, hides }, counts);
+            layers = hatched.draw(&StrokeCamera { view, page, near: *near, hides }, counts);
         }
         let hatched = layers.len();
         if let Some(outlining) = outlining
@@ -165,7 +165,7 @@ impl StrokeFrames<'_> {
         {
             let voxel = field.volume().grid().voxel();
             let hides = Some(hides);
-            layers.push(outlining.draw(&Frame { view, page, near: *near, hides }, own, voxel, counts));
+            layers.push(outlining.draw(&StrokeCamera { view, page, near: *near, hides }, own, voxel, counts));
         }
         if let Some(hatching) = hatching {
             hatching.cut(&mut layers, hatched, view, counts)?;
@@ -176,7 +176,7 @@ impl StrokeFrames<'_> {
         marks.settle();
         counts.strokes += marks.layers.iter().map(|layer| layer.lines.len() as u64).sum::<u64>();
         // The first layers are those of hatching.
-        let merged = if hatching.as_ref().is_some_and(Hatching::is_merged) { hatched } else { 0 };
+        let merged = if hatching.as_ref().is_some_and(HatchingSetup::is_merged) { hatched } else { 0 };
         let over = marks.layers.split_off(merged);
         Ok([over, marks.layers])
     }

@@ -34,16 +34,16 @@ const DOTS: f64 = 60.0;
 
 /// A page with a step wedge, and where its patches are.
 #[derive(Clone, Debug)]
-pub struct Wedge {
+pub struct StepWedge {
     /// The page.
     pub marks: Marks,
     /// The patches in their order.
-    pub patches: Vec<Patch>,
+    pub patches: Vec<WedgePatch>,
 }
 
 /// A square of one tone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patch {
+pub struct WedgePatch {
     /// The coverage that is wanted.
     pub wanted: f64,
     /// The upper left corner, in mm on the page.
@@ -62,7 +62,7 @@ pub fn steps() -> impl Iterator<Item = f64> {
 ///
 /// # Errors
 /// A nib so wide that the page would be larger than a metre, or so fine that the memory budget does not allow its dots.
-pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Failure> {
+pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<StepWedge, Failure> {
     let side = (DOTS * pen.width).max(15.0);
     let cell = DVec2::new(side + GAP, side + 2.0 * GAP + LETTERS);
     let rows = PATCHES.div_ceil(ROW);
@@ -73,7 +73,7 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Fa
         return Err(Failure::new(what, "pen.width", "take a finer pen"));
     }
     let densest = steps().map(|wanted| density(tone, wanted, pen.width)).fold(0.0, f64::max);
-    let candidates = Candidates::new(side, densest).count();
+    let candidates = CandidateGrid::new(side, densest).count();
     let too_fine = |no_room: NoRoom| {
         let what = format!("a step wedge of a nib of {} mm needs {no_room}", pen.width);
         // The number of candidates grows with the inverse square of the nib.
@@ -102,11 +102,11 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Fa
         let label = format!("{wanted:.2}");
         let middle = 0.5 * (side - letters.width(&label));
         letters.write(&mut layer, &label, corner + DVec2::new(middle, side + 2.0 * nib + LETTERS + 1.0));
-        patches.push(Patch { wanted, corner, side });
+        patches.push(WedgePatch { wanted, corner, side });
     }
     let mut marks = Marks { page, layers: vec![layer] };
     marks.settle();
-    Ok(Wedge { marks, patches })
+    Ok(StepWedge { marks, patches })
 }
 
 /// The table to be filled in: a row for each patch.
@@ -126,14 +126,14 @@ fn density(tone: &Tone, wanted: f64, nib: f64) -> f64 {
 
 /// The grid of cells that candidates for a square of dots come from, one of each. It is larger than the square, since at
 /// its border the dots that are chosen lie closer.
-struct Candidates {
+struct CandidateGrid {
     cell: f64,
     border: f64,
     /// Cells in a row, as many as rows.
     cells: f64,
 }
 
-impl Candidates {
+impl CandidateGrid {
     /// `density` dots a unit of area, above 0.
     fn new(side: f64, density: f64) -> Self {
         let (cell, border) = (1.0 / (OVERSAMPLING * density).sqrt(), 4.0 / density.sqrt());
@@ -151,7 +151,7 @@ fn even(side: f64, density: f64, seed: u64, patch: u32) -> Vec<DVec2> {
         return Vec::new();
     }
     // One at random in each cell: as many everywhere.
-    let Candidates { cell, border, cells } = Candidates::new(side, density);
+    let CandidateGrid { cell, border, cells } = CandidateGrid::new(side, density);
     let cells = cells as u32;
     let at = |i: u32| {
         let [x, y, ..] = philox::uniforms(seed, [i, patch, 0], 0);

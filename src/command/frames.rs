@@ -2,8 +2,8 @@
 
 use super::empty::warn_of_nothing;
 use super::report::{Progress, note};
-use super::stats::{Times, cpu_seconds};
-use super::{Talk, target};
+use super::stats::{FrameTimes, cpu_seconds};
+use super::{Talk, output_path};
 use drypoint::drawing::{Drawing, room_for_page, write_animation};
 use drypoint::job::Job;
 use drypoint::marking::Marking;
@@ -16,7 +16,7 @@ use std::time::Instant;
 
 /// The files of a scene's frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Files {
+pub(super) enum FrameFiles {
     /// One frame.
     One(PathBuf),
     /// All frames in one SVG.
@@ -25,7 +25,7 @@ pub(super) enum Files {
     Numbered(PathBuf, [String; 2], usize),
 }
 
-impl Files {
+impl FrameFiles {
     /// The files that a name stands for; each can be written now. A run of `#` in it is the number of a frame.
     ///
     /// # Errors
@@ -33,12 +33,12 @@ impl Files {
     /// more than one run, a file that the scene reads, or a folder that is not there or may not be written to.
     pub(super) fn of(path: &Path, scene: &Scene) -> Result<Self, Failure> {
         let files = Self::named(path, scene)?;
-        target::writable(&files.path(0))?;
+        output_path::writable(&files.path(0))?;
         let frames = match files {
             Self::One(_) | Self::Animated(_) => 1,
             Self::Numbered(..) => scene.orbit.map_or(1, |orbit| orbit.frames),
         };
-        (0..frames).try_for_each(|frame| target::apart(&files.path(frame), scene.files()))?;
+        (0..frames).try_for_each(|frame| output_path::check_not_read(&files.path(frame), scene.files()))?;
         Ok(files)
     }
 
@@ -54,7 +54,7 @@ impl Files {
             return refused(what.into(), "add a table [orbit], or give a name without #".into());
         };
         let digits = (orbit.frames - 1).max(1).ilog10() as usize + 1;
-        let stem = target::stem(path);
+        let stem = output_path::stem(path);
         let suffix = path.extension().unwrap_or_default().to_string_lossy();
         let example = || format!("write {stem}_{}.{suffix}", "#".repeat(digits.max(3)));
         match runs[..] {
@@ -92,7 +92,7 @@ impl Files {
     }
 
     /// What was written.
-    fn said(&self, frames: usize) -> String {
+    fn summary(&self, frames: usize) -> String {
         match self {
             Self::One(path) => path.display().to_string(),
             Self::Animated(path) => format!("{}: {frames} frames", path.display()),
@@ -104,11 +104,11 @@ impl Files {
 }
 
 /// What drawing all frames took.
-pub(super) struct Drawn {
+pub(super) struct DrawReport {
     /// Of all frames together; what is made once is in them once, and of buffers the largest.
     pub counts: Counts,
     /// Of each frame.
-    pub times: Times,
+    pub times: FrameTimes,
 }
 
 /// The first frame of a job in pixels.
@@ -120,7 +120,7 @@ pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Pictur
 }
 
 /// Draws every frame of a job, `repeat` times each, and writes them.
-pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Failure> {
+pub(super) fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> Result<DrawReport, Failure> {
     room_for_page(job, &files.path(0))?;
     let mut counts = job.counts.clone();
     let marking = {
@@ -137,7 +137,7 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
     };
     let frames = drawing.frames();
     let (mut cpu, mut wall) = (Some(0.0), Vec::new());
-    let (mut said, mut marks) = (Vec::new(), [0, 0]);
+    let (mut notes, mut marks) = (Vec::new(), [0, 0]);
     let start = Instant::now();
     {
         let progress = Progress::new(talk, "rendering");
@@ -168,12 +168,12 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
             Ok::<_, Failure>((frame, own))
         };
         match files {
-            Files::Animated(path) => write_animation(job, frames, path, |i| {
+            FrameFiles::Animated(path) => write_animation(job, frames, path, |i| {
                 let (frame, own) = draw(i, &counts)?;
                 counts.add_frame(&own);
                 Ok(frame)
             })?,
-            Files::One(_) | Files::Numbered(..) => {
+            FrameFiles::One(_) | FrameFiles::Numbered(..) => {
                 for i in 0..frames {
                     let (frame, own) = draw(i, &counts)?;
                     let written = frame.write(job, &files.path(i))?;
@@ -181,7 +181,7 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
                     let [points, strokes] = written.marks.map(|n| n as u64);
                     counts.add_frame(&Counts { points, strokes, ..own });
                     if i == 0 {
-                        (marks, said) = (written.marks, written.said);
+                        (marks, notes) = (written.marks, written.notes);
                     }
                 }
             }
@@ -191,13 +191,13 @@ pub(super) fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Resul
     counts.seconds.insert("write".into(), writing);
     let [dots, lines] = marks;
     match files {
-        Files::One(_) if !marking.is_empty() => {
-            note(talk, format_args!("{}: {dots} dots, {lines} lines", files.said(frames)));
+        FrameFiles::One(_) if !marking.is_empty() => {
+            note(talk, format_args!("{}: {dots} dots, {lines} lines", files.summary(frames)));
         }
-        _ => note(talk, files.said(frames)),
+        _ => note(talk, files.summary(frames)),
     }
-    said.iter().for_each(|line| note(talk, line));
-    Ok(Drawn { counts, times: Times::new(wall, cpu) })
+    notes.iter().for_each(|line| note(talk, line));
+    Ok(DrawReport { counts, times: FrameTimes::new(wall, cpu) })
 }
 
 #[cfg(test)]
@@ -205,9 +205,9 @@ mod tests {
     use super::*;
     use drypoint::scene::file::{Overrides, parse};
 
-    fn files(name: &str, rest: &str) -> Result<Files, Failure> {
+    fn files(name: &str, rest: &str) -> Result<FrameFiles, Failure> {
         let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
-        Files::named(Path::new(name), &parse(&text, Path::new("a.toml"), &Overrides::default()).unwrap())
+        FrameFiles::named(Path::new(name), &parse(&text, Path::new("a.toml"), &Overrides::default()).unwrap())
     }
 
     #[test]
@@ -216,8 +216,8 @@ mod tests {
         let numbered = files("a#/turn_###.png", orbit).unwrap();
         assert_eq!(numbered.path(7), Path::new("a#/turn_007.png"));
         assert_eq!(files("##.exr", orbit).unwrap().path(35), Path::new("35.exr"));
-        assert_eq!(files("a.png", "").unwrap(), Files::One("a.png".into()));
-        assert_eq!(files("a.svg", "[stipples]\n[orbit]\n").unwrap(), Files::Animated("a.svg".into()));
+        assert_eq!(files("a.png", "").unwrap(), FrameFiles::One("a.png".into()));
+        assert_eq!(files("a.svg", "[stipples]\n[orbit]\n").unwrap(), FrameFiles::Animated("a.svg".into()));
         for (name, rest, what, remedy) in [
             ("a_#.png", "", "a # stands for", "add a table [orbit], or give a name without #"),
             ("a.png", orbit, "[orbit] has 36 frames, and the name has no ###", "write a_###.png"),

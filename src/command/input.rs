@@ -3,7 +3,7 @@
 use super::Talk;
 use super::raw::{self, layout};
 use super::report::{note, say};
-use drypoint::job::{Job, Wanted, bare, bare_for};
+use drypoint::job::{Job, RenderTarget, bare, bare_for};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
 use drypoint::scene::picture::LayerKind;
@@ -14,14 +14,14 @@ use std::path::{Path, PathBuf};
 
 /// `--set key=value`, as a verb takes them.
 #[derive(Clone, Debug, Default, clap::Args)]
-pub(super) struct Set {
+pub(super) struct SetArgs {
     /// Override a scene key, such as sampling.step="1 voxel"; `contours=off` removes a table
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
 
 /// A flag that stands for a scene key.
-pub(super) struct Flag {
+pub(super) struct KeyFlag {
     /// The key.
     pub key: &'static str,
     /// Its value, as a scene file has it.
@@ -30,7 +30,7 @@ pub(super) struct Flag {
     pub typed: String,
 }
 
-impl Flag {
+impl KeyFlag {
     /// A flag whose value is a name, whatever TOML would make of it.
     pub(super) fn name(key: &'static str, flag: &str, value: &str) -> Self {
         Self { key, value: format!("{value:?}"), typed: format!("{flag} {}", value.trim()) }
@@ -47,7 +47,7 @@ impl Flag {
 
 /// What goes over a scene.
 #[derive(Default)]
-pub(super) struct Over {
+pub(super) struct SceneOverrides {
     /// `--set`, then the flags.
     overrides: Overrides,
     /// Those of `[picture]` alone.
@@ -58,18 +58,18 @@ pub(super) struct Over {
     preset: Overrides,
     /// Whether one changes the kind of the transfer function.
     sets_kind: bool,
-    flags: Vec<Flag>,
-    /// Whether only the layer `beauty` is wanted: what no one writes is not computed ([PLAN-1]).
+    flags: Vec<KeyFlag>,
+    /// Whether only the layer `beauty` is target: what no one writes is not computed ([PLAN-1]).
     pub beauty_only: bool,
     /// Pixels that the longer side of the picture has, in place of what the scene says.
     pub longer_side: Option<usize>,
-    /// What of the scene is wanted.
-    pub wanted: Wanted,
+    /// What of the scene is target.
+    pub target: RenderTarget,
 }
 
-impl Over {
+impl SceneOverrides {
     /// From a verb's `--set`s and its own flags, which go over them.
-    pub(super) fn new(set: &Set, flags: Vec<Flag>) -> Result<Self, Failures> {
+    pub(super) fn new(set: &SetArgs, flags: Vec<KeyFlag>) -> Result<Self, Failures> {
         let mut over = Self::default();
         let mut failures = Vec::new();
         for argument in &set.set {
@@ -82,7 +82,7 @@ impl Over {
                 failures.extend(faults.iter().map(Failure::from));
             }
         }
-        for Flag { key, value, .. } in &flags {
+        for KeyFlag { key, value, .. } in &flags {
             over.overrides.push(*key, value.clone());
             if let Some(part) = over.part(key) {
                 part.push(*key, value.clone());
@@ -126,7 +126,7 @@ impl Over {
 }
 
 /// What a verb is given, before it is made into anything.
-pub(super) struct Found {
+pub(super) struct VerbInput {
     /// The scene.
     pub scene: Scene,
     /// Its volume, where that had to be read to make the scene.
@@ -136,16 +136,16 @@ pub(super) struct Found {
 }
 
 /// Loads what a verb is given.
-pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
-    find(path, over)?.load(over.wanted)
+pub(super) fn load(path: Option<&Path>, over: &SceneOverrides) -> Result<Job, Failures> {
+    find(path, over)?.load(over.target)
 }
 
-impl Found {
+impl VerbInput {
     /// Loads what the scene names.
-    pub(super) fn load(self, wanted: Wanted) -> Result<Job, Failures> {
+    pub(super) fn load(self, target: RenderTarget) -> Result<Job, Failures> {
         let mut job = match self.volume {
-            Some(volume) => Job::with_volume_for(self.scene, volume, wanted),
-            None => Job::load_for(self.scene, wanted),
+            Some(volume) => Job::with_volume_for(self.scene, volume, target),
+            None => Job::load_for(self.scene, target),
         }?;
         job.counts.add(&self.counts);
         Ok(job)
@@ -153,7 +153,7 @@ impl Found {
 }
 
 /// The scene that a verb is given, or that of a bare volume.
-pub(super) fn find(path: Option<&Path>, over: &Over) -> Result<Found, Failures> {
+pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInput, Failures> {
     let finished = |mut scene: Scene| {
         if over.beauty_only {
             scene.picture.layers = vec![LayerKind::Beauty];
@@ -165,7 +165,7 @@ pub(super) fn find(path: Option<&Path>, over: &Over) -> Result<Found, Failures> 
         }
         scene
     };
-    let found = |scene| Found { scene: finished(scene), volume: None, counts: Counts::default() };
+    let found = |scene| VerbInput { scene: finished(scene), volume: None, counts: Counts::default() };
     let Some(path) = path else {
         let scene = file::parse(file::DEFAULT_SCENE, Path::new("the embedded scene"), &over.overrides);
         return Ok(found(scene.map_err(|faults| over.failures(faults))?));
@@ -186,18 +186,18 @@ pub(super) fn find(path: Option<&Path>, over: &Over) -> Result<Found, Failures> 
         VolumeSource::File { path: shown, raw: described } => shown == path && described.as_ref() == raw,
         VolumeSource::Phantom(_) => false,
     };
-    Ok(Found { scene, volume: same.then_some(volume), counts })
+    Ok(VerbInput { scene, volume: same.then_some(volume), counts })
 }
 
 /// What `--set` says of a page that has no scene, all else being default.
-pub(super) fn page(set: &Set) -> Result<Scene, Failures> {
-    let over = Over::new(set, Vec::new())?;
+pub(super) fn page(set: &SetArgs) -> Result<Scene, Failures> {
+    let over = SceneOverrides::new(set, Vec::new())?;
     file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
 }
 
 /// What flags alone say, all else being default: a scene of no volume.
-pub(super) fn settings(flags: Vec<Flag>) -> Result<Scene, Failures> {
-    let over = Over::new(&Set::default(), flags)?;
+pub(super) fn settings(flags: Vec<KeyFlag>) -> Result<Scene, Failures> {
+    let over = SceneOverrides::new(&SetArgs::default(), flags)?;
     file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
 }
 
@@ -230,7 +230,7 @@ fn suggested(
     path: &Path,
     raw: Option<&RawLayout>,
     volume: &Volume,
-    over: &Over,
+    over: &SceneOverrides,
     counts: &mut Counts,
 ) -> Result<Scene, Failures> {
     let parse = |text: &str, name: &str, overrides: &Overrides| file::parse(text, Path::new(name), overrides);
@@ -262,16 +262,16 @@ fn suggested(
 
 /// The flags that `--preset` of a picture stands for: a bare volume that is drawn as dots or outlines alone is drawn on a page,
 /// unless its size is said.
-pub(super) fn preset_flags(preset: &str, input: Option<&Path>, set: &Set, has_size: bool) -> Vec<Flag> {
+pub(super) fn preset_flags(preset: &str, input: Option<&Path>, set: &SetArgs, has_size: bool) -> Vec<KeyFlag> {
     let is_bare = input.is_some_and(|input| !is_scene(input));
     let on_a_page = is_bare && !has_size && (preset.starts_with("stipple") || preset == "outline");
     let page = if on_a_page { page_flags(set) } else { Vec::new() };
-    std::iter::once(Flag::name("preset", "--preset", preset)).chain(page).collect()
+    std::iter::once(KeyFlag::name("preset", "--preset", preset)).chain(page).collect()
 }
 
 /// What makes a page to print on, 160 mm wide and high, of a bare volume's points, rather than the pixels of a rendered
 /// picture; none where something else says a size. Where one length is said, the other is as long.
-pub(super) fn page_flags(set: &Set) -> Vec<Flag> {
+pub(super) fn page_flags(set: &SetArgs) -> Vec<KeyFlag> {
     let said = |key: &str| set.set.iter().find_map(|set| Some(set.trim_start().strip_prefix(key)?.trim_start()));
     if said("picture.size").or(said("picture=")).is_some() {
         return Vec::new();
@@ -282,7 +282,7 @@ pub(super) fn page_flags(set: &Set) -> Vec<Flag> {
     flags
         .into_iter()
         .filter(|(_, own, _)| own.is_none())
-        .map(|(key, _, other)| Flag::name(key, key, &as_long(other)))
+        .map(|(key, _, other)| KeyFlag::name(key, key, &as_long(other)))
         .collect()
 }
 

@@ -6,7 +6,7 @@ use drypoint::scene::memory;
 
 /// Limits that every verb obeys.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
-pub(super) struct Limits {
+pub(super) struct LimitArgs {
     /// Threads [default: one a processor]
     #[arg(long, global = true, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     threads: Option<usize>,
@@ -15,7 +15,7 @@ pub(super) struct Limits {
     memory: Option<u64>,
 }
 
-impl Limits {
+impl LimitArgs {
     /// Sets the memory budget and starts the one pool of threads, before any verb does its work.
     ///
     /// # Errors

@@ -9,6 +9,7 @@ mod frames;
 mod info;
 mod input;
 mod limits;
+mod output_path;
 mod page;
 mod phantom;
 mod plan;
@@ -23,13 +24,12 @@ mod signals;
 mod stats;
 mod strokes;
 mod styles;
-mod target;
 mod wedge;
 
 use arguments::Arguments;
 use clap::{Args, Parser, Subcommand};
 use drypoint::Failures;
-use limits::Limits;
+use limits::LimitArgs;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -45,7 +45,7 @@ struct Cli {
     #[command(flatten)]
     talk: Talk,
     #[command(flatten)]
-    limits: Limits,
+    limits: LimitArgs,
 }
 
 /// How much the command says.
@@ -62,33 +62,33 @@ struct Talk {
 #[derive(Debug, Subcommand)]
 enum Verb {
     /// Render a scene or a bare volume to a picture (the default verb)
-    Render(render::Render),
+    Render(render::RenderArgs),
     /// Say what a volume file holds
-    Info(info::Info),
+    Info(info::InfoArgs),
     /// Print value, derivatives and curvature at points
-    Probe(probe::Probe),
+    Probe(probe::ProbeArgs),
     /// Write a phantom with known truth as a volume
-    Phantom(phantom::Phantom),
+    Phantom(phantom::PhantomArgs),
     /// Say what a scene calls for, and why
-    Plan(plan::Plan),
+    Plan(plan::PlanArgs),
     /// Stipple a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
-    Points(points::Points),
+    Points(points::PointsArgs),
     /// Draw the strokes of a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
-    Strokes(strokes::Strokes),
+    Strokes(strokes::StrokesArgs),
     /// List the styles of a theme, write a preview sheet, or make a style from a picture
-    Styles(styles::Styles),
+    Styles(styles::StylesArgs),
     /// Compare two pictures; exit code 1 when a bound is exceeded
-    Compare(compare::Compare),
+    Compare(compare::CompareArgs),
     /// Tell what accuracy costs: error and time of every knob of a scene
-    Cost(cost::Cost),
+    Cost(cost::CostArgs),
     /// Write a contact sheet of volumes, scenes or pictures
-    Sheet(sheet::Sheet),
+    Sheet(sheet::SheetArgs),
     /// Write a step wedge of a pen to be printed and measured, or plot what was measured
-    Wedge(wedge::Wedge),
+    Wedge(wedge::WedgeArgs),
     /// Print the JSON Schema of scene files
-    Schema(schema::Schema),
+    Schema(schema::SchemaArgs),
     /// Print completions for a shell
-    Completions(completions::Completions),
+    Completions(completions::CompletionsArgs),
 }
 
 /// How a verb ended well.

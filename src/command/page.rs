@@ -1,15 +1,15 @@
 //! What `points` and `strokes` have in common: a page of marks, of a scene, a bare volume or a saved list.
 
-use super::frames::{self, Drawn, Files};
-use super::input::{self, Flag, Over, Set};
-use super::raw::Raw;
+use super::frames::{self, DrawReport, FrameFiles};
+use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
+use super::raw::RawArgs;
 use super::report::{Progress, note, print};
-use super::{Done, Outcome, Talk, stats, target};
-use drypoint::drawing::{Written, write_page};
-use drypoint::job::Wanted;
+use super::{Done, Outcome, Talk, output_path, stats};
+use drypoint::drawing::{WriteReport, write_page};
+use drypoint::job::RenderTarget;
 use drypoint::output::list;
 use drypoint::scene::counts::Counts;
-use drypoint::scene::marks::{Layer, Marks, Page as Paper, Pen};
+use drypoint::scene::marks::{Layer, Marks, Page, Pen};
 use drypoint::stroking::Stroking;
 use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use std::time::Instant;
 
 /// What is to be written.
 #[derive(Clone)]
-pub(super) struct Page {
+pub(super) struct PageRequest {
     /// A scene, a volume or a list.
     pub input: PathBuf,
     /// Where to.
@@ -27,32 +27,32 @@ pub(super) struct Page {
     /// The preset where none is.
     pub default_preset: &'static str,
     /// Bytes without a header.
-    pub raw: Raw,
+    pub raw: RawArgs,
     /// `--set`.
-    pub set: Set,
+    pub set: SetArgs,
     /// Whether counts are printed.
     pub stats: bool,
     /// Points or strokes.
-    pub wanted: Wanted,
+    pub target: RenderTarget,
 }
 
-impl Page {
+impl PageRequest {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         if is_list(&self.input) {
             return self.list(talk);
         }
-        target::format(&self.output, &Format::ALL)?;
+        output_path::format(&self.output, &Format::ALL)?;
         let over = self.over()?;
         let start = Instant::now();
         let (job, files) = {
             let _loading = Progress::new(talk, "loading");
             let found = input::find(Some(&self.input), &over)?;
-            let files = Files::of(&self.output, &found.scene)?;
-            (found.load(over.wanted)?, files)
+            let files = FrameFiles::of(&self.output, &found.scene)?;
+            (found.load(over.target)?, files)
         };
         let loaded = start.elapsed().as_secs_f64();
         input::tell(talk, &job);
-        let Drawn { mut counts, .. } = frames::draw(&job, &files, 1, talk)?;
+        let DrawReport { mut counts, .. } = frames::draw(&job, &files, 1, talk)?;
         counts.seconds.insert("load".into(), loaded);
         self.done(counts)
     }
@@ -60,13 +60,13 @@ impl Page {
     /// The cells that strokes can begin in, as a table or as a picture ([HATCH-17]).
     pub(super) fn seeds(&self, path: &Path, talk: Talk) -> Outcome {
         const FORMATS: [Format; 5] = [Format::Csv, Format::Svg, Format::Pdf, Format::Png, Format::Exr];
-        let format = target::picture(path, &FORMATS)?;
+        let format = output_path::picture(path, &FORMATS)?;
         let over = self.over()?;
         let job = {
             let _loading = Progress::new(talk, "loading");
             input::load(Some(&self.input), &over)?
         };
-        target::apart(path, job.scene.files())?;
+        output_path::check_not_read(path, job.scene.files())?;
         let mut counts = job.counts.clone();
         let stroking = Stroking::new(&job, &mut counts)?;
         let Some(map) = stroking.seeds(&mut counts) else {
@@ -79,7 +79,7 @@ impl Page {
             map.write(path)?;
         } else {
             let marks = stroking.seed_page(&map, &job.view()?, &mut counts);
-            write_page(marks, &job.scene, self.wanted, path)?;
+            write_page(marks, &job.scene, self.target, path)?;
         }
         let (cells, expected) = map.sums();
         note(talk, format_args!("{}: {cells} cells, {expected:.0} strokes to be expected", path.display()));
@@ -87,19 +87,19 @@ impl Page {
     }
 
     /// What is said of the scene on the command line.
-    fn over(&self) -> Result<Over, Failures> {
-        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
+    fn over(&self) -> Result<SceneOverrides, Failures> {
+        let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
         let is_bare = !input::is_scene(&self.input);
         if let Some(preset) = &self.preset {
-            flags.push(Flag::name("preset", "--preset", preset));
+            flags.push(KeyFlag::name("preset", "--preset", preset));
         } else if is_bare {
-            flags.push(Flag::name("preset", "--preset", self.default_preset));
+            flags.push(KeyFlag::name("preset", "--preset", self.default_preset));
         }
         if is_bare {
             flags.extend(input::page_flags(&self.set));
         }
-        let mut over = Over::new(&self.set, flags)?;
-        over.wanted = self.wanted;
+        let mut over = SceneOverrides::new(&self.set, flags)?;
+        over.target = self.target;
         Ok(over)
     }
 
@@ -109,7 +109,7 @@ impl Page {
 
     /// What the marks of a list are called.
     fn noun(&self) -> &'static str {
-        if self.wanted == Wanted::Strokes { "lines" } else { "dots" }
+        if self.target == RenderTarget::Strokes { "lines" } else { "dots" }
     }
 
     /// A saved list, on the page that the overrides say.
@@ -121,16 +121,16 @@ impl Page {
                 return Err(Failure::new(what, flag, "leave it out").into());
             }
         }
-        target::picture(&self.output, &Format::ALL)?;
+        output_path::picture(&self.output, &Format::ALL)?;
         let (mut counts, start) = (Counts::default(), Instant::now());
         let scene = input::page(&self.set)?;
-        target::apart(&self.output, scene.files().into_iter().chain([&*self.input]))?;
-        let page = Paper::of(&scene);
+        output_path::check_not_read(&self.output, scene.files().into_iter().chain([&*self.input]))?;
+        let page = Page::of(&scene);
         let pens = Pen::of(&scene.pens, &page);
         let layers = list::read_list(&self.input, &page, &pens)
             .map_err(|error| Failure::picture(&error, self.input.display()))?;
         let [dots, lines] = sums(&layers);
-        let strokes = self.wanted == Wanted::Strokes;
+        let strokes = self.target == RenderTarget::Strokes;
         if let (true, 1.., 0) = (strokes, dots, lines) {
             let remedy = "give it to `drypoint points`";
             return Err(Failure::new("the list has dots and no strokes", self.input.display(), remedy).into());
@@ -148,11 +148,11 @@ impl Page {
         }
         counts.seconds.insert("load".into(), start.elapsed().as_secs_f64());
         let start = Instant::now();
-        let Written { marks: [dots, lines], said } = write_page(marks, &scene, self.wanted, &self.output)?;
+        let WriteReport { marks: [dots, lines], notes } = write_page(marks, &scene, self.target, &self.output)?;
         counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
         (counts.points, counts.strokes) = (dots as u64, lines as u64);
         note(talk, format_args!("{}: {dots} dots, {lines} lines", self.output.display()));
-        said.iter().for_each(|line| note(talk, line));
+        notes.iter().for_each(|line| note(talk, line));
         self.done(counts)
     }
 }
@@ -169,5 +169,5 @@ fn ends(marks: &Marks) -> usize {
 
 /// Whether a path is taken for a list of marks.
 fn is_list(path: &Path) -> bool {
-    list::Form::of(path).is_some()
+    list::ListFormat::of(path).is_some()
 }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Write a phantom as an NRRD volume.
 #[derive(Debug, Args)]
-pub(super) struct Phantom {
+pub(super) struct PhantomArgs {
     /// Which phantom; `--list` shows all
     #[arg(required_unless_present = "list", value_parser = PossibleValuesParser::new(phantom::names()), hide_possible_values = true)]
     name: Option<String>,
@@ -38,7 +38,7 @@ pub(super) struct Phantom {
     list: bool,
 }
 
-impl Phantom {
+impl PhantomArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let (false, Some(name), Some(output)) = (self.list, &self.name, &self.output) else { return print(&list()) };
         checked(output)?;

@@ -1,7 +1,7 @@
 //! `probe`: value, derivatives and curvature at points.
 
-use super::input::{self, Flag};
-use super::raw::Raw;
+use super::input::{self, KeyFlag};
+use super::raw::RawArgs;
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::{Args, ValueEnum};
@@ -20,7 +20,7 @@ use std::path::PathBuf;
 /// Each object says in hessian_estimator which estimator made hessian, k1, k2, e1, e2, mean, gaussian and kv. Where
 /// there is no normal, normal, e1 and e2 are null and the curvatures 0.
 #[derive(Debug, Args)]
-pub(super) struct Probe {
+pub(super) struct ProbeArgs {
     /// A volume
     #[arg(value_name = "VOLUME")]
     volume: PathBuf,
@@ -49,7 +49,7 @@ pub(super) struct Probe {
     #[arg(long, value_name = "NAME", default_value = "low")]
     outside: String,
     #[command(flatten)]
-    raw: Raw,
+    raw: RawArgs,
 }
 
 /// The space of a point.
@@ -61,14 +61,14 @@ enum Space {
     Index,
 }
 
-impl Probe {
+impl ProbeArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let settings = input::settings(vec![
-            Flag::name("sampling.kernel", "--kernel", &self.kernel),
-            Flag::name("sampling.gradient", "--gradient", &self.gradient),
-            Flag::name("sampling.hessian", "--hessian", &self.hessian),
-            Flag::length("sampling.scale", "--scale", &self.scale),
-            Flag::name("volume.outside", "--outside", &self.outside),
+            KeyFlag::name("sampling.kernel", "--kernel", &self.kernel),
+            KeyFlag::name("sampling.gradient", "--gradient", &self.gradient),
+            KeyFlag::name("sampling.hessian", "--hessian", &self.hessian),
+            KeyFlag::length("sampling.scale", "--scale", &self.scale),
+            KeyFlag::name("volume.outside", "--outside", &self.outside),
         ])?;
         let points = if self.at.is_empty() { from_input()? } else { self.at.clone() };
         let _working = Progress::new(talk, "probing");

@@ -1,6 +1,6 @@
 //! `--raw`: the layout of voxels without a header, where no sidecar describes them ([IO-1]).
 
-use super::input::{self, Flag};
+use super::input::{self, KeyFlag};
 use drypoint::scene::tables::{RawLayout, VolumeSource};
 use drypoint::scene::volume::{Volume, read};
 use drypoint::{Failure, Failures};
@@ -11,17 +11,17 @@ pub(super) const KEY: &str = "volume.raw";
 
 /// The layout of a file without header, as verbs take it.
 #[derive(Clone, Debug, Default, clap::Args)]
-pub(super) struct Raw {
+pub(super) struct RawArgs {
     /// The layout of raw voxels, the keys of volume.raw: 'size = [256, 256, 113], type = "i16"'
     #[arg(long = "raw", value_name = "KEYS")]
     keys: Option<String>,
 }
 
-impl Raw {
+impl RawArgs {
     /// The scene key that it stands for.
-    pub(super) fn flag(&self) -> Option<Flag> {
+    pub(super) fn flag(&self) -> Option<KeyFlag> {
         let keys = self.keys.as_ref()?;
-        Some(Flag { key: KEY, value: format!("{{ {keys} }}"), typed: format!("--raw {keys}") })
+        Some(KeyFlag { key: KEY, value: format!("{{ {keys} }}"), typed: format!("--raw {keys}") })
     }
 
     /// Reads a volume: by its layout, if one was given.

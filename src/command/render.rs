@@ -1,11 +1,11 @@
 //! `render`: a picture.
 
-use super::frames::{self, Drawn};
-use super::input::{self, Flag, Over, Set};
-use super::raw::Raw;
+use super::frames::{self, DrawReport};
+use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
+use super::output_path::RenderOutput;
+use super::raw::RawArgs;
 use super::report::{Progress, note, print};
 use super::stats;
-use super::target::Target;
 use super::{Done, Outcome, Talk};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
@@ -15,7 +15,7 @@ use std::time::Instant;
 
 /// Render a scene or a bare volume to a picture; without either, the embedded scene.
 #[derive(Debug, Args)]
-pub(super) struct Render {
+pub(super) struct RenderArgs {
     /// A scene (.toml) or a volume (.nrrd, .nhdr, .nii, .nii.gz, .mhd, .mha, .raw)
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
@@ -38,9 +38,9 @@ pub(super) struct Render {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     layers: Vec<String>,
     #[command(flatten)]
-    raw: Raw,
+    raw: RawArgs,
     #[command(flatten)]
-    set: Set,
+    set: SetArgs,
     /// Print the counts of the render as one JSON object, alone on standard output
     #[arg(long)]
     stats: bool,
@@ -58,25 +58,25 @@ enum Backend {
     Gpu,
 }
 
-impl Render {
+impl RenderArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         if self.backend == Backend::Gpu {
             let what = "the GPU backend is not built yet";
             return Err(Failure::new(what, "--backend gpu", "leave --backend out: the CPU renders").into());
         }
-        let target = Target::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
-        let mut over = Over::new(&self.set, self.flags()?)?;
+        let target = RenderOutput::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
+        let mut over = SceneOverrides::new(&self.set, self.flags()?)?;
         over.beauty_only = target.format != Format::Exr;
         let start = Instant::now();
         let (job, files) = {
             let _loading = Progress::new(talk, "loading");
             let found = input::find(self.input.as_deref(), &over)?;
             let files = target.files(&found.scene)?;
-            (found.load(over.wanted)?, files)
+            (found.load(over.target)?, files)
         };
         let loaded = start.elapsed().as_secs_f64();
         input::tell(talk, &job);
-        let Drawn { mut counts, times } = frames::draw(&job, &files, self.repeat.unwrap_or(1), talk)?;
+        let DrawReport { mut counts, times } = frames::draw(&job, &files, self.repeat.unwrap_or(1), talk)?;
         counts.seconds.insert("load".into(), loaded);
         let line = stats::line(counts, self.repeat.map(|_| &times))?;
         if self.stats {
@@ -89,8 +89,8 @@ impl Render {
     }
 
     /// The flags that stand for scene keys.
-    fn flags(&self) -> Result<Vec<Flag>, Failure> {
-        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
+    fn flags(&self) -> Result<Vec<KeyFlag>, Failure> {
+        let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
         if let Some(size) = &self.size {
             let typed = format!("--size {size}");
             let [w, h] = pixels(size).ok_or_else(|| {
@@ -100,14 +100,14 @@ impl Render {
                     "write width and height in pixels, such as 800x600",
                 )
             })?;
-            flags.push(Flag { key: "picture.size", value: format!("[{w}, {h}]"), typed });
+            flags.push(KeyFlag { key: "picture.size", value: format!("[{w}, {h}]"), typed });
         }
         if let Some(preset) = &self.preset {
             flags.extend(input::preset_flags(preset, self.input.as_deref(), &self.set, self.size.is_some()));
         }
         if !self.layers.is_empty() {
             let typed = format!("--layers {}", self.layers.join(","));
-            flags.push(Flag { key: "picture.layers", value: format!("{:?}", self.layers), typed });
+            flags.push(KeyFlag { key: "picture.layers", value: format!("{:?}", self.layers), typed });
         }
         Ok(flags)
     }

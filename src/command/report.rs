@@ -80,11 +80,11 @@ const ENOUGH: f64 = 0.1;
 /// Work in progress. Work that is expected to take five seconds or more says so in one line; on a terminal, what takes over
 /// a second has a bar. Nothing is shown where output is quiet.
 pub(super) struct Progress {
-    shown: Option<Arc<Shown>>,
+    shown: Option<Arc<ProgressState>>,
 }
 
 /// State that a thread of its own shows.
-struct Shown {
+struct ProgressState {
     doing: String,
     start: Instant,
     bar: Option<ProgressBar>,
@@ -109,7 +109,7 @@ impl Progress {
             });
             let (amount, share) = (OnceLock::new(), AtomicU64::new(0));
             let ended = (Mutex::new(false), Condvar::new());
-            let shown = Arc::new(Shown { doing, start: Instant::now(), bar, amount, share, ended });
+            let shown = Arc::new(ProgressState { doing, start: Instant::now(), bar, amount, share, ended });
             let watched = shown.clone();
             // Without a thread nothing is shown, and the work goes on.
             let _ = std::thread::Builder::new().spawn(move || watched.watch());
@@ -140,7 +140,7 @@ impl Progress {
     }
 }
 
-impl Shown {
+impl ProgressState {
     /// Shows the bar when its time has come, and says how long the work takes, if that is long.
     fn watch(&self) {
         if self.ended_within(PATIENCE) {

@@ -6,14 +6,14 @@ use drypoint::scene::counts::Counts;
 use serde_json::{Map, Value, json};
 
 /// What the frames of `--repeat` took.
-pub(super) struct Times {
+pub(super) struct FrameTimes {
     /// Seconds of each frame, in ascending order; at least one.
     wall: Vec<f64>,
     /// Processor seconds of all of them, where the system says.
     cpu: Option<f64>,
 }
 
-impl Times {
+impl FrameTimes {
     /// From the seconds of each frame, at least one, and the processor's for all.
     pub(super) fn new(mut wall: Vec<f64>, cpu: Option<f64>) -> Self {
         wall.sort_by(f64::total_cmp);
@@ -22,7 +22,7 @@ impl Times {
 }
 
 /// The counts on one line, with `times` where frames were repeated. What was not done is 0, never left out.
-pub(super) fn line(mut counts: Counts, times: Option<&Times>) -> Result<String, Failure> {
+pub(super) fn line(mut counts: Counts, times: Option<&FrameTimes>) -> Result<String, Failure> {
     for quantity in ["differences", "gradients"] {
         counts.preprocess.entry(quantity.into()).or_default();
     }
@@ -55,7 +55,7 @@ mod tests {
 
     #[test]
     fn medians_by_hand() {
-        let median = |wall: &[f64]| median(&Times::new(wall.to_vec(), None).wall);
+        let median = |wall: &[f64]| median(&FrameTimes::new(wall.to_vec(), None).wall);
         assert_eq!(median(&[3.0]), 3.0);
         assert_eq!(median(&[4.0, 1.0]), 2.5);
         assert_eq!(median(&[9.0, 1.0, 2.0]), 2.0);

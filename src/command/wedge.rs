@@ -1,12 +1,12 @@
 //! `wedge`: a page to print and measure, and what was measured as a plot ([STIP-17]).
 
-use super::input::{self, Set};
+use super::input::{self, SetArgs};
 use super::report::{Progress, note};
-use super::{Done, Outcome, Talk, target};
+use super::{Done, Outcome, Talk, output_path};
 use clap::Args;
 use drypoint::drawing::write_page;
 use drypoint::format::Format;
-use drypoint::job::Wanted;
+use drypoint::job::RenderTarget;
 use drypoint::output::atomic;
 use drypoint::scene::marks::{Page, Pen};
 use drypoint::scene::memory;
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// Write a step wedge of a pen, to be printed and measured, with a table to fill in beside it; or plot such a table.
 #[derive(Debug, Args)]
-pub(super) struct Wedge {
+pub(super) struct WedgeArgs {
     /// Where to write; the suffix chooses SVG, PDF, PNG or EXR, of a plot SVG or PNG
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -30,10 +30,10 @@ pub(super) struct Wedge {
     #[arg(long, value_name = "FILE", conflicts_with = "pen")]
     measured: Option<PathBuf>,
     #[command(flatten)]
-    set: Set,
+    set: SetArgs,
 }
 
-impl Wedge {
+impl WedgeArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         if let Some(measured) = &self.measured {
             return self.plot(measured, talk);
@@ -52,16 +52,16 @@ impl Wedge {
             atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))?;
         }
         let scene = input::page(&self.set)?;
-        target::apart(&self.output, scene.files())?;
+        output_path::check_not_read(&self.output, scene.files())?;
         let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
         let drawing = Progress::new(talk, "step wedge");
         drawing.amount(|| format!("a nib of {} mm", pen.width));
         let page = wedge(&pen, &tone, &Page::of(&scene), 1)?;
         let [width, height] = page.marks.page.size.to_array();
-        let said = write_page(page.marks, &scene, Wanted::Marks, &self.output)?.said;
+        let notes = write_page(page.marks, &scene, RenderTarget::Marks, &self.output)?.notes;
         drop(drawing);
         note(talk, format_args!("{}: {width:.0} × {height:.0} mm", self.output.display()));
-        for line in said {
+        for line in notes {
             note(talk, line);
         }
         if stays {
@@ -76,8 +76,8 @@ impl Wedge {
     fn plot(&self, measured: &Path, talk: Talk) -> Outcome {
         let format = Format::among(&self.output, &[Format::Svg, Format::Png])?;
         atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
-        target::apart(&self.output, [measured])?;
-        let (tone, name) = (tone(measured)?, target::stem(measured));
+        output_path::check_not_read(&self.output, [measured])?;
+        let (tone, name) = (tone(measured)?, output_path::stem(measured));
         let bytes = if format == Format::Svg {
             tone_plot::svg(&tone, &name).into_bytes()
         } else {

@@ -10,7 +10,7 @@
 //! termination, biases of mip-maps) are compared with the same scene at the finest setting, and so is every knob where
 //! the field is not known.
 //!
-//! **Error** of what a knob changes ([`On`]):
+//! **Error** of what a knob changes ([`ErrorSubject`]):
 //! - a picture, as it is written, with its background, in linear premultiplied light: the RMS and the largest difference
 //!   over R, G, B and A, and the mean of FLIP;
 //! - dots, as the page of them alone, painted in pixels no finer than S_max, and blurred by a Gaussian of σ = 4 S_max, the
@@ -32,21 +32,21 @@
 //! most; dots that differ in `stipples.even` alone are drawn from points that are made once for all of them.
 
 mod error;
-mod form;
 mod front;
 mod plot;
 mod statistics;
 mod strokes;
+mod sweep_format;
 mod table;
 mod tone;
 mod variant;
 
-pub use form::Form;
 pub use front::front;
 pub use statistics::median;
+pub use sweep_format::SweepFormat;
 pub use table::{csv, markdown};
 
-use crate::job::{Job, Turned};
+use crate::job::{Job, KnobVariant};
 use crate::{Failure, Failures};
 use drypoint_output::read::Image;
 use drypoint_scene::knobs::{Knob, Limit, knobs};
@@ -54,21 +54,21 @@ use drypoint_scene::phantom::{self, Phantom};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::tables::{Scene, VolumeSource};
-use error::{Error, error};
+use error::{SettingError, error};
 use statistics::quartiles;
 use std::fmt;
-use variant::{Made, Variant, take_turn, together};
+use variant::{SettingOutput, TimedVariant, take_turn, together};
 
 /// How to sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Options {
+pub struct SweepOptions {
     /// How often each setting is timed, after the warm-up; at least 1.
     pub runs: usize,
     /// The keys of the knobs to turn; empty: all that the scene uses.
     pub only: Vec<String>,
 }
 
-impl Default for Options {
+impl Default for SweepOptions {
     fn default() -> Self {
         Self { runs: 5, only: Vec::new() }
     }
@@ -94,7 +94,7 @@ impl fmt::Display for Truth {
 
 /// What a knob changes, and its error is measured on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum On {
+pub enum ErrorSubject {
     /// The picture of the volume: light.
     Picture,
     /// The page of dots, blurred: light.
@@ -103,7 +103,7 @@ pub enum On {
     Strokes,
 }
 
-impl On {
+impl ErrorSubject {
     /// Each of them.
     pub const ALL: [Self; 3] = [Self::Picture, Self::Dots, Self::Strokes];
 
@@ -121,16 +121,16 @@ impl On {
 
 /// A setting of a knob, and what it costs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct CostRow {
     /// The scene key.
     pub knob: String,
     /// What the error is of.
-    pub on: On,
+    pub subject: ErrorSubject,
     /// What it was set to.
     pub setting: String,
     /// Whether it is what the scene says.
     pub own: bool,
-    /// Root mean square difference: of light, or of places in voxels ([`On`]).
+    /// Root mean square difference: of light, or of places in voxels ([`ErrorSubject`]).
     pub rms: f64,
     /// Largest difference.
     pub max: f64,
@@ -155,7 +155,7 @@ pub struct Row {
 pub struct Sweep {
     /// The knobs in the order of the scene's tables, each from coarse to fine; a setting of the scene's own that is none
     /// of the knob's comes first.
-    pub rows: Vec<Row>,
+    pub rows: Vec<CostRow>,
     /// Settings that cannot be rendered, and why.
     pub left_out: Vec<(String, String, Failure)>,
     /// Times each setting was timed.
@@ -170,11 +170,11 @@ pub struct Sweep {
 ///
 /// # Errors
 /// A key among `only` that is no knob of the scene, a truth that cannot be drawn.
-pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Sweep, Failures> {
+pub fn sweep(job: &Job, options: &SweepOptions, progress: &dyn Fn(f64)) -> Result<Sweep, Failures> {
     // Other layers are no part of the error, and would be part of the time.
     let mut base = job.scene.clone();
     base.picture.layers = vec![LayerKind::Beauty];
-    let plan = job.turned(base.clone()).plan;
+    let plan = job.variant(base.clone()).plan;
     let all = knobs(&base, &plan);
     let turned = chosen(&all, &options.only, job)?;
     if let Some((knob, own)) = all.iter().find_map(|knob| Some((knob, knob.of(&base)?))) {
@@ -185,10 +185,10 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
         VolumeSource::Phantom(source) => phantom::of_source(source).ok().map(|(phantom, _)| phantom),
         VolumeSource::File { .. } => None,
     };
-    let mut different: Vec<(On, Turned)> = Vec::new();
+    let mut different: Vec<(ErrorSubject, KnobVariant)> = Vec::new();
     let mut settings: Vec<(&Knob, String, usize)> = Vec::new();
     for knob in &turned {
-        let on = On::of(knob, &plan);
+        let subject = ErrorSubject::of(knob, &plan);
         let mut scenes = Vec::new();
         for setting in knob.settings {
             scenes.push(((*setting).to_owned(), knob.set(&base, setting)?));
@@ -199,18 +199,20 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
             scenes.insert(0, (own, base.clone()));
         }
         for (setting, scene) in scenes {
-            let known = different.iter().position(|other| other.0 == on && other.1.scene == scene);
+            let known = different.iter().position(|other| other.0 == subject && other.1.scene == scene);
             let at = known.unwrap_or(different.len());
             if known.is_none() {
-                different.push((on, job.turned(scene)));
+                different.push((subject, job.variant(scene)));
             }
             settings.push((knob, setting, at));
         }
     }
-    let is_of_field = |knob: &Knob| knob.limit == Limit::Field && On::of(knob, &plan) == On::Picture;
+    let is_of_field =
+        |knob: &Knob| knob.limit == Limit::Field && ErrorSubject::of(knob, &plan) == ErrorSubject::Picture;
     let of_field = turned.iter().any(|knob| is_of_field(knob));
     let analytic = phantom.filter(|_| of_field).map(|phantom| exact(job, &base, &all, &*phantom)).transpose()?;
-    let mut variants: Vec<Variant> = different.iter().map(|(on, turned)| Variant::new(job, *on, turned)).collect();
+    let mut variants: Vec<TimedVariant> =
+        different.iter().map(|(subject, knobs)| TimedVariant::new(job, *subject, knobs)).collect();
     time(&mut variants, options.runs.max(1), progress)?;
 
     let mut found = Sweep {
@@ -241,7 +243,7 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
             }
             None => continue,
         };
-        let Error { rms, max, flip, angle } = match error(job, made, of_truth) {
+        let SettingError { rms, max, flip, angle } = match error(job, made, of_truth) {
             Ok(error) => error,
             Err(failure) => {
                 found.left_out.push(left_out(&failure));
@@ -249,11 +251,11 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
             }
         };
         let quartiles = quartiles(&variant.seconds);
-        found.rows.push(Row {
+        found.rows.push(CostRow {
             knob: knob.key.clone(),
-            on: variant.on,
+            subject: variant.subject,
             setting: setting.clone(),
-            own: variant.turned.scene == base,
+            own: variant.knobs.scene == base,
             rms,
             max,
             flip,
@@ -280,19 +282,19 @@ fn chosen<'k>(all: &'k [Knob], only: &[String], job: &Job) -> Result<Vec<&'k Kno
 }
 
 /// The picture of a phantom's formula, every knob of the field at its finest.
-fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result<Made, Failures> {
+fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result<SettingOutput, Failures> {
     let mut scene = base.clone();
     for knob in all.iter().filter(|knob| knob.limit == Limit::Field) {
         scene = knob.set(&scene, knob.finest())?;
     }
     scene.sampling.stop_below = 0.0;
-    let turned = job.turned(scene);
+    let turned = job.variant(scene);
     let (picture, _) = job.exact_renderer_of(&turned, phantom)?.frame(&|_| ());
-    Ok(Made::Picture(Image::from(&picture)))
+    Ok(SettingOutput::Picture(Image::from(&picture)))
 }
 
 /// Draws and times every setting, in turns.
-fn time(variants: &mut [Variant], runs: usize, progress: &dyn Fn(f64)) -> Result<(), Failure> {
+fn time(variants: &mut [TimedVariant], runs: usize, progress: &dyn Fn(f64)) -> Result<(), Failure> {
     let groups = together(variants);
     let total = (runs + 1) * groups.len();
     let (mut kept, mut done) = (0, 0);

@@ -1,7 +1,7 @@
 //! A sweep as a plot: error against time on two logarithmic axes, a colour and a mark for each knob, and the front of
 //! what nothing beats with its settings named ([COST-1]).
 
-use super::{On, Row, Sweep, Truth, front};
+use super::{CostRow, ErrorSubject, Sweep, Truth, front};
 use drypoint_scene::math::ln;
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
@@ -58,7 +58,7 @@ pub(super) fn png(sweep: &Sweep, name: &str) -> Result<Vec<u8>, String> {
 }
 
 fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
-    let shown: Vec<&Row> = sweep.rows.iter().filter(|row| row.rms >= LEAST && row.seconds >= LEAST).collect();
+    let shown: Vec<&CostRow> = sweep.rows.iter().filter(|row| row.rms >= LEAST && row.seconds >= LEAST).collect();
     if shown.is_empty() {
         return Err("there is nothing to plot: no setting has an error".into());
     }
@@ -68,7 +68,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     let [[fast, slow], [small, large]] = reaches;
     let (mut plots, names) = fronts(sweep, reaches);
     for (i, knob) in knobs.iter().enumerate() {
-        let rows: Vec<&Row> = shown.iter().copied().filter(|row| row.knob == *knob).collect();
+        let rows: Vec<&CostRow> = shown.iter().copied().filter(|row| row.knob == *knob).collect();
         let Some(first) = rows.first() else { continue };
         let truth = match first.truth {
             Truth::Analytic => "",
@@ -83,7 +83,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
             .with_color(color)
             .with_marker(MARKS[i % MARKS.len()])
             .with_size(4.5)
-            .with_legend(format!("{knob}{truth}{}", of(first.on)));
+            .with_legend(format!("{knob}{truth}{}", of(first.subject)));
         plots.push(Plot::Scatter(marks));
     }
     plots.push(names);
@@ -91,7 +91,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     let analytic = sweep.rows.iter().any(|row| row.truth == Truth::Analytic);
     let against =
         if analytic { "against the formula; *: against the finest setting" } else { "*: against the finest setting" };
-    let of_picture = sweep.rows.iter().any(|row| row.on == On::Picture);
+    let of_picture = sweep.rows.iter().any(|row| row.subject == ErrorSubject::Picture);
     let what = if of_picture { "a frame" } else { "a page, from the voxels on," };
     let mut layout = Layout::auto_from_plots(&plots)
         .with_width(1000.0)
@@ -117,16 +117,16 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
 }
 
 /// What the error is of, where it is not the picture's.
-fn of(on: On) -> &'static str {
-    match on {
-        On::Picture => "",
-        On::Dots => ", dots",
-        On::Strokes => ", strokes (voxels)",
+fn of(subject: ErrorSubject) -> &'static str {
+    match subject {
+        ErrorSubject::Picture => "",
+        ErrorSubject::Dots => ", dots",
+        ErrorSubject::Strokes => ", strokes (voxels)",
     }
 }
 
 /// Smallest and largest of what is shown.
-fn reach(rows: &[&Row], of: fn(&Row) -> f64) -> [f64; 2] {
+fn reach(rows: &[&CostRow], of: fn(&CostRow) -> f64) -> [f64; 2] {
     rows.iter().map(|row| of(row)).fold([f64::INFINITY, 0.0], |[lo, hi], x| [lo.min(x), hi.max(x)])
 }
 
@@ -145,9 +145,12 @@ fn time(seconds: f64) -> String {
 fn fronts(sweep: &Sweep, reaches: [[f64; 2]; 2]) -> (Vec<Plot>, Plot) {
     let (mut lines, mut places, mut names) = (Vec::new(), Vec::new(), Vec::new());
     let looks = [(true, "#bdbdbd", "Pareto front"), (false, "#e3e3e3", "Pareto front *")];
-    for (on, (analytic, color, legend)) in On::ALL.iter().flat_map(|on| looks.map(|look| (*on, look))) {
-        let legend = format!("{legend}{}", of(on));
-        let rows: Vec<&Row> = front(&sweep.rows, on, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
+    for (subject, (analytic, color, legend)) in
+        ErrorSubject::ALL.iter().flat_map(|subject| looks.map(|look| (*subject, look)))
+    {
+        let legend = format!("{legend}{}", of(subject));
+        let rows: Vec<&CostRow> =
+            front(&sweep.rows, subject, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
         if rows.is_empty() {
             continue;
         }
@@ -187,12 +190,12 @@ fn are_apart(places: &[(f64, f64)], names: &[String], [times, errors]: [[f64; 2]
 mod tests {
     use super::*;
 
-    fn row(knob: &str, setting: &str, seconds: f64, rms: f64) -> Row {
+    fn row(knob: &str, setting: &str, seconds: f64, rms: f64) -> CostRow {
         let truth = Truth::Finest("f".into());
         let (knob, setting) = (knob.into(), setting.into());
-        Row {
+        CostRow {
             knob,
-            on: On::Picture,
+            subject: ErrorSubject::Picture,
             setting,
             own: rms == 0.5,
             rms,
@@ -207,7 +210,7 @@ mod tests {
         }
     }
 
-    fn sweep(rows: Vec<Row>) -> Sweep {
+    fn sweep(rows: Vec<CostRow>) -> Sweep {
         Sweep { rows, left_out: Vec::new(), runs: 1, threads: 1, size: [3, 2] }
     }
 

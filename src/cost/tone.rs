@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::job::Job;
 use drypoint_output::OutputError;
 use drypoint_output::compare::blur::blurred;
-use drypoint_output::paint::{Window, blank, paint};
+use drypoint_output::paint::{PageWindow, blank, paint};
 use drypoint_output::read::Image;
 use drypoint_scene::marks::{INCH, Marks, Page};
 use drypoint_scene::tables::{Background, Scene};
@@ -23,6 +23,6 @@ pub(super) fn tone(job: &Job, scene: &Scene, marks: &Marks) -> Result<Image, Fai
         Background::None | Background::Picture(_) => None,
     };
     let mut picture = blank(&page, background).map_err(wrong)?;
-    paint(marks, &Window::page(&page), scene.picture.blend_space, &mut picture).map_err(wrong)?;
+    paint(marks, &PageWindow::page(&page), scene.picture.blend_space, &mut picture).map_err(wrong)?;
     Ok(blurred(&Image::from(&picture), BLUR * size * page.pixels_per_mm()))
 }

@@ -1,11 +1,11 @@
 //! What a setting makes, and the time that it takes.
 
-use super::On;
+use super::ErrorSubject;
 use super::statistics::median;
-use super::strokes::Drawn;
+use super::strokes::DrawnStrokes;
 use super::tone::tone;
 use crate::Failure;
-use crate::job::{Job, Turned};
+use crate::job::{Job, KnobVariant};
 use crate::stippling::Stippling;
 use crate::stroking::Stroking;
 use drypoint_output::read::Image;
@@ -28,35 +28,35 @@ pub(super) const FEW: usize = 3;
 const STROKES: usize = 2000;
 
 /// A scene that is drawn, whatever knobs lead to it.
-pub(super) struct Variant<'a> {
+pub(super) struct TimedVariant<'a> {
     job: &'a Job,
-    pub(super) on: On,
-    pub(super) turned: &'a Turned,
+    pub(super) subject: ErrorSubject,
+    pub(super) knobs: &'a KnobVariant,
     /// Ready for the next turn, where it may be kept.
     renderer: Option<Renderer<'a>>,
     /// What was made in the first turn, with its counts, or why there is none.
-    pub(super) made: Option<Result<(Made, Counts), Failure>>,
+    pub(super) made: Option<Result<(SettingOutput, Counts), Failure>>,
     pub(super) seconds: Vec<f64>,
 }
 
 /// What a setting makes.
-pub(super) enum Made {
-    /// Of [`On::Picture`].
+pub(super) enum SettingOutput {
+    /// Of [`ErrorSubject::Picture`].
     Picture(Image),
-    /// Of [`On::Dots`]: the tone of the page.
+    /// Of [`ErrorSubject::Dots`]: the tone of the page.
     Dots(Image),
-    /// Of [`On::Strokes`].
-    Strokes(Drawn),
+    /// Of [`ErrorSubject::Strokes`].
+    Strokes(DrawnStrokes),
 }
 
-impl<'a> Variant<'a> {
-    pub(super) fn new(job: &'a Job, on: On, turned: &'a Turned) -> Self {
-        Self { job, on, turned, renderer: None, made: None, seconds: Vec::new() }
+impl<'a> TimedVariant<'a> {
+    pub(super) fn new(job: &'a Job, subject: ErrorSubject, knobs: &'a KnobVariant) -> Self {
+        Self { job, subject, knobs, renderer: None, made: None, seconds: Vec::new() }
     }
 
     /// Whether it takes no more turns.
     pub(super) fn is_done(&self, runs: usize) -> bool {
-        let is_long = self.on != On::Picture && median(&self.seconds) > LONG;
+        let is_long = self.subject != ErrorSubject::Picture && median(&self.seconds) > LONG;
         matches!(self.made, Some(Err(_))) || self.seconds.len() >= if is_long { runs.min(FEW) } else { runs }
     }
 
@@ -69,7 +69,8 @@ impl<'a> Variant<'a> {
             }
             scene
         };
-        [self.on, other.on] == [On::Dots; 2] && points(&self.turned.scene) == points(&other.turned.scene)
+        [self.subject, other.subject] == [ErrorSubject::Dots; 2]
+            && points(&self.knobs.scene) == points(&other.knobs.scene)
     }
 
     fn fail(&mut self, failure: Failure) {
@@ -80,7 +81,7 @@ impl<'a> Variant<'a> {
     fn take_picture(&mut self, kept: &mut u64) -> Result<(), Failure> {
         let anew = match &self.renderer {
             Some(_) => None,
-            None => Some(self.job.renderer_of(self.turned)?),
+            None => Some(self.job.renderer_of(self.knobs)?),
         };
         let Some(ready) = anew.as_ref().or(self.renderer.as_ref()) else { return Ok(()) };
         let start = Instant::now();
@@ -95,7 +96,7 @@ impl<'a> Variant<'a> {
             *kept += own;
             self.renderer = anew;
         }
-        self.made = Some(Ok((Made::Picture(Image::from(&picture)), counts)));
+        self.made = Some(Ok((SettingOutput::Picture(Image::from(&picture)), counts)));
         Ok(())
     }
 
@@ -103,7 +104,7 @@ impl<'a> Variant<'a> {
     fn take_page(
         &mut self,
         took: Duration,
-        made: impl FnOnce(&Job) -> Result<Made, Failure>,
+        made: impl FnOnce(&Job) -> Result<SettingOutput, Failure>,
         counts: Counts,
     ) -> Result<(), Failure> {
         let seconds = took.as_secs_f64();
@@ -118,7 +119,7 @@ impl<'a> Variant<'a> {
 }
 
 /// Which variants take their turns together: dots of the same points, which are made once for all of them.
-pub(super) fn together(variants: &[Variant<'_>]) -> Vec<Vec<usize>> {
+pub(super) fn together(variants: &[TimedVariant<'_>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (at, variant) in variants.iter().enumerate() {
         match groups.iter_mut().find(|group| group.iter().any(|&first| variants[first].has_points_of(variant))) {
@@ -131,14 +132,14 @@ pub(super) fn together(variants: &[Variant<'_>]) -> Vec<Vec<usize>> {
 
 /// A turn of variants that take theirs together: one frame of a picture, or all of a page of dots or strokes, from the
 /// voxels on. What fails the first time takes no more turns.
-pub(super) fn take_turn(variants: &mut [Variant<'_>], group: &[usize], kept: &mut u64) -> Result<(), Failure> {
+pub(super) fn take_turn(variants: &mut [TimedVariant<'_>], group: &[usize], kept: &mut u64) -> Result<(), Failure> {
     for (place, &at) in group.iter().enumerate() {
         let is_first = variants[at].made.is_none();
-        let done = match variants[at].on {
-            On::Picture => variants[at].take_picture(kept),
-            On::Dots if place == 0 => take_dots(variants, group),
-            On::Dots => Ok(()),
-            On::Strokes => take_strokes(&mut variants[at]),
+        let done = match variants[at].subject {
+            ErrorSubject::Picture => variants[at].take_picture(kept),
+            ErrorSubject::Dots if place == 0 => take_dots(variants, group),
+            ErrorSubject::Dots => Ok(()),
+            ErrorSubject::Strokes => take_strokes(&mut variants[at]),
         };
         match done {
             Err(failure) if is_first => group[place..].iter().for_each(|&at| variants[at].fail(failure.clone())),
@@ -149,28 +150,28 @@ pub(super) fn take_turn(variants: &mut [Variant<'_>], group: &[usize], kept: &mu
 }
 
 /// Makes points, and draws them as each of a group says; what they share counts for each.
-fn take_dots(variants: &mut [Variant<'_>], group: &[usize]) -> Result<(), Failure> {
-    let Variant { job, turned, .. } = variants[group[0]];
+fn take_dots(variants: &mut [TimedVariant<'_>], group: &[usize]) -> Result<(), Failure> {
+    let TimedVariant { job, knobs, .. } = variants[group[0]];
     let mut counts = counts_of(job);
     let start = Instant::now();
-    let mut stippling = Stippling::of(job, &turned.scene, &mut counts, &|_| ())?;
+    let mut stippling = Stippling::of(job, &knobs.scene, &mut counts, &|_| ())?;
     let shared = start.elapsed();
     for &at in group {
         let (variant, mut counts) = (&mut variants[at], counts.clone());
-        let scene = &variant.turned.scene;
+        let scene = &variant.knobs.scene;
         let start = Instant::now();
         if let Some(stipples) = &scene.stipples {
             stippling.set_even(stipples.even);
         }
         let marks = stippling.frames().draw(&job.view()?, &mut counts);
         let took = shared + start.elapsed();
-        variant.take_page(took, |job| Ok(Made::Dots(tone(job, scene, &marks)?)), counts)?;
+        variant.take_page(took, |job| Ok(SettingOutput::Dots(tone(job, scene, &marks)?)), counts)?;
     }
     Ok(())
 }
 
-fn take_strokes(variant: &mut Variant<'_>) -> Result<(), Failure> {
-    let (job, scene) = (variant.job, &variant.turned.scene);
+fn take_strokes(variant: &mut TimedVariant<'_>) -> Result<(), Failure> {
+    let (job, scene) = (variant.job, &variant.knobs.scene);
     let mut counts = counts_of(job);
     let start = Instant::now();
     let stroking = Stroking::of(job, scene, &mut counts)?;
@@ -178,7 +179,11 @@ fn take_strokes(variant: &mut Variant<'_>) -> Result<(), Failure> {
     let [over, inside] = frames.draw(&job.view()?, &mut counts)?;
     let took = start.elapsed();
     let marks = || Marks { page: Page::of(scene), layers: over.into_iter().chain(inside).collect() };
-    variant.take_page(took, |_| Ok(Made::Strokes(Drawn { strokes: frames.sample(STROKES), marks: marks() })), counts)
+    variant.take_page(
+        took,
+        |_| Ok(SettingOutput::Strokes(DrawnStrokes { strokes: frames.sample(STROKES), marks: marks() })),
+        counts,
+    )
 }
 
 fn counts_of(job: &Job) -> Counts {

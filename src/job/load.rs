@@ -1,6 +1,6 @@
 //! What a job reads beside its scene: the volume and further ones, styles, and a picture behind.
 
-use super::{Wanted, room};
+use super::{RenderTarget, room};
 use crate::Failure;
 use drypoint_output::OutputError;
 use drypoint_output::read::read_background;
@@ -96,9 +96,9 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
 }
 
 /// The pixels behind, where the scene has a picture there; what is wrong goes to `failures`.
-pub(super) fn background(scene: &Scene, wanted: Wanted, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
+pub(super) fn background(scene: &Scene, target: RenderTarget, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
     let Background::Picture(path) = &scene.picture.background else { return None };
-    if wanted != Wanted::Picture {
+    if target != RenderTarget::Picture {
         let (what, remedy) = ("a page has no picture behind it", "give a colour, or \"none\", or render the scene");
         failures.push(Failure::new(what, scene.given.position("picture.background"), remedy));
         return None;

@@ -1,6 +1,6 @@
 //! Which pen draws which points ([STIP-16]).
 
-use super::Dots;
+use super::PenDots;
 use crate::Failure;
 use crate::job::Job;
 use drypoint_reference::dot_colors::{Colors, Rgb, nearest, palette, split};
@@ -50,9 +50,9 @@ impl Pens {
 
     /// Deals the points to the pens, and says which one draws lines: the only one, the darkest of `[[pen]]`, or a black one
     /// of its own.
-    pub(super) fn deal(self, job: &Job, points: Points) -> Result<(Vec<Dots>, Pen), Failure> {
+    pub(super) fn deal(self, job: &Job, points: Points) -> Result<(Vec<PenDots>, Pen), Failure> {
         let (pens, nibs, of) = match self {
-            Self::One(pen, nib) => return Ok((vec![Dots { pen: pen.clone(), nib, points }], pen)),
+            Self::One(pen, nib) => return Ok((vec![PenDots { pen: pen.clone(), nib, points }], pen)),
             Self::Nearest(pens) => {
                 let inks: Vec<Rgb> = pens.iter().map(|pen| rgb(pen.color)).collect();
                 let of = nearest(&colors(job, &points)?, &inks);
@@ -80,7 +80,7 @@ impl Pens {
         let line_pen = line_pen.cloned().unwrap_or(Pen { number: 1, name: String::new(), width: 0.0, color: [0.0; 4] });
         let layers = split(&points, &of, pens.len());
         let dots =
-            pens.into_iter().zip(layers).map(|(pen, points)| Dots { nib: nibs.then_some(pen.width), pen, points });
+            pens.into_iter().zip(layers).map(|(pen, points)| PenDots { nib: nibs.then_some(pen.width), pen, points });
         Ok((dots.filter(|dots| nibs || !dots.points.is_empty()).collect(), line_pen))
     }
 }

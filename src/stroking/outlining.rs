@@ -1,6 +1,6 @@
 //! Outlines on the page ([HATCH-18]).
 
-use super::{Frame, on_page, pen, value};
+use super::{StrokeCamera, on_page, pen, value};
 use crate::Failure;
 use drypoint_reference::interactive_volume_illustration::{Pen as Nib, outlines};
 use drypoint_reference::surface::IsoSurface;
@@ -39,7 +39,7 @@ impl Outlining {
     /// Those that a camera sees.
     pub(super) fn draw(
         &self,
-        frame: &Frame<'_>,
+        frame: &StrokeCamera<'_>,
         surface: &IsoSurface<'_, '_>,
         voxel: f64,
         counts: &mut Counts,

@@ -1,6 +1,6 @@
-//! Numbers as text: whole micrometres as the shortest decimal of millimetres, so that nothing is rounded on the way.
+//! Numbers as text: micrometres as the shortest decimal of millimetres, without rounding.
 
-/// Adds `n` thousandths: without a zero before the point or at the end.
+/// Appends `n` thousandths, without a zero before the point or at the end.
 pub(super) fn push(out: &mut Vec<u8>, n: i64) {
     if n < 0 {
         out.push(b'-');
@@ -28,7 +28,7 @@ pub(super) fn push(out: &mut Vec<u8>, n: i64) {
     }
 }
 
-/// Adds a pair of numbers, with a space between only where no sign parts them.
+/// Appends a pair of numbers. A space separates them unless a sign does.
 pub(super) fn push_pair(out: &mut Vec<u8>, [x, y]: [i64; 2]) {
     push(out, x);
     if y >= 0 {
@@ -37,7 +37,7 @@ pub(super) fn push_pair(out: &mut Vec<u8>, [x, y]: [i64; 2]) {
     push(out, y);
 }
 
-/// A share or a size as text: six decimals at most.
+/// Returns a share or a size as text, with at most six decimals.
 pub(super) fn number(x: f64) -> String {
     format!("{}", (x * 1e6).round_ties_even() / 1e6)
 }

@@ -1,7 +1,7 @@
 //! `styles extract`: a style from a part of a picture ([STF-2]).
 
 use super::super::report::note;
-use super::super::{Done, Outcome, Talk, target};
+use super::super::{Done, Outcome, Talk, output_path};
 use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
 use drypoint::output::{OutputError, png};
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Places are in pixels of the picture, x from the left and y from the top; fractions are allowed.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("region").required(true))]
-pub(super) struct Extract {
+pub(super) struct ExtractArgs {
     /// The picture, PNG, JPEG or OpenEXR
     picture: PathBuf,
     /// A sphere: its middle and its radius
@@ -44,11 +44,11 @@ pub(super) struct Extract {
     linear: bool,
 }
 
-impl Extract {
+impl ExtractArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        target::picture(&self.output, &[Format::Png])?;
+        output_path::picture(&self.output, &[Format::Png])?;
         let outline = self.outline.as_deref().map(Path::new);
-        target::apart(&self.output, outline.into_iter().chain([&*self.picture]))?;
+        output_path::check_not_read(&self.output, outline.into_iter().chain([&*self.picture]))?;
         let (option, region) = self.region()?;
         let source = self.source()?;
         let found = extract(&source, &region, self.size).map_err(|error| {

@@ -1,11 +1,11 @@
 //! Hatching on the page: grown once ([HATCH-6] … [HATCH-11]), drawn for each camera ([HATCH-13], [HATCH-19]).
 
-mod drawn;
+mod draw;
 mod gaps;
-mod kept;
-mod setting;
+mod growth_counts;
+mod growth_settings;
 
-use super::shown::Shown;
+use super::visible_values::VisibleValues;
 use super::{in_world, on_page, pen, value};
 use crate::Failure;
 use drypoint_reference::field::Field;
@@ -22,8 +22,8 @@ use drypoint_scene::tables::{
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 use gaps::cut_gaps;
-use kept::{add, count_kept};
-use setting::{how, line_light};
+use growth_counts::{add, count_kept};
+use growth_settings::{growth_settings, line_light};
 use std::time::Instant;
 
 /// How far chords may be off on the page, in mm ([HATCH-10]).
@@ -44,12 +44,12 @@ const TERMS: u64 = 16;
 const LEAST: f64 = 0.08;
 
 /// What hatching is made by.
-pub(super) struct Hatching<'a> {
+pub(super) struct HatchingSetup<'a> {
     table: &'a Table,
     light: LightDirection,
     /// Of the surface that strokes lie on; none: they are where the function shows something.
     iso: Option<f64>,
-    seen: Option<Shown<'a>>,
+    seen: Option<VisibleValues<'a>>,
     pen: Pen,
     cross_pen: Pen,
     /// In mm.
@@ -69,20 +69,20 @@ pub(super) struct Hatching<'a> {
 }
 
 /// The strokes of a surface.
-pub(super) struct Hatched<'a> {
-    hatching: &'a Hatching<'a>,
+pub(super) struct GrownHatching<'a> {
+    hatching: &'a HatchingSetup<'a>,
     pub(super) strokes: room::Strokes<'a, 'a>,
     pub(super) cells: Vec<[usize; 3]>,
     /// Of all cells, where they fall as their seeds do: the first, and those that cross, with N at their seeds.
-    grown: Option<Grown>,
+    grown: Option<GrownStrokes>,
 }
 
-struct Grown {
+struct GrownStrokes {
     first: Vec<Stroke>,
     across: Vec<(DVec3, Stroke)>,
 }
 
-impl<'a> Hatching<'a> {
+impl<'a> HatchingSetup<'a> {
     /// `scale` is the most millimetres of the page that a world unit takes.
     pub(super) fn new(
         (scene, function): (&'a Scene, Option<&'a Function>),
@@ -105,9 +105,9 @@ impl<'a> Hatching<'a> {
         let pen = pen(scene, "hatching", page, table.pen.as_deref(), ink)?;
         let (iso, seen) = match table.iso {
             HatchIso::Surface(iso) => (Some(value(scene, iso, "hatching.iso")?), None),
-            HatchIso::Transfer => (None, Some(Shown::new(scene, function)?)),
+            HatchIso::Transfer => (None, Some(VisibleValues::new(scene, function)?)),
         };
-        let mut how = how(scene, table, grid)?;
+        let mut how = growth_settings(scene, table, grid)?;
         let finest = FINEST * grid.voxel();
         how.chord = how.chord.min((MOST_OFF / scale).max(finest));
         how.offset = how.offset.min((0.5 * pen.width / scale).max(finest));
@@ -195,7 +195,7 @@ impl<'a> Hatching<'a> {
     }
 
     /// Finds the seeds, and grows their strokes where no camera has a say in which.
-    pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> Hatched<'a> {
+    pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> GrownHatching<'a> {
         let (pyramid, strokes) = self.strokes(field, counts);
         strokes.prepare();
         let pyramid = match self.table.seeds {
@@ -222,14 +222,14 @@ impl<'a> Hatching<'a> {
             let crossed = table.cross.is_some();
             let grown = strokes.grow_all(&cells, |_| crossed);
             add(counts, &grown.counts);
-            Grown {
+            GrownStrokes {
                 first: grown.strokes.into_iter().map(|(_, stroke)| stroke).collect(),
                 across: grown.cross.into_iter().map(|(seed, stroke)| (seed.normal, stroke)).collect(),
             }
         });
         count_kept(counts, &strokes);
         counts.seconds.insert("grown strokes".into(), start.elapsed().as_secs_f64());
-        Hatched { hatching: self, strokes, cells, grown }
+        GrownHatching { hatching: self, strokes, cells, grown }
     }
 
     /// The cells that strokes can begin in.

@@ -1,6 +1,6 @@
 //! Where a picture or a volume goes, settled before any work is done.
 
-use super::frames::Files;
+use super::frames::FrameFiles;
 use drypoint::output::atomic;
 use drypoint::scene::tables::Scene;
 use drypoint::scene::volume::read;
@@ -54,7 +54,7 @@ pub(super) fn writable(path: &Path) -> Result<(), Failure> {
 ///
 /// # Errors
 /// It is one of them.
-pub(super) fn apart<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+pub(super) fn check_not_read<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
     // What is not there yet is nobody's input.
     let Ok(written) = output.canonicalize() else { return Ok(()) };
     let is_picture = Format::of(&written).is_some_and(|format| Format::PICTURES.contains(&format));
@@ -68,7 +68,7 @@ pub(super) fn apart<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
 }
 
 /// Where a rendered picture goes, and frames of it.
-pub(super) struct Target {
+pub(super) struct RenderOutput {
     /// The file, or what the names of frames are made of.
     path: PathBuf,
     /// Whether `-o` says it.
@@ -77,7 +77,7 @@ pub(super) struct Target {
     pub format: Format,
 }
 
-impl Target {
+impl RenderOutput {
     /// What `-o` says; without it, the input's name in the working directory, `drypoint` for the embedded scene. Its
     /// suffix is `.png`, or `.exr` where layers are asked for, which only an EXR has.
     ///
@@ -99,8 +99,8 @@ impl Target {
     /// The files of a scene's frames. A name that nobody said gets the numbers of frames.
     ///
     /// # Errors
-    /// As [`Files::of`], and a vector file of a scene without points.
-    pub(super) fn files(&self, scene: &Scene) -> Result<Files, Failure> {
+    /// As [`FrameFiles::of`], and a vector file of a scene without points.
+    pub(super) fn files(&self, scene: &Scene) -> Result<FrameFiles, Failure> {
         if !Format::PICTURES.contains(&self.format) && !scene.has_marks() {
             let suffix = self.format.suffix();
             let what = format!(".{suffix} is for points and lines, and the scene has none");
@@ -110,9 +110,9 @@ impl Target {
             Some(orbit) if !self.said => {
                 let digits = orbit.frames.to_string().len().max(3);
                 let name = format!("{}_{}.{}", stem(&self.path), "#".repeat(digits), self.format.suffix());
-                Files::of(Path::new(&name), scene)
+                FrameFiles::of(Path::new(&name), scene)
             }
-            _ => Files::of(&self.path, scene),
+            _ => FrameFiles::of(&self.path, scene),
         }
     }
 }

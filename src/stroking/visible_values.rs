@@ -6,12 +6,12 @@ use drypoint_scene::tables::Scene;
 use drypoint_scene::transfer::Function;
 
 /// A transfer function as strokes in what it shows read it ([HATCH-16]).
-pub(super) struct Shown<'a> {
+pub(super) struct VisibleValues<'a> {
     function: &'a Function,
     opacity: Piecewise<f64>,
 }
 
-impl<'a> Shown<'a> {
+impl<'a> VisibleValues<'a> {
     /// Of a scene whose strokes are where it shows something.
     pub(super) fn new(scene: &Scene, function: Option<&'a Function>) -> Result<Self, Failure> {
         let at = |key| scene.given.position(key);

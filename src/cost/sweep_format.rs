@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// A form that a sweep is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum SweepFormat {
     /// The table of the contract.
     Csv,
     /// The table for people.
@@ -17,7 +17,7 @@ pub enum Form {
     Png,
 }
 
-impl Form {
+impl SweepFormat {
     /// The form of a name, by its suffix; case does not count.
     ///
     /// # Errors
@@ -59,10 +59,10 @@ mod tests {
 
     #[test]
     fn the_suffix_chooses() {
-        let of = |name: &str| Form::of(Path::new(name));
+        let of = |name: &str| SweepFormat::of(Path::new(name));
         assert_eq!(
             [of("a.csv"), of("b.MD"), of("c.svg"), of("d.x.png")].map(Result::unwrap),
-            [Form::Csv, Form::Markdown, Form::Svg, Form::Png]
+            [SweepFormat::Csv, SweepFormat::Markdown, SweepFormat::Svg, SweepFormat::Png]
         );
         for (name, what) in [
             ("a.pdf", ".pdf is the suffix of no form that costs are written in"),

@@ -1,8 +1,8 @@
 //! The strokes of hatching that a camera sees: as they fall ([HATCH-13]), or evenly on the page ([HATCH-19]).
 
-use super::kept::{add, count_kept};
-use super::{Grown, Hatched, Hatching};
-use crate::stroking::Frame;
+use super::growth_counts::{add, count_kept};
+use super::{GrownHatching, GrownStrokes, HatchingSetup};
+use crate::stroking::StrokeCamera;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DVec2, DVec3};
@@ -25,10 +25,10 @@ const GRAIN: f64 = 0.4;
 /// The shortest line on the page, in pen's widths.
 const SHORTEST: f64 = 6.0;
 
-impl Hatched<'_> {
+impl GrownHatching<'_> {
     /// Those that a camera sees, and where some cross the others those as a layer of their own.
-    pub(in crate::stroking) fn draw(&self, frame: &Frame<'_>, counts: &mut Counts) -> Vec<Layer> {
-        let Hatching { table, pen, cross_pen, spacing, .. } = self.hatching;
+    pub(in crate::stroking) fn draw(&self, frame: &StrokeCamera<'_>, counts: &mut Counts) -> Vec<Layer> {
+        let HatchingSetup { table, pen, cross_pen, spacing, .. } = self.hatching;
         let start = Instant::now();
         let light = frame.view.towards(self.hatching.light);
         let tone = |normal: DVec3| 1.0 - (table.stroke.ambient + normal.dot(light)).clamp(0.0, 1.0);
@@ -49,12 +49,12 @@ impl Hatched<'_> {
     fn as_they_fall(
         &self,
         sight: &room::Sight<'_>,
-        grown: &Grown,
+        grown: &GrownStrokes,
         light: DVec3,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
     ) -> [Vec<Polyline>; 2] {
-        let Hatching { table, pen, cross_pen, .. } = self.hatching;
+        let HatchingSetup { table, pen, cross_pen, .. } = self.hatching;
         let may_be_seen = |stroke: &&Stroke| !self.turns_away(sight, stroke);
         let mut first: Vec<&Stroke> = grown.first.iter().filter(may_be_seen).collect();
         let mut across: Vec<&Stroke> = table.cross.map_or_else(Vec::new, |angle| {
@@ -96,7 +96,7 @@ impl Hatched<'_> {
         (light, depths): (DVec3, Depths),
         tone: &impl Fn(DVec3) -> f64,
     ) -> room::Pen {
-        let Hatching { table, lighting, .. } = self.hatching;
+        let HatchingSetup { table, lighting, .. } = self.hatching;
         let width = if one_width {
             widest
         } else {
@@ -145,7 +145,7 @@ impl Hatched<'_> {
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
     ) -> [Vec<Polyline>; 2] {
-        let Hatching { table, pen, cross_pen, .. } = self.hatching;
+        let HatchingSetup { table, pen, cross_pen, .. } = self.hatching;
         let crossed = table.cross.is_some();
         let by_tone = table.spacing == Spacing::Tone;
         // Of what both print together 1 − (1 − τ₁)(1 − τ₂) is the tone. Where the distance is the same everywhere the second

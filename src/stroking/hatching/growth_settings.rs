@@ -15,7 +15,7 @@ const LEAST_CHORD: f64 = 1e-4;
 const LEAST_STEP: f64 = 1e-6;
 
 /// The table in world units.
-pub(super) fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
+pub(super) fn growth_settings(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
     let length = |length, key: &str| in_world(scene, length, &format!("hatching.{key}"), grid);
     let directions = &table.directions;
     let chord = length(table.chord, "chord")?;
