@@ -1,4 +1,4 @@
-//! From a scene to a picture: load what the scene names, hand it to the renderer, write what comes back.
+//! Jobs: a scene with everything that it names loaded, ready for the renderer.
 //!
 //! ```
 //! use drypoint::job::Job;
@@ -58,18 +58,18 @@ use std::sync::Arc;
 
 /// A scene with everything that it names.
 pub struct Job {
-    /// The scene. A transfer function without nodes has those that were found in the data.
+    /// The scene. A transfer function without nodes has those suggested from the data.
     pub scene: Scene,
-    /// What the scene called for, as it was given.
+    /// The plan of the scene as given.
     pub plan: Plan,
-    /// Its volume.
+    /// The volume.
     pub volume: Volume,
-    /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
+    /// Counts of loading, such as voxels read for an automatic function. They are no part of a frame's counts.
     pub counts: Counts,
     target: RenderTarget,
     /// The scene's camera in numbers.
     view: Result<View, ViewError>,
-    /// What the volume is drawn in, or what dots take their colours from.
+    /// Transfer function of the volume, or of the colours of dots.
     function: Option<Arc<Function>>,
     labels: Option<LabelVolume>,
     further: [Option<Volume>; 2],
@@ -77,37 +77,37 @@ pub struct Job {
     background: Option<Vec<Rgba>>,
 }
 
-/// What of a scene is target.
+/// The part of a scene to draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RenderTarget {
-    /// All that it draws.
+    /// Everything that the scene draws.
     #[default]
     Picture,
-    /// Points and lines alone, on their page: the volume itself is not drawn, and nothing of that is called for.
+    /// Points and lines alone, on their page. The volume itself is not drawn, and needs nothing.
     Marks,
-    /// Of them the stipples alone.
+    /// Stipples alone, on their page.
     Points,
-    /// Of them the strokes alone.
+    /// Strokes alone, on their page.
     Strokes,
 }
 
 impl RenderTarget {
-    /// Whether stipples are drawn, where the scene has some.
+    /// Whether the scene's stipples are drawn.
     pub fn has_points(self) -> bool {
         self != Self::Strokes
     }
 
-    /// Whether strokes are drawn, where the scene has some.
+    /// Whether the scene's strokes are drawn.
     pub fn has_strokes(self) -> bool {
         self != Self::Points
     }
 }
 
-/// A scene with other knobs, and what follows from them.
+/// A job's scene with other settings of knobs, and what follows from them.
 pub struct KnobVariant {
     /// The scene.
     pub scene: Scene,
-    /// What it calls for.
+    /// The plan.
     pub plan: Plan,
     function: Option<Arc<Function>>,
 }
@@ -122,15 +122,15 @@ impl Job {
         Self::load_for(scene, RenderTarget::Picture)
     }
 
-    /// The same of what is target.
+    /// Loads the part of a scene that `target` needs, as [`Job::load`] does.
     ///
     /// # Errors
-    /// As [`Job::load`].
+    /// Same errors as [`Job::load`].
     pub fn load_for(scene: Scene, target: RenderTarget) -> Result<Self, Failures> {
         match load_volume(&scene.volume, &scene.given) {
             Ok(volume) => Self::with_volume_for(scene, volume, target),
             Err(failure) => {
-                // What else is wrong does not wait for the volume.
+                // Other faults are reported together with the volume's.
                 let mut others = Vec::new();
                 if calls_for_function(&plan_for(&scene, target)) {
                     styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
@@ -141,24 +141,24 @@ impl Job {
         }
     }
 
-    /// The same for a volume that is already loaded.
+    /// Loads everything else for a volume that is already loaded, as [`Job::load`] does.
     ///
     /// # Errors
-    /// As [`Job::load`].
+    /// Same errors as [`Job::load`].
     pub fn with_volume(scene: Scene, volume: Volume) -> Result<Self, Failures> {
         Self::with_volume_for(scene, volume, RenderTarget::Picture)
     }
 
-    /// The same of what is target.
+    /// Loads what `target` needs for a volume that is already loaded, as [`Job::load`] does.
     ///
     /// # Errors
-    /// As [`Job::load`].
+    /// Same errors as [`Job::load`].
     pub fn with_volume_for(mut scene: Scene, volume: Volume, target: RenderTarget) -> Result<Self, Failures> {
         let volume = match scene.volume.ids {
             Ids::Values => volume,
             Ids::Mask => volume.present(),
         };
-        // Of the scene as it was given: that its function was found in the data is part of the plan.
+        // The plan is of the scene as given: it says that the function was found in the data.
         let mut plan = plan_for(&scene, target);
         plan.settle(&scene, is_integer(&volume));
         let view = View::new(&scene.camera, volume.grid(), scene.picture.size);
@@ -179,11 +179,12 @@ impl Job {
         let labels =
             if plan.reads_labels() { SceneLabels::load(&scene.volume, &mut failures) } else { SceneLabels::default() };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
+        // Values that the scene leaves to the data: iso-values and the transfer function.
         let mut counts = Counts::default();
         find_iso_values(&mut scene, &plan, &volume, &mut counts);
         let calls_for_function = calls_for_function(&plan);
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
-        // An iso-surface is drawn without one.
+        // An iso-surface needs no transfer function.
         let mut function = scene.transfer.is_none().then(Function::nothing);
         if let Some(transfer) = scene.transfer.as_mut().filter(|_| calls_for_function) {
             if transfer.is_automatic() {
@@ -191,13 +192,14 @@ impl Job {
             }
             let found = Function::new(transfer, range, &volume, &|name| labels.names.id(name));
             function = found.unwrap_or_else(|errors| {
-                // Without the table every name would be unknown.
+                // Without the table of labels every name would be unknown.
                 if failures.is_empty() {
                     failures.extend(errors.iter().map(|error| function_failure(error, &scene.given, &labels.names)));
                 }
                 None
             });
         }
+        // Everything else that the scene names; all faults are reported together.
         let styles = match &function {
             Some(Function::Style { names, .. }) => styles(&scene, names.iter().map(String::as_str), &mut failures),
             None if calls_for_function => styles(&scene, scene.transfer.iter().flat_map(named), &mut failures),
@@ -219,38 +221,38 @@ impl Job {
         self.plan.has_pass(Pass::Rays)
     }
 
-    /// Whether a picture of it has the layer that points and lines are drawn over.
+    /// Whether the picture has the layer that points and lines are drawn over.
     pub fn shows_beauty(&self) -> bool {
         let layers = &self.scene.picture.layers;
         !self.draws_volume() || layers.is_empty() || layers.contains(&LayerKind::Beauty)
     }
 
-    /// What of the scene is target.
+    /// Returns the part of the scene to draw.
     pub fn target(&self) -> RenderTarget {
         self.target
     }
 
-    /// What dots take their colours from, where they do.
+    /// Returns the transfer function that dots take their colours from, if any.
     pub(crate) fn function(&self) -> Option<&Function> {
         self.function.as_deref()
     }
 
-    /// The styles that the function names.
+    /// Returns the styles that the function names.
     pub(crate) fn styles(&self) -> &[Style] {
         &self.styles
     }
 
-    /// The labels beside the volume, where something reads them.
+    /// Returns the label volume, if something reads it.
     pub(crate) fn labels(&self) -> Option<&LabelVolume> {
         self.labels.as_ref()
     }
 
-    /// The picture behind, premultiplied, where the scene has one.
+    /// Returns the premultiplied picture behind the volume, if the scene has one.
     pub(crate) fn background(&self) -> Option<&[Rgba]> {
         self.background.as_deref()
     }
 
-    /// The scene's camera in numbers.
+    /// Returns the scene's camera in numbers.
     ///
     /// # Errors
     /// A camera without direction, or a height on the page.
@@ -258,23 +260,23 @@ impl Job {
         self.view.clone().map_err(|error| view_failure(error, &self.scene))
     }
 
-    /// The picture of the scene with nothing left to decide.
+    /// Returns the shot: the picture of the scene with nothing left to decide.
     ///
     /// # Errors
-    /// A volume that is not drawn itself, and what makes no shot: a camera without direction, a length without size.
+    /// A volume that is not drawn itself, a camera without direction, or a length without size.
     pub fn shot(&self) -> Result<Shot, Failure> {
         self.shot_from(self.view()?)
     }
 
-    /// The shot of another camera.
+    /// Returns the shot of another camera.
     ///
     /// # Errors
-    /// As [`Job::shot`].
+    /// Same errors as [`Job::shot`].
     pub fn shot_from(&self, view: View) -> Result<Shot, Failure> {
         self.resolve(&self.scene, &self.plan, self.function.as_ref(), view)
     }
 
-    /// The scene made ready for any number of frames.
+    /// Returns a renderer for any number of frames.
     ///
     /// # Errors
     /// A volume that is not drawn itself, a reconstruction that does not exist, a camera without direction, a picture for
@@ -283,28 +285,28 @@ impl Job {
         self.made_ready(&self.scene, &self.plan, &self.shot()?, Renderer::new)
     }
 
-    /// Another scene over what this one has loaded: one that differs in its knobs alone ([COST-1]).
+    /// Returns another scene over the loaded data. The scene differs from the job's in its knobs alone ([COST-1]).
     pub fn variant(&self, scene: Scene) -> KnobVariant {
         let plan = self.plan_of(&scene);
         let range = scene.volume.range.unwrap_or_else(|| self.volume.range());
-        // Over two quantities, labels among them, no knob changes the function.
+        // No knob changes a function of two quantities, labels among them.
         let over_value = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none());
         let function = over_value.and_then(|t| Function::new(t, range, &self.volume, &|_| None).ok().flatten());
         KnobVariant { function: function.map(Arc::new).or_else(|| self.function.clone()), scene, plan }
     }
 
-    /// The same with other knobs.
+    /// Returns a renderer of a scene with other knobs.
     ///
     /// # Errors
-    /// As [`Job::renderer`].
+    /// Same errors as [`Job::renderer`].
     pub fn renderer_of<'a>(&'a self, variant: &'a KnobVariant) -> Result<Renderer<'a>, Failure> {
         self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, Renderer::new)
     }
 
-    /// The same of a phantom's own formula in place of the voxels ([COST-2]).
+    /// Returns a renderer of a phantom's own formula in place of the voxels ([COST-2]).
     ///
     /// # Errors
-    /// As [`Job::renderer`].
+    /// Same errors as [`Job::renderer`].
     pub fn exact_renderer_of<'a>(
         &'a self,
         variant: &'a KnobVariant,
@@ -314,12 +316,12 @@ impl Job {
         self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, make)
     }
 
-    /// The shot of a scene with other knobs, none of which is the camera's.
+    /// Returns the shot of a scene with other knobs. No knob is the camera's.
     fn shot_of(&self, variant: &KnobVariant) -> Result<Shot, Failure> {
         self.resolve(&variant.scene, &variant.plan, variant.function.as_ref(), self.view()?)
     }
 
-    /// The plan of a scene over what this job has loaded.
+    /// Returns the plan of a scene over the loaded data.
     fn plan_of(&self, scene: &Scene) -> Plan {
         let mut plan = plan_for(scene, self.target);
         plan.settle(scene, is_integer(&self.volume));
@@ -363,15 +365,15 @@ impl Job {
         room_for_passes(self, plan)?;
         room_for_table(scene)?;
         let renderer = make(shot, inputs).map_err(|error| render_failure(&error, scene))?;
-        // Of what is left: the picture's channels, and as much again while they are encoded.
+        // The picture's channels, and as much again for encoding them, must fit in the remaining memory.
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
         room(scene, 2 * 8 * channels)?;
         Ok(renderer)
     }
 
-    /// Whether a picture of this job shows what lies behind the volume and nothing else.
+    /// Whether a picture of this job shows nothing but what lies behind the volume.
     pub fn shows_nothing(&self, picture: &Picture) -> bool {
-        /// What a mean of equal colours, encoded and decoded, can be off by.
+        /// Largest error of a mean of equal colours, encoded and decoded.
         const ROUNDING: f64 = 1e-9;
         let Some(layer) = picture.layer(LayerKind::Beauty) else { return false };
         (0..picture.width * picture.height).all(|i| {
@@ -384,12 +386,12 @@ impl Job {
         })
     }
 
-    /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
+    /// Returns the provenance of this job's picture ([IO-2]). Two files of the same scene give the same provenance.
     pub fn provenance(&self) -> Provenance {
         self.provenance_of(0)
     }
 
-    /// The same of a frame: the first is the scene without `[orbit]`, byte for byte.
+    /// Returns the provenance of a frame. That of frame 0 equals the scene's without `[orbit]`, byte for byte.
     pub fn provenance_of(&self, frame: usize) -> Provenance {
         let plan = self.plan_of(&self.scene);
         if frame == 0 {
@@ -400,10 +402,10 @@ impl Job {
         provenance
     }
 
-    /// Writes a picture of this job, as PNG or EXR by the suffix. The file appears whole or not at all.
+    /// Writes a picture of this job as PNG or EXR, by the suffix. The file appears whole or not at all.
     ///
     /// # Errors
-    /// A suffix of no format, or what the operating system refuses.
+    /// A suffix of no picture format, or errors of the operating system.
     pub fn write(&self, picture: &Picture, path: &Path) -> Result<(), Failure> {
         let provenance = self.provenance();
         let written = match Format::among(path, &Format::PICTURES)? {
@@ -414,7 +416,7 @@ impl Job {
     }
 }
 
-/// A camera that sees nothing, at the key that says it.
+/// Returns the failure of a camera, at the key that causes it.
 fn view_failure(error: ViewError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
         ViewError::HeightOnPage => ("camera.height", "give it in world units or in voxels"),
@@ -423,7 +425,7 @@ fn view_failure(error: ViewError, scene: &Scene) -> Failure {
     Failure::new(error, scene.given.position(key), remedy)
 }
 
-/// A scene that makes no shot, at the key that says it.
+/// Returns the failure of a shot, at the key that causes it.
 fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
         ShotError::NotSmooth(_) => NOT_SMOOTH,
@@ -433,10 +435,10 @@ fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
     Failure::new(error, scene.given.position(key), remedy)
 }
 
-/// The key of a Hessian that its kernel does not have, and what to do.
+/// The key and the remedy of a Hessian that its kernel does not have.
 const NOT_SMOOTH: (&str, &str) = ("sampling.hessian", "choose another sampling.kernel or sampling.hessian");
 
-/// What makes no picture, at the key that says it.
+/// Returns the failure of a renderer, at the key that causes it.
 pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
         RenderError::Field(FieldError::NotSmooth(_)) => NOT_SMOOTH,
@@ -454,7 +456,7 @@ pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
     Failure::new(error, scene.given.position(key), remedy)
 }
 
-/// What a picture of a scene says of its origin ([IO-2]).
+/// Returns the provenance of a scene ([IO-2]).
 pub(crate) fn provenance(scene: &Scene, plan: &Plan) -> Provenance {
     Provenance {
         software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
@@ -463,20 +465,20 @@ pub(crate) fn provenance(scene: &Scene, plan: &Plan) -> Provenance {
     }
 }
 
-/// A scene for a bare volume: an automatic function, a camera that frames the content in a picture of `size` pixels, a
-/// pleasant style. What was looked at for it goes to `counts`.
+/// Returns a scene for a bare volume: an automatic function, a camera that frames the content in a picture of `size`
+/// pixels, a pleasant style. Voxels read for it go to `counts`.
 pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     suggest::scene(VolumeSource::File { path, raw: None }, volume, size, counts)
 }
 
-/// The same for the tables that a preset supplies: a function, an iso-surface, or the camera alone.
+/// Returns a scene for a bare volume with the tables of a preset: a function, an iso-surface, or the camera alone.
 pub fn bare_for(preset: &Scene, path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     let source = VolumeSource::File { path, raw: None };
     let (transfer, surface) = (preset.transfer.clone(), preset.surface.clone());
     suggest::fill(Scene { transfer, surface, ..Scene::for_volume(source) }, volume, size, counts)
 }
 
-/// What is target of a scene calls for this.
+/// Returns the plan of a part of a scene.
 fn plan_for(scene: &Scene, target: RenderTarget) -> Plan {
     match target {
         RenderTarget::Picture => Plan::new(scene),
@@ -486,12 +488,12 @@ fn plan_for(scene: &Scene, target: RenderTarget) -> Plan {
     }
 }
 
-/// Whether something reads the transfer function: rays, dots that take their colours from it, or strokes in what it shows.
+/// Whether something reads the transfer function: rays, dots with its colours, or strokes in what it shows.
 fn calls_for_function(plan: &Plan) -> bool {
     [Pass::Rays, Pass::DotColors, Pass::SeenCells].into_iter().any(|pass| plan.has_pass(pass))
 }
 
-/// Whether the scene draws what is target.
+/// Checks that the scene draws something of the target.
 fn something_is_drawn(scene: &Scene, target: RenderTarget) -> Result<(), Failure> {
     let at = |key| scene.given.position(key);
     match target {
@@ -514,7 +516,7 @@ fn something_is_drawn(scene: &Scene, target: RenderTarget) -> Result<(), Failure
     }
 }
 
-/// Whether a volume's file is of integers ([REC-3]).
+/// Whether a volume's file stores integers ([REC-3]).
 fn is_integer(volume: &Volume) -> bool {
     volume.voxels().voxel_type().is_integer()
 }

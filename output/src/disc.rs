@@ -99,7 +99,7 @@ impl GridLine {
 
 /// Returns the area of the disc x² + y² ≤ r² with x ≤ a and y ≤ b.
 ///
-/// If the corner (a, b) lies in the disc, the area is the lower left quarter, half a strip on each side of it, and a
+/// If the corner (a, b) lies in the disc, the area is a quarter of the disc, two half strips beside the quarter, and a
 /// rectangle. If not, the lines cut off disjoint parts of the disc, and areas add.
 fn corner(a: &GridLine, b: &GridLine, r: f64) -> f64 {
     if a.a * a.a + b.a * b.a < r * r {

@@ -1,4 +1,4 @@
-//! `compare`: two pictures.
+//! The verb `compare`: two pictures.
 
 use super::report::{print, print_json};
 use super::{Done, Outcome, Talk, output_path, report};
@@ -18,7 +18,7 @@ pub(super) struct CompareArgs {
     a: PathBuf,
     /// Another of the same size
     b: PathBuf,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
     /// Write a picture of the difference (FLIP), as PNG
@@ -35,7 +35,7 @@ pub(super) struct CompareArgs {
     flip: Option<f64>,
 }
 
-/// A bound that something can exceed: NaN is none, and would let everything pass.
+/// Parses a bound. NaN is none: every comparison would pass.
 fn limit(text: &str) -> Result<f64, &'static str> {
     let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x >= 0.0);
     number.ok_or("a bound is a number of at least 0")
@@ -55,6 +55,7 @@ impl CompareArgs {
             (Err(first), second) => return Err(Failures::new(first, second.err())),
             (Ok(_), Err(second)) => return Err(second.into()),
         };
+        // The comparison goes to standard output, the picture of the difference to its file.
         let comparison = compare::compare(&a, &b, &CompareOptions::default()).map_err(say)?;
         if let Some(path) = &self.diff {
             let map = flip::flip(&a, &b, CompareOptions::default().pixels_per_degree).map_err(say)?;

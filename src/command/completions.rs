@@ -1,4 +1,4 @@
-//! `completions`: for a shell.
+//! The verb `completions`.
 
 use super::{Cli, Outcome};
 use clap::{Args, CommandFactory};
@@ -6,7 +6,7 @@ use clap::{Args, CommandFactory};
 /// Print completions for a shell.
 #[derive(Debug, Args)]
 pub(super) struct CompletionsArgs {
-    /// Which shell
+    /// The shell
     shell: clap_complete::Shell,
 }
 

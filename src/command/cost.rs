@@ -1,4 +1,4 @@
-//! `cost`: what accuracy costs.
+//! The verb `cost`: accuracy against time.
 
 use super::input::{self, SceneOverrides, SetArgs};
 use super::report::{Progress, note, print};
@@ -21,14 +21,14 @@ pub(super) struct CostArgs {
     /// A scene or a volume; without either, the embedded scene
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Where to write, as often as wanted: .csv, .md for a Markdown table, .svg or .png for a plot of error against time
+    /// Output file, as often as wanted: .csv, .md for a Markdown table, .svg or .png for a plot of error against time
     /// [default: CSV on standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
     /// Turn this knob alone, such as sampling.step; as often as wanted
     #[arg(long, value_name = "KEY")]
     knob: Vec<String>,
-    /// How often each setting is timed; what is told is the median
+    /// Number of times each setting is timed; the result is the median
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = RangedU64ValueParser::<usize>::new().range(1..=1000))]
     runs: usize,
     #[command(flatten)]
@@ -37,13 +37,14 @@ pub(super) struct CostArgs {
 
 impl CostArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        // A sweep takes its time: what is wrong with the files is told before.
+        // A sweep takes long, so faults of the output files are reported first.
         let mut files = Vec::new();
         for path in self.output {
             let form = SweepFormat::of(&path)?;
             atomic::check(&path).map_err(|error| Failure::picture(&error, path.display()))?;
             files.push((path, form));
         }
+        // The scene, and a warning for each output file that it reads.
         let over = SceneOverrides::new(&self.set, Vec::new())?;
         let job = {
             let _loading = Progress::new(talk, "loading");
@@ -51,6 +52,7 @@ impl CostArgs {
         };
         files.iter().try_for_each(|(path, _)| output_path::check_not_read(path, job.scene.files()))?;
         input::tell(talk, &job);
+        // The sweep, and one file for each output.
         let found = {
             let progress = Progress::new(talk, "measuring");
             sweep(&job, &SweepOptions { runs: self.runs, only: self.knob }, &|share| progress.hear(share))?

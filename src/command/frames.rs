@@ -1,4 +1,4 @@
-//! Which file each frame of a scene goes to, and the frames drawn into them.
+//! The files of a scene's frames, and the frames drawn into them.
 
 use super::empty::warn_of_nothing;
 use super::report::{Progress, note};
@@ -21,16 +21,17 @@ pub(super) enum FrameFiles {
     One(PathBuf),
     /// All frames in one SVG.
     Animated(PathBuf),
-    /// A file a frame: what stands before and after its number, and the digits of that.
+    /// A file a frame: the text before and after its number, and the number's digits.
     Numbered(PathBuf, [String; 2], usize),
 }
 
 impl FrameFiles {
-    /// The files that a name stands for; each can be written now. A run of `#` in it is the number of a frame.
+    /// Returns the files that a name stands for, and checks that each can be written. A run of `#` stands for the
+    /// number of a frame.
     ///
     /// # Errors
-    /// `#` without `[orbit]`, `[orbit]` without `#` where the format has no frames, fewer digits than the last frame needs,
-    /// more than one run, a file that the scene reads, or a folder that is not there or may not be written to.
+    /// `#` without `[orbit]`, or `[orbit]` without `#` if the format has no frames. Fewer digits than the last frame
+    /// needs, or more than one run. A file that the scene reads. A missing or read-only folder.
     pub(super) fn of(path: &Path, scene: &Scene) -> Result<Self, Failure> {
         let files = Self::named(path, scene)?;
         output_path::writable(&files.path(0))?;
@@ -81,7 +82,7 @@ impl FrameFiles {
         }
     }
 
-    /// The file of a frame.
+    /// Returns the file of a frame.
     fn path(&self, frame: usize) -> PathBuf {
         match self {
             Self::One(path) | Self::Animated(path) => path.clone(),
@@ -91,7 +92,7 @@ impl FrameFiles {
         }
     }
 
-    /// What was written.
+    /// Returns the written files in words.
     fn summary(&self, frames: usize) -> String {
         match self {
             Self::One(path) => path.display().to_string(),
@@ -103,15 +104,15 @@ impl FrameFiles {
     }
 }
 
-/// What drawing all frames took.
+/// Counts and times of drawing all frames.
 pub(super) struct DrawReport {
-    /// Of all frames together; what is made once is in them once, and of buffers the largest.
+    /// Counts of all frames together. Work done once counts once, and of buffers the largest.
     pub counts: Counts,
-    /// Of each frame.
+    /// Times of each frame.
     pub times: FrameTimes,
 }
 
-/// The first frame of a job in pixels.
+/// Draws the first frame of a job in pixels.
 pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Picture, Failure> {
     let mut counts = Counts::default();
     let marking = Marking::new(job, &mut counts, &|_| ())?;
@@ -119,10 +120,11 @@ pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Pictur
     frame.painted(job)
 }
 
-/// Draws every frame of a job, `repeat` times each, and writes them.
+/// Draws every frame of a job `repeat` times and writes it.
 pub(super) fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> Result<DrawReport, Failure> {
     room_for_page(job, &files.path(0))?;
     let mut counts = job.counts.clone();
+    // Points, lines and the renderer are made once for all frames.
     let marking = {
         let progress = Progress::new(talk, "points and lines");
         Marking::new(job, &mut counts, &|made| {
@@ -144,12 +146,12 @@ pub(super) fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> 
         if let Some(samples) = drawing.samples() {
             progress.amount(|| format!("up to {:.1e} samples", samples * repeat as f64));
         }
-        // Draws a frame as often as asked for, and times that without what writing takes.
+        // Draws a frame `repeat` times and times it, without the writing.
         let mut draw = |i: usize, counts: &Counts| {
             let before = cpu_seconds();
             let mut timed = || {
                 let start = Instant::now();
-                // Each frame is drawn as often as asked for.
+                // Progress counts all repetitions of all frames.
                 let before = wall.len() as f64;
                 let all = (frames * repeat) as f64;
                 let drawn = drawing.frame(i, &|share| progress.hear((before + share) / all));
@@ -177,7 +179,7 @@ pub(super) fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> 
                 for i in 0..frames {
                     let (frame, own) = draw(i, &counts)?;
                     let written = frame.write(job, &files.path(i))?;
-                    // What a plotter leaves out is drawn by no one.
+                    // A dot or line that a plotter leaves out is not drawn.
                     let [points, strokes] = written.marks.map(|n| n as u64);
                     counts.add_frame(&Counts { points, strokes, ..own });
                     if i == 0 {
@@ -187,6 +189,7 @@ pub(super) fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> 
             }
         }
     }
+    // Everything that was not drawing was writing.
     let writing = start.elapsed().as_secs_f64() - wall.iter().sum::<f64>();
     counts.seconds.insert("write".into(), writing);
     let [dots, lines] = marks;

@@ -1,4 +1,4 @@
-//! `info`: what a volume file holds.
+//! The verb `info`: the contents of a volume file.
 
 use super::raw::RawArgs;
 use super::report::{Progress, print, print_json};
@@ -15,7 +15,7 @@ pub(super) struct InfoArgs {
     volume: PathBuf,
     #[command(flatten)]
     raw: RawArgs,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

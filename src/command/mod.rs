@@ -1,4 +1,4 @@
-//! The verbs of the command line, one file each; exit codes are decided here and nowhere else.
+//! The verbs of the command line, one file each. Exit codes are decided here alone.
 
 mod arguments;
 mod compare;
@@ -48,7 +48,7 @@ struct Cli {
     limits: LimitArgs,
 }
 
-/// How much the command says.
+/// Verbosity of the command.
 #[derive(Clone, Copy, Debug, Default, Args)]
 struct Talk {
     /// Say nothing but errors
@@ -91,9 +91,9 @@ enum Verb {
     Completions(completions::CompletionsArgs),
 }
 
-/// How a verb ended well.
+/// Successful end of a verb.
 enum Done {
-    /// It did what it was asked.
+    /// The work is done.
     Yes,
     /// A comparison failed.
     Different,
@@ -101,10 +101,10 @@ enum Done {
 
 type Outcome = Result<Done, Failures>;
 
-/// Bad use or bad input.
+/// Exit code of bad use or bad input.
 const BAD: u8 = 2;
 
-/// Runs a command line. 0: done; 1: a comparison failed; 2: bad use or bad input; 128 and its number: ended by a signal.
+/// Runs a command line. Exit codes: 0 done, 1 a comparison failed, 2 bad use or bad input, 128 + n ended by signal n.
 pub(crate) fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     signals::remove_unfinished_at_the_end();
     match parsed(words) {
@@ -129,7 +129,7 @@ fn exit_code(outcome: Outcome) -> ExitCode {
     }
 }
 
-/// The verb and its arguments, or the help or version that was asked for.
+/// Returns the verb and its arguments, or the requested help or version.
 fn parsed(words: impl IntoIterator<Item = OsString>) -> Result<Result<Cli, clap::Error>, Failures> {
     let Arguments { words, verb } = Arguments::new(words)?;
     match Cli::try_parse_from(words) {

@@ -1,4 +1,4 @@
-//! What `points` and `strokes` have in common: a page of marks, of a scene, a bare volume or a saved list.
+//! The shared part of `points` and `strokes`: a page of marks from a scene, a bare volume or a saved list.
 
 use super::frames::{self, DrawReport, FrameFiles};
 use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
@@ -15,18 +15,18 @@ use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// What is to be written.
+/// A page to be written.
 #[derive(Clone)]
 pub(super) struct PageRequest {
     /// A scene, a volume or a list.
     pub input: PathBuf,
-    /// Where to.
+    /// Output file.
     pub output: PathBuf,
-    /// The preset of a bare volume, where one is said.
+    /// Preset of a bare volume, if given.
     pub preset: Option<String>,
-    /// The preset where none is.
+    /// Preset of a bare volume otherwise.
     pub default_preset: &'static str,
-    /// Bytes without a header.
+    /// Layout of voxels without a header.
     pub raw: RawArgs,
     /// `--set`.
     pub set: SetArgs,
@@ -57,7 +57,7 @@ impl PageRequest {
         self.done(counts)
     }
 
-    /// The cells that strokes can begin in, as a table or as a picture ([HATCH-17]).
+    /// Writes the cells that strokes can begin in, as a table or as a picture ([HATCH-17]).
     pub(super) fn seeds(&self, path: &Path, talk: Talk) -> Outcome {
         const FORMATS: [Format; 5] = [Format::Csv, Format::Svg, Format::Pdf, Format::Png, Format::Exr];
         let format = output_path::picture(path, &FORMATS)?;
@@ -86,7 +86,7 @@ impl PageRequest {
         self.done(counts)
     }
 
-    /// What is said of the scene on the command line.
+    /// Returns the overrides from the command line.
     fn over(&self) -> Result<SceneOverrides, Failures> {
         let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
         let is_bare = !input::is_scene(&self.input);
@@ -107,12 +107,12 @@ impl PageRequest {
         if self.stats { print(&stats::line(counts, None)?) } else { Ok(Done::Yes) }
     }
 
-    /// What the marks of a list are called.
+    /// Returns the name of a list's marks.
     fn noun(&self) -> &'static str {
         if self.target == RenderTarget::Strokes { "lines" } else { "dots" }
     }
 
-    /// A saved list, on the page that the overrides say.
+    /// Draws a saved list on the page that the overrides give.
     fn list(&self, talk: Talk) -> Outcome {
         let noun = self.noun();
         for (flag, said) in [("--preset", self.preset.is_some()), ("--raw", self.raw.flag().is_some())] {
@@ -125,6 +125,7 @@ impl PageRequest {
         let (mut counts, start) = (Counts::default(), Instant::now());
         let scene = input::page(&self.set)?;
         output_path::check_not_read(&self.output, scene.files().into_iter().chain([&*self.input]))?;
+        // The marks, checked against the verb.
         let page = Page::of(&scene);
         let pens = Pen::of(&scene.pens, &page);
         let layers = list::read_list(&self.input, &page, &pens)
@@ -135,6 +136,7 @@ impl PageRequest {
             let remedy = "give it to `drypoint points`";
             return Err(Failure::new("the list has dots and no strokes", self.input.display(), remedy).into());
         }
+        // Marks outside the page are dropped, with a warning.
         let mut marks = Marks { page, layers };
         let read = if strokes { ends(&marks) } else { dots };
         marks.settle();
@@ -157,17 +159,17 @@ impl PageRequest {
     }
 }
 
-/// Dots and lines of layers.
+/// Returns the numbers of dots and lines in layers.
 fn sums(layers: &[Layer]) -> [usize; 2] {
     [layers.iter().map(|layer| layer.dots.len()).sum(), layers.iter().map(|layer| layer.lines.len()).sum()]
 }
 
-/// The vertices of all lines: a line that the frame cuts has fewer, or more ends.
+/// Returns the number of vertices of all lines. A line that the frame cuts loses vertices, or gains ends.
 fn ends(marks: &Marks) -> usize {
     marks.layers.iter().flat_map(|layer| &layer.lines).map(|line| line.vertices.len()).sum()
 }
 
-/// Whether a path is taken for a list of marks.
+/// Whether a path has the suffix of a list of marks.
 fn is_list(path: &Path) -> bool {
     list::ListFormat::of(path).is_some()
 }

@@ -1,4 +1,4 @@
-//! `plan`: what a scene calls for, and why.
+//! The verb `plan`: what a scene calls for, and why.
 
 use super::input::{self, SceneOverrides, SetArgs};
 use super::report::{Progress, print};

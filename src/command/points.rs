@@ -1,4 +1,4 @@
-//! `points`: a page of stipples.
+//! The verb `points`: a page of stipples.
 
 use super::input::SetArgs;
 use super::page::PageRequest;
@@ -14,8 +14,8 @@ pub(super) struct PointsArgs {
     /// A scene (.toml) with [stipples], a volume, which is drawn 160 mm wide, or a list of dots (.csv, .jsonl), whose page --set says
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
-    /// Where to write; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit],
-    /// all of which an SVG without it shows in turn
+    /// Output file; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit];
+    /// an SVG without it shows all frames in turn
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The preset of a bare volume: stipple, or stipple-fig1, stipple-fig4 … stipple-fig9 [default: stipple]

@@ -1,4 +1,4 @@
-//! `probe`: value, derivatives and curvature at points.
+//! The verb `probe`: value, derivatives and curvature at points.
 
 use super::input::{self, KeyFlag};
 use super::raw::RawArgs;
@@ -45,7 +45,7 @@ pub(super) struct ProbeArgs {
     /// σ of the gaussian Hessian: a number in world units, or such as "2 voxels"
     #[arg(long, value_name = "LENGTH", default_value = "1 voxel")]
     scale: String,
-    /// Which values lie outside: low or high
+    /// The side of a surface that lies outside: low or high values
     #[arg(long, value_name = "NAME", default_value = "low")]
     outside: String,
     #[command(flatten)]
@@ -63,6 +63,7 @@ enum Space {
 
 impl ProbeArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
+        // The options go through the walker of scenes, which checks them.
         let settings = input::settings(vec![
             KeyFlag::name("sampling.kernel", "--kernel", &self.kernel),
             KeyFlag::name("sampling.gradient", "--gradient", &self.gradient),
@@ -84,7 +85,7 @@ impl ProbeArgs {
             scale: sampling.scale.world(volume.grid()).ok_or_else(|| refused(&"--scale is no length in the volume"))?,
             outside: settings.volume.outside,
         };
-        // Bytes a voxel for the coefficients of the kernel, and for those of the smoothed volume while it is filtered.
+        // Bytes a voxel: the kernel's coefficients, and those of the smoothed volume during filtering.
         let prefiltered = matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5);
         let smoothed = matches!(sampling.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian);
         let each = 8 * u64::from(prefiltered) + 16 * u64::from(smoothed);
@@ -99,7 +100,7 @@ impl ProbeArgs {
         };
         let outside = points.iter().filter(|point| probe(**point).is_none()).take(TOLD);
         Failures::check(outside.map(|point| self.outside_of(volume.grid(), *point)))?;
-        // A point a line, printed some thousand bytes at a time.
+        // Output has a point a line and is printed in blocks of some thousand bytes.
         let mut text = String::from("[");
         for (i, probed) in points.iter().filter_map(|point| probe(*point)).enumerate() {
             text += if i > 0 { ",\n" } else { "\n" };
@@ -127,20 +128,20 @@ impl ProbeArgs {
     }
 }
 
-/// The most bytes of a line of standard input: three numbers of every digit that an f64 can have, with blanks.
+/// Longest line of standard input, in bytes: three numbers with every digit that an f64 can have, and blanks.
 const LINE: u64 = 4096;
 
-/// Bytes of memory that a byte of standard input takes in the end: the shortest point has 6, and is a vector in a list that
-/// may have grown to twice its need.
+/// Bytes of memory for a byte of standard input. The shortest point has 6 bytes; it becomes a vector in a list that may
+/// have grown to twice its need.
 const POINT_PER_BYTE: u64 = 12;
 
-/// The most points that are refused one by one.
+/// Most points that are reported one by one.
 const TOLD: usize = 20;
 
-/// Bytes that are printed at a time.
+/// Size of a block of output, in bytes.
 const PRINTED: usize = 1 << 16;
 
-/// The points of standard input, one a line, or the first lines that are none.
+/// Reads points from standard input, one a line, or returns failures for the first bad lines.
 fn from_input() -> Result<Vec<DVec3>, Failures> {
     let (mut points, mut failures) = (Vec::new(), Vec::new());
     let mut input = std::io::BufReader::new(Metered::new(std::io::stdin().lock(), POINT_PER_BYTE));
@@ -168,7 +169,7 @@ fn from_input() -> Result<Vec<DVec3>, Failures> {
     Failures::check(failures).map(|()| points)
 }
 
-/// Three finite numbers, separated by commas or spaces.
+/// Parses three finite numbers, separated by commas or spaces.
 fn vector(text: &str) -> Result<DVec3, &'static str> {
     let parts: Result<Vec<f64>, _> =
         text.split([',', ' ', '\t']).filter(|s| !s.is_empty()).map(str::parse::<f64>).collect();
@@ -178,12 +179,12 @@ fn vector(text: &str) -> Result<DVec3, &'static str> {
     }
 }
 
-/// Three numbers, not all 0.
+/// Parses three numbers, not all 0.
 fn direction(text: &str) -> Result<DVec3, &'static str> {
     vector(text).ok().filter(|v| *v != DVec3::ZERO).ok_or("a direction is three numbers that are not all 0, as X,Y,Z")
 }
 
-/// One point as the JSON object that `probe` prints.
+/// Returns a point as the JSON object that `probe` prints.
 fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
     let three = |v: DVec3| json!([v.x, v.y, v.z]);
     let h = p.hessian;
@@ -207,7 +208,7 @@ fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
     object
 }
 
-/// An estimator's name in a scene. A field has decided what `auto` is.
+/// Returns an estimator's name in a scene. A field has already resolved `auto`.
 fn name(estimator: HessianEstimator) -> &'static str {
     match estimator {
         HessianEstimator::Auto => "auto",

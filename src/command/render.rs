@@ -1,4 +1,4 @@
-//! `render`: a picture.
+//! The verb `render`: a picture.
 
 use super::frames::{self, DrawReport};
 use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
@@ -19,14 +19,14 @@ pub(super) struct RenderArgs {
     /// A scene (.toml) or a volume (.nrrd, .nhdr, .nii, .nii.gz, .mhd, .mha, .raw)
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Where to write; the suffix chooses PNG or EXR, or SVG or PDF for points over the picture; ### is the number of a
+    /// Output file; the suffix chooses PNG or EXR, or SVG or PDF for points over the picture; ### is the number of a
     /// frame of [orbit] [default: the input's name with .png, in the working directory]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels of the picture
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
-    /// Who renders
+    /// The renderer
     #[arg(long, value_enum, default_value_t = Backend::Reference)]
     backend: Backend,
     /// The preset of a bare volume: style, toon, hatch, outline, stipple, or a figure: hatch-fig2, hatch-fig4, hatch-fig5,
@@ -49,7 +49,7 @@ pub(super) struct RenderArgs {
     repeat: Option<usize>,
 }
 
-/// Who renders.
+/// The renderer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Backend {
     /// The CPU, in f64: the truth
@@ -88,7 +88,7 @@ impl RenderArgs {
         Ok(Done::Yes)
     }
 
-    /// The flags that stand for scene keys.
+    /// Returns the flags that stand for scene keys.
     fn flags(&self) -> Result<Vec<KeyFlag>, Failure> {
         let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
         if let Some(size) = &self.size {
@@ -113,7 +113,7 @@ impl RenderArgs {
     }
 }
 
-/// Width and height of `800x600`.
+/// Parses width and height of `800x600`.
 fn pixels(size: &str) -> Option<[u64; 2]> {
     let (w, h) = size.split_once('x')?;
     Some([w.parse().ok()?, h.parse().ok()?])

@@ -1,4 +1,4 @@
-//! `schema`: the JSON Schema of scene files.
+//! The verb `schema`: the JSON Schema of scene files.
 
 use super::{Outcome, report::print_json};
 use clap::Args;

@@ -1,4 +1,4 @@
-//! `sheet`: many pictures on one.
+//! The verb `sheet`: many pictures on one.
 
 use super::frames;
 use super::input::{self, SceneOverrides, SetArgs};
@@ -19,7 +19,7 @@ pub(super) struct SheetArgs {
     /// Volumes, scenes (.toml) or pictures (.png, .exr)
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Where to write, as PNG
+    /// Output file (.png)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Pixels along the side of a cell
@@ -51,7 +51,7 @@ impl SheetArgs {
         Ok(Done::Yes)
     }
 
-    /// One cell: a picture as it is, anything else rendered to fit.
+    /// Returns the picture of a cell: a file as it is, or anything else rendered to fit.
     fn image(&self, file: &Path, over: &SceneOverrides, talk: Talk) -> Result<Image, Failures> {
         if Format::of(file).is_some_and(|format| Format::PICTURES.contains(&format)) {
             let image = read_image(file).map_err(|error| Failure::picture(&error, file.display()))?;

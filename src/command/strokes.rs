@@ -1,4 +1,4 @@
-//! `strokes`: a page of hatching and outlines.
+//! The verb `strokes`: a page of hatching and outlines.
 
 use super::input::SetArgs;
 use super::page::PageRequest;
@@ -15,8 +15,8 @@ pub(super) struct StrokesArgs {
     /// A scene (.toml) with [hatching] or [outlines], a volume, which is drawn 160 mm wide, or a list of strokes (.csv, .jsonl), whose page --set says
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
-    /// Where to write; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit],
-    /// all of which an SVG without it shows in turn
+    /// Output file; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit];
+    /// an SVG without it shows all frames in turn
     #[arg(short, long, value_name = "FILE", required_unless_present = "seeds")]
     output: Option<PathBuf>,
     /// The preset of a bare volume: hatch, outline, or one of the figures' [default: hatch]

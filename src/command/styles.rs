@@ -1,4 +1,4 @@
-//! `styles`: the styles of a theme, and new ones from pictures.
+//! The verb `styles`: the styles of a theme, and new ones from pictures.
 
 mod extract;
 
@@ -37,7 +37,7 @@ enum StylesVerb {
     Extract(extract::ExtractArgs),
 }
 
-/// What --theme takes, with the names that there are.
+/// Returns the help of `--theme` with the names of themes.
 fn theme_help() -> String {
     let names: Vec<&str> = Theme::embedded_names().collect();
     format!("An embedded theme ({}), or a folder of pictures", names.join(", "))
@@ -53,6 +53,7 @@ impl StylesArgs {
             output_path::picture(output, &[Format::Png])?;
             output_path::check_not_read(output, [&*folder])?;
         }
+        // The theme: an embedded one, or a folder.
         let source = if folder.is_dir() && !Theme::embedded_names().any(|name| name == self.theme) {
             StyleSource::Folder(folder)
         } else {
@@ -68,6 +69,7 @@ impl StylesArgs {
         let Some(output) = &self.output else {
             return print(&names.iter().map(|name| format!("{name}\n")).collect::<String>());
         };
+        // The sheet: a sphere for each style.
         let (mut styles, mut failures) = (Vec::new(), Vec::new());
         for style in names.iter().filter_map(|name| theme.style(name)) {
             match style {

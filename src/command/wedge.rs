@@ -1,4 +1,4 @@
-//! `wedge`: a page to print and measure, and what was measured as a plot ([STIP-17]).
+//! The verb `wedge`: a page to print and measure, and a plot of the measured table ([STIP-17]).
 
 use super::input::{self, SetArgs};
 use super::report::{Progress, note};
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 /// Write a step wedge of a pen, to be printed and measured, with a table to fill in beside it; or plot such a table.
 #[derive(Debug, Args)]
 pub(super) struct WedgeArgs {
-    /// Where to write; the suffix chooses SVG, PDF, PNG or EXR, of a plot SVG or PNG
+    /// Output file; the suffix chooses SVG, PDF, PNG or EXR, of a plot SVG or PNG
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The pen's name; where --set says none, one of 0.3 mm in black
@@ -89,7 +89,7 @@ impl WedgeArgs {
     }
 }
 
-/// The pen of a name, and what it prints: a pen of `--set`, or where there is none an ordinary one.
+/// Returns the pen of a name and its tone: a pen of `--set`, or an ordinary one if there are none.
 fn pen(scene: &Scene, name: &str) -> Result<(Pen, Tone), Failures> {
     let pens = Pen::of(&scene.pens, &Page::of(scene));
     if pens.is_empty() {

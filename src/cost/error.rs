@@ -1,4 +1,4 @@
-//! How far what a setting makes is from the truth.
+//! Errors of settings against the truth.
 
 use super::strokes::distances;
 use super::variant::SettingOutput;
@@ -11,7 +11,7 @@ use drypoint_output::compare::{CompareOptions, compare};
 use drypoint_output::read::Image;
 use drypoint_scene::marks::Marks;
 
-/// As a row has it.
+/// Error of a setting, as in a row.
 pub(super) struct SettingError {
     pub(super) rms: f64,
     pub(super) max: f64,
@@ -19,7 +19,7 @@ pub(super) struct SettingError {
     pub(super) angle: Option<f64>,
 }
 
-/// The error of what a knob of a job's scene made, against the truth of the same kind.
+/// Returns the error of a setting's output against a truth of the same kind.
 pub(super) fn error(job: &Job, made: &SettingOutput, truth: &SettingOutput) -> Result<SettingError, Failure> {
     let wrong = |error: OutputError| Failure::picture(&error, job.scene.given.position("picture.size"));
     match (made, truth) {
@@ -42,7 +42,7 @@ pub(super) fn error(job: &Job, made: &SettingOutput, truth: &SettingOutput) -> R
     }
 }
 
-/// Marks on their background, in pixels.
+/// Returns marks on their background, in pixels.
 fn painted(job: &Job, marks: &Marks) -> Result<Image, Failure> {
     let frame = Frame { number: 0, picture: None, marks: Some(marks.clone()), inside: 0 };
     Ok(Image::from(&frame.painted(job)?))

@@ -1,11 +1,12 @@
-//! The settings that nothing beats ([COST-1]).
+//! Pareto fronts of settings ([COST-1]).
 
 use super::{CostRow, ErrorSubject, Truth};
 
-/// The rows that no other row beats, fastest first: none whose error is of the same and against the same kind of truth has
-/// at most their error in at most their time, and less of one. Against the formula all rows have one truth; against finest settings each row's error is
-/// what its own knob adds, and the front says which knob to turn first. A row without error is its own truth, and stands
-/// on none.
+/// Returns the Pareto-optimal rows, fastest first. No other row of the same subject and kind of truth is better in
+/// error or time and at least as good in both.
+///
+/// Against the formula all rows have one truth. Against finest settings a row's error is what its own knob adds, and
+/// the front says which knob to turn first. A row without error is its own truth and is on no front.
 pub fn front(rows: &[CostRow], subject: ErrorSubject, analytic: bool) -> Vec<&CostRow> {
     let mut of_kind: Vec<&CostRow> = rows
         .iter()

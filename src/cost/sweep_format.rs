@@ -1,24 +1,24 @@
-//! Which form of a sweep the suffix of a name asks for.
+//! File formats of sweeps.
 
 use super::{Sweep, csv, markdown, plot};
 use crate::Failure;
 use std::path::Path;
 
-/// A form that a sweep is written in.
+/// A file format of sweeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SweepFormat {
-    /// The table of the contract.
+    /// The table for programs.
     Csv,
     /// The table for people.
     Markdown,
-    /// The plot in lines and letters; the letters' font is the viewer's.
+    /// The plot in lines and letters, in the viewer's font.
     Svg,
     /// The plot in pixels, with a font of its own.
     Png,
 }
 
 impl SweepFormat {
-    /// The form of a name, by its suffix; case does not count.
+    /// Returns the format of a name by its suffix, in any case.
     ///
     /// # Errors
     /// Any other suffix.
@@ -39,7 +39,7 @@ impl SweepFormat {
         }
     }
 
-    /// The bytes of a file; `name` is the title of a plot.
+    /// Returns the bytes of a file; `name` is the title of a plot.
     ///
     /// # Errors
     /// A plot without a point: no setting has an error.

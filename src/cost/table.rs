@@ -1,12 +1,12 @@
-//! A sweep as CSV and as Markdown.
+//! Tables of sweeps: CSV and Markdown.
 
 use super::variant::{FEW, LONG};
 use super::{CostRow, ErrorSubject, Sweep, front};
 
-/// The columns of the contract.
+/// Columns of the CSV, a documented format.
 const COLUMNS: &str = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth,angle";
 
-/// One line a setting under a line of names. Numbers have all the digits that they need.
+/// Returns a line a setting under a line of names. Numbers have all significant digits.
 pub fn csv(sweep: &Sweep) -> String {
     let mut text = format!("{COLUMNS}\n");
     for row in &sweep.rows {
@@ -20,12 +20,12 @@ pub fn csv(sweep: &Sweep) -> String {
     text
 }
 
-/// A cell; in quotes where it would end before its end.
+/// Returns a cell, quoted if it has a comma, a quote or a line break.
 fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.into() }
 }
 
-/// A table for people: what the scene itself says in bold, what nothing beats with a dot.
+/// Returns a table for people. The scene's own settings are bold; Pareto-optimal ones have a dot.
 pub fn markdown(sweep: &Sweep) -> String {
     let Sweep { size: [width, height], runs, threads, .. } = sweep;
     let of_strokes = sweep.rows.iter().any(|row| row.subject == ErrorSubject::Strokes);
@@ -65,12 +65,12 @@ pub fn markdown(sweep: &Sweep) -> String {
     text
 }
 
-/// Two digits that count.
+/// Returns two significant digits.
 fn error(x: f64) -> String {
     if x == 0.0 { "0".into() } else { format!("{x:.1e}") }
 }
 
-/// In thousands or millions.
+/// Returns a count in thousands or millions.
 fn count(n: u64) -> String {
     match n {
         0..10_000 => n.to_string(),

@@ -1,4 +1,4 @@
-//! The tone of a page of dots, which is what their knobs change ([COST-1]).
+//! Tone of a page of dots, on which errors of their knobs are measured ([COST-1]).
 
 use crate::Failure;
 use crate::job::Job;
@@ -9,11 +9,11 @@ use drypoint_output::read::Image;
 use drypoint_scene::marks::{INCH, Marks, Page};
 use drypoint_scene::tables::{Background, Scene};
 
-/// σ of the Gaussian that dots are seen through, in diameters of the largest: at a tone of ½ three distances between dots.
+/// σ of the blur, in diameters of the largest dot. At a tone of ½ this is three distances between dots.
 const BLUR: f64 = 4.0;
 
-/// The page of dots, painted and blurred. Its pixels are the scene's or as large as the largest dot: a dot covers the exact
-/// share of a pixel, so that no finer one tells more after the blur.
+/// Returns the page of dots, painted and blurred. Pixels are the scene's, or as large as the largest dot. A dot covers
+/// the exact share of a pixel, so finer pixels change nothing after the blur.
 pub(super) fn tone(job: &Job, scene: &Scene, marks: &Marks) -> Result<Image, Failure> {
     let wrong = |error: OutputError| Failure::picture(&error, job.scene.given.position("picture.size"));
     let size = scene.stipples.as_ref().and_then(|stipples| marks.page.length(stipples.size)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What a setting makes, and the time that it takes.
+//! Output and time of settings.
 
 use super::ErrorSubject;
 use super::statistics::median;
@@ -15,37 +15,37 @@ use drypoint_scene::marks::{Marks, Page};
 use drypoint_scene::tables::{Even, Scene};
 use std::time::{Duration, Instant};
 
-/// Bytes that are kept prepared from turn to turn; what is more is prepared anew each time.
+/// Bytes of prepared renderers that are kept from turn to turn. Beyond them a renderer is prepared anew each time.
 const KEPT: u64 = 1 << 30;
 
-/// Seconds of a page of dots or strokes beyond which its first turn is no warm-up and [`FEW`] are enough.
+/// Seconds beyond which a page of dots or strokes needs no warm-up and [`FEW`] turns suffice.
 pub(super) const LONG: f64 = 2.0;
 
-/// Turns of what takes longer than [`LONG`].
+/// Number of turns of settings that take longer than [`LONG`].
 pub(super) const FEW: usize = 3;
 
-/// Strokes that are compared, of each setting.
+/// Number of strokes of a setting that are compared.
 const STROKES: usize = 2000;
 
-/// A scene that is drawn, whatever knobs lead to it.
+/// A scene that is drawn and timed, whichever settings lead to it.
 pub(super) struct TimedVariant<'a> {
     job: &'a Job,
     pub(super) subject: ErrorSubject,
     pub(super) knobs: &'a KnobVariant,
-    /// Ready for the next turn, where it may be kept.
+    /// Renderer for the next turn, if it may be kept.
     renderer: Option<Renderer<'a>>,
-    /// What was made in the first turn, with its counts, or why there is none.
+    /// Output and counts of the first turn, or its failure.
     pub(super) made: Option<Result<(SettingOutput, Counts), Failure>>,
     pub(super) seconds: Vec<f64>,
 }
 
-/// What a setting makes.
+/// Output of a setting.
 pub(super) enum SettingOutput {
-    /// Of [`ErrorSubject::Picture`].
+    /// Output for [`ErrorSubject::Picture`].
     Picture(Image),
-    /// Of [`ErrorSubject::Dots`]: the tone of the page.
+    /// Output for [`ErrorSubject::Dots`]: the tone of the page.
     Dots(Image),
-    /// Of [`ErrorSubject::Strokes`].
+    /// Output for [`ErrorSubject::Strokes`].
     Strokes(DrawnStrokes),
 }
 
@@ -54,13 +54,13 @@ impl<'a> TimedVariant<'a> {
         Self { job, subject, knobs, renderer: None, made: None, seconds: Vec::new() }
     }
 
-    /// Whether it takes no more turns.
+    /// Whether the variant takes no more turns.
     pub(super) fn is_done(&self, runs: usize) -> bool {
         let is_long = self.subject != ErrorSubject::Picture && median(&self.seconds) > LONG;
         matches!(self.made, Some(Err(_))) || self.seconds.len() >= if is_long { runs.min(FEW) } else { runs }
     }
 
-    /// Whether both draw the same points.
+    /// Whether both variants draw the same points.
     fn has_points_of(&self, other: &Self) -> bool {
         let points = |scene: &Scene| {
             let mut scene = scene.clone();
@@ -77,7 +77,7 @@ impl<'a> TimedVariant<'a> {
         self.made = Some(Err(failure));
     }
 
-    /// Times one frame of a picture; the first time prepares it and warms up. `kept` counts what the variants keep.
+    /// Times one frame of a picture. The first turn prepares and warms up. `kept` is the sum of kept bytes.
     fn take_picture(&mut self, kept: &mut u64) -> Result<(), Failure> {
         let anew = match &self.renderer {
             Some(_) => None,
@@ -100,7 +100,8 @@ impl<'a> TimedVariant<'a> {
         Ok(())
     }
 
-    /// Of a page that took so long: what it made the first time, which is a warm-up, and else the time.
+    /// Records a page that took `took`. The first turn is a warm-up: it keeps the output, and its time only if it is
+    /// long.
     fn take_page(
         &mut self,
         took: Duration,
@@ -118,7 +119,7 @@ impl<'a> TimedVariant<'a> {
     }
 }
 
-/// Which variants take their turns together: dots of the same points, which are made once for all of them.
+/// Returns groups of variants that take turns together: dots of the same points, which are made once for the group.
 pub(super) fn together(variants: &[TimedVariant<'_>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (at, variant) in variants.iter().enumerate() {
@@ -130,8 +131,8 @@ pub(super) fn together(variants: &[TimedVariant<'_>]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// A turn of variants that take theirs together: one frame of a picture, or all of a page of dots or strokes, from the
-/// voxels on. What fails the first time takes no more turns.
+/// Takes a turn of a group: one frame of a picture, or all of a page of dots or strokes, from the voxels on. A variant
+/// that fails the first time takes no more turns.
 pub(super) fn take_turn(variants: &mut [TimedVariant<'_>], group: &[usize], kept: &mut u64) -> Result<(), Failure> {
     for (place, &at) in group.iter().enumerate() {
         let is_first = variants[at].made.is_none();
@@ -149,7 +150,7 @@ pub(super) fn take_turn(variants: &mut [TimedVariant<'_>], group: &[usize], kept
     Ok(())
 }
 
-/// Makes points, and draws them as each of a group says; what they share counts for each.
+/// Makes points and draws them for each variant of a group. The shared time counts for each.
 fn take_dots(variants: &mut [TimedVariant<'_>], group: &[usize]) -> Result<(), Failure> {
     let TimedVariant { job, knobs, .. } = variants[group[0]];
     let mut counts = counts_of(job);

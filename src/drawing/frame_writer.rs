@@ -1,4 +1,4 @@
-//! Frames on paper: as pixels, vectors or a list.
+//! Writing of frames: pixels, vectors or a list.
 
 use super::{Frame, WriteReport};
 use crate::job::{Job, RenderTarget, no_room_for_pixels};
@@ -15,10 +15,10 @@ use std::borrow::Cow;
 use std::io;
 use std::path::Path;
 
-/// Seconds for which an animation shows a frame: between the 4 and 15 frames a second of Lu et al.
+/// Seconds that an animation shows a frame, between the 4 and 15 frames a second of Lu et al.
 const FRAME_SECONDS: f64 = 0.1;
 
-/// Bytes of memory that a vertex of a stroke that fills a dot takes until it is written.
+/// Bytes of memory, until it is written, for a vertex of a stroke that fills a dot.
 const FILLING_VERTEX: u64 = 3 * size_of::<Vertex>() as u64;
 
 /// The error that ended an animation before its last frame.
@@ -46,14 +46,14 @@ impl From<io::Error> for AnimationError {
     }
 }
 
-/// What frames of a scene are written on.
+/// Writer of a scene's frames.
 pub(super) struct FrameWriter<'a> {
     pub(super) scene: &'a Scene,
     pub(super) target: RenderTarget,
     pub(super) provenance: Provenance,
 }
 
-/// Marks as they are drawn, and what a plotter does with them.
+/// Marks as they are drawn, and the report on them.
 struct PlannedMarks<'a> {
     marks: Cow<'a, Marks>,
     written: WriteReport,
@@ -145,8 +145,8 @@ impl<'a> FrameWriter<'a> {
         paint::pixels(&self.window().1).map(drop).map_err(|error| self.refused(&error))
     }
 
-    /// The part of the page that pixels show, and the page that they fill. A picture has its own size, without the page's
-    /// margin.
+    /// Returns the part of the page that pixels show, and the page that they fill. A picture has its own size, without
+    /// the page's margin.
     fn window(&self) -> (paint::PageWindow, Page) {
         let (page, settings) = (Page::of(self.scene), &self.scene.picture);
         match self.target {
@@ -159,7 +159,7 @@ impl<'a> FrameWriter<'a> {
         }
     }
 
-    /// The failure of a page that cannot be had in pixels.
+    /// Returns the failure of a page that cannot be painted in pixels.
     fn refused(&self, error: &OutputError) -> Failure {
         match error {
             OutputError::NoRoom { size, no_room, .. } => no_room_for_pixels(self.scene, *size, no_room),
@@ -168,7 +168,7 @@ impl<'a> FrameWriter<'a> {
     }
 
     fn sheet<'s>(&'s self, marks: &'s Marks, picture: Option<&'s Picture>) -> VectorPage<'s> {
-        // The paper has its colour, and programs that know nothing of layers with % would draw round the page.
+        // Paper has its own colour, and programs that ignore % in labels would draw around the page.
         let background = self.background().filter(|_| !self.plotter());
         let beziers = self.scene.hatching.as_ref().is_some_and(|hatching| hatching.beziers);
         VectorPage { marks, background, picture, plotter: self.plotter(), beziers, provenance: &self.provenance }
@@ -185,7 +185,7 @@ impl<'a> FrameWriter<'a> {
         }
     }
 
-    /// Marks as they are drawn.
+    /// Returns marks as they are drawn: for a plotter its plan.
     ///
     /// # Errors
     /// Dots so large for the nib that the memory budget does not allow the strokes that fill them.
@@ -207,13 +207,13 @@ impl<'a> FrameWriter<'a> {
     }
 }
 
-/// Dots, and lines.
+/// Returns the numbers of dots and lines.
 pub(super) fn sums(marks: &Marks) -> [usize; 2] {
     let sum = |n: fn(&Layer) -> usize| marks.layers.iter().map(n).sum();
     [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
 }
 
-/// What a plotter does, a sentence a layer.
+/// Returns a plotter's plan in words, a sentence a layer.
 fn travel(plan: &plotter::PlotterPlan) -> Vec<String> {
     let layers = plan.marks.layers.iter().zip(&plan.travel);
     let mut notes: Vec<String> = layers

@@ -1,4 +1,4 @@
-//! Which pen draws which points ([STIP-16]).
+//! Assignment of points to pens ([STIP-16]).
 
 use super::PenDots;
 use crate::Failure;
@@ -10,16 +10,16 @@ use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::points::Points;
 use drypoint_scene::tables::{DotColor, Mix, Scene, Stipples};
 
-/// The most layers of dots where no pens draw the colours of a transfer function.
+/// Most layers of dots if no pens draw the colours of a transfer function.
 const LAYERS: usize = 16;
 
-/// What draws points and lines.
+/// Pens of points and lines.
 pub(super) enum Pens {
-    /// One for all, with the width of its nib where it is of `[[pen]]`.
+    /// One pen for all, with the width of its nib if it is of `[[pen]]`.
     One(Pen, Option<f64>),
-    /// The nearest colour of `[[pen]]`.
+    /// The pen of `[[pen]]` with the nearest colour.
     Nearest(Vec<Pen>),
-    /// A few colours of that many as the points have, in dots of that size at the most.
+    /// A palette of the points' colours, in dots of at most that size.
     Few(f64),
 }
 
@@ -48,8 +48,8 @@ impl Pens {
         })
     }
 
-    /// Deals the points to the pens, and says which one draws lines: the only one, the darkest of `[[pen]]`, or a black one
-    /// of its own.
+    /// Deals the points to the pens. Also returns the pen of lines: the only one, the darkest of `[[pen]]`, or a black
+    /// one of its own.
     pub(super) fn deal(self, job: &Job, points: Points) -> Result<(Vec<PenDots>, Pen), Failure> {
         let (pens, nibs, of) = match self {
             Self::One(pen, nib) => return Ok((vec![PenDots { pen: pen.clone(), nib, points }], pen)),
@@ -68,7 +68,7 @@ impl Pens {
                     Pen { number: i + 1, name, width, color: [r, g, b, 1.0] }
                 };
                 let mut pens: Vec<Pen> = inks.iter().enumerate().map(pen).collect();
-                // A layer that only lines are in.
+                // A layer for lines alone.
                 pens.push(Pen { number: pens.len() + 1, name: "curves".into(), width, color: [0.0, 0.0, 0.0, 1.0] });
                 (pens, false, of)
             }
@@ -89,7 +89,7 @@ fn rgb([r, g, b, _]: Rgba) -> Rgb {
     [r, g, b]
 }
 
-/// The colour of each voxel's points in the scene's transfer function.
+/// Returns the colour of each voxel's points in the scene's transfer function.
 fn colors(job: &Job, points: &Points) -> Result<Vec<Rgb>, Failure> {
     let Job { scene, volume, .. } = job;
     let at = |key: &str| scene.given.position(key);

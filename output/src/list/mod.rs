@@ -249,7 +249,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(500))]
 
-        /// Whatever a file holds, it is a list or an error that names a line of it.
+        /// Any file is read as a list, or gives an error that names a line of it.
         #[test]
         fn files_of_anything(
             bytes in prop::collection::vec(any::<u8>(), 0..200),

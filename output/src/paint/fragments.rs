@@ -115,7 +115,8 @@ mod tests {
         Marks { page, layers: vec![Layer { lines: vec![line], ..Layer::new(pen) }] }
     }
 
-    /// A line two pixels wide from x = 10 to 30, between the rows 9 and 10, which it covers whole; its depth goes from 3 to 8.
+    /// A line two pixels wide from x = 10 to 30, between the rows 9 and 10, which it covers whole. Its depth goes from
+    /// 3 to 8.
     #[test]
     fn depths_are_linear_where_rays_are_parallel() {
         let view = view(Projection::Orthographic { height: None }, 5.0);
@@ -143,7 +144,7 @@ mod tests {
         }
     }
 
-    /// Where a line crosses itself it covers once.
+    /// A line that crosses itself covers once.
     #[test]
     fn a_line_covers_a_ray_once() {
         let view = view(Projection::Orthographic { height: None }, 5.0);

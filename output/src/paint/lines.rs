@@ -52,8 +52,9 @@ fn paint_joined(line: &[Piece], part: &PixelRect, window: &PageWindow, pen: &Ble
     });
 }
 
-/// Calls `put` once for each pixel that a line of pieces covers: its index in the rectangle and in the picture, the
-/// pieces' own colour, the share times opacity. Pieces that share a pixel are averaged by the share that each covers.
+/// Calls `put` once for each pixel that a line of pieces covers. Arguments are the pixel's index in the rectangle and
+/// in the picture, the pieces' own colour, and the share times opacity. Pieces that share a pixel are averaged by the
+/// share that each covers.
 pub(super) fn each_of_joined(
     line: &[Piece],
     part: &PixelRect,

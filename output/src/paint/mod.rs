@@ -150,8 +150,8 @@ mod tests {
         [0, 1, 2, 3].map(|c| channels[c][j * picture.width + i])
     }
 
-    /// A line of two colours covers what a line of one does, also where they meet and where it grows wider; each half has
-    /// its own colour, and one that comes later lies over it.
+    /// A line of two colours covers what a line of one colour does, also where they meet and where it grows wider. Each
+    /// half has its own colour, and a later one lies over an earlier one.
     #[test]
     fn lines_with_colours_of_their_own() {
         let (red, blue) = (Some([1.0, 0.0, 0.0]), Some([0.0, 0.0, 1.0]));

@@ -40,8 +40,8 @@ pub fn filling_vertices(marks: &Marks) -> f64 {
 /// A dot up to the nib's size becomes one touch, a larger one a circle or a spiral out to its rim. A pen has one width,
 /// one colour and no opacity: a translucent dot is drawn whole, a line once along its middle.
 ///
-/// Of two dots closer than 0.7 nib the first in the list stays. The order is never longer than the list's own. Each
-/// layer begins at the page's upper left corner.
+/// The first of two dots closer than 0.7 nib stays. The order is never longer than the list's own. Each layer begins at
+/// the page's upper left corner.
 pub fn plan(marks: &Marks, speed: &Speed) -> PlotterPlan {
     let (mut layers, mut travel, mut dropped, mut larger, mut plain) = (Vec::new(), Vec::new(), 0, 0, 0);
     for layer in &marks.layers {

@@ -50,8 +50,7 @@ pub fn stretch(image: &Image, width: usize, height: usize) -> Option<Vec<Rgba>> 
     Some(pixels)
 }
 
-/// Returns the two of `n` pixels around the centre of pixel `i` of `size`, and the share of the way from the first to
-/// the second.
+/// Returns the two of `n` pixels around the centre of pixel `i` of `size`, and the weight of the second one.
 fn between(i: usize, size: usize, n: usize) -> (usize, usize, f64) {
     let x = ((i as f64 + 0.5) * n as f64 / size as f64 - 0.5).clamp(0.0, (n - 1) as f64);
     let first = x as usize;

@@ -163,8 +163,8 @@ mod tests {
         each.fold(f64::INFINITY, f64::min)
     }
 
-    /// Of places on circles, so far apart that chords are 0.05 mm off, the curve is the circle but for what it may miss and the
-    /// steps of places, in a few pieces.
+    /// Points on circles, so far apart that chords are 0.05 mm off, give the circle in a few pieces. The error is at
+    /// most the allowed one and that of rounding points.
     #[test]
     fn a_circle_is_round() {
         for radius in [0.4, 1.0, 5.0, 40.0] {
@@ -229,7 +229,7 @@ mod tests {
         assert!(curve.iter().map(off).fold(0.0, f64::max) < ACCURACY + 0.0015);
     }
 
-    /// Whatever a line is, its curve goes from its first point to its last and is no farther from it than a chord may be.
+    /// Any line's curve goes from its first point to its last and is no farther from the line than a chord may be.
     #[test]
     fn no_line_is_left() {
         for seed in 0..2000 {

@@ -191,7 +191,7 @@ mod tests {
         assert_eq!(fewer(&[]).count(), 0);
     }
 
-    /// What is more than one curve stays more than one, end by end.
+    /// A run that needs several curves keeps several, end by end.
     #[test]
     fn a_circle_is_four_at_least() {
         let run: Vec<CubicBezier> = (0..40)

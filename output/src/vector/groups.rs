@@ -122,7 +122,7 @@ fn rows(dots: &mut [PagePoint]) {
     let low = dots.iter().fold(first, |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
     let high = dots.iter().fold(first, |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
     let area = (high[0] - low[0]) as f64 * (high[1] - low[1]) as f64;
-    // In a row of height h, with n dots a unit area, the next dot is 1/(hn) to the side and h/3 up or down on average.
+    // In a row of height h, with n dots a unit area, the next dot is on average 1/(hn) to the side and h/3 up or down.
     let height = ((3.0 * area / dots.len() as f64).sqrt() as i64).max(1);
     dots.sort_unstable_by_key(|&[x, y]| {
         let row = (y - low[1]) / height;

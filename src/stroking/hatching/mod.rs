@@ -26,64 +26,64 @@ use growth_counts::{add, count_kept};
 use growth_settings::{growth_settings, line_light};
 use std::time::Instant;
 
-/// How far chords may be off on the page, in mm ([HATCH-10]).
+/// Largest distance of chords from their curve on the page, in mm ([HATCH-10]).
 const MOST_OFF: f64 = 0.05;
 
-/// In voxels, what the page's measures leave chords and δ at the least: from an eye inside the volume a voxel is as large as
-/// one likes.
+/// Least chord distance and δ, in voxels. An eye inside the volume can make a voxel arbitrarily large on the page.
 const FINEST: f64 = 0.01;
 
-/// Bytes of memory that a vertex of a dash takes until it is written: itself, in a list that may have grown to twice its need,
-/// once more on the way to a file, and its text.
+/// Bytes of memory, until it is written, for a vertex of a dash. It is in a list that may have grown to twice its need,
+/// once more on the way to a file, and in its text.
 const DASH_VERTEX: u64 = 5 * size_of::<Vertex>() as u64;
 
-/// Bytes of memory that a node of a table of light on lines takes.
+/// Bytes of memory for a node of a table of light on lines.
 const TERMS: u64 = 16;
 
-/// The faintest tone that spacing gives.
+/// Faintest tone that spacing gives.
 const LEAST: f64 = 0.08;
 
-/// What hatching is made by.
+/// Settings of hatching for a scene and its page.
 pub(super) struct HatchingSetup<'a> {
     table: &'a Table,
     light: LightDirection,
-    /// Of the surface that strokes lie on; none: they are where the function shows something.
+    /// Iso-value of the surface that strokes lie on; none: strokes are where the function shows something.
     iso: Option<f64>,
     seen: Option<VisibleValues<'a>>,
     pen: Pen,
     cross_pen: Pen,
-    /// In mm.
+    /// Least width, in mm.
     min_width: f64,
     spacing: Option<room::Apart>,
     how: room::Hatching,
     gradient_range: GradientRange,
     lighting: Option<room::LineLight>,
-    /// In mm, and how much nearer what cuts is, in world units.
+    /// Gap in mm, and the least distance in front of what cuts, in world units.
     gap: Option<[f64; 2]>,
-    /// On and off, in mm.
+    /// Lengths of dashes and gaps, in mm.
     dash: Option<[f64; 2]>,
-    /// The place of the key that says so.
+    /// Place of the key that gives dashes.
     dash_place: String,
     is_pencil: bool,
     is_merged: bool,
 }
 
-/// The strokes of a surface.
+/// Grown strokes of hatching.
 pub(super) struct GrownHatching<'a> {
     hatching: &'a HatchingSetup<'a>,
     pub(super) strokes: room::Strokes<'a, 'a>,
     pub(super) cells: Vec<[usize; 3]>,
-    /// Of all cells, where they fall as their seeds do: the first, and those that cross, with N at their seeds.
+    /// Strokes of all cells, if they fall as their seeds do.
     grown: Option<GrownStrokes>,
 }
 
+/// Strokes of the first direction, and crossing ones with N at their seeds.
 struct GrownStrokes {
     first: Vec<Stroke>,
     across: Vec<(DVec3, Stroke)>,
 }
 
 impl<'a> HatchingSetup<'a> {
-    /// `scale` is the most millimetres of the page that a world unit takes.
+    /// Converts the table. `scale` is the largest number of mm on the page a world unit takes.
     pub(super) fn new(
         (scene, function): (&'a Scene, Option<&'a Function>),
         table: &'a Table,
@@ -107,6 +107,7 @@ impl<'a> HatchingSetup<'a> {
             HatchIso::Surface(iso) => (Some(value(scene, iso, "hatching.iso")?), None),
             HatchIso::Transfer => (None, Some(VisibleValues::new(scene, function)?)),
         };
+        // Tolerances follow from the page: the finest details that it can show.
         let mut how = growth_settings(scene, table, grid)?;
         let finest = FINEST * grid.voxel();
         how.chord = how.chord.min((MOST_OFF / scale).max(finest));
@@ -147,12 +148,13 @@ impl<'a> HatchingSetup<'a> {
         })
     }
 
-    /// The value of the surface that strokes lie on, where they lie on one.
+    /// Returns the iso-value of the surface that strokes lie on, if any.
     pub(super) fn iso(&self) -> Option<f64> {
         self.iso
     }
 
-    /// The lines of its `own` first layers with gaps where nearer ones of any layer cross them ([HATCH-20]), and in dashes.
+    /// Cuts gaps into the lines of the first `own` layers where nearer lines of any layer cross them ([HATCH-20]), then
+    /// dashes.
     ///
     /// # Errors
     /// Dashes that the memory budget does not allow.
@@ -180,7 +182,7 @@ impl<'a> HatchingSetup<'a> {
         Ok(())
     }
 
-    /// Whether what is hidden of strokes is cut off.
+    /// Whether hidden parts of strokes are cut off.
     pub(super) fn is_cut(&self) -> bool {
         match self.table.hidden {
             Hidden::Cut => true,
@@ -189,12 +191,12 @@ impl<'a> HatchingSetup<'a> {
         }
     }
 
-    /// Whether strokes are inside the picture of the volume, where there is one.
+    /// Whether strokes are inside the picture of the volume, if there is one.
     pub(super) fn is_merged(&self) -> bool {
         self.is_merged
     }
 
-    /// Finds the seeds, and grows their strokes where no camera has a say in which.
+    /// Finds the seeds, and grows their strokes if no camera decides which grow.
     pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> GrownHatching<'a> {
         let (pyramid, strokes) = self.strokes(field, counts);
         strokes.prepare();
@@ -208,7 +210,7 @@ impl<'a> HatchingSetup<'a> {
         let mut cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
         counts.preprocess.insert("seeds".into(), cells.len() as u64);
         if let Some(shown) = &self.seen {
-            // A stroke stays at the value of its seed: from one that is not seen all of it is transparent.
+            // A stroke stays at the value of its seed. If that value is invisible, so is the whole stroke.
             let drawn = cells.len();
             cells.retain(|cell| {
                 let centre = field.volume().grid().to_world(DVec3::from_array(cell.map(|i| i as f64 + 0.5)));
@@ -232,13 +234,14 @@ impl<'a> HatchingSetup<'a> {
         GrownHatching { hatching: self, strokes, cells, grown }
     }
 
-    /// The cells that strokes can begin in.
+    /// Returns the cells that strokes can begin in.
     pub(super) fn seeds(&self, field: &Field<'_, f64>, counts: &mut Counts) -> room::Seeds {
         let (pyramid, strokes) = self.strokes(field, counts);
         self.seeds_of(&pyramid, &strokes, field, counts)
     }
 
-    /// The way to the cells of the surface, and what grows there, with the noise of the data as it is there ([HATCH-3]).
+    /// Returns the pyramid that finds cells of the surface, and the strokes that grow there, with the noise of the data
+    /// near the surface ([HATCH-3]).
     fn strokes<'f, 'v>(
         &self,
         field: &'f Field<'v, f64>,

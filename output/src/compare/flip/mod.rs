@@ -280,7 +280,7 @@ mod tests {
         },
     ];
 
-    /// How far f32 throws off a difference c.
+    /// Bound of the error by f32 for a difference c.
     ///
     /// The weights of the feature filters sum to 0; in f32 the positive and the negative half leave δ = 2⁻²³, and ΔE_f
     /// is its root, √(δ/√2) = 2.9·10⁻⁴, so that c^(1 − ΔE_f) is off by 2.9·10⁻⁴·(−c ln c). The colour filters sum
