@@ -9,7 +9,7 @@ use drypoint_output::paint::fragments;
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::Marks;
+use drypoint_scene::marks::{self, Marks};
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::tables::{Orbit, Scene};
@@ -93,7 +93,7 @@ impl<'a> Drawing<'a> {
         match (&mut self.marks, &mut self.renderer) {
             (Some(frames), Some(renderer)) => {
                 let [over, merged] = frames.draw_apart(&view, &mut counts)?;
-                inside = frame_writer::sums(&merged)[1];
+                inside = mark_counts(&merged.layers)[1];
                 if inside > 0 {
                     let lines = fragments(&merged, &view, scene.picture.samples);
                     counts.preprocess.insert("places of lines on rays".into(), lines.len() as u64);
@@ -118,7 +118,7 @@ impl<'a> Drawing<'a> {
                 counts.add(&own);
                 Some(picture)
             }
-            None => self.job.background().map(|pixels| of_pixels(pixels, scene.picture.size)),
+            None => self.job.background.as_ref().map(|pixels| of_pixels(pixels, scene.picture.size)),
         };
         Ok((Frame { number: frame, picture, marks, inside }, counts))
     }
@@ -127,7 +127,7 @@ impl<'a> Drawing<'a> {
 impl Frame {
     /// Returns the numbers of dots and lines.
     pub fn marks(&self) -> [usize; 2] {
-        let [dots, lines] = self.marks.as_ref().map(frame_writer::sums).unwrap_or_default();
+        let [dots, lines] = self.marks.as_ref().map(|marks| mark_counts(&marks.layers)).unwrap_or_default();
         [dots, lines + self.inside]
     }
 
@@ -182,6 +182,12 @@ pub fn write_animation(
     draw: impl FnMut(usize) -> Result<Frame, Failure>,
 ) -> Result<(), Failure> {
     FrameWriter::of(job, 0).write_animation(frames, path, draw)
+}
+
+/// Returns the numbers of dots and lines in layers.
+pub fn mark_counts(layers: &[marks::Layer]) -> [usize; 2] {
+    let sum = |n: fn(&marks::Layer) -> usize| layers.iter().map(n).sum();
+    [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
 }
 
 /// Returns premultiplied pixels as a picture.

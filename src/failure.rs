@@ -31,8 +31,8 @@ impl Failure {
             OutputError::Io { path, .. }
             | OutputError::UnknownFormat { path, .. }
             | OutputError::Malformed { path, .. }
-            | OutputError::TooLarge { path, .. } => path.display().to_string(),
-            OutputError::NoRoom { path: Some(path), .. } => path.display().to_string(),
+            | OutputError::TooLarge { path, .. }
+            | OutputError::NoRoom { path: Some(path), .. } => path.display().to_string(),
             OutputError::List { path, line, column, fault } => {
                 return Self::new(fault, format!("{}, line {line}, column {column}", path.display()), error.help());
             }

@@ -38,12 +38,14 @@ use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::file::identity;
+use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::shot::{Shot, ShotError, VolumeFacts};
+use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
-use drypoint_scene::tables::{Background, Ids, Scene, StepAlong, VolumeSource};
+use drypoint_scene::tables::{Background, Ids, Length, Scene, StepAlong, VolumeSource};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
@@ -71,10 +73,13 @@ pub struct Job {
     view: Result<View, ViewError>,
     /// Transfer function of the volume, or of the colours of dots.
     function: Option<Arc<Function>>,
-    labels: Option<LabelVolume>,
+    /// The label volume, if something reads it.
+    pub(crate) labels: Option<LabelVolume>,
     further: [Option<Volume>; 2],
-    styles: Vec<Style>,
-    background: Option<Vec<Rgba>>,
+    /// The styles that the function names.
+    pub(crate) styles: Vec<Style>,
+    /// The premultiplied picture behind the volume, if the scene has one.
+    pub(crate) background: Option<Vec<Rgba>>,
 }
 
 /// The part of a scene to draw.
@@ -154,6 +159,7 @@ impl Job {
     /// # Errors
     /// Same errors as [`Job::load`].
     pub fn with_volume_for(mut scene: Scene, volume: Volume, target: RenderTarget) -> Result<Self, Failures> {
+        // The volume, the plan over it, and the plan's warnings of eye and step.
         let volume = match scene.volume.ids {
             Ids::Values => volume,
             Ids::Mask => volume.present(),
@@ -235,21 +241,6 @@ impl Job {
     /// Returns the transfer function that dots take their colours from, if any.
     pub(crate) fn function(&self) -> Option<&Function> {
         self.function.as_deref()
-    }
-
-    /// Returns the styles that the function names.
-    pub(crate) fn styles(&self) -> &[Style] {
-        &self.styles
-    }
-
-    /// Returns the label volume, if something reads it.
-    pub(crate) fn labels(&self) -> Option<&LabelVolume> {
-        self.labels.as_ref()
-    }
-
-    /// Returns the premultiplied picture behind the volume, if the scene has one.
-    pub(crate) fn background(&self) -> Option<&[Rgba]> {
-        self.background.as_deref()
     }
 
     /// Returns the scene's camera in numbers.
@@ -519,4 +510,37 @@ fn something_is_drawn(scene: &Scene, target: RenderTarget) -> Result<(), Failure
 /// Whether a volume's file stores integers ([REC-3]).
 fn is_integer(volume: &Volume) -> bool {
     volume.voxels().voxel_type().is_integer()
+}
+
+/// Returns the colour behind the volume, if it is one.
+pub(crate) fn background_color(scene: &Scene) -> Option<Rgba> {
+    match scene.picture.background {
+        Background::Color(color) => Some(color),
+        Background::None | Background::Picture(_) => None,
+    }
+}
+
+/// Returns the distance in front of the eye at which marks begin, in world units.
+pub(crate) fn near(scene: &Scene, grid: &Grid) -> Result<f64, Failure> {
+    in_world(scene, scene.camera.near.unwrap_or(scene.sampling.step), "camera.near", grid)
+}
+
+/// Returns a length in the volume, in world units.
+pub(crate) fn in_world(scene: &Scene, length: Length, key: &str, grid: &Grid) -> Result<f64, Failure> {
+    length.world(grid).ok_or_else(|| {
+        let what = "the length is on the page, not in the volume";
+        Failure::new(what, scene.given.position(key), "give it in voxels")
+    })
+}
+
+/// Returns the pen of `[[pen]]` that `key` names.
+pub(crate) fn pen_named(scene: &Scene, page: &Page, name: &str, key: &str) -> Result<Pen, Failure> {
+    Pen::of(&scene.pens, page).into_iter().find(|pen| pen.name == name).ok_or_else(|| {
+        let names: Vec<&str> = scene.pens.iter().map(|pen| pen.name.as_str()).collect();
+        let remedy = match names.as_slice() {
+            [] => "add a table [[pen]] with that name".into(),
+            names => format!("write one of {}", names.join(", ")),
+        };
+        Failure::new(format!("there is no pen {name:?}"), scene.given.position(key), remedy)
+    })
 }

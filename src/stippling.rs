@@ -3,7 +3,8 @@
 mod pens;
 
 use crate::Failure;
-use crate::job::Job;
+use crate::drawing::mark_counts;
+use crate::job::{Job, near};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::suggest;
 use drypoint_reference::surface::IsoSurface;
@@ -167,6 +168,7 @@ impl DotFrames<'_> {
         let start = Instant::now();
         let Stippling { setting, line_pen, edges, grid, .. } = self.stippling;
         let StippleSetup { page, near, stipples, .. } = setting;
+        // Dots of each pen, thinned evenly over all pens if the scene asks for that.
         let mut layers = Vec::with_capacity(self.layers.len());
         for (frames, drawn) in self.layers.iter().zip(&mut self.drawn) {
             frames.draw(view, page, drawn);
@@ -200,8 +202,8 @@ impl DotFrames<'_> {
         }
         let mut marks = Marks { page: *page, layers };
         marks.settle();
-        counts.points += marks.layers.iter().map(|layer| layer.dots.len() as u64).sum::<u64>();
-        counts.strokes += marks.layers.iter().map(|layer| layer.lines.len() as u64).sum::<u64>();
+        let [dots, lines] = mark_counts(&marks.layers).map(|n| n as u64);
+        (counts.points, counts.strokes) = (counts.points + dots, counts.strokes + lines);
         *counts.seconds.entry("dots".into()).or_default() += start.elapsed().as_secs_f64();
         marks
     }
@@ -220,9 +222,7 @@ impl<'a> StippleSetup<'a> {
         }
         let grid = job.volume.grid();
         let first = job.view()?;
-        let near = scene.camera.near.unwrap_or(scene.sampling.step).world(grid).ok_or_else(|| {
-            Failure::new("the length is on the page, not in the volume", at("camera.near"), "give it in voxels")
-        })?;
+        let near = near(scene, grid)?;
         let page = Page::of(scene);
         let size = page.length(stipples.size).ok_or_else(|| {
             let what = "the length is in the volume, not on the page";

@@ -8,7 +8,8 @@ mod seeding;
 mod visible_values;
 
 use crate::Failure;
-use crate::job::{Job, render_failure};
+use crate::drawing::mark_counts;
+use crate::job::{Job, in_world, near, pen_named, render_failure};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::interactive_volume_illustration::Sight;
 use drypoint_reference::surface::IsoSurface;
@@ -92,9 +93,7 @@ impl<'a> Stroking<'a> {
             ));
         }
         let page = Page::of(scene);
-        let near = scene.camera.near.unwrap_or(scene.sampling.step).world(volume.grid()).ok_or_else(|| {
-            Failure::new("the length is on the page, not in the volume", at("camera.near"), "give it in voxels")
-        })?;
+        let near = near(scene, volume.grid())?;
         let how = Reconstruction {
             kernel: scene.sampling.kernel,
             gradient: scene.sampling.gradient,
@@ -131,12 +130,11 @@ impl<'a> Stroking<'a> {
 
     /// Returns the surfaces that strokes lie on, and that hide them.
     fn surfaces(&self) -> Vec<IsoSurface<'_, '_>> {
-        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut()).and_then(HatchingSetup::iso);
-        let outlined = self.outlining.as_ref().map(Outlining::iso);
-        let is_cut = self.hatching.as_ref().is_some_and(HatchingSetup::is_cut);
-        let hides = self.hides.filter(|_| is_cut || outlined.is_some());
+        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut());
+        let outlined = self.outlining.as_ref().map(|outlining| outlining.iso);
+        let hides = self.hides.filter(|_| cut.is_some() || outlined.is_some());
         let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
-        for iso in [cut, outlined, hides].into_iter().flatten() {
+        for iso in [cut.and_then(|hatching| hatching.iso), outlined, hides].into_iter().flatten() {
             if !surfaces.iter().any(|surface| surface.iso() == iso) {
                 surfaces.push(IsoSurface::new(&self.field, iso));
             }
@@ -156,12 +154,12 @@ impl StrokeFrames<'_> {
         let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
         let mut layers = Vec::new();
         if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref()) {
-            let hides = hides.or(hatching.iso()).and_then(surface).filter(|_| hatching.is_cut());
+            let hides = hides.or(hatching.iso).and_then(surface).filter(|_| hatching.is_cut());
             layers = hatched.draw(&StrokeCamera { view, page, near: *near, hides }, counts);
         }
         let hatched = layers.len();
         if let Some(outlining) = outlining
-            && let Some((own, hides)) = surface(outlining.iso()).zip(surface(hides.unwrap_or(outlining.iso())))
+            && let Some((own, hides)) = surface(outlining.iso).zip(surface(hides.unwrap_or(outlining.iso)))
         {
             let voxel = field.volume().grid().voxel();
             let hides = Some(hides);
@@ -174,9 +172,9 @@ impl StrokeFrames<'_> {
         counts.bytes.insert("surface".into(), bytes as u64);
         let mut marks = Marks { page: *page, layers };
         marks.settle();
-        counts.strokes += marks.layers.iter().map(|layer| layer.lines.len() as u64).sum::<u64>();
+        counts.strokes += mark_counts(&marks.layers)[1] as u64;
         // The first layers are those of hatching.
-        let merged = if hatching.as_ref().is_some_and(HatchingSetup::is_merged) { hatched } else { 0 };
+        let merged = if hatching.as_ref().is_some_and(|hatching| hatching.is_merged) { hatched } else { 0 };
         let over = marks.layers.split_off(merged);
         Ok([over, marks.layers])
     }
@@ -198,14 +196,6 @@ fn on_page(scene: &Scene, page: &Page, length: Length, key: &str) -> Result<f64,
     })
 }
 
-/// Returns a length in the volume, in world units.
-fn in_world(scene: &Scene, length: Length, key: &str, grid: &drypoint_scene::space::Grid) -> Result<f64, Failure> {
-    length.world(grid).ok_or_else(|| {
-        let what = "the length is on the page, not in the volume";
-        Failure::new(what, scene.given.position(key), "give it in voxels")
-    })
-}
-
 /// Returns the pen that draws a table's strokes: one of `[[pen]]`, or the table's own.
 fn pen(
     scene: &Scene,
@@ -217,14 +207,7 @@ fn pen(
     if let Some(name) = named {
         // The failure names the table's `pen`, or a key that names another pen.
         let key = if table.contains('.') { table.into() } else { format!("{table}.pen") };
-        return Pen::of(&scene.pens, page).into_iter().find(|pen| pen.name == name).ok_or_else(|| {
-            let names: Vec<&str> = scene.pens.iter().map(|pen| pen.name.as_str()).collect();
-            let remedy = match names.as_slice() {
-                [] => "add a table [[pen]] with that name".into(),
-                names => format!("write one of {}", names.join(", ")),
-            };
-            Failure::new(format!("there is no pen {name:?}"), scene.given.position(&key), remedy)
-        });
+        return pen_named(scene, page, name, &key);
     }
     let width = on_page(scene, page, width, &format!("{table}.width"))?;
     Ok(Pen { number: 1, name: table.into(), width, color })

@@ -14,6 +14,17 @@ pub fn quantize(code: f64, largest: u16) -> u16 {
     (code * f64::from(largest)).round_ties_even() as u16
 }
 
+/// Returns red, green and blue of a linear colour as sRGB bytes.
+pub fn srgb_bytes([r, g, b, _]: Rgba) -> [u8; 3] {
+    [r, g, b].map(|c| quantize(linear_to_srgb(c).clamp(0.0, 1.0), 255) as u8)
+}
+
+/// Returns a linear colour as `#rrggbb`.
+pub fn hex(color: Rgba) -> String {
+    let [r, g, b] = srgb_bytes(color);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

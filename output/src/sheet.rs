@@ -40,6 +40,7 @@ const INK: f64 = 0.1;
 /// [`OutputError::Sheet`] for no pictures, an empty one, or a sheet that is too large; [`OutputError::NoColor`] with
 /// the label.
 pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, OutputError> {
+    // Rows, columns and the size of each picture in its cell.
     let fault = |fault: String| OutputError::Sheet { fault };
     if pictures.is_empty() {
         return Err(fault("there are no pictures".into()));
@@ -67,19 +68,20 @@ pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, Ou
     }
 
     room(None, [total_width, total_height], PIXEL)?;
-    let mut ground = SheetCanvas::white(total_width, total_height);
+    // Row by row: pictures centred in their cells, labels below.
+    let mut canvas = SheetCanvas::white(total_width, total_height);
     let mut top = margin;
     for ((pictures, sizes), height) in pictures.chunks(columns).zip(sizes.chunks(columns)).zip(rows) {
         for (column, ((label, image), &[w, h])) in pictures.iter().zip(sizes).enumerate() {
             let left = margin + column * (cell + margin);
             let pixels = scaled(image, w, h)
                 .ok_or_else(|| OutputError::NoColor { name: label.clone(), found: image.names() })?;
-            ground.lay(&pixels, w, [left + (cell - w) / 2, top + (height - h) / 2]);
-            ground.write(label, [left, top + height], [cell, label_height], cap);
+            canvas.lay(&pixels, w, [left + (cell - w) / 2, top + (height - h) / 2]);
+            canvas.write(label, [left, top + height], [cell, label_height], cap);
         }
         top += height + label_height + margin;
     }
-    Ok(ground.into_picture())
+    Ok(canvas.into_picture())
 }
 
 /// Returns the largest size of the image's proportions within a square cell.
@@ -94,14 +96,8 @@ fn fitted(image: &Image, cell: usize) -> Option<[usize; 2]> {
 /// the image has no colours.
 fn scaled(image: &Image, width: usize, height: usize) -> Option<Vec<[f64; 4]>> {
     let ColorChannels { rgb: [r, g, b], alpha } = image.colors()?;
-    let opaque;
-    let alpha = match alpha {
-        Some(alpha) => alpha,
-        None => {
-            opaque = vec![1.0; image.width * image.height];
-            &opaque
-        }
-    };
+    let opaque = alpha.is_none().then(|| vec![1.0; image.width * image.height]);
+    let alpha = alpha.or(opaque.as_deref()).unwrap_or_default();
     let [across, down] = [shares(image.width, width), shares(image.height, height)];
     // The mean is separable: across each row first, then down each column.
     let mut rows = vec![[0.0; 4]; width * image.height];

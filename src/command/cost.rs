@@ -7,7 +7,6 @@ use clap::Args;
 use clap::builder::RangedU64ValueParser;
 use drypoint::Failure;
 use drypoint::cost::{SweepFormat, SweepOptions, csv, sweep};
-use drypoint::output::atomic;
 use std::path::PathBuf;
 
 /// Turn every knob of a scene from coarse to fine, and tell the error and the time of each setting.
@@ -41,7 +40,7 @@ impl CostArgs {
         let mut files = Vec::new();
         for path in self.output {
             let form = SweepFormat::of(&path)?;
-            atomic::check(&path).map_err(|error| Failure::picture(&error, path.display()))?;
+            output_path::writable(&path)?;
             files.push((path, form));
         }
         // The scene, and a warning for each output file that it reads.
@@ -65,7 +64,7 @@ impl CostArgs {
             let bytes = form.of_sweep(&found, &name).map_err(|what| {
                 Failure::new(what, path.display(), "write a .csv, or turn a knob that changes the picture")
             })?;
-            atomic::write(path, &bytes).map_err(|error| Failure::picture(&error, path.display()))?;
+            output_path::write(path, &bytes)?;
             note(talk, path.display());
         }
         if files.is_empty() { print(&csv(&found)) } else { Ok(Done::Yes) }

@@ -138,6 +138,7 @@ pub(super) fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> 
         Drawing::new(job, &marking, &mut counts)?
     };
     let frames = drawing.frames();
+    // Frames are drawn, timed and written one after another.
     let (mut cpu, mut wall) = (Some(0.0), Vec::new());
     let (mut notes, mut marks) = (Vec::new(), [0, 0]);
     let start = Instant::now();

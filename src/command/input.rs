@@ -189,15 +189,9 @@ pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInp
     Ok(VerbInput { scene, volume: same.then_some(volume), counts })
 }
 
-/// Returns the scene of a page without volume: `--set` over the defaults.
-pub(super) fn page(set: &SetArgs) -> Result<Scene, Failures> {
-    let over = SceneOverrides::new(set, Vec::new())?;
-    file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
-}
-
-/// Returns the scene without volume that flags describe, over the defaults.
-pub(super) fn settings(flags: Vec<KeyFlag>) -> Result<Scene, Failures> {
-    let over = SceneOverrides::new(&SetArgs::default(), flags)?;
+/// Returns the scene without volume that `--set` and flags describe, over the defaults.
+pub(super) fn settings(set: &SetArgs, flags: Vec<KeyFlag>) -> Result<Scene, Failures> {
+    let over = SceneOverrides::new(set, flags)?;
     file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
 }
 

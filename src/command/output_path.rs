@@ -49,6 +49,11 @@ pub(super) fn writable(path: &Path) -> Result<(), Failure> {
     atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))
 }
 
+/// Writes a file that is no picture of a scene, whole or not at all.
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    atomic::write(path, bytes).map_err(|error| Failure::picture(&error, path.display()))
+}
+
 /// Checks that an output file is none of the inputs. An input folder is a theme, of which no picture may be
 /// overwritten. Symbolic links and other spellings of a path are the same file.
 ///

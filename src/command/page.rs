@@ -5,11 +5,11 @@ use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
 use super::raw::RawArgs;
 use super::report::{Progress, note, print};
 use super::{Done, Outcome, Talk, output_path, stats};
-use drypoint::drawing::{WriteReport, write_page};
+use drypoint::drawing::{WriteReport, mark_counts, write_page};
 use drypoint::job::RenderTarget;
 use drypoint::output::list;
 use drypoint::scene::counts::Counts;
-use drypoint::scene::marks::{Layer, Marks, Page, Pen};
+use drypoint::scene::marks::{Marks, Page, Pen};
 use drypoint::stroking::Stroking;
 use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
@@ -38,7 +38,7 @@ pub(super) struct PageRequest {
 
 impl PageRequest {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        if is_list(&self.input) {
+        if list::ListFormat::of(&self.input).is_some() {
             return self.list(talk);
         }
         output_path::format(&self.output, &Format::ALL)?;
@@ -90,11 +90,8 @@ impl PageRequest {
     fn over(&self) -> Result<SceneOverrides, Failures> {
         let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
         let is_bare = !input::is_scene(&self.input);
-        if let Some(preset) = &self.preset {
-            flags.push(KeyFlag::name("preset", "--preset", preset));
-        } else if is_bare {
-            flags.push(KeyFlag::name("preset", "--preset", self.default_preset));
-        }
+        let preset = self.preset.as_deref().or(is_bare.then_some(self.default_preset));
+        flags.extend(preset.map(|preset| KeyFlag::name("preset", "--preset", preset)));
         if is_bare {
             flags.extend(input::page_flags(&self.set));
         }
@@ -107,14 +104,9 @@ impl PageRequest {
         if self.stats { print(&stats::line(counts, None)?) } else { Ok(Done::Yes) }
     }
 
-    /// Returns the name of a list's marks.
-    fn noun(&self) -> &'static str {
-        if self.target == RenderTarget::Strokes { "lines" } else { "dots" }
-    }
-
     /// Draws a saved list on the page that the overrides give.
     fn list(&self, talk: Talk) -> Outcome {
-        let noun = self.noun();
+        let noun = if self.target == RenderTarget::Strokes { "lines" } else { "dots" };
         for (flag, said) in [("--preset", self.preset.is_some()), ("--raw", self.raw.flag().is_some())] {
             if said {
                 let what = format!("a list of {noun} has no use for {flag}");
@@ -123,14 +115,14 @@ impl PageRequest {
         }
         output_path::picture(&self.output, &Format::ALL)?;
         let (mut counts, start) = (Counts::default(), Instant::now());
-        let scene = input::page(&self.set)?;
+        let scene = input::settings(&self.set, Vec::new())?;
         output_path::check_not_read(&self.output, scene.files().into_iter().chain([&*self.input]))?;
         // The marks, checked against the verb.
         let page = Page::of(&scene);
         let pens = Pen::of(&scene.pens, &page);
         let layers = list::read_list(&self.input, &page, &pens)
             .map_err(|error| Failure::picture(&error, self.input.display()))?;
-        let [dots, lines] = sums(&layers);
+        let [dots, lines] = mark_counts(&layers);
         let strokes = self.target == RenderTarget::Strokes;
         if let (true, 1.., 0) = (strokes, dots, lines) {
             let remedy = "give it to `drypoint points`";
@@ -140,7 +132,7 @@ impl PageRequest {
         let mut marks = Marks { page, layers };
         let read = if strokes { ends(&marks) } else { dots };
         marks.settle();
-        let [dots, _] = sums(&marks.layers);
+        let [dots, _] = mark_counts(&marks.layers);
         let kept = if strokes { ends(&marks) } else { dots };
         if kept < read {
             let (lost, [width, height]) = (read - kept, page.size.to_array());
@@ -159,17 +151,7 @@ impl PageRequest {
     }
 }
 
-/// Returns the numbers of dots and lines in layers.
-fn sums(layers: &[Layer]) -> [usize; 2] {
-    [layers.iter().map(|layer| layer.dots.len()).sum(), layers.iter().map(|layer| layer.lines.len()).sum()]
-}
-
 /// Returns the number of vertices of all lines. A line that the frame cuts loses vertices, or gains ends.
 fn ends(marks: &Marks) -> usize {
     marks.layers.iter().flat_map(|layer| &layer.lines).map(|line| line.vertices.len()).sum()
-}
-
-/// Whether a path has the suffix of a list of marks.
-fn is_list(path: &Path) -> bool {
-    list::ListFormat::of(path).is_some()
 }

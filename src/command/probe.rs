@@ -1,6 +1,6 @@
 //! The verb `probe`: value, derivatives and curvature at points.
 
-use super::input::{self, KeyFlag};
+use super::input::{self, KeyFlag, SetArgs};
 use super::raw::RawArgs;
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
@@ -64,13 +64,16 @@ enum Space {
 impl ProbeArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         // The options go through the walker of scenes, which checks them.
-        let settings = input::settings(vec![
-            KeyFlag::name("sampling.kernel", "--kernel", &self.kernel),
-            KeyFlag::name("sampling.gradient", "--gradient", &self.gradient),
-            KeyFlag::name("sampling.hessian", "--hessian", &self.hessian),
-            KeyFlag::length("sampling.scale", "--scale", &self.scale),
-            KeyFlag::name("volume.outside", "--outside", &self.outside),
-        ])?;
+        let settings = input::settings(
+            &SetArgs::default(),
+            vec![
+                KeyFlag::name("sampling.kernel", "--kernel", &self.kernel),
+                KeyFlag::name("sampling.gradient", "--gradient", &self.gradient),
+                KeyFlag::name("sampling.hessian", "--hessian", &self.hessian),
+                KeyFlag::length("sampling.scale", "--scale", &self.scale),
+                KeyFlag::name("volume.outside", "--outside", &self.outside),
+            ],
+        )?;
         let points = if self.at.is_empty() { from_input()? } else { self.at.clone() };
         let _working = Progress::new(talk, "probing");
         let volume = self.raw.read(&self.volume)?;
@@ -193,7 +196,7 @@ fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
         "value": p.value,
         "gradient": three(p.gradient),
         "hessian": [row(0), row(1), row(2)],
-        "hessian_estimator": name(estimator),
+        "hessian_estimator": estimator,
         "normal": p.normal.map(three),
         "k1": p.k1,
         "k2": p.k2,
@@ -206,14 +209,4 @@ fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
         object.insert("kv".into(), json!(kv));
     }
     object
-}
-
-/// Returns an estimator's name in a scene. A field has already resolved `auto`.
-fn name(estimator: HessianEstimator) -> &'static str {
-    match estimator {
-        HessianEstimator::Auto => "auto",
-        HessianEstimator::Analytic => "analytic",
-        HessianEstimator::Central => "central",
-        HessianEstimator::Gaussian => "gaussian",
-    }
 }

@@ -1,6 +1,6 @@
 //! The option `--raw`: the layout of voxels without a header or sidecar ([IO-1]).
 
-use super::input::{self, KeyFlag};
+use super::input::{self, KeyFlag, SetArgs};
 use drypoint::scene::tables::{RawLayout, VolumeSource};
 use drypoint::scene::volume::{Volume, read};
 use drypoint::{Failure, Failures};
@@ -26,7 +26,7 @@ impl RawArgs {
 
     /// Reads a volume, by its layout if one is given.
     pub(super) fn read(&self, path: &Path) -> Result<Volume, Failures> {
-        let scene = input::settings(self.flag().into_iter().collect())?;
+        let scene = input::settings(&SetArgs::default(), self.flag().into_iter().collect())?;
         Ok(read::read(path, layout(&scene.volume.source))?)
     }
 }

@@ -7,7 +7,6 @@ use clap::Args;
 use drypoint::drawing::write_page;
 use drypoint::format::Format;
 use drypoint::job::RenderTarget;
-use drypoint::output::atomic;
 use drypoint::scene::marks::{Page, Pen};
 use drypoint::scene::memory;
 use drypoint::scene::tables::Scene;
@@ -49,9 +48,9 @@ impl WedgeArgs {
         // A table that is filled in stays, and may be read-only.
         let stays = memory::read_to_string(&table).is_ok_and(|there| there != template);
         for path in std::iter::once(&self.output).chain((!stays).then_some(&table)) {
-            atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))?;
+            output_path::writable(path)?;
         }
-        let scene = input::page(&self.set)?;
+        let scene = input::settings(&self.set, Vec::new())?;
         output_path::check_not_read(&self.output, scene.files())?;
         let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
         let drawing = Progress::new(talk, "step wedge");
@@ -68,14 +67,14 @@ impl WedgeArgs {
             note(talk, format_args!("{}: is there and stays as it is", table.display()));
             return Ok(Done::Yes);
         }
-        atomic::write(&table, template.as_bytes()).map_err(|error| Failure::picture(&error, table.display()))?;
+        output_path::write(&table, template.as_bytes())?;
         note(talk, format_args!("{}: to be filled in, and given to [[pen]] as tone", table.display()));
         Ok(Done::Yes)
     }
 
     fn plot(&self, measured: &Path, talk: Talk) -> Outcome {
         let format = Format::among(&self.output, &[Format::Svg, Format::Png])?;
-        atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
+        output_path::writable(&self.output)?;
         output_path::check_not_read(&self.output, [measured])?;
         let (tone, name) = (tone(measured)?, output_path::stem(measured));
         let bytes = if format == Format::Svg {
@@ -83,7 +82,7 @@ impl WedgeArgs {
         } else {
             tone_plot::png(&tone, &name).map_err(|fault| Failure::new(fault, self.output.display(), "write an .svg"))?
         };
-        atomic::write(&self.output, &bytes).map_err(|error| Failure::picture(&error, self.output.display()))?;
+        output_path::write(&self.output, &bytes)?;
         note(talk, self.output.display());
         Ok(Done::Yes)
     }

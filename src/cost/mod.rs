@@ -236,19 +236,16 @@ pub fn sweep(job: &Job, options: &SweepOptions, progress: &dyn Fn(f64)) -> Resul
                 None => continue,
             },
         };
-        let left_out = |failure: &Failure| (knob.key.clone(), setting.clone(), failure.clone());
-        let (made, counts) = match &variant.made {
-            Some(Ok(made)) => made,
-            Some(Err(failure)) => {
-                found.left_out.push(left_out(failure));
-                continue;
-            }
-            None => continue,
-        };
-        let SettingError { rms, max, flip, angle } = match error(job, made, of_truth) {
-            Ok(error) => error,
+        // Every variant has taken its first turn.
+        let Some(made) = &variant.made else { continue };
+        let compared = made.as_ref().map_err(Clone::clone).and_then(|(made, counts)| {
+            let error = error(job, made, of_truth)?;
+            Ok((error, counts))
+        });
+        let (SettingError { rms, max, flip, angle }, counts) = match compared {
+            Ok(compared) => compared,
             Err(failure) => {
-                found.left_out.push(left_out(&failure));
+                found.left_out.push((knob.key.clone(), setting.clone(), failure));
                 continue;
             }
         };

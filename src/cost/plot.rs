@@ -66,6 +66,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     knobs.dedup();
     let reaches = [reach(&shown, |row| row.seconds), reach(&shown, |row| row.rms)];
     let [[fast, slow], [small, large]] = reaches;
+    // The fronts lie behind everything.
     let (mut plots, names) = fronts(sweep, reaches);
     // A line with markers for each knob.
     for (i, knob) in knobs.iter().enumerate() {
@@ -89,6 +90,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     }
     plots.push(names);
     let [width, height] = sweep.size;
+    // Title, axes and legend.
     let analytic = sweep.rows.iter().any(|row| row.truth == Truth::Analytic);
     let against =
         if analytic { "against the formula; *: against the finest setting" } else { "*: against the finest setting" };

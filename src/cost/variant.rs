@@ -73,10 +73,6 @@ impl<'a> TimedVariant<'a> {
             && points(&self.knobs.scene) == points(&other.knobs.scene)
     }
 
-    fn fail(&mut self, failure: Failure) {
-        self.made = Some(Err(failure));
-    }
-
     /// Times one frame of a picture. The first turn prepares and warms up. `kept` is the sum of kept bytes.
     fn take_picture(&mut self, kept: &mut u64) -> Result<(), Failure> {
         let anew = match &self.renderer {
@@ -143,7 +139,9 @@ pub(super) fn take_turn(variants: &mut [TimedVariant<'_>], group: &[usize], kept
             ErrorSubject::Strokes => take_strokes(&mut variants[at]),
         };
         match done {
-            Err(failure) if is_first => group[place..].iter().for_each(|&at| variants[at].fail(failure.clone())),
+            Err(failure) if is_first => {
+                group[place..].iter().for_each(|&at| variants[at].made = Some(Err(failure.clone())))
+            }
             done => done?,
         }
     }

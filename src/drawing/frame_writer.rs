@@ -1,16 +1,15 @@
 //! Writing of frames: pixels, vectors or a list.
 
-use super::{Frame, WriteReport};
-use crate::job::{Job, RenderTarget, no_room_for_pixels};
+use super::{Frame, WriteReport, mark_counts};
+use crate::job::{Job, RenderTarget, background_color, no_room_for_pixels};
 use crate::{Failure, Format};
 use drypoint_output::vector::{VectorPage, pdf, svg};
 use drypoint_output::{OutputError, exr, list, paint, plotter, png};
 use drypoint_scene::atomic;
-use drypoint_scene::color::Rgba;
-use drypoint_scene::marks::{Layer, Marks, Page, Vertex};
+use drypoint_scene::marks::{Marks, Page, Vertex};
 use drypoint_scene::memory;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::tables::{Background, Scene};
+use drypoint_scene::tables::Scene;
 use std::borrow::Cow;
 use std::io;
 use std::path::Path;
@@ -24,19 +23,12 @@ const FILLING_VERTEX: u64 = 3 * size_of::<Vertex>() as u64;
 /// The error that ended an animation before its last frame.
 enum AnimationError {
     Drawing(Failure),
-    Writing(OutputError),
     System(io::Error),
 }
 
 impl From<Failure> for AnimationError {
     fn from(failure: Failure) -> Self {
         Self::Drawing(failure)
-    }
-}
-
-impl From<OutputError> for AnimationError {
-    fn from(error: OutputError) -> Self {
-        Self::Writing(error)
     }
 }
 
@@ -104,22 +96,19 @@ impl<'a> FrameWriter<'a> {
         mut draw: impl FnMut(usize) -> Result<Frame, Failure>,
     ) -> Result<(), Failure> {
         let nothing = Marks { page: Page::of(self.scene), layers: Vec::new() };
+        let wrong = |error: OutputError| Failure::picture(&error, path.display());
         let written = atomic::write(path, |out| {
             let mut animation = svg::Animation::new(out, frames, FRAME_SECONDS);
             for i in 0..frames {
                 let frame = draw(i)?;
                 let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing))?;
-                animation.frame(&self.sheet(&planned.marks, frame.picture.as_ref()), path)?;
+                animation.frame(&self.sheet(&planned.marks, frame.picture.as_ref()), path).map_err(wrong)?;
             }
             Ok(())
         });
         written.map_err(|stopped| match stopped {
             AnimationError::Drawing(failure) => failure,
-            AnimationError::Writing(error) => Failure::picture(&error, path.display()),
-            AnimationError::System(source) => {
-                let error = OutputError::Io { path: path.into(), action: "written", source };
-                Failure::picture(&error, path.display())
-            }
+            AnimationError::System(source) => wrong(OutputError::Io { path: path.into(), action: "written", source }),
         })
     }
 
@@ -129,7 +118,7 @@ impl<'a> FrameWriter<'a> {
         let wrong = |error: OutputError| self.refused(&error);
         let mut picture = match picture {
             Some(picture) => picture,
-            None => paint::blank(&blank, self.background()).map_err(wrong)?,
+            None => paint::blank(&blank, background_color(self.scene)).map_err(wrong)?,
         };
         if let Some(marks) = marks.filter(|_| picture.layer(LayerKind::Beauty).is_some()) {
             paint::paint(marks, &window, self.scene.picture.blend_space, &mut picture).map_err(wrong)?;
@@ -169,7 +158,7 @@ impl<'a> FrameWriter<'a> {
 
     fn sheet<'s>(&'s self, marks: &'s Marks, picture: Option<&'s Picture>) -> VectorPage<'s> {
         // Paper has its own colour, and programs that ignore % in labels would draw around the page.
-        let background = self.background().filter(|_| !self.plotter());
+        let background = background_color(self.scene).filter(|_| !self.plotter());
         let beziers = self.scene.hatching.as_ref().is_some_and(|hatching| hatching.beziers);
         VectorPage { marks, background, picture, plotter: self.plotter(), beziers, provenance: &self.provenance }
     }
@@ -178,20 +167,13 @@ impl<'a> FrameWriter<'a> {
         self.scene.page.as_ref().is_some_and(|page| page.plotter)
     }
 
-    fn background(&self) -> Option<Rgba> {
-        match self.scene.picture.background {
-            Background::Color(color) => Some(color),
-            Background::None | Background::Picture(_) => None,
-        }
-    }
-
     /// Returns marks as they are drawn: for a plotter its plan.
     ///
     /// # Errors
     /// Dots so large for the nib that the memory budget does not allow the strokes that fill them.
     fn planned<'m>(&self, marks: &'m Marks) -> Result<PlannedMarks<'m>, Failure> {
         if !self.plotter() {
-            let written = WriteReport { marks: sums(marks), notes: Vec::new() };
+            let written = WriteReport { marks: mark_counts(&marks.layers), notes: Vec::new() };
             return Ok(PlannedMarks { marks: Cow::Borrowed(marks), written });
         }
         let vertices = plotter::filling_vertices(marks);
@@ -201,16 +183,10 @@ impl<'a> FrameWriter<'a> {
             Failure::new(what, self.scene.given.position("page.plotter"), "take a wider pen, or smaller or fewer dots")
         })?;
         let plan = plotter::plan(marks, &plotter::Speed::default());
-        let [touches, lines] = sums(&plan.marks);
+        let [touches, lines] = mark_counts(&plan.marks.layers);
         let written = WriteReport { marks: [touches + plan.larger, lines - plan.larger], notes: travel(&plan) };
         Ok(PlannedMarks { marks: Cow::Owned(plan.marks), written })
     }
-}
-
-/// Returns the numbers of dots and lines.
-pub(super) fn sums(marks: &Marks) -> [usize; 2] {
-    let sum = |n: fn(&Layer) -> usize| marks.layers.iter().map(n).sum();
-    [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
 }
 
 /// Returns a plotter's plan in words, a sentence a layer.

@@ -16,7 +16,8 @@ const OFFSET: f64 = 0.3;
 
 /// Settings of outlines.
 pub(super) struct Outlining {
-    iso: f64,
+    /// Iso-value of the surface.
+    pub(super) iso: f64,
     pen: Pen,
     /// Least length, in mm.
     min_length: f64,
@@ -29,11 +30,6 @@ impl Outlining {
             pen: pen(scene, "outlines", page, table.pen.as_deref(), (table.width, table.color))?,
             min_length: on_page(scene, page, table.min_length, "outlines.min_length")?,
         })
-    }
-
-    /// Returns the iso-value of the surface.
-    pub(super) fn iso(&self) -> f64 {
-        self.iso
     }
 
     /// Returns the outlines that a camera sees.

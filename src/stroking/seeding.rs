@@ -36,7 +36,7 @@ impl Stroking<'_> {
     /// probable a stroke is.
     pub fn seed_page(&self, map: &SeedMap, view: &View, counts: &mut Counts) -> Marks {
         let surfaces = self.surfaces();
-        let hides = self.hatching.as_ref().and_then(|hatching| self.hides.or(hatching.iso()));
+        let hides = self.hatching.as_ref().and_then(|hatching| self.hides.or(hatching.iso));
         let surface = hides.and_then(|iso| surfaces.iter().find(|surface| surface.iso() == iso));
         let sight = Sight { view, page: &self.page, near: self.near, surface, offset: 0.0 };
         let grid = self.field.volume().grid();

@@ -1,6 +1,7 @@
 //! Writing of lists.
 
 use super::{COLUMNS, ListFormat};
+use crate::encode::hex;
 use crate::{OutputError, atomic};
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
@@ -122,14 +123,14 @@ impl ListWriter {
     /// Writes the colour of a vertex, before the pen. A vertex in the pen's colour has an empty cell, or in JSON no
     /// key.
     fn color(&mut self, color: Option<Rgb>) {
-        let hex = color.map(|[r, g, b]| crate::vector::svg::hex([r, g, b, 1.0]));
-        match (self.form, hex) {
-            (ListFormat::Csv, hex) => {
+        let own = color.map(|[r, g, b]| hex([r, g, b, 1.0]));
+        match (self.form, own) {
+            (ListFormat::Csv, own) => {
                 self.out.push(',');
-                self.out.push_str(&hex.unwrap_or_default());
+                self.out.push_str(&own.unwrap_or_default());
             }
             // A String takes whatever is written to it.
-            (ListFormat::JsonLines, Some(hex)) => drop(write!(self.out, ",\"color\":\"{hex}\"")),
+            (ListFormat::JsonLines, Some(own)) => drop(write!(self.out, ",\"color\":\"{own}\"")),
             (ListFormat::JsonLines, None) => {}
         }
     }

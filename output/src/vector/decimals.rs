@@ -1,5 +1,7 @@
 //! Numbers as text: micrometres as the shortest decimal of millimetres, without rounding.
 
+use std::io::Write;
+
 /// Appends `n` thousandths, without a zero before the point or at the end.
 pub(super) fn push(out: &mut Vec<u8>, n: i64) {
     if n < 0 {
@@ -7,18 +9,8 @@ pub(super) fn push(out: &mut Vec<u8>, n: i64) {
     }
     let (whole, part) = (n.unsigned_abs() / 1000, n.unsigned_abs() % 1000);
     if whole > 0 || part == 0 {
-        let mut digits = [0; 20];
-        let mut from = digits.len();
-        let mut rest = whole;
-        loop {
-            from -= 1;
-            digits[from] = b'0' + (rest % 10) as u8;
-            rest /= 10;
-            if rest == 0 {
-                break;
-            }
-        }
-        out.extend_from_slice(&digits[from..]);
+        // A Vec takes whatever is written to it.
+        let _ = write!(out, "{whole}");
     }
     if part > 0 {
         let digits = [part / 100, part / 10 % 10, part % 10].map(|d| b'0' + d as u8);

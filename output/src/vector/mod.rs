@@ -9,7 +9,7 @@ mod groups;
 pub mod pdf;
 pub mod svg;
 
-use drypoint_scene::color::{Rgba, linear_to_srgb};
+use drypoint_scene::color::Rgba;
 use drypoint_scene::marks::Marks;
 use drypoint_scene::picture::{Picture, Provenance};
 
@@ -30,9 +30,4 @@ pub struct VectorPage<'a> {
     pub beziers: bool,
     /// Provenance, written into the file.
     pub provenance: &'a Provenance,
-}
-
-/// Returns red, green and blue of a linear colour as sRGB bytes, as both formats have them.
-fn bytes([r, g, b, _]: Rgba) -> [u8; 3] {
-    [r, g, b].map(|c| crate::encode::quantize(linear_to_srgb(c).clamp(0.0, 1.0), 255) as u8)
 }

@@ -1,11 +1,11 @@
 //! Writing of PDF ([IO-2], [IO-7]): the groups of the SVG with the same numbers. Each layer is an optional-content
 //! group.
 
+use super::VectorPage;
 use super::curves::PathSegment;
 use super::decimals::{number, push};
 use super::groups::{PathGroup, Subpath, groups};
-use super::{VectorPage, bytes};
-use crate::encode::{quantize, straight_srgb};
+use crate::encode::{quantize, srgb_bytes, straight_srgb};
 use crate::layers::{fitting, side};
 use crate::{OutputError, atomic};
 use drypoint_scene::color::Rgba;
@@ -167,6 +167,7 @@ impl Content {
     }
 
     fn group(&mut self, group: &PathGroup, pen: Rgba) {
+        // Graphics state of the group: opacity, then width and colour of strokes or colour of fills.
         self.add("q ");
         self.state(group.opacity);
         let [r, g, b] = group.color.unwrap_or([pen[0], pen[1], pen[2]]);
@@ -180,6 +181,7 @@ impl Content {
             }
             None => self.color([r, g, b, 1.0], "rg"),
         }
+        // Dots, then lines: moves, segments, and the operator that paints the path.
         for chunk in group.dots.iter().filter(|chunk| !chunk.is_empty()) {
             for &at in chunk {
                 self.step(at, b" m ");
@@ -219,7 +221,7 @@ impl Content {
     }
 
     fn color(&mut self, color: Rgba, operator: &str) {
-        let [r, g, b] = bytes(color).map(|byte| number(f64::from(byte) / 255.0));
+        let [r, g, b] = srgb_bytes(color).map(|byte| number(f64::from(byte) / 255.0));
         self.add(&format!("{r} {g} {b} {operator}\n"));
     }
 

@@ -4,7 +4,8 @@
 use super::curves::PathSegment;
 use super::decimals::{number, push_pair};
 use super::groups::{PagePoint, PathGroup, Subpath, VectorPath, groups};
-use super::{VectorPage, base64, bytes, decimals};
+use super::{VectorPage, base64, decimals};
+use crate::encode::hex;
 use crate::grid::micrometres;
 use crate::png::{KEYWORDS, encode_png};
 use crate::{OutputError, atomic};
@@ -257,12 +258,6 @@ fn path(line: &VectorPath, out: &mut Vec<u8>) {
         }
     }
     out.extend_from_slice(b"\"/>\n");
-}
-
-/// Returns a linear colour as `#rrggbb`.
-pub(crate) fn hex(color: [f64; 4]) -> String {
-    let [r, g, b] = bytes(color);
-    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// Returns the attribute; empty for a value of 1.

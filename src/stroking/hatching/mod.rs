@@ -47,7 +47,7 @@ pub(super) struct HatchingSetup<'a> {
     table: &'a Table,
     light: LightDirection,
     /// Iso-value of the surface that strokes lie on; none: strokes are where the function shows something.
-    iso: Option<f64>,
+    pub(super) iso: Option<f64>,
     seen: Option<VisibleValues<'a>>,
     pen: Pen,
     cross_pen: Pen,
@@ -64,7 +64,8 @@ pub(super) struct HatchingSetup<'a> {
     /// Place of the key that gives dashes.
     dash_place: String,
     is_pencil: bool,
-    is_merged: bool,
+    /// Whether strokes are inside the picture of the volume, if there is one.
+    pub(super) is_merged: bool,
 }
 
 /// Grown strokes of hatching.
@@ -96,6 +97,7 @@ impl<'a> HatchingSetup<'a> {
             Spacing::Tone => Some(room::Apart::Tone { least: LEAST }),
             Spacing::Length(length) => Some(room::Apart::Everywhere(on_page(scene, page, length, "hatching.spacing")?)),
         };
+        // Pens: crossing strokes have their own, or the pen of the first direction.
         let ink = (table.width, table.color);
         let cross_pen = match (&table.cross_pen, &table.pen) {
             (Some(named), _) => pen(scene, "hatching.cross_pen", page, Some(named), ink)?,
@@ -103,6 +105,7 @@ impl<'a> HatchingSetup<'a> {
             (None, None) => Pen { name: "cross".into(), ..pen(scene, "hatching", page, None, ink)? },
         };
         let pen = pen(scene, "hatching", page, table.pen.as_deref(), ink)?;
+        // The surface that strokes lie on, or the values at which the function shows something.
         let (iso, seen) = match table.iso {
             HatchIso::Surface(iso) => (Some(value(scene, iso, "hatching.iso")?), None),
             HatchIso::Transfer => (None, Some(VisibleValues::new(scene, function)?)),
@@ -112,6 +115,7 @@ impl<'a> HatchingSetup<'a> {
         let finest = FINEST * grid.voxel();
         how.chord = how.chord.min((MOST_OFF / scale).max(finest));
         how.offset = how.offset.min((0.5 * pen.width / scale).max(finest));
+        // Gaps, the table of light, and dashes, each checked.
         let deeper = in_world(scene, table.gap_depth, "hatching.gap_depth", grid)?;
         let gap = table.gap.map(|gap| on_page(scene, page, gap, "hatching.gap")).transpose()?;
         if let Some(side) = table.lighting(scene).and_then(|lighting| lighting.table) {
@@ -146,11 +150,6 @@ impl<'a> HatchingSetup<'a> {
             is_pencil: table.is_pencil(scene),
             is_merged: has_picture && table.is_merged(scene),
         })
-    }
-
-    /// Returns the iso-value of the surface that strokes lie on, if any.
-    pub(super) fn iso(&self) -> Option<f64> {
-        self.iso
     }
 
     /// Cuts gaps into the lines of the first `own` layers where nearer lines of any layer cross them ([HATCH-20]), then
@@ -189,11 +188,6 @@ impl<'a> HatchingSetup<'a> {
             Hidden::Merged => !self.is_merged,
             Hidden::Drawn => false,
         }
-    }
-
-    /// Whether strokes are inside the picture of the volume, if there is one.
-    pub(super) fn is_merged(&self) -> bool {
-        self.is_merged
     }
 
     /// Finds the seeds, and grows their strokes if no camera decides which grow.

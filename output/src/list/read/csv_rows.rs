@@ -8,8 +8,8 @@ use std::fs::File;
 
 pub(super) struct CsvRows {
     table: Reader<Metered<File>>,
-    /// Position of each of [`ListColumn::ALL`] in a row; none where the file does not have it.
-    at: [Option<usize>; ListColumn::ALL.len()],
+    /// Position of each of [`ListColumn::NAMES`] in a row; none where the file does not have it.
+    at: [Option<usize>; ListColumn::NAMES.len()],
     row: ByteRecord,
     line: u64,
 }
@@ -21,7 +21,7 @@ impl CsvRows {
         let mut table = csv::ReaderBuilder::new().flexible(true).from_reader(file);
         let header = table.byte_headers().map_err(broken)?;
         let find = |name: &str| header.iter().position(|column| column.trim_ascii() == name.as_bytes());
-        let at = ListColumn::ALL.map(|column| find(column.name()));
+        let at = ListColumn::NAMES.map(find);
         let with_strokes = if at[ListColumn::Stroke as usize].is_some() { &["t"][..] } else { &[] };
         if let Some(absent) = COLUMNS.iter().chain(with_strokes).find(|name| find(name).is_none()) {
             return Err(RowError::Row(absent.to_string(), format!("the column {absent} is missing")));

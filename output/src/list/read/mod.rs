@@ -32,34 +32,10 @@ enum ListColumn {
 }
 
 impl ListColumn {
-    const ALL: [Self; 11] = [
-        Self::X,
-        Self::Y,
-        Self::Wx,
-        Self::Wy,
-        Self::Wz,
-        Self::Radius,
-        Self::Opacity,
-        Self::Stroke,
-        Self::T,
-        Self::Color,
-        Self::Pen,
-    ];
+    const NAMES: [&str; 11] = ["x", "y", "wx", "wy", "wz", "radius", "opacity", "stroke", "t", "color", "pen"];
 
     fn name(self) -> &'static str {
-        match self {
-            Self::X => "x",
-            Self::Y => "y",
-            Self::Wx => "wx",
-            Self::Wy => "wy",
-            Self::Wz => "wz",
-            Self::Radius => "radius",
-            Self::Opacity => "opacity",
-            Self::Stroke => "stroke",
-            Self::T => "t",
-            Self::Color => "color",
-            Self::Pen => "pen",
-        }
+        Self::NAMES[self as usize]
     }
 }
 
@@ -111,8 +87,7 @@ const MARKS_PER_BYTE: u64 = 7;
 /// # Errors
 /// [`OutputError::Io`]; [`OutputError::List`] with line and column for a value that is missing or invalid.
 pub fn read_list(path: &Path, page: &Page, pens: &[Pen]) -> Result<Vec<Layer>, OutputError> {
-    let refused = |source| OutputError::Io { path: path.into(), action: "read", source };
-    let file = Metered::new(File::open(path).map_err(refused)?, MARKS_PER_BYTE);
+    let file = Metered::new(File::open(path).map_err(|source| RowError::File(source).at(path, 1))?, MARKS_PER_BYTE);
     match ListFormat::of(path) {
         Some(ListFormat::JsonLines) => ListReader { path, rows: JsonRows::new(file) }.read(page, pens),
         Some(ListFormat::Csv) | None => {
