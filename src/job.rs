@@ -122,7 +122,7 @@ impl Job {
     /// data.
     ///
     /// # Errors
-    /// All that cannot be read, does not exist, or draws nothing.
+    /// Data that cannot be read or do not exist, or a scene that draws nothing.
     pub fn load(scene: Scene) -> Result<Self, Failures> {
         Self::load_for(scene, RenderTarget::Picture)
     }

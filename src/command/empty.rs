@@ -60,7 +60,7 @@ fn no_strokes(table: &Hatching, number: &dyn Fn(&str) -> u64, has_grown: bool) -
             }
             (_, HatchIso::Transfer) => "no cell of the volume has a value that transfer.nodes show".into(),
             (_, HatchIso::Surface(iso)) => {
-                format!("no cell of the volume has hatching.iso{} between its corners", said(iso))
+                format!("no cell of the volume has hatching.iso{} between its corners", iso_text(iso))
             }
         };
     }
@@ -94,21 +94,21 @@ fn unseen(table: &Hatching) -> String {
         (!table.has_one_width(), "thinner than hatching.stroke.min_width"),
         (table.spacing != Spacing::Random, "shorter than six widths of the pen"),
     ];
-    let all: Vec<&str> = can_be.into_iter().filter(|(can_be, _)| *can_be).map(|(_, said)| said).collect();
+    let all: Vec<&str> = can_be.into_iter().filter(|(can_be, _)| *can_be).map(|(_, text)| text).collect();
     all.join(", or ")
 }
 
 /// Returns the reason why no outline is on the page.
 fn no_outlines(table: &Outlines, number: &dyn Fn(&str) -> u64) -> String {
     match (number("outline places"), number("short strokes")) {
-        (0, _) => format!("the surface of outlines.iso{} has no outline from this camera", said(table.iso)),
+        (0, _) => format!("the surface of outlines.iso{} has no outline from this camera", iso_text(table.iso)),
         (_, 0) => "all outlines are hidden, or outside of the frame ([camera])".into(),
         (_, short) => format!("all that is seen of outlines, {short} lines, is shorter than outlines.min_length"),
     }
 }
 
 /// Returns " = value" for a message, or nothing for an automatic one.
-fn said(iso: Iso) -> String {
+fn iso_text(iso: Iso) -> String {
     match iso {
         Iso::Value(value) => format!(" = {value}"),
         Iso::Auto => String::new(),

@@ -52,7 +52,7 @@ pub(super) fn svg(sweep: &Sweep, name: &str) -> Result<String, String> {
 /// Returns the plot as PNG, in its own font.
 ///
 /// # Errors
-/// No setting has an error, or what the encoder says.
+/// No setting has an error, or the encoder fails.
 pub(super) fn png(sweep: &Sweep, name: &str) -> Result<Vec<u8>, String> {
     PngBackend::new().with_scale(SCALE).render_scene(&drawn(sweep, name)?)
 }

@@ -35,7 +35,7 @@ pub struct LineDistance {
     pub max: f64,
 }
 
-/// Both ends of a straight piece of a line.
+/// A straight piece of a line, as its two ends.
 type WorldSegment = [DVec3; 2];
 
 /// Returns the distance of two lists of lines; none if a list has no line.

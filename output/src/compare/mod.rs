@@ -29,11 +29,11 @@ impl Default for CompareOptions {
 /// Limits of a comparison's differences. None: no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ErrorLimits {
-    /// For [`Comparison::max`].
+    /// Limit of [`Comparison::max`].
     pub max: Option<f64>,
-    /// For [`Comparison::rms`].
+    /// Limit of [`Comparison::rms`].
     pub rms: Option<f64>,
-    /// For [`Comparison::flip`].
+    /// Limit of [`Comparison::flip`].
     pub flip: Option<f64>,
 }
 

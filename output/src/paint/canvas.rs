@@ -14,7 +14,7 @@ pub(super) struct Canvas<'a> {
 /// A straight colour in the space of compositing.
 pub(super) struct BlendColor {
     color: [f64; 3],
-    /// From 0 to 1.
+    /// Opacity, from 0 to 1.
     pub(super) opacity: f64,
 }
 

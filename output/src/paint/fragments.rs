@@ -131,7 +131,7 @@ mod tests {
         }
     }
 
-    /// In perspective it is 1/depth; and of four rays a pixel each has its own place.
+    /// The depth is interpolated as 1/depth in perspective, and each of four rays a pixel has its own point.
     #[test]
     fn one_over_depth_is_linear_in_perspective() {
         let view = view(Projection::Perspective { fov: 90.0 }, 10.0);

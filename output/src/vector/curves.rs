@@ -36,8 +36,8 @@ impl PathSegment {
 /// Returns the first point and the curve through the points of a line; none with fewer than three points. The last
 /// segment of a closed line ends at the first point.
 ///
-/// At a point the curve has the direction of the circle through it and its neighbours, so points on a circle give that
-/// circle. The curve keeps the line's corners.
+/// The curve's direction at a point is that of the circle through it and its neighbours, so points on a circle give
+/// that circle. The curve keeps the line's corners.
 pub(super) fn curves(points: &[DVec2], closed: bool) -> Option<(PagePoint, Vec<PathSegment>)> {
     let points = distinct(points, closed);
     let n = points.len();

@@ -66,7 +66,7 @@ trait RowReader {
     fn has(&self, column: ListColumn) -> bool;
     /// Returns the column's value as a number.
     fn number(&self, column: ListColumn) -> Option<f64>;
-    /// Returns the column's value as text.
+    /// Returns the column's value as text, without blanks around it.
     fn text(&self, column: ListColumn) -> Option<&str>;
     /// Returns the column's value for a message; none if it is absent.
     fn found(&self, column: ListColumn) -> Option<String>;
@@ -162,9 +162,8 @@ impl<R: RowReader> ListReader<'_, R> {
 
     /// Returns a vertex's own colour, if it has one.
     fn color(&self) -> Result<Option<Rgb>, OutputError> {
-        let said = self.rows.has(ListColumn::Color).then(|| self.rows.text(ListColumn::Color)).flatten().map(str::trim);
-        let Some(said) = said.filter(|said| !said.is_empty()) else { return Ok(None) };
-        hex(said).map(Some).ok_or_else(|| self.wrong(ListColumn::Color, "a colour such as #c04006"))
+        let Some(text) = self.rows.text(ListColumn::Color).filter(|text| !text.is_empty()) else { return Ok(None) };
+        hex(text).map(Some).ok_or_else(|| self.wrong(ListColumn::Color, "a colour such as #c04006"))
     }
 
     /// Returns the layer of the row's pen. With `are_found` a new pen name adds a layer.
@@ -172,12 +171,12 @@ impl<R: RowReader> ListReader<'_, R> {
         let has_pens = self.rows.has(ListColumn::Pen);
         if are_found {
             let name = if has_pens { self.rows.text(ListColumn::Pen) } else { Some("stipples") };
-            if let Some(name) = name.map(str::trim).filter(|name| layers.iter().all(|layer| layer.pen.name != *name)) {
+            if let Some(name) = name.filter(|name| layers.iter().all(|layer| layer.pen.name != *name)) {
                 layers.push(Layer::new(found_pen(layers.len() + 1, name)));
             }
         }
         let at = if has_pens {
-            let text = self.rows.text(ListColumn::Pen).map(str::trim);
+            let text = self.rows.text(ListColumn::Pen);
             layers.iter().position(|layer| text == Some(layer.pen.name.trim())).ok_or_else(|| {
                 let names: Vec<String> = layers.iter().map(|layer| format!("{:?}", layer.pen.name)).collect();
                 self.wrong(ListColumn::Pen, &names.join(" or "))
