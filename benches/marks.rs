@@ -3,10 +3,10 @@
 //! `cargo bench --bench marks`
 
 use divan::Bencher;
-use drypoint::output::list::{Form, encode_dots};
-use drypoint::output::paint::{Window, blank, paint};
+use drypoint::output::list::{ListFormat, encode_dots};
+use drypoint::output::paint::{PageWindow, blank, paint};
 use drypoint::output::plotter::{Speed, plan};
-use drypoint::output::vector::Sheet;
+use drypoint::output::vector::VectorPage;
 use drypoint::output::vector::pdf::encode_pdf;
 use drypoint::output::vector::svg::encode_svg;
 use drypoint::scene::glam::{DVec2, DVec3};
@@ -42,8 +42,8 @@ fn marks() -> &'static Marks {
     })
 }
 
-fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> Sheet<'a> {
-    Sheet { marks, background: None, picture: None, plotter: false, beziers: false, provenance }
+fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> VectorPage<'a> {
+    VectorPage { marks, background: None, picture: None, plotter: false, beziers: false, provenance }
 }
 
 #[divan::bench(sample_count = 10)]
@@ -64,7 +64,7 @@ fn pdf(bencher: Bencher) {
 #[divan::bench(sample_count = 5)]
 fn list(bencher: Bencher) {
     let marks = marks();
-    bencher.bench(|| encode_dots(marks, Form::Csv).len());
+    bencher.bench(|| encode_dots(marks, ListFormat::Csv).len());
 }
 
 #[divan::bench(args = [BlendSpace::Linear, BlendSpace::Srgb], sample_count = 3)]
@@ -72,7 +72,7 @@ fn pixels(bencher: Bencher, blend: BlendSpace) {
     let marks = marks();
     bencher.bench(|| {
         let mut picture = blank(&marks.page, Some([1.0; 4]))?;
-        paint(marks, &Window::page(&marks.page), blend, &mut picture).map(|()| picture)
+        paint(marks, &PageWindow::page(&marks.page), blend, &mut picture).map(|()| picture)
     });
 }
 

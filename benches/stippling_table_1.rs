@@ -5,7 +5,7 @@
 //! `cargo bench --bench stippling_table_1`
 
 use drypoint::drawing::Drawing;
-use drypoint::job::{Job, Wanted};
+use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, data_folders, parse};
@@ -79,7 +79,7 @@ fn frames(volume: &str, stipples: &str) -> Result<Measured, String> {
         format!("drypoint = 1\n[volume]\nfile = \"{volume}\"\n[picture]\nsize = [500, 500]\n[stipples]\n{stipples}");
     let mut scene = parse(&file, Path::new("table_1.toml"), &Overrides::default()).map_err(|e| e.to_string())?;
     scene.orbit = Some(Orbit { frames: 36, degrees: 360.0 });
-    let job = Job::load_for(scene, Wanted::Marks).map_err(|e| e.to_string())?;
+    let job = Job::load_for(scene, RenderTarget::Marks).map_err(|e| e.to_string())?;
     let mut counts = Counts::default();
     let start = Instant::now();
     let marking = Marking::new(&job, &mut counts, &|_| ()).map_err(|e| e.to_string())?;

@@ -7,7 +7,7 @@
 //! what packed strokes of whole volumes take
 
 use drypoint::job::Job;
-use drypoint::output::compare::lines::{Course, angles, apart};
+use drypoint::output::compare::line_distance::{WorldLine, angles, line_distance};
 use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use drypoint::reference::interactive_volume_illustration::{
     Between, Grown, HatchCounts, Hatching, Packed, Pyramid, Rule, Seed, SeedRule, Storing, Strokes, gradient_range,
@@ -225,11 +225,11 @@ fn compared(from: &str, direct: &Grown, other: &Grown, grid: &Grid) {
             continue;
         };
         let (_, b) = &other.strokes[at];
-        if let Some(found) = apart([a].into_iter(), [b].into_iter(), 0.1 * voxel) {
+        if let Some(found) = line_distance([a].into_iter(), [b].into_iter(), 0.1 * voxel) {
             far.push(found.max / voxel);
         }
         if !a.closed && !b.closed && seed.family == other.strokes[at].0.family {
-            turned.extend(angles(&Course::from(a), &Course::from(b), voxel).into_iter().map(f64::to_degrees));
+            turned.extend(angles(&WorldLine::from(a), &WorldLine::from(b), voxel).into_iter().map(f64::to_degrees));
         }
     }
     println!(

@@ -1,20 +1,20 @@
-//! What a scene draws, frame by frame: the volume, points and lines over it, or either alone; and the files of that.
+//! Frames of a scene, and their files: the volume, points and lines over it, or either alone.
 
-mod paper;
+mod frame_writer;
 
 use crate::Failure;
-use crate::job::{Job, Wanted, provenance, render_failure};
+use crate::job::{Job, RenderTarget, provenance, render_failure};
 use crate::marking::{MarkFrames, Marking};
 use drypoint_output::paint::fragments;
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::Marks;
+use drypoint_scene::marks::{self, Marks};
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::tables::{Orbit, Scene};
 use drypoint_scene::view::View;
-use paper::Paper;
+use frame_writer::FrameWriter;
 use std::path::Path;
 
 /// A job made ready for any number of frames.
@@ -26,32 +26,32 @@ pub struct Drawing<'a> {
     marks: Option<MarkFrames<'a>>,
 }
 
-/// What a file has, and how it will be drawn.
+/// Contents of a written file, and notes about them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Written {
-    /// Dots, and lines: with a plotter those that it draws, a dot that is larger than the nib among the dots.
+pub struct WriteReport {
+    /// Numbers of dots and lines. With a plotter these are the drawn ones; a filled dot counts as a dot.
     pub marks: [usize; 2],
-    /// What a plotter will do, a sentence a layer.
-    pub said: Vec<String>,
+    /// Notes for the user: a plotter's plan, a sentence a layer, or what a list leaves out.
+    pub notes: Vec<String>,
 }
 
 /// One frame.
 pub struct Frame {
-    /// Its number, from 0.
+    /// Number of the frame, from 0.
     pub number: usize,
-    /// The volume with what lies behind it, or a picture that lies behind points alone.
+    /// The volume with its background, or a picture behind points alone.
     pub picture: Option<Picture>,
-    /// What is drawn over it.
+    /// Marks over the picture.
     pub marks: Option<Marks>,
-    /// How many lines are inside the picture.
+    /// Number of lines inside the picture.
     pub inside: usize,
 }
 
 impl<'a> Drawing<'a> {
-    /// Prepares the rays, and the frames of the points and lines that were made of the job. What preparing took goes to `counts`.
+    /// Prepares the rays, and the frames of the job's points and lines. The cost of preparing goes to `counts`.
     ///
     /// # Errors
-    /// As [`Job::renderer`].
+    /// Same errors as [`Job::renderer`].
     pub fn new(job: &'a Job, marking: &'a Marking<'a>, counts: &mut Counts) -> Result<Self, Failure> {
         let renderer = if job.draws_volume() { Some(job.renderer()?) } else { None };
         if let Some(renderer) = &renderer {
@@ -61,26 +61,26 @@ impl<'a> Drawing<'a> {
         Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks })
     }
 
-    /// The same with the volume's rays plane by plane; it shows nowhere.
+    /// Renders the volume plane by plane instead. The picture is the same.
     pub fn plane_by_plane(self) -> Self {
         Self { renderer: self.renderer.map(Renderer::plane_by_plane), ..self }
     }
 
-    /// Number of frames: those of `[orbit]`, or one.
+    /// Returns the number of frames: those of `[orbit]`, or one.
     pub fn frames(&self) -> usize {
         self.orbit.map_or(1, |orbit| orbit.frames)
     }
 
-    /// About how many samples the rays of all frames have, if none is skipped; none where the volume is not drawn.
+    /// Returns about how many samples the rays of all frames have without skipping; none if the volume is not drawn.
     pub fn samples(&self) -> Option<f64> {
         self.renderer.as_ref().map(|renderer| renderer.samples() * self.frames() as f64)
     }
 
-    /// Draws a frame; what that took alone goes to its counts. `progress` hears the share of the rays that is done, from
-    /// any thread.
+    /// Draws a frame and returns it with its own counts. `progress` gets the finished share of the rays, from any
+    /// thread.
     ///
     /// # Errors
-    /// A camera so far away that sample planes are not told apart, a picture for which there is no memory.
+    /// A camera so far away that sample planes coincide in floating point, or a picture without enough memory.
     pub fn frame(&mut self, frame: usize, progress: &(dyn Fn(f64) + Sync)) -> Result<(Frame, Counts), Failure> {
         let scene = &self.job.scene;
         let mut counts = Counts::default();
@@ -88,11 +88,12 @@ impl<'a> Drawing<'a> {
             Some(orbit) => orbit.view(&self.first, &scene.camera, self.job.volume.grid(), frame),
             None => self.first.clone(),
         };
+        // Marks of the frame. Lines inside the volume become fragments on its rays; the others stay over the picture.
         let (mut marks, mut inside) = (None, 0);
         match (&mut self.marks, &mut self.renderer) {
             (Some(frames), Some(renderer)) => {
                 let [over, merged] = frames.draw_apart(&view, &mut counts)?;
-                inside = paper::sums(&merged)[1];
+                inside = mark_counts(&merged.layers)[1];
                 if inside > 0 {
                     let lines = fragments(&merged, &view, scene.picture.samples);
                     counts.preprocess.insert("places of lines on rays".into(), lines.len() as u64);
@@ -106,6 +107,7 @@ impl<'a> Drawing<'a> {
             (Some(frames), None) => marks = Some(frames.draw(&view, &mut counts)?),
             (None, _) => {}
         }
+        // The volume from the frame's camera, or the picture behind the marks.
         let picture = match &mut self.renderer {
             Some(renderer) => {
                 if self.orbit.is_some() {
@@ -116,58 +118,60 @@ impl<'a> Drawing<'a> {
                 counts.add(&own);
                 Some(picture)
             }
-            None => self.job.background().map(|pixels| of_pixels(pixels, scene.picture.size)),
+            None => self.job.background.as_ref().map(|pixels| of_pixels(pixels, scene.picture.size)),
         };
         Ok((Frame { number: frame, picture, marks, inside }, counts))
     }
 }
 
 impl Frame {
-    /// Dots, and lines.
+    /// Returns the numbers of dots and lines.
     pub fn marks(&self) -> [usize; 2] {
-        let [dots, lines] = self.marks.as_ref().map(paper::sums).unwrap_or_default();
+        let [dots, lines] = self.marks.as_ref().map(|marks| mark_counts(&marks.layers)).unwrap_or_default();
         [dots, lines + self.inside]
     }
 
-    /// The frame in pixels, with its points and lines painted over the layer `beauty`: the page with its margin where points
-    /// and lines are all that is wanted, and else a picture of the scene's size.
+    /// Returns the frame in pixels, with points and lines painted over the layer `beauty`. If only points and lines are
+    /// drawn, it is the page with its margin, else a picture of the scene's size.
     ///
     /// # Errors
     /// A picture of no or too many pixels.
     pub fn painted(self, job: &Job) -> Result<Picture, Failure> {
-        Paper::of(job, self.number).painted(self.picture, self.marks.as_ref())
+        FrameWriter::of(job, self.number).painted(self.picture, self.marks.as_ref())
     }
 
-    /// Writes the frame by the suffix; the file appears whole or not at all. A list has the dots, or where strokes are wanted the lines, as they are, whatever draws them.
+    /// Writes the frame in the format of the suffix. The file appears whole or not at all. A list has the dots, or for
+    /// [`RenderTarget::Strokes`] the lines, unchanged by pens or plotters.
     ///
     /// # Errors
-    /// What the operating system refuses, or a picture of no or too many pixels.
-    pub fn write(self, job: &Job, path: &Path) -> Result<Written, Failure> {
-        Paper::of(job, self.number).write(self, path)
+    /// Errors of the operating system, or a picture of no or too many pixels.
+    pub fn write(self, job: &Job, path: &Path) -> Result<WriteReport, Failure> {
+        FrameWriter::of(job, self.number).write(self, path)
     }
 }
 
-/// Writes marks on the page of a scene, as [`Frame::write`] does; a list has strokes where those are wanted, else dots.
+/// Writes marks on the page of a scene, as [`Frame::write`] does. A list has strokes for [`RenderTarget::Strokes`],
+/// else dots.
 ///
 /// # Errors
-/// As [`Frame::write`].
-pub fn write_page(marks: Marks, scene: &Scene, wanted: Wanted, path: &Path) -> Result<Written, Failure> {
+/// Same errors as [`Frame::write`].
+pub fn write_page(marks: Marks, scene: &Scene, target: RenderTarget, path: &Path) -> Result<WriteReport, Failure> {
     let provenance = provenance(scene, &Plan::of_marks(scene));
     let frame = Frame { number: 0, picture: None, marks: Some(marks), inside: 0 };
-    Paper { scene, wanted, provenance }.write(frame, path)
+    FrameWriter { scene, target, provenance }.write(frame, path)
 }
 
-/// Checks that the memory budget allows the pixels of a file, before anything is drawn for it. A vector file has none.
+/// Checks that the memory budget allows the pixels of a file, before anything is drawn. A vector file has no pixels.
 ///
 /// # Errors
 /// A page of no or too many pixels.
 pub fn room_for_page(job: &Job, path: &Path) -> Result<(), Failure> {
-    // Where rays draw, preparing them asks for their picture.
-    if job.draws_volume() { Ok(()) } else { Paper::of(job, 0).room(path) }
+    // If rays draw, preparing them asks for their picture.
+    if job.draws_volume() { Ok(()) } else { FrameWriter::of(job, 0).room(path) }
 }
 
-/// Writes frames as one SVG that shows them in turn, over and over. Each frame is drawn by `draw` when its turn to be
-/// written comes, so that one at a time is in memory.
+/// Writes frames as one SVG that shows them in turn, repeatedly. `draw` makes a frame when it is due, so that only one
+/// is in memory.
 ///
 /// # Errors
 /// Errors of `draw`, and of the operating system.
@@ -177,10 +181,16 @@ pub fn write_animation(
     path: &Path,
     draw: impl FnMut(usize) -> Result<Frame, Failure>,
 ) -> Result<(), Failure> {
-    Paper::of(job, 0).write_animation(frames, path, draw)
+    FrameWriter::of(job, 0).write_animation(frames, path, draw)
 }
 
-/// Premultiplied pixels as a picture.
+/// Returns the numbers of dots and lines in layers.
+pub fn mark_counts(layers: &[marks::Layer]) -> [usize; 2] {
+    let sum = |n: fn(&marks::Layer) -> usize| layers.iter().map(n).sum();
+    [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
+}
+
+/// Returns premultiplied pixels as a picture.
 fn of_pixels(pixels: &[Rgba], [width, height]: [usize; 2]) -> Picture {
     let channels = (0..4).map(|c| pixels.iter().map(|pixel| pixel[c]).collect()).collect();
     Picture { width, height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] }

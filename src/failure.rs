@@ -1,4 +1,4 @@
-//! What the command says when it cannot do what it was asked: what, where, and what to do.
+//! Failures of the command: what is wrong, where, and what to do.
 
 use drypoint_output::OutputError;
 use drypoint_scene::file::{Fault, Faults};
@@ -9,30 +9,30 @@ use std::fmt;
 /// One fault in three lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
-    /// What is wrong.
+    /// The fault.
     pub what: String,
-    /// File, line, key.
+    /// The place: file, line, key.
     pub place: String,
-    /// What to do.
+    /// The remedy.
     pub remedy: String,
 }
 
 impl Failure {
-    /// From its three lines. Line breaks in them, which a path may have, become spaces.
+    /// Makes a failure of its three lines. Line breaks, which a path may have, become spaces.
     pub fn new(what: impl fmt::Display, place: impl fmt::Display, remedy: impl fmt::Display) -> Self {
         let line = |text: &dyn fmt::Display| text.to_string().replace(char::is_control, " ");
         Self { what: line(&what), place: line(&place), remedy: line(&remedy) }
     }
 
-    /// A picture's file that cannot be read or written; `place` stands where the error names no file.
+    /// Returns the failure of a picture's file. `place` is used if the error names no file.
     pub fn picture(error: &OutputError, place: impl fmt::Display) -> Self {
         let text = error.to_string();
         let file = match error {
             OutputError::Io { path, .. }
             | OutputError::UnknownFormat { path, .. }
             | OutputError::Malformed { path, .. }
-            | OutputError::TooLarge { path, .. } => path.display().to_string(),
-            OutputError::NoRoom { path: Some(path), .. } => path.display().to_string(),
+            | OutputError::TooLarge { path, .. }
+            | OutputError::NoRoom { path: Some(path), .. } => path.display().to_string(),
             OutputError::List { path, line, column, fault } => {
                 return Self::new(fault, format!("{}, line {line}, column {column}", path.display()), error.help());
             }
@@ -80,12 +80,12 @@ impl From<WriteError> for Failure {
     }
 }
 
-/// Everything that is wrong, three lines each.
+/// One or more failures, three lines each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failures(Vec<Failure>);
 
 impl Failures {
-    /// From the first and the others. What is said twice is said once.
+    /// Makes a list of the first and the others, without repetitions.
     pub fn new(first: Failure, others: impl IntoIterator<Item = Failure>) -> Self {
         let mut each = vec![first];
         for failure in others {
@@ -96,16 +96,16 @@ impl Failures {
         Self(each)
     }
 
-    /// Goes on where there are none.
+    /// Succeeds if there is no failure.
     ///
     /// # Errors
-    /// All of them, where there is one.
+    /// All failures, if there is one.
     pub fn check(failures: impl IntoIterator<Item = Failure>) -> Result<(), Self> {
         let mut failures = failures.into_iter();
         failures.next().map_or(Ok(()), |first| Err(Self::new(first, failures)))
     }
 
-    /// Each of them; at least one.
+    /// Iterates over the failures, at least one.
     pub fn iter(&self) -> std::slice::Iter<'_, Failure> {
         self.0.iter()
     }

@@ -1,9 +1,9 @@
-//! Which file format the suffix of a name asks for.
+//! File formats of pictures, points and lines, chosen by a name's suffix.
 
 use crate::Failure;
 use std::path::Path;
 
-/// A format that pictures, points and lines are written in ([IO-2]).
+/// A file format of pictures, points and lines ([IO-2]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// The layer `beauty` alone, in 8 or 16 bits a channel.
@@ -12,23 +12,23 @@ pub enum Format {
     Exr,
     /// Points and lines as vectors, a millimetre a unit, over the picture ([IO-7]).
     Svg,
-    /// The same as PDF.
+    /// Points and lines as PDF, over the picture ([IO-7]).
     Pdf,
     /// Points alone, a row each ([STIP-16]).
     Csv,
-    /// The same, a JSON object a line.
+    /// Points alone, a JSON object a line ([STIP-16]).
     JsonLines,
 }
 
 impl Format {
-    /// Of rendered pictures.
+    /// Formats of rendered pictures.
     pub const PICTURES: [Self; 2] = [Self::Png, Self::Exr];
-    /// Of what has points or lines over a picture or alone.
+    /// Formats of points or lines, over a picture or alone.
     pub const SHEETS: [Self; 4] = [Self::Png, Self::Exr, Self::Svg, Self::Pdf];
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 6] = [Self::Svg, Self::Pdf, Self::Png, Self::Exr, Self::Csv, Self::JsonLines];
 
-    /// The suffix, without its dot.
+    /// Returns the suffix without its dot.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -45,13 +45,13 @@ impl Format {
         matches!(self, Self::Csv | Self::JsonLines)
     }
 
-    /// The format of a name, by its suffix; case does not count.
+    /// Returns the format of a name by its suffix, in any case.
     pub fn of(path: &Path) -> Option<Self> {
         let suffix = path.extension()?;
         Self::ALL.into_iter().find(|format| suffix.eq_ignore_ascii_case(format.suffix()))
     }
 
-    /// The format of a name, one of `may`.
+    /// Returns the format of a name, if it is one of `may`.
     ///
     /// # Errors
     /// A suffix of another format, or of none.

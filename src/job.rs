@@ -1,4 +1,4 @@
-//! From a scene to a picture: load what the scene names, hand it to the renderer, write what comes back.
+//! Jobs: a scene with everything that it names loaded, ready for the renderer.
 //!
 //! ```
 //! use drypoint::job::Job;
@@ -29,7 +29,7 @@ mod iso;
 mod load;
 mod room;
 
-use crate::labels::Named;
+use crate::labels::SceneLabels;
 use crate::{Failure, Failures, Format};
 use drypoint_output::{exr, png};
 use drypoint_reference::field::FieldError;
@@ -38,12 +38,14 @@ use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::file::identity;
+use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::shot::{Shot, ShotError, VolumeFacts};
+use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
-use drypoint_scene::tables::{Background, Ids, Scene, StepAlong, VolumeSource};
+use drypoint_scene::tables::{Background, Ids, Length, Scene, StepAlong, VolumeSource};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
@@ -58,56 +60,59 @@ use std::sync::Arc;
 
 /// A scene with everything that it names.
 pub struct Job {
-    /// The scene. A transfer function without nodes has those that were found in the data.
+    /// The scene. A transfer function without nodes has those suggested from the data.
     pub scene: Scene,
-    /// What the scene called for, as it was given.
+    /// The plan of the scene as given.
     pub plan: Plan,
-    /// Its volume.
+    /// The volume.
     pub volume: Volume,
-    /// What was done to load it: voxels that an automatic function looked at. Not among the counts of a frame.
+    /// Counts of loading, such as voxels read for an automatic function. They are no part of a frame's counts.
     pub counts: Counts,
-    wanted: Wanted,
+    target: RenderTarget,
     /// The scene's camera in numbers.
     view: Result<View, ViewError>,
-    /// What the volume is drawn in, or what dots take their colours from.
+    /// Transfer function of the volume, or of the colours of dots.
     function: Option<Arc<Function>>,
-    labels: Option<LabelVolume>,
+    /// The label volume, if something reads it.
+    pub(crate) labels: Option<LabelVolume>,
     further: [Option<Volume>; 2],
-    styles: Vec<Style>,
-    background: Option<Vec<Rgba>>,
+    /// The styles that the function names.
+    pub(crate) styles: Vec<Style>,
+    /// The premultiplied picture behind the volume, if the scene has one.
+    pub(crate) background: Option<Vec<Rgba>>,
 }
 
-/// What of a scene is wanted.
+/// The part of a scene to draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wanted {
-    /// All that it draws.
+pub enum RenderTarget {
+    /// Everything that the scene draws.
     #[default]
     Picture,
-    /// Points and lines alone, on their page: the volume itself is not drawn, and nothing of that is called for.
+    /// Points and lines alone, on their page. The volume itself is not drawn, and needs nothing.
     Marks,
-    /// Of them the stipples alone.
+    /// Stipples alone, on their page.
     Points,
-    /// Of them the strokes alone.
+    /// Strokes alone, on their page.
     Strokes,
 }
 
-impl Wanted {
-    /// Whether stipples are drawn, where the scene has some.
+impl RenderTarget {
+    /// Whether the scene's stipples are drawn.
     pub fn has_points(self) -> bool {
         self != Self::Strokes
     }
 
-    /// Whether strokes are drawn, where the scene has some.
+    /// Whether the scene's strokes are drawn.
     pub fn has_strokes(self) -> bool {
         self != Self::Points
     }
 }
 
-/// A scene with other knobs, and what follows from them.
-pub struct Turned {
+/// A job's scene with other settings of knobs, and what follows from them.
+pub struct KnobVariant {
     /// The scene.
     pub scene: Scene,
-    /// What it calls for.
+    /// The plan.
     pub plan: Plan,
     function: Option<Arc<Function>>,
 }
@@ -117,49 +122,50 @@ impl Job {
     /// data.
     ///
     /// # Errors
-    /// All that cannot be read, does not exist, or draws nothing.
+    /// Data that cannot be read or do not exist, or a scene that draws nothing.
     pub fn load(scene: Scene) -> Result<Self, Failures> {
-        Self::load_for(scene, Wanted::Picture)
+        Self::load_for(scene, RenderTarget::Picture)
     }
 
-    /// The same of what is wanted.
+    /// Loads the part of a scene that `target` needs, as [`Job::load`] does.
     ///
     /// # Errors
-    /// As [`Job::load`].
-    pub fn load_for(scene: Scene, wanted: Wanted) -> Result<Self, Failures> {
+    /// Same errors as [`Job::load`].
+    pub fn load_for(scene: Scene, target: RenderTarget) -> Result<Self, Failures> {
         match load_volume(&scene.volume, &scene.given) {
-            Ok(volume) => Self::with_volume_for(scene, volume, wanted),
+            Ok(volume) => Self::with_volume_for(scene, volume, target),
             Err(failure) => {
-                // What else is wrong does not wait for the volume.
+                // Other faults are reported together with the volume's.
                 let mut others = Vec::new();
-                if calls_for_function(&plan_for(&scene, wanted)) {
+                if calls_for_function(&plan_for(&scene, target)) {
                     styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
                 }
-                background(&scene, wanted, &mut others);
+                background(&scene, target, &mut others);
                 Err(Failures::new(failure, others))
             }
         }
     }
 
-    /// The same for a volume that is already loaded.
+    /// Loads everything else for a volume that is already loaded, as [`Job::load`] does.
     ///
     /// # Errors
-    /// As [`Job::load`].
+    /// Same errors as [`Job::load`].
     pub fn with_volume(scene: Scene, volume: Volume) -> Result<Self, Failures> {
-        Self::with_volume_for(scene, volume, Wanted::Picture)
+        Self::with_volume_for(scene, volume, RenderTarget::Picture)
     }
 
-    /// The same of what is wanted.
+    /// Loads what `target` needs for a volume that is already loaded, as [`Job::load`] does.
     ///
     /// # Errors
-    /// As [`Job::load`].
-    pub fn with_volume_for(mut scene: Scene, volume: Volume, wanted: Wanted) -> Result<Self, Failures> {
+    /// Same errors as [`Job::load`].
+    pub fn with_volume_for(mut scene: Scene, volume: Volume, target: RenderTarget) -> Result<Self, Failures> {
+        // The volume, the plan over it, and the plan's warnings of eye and step.
         let volume = match scene.volume.ids {
             Ids::Values => volume,
             Ids::Mask => volume.present(),
         };
-        // Of the scene as it was given: that its function was found in the data is part of the plan.
-        let mut plan = plan_for(&scene, wanted);
+        // The plan is of the scene as given: it says that the function was found in the data.
+        let mut plan = plan_for(&scene, target);
         plan.settle(&scene, is_integer(&volume));
         let view = View::new(&scene.camera, volume.grid(), scene.picture.size);
         if let Ok(view) = &view {
@@ -174,15 +180,17 @@ impl Job {
             };
             plan.warn_step(step * stretch, volume.grid().voxel());
         }
-        something_is_drawn(&scene, wanted)?;
+        something_is_drawn(&scene, target)?;
         let mut failures = Vec::new();
-        let labels = if plan.reads_labels() { Named::load(&scene.volume, &mut failures) } else { Named::default() };
+        let labels =
+            if plan.reads_labels() { SceneLabels::load(&scene.volume, &mut failures) } else { SceneLabels::default() };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
+        // Values that the scene leaves to the data: iso-values and the transfer function.
         let mut counts = Counts::default();
         find_iso_values(&mut scene, &plan, &volume, &mut counts);
         let calls_for_function = calls_for_function(&plan);
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
-        // An iso-surface is drawn without one.
+        // An iso-surface needs no transfer function.
         let mut function = scene.transfer.is_none().then(Function::nothing);
         if let Some(transfer) = scene.transfer.as_mut().filter(|_| calls_for_function) {
             if transfer.is_automatic() {
@@ -190,19 +198,20 @@ impl Job {
             }
             let found = Function::new(transfer, range, &volume, &|name| labels.names.id(name));
             function = found.unwrap_or_else(|errors| {
-                // Without the table every name would be unknown.
+                // Without the table of labels every name would be unknown.
                 if failures.is_empty() {
                     failures.extend(errors.iter().map(|error| function_failure(error, &scene.given, &labels.names)));
                 }
                 None
             });
         }
+        // Everything else that the scene names; all faults are reported together.
         let styles = match &function {
             Some(Function::Style { names, .. }) => styles(&scene, names.iter().map(String::as_str), &mut failures),
             None if calls_for_function => styles(&scene, scene.transfer.iter().flat_map(named), &mut failures),
             Some(Function::Regular(_)) | None => Vec::new(),
         };
-        let background = background(&scene, wanted, &mut failures);
+        let background = background(&scene, target, &mut failures);
         let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
         Failures::check(failures)?;
         if calls_for_function && function.is_none() {
@@ -210,7 +219,7 @@ impl Job {
             return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
         }
         let (function, labels) = (function.map(Arc::new), labels.volume);
-        Ok(Self { scene, plan, volume, counts, wanted, view, function, labels, further, styles, background })
+        Ok(Self { scene, plan, volume, counts, target, view, function, labels, further, styles, background })
     }
 
     /// Whether the volume itself is drawn, by rays.
@@ -218,38 +227,23 @@ impl Job {
         self.plan.has_pass(Pass::Rays)
     }
 
-    /// Whether a picture of it has the layer that points and lines are drawn over.
+    /// Whether the picture has the layer that points and lines are drawn over.
     pub fn shows_beauty(&self) -> bool {
         let layers = &self.scene.picture.layers;
         !self.draws_volume() || layers.is_empty() || layers.contains(&LayerKind::Beauty)
     }
 
-    /// What of the scene is wanted.
-    pub fn wanted(&self) -> Wanted {
-        self.wanted
+    /// Returns the part of the scene to draw.
+    pub fn target(&self) -> RenderTarget {
+        self.target
     }
 
-    /// What dots take their colours from, where they do.
+    /// Returns the transfer function that dots take their colours from, if any.
     pub(crate) fn function(&self) -> Option<&Function> {
         self.function.as_deref()
     }
 
-    /// The styles that the function names.
-    pub(crate) fn styles(&self) -> &[Style] {
-        &self.styles
-    }
-
-    /// The labels beside the volume, where something reads them.
-    pub(crate) fn labels(&self) -> Option<&LabelVolume> {
-        self.labels.as_ref()
-    }
-
-    /// The picture behind, premultiplied, where the scene has one.
-    pub(crate) fn background(&self) -> Option<&[Rgba]> {
-        self.background.as_deref()
-    }
-
-    /// The scene's camera in numbers.
+    /// Returns the scene's camera in numbers.
     ///
     /// # Errors
     /// A camera without direction, or a height on the page.
@@ -257,23 +251,23 @@ impl Job {
         self.view.clone().map_err(|error| view_failure(error, &self.scene))
     }
 
-    /// The picture of the scene with nothing left to decide.
+    /// Returns the shot: the picture of the scene with nothing left to decide.
     ///
     /// # Errors
-    /// A volume that is not drawn itself, and what makes no shot: a camera without direction, a length without size.
+    /// A volume that is not drawn itself, a camera without direction, or a length without size.
     pub fn shot(&self) -> Result<Shot, Failure> {
         self.shot_from(self.view()?)
     }
 
-    /// The shot of another camera.
+    /// Returns the shot of another camera.
     ///
     /// # Errors
-    /// As [`Job::shot`].
+    /// Same errors as [`Job::shot`].
     pub fn shot_from(&self, view: View) -> Result<Shot, Failure> {
         self.resolve(&self.scene, &self.plan, self.function.as_ref(), view)
     }
 
-    /// The scene made ready for any number of frames.
+    /// Returns a renderer for any number of frames.
     ///
     /// # Errors
     /// A volume that is not drawn itself, a reconstruction that does not exist, a camera without direction, a picture for
@@ -282,45 +276,45 @@ impl Job {
         self.made_ready(&self.scene, &self.plan, &self.shot()?, Renderer::new)
     }
 
-    /// Another scene over what this one has loaded: one that differs in its knobs alone ([COST-1]).
-    pub fn turned(&self, scene: Scene) -> Turned {
+    /// Returns another scene over the loaded data. The scene differs from the job's in its knobs alone ([COST-1]).
+    pub fn variant(&self, scene: Scene) -> KnobVariant {
         let plan = self.plan_of(&scene);
         let range = scene.volume.range.unwrap_or_else(|| self.volume.range());
-        // Over two quantities, labels among them, no knob changes the function.
+        // No knob changes a function of two quantities, labels among them.
         let over_value = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none());
         let function = over_value.and_then(|t| Function::new(t, range, &self.volume, &|_| None).ok().flatten());
-        Turned { function: function.map(Arc::new).or_else(|| self.function.clone()), scene, plan }
+        KnobVariant { function: function.map(Arc::new).or_else(|| self.function.clone()), scene, plan }
     }
 
-    /// The same with other knobs.
+    /// Returns a renderer of a scene with other knobs.
     ///
     /// # Errors
-    /// As [`Job::renderer`].
-    pub fn renderer_of<'a>(&'a self, turned: &'a Turned) -> Result<Renderer<'a>, Failure> {
-        self.made_ready(&turned.scene, &turned.plan, &self.shot_of(turned)?, Renderer::new)
+    /// Same errors as [`Job::renderer`].
+    pub fn renderer_of<'a>(&'a self, variant: &'a KnobVariant) -> Result<Renderer<'a>, Failure> {
+        self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, Renderer::new)
     }
 
-    /// The same of a phantom's own formula in place of the voxels ([COST-2]).
+    /// Returns a renderer of a phantom's own formula in place of the voxels ([COST-2]).
     ///
     /// # Errors
-    /// As [`Job::renderer`].
+    /// Same errors as [`Job::renderer`].
     pub fn exact_renderer_of<'a>(
         &'a self,
-        turned: &'a Turned,
+        variant: &'a KnobVariant,
         phantom: &'a dyn Phantom,
     ) -> Result<Renderer<'a>, Failure> {
         let make = |shot: &Shot, inputs| Renderer::exact(shot, inputs, phantom);
-        self.made_ready(&turned.scene, &turned.plan, &self.shot_of(turned)?, make)
+        self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, make)
     }
 
-    /// The shot of a scene with other knobs, none of which is the camera's.
-    fn shot_of(&self, turned: &Turned) -> Result<Shot, Failure> {
-        self.resolve(&turned.scene, &turned.plan, turned.function.as_ref(), self.view()?)
+    /// Returns the shot of a scene with other knobs. No knob is the camera's.
+    fn shot_of(&self, variant: &KnobVariant) -> Result<Shot, Failure> {
+        self.resolve(&variant.scene, &variant.plan, variant.function.as_ref(), self.view()?)
     }
 
-    /// The plan of a scene over what this job has loaded.
+    /// Returns the plan of a scene over the loaded data.
     fn plan_of(&self, scene: &Scene) -> Plan {
-        let mut plan = plan_for(scene, self.wanted);
+        let mut plan = plan_for(scene, self.target);
         plan.settle(scene, is_integer(&self.volume));
         plan
     }
@@ -362,15 +356,15 @@ impl Job {
         room_for_passes(self, plan)?;
         room_for_table(scene)?;
         let renderer = make(shot, inputs).map_err(|error| render_failure(&error, scene))?;
-        // Of what is left: the picture's channels, and as much again while they are encoded.
+        // The picture's channels, and as much again for encoding them, must fit in the remaining memory.
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
         room(scene, 2 * 8 * channels)?;
         Ok(renderer)
     }
 
-    /// Whether a picture of this job shows what lies behind the volume and nothing else.
+    /// Whether a picture of this job shows nothing but what lies behind the volume.
     pub fn shows_nothing(&self, picture: &Picture) -> bool {
-        /// What a mean of equal colours, encoded and decoded, can be off by.
+        /// Largest error of a mean of equal colours, encoded and decoded.
         const ROUNDING: f64 = 1e-9;
         let Some(layer) = picture.layer(LayerKind::Beauty) else { return false };
         (0..picture.width * picture.height).all(|i| {
@@ -383,12 +377,12 @@ impl Job {
         })
     }
 
-    /// What a picture of this job says of its origin ([IO-2]): two files that say the same scene give the same.
+    /// Returns the provenance of this job's picture ([IO-2]). Two files of the same scene give the same provenance.
     pub fn provenance(&self) -> Provenance {
         self.provenance_of(0)
     }
 
-    /// The same of a frame: the first is the scene without `[orbit]`, byte for byte.
+    /// Returns the provenance of a frame. That of frame 0 equals the scene's without `[orbit]`, byte for byte.
     pub fn provenance_of(&self, frame: usize) -> Provenance {
         let plan = self.plan_of(&self.scene);
         if frame == 0 {
@@ -399,10 +393,10 @@ impl Job {
         provenance
     }
 
-    /// Writes a picture of this job, as PNG or EXR by the suffix. The file appears whole or not at all.
+    /// Writes a picture of this job as PNG or EXR, by the suffix. The file appears whole or not at all.
     ///
     /// # Errors
-    /// A suffix of no format, or what the operating system refuses.
+    /// A suffix of no picture format, or errors of the operating system.
     pub fn write(&self, picture: &Picture, path: &Path) -> Result<(), Failure> {
         let provenance = self.provenance();
         let written = match Format::among(path, &Format::PICTURES)? {
@@ -413,7 +407,7 @@ impl Job {
     }
 }
 
-/// A camera that sees nothing, at the key that says it.
+/// Returns the failure of a camera, at the key that causes it.
 fn view_failure(error: ViewError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
         ViewError::HeightOnPage => ("camera.height", "give it in world units or in voxels"),
@@ -422,7 +416,7 @@ fn view_failure(error: ViewError, scene: &Scene) -> Failure {
     Failure::new(error, scene.given.position(key), remedy)
 }
 
-/// A scene that makes no shot, at the key that says it.
+/// Returns the failure of a shot, at the key that causes it.
 fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
         ShotError::NotSmooth(_) => NOT_SMOOTH,
@@ -432,10 +426,10 @@ fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
     Failure::new(error, scene.given.position(key), remedy)
 }
 
-/// The key of a Hessian that its kernel does not have, and what to do.
+/// The key and the remedy of a Hessian that its kernel does not have.
 const NOT_SMOOTH: (&str, &str) = ("sampling.hessian", "choose another sampling.kernel or sampling.hessian");
 
-/// What makes no picture, at the key that says it.
+/// Returns the failure of a renderer, at the key that causes it.
 pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
         RenderError::Field(FieldError::NotSmooth(_)) => NOT_SMOOTH,
@@ -453,7 +447,7 @@ pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
     Failure::new(error, scene.given.position(key), remedy)
 }
 
-/// What a picture of a scene says of its origin ([IO-2]).
+/// Returns the provenance of a scene ([IO-2]).
 pub(crate) fn provenance(scene: &Scene, plan: &Plan) -> Provenance {
     Provenance {
         software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
@@ -462,49 +456,49 @@ pub(crate) fn provenance(scene: &Scene, plan: &Plan) -> Provenance {
     }
 }
 
-/// A scene for a bare volume: an automatic function, a camera that frames the content in a picture of `size` pixels, a
-/// pleasant style. What was looked at for it goes to `counts`.
+/// Returns a scene for a bare volume: an automatic function, a camera that frames the content in a picture of `size`
+/// pixels, a pleasant style. Voxels read for it go to `counts`.
 pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     suggest::scene(VolumeSource::File { path, raw: None }, volume, size, counts)
 }
 
-/// The same for the tables that a preset supplies: a function, an iso-surface, or the camera alone.
+/// Returns a scene for a bare volume with the tables of a preset: a function, an iso-surface, or the camera alone.
 pub fn bare_for(preset: &Scene, path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     let source = VolumeSource::File { path, raw: None };
     let (transfer, surface) = (preset.transfer.clone(), preset.surface.clone());
     suggest::fill(Scene { transfer, surface, ..Scene::for_volume(source) }, volume, size, counts)
 }
 
-/// What is wanted of a scene calls for this.
-fn plan_for(scene: &Scene, wanted: Wanted) -> Plan {
-    match wanted {
-        Wanted::Picture => Plan::new(scene),
-        Wanted::Marks => Plan::of_marks(scene),
-        Wanted::Points => Plan::of_points(scene),
-        Wanted::Strokes => Plan::of_strokes(scene),
+/// Returns the plan of a part of a scene.
+fn plan_for(scene: &Scene, target: RenderTarget) -> Plan {
+    match target {
+        RenderTarget::Picture => Plan::new(scene),
+        RenderTarget::Marks => Plan::of_marks(scene),
+        RenderTarget::Points => Plan::of_points(scene),
+        RenderTarget::Strokes => Plan::of_strokes(scene),
     }
 }
 
-/// Whether something reads the transfer function: rays, dots that take their colours from it, or strokes in what it shows.
+/// Whether something reads the transfer function: rays, dots with its colours, or strokes in what it shows.
 fn calls_for_function(plan: &Plan) -> bool {
     [Pass::Rays, Pass::DotColors, Pass::SeenCells].into_iter().any(|pass| plan.has_pass(pass))
 }
 
-/// Whether the scene draws what is wanted.
-fn something_is_drawn(scene: &Scene, wanted: Wanted) -> Result<(), Failure> {
+/// Checks that the scene draws something of the target.
+fn something_is_drawn(scene: &Scene, target: RenderTarget) -> Result<(), Failure> {
     let at = |key| scene.given.position(key);
-    match wanted {
-        Wanted::Marks | Wanted::Points
-            if wanted == Wanted::Points && scene.stipples.is_none() || !scene.has_marks() =>
+    match target {
+        RenderTarget::Marks | RenderTarget::Points
+            if target == RenderTarget::Points && scene.stipples.is_none() || !scene.has_marks() =>
         {
             let remedy = "add a table [stipples], or write preset = \"stipple\"";
             Err(Failure::new("the scene has no stipples", at("stipples"), remedy))
         }
-        Wanted::Strokes if !scene.has_strokes() => {
+        RenderTarget::Strokes if !scene.has_strokes() => {
             let remedy = "add a table [hatching] or [outlines], or write preset = \"hatch\"";
             Err(Failure::new("the scene has no strokes", at("outlines"), remedy))
         }
-        Wanted::Picture if !scene.has_marks() && !scene.draws_volume() => Err(Failure::new(
+        RenderTarget::Picture if !scene.has_marks() && !scene.draws_volume() => Err(Failure::new(
             "the scene draws nothing",
             at("transfer"),
             "add a [transfer] table, or a [surface] with a look",
@@ -513,7 +507,40 @@ fn something_is_drawn(scene: &Scene, wanted: Wanted) -> Result<(), Failure> {
     }
 }
 
-/// Whether a volume's file is of integers ([REC-3]).
+/// Whether a volume's file stores integers ([REC-3]).
 fn is_integer(volume: &Volume) -> bool {
     volume.voxels().voxel_type().is_integer()
+}
+
+/// Returns the colour behind the volume, if it is one.
+pub(crate) fn background_color(scene: &Scene) -> Option<Rgba> {
+    match scene.picture.background {
+        Background::Color(color) => Some(color),
+        Background::None | Background::Picture(_) => None,
+    }
+}
+
+/// Returns the distance in front of the eye at which marks begin, in world units.
+pub(crate) fn near(scene: &Scene, grid: &Grid) -> Result<f64, Failure> {
+    in_world(scene, scene.camera.near.unwrap_or(scene.sampling.step), "camera.near", grid)
+}
+
+/// Returns a length in the volume, in world units.
+pub(crate) fn in_world(scene: &Scene, length: Length, key: &str, grid: &Grid) -> Result<f64, Failure> {
+    length.world(grid).ok_or_else(|| {
+        let what = "the length is on the page, not in the volume";
+        Failure::new(what, scene.given.position(key), "give it in voxels")
+    })
+}
+
+/// Returns the pen of `[[pen]]` that `key` names.
+pub(crate) fn pen_named(scene: &Scene, page: &Page, name: &str, key: &str) -> Result<Pen, Failure> {
+    Pen::of(&scene.pens, page).into_iter().find(|pen| pen.name == name).ok_or_else(|| {
+        let names: Vec<&str> = scene.pens.iter().map(|pen| pen.name.as_str()).collect();
+        let remedy = match names.as_slice() {
+            [] => "add a table [[pen]] with that name".into(),
+            names => format!("write one of {}", names.join(", ")),
+        };
+        Failure::new(format!("there is no pen {name:?}"), scene.given.position(key), remedy)
+    })
 }

@@ -7,18 +7,18 @@ use drypoint_scene::volume::labels::{LabelError, LabelNames, LabelVolume};
 use drypoint_scene::volume::{Volume, read};
 use std::path::Path;
 
-/// Labels and their names.
+/// Label volume and names of labels.
 #[derive(Clone, Debug, Default)]
-pub struct Named {
+pub struct SceneLabels {
     /// The label volume, if the scene has one.
     pub volume: Option<LabelVolume>,
-    /// The names; none where the scene gives no table of them.
+    /// The names; empty if the scene has no table of them.
     pub names: LabelNames,
 }
 
-impl Named {
-    /// Loads what a scene's `[volume]` names; what is wrong goes to `failures`. To be asked only where an effect reads
-    /// labels ([PLAN-1]).
+impl SceneLabels {
+    /// Loads the labels of a scene's `[volume]`. Errors go to `failures`. Call this only if an effect reads labels
+    /// ([PLAN-1]).
     pub fn load(table: &VolumeTable, failures: &mut Vec<Failure>) -> Self {
         let mut wrong = |failure| failures.push(failure);
         let volume = table.labels.as_ref().and_then(|path| volume(path).map_err(&mut wrong).ok());
@@ -26,7 +26,7 @@ impl Named {
         Self { volume, names: names.unwrap_or_default() }
     }
 
-    /// What to say where the labels lie beside the data, and not in them.
+    /// Returns a warning if the labels do not overlap the data.
     pub fn warning(&self, table: &VolumeTable, data: &Volume) -> Option<String> {
         let labels = Labels::new(self.volume.as_ref()?, data.grid(), data.anatomy(), table.label_lookup);
         let cells = data.dims().map(|n| n.max(2) - 1);
@@ -69,7 +69,7 @@ mod tests {
         (table.labels, table.label_names) = (Some(labels.clone()), Some(names.clone()));
         let load = || {
             let mut failures = Vec::new();
-            let named = Named::load(&table, &mut failures);
+            let named = SceneLabels::load(&table, &mut failures);
             (named, failures)
         };
         write_nrrd(&row(0.0, Voxels::F32(vec![0.0, 2.0, 2.5])), &labels).unwrap();

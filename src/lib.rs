@@ -1,8 +1,8 @@
 //! Drypoint, an illustrative volume renderer: lit-sphere styles, contours of controlled thickness and translucent
 //! volumes from CT, MRI and simulation data.
 //!
-//! This facade holds no formula. [`scene`] says what a picture is made of, [`mod@reference`] computes it, [`output`] writes
-//! it; [`job`] hands from one to the next:
+//! This facade holds no formula. [`scene`] describes a picture, [`mod@reference`] computes it, [`output`] writes it.
+//! [`job`] connects them:
 //!
 //! | step | with |
 //! |---|---|
@@ -14,7 +14,7 @@
 //! | points and lines, and frames of all of it | [`marking::Marking`], [`drawing::Drawing`] |
 //! | what its accuracy costs | [`cost::sweep`] |
 //!
-//! Whatever can go wrong is a [`Failure`]: what, where, and what to do.
+//! Every error is a [`Failure`]: what is wrong, where, and what to do.
 
 pub mod cost;
 pub mod drawing;

@@ -1,23 +1,22 @@
-//! The points and lines of a scene, all that is drawn over or without the volume: stipples ([STIP-1]) and strokes
-//! ([HATCH-18]). What no camera changes is made once.
+//! Points and lines of a scene: stipples ([STIP-1]) and strokes ([HATCH-18]), drawn over or without the volume. Work
+//! that no camera changes is done once.
 
 use crate::Failure;
-use crate::job::{Job, Wanted, room_for_passes};
-use crate::stippling::{DotFrames, PointsMade, Stippling};
+use crate::job::{Job, RenderTarget, room_for_passes};
+use crate::stippling::{DotFrames, PointsProgress, Stippling};
 use crate::stroking::{StrokeFrames, Stroking};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page};
-use drypoint_scene::tables::Scene;
 use drypoint_scene::view::View;
 
-/// What a job wants of its scene's points and lines.
+/// Points and lines of a job's scene.
 pub struct Marking<'a> {
     page: Page,
     stippling: Option<Stippling<'a>>,
     stroking: Option<Stroking<'a>>,
 }
 
-/// Frames of them.
+/// Frames of points and lines.
 pub struct MarkFrames<'a> {
     page: Page,
     dots: Option<DotFrames<'a>>,
@@ -25,35 +24,21 @@ pub struct MarkFrames<'a> {
 }
 
 impl<'a> Marking<'a> {
-    /// Makes what no camera changes; nothing of a scene without points and lines, or where nothing shows them: they are drawn
-    /// over the layer `beauty`. `progress` hears how far the points are, from any thread.
+    /// Makes the points and lines that no camera changes. Empty without points and lines, or if the layer `beauty`,
+    /// over which they are drawn, is not in the picture. `progress` gets the state of the points, from any thread.
     ///
     /// # Errors
-    /// As [`Stippling::new`] and [`Stroking::new`].
-    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsMade) + Sync)) -> Result<Self, Failure> {
-        let wanted = job.wanted();
-        let shown = wanted != Wanted::Picture || job.shows_beauty();
-        let wanted = shown.then_some(wanted);
-        Self::of(job, &job.scene, wanted, (counts, progress))
-    }
-
-    /// The same of a scene that differs from the job's in its knobs alone ([COST-1]), of which something or nothing is wanted.
-    ///
-    /// # Errors
-    /// As [`Stippling::new`] and [`Stroking::new`].
-    pub(crate) fn of(
-        job: &'a Job,
-        scene: &'a Scene,
-        wanted: Option<Wanted>,
-        (counts, progress): (&mut Counts, &(dyn Fn(PointsMade) + Sync)),
-    ) -> Result<Self, Failure> {
+    /// Same errors as [`Stippling::new`] and [`Stroking::new`].
+    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsProgress) + Sync)) -> Result<Self, Failure> {
         room_for_passes(job, &job.plan)?;
-        let stippled = wanted.is_some_and(Wanted::has_points) && scene.stipples.is_some();
-        let stroked = wanted.is_some_and(Wanted::has_strokes) && scene.has_strokes();
+        let (scene, target) = (&job.scene, job.target());
+        let shown = target != RenderTarget::Picture || job.shows_beauty();
+        let stippled = shown && target.has_points() && scene.stipples.is_some();
+        let stroked = shown && target.has_strokes() && scene.has_strokes();
         Ok(Self {
             page: Page::of(scene),
-            stippling: if stippled { Some(Stippling::of(job, scene, counts, progress)?) } else { None },
-            stroking: if stroked { Some(Stroking::of(job, scene, counts)?) } else { None },
+            stippling: if stippled { Some(Stippling::new(job, counts, progress)?) } else { None },
+            stroking: if stroked { Some(Stroking::new(job, counts)?) } else { None },
         })
     }
 
@@ -62,7 +47,7 @@ impl<'a> Marking<'a> {
         self.stippling.is_none() && self.stroking.is_none()
     }
 
-    /// Makes frames of what there is to draw.
+    /// Makes frames of the points and lines.
     pub fn frames(&self, counts: &mut Counts) -> Option<MarkFrames<'_>> {
         let dots = self.stippling.as_ref().map(Stippling::frames);
         let strokes = self.stroking.as_ref().map(|stroking| stroking.frames(counts));
@@ -71,20 +56,20 @@ impl<'a> Marking<'a> {
 }
 
 impl MarkFrames<'_> {
-    /// The marks that a camera sees: dots, and over them strokes. A pen has one layer.
+    /// Returns the marks that a camera sees: dots, and strokes over them. A pen has one layer.
     ///
     /// # Errors
-    /// As [`StrokeFrames::draw`].
+    /// Same errors as [`StrokeFrames::draw`].
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Result<Marks, Failure> {
         let [mut over, inside] = self.draw_apart(view, counts)?;
         inside.layers.into_iter().for_each(|layer| add(&mut over.layers, layer));
         Ok(over)
     }
 
-    /// The same apart: what is drawn over a picture of the volume, and strokes that are inside it ([HATCH-14] d).
+    /// Returns the marks over a picture of the volume, and the strokes inside it ([HATCH-14] d).
     ///
     /// # Errors
-    /// As [`StrokeFrames::draw`].
+    /// Same errors as [`StrokeFrames::draw`].
     pub fn draw_apart(&mut self, view: &View, counts: &mut Counts) -> Result<[Marks; 2], Failure> {
         let page = self.page;
         let nothing = || Marks { page, layers: Vec::new() };
@@ -96,7 +81,7 @@ impl MarkFrames<'_> {
     }
 }
 
-/// Adds what a pen draws to its layer, or as one of its own, under a number that no other has.
+/// Adds a layer to its pen's layer, or as one of its own under an unused number.
 fn add(layers: &mut Vec<Layer>, mut layer: Layer) {
     if let Some(same) = layers.iter_mut().find(|other| other.pen == layer.pen) {
         same.dots.append(&mut layer.dots);

@@ -1,9 +1,10 @@
-//! The dots and lines of a scene with `[stipples]` (Lu et al. 2002): made once, then drawn for any number of cameras.
+//! Dots and lines of a scene with `[stipples]` (Lu et al. 2002), made once and drawn for any number of cameras.
 
 mod pens;
 
 use crate::Failure;
-use crate::job::Job;
+use crate::drawing::mark_counts;
+use crate::job::{Job, near};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::suggest;
 use drypoint_reference::surface::IsoSurface;
@@ -26,32 +27,32 @@ use std::time::Instant;
 
 /// Points of a scene, made once from its first camera.
 pub struct Stippling<'a> {
-    setting: Setting<'a>,
-    layers: Vec<Dots>,
-    /// What draws lines: one of the layers' pens, or one of its own.
+    setting: StippleSetup<'a>,
+    layers: Vec<PenDots>,
+    /// Pen of lines: one of the layers' pens, or one of its own.
     line_pen: Pen,
     edges: Option<Edges>,
-    /// Where the voxels of points and edges lie.
+    /// Grid of the voxels of points and edges.
     grid: Grid,
-    /// λa of dots of S_max in a face seen from the front, and how many voxels lie over each other in it ([STIP-17]).
+    /// λa of dots of S_max in a face seen from the front, and the number of voxels behind each other in it ([STIP-17]).
     ink: [f64; 2],
-    /// What hides points, and the value of its surface ([STIP-15]).
+    /// Field and iso-value of the surface that hides points ([STIP-15]).
     hiding: Option<(Field<'a, f64>, f64)>,
 }
 
 /// Progress in making the points of a scene.
 #[derive(Clone, Copy, Debug)]
-pub struct PointsMade {
-    /// The share that is made, in [0, 1].
+pub struct PointsProgress {
+    /// Finished share, in [0, 1].
     pub share: f64,
-    /// Points in all.
+    /// Number of all points.
     pub points: u64,
 }
 
 /// The points of one pen.
-struct Dots {
+struct PenDots {
     pen: Pen,
-    /// Of a pen of `[[pen]]`, which has one size ([STIP-6]).
+    /// Nib of a pen of `[[pen]]`, which has one size ([STIP-6]).
     nib: Option<f64>,
     points: Points,
 }
@@ -61,50 +62,50 @@ pub struct DotFrames<'a> {
     stippling: &'a Stippling<'a>,
     layers: Vec<Frames<'a>>,
     surface: Option<Arc<IsoSurface<'a, 'a>>>,
-    /// Of each layer.
+    /// Drawn dots of each layer.
     drawn: Vec<Drawn>,
 }
 
-/// What is known before the points are.
-struct Setting<'a> {
+/// Everything that is known before points are made.
+struct StippleSetup<'a> {
     job: &'a Job,
     scene: &'a Scene,
-    /// As they are drawn: for a plotter in opaque ink.
+    /// Settings of the dots as drawn: opaque ink for a plotter.
     stipples: Stipples,
     page: Page,
-    /// From where points are made: frame 0.
+    /// View of frame 0, from which points are made.
     first: View,
     near: f64,
     /// S_max in mm.
     size: f64,
-    /// The side of the squares that A_vol is in, in pixels ([STIP-3]).
+    /// Side of the squares that A_vol is measured in, in pixels ([STIP-3]).
     square: f64,
-    /// What the pen prints, where that was measured, or what discs do where `k_max = "auto"` asks ([STIP-17]).
+    /// Measured tone of the pen, or that of ideal discs if `k_max = "auto"` asks for one ([STIP-17]).
     tone: Option<Tone>,
 }
 
 impl<'a> Stippling<'a> {
-    /// Makes the points of a job whose scene has `[stipples]`. `progress` hears how far they are, from any thread.
+    /// Makes the points of a job whose scene has `[stipples]`. `progress` gets their state, from any thread.
     ///
     /// # Errors
-    /// No stipples, a pen that there is not, a camera without direction, lengths of the wrong space, more points than there
-    /// is memory for.
-    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsMade) + Sync)) -> Result<Self, Failure> {
+    /// No stipples, an unknown pen, a camera without direction, a length of the wrong space, or more points than memory
+    /// allows.
+    pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsProgress) + Sync)) -> Result<Self, Failure> {
         Self::of(job, &job.scene, counts, progress)
     }
 
-    /// The same of a scene that differs from the job's in its knobs alone ([COST-1]).
+    /// Makes the points of a scene that differs from the job's in its knobs alone ([COST-1]).
     ///
     /// # Errors
-    /// As [`Stippling::new`].
+    /// Same errors as [`Stippling::new`].
     pub fn of(
         job: &'a Job,
         scene: &'a Scene,
         counts: &mut Counts,
-        progress: &(dyn Fn(PointsMade) + Sync),
+        progress: &(dyn Fn(PointsProgress) + Sync),
     ) -> Result<Self, Failure> {
         let start = Instant::now();
-        let setting = Setting::new(job, scene)?;
+        let setting = StippleSetup::new(job, scene)?;
         let pens = Pens::new(scene, &setting.stipples, &setting.page)?;
         let wrong = |error: StippleError| failure(job, &error);
         let preprocess = Preprocess::new(setting.inputs()).map_err(wrong)?;
@@ -114,10 +115,11 @@ impl<'a> Stippling<'a> {
             Failure::new(what, place, "make k_max smaller, or threshold larger")
         })?;
         let (ranks, points) = (preprocess.each.max(1) as f64, preprocess.len());
-        let made = |made: usize| progress(PointsMade { share: made as f64 / ranks, points });
+        let made = |made: usize| progress(PointsProgress { share: made as f64 / ranks, points });
         let points = preprocess.points(counts, &made).map_err(wrong)?;
         let edges = preprocess.edges(counts).map_err(wrong)?;
         let grid = points.grid.clone();
+        // Points are dealt to the pens; a surface may hide them.
         let ink = [preprocess.ink, preprocess.layers];
         let (layers, line_pen) = pens.deal(job, points)?;
         let hiding = hiding(job, scene, counts)?;
@@ -125,31 +127,31 @@ impl<'a> Stippling<'a> {
         Ok(Self { setting, layers, line_pen, edges, grid, ink, hiding })
     }
 
-    /// How many points there will be.
+    /// Returns the number of points before they are made.
     ///
     /// # Errors
-    /// As [`Stippling::new`].
+    /// Same errors as [`Stippling::new`].
     pub fn planned(job: &Job) -> Result<PointsPlan, Failure> {
-        let setting = Setting::new(job, &job.scene)?;
+        let setting = StippleSetup::new(job, &job.scene)?;
         let preprocess = Preprocess::new(setting.inputs()).map_err(|error| failure(job, &error))?;
         let each = preprocess.each as u64;
         Ok(PointsPlan { voxels: preprocess.len() / each.max(1), each, bytes: preprocess.bytes() })
     }
 
-    /// Other dots of the same points, which are the same whatever this says.
+    /// Sets how evenly dots are chosen. The points stay the same.
     pub(crate) fn set_even(&mut self, even: Even) {
         self.setting.stipples.even = even;
     }
 
-    /// Makes ready what no camera changes.
+    /// Prepares everything that no camera changes.
     pub fn frames(&self) -> DotFrames<'_> {
-        let Setting { job, scene, stipples, first, near, size, .. } = &self.setting;
+        let StippleSetup { job, scene, stipples, first, near, size, .. } = &self.setting;
         let (near, size, light, grid, reference) = (*near, *size, scene.light, job.volume.grid(), first);
         let surface = self.hiding.as_ref().map(|(field, iso)| Arc::new(IsoSurface::new(field, *iso)));
         let [ink, layers] = self.ink;
         let measured = self.setting.tone.as_ref().filter(|_| self.setting.pen_tone().is_some());
         let tone = measured.map(|tone| PenTone { tone, ink, layers });
-        let layers = self.layers.iter().map(|&Dots { nib, ref points, .. }| {
+        let layers = self.layers.iter().map(|&PenDots { nib, ref points, .. }| {
             let surface = surface.clone();
             Frames::new(FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone })
         });
@@ -160,11 +162,13 @@ impl<'a> Stippling<'a> {
 }
 
 impl DotFrames<'_> {
-    /// The marks that a camera sees: a layer a pen, with its dots and, where the scene has them, silhouette curves.
+    /// Returns the marks that a camera sees: a layer a pen, with dots and, if the scene asks for them, silhouette
+    /// curves.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Marks {
         let start = Instant::now();
         let Stippling { setting, line_pen, edges, grid, .. } = self.stippling;
-        let Setting { page, near, stipples, .. } = setting;
+        let StippleSetup { page, near, stipples, .. } = setting;
+        // Dots of each pen, thinned evenly over all pens if the scene asks for that.
         let mut layers = Vec::with_capacity(self.layers.len());
         for (frames, drawn) in self.layers.iter().zip(&mut self.drawn) {
             frames.draw(view, page, drawn);
@@ -184,6 +188,7 @@ impl DotFrames<'_> {
         if let Some(surface) = &self.surface {
             counts.bytes.insert("surface".into(), surface.bytes() as u64);
         }
+        // Silhouette curves, without what the surface hides.
         if let (Some(curves), Some(edges)) = (&stipples.curves, edges) {
             let mut segments = edges.segments(curves, view);
             if let Some(surface) = &self.surface {
@@ -197,14 +202,14 @@ impl DotFrames<'_> {
         }
         let mut marks = Marks { page: *page, layers };
         marks.settle();
-        counts.points += marks.layers.iter().map(|layer| layer.dots.len() as u64).sum::<u64>();
-        counts.strokes += marks.layers.iter().map(|layer| layer.lines.len() as u64).sum::<u64>();
+        let [dots, lines] = mark_counts(&marks.layers).map(|n| n as u64);
+        (counts.points, counts.strokes) = (counts.points + dots, counts.strokes + lines);
         *counts.seconds.entry("dots".into()).or_default() += start.elapsed().as_secs_f64();
         marks
     }
 }
 
-impl<'a> Setting<'a> {
+impl<'a> StippleSetup<'a> {
     fn new(job: &'a Job, scene: &'a Scene) -> Result<Self, Failure> {
         let at = |key: &str| scene.given.position(key);
         let Some(mut stipples) = scene.stipples.clone() else {
@@ -212,20 +217,18 @@ impl<'a> Setting<'a> {
             return Err(Failure::new("the scene has no stipples", at("stipples"), remedy));
         };
         if scene.page.as_ref().is_some_and(|page| page.plotter) {
-            // A nib has no opacity: a dot that fades would be drawn whole, and too much ink in all ([STIP-5]).
+            // A nib has no opacity: fading dots would be drawn whole, with too much ink in all ([STIP-5]).
             stipples.ink = Ink::Opaque;
         }
         let grid = job.volume.grid();
         let first = job.view()?;
-        let near = scene.camera.near.unwrap_or(scene.sampling.step).world(grid).ok_or_else(|| {
-            Failure::new("the length is on the page, not in the volume", at("camera.near"), "give it in voxels")
-        })?;
+        let near = near(scene, grid)?;
         let page = Page::of(scene);
         let size = page.length(stipples.size).ok_or_else(|| {
             let what = "the length is in the volume, not on the page";
             Failure::new(what, at("stipples.size"), "give it in mm, px or %")
         })?;
-        // A_vol is in pixels, or in squares of side S_max where the picture is in mm ([STIP-3]).
+        // A_vol is in pixels, or in squares of side S_max for a picture in mm ([STIP-3]).
         let in_mm = scene.picture.extent().is_some_and(|e| e.iter().any(|l| matches!(l, Length::Millimetres(_))));
         let square = if in_mm { size * page.pixels_per_mm() } else { 1.0 };
         let mut setting = Self { job, scene, stipples, page, first, near, size, square, tone: None };
@@ -236,7 +239,7 @@ impl<'a> Setting<'a> {
         Ok(setting)
     }
 
-    /// The table of what the pen prints, where there is one.
+    /// Returns the path of the pen's measured tone, if there is one.
     fn pen_tone(&self) -> Option<&'a Path> {
         let pen = self.scene.pens.iter().find(|pen| self.stipples.pen.as_ref() == Some(&pen.name))?;
         pen.tone.as_deref()
@@ -245,7 +248,7 @@ impl<'a> Setting<'a> {
     fn inputs(&self) -> Inputs<'_> {
         let Self { job, scene, stipples, first, near, square, .. } = self;
         let (table, volume) = (&scene.volume, &job.volume);
-        // S_max's area, in pixels.
+        // Area of a dot of S_max, in pixels.
         let diameter = self.size * self.page.pixels_per_mm();
         let dot = 0.25 * std::f64::consts::PI * (diameter * diameter);
         let tone = self.tone.as_ref().map(|tone| (tone, dot));
@@ -253,7 +256,7 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// What hides points, if something does: the field as the scene samples it, and the value of its surface.
+/// Returns the field as the scene samples it and the iso-value of the surface that hides points, if any.
 fn hiding<'a>(job: &'a Job, scene: &Scene, counts: &mut Counts) -> Result<Option<(Field<'a, f64>, f64)>, Failure> {
     let volume = &job.volume;
     let Some(iso) = scene.stipples.as_ref().and_then(|stipples| stipples.hide_behind) else { return Ok(None) };
@@ -272,10 +275,10 @@ fn hiding<'a>(job: &'a Job, scene: &Scene, counts: &mut Counts) -> Result<Option
     Ok(Some((field, iso)))
 }
 
-/// A measured step wedge ([STIP-17]).
+/// Reads a measured step wedge ([STIP-17]).
 ///
 /// # Errors
-/// A file that cannot be read, or a line of it that is none of a step wedge.
+/// A file that cannot be read, or a line that is no row of a step wedge.
 pub fn tone(path: &Path) -> Result<Tone, Failure> {
     let remedy = "the command wedge writes the table; fill in what was measured";
     Tone::read(path).map_err(|error| Failure::new(&error, error.place(), remedy))

@@ -1,14 +1,15 @@
-//! The strokes of a scene on the page, without what is hidden ([HATCH-14]): hatching ([HATCH-8]), which is grown once, and
-//! outlines ([HATCH-18]), which are found anew for each camera.
+//! Strokes of a scene on the page, without hidden parts ([HATCH-14]). Hatching ([HATCH-8]) is grown once; outlines
+//! ([HATCH-18]) are found for each camera.
 
 mod hatching;
 mod outlining;
 mod sample;
 mod seeding;
-mod shown;
+mod visible_values;
 
 use crate::Failure;
-use crate::job::{Job, render_failure};
+use crate::drawing::mark_counts;
+use crate::job::{Job, in_world, near, pen_named, render_failure};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::interactive_volume_illustration::Sight;
 use drypoint_reference::surface::IsoSurface;
@@ -18,48 +19,48 @@ use drypoint_scene::marks::{Layer, Marks, Page, Pen};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Iso, Length, Scene};
 use drypoint_scene::view::View;
-use hatching::{Hatched, Hatching};
+use hatching::{GrownHatching, HatchingSetup};
 use outlining::Outlining;
 use std::time::Instant;
 
 pub use seeding::SeedMap;
 
-/// What strokes are made of, whatever the camera.
+/// Everything about strokes that no camera changes.
 pub struct Stroking<'a> {
     field: Field<'a, f64>,
     page: Page,
     near: f64,
-    /// The value of the surface that hides, where there is one for all.
+    /// Iso-value of the surface that hides all strokes, if there is one.
     hides: Option<f64>,
-    hatching: Option<Hatching<'a>>,
+    hatching: Option<HatchingSetup<'a>>,
     outlining: Option<Outlining>,
 }
 
 /// Frames of strokes.
 pub struct StrokeFrames<'a> {
     stroking: &'a Stroking<'a>,
-    /// The surfaces that strokes lie on and that hide them.
+    /// Surfaces that strokes lie on, and that hide them.
     surfaces: Vec<IsoSurface<'a, 'a>>,
-    hatched: Option<Hatched<'a>>,
+    hatched: Option<GrownHatching<'a>>,
 }
 
-/// What every stroke of a frame has to know.
-struct Frame<'a> {
+/// View of a frame, and the surface that hides strokes.
+struct StrokeCamera<'a> {
     view: &'a View,
     page: &'a Page,
     near: f64,
-    /// None: nothing hides.
+    /// Surface that hides strokes; none: nothing hides them.
     hides: Option<&'a IsoSurface<'a, 'a>>,
 }
 
-impl<'a> Frame<'a> {
-    /// The camera for strokes that lie in front of the surface themselves, or are asked for at some distance in front of it.
+impl<'a> StrokeCamera<'a> {
+    /// Returns the camera for visibility tests of points at `offset` in front of the surface.
     fn sight(&self, offset: f64) -> Sight<'a> {
         Sight { view: self.view, page: self.page, near: self.near, surface: self.hides, offset }
     }
 }
 
-/// The most millimetres of the page that a world unit of a volume takes.
+/// Returns the largest scale of a view in the volume, in mm of the page a world unit.
 fn largest_scale(view: &View, page: &Page, near: f64, grid: &Grid) -> f64 {
     let pixel = (page.size.x - 2.0 * page.margin) / view.size[0] as f64;
     let depths = grid.world_corners().map(|corner| -view.to_eye(corner).z);
@@ -71,15 +72,15 @@ impl<'a> Stroking<'a> {
     /// Prepares the field of a job whose scene has strokes, as the scene samples it.
     ///
     /// # Errors
-    /// No strokes, a pen that there is not, lengths of the wrong space, a reconstruction that does not exist.
+    /// No strokes, an unknown pen, a length of the wrong space, or a reconstruction that does not exist.
     pub fn new(job: &'a Job, counts: &mut Counts) -> Result<Self, Failure> {
         Self::of(job, &job.scene, counts)
     }
 
-    /// The same of a scene that differs from the job's in its knobs alone ([COST-1]).
+    /// Prepares a scene that differs from the job's in its knobs alone ([COST-1]).
     ///
     /// # Errors
-    /// As [`Stroking::new`].
+    /// Same errors as [`Stroking::new`].
     pub fn of(job: &'a Job, scene: &'a Scene, counts: &mut Counts) -> Result<Self, Failure> {
         let start = Instant::now();
         let volume = &job.volume;
@@ -92,9 +93,7 @@ impl<'a> Stroking<'a> {
             ));
         }
         let page = Page::of(scene);
-        let near = scene.camera.near.unwrap_or(scene.sampling.step).world(volume.grid()).ok_or_else(|| {
-            Failure::new("the length is on the page, not in the volume", at("camera.near"), "give it in voxels")
-        })?;
+        let near = near(scene, volume.grid())?;
         let how = Reconstruction {
             kernel: scene.sampling.kernel,
             gradient: scene.sampling.gradient,
@@ -114,7 +113,7 @@ impl<'a> Stroking<'a> {
         let hatching = match &scene.hatching {
             Some(table) => {
                 let scale = largest_scale(&job.view()?, &page, near, grid);
-                Some(Hatching::new((scene, job.function()), table, grid, (&page, scale), job.draws_volume())?)
+                Some(HatchingSetup::new((scene, job.function()), table, grid, (&page, scale), job.draws_volume())?)
             }
             None => None,
         };
@@ -122,21 +121,20 @@ impl<'a> Stroking<'a> {
         Ok(Self { field, page, near, hides, hatching, outlining })
     }
 
-    /// Looks at the ranges of the field, once for each value, and grows the strokes of hatching.
+    /// Measures the ranges of the field, once for each iso-value, and grows the strokes of hatching.
     pub fn frames(&self, counts: &mut Counts) -> StrokeFrames<'_> {
         let surfaces = self.surfaces();
         let hatched = self.hatching.as_ref().map(|hatching| hatching.grow(&self.field, counts));
         StrokeFrames { stroking: self, surfaces, hatched }
     }
 
-    /// The surfaces that strokes lie on and that hide them.
+    /// Returns the surfaces that strokes lie on, and that hide them.
     fn surfaces(&self) -> Vec<IsoSurface<'_, '_>> {
-        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut()).and_then(Hatching::iso);
-        let outlined = self.outlining.as_ref().map(Outlining::iso);
-        let is_cut = self.hatching.as_ref().is_some_and(Hatching::is_cut);
-        let hides = self.hides.filter(|_| is_cut || outlined.is_some());
+        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut());
+        let outlined = self.outlining.as_ref().map(|outlining| outlining.iso);
+        let hides = self.hides.filter(|_| cut.is_some() || outlined.is_some());
         let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
-        for iso in [cut, outlined, hides].into_iter().flatten() {
+        for iso in [cut.and_then(|hatching| hatching.iso), outlined, hides].into_iter().flatten() {
             if !surfaces.iter().any(|surface| surface.iso() == iso) {
                 surfaces.push(IsoSurface::new(&self.field, iso));
             }
@@ -146,26 +144,26 @@ impl<'a> Stroking<'a> {
 }
 
 impl StrokeFrames<'_> {
-    /// The strokes that a camera sees, a layer a pen: those that are drawn over a picture, and those that are inside one.
+    /// Returns the strokes that a camera sees, a layer a pen: those over a picture, and those inside one.
     ///
     /// # Errors
     /// Dashes that the memory budget does not allow.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Result<[Vec<Layer>; 2], Failure> {
         let Stroking { field, page, near, hides, hatching, outlining } = self.stroking;
-        // Each value has its surface.
+        // Each iso-value has its surface.
         let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
         let mut layers = Vec::new();
         if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref()) {
-            let hides = hides.or(hatching.iso()).and_then(surface).filter(|_| hatching.is_cut());
-            layers = hatched.draw(&Frame { view, page, near: *near, hides }, counts);
+            let hides = hides.or(hatching.iso).and_then(surface).filter(|_| hatching.is_cut());
+            layers = hatched.draw(&StrokeCamera { view, page, near: *near, hides }, counts);
         }
         let hatched = layers.len();
         if let Some(outlining) = outlining
-            && let Some((own, hides)) = surface(outlining.iso()).zip(surface(hides.unwrap_or(outlining.iso())))
+            && let Some((own, hides)) = surface(outlining.iso).zip(surface(hides.unwrap_or(outlining.iso)))
         {
             let voxel = field.volume().grid().voxel();
             let hides = Some(hides);
-            layers.push(outlining.draw(&Frame { view, page, near: *near, hides }, own, voxel, counts));
+            layers.push(outlining.draw(&StrokeCamera { view, page, near: *near, hides }, own, voxel, counts));
         }
         if let Some(hatching) = hatching {
             hatching.cut(&mut layers, hatched, view, counts)?;
@@ -174,15 +172,15 @@ impl StrokeFrames<'_> {
         counts.bytes.insert("surface".into(), bytes as u64);
         let mut marks = Marks { page: *page, layers };
         marks.settle();
-        counts.strokes += marks.layers.iter().map(|layer| layer.lines.len() as u64).sum::<u64>();
+        counts.strokes += mark_counts(&marks.layers)[1] as u64;
         // The first layers are those of hatching.
-        let merged = if hatching.as_ref().is_some_and(Hatching::is_merged) { hatched } else { 0 };
+        let merged = if hatching.as_ref().is_some_and(|hatching| hatching.is_merged) { hatched } else { 0 };
         let over = marks.layers.split_off(merged);
         Ok([over, marks.layers])
     }
 }
 
-/// A job has found the values that its scene leaves to the volume.
+/// Returns an iso-value. A job has already set those that its scene leaves to the volume.
 fn value(scene: &Scene, iso: Iso, key: &str) -> Result<f64, Failure> {
     match iso {
         Iso::Value(value) => Ok(value),
@@ -190,7 +188,7 @@ fn value(scene: &Scene, iso: Iso, key: &str) -> Result<f64, Failure> {
     }
 }
 
-/// A length on the page, in mm.
+/// Returns a length on the page, in mm.
 fn on_page(scene: &Scene, page: &Page, length: Length, key: &str) -> Result<f64, Failure> {
     page.length(length).ok_or_else(|| {
         let what = "the length is in the volume, not on the page";
@@ -198,15 +196,7 @@ fn on_page(scene: &Scene, page: &Page, length: Length, key: &str) -> Result<f64,
     })
 }
 
-/// A length in the volume, in world units.
-fn in_world(scene: &Scene, length: Length, key: &str, grid: &drypoint_scene::space::Grid) -> Result<f64, Failure> {
-    length.world(grid).ok_or_else(|| {
-        let what = "the length is on the page, not in the volume";
-        Failure::new(what, scene.given.position(key), "give it in voxels")
-    })
-}
-
-/// What draws the strokes of a table: a pen of `[[pen]]`, or one of their own.
+/// Returns the pen that draws a table's strokes: one of `[[pen]]`, or the table's own.
 fn pen(
     scene: &Scene,
     table: &str,
@@ -215,16 +205,9 @@ fn pen(
     (width, color): (Length, Rgba),
 ) -> Result<Pen, Failure> {
     if let Some(name) = named {
-        // The table's `pen`, or a key that names another one.
+        // The failure names the table's `pen`, or a key that names another pen.
         let key = if table.contains('.') { table.into() } else { format!("{table}.pen") };
-        return Pen::of(&scene.pens, page).into_iter().find(|pen| pen.name == name).ok_or_else(|| {
-            let names: Vec<&str> = scene.pens.iter().map(|pen| pen.name.as_str()).collect();
-            let remedy = match names.as_slice() {
-                [] => "add a table [[pen]] with that name".into(),
-                names => format!("write one of {}", names.join(", ")),
-            };
-            Failure::new(format!("there is no pen {name:?}"), scene.given.position(&key), remedy)
-        });
+        return pen_named(scene, page, name, &key);
     }
     let width = on_page(scene, page, width, &format!("{table}.width"))?;
     Ok(Pen { number: 1, name: table.into(), width, color })

@@ -1,4 +1,4 @@
-//! What a pen prints, as a plot: the measured step wedge and its inverse ([STIP-17]).
+//! Plots of a pen's tone: the measured step wedge and its inverse ([STIP-17]).
 
 use drypoint_scene::tone::{FULL, Tone};
 use kuva::backend::png::PngBackend;
@@ -10,21 +10,21 @@ use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use kuva::render::render::{Scene, render_multiple};
 
-/// Pixels of the PNG for each of the plot's units.
+/// Pixels of the PNG in a unit of the plot.
 const SCALE: f32 = 1.5;
 
-/// Points of the inverse, which is shown up to the fullest tone.
+/// Number of points of the inverse, up to the fullest tone.
 const POINTS: usize = 90;
 
-/// The plot as SVG.
+/// Returns the plot as SVG.
 pub fn svg(tone: &Tone, name: &str) -> String {
     SvgBackend::default().render_scene(&drawn(tone, name))
 }
 
-/// The plot as PNG.
+/// Returns the plot as PNG.
 ///
 /// # Errors
-/// What the encoder says.
+/// Errors of the encoder.
 pub fn png(tone: &Tone, name: &str) -> Result<Vec<u8>, String> {
     PngBackend::new().with_scale(SCALE).render_scene(&drawn(tone, name))
 }

@@ -11,7 +11,7 @@ use drypoint_scene::tone::Tone;
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-/// Patches: 0, 0.05, … 0.9.
+/// Number of patches: 0, 0.05, … 0.9.
 const PATCHES: usize = 19;
 
 /// Patches in a row.
@@ -26,43 +26,43 @@ const CANDIDATE: f64 = 400.0;
 /// Height of capitals, in mm.
 const LETTERS: f64 = 3.0;
 
-/// Room between a patch and what is beside it, in mm.
+/// Space around a patch, in mm.
 const GAP: f64 = 4.0;
 
-/// Dots across a patch where they touch, at least: what is measured is a mean over many.
+/// Least number of touching dots across a patch. A measurement is a mean over many dots.
 const DOTS: f64 = 60.0;
 
-/// A page with a step wedge, and where its patches are.
+/// A page with a step wedge, and the places of its patches.
 #[derive(Clone, Debug)]
-pub struct Wedge {
+pub struct StepWedge {
     /// The page.
     pub marks: Marks,
     /// The patches in their order.
-    pub patches: Vec<Patch>,
+    pub patches: Vec<WedgePatch>,
 }
 
 /// A square of one tone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patch {
-    /// The coverage that is wanted.
+pub struct WedgePatch {
+    /// Wanted coverage.
     pub wanted: f64,
     /// The upper left corner, in mm on the page.
     pub corner: DVec2,
-    /// In mm.
+    /// Side, in mm.
     pub side: f64,
 }
 
-/// The wanted tones.
+/// Returns the wanted tones.
 pub fn steps() -> impl Iterator<Item = f64> {
     (0..PATCHES).map(|i| i as f64 / 20.0)
 }
 
-/// Draws a step wedge with a pen: dots of its nib, evenly spread, as many as its tone asks for, an outline around each patch
-/// and its tone below. `page` gives margin and resolution; its size follows from the nib.
+/// Draws a step wedge with a pen: evenly spread dots of its nib, as many as the tone asks for. Each patch has an
+/// outline and its tone below. `page` gives margin and resolution; its size follows from the nib.
 ///
 /// # Errors
-/// A nib so wide that the page would be larger than a metre, or so fine that the memory budget does not allow its dots.
-pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Failure> {
+/// A nib so wide that the page exceeds a metre, or so fine that the memory budget does not allow its dots.
+pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<StepWedge, Failure> {
     let side = (DOTS * pen.width).max(15.0);
     let cell = DVec2::new(side + GAP, side + 2.0 * GAP + LETTERS);
     let rows = PATCHES.div_ceil(ROW);
@@ -72,8 +72,9 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Fa
         let what = format!("a step wedge of a nib of {} mm would be {:.0} mm high", pen.width, picture.y);
         return Err(Failure::new(what, "pen.width", "take a finer pen"));
     }
+    // The memory for the densest patch.
     let densest = steps().map(|wanted| density(tone, wanted, pen.width)).fold(0.0, f64::max);
-    let candidates = Candidates::new(side, densest).count();
+    let candidates = CandidateGrid::new(side, densest).count();
     let too_fine = |no_room: NoRoom| {
         let what = format!("a step wedge of a nib of {} mm needs {no_room}", pen.width);
         // The number of candidates grows with the inverse square of the nib.
@@ -86,6 +87,7 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Fa
     memory::room((candidates * CANDIDATE) as u64).map_err(too_fine)?;
     let page = Page::in_millimetres(picture, page.margin, page.dpi);
     let origin = DVec2::splat(page.margin);
+    // The title, then each patch with outline and tone.
     let mut layer = Layer::new(pen.clone());
     let (letters, nib) = (Letters { width: pen.width }, pen.width);
     letters.write(&mut layer, &pen.label(), origin + DVec2::new(GAP, GAP + LETTERS));
@@ -96,20 +98,20 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<Wedge, Fa
         for at in even(side, density(tone, wanted, nib), seed, i as u32) {
             layer.dots.push(Dot { at: corner + at, world: DVec3::ZERO, radius: 0.5 * nib, opacity: 1.0 });
         }
-        // Beyond the dots that hang over.
+        // The outline lies outside the dots that overhang.
         let around = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| corner - nib + c * (side + 2.0 * nib));
         layer.lines.push(line(&around, nib, true));
         let label = format!("{wanted:.2}");
         let middle = 0.5 * (side - letters.width(&label));
         letters.write(&mut layer, &label, corner + DVec2::new(middle, side + 2.0 * nib + LETTERS + 1.0));
-        patches.push(Patch { wanted, corner, side });
+        patches.push(WedgePatch { wanted, corner, side });
     }
     let mut marks = Marks { page, layers: vec![layer] };
     marks.settle();
-    Ok(Wedge { marks, patches })
+    Ok(StepWedge { marks, patches })
 }
 
-/// The table to be filled in: a row for each patch.
+/// Returns the table to be filled in: a row for each patch.
 pub fn template() -> String {
     let mut text = String::from("wanted,measured\n");
     for wanted in steps() {
@@ -119,22 +121,22 @@ pub fn template() -> String {
     text
 }
 
-/// Dots of a nib on a square millimetre that print a tone.
+/// Returns the dots of a nib in a square millimetre that print a tone.
 fn density(tone: &Tone, wanted: f64, nib: f64) -> f64 {
     tone.ink(wanted) / (0.25 * PI * nib * nib)
 }
 
-/// The grid of cells that candidates for a square of dots come from, one of each. It is larger than the square, since at
-/// its border the dots that are chosen lie closer.
-struct Candidates {
+/// Grid of candidates for a square of dots, one a cell. It is larger than the square, since chosen dots lie closer
+/// together at its border.
+struct CandidateGrid {
     cell: f64,
     border: f64,
-    /// Cells in a row, as many as rows.
+    /// Cells in a row, and number of rows.
     cells: f64,
 }
 
-impl Candidates {
-    /// `density` dots a unit of area, above 0.
+impl CandidateGrid {
+    /// Makes the grid for `density` dots a unit area, above 0.
     fn new(side: f64, density: f64) -> Self {
         let (cell, border) = (1.0 / (OVERSAMPLING * density).sqrt(), 4.0 / density.sqrt());
         Self { cell, border, cells: ((side + 2.0 * border) / cell).ceil() }
@@ -145,13 +147,13 @@ impl Candidates {
     }
 }
 
-/// Evenly spread places in a square of so many a unit of area.
+/// Returns evenly spread points in a square, `density` a unit area.
 fn even(side: f64, density: f64, seed: u64, patch: u32) -> Vec<DVec2> {
     if density <= 0.0 {
         return Vec::new();
     }
-    // One at random in each cell: as many everywhere.
-    let Candidates { cell, border, cells } = Candidates::new(side, density);
+    // A random candidate in each cell: the density is the same everywhere.
+    let CandidateGrid { cell, border, cells } = CandidateGrid::new(side, density);
     let cells = cells as u32;
     let at = |i: u32| {
         let [x, y, ..] = philox::uniforms(seed, [i, patch, 0], 0);
@@ -163,13 +165,13 @@ fn even(side: f64, density: f64, seed: u64, patch: u32) -> Vec<DVec2> {
     places.filter(|p| p.min_element() >= 0.0 && p.max_element() <= side).collect()
 }
 
-/// Letters drawn with the pen.
+/// Letters drawn with a pen.
 struct Letters {
     width: f64,
 }
 
 impl Letters {
-    /// Millimetres of a font unit. A pen wider than letters stand gets larger ones.
+    /// Returns the mm of a font unit. A wide pen gets larger letters.
     fn scale(&self) -> f64 {
         (LETTERS / CAP_HEIGHT).max(0.5 * self.width / WEIGHT)
     }
@@ -178,7 +180,7 @@ impl Letters {
         width(text) * self.scale()
     }
 
-    /// Writes a line that begins at a place on the baseline.
+    /// Writes a line of text that begins at a point on the baseline.
     fn write(&self, layer: &mut Layer, text: &str, at: DVec2) {
         for stroke in strokes(text) {
             let vertices: Vec<DVec2> = stroke.iter().map(|&[x, y]| at + DVec2::new(x, -y) * self.scale()).collect();

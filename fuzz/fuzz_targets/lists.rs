@@ -4,10 +4,10 @@
 #![no_main]
 
 use drypoint_fuzz::{Folder, check_error, start};
-use drypoint_output::list::{Form, encode_dots, encode_lines, read_list};
-use drypoint_output::paint::{Window, blank, paint};
+use drypoint_output::list::{ListFormat, encode_dots, encode_lines, read_list};
+use drypoint_output::paint::{PageWindow, blank, paint};
 use drypoint_output::plotter::{Speed, plan};
-use drypoint_output::vector::{Sheet, pdf::encode_pdf, svg::encode_svg};
+use drypoint_output::vector::{VectorPage, pdf::encode_pdf, svg::encode_svg};
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen, Polyline};
 use drypoint_scene::picture::Provenance;
@@ -42,7 +42,7 @@ fn check_list(page: Page, layers: Vec<Layer>) {
     let mut marks = Marks { page, layers };
     marks.settle();
     marks.layers.iter_mut().flat_map(|layer| &mut layer.lines).for_each(close);
-    for (form, name) in [(Form::Csv, "a.csv"), (Form::JsonLines, "a.jsonl")] {
+    for (form, name) in [(ListFormat::Csv, "a.csv"), (ListFormat::JsonLines, "a.jsonl")] {
         if !marks.layers.is_empty() {
             read_back(&marks, &encode_dots(&marks, form), name, |a, b| a.dots == b.dots);
             read_back(&marks, &encode_lines(&marks, form), name, |a, b| a.lines == b.lines);
@@ -51,13 +51,13 @@ fn check_list(page: Page, layers: Vec<Layer>) {
     let provenance = Provenance::default();
     let drawn = plan(&marks, &Speed::default());
     for (marks, plotter, beziers) in [(&marks, false, true), (&marks, false, false), (&drawn.marks, true, false)] {
-        let sheet = Sheet { marks, background: None, picture: None, plotter, beziers, provenance: &provenance };
+        let sheet = VectorPage { marks, background: None, picture: None, plotter, beziers, provenance: &provenance };
         assert!(encode_svg(&sheet).is_ok_and(|file| !file.is_empty()));
         assert!(encode_pdf(&sheet).is_ok_and(|file| !file.is_empty()));
     }
     for blend in [BlendSpace::Linear, BlendSpace::Srgb] {
         let mut picture = blank(&page, Some([1.0; 4])).expect("a page of few pixels");
-        paint(&marks, &Window::page(&page), blend, &mut picture).expect("a picture with beauty");
+        paint(&marks, &PageWindow::page(&page), blend, &mut picture).expect("a picture with beauty");
         let mut values = picture.layers.iter().flat_map(|layer| &layer.channels).flatten();
         assert!(values.all(|value| (-1e-9..=1.0 + 1e-9).contains(value)));
     }

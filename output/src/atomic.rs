@@ -1,22 +1,22 @@
-//! Whole files or none, for the writers of pictures.
+//! Atomic writes of picture files.
 
 use crate::OutputError;
 use drypoint_scene::atomic;
 use std::io;
 use std::path::Path;
 
-/// Writes `bytes` to `path`, replacing what is there, at once or not at all.
+/// Writes `bytes` to `path`. The file appears whole or not at all, and replaces what is there.
 ///
 /// # Errors
-/// [`OutputError::Io`]; the target is then as it was.
+/// [`OutputError::Io`]. The old file then stays unchanged.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     atomic::write(path, |out| out.write_all(bytes)).map_err(|source| refused(path, source))
 }
 
-/// Whether [`write()`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
+/// Checks before long work whether [`write()`] could begin now. Leaves no trace.
 ///
 /// # Errors
-/// As [`write()`].
+/// Same errors as [`write()`].
 pub fn check(path: &Path) -> Result<(), OutputError> {
     atomic::check(path).map_err(|source| refused(path, source))
 }

@@ -1,15 +1,15 @@
-//! Dots to pixels: how much of each pixel a disc covers, exactly.
+//! Exact coverage of pixels by discs.
 //!
-//! Rasterizers that count places lose a tenth to a half of the ink of a dot below a pixel ([STIP-16]); a closed form loses
-//! none.
+//! Rasterizers that count sample points lose a tenth to a half of the ink of a dot below a pixel ([STIP-16]). A closed
+//! form loses none.
 
 use drypoint_scene::math::atan2;
 use std::f64::consts::PI;
 
-/// Calls `each` with the column, the row and the covered share in (0, 1] of every pixel of a `width` × `height` picture
-/// that a disc touches: centre (`x`, `y`) and `radius` in pixels, y down, the centre of the first pixel at (½, ½).
+/// Calls `each` with column, row and covered share in (0, 1] of every pixel that a disc touches, in a picture of
+/// `width` × `height`. Centre (`x`, `y`) and `radius` are in pixels, y down; the first pixel's centre is (½, ½).
 ///
-/// Summed over an unbounded picture the shares are πr². `scratch` is kept from disc to disc, so that none allocates.
+/// The shares sum to πr² in an unbounded picture. `scratch` is reused from disc to disc, so that no call allocates.
 pub(crate) fn cover(
     [x, y, radius]: [f64; 3],
     [width, height]: [usize; 2],
@@ -21,13 +21,13 @@ pub(crate) fn cover(
         return each(columns.start, rows.start, PI * radius * radius);
     }
     let Scratch { xs, ys, last } = scratch;
-    let edges = |range: &std::ops::Range<usize>, centre: f64, into: &mut Vec<Edge>| {
+    let edges = |range: &std::ops::Range<usize>, centre: f64, into: &mut Vec<GridLine>| {
         into.clear();
-        into.extend((range.start..=range.end).map(|i| Edge::new(i as f64 - centre, radius)));
+        into.extend((range.start..=range.end).map(|i| GridLine::new(i as f64 - centre, radius)));
     };
     edges(&columns, x, xs);
     edges(&rows, y, ys);
-    // What lies left of each column's edge and above the row's upper edge; the next row's takes its place.
+    // Areas to the left of each column's edge and above the row's upper edge. The next row's replace them.
     last.clear();
     last.extend(xs.iter().map(|a| corner(a, &ys[0], radius)));
     for (row, edges) in rows.zip(ys.windows(2)) {
@@ -39,7 +39,7 @@ pub(crate) fn cover(
             let share = (right[1] - right[0]) - (left[1] - left[0]);
             last[i + 1] = right[1];
             left = right;
-            // Beyond the rim and well inside it the difference of areas would leave its rounding error.
+            // Outside the rim and well inside it the difference of areas would be only a rounding error.
             let [near_x, far_x] = distances(&xs[i..i + 2]);
             if far_x * far_x + far_y * far_y <= radius * radius {
                 each(column, row, 1.0);
@@ -50,22 +50,22 @@ pub(crate) fn cover(
     }
 }
 
-/// The least and the largest distance from the centre of what lies between two edges.
-fn distances(edges: &[Edge]) -> [f64; 2] {
+/// Returns the least and the largest distance from the centre between two grid lines.
+fn distances(edges: &[GridLine]) -> [f64; 2] {
     let [a, b] = [edges[0].a, edges[1].a];
     let near = if a < 0.0 && b > 0.0 { 0.0 } else { a.abs().min(b.abs()) };
     [near, a.abs().max(b.abs())]
 }
 
-/// Room for the edges of one disc.
+/// Reusable buffers for the grid lines of one disc.
 #[derive(Default)]
 pub(crate) struct Scratch {
-    xs: Vec<Edge>,
-    ys: Vec<Edge>,
+    xs: Vec<GridLine>,
+    ys: Vec<GridLine>,
     last: Vec<f64>,
 }
 
-/// The cells of a side that [c − r, c + r] touches.
+/// Returns the cells that [c − r, c + r] touches.
 fn touched(centre: f64, radius: f64, cells: usize) -> Option<std::ops::Range<usize>> {
     // Casts end at 0 and at the largest number; NaN becomes 0.
     let from = (centre - radius).floor() as usize;
@@ -73,22 +73,22 @@ fn touched(centre: f64, radius: f64, cells: usize) -> Option<std::ops::Range<usi
     (from < to && radius > 0.0).then_some(from..to)
 }
 
-/// Whether [c − r, c + r] lies in one cell of the side, the first at 0.
+/// Whether [c − r, c + r] lies in one cell; the first cell begins at 0.
 fn inside(centre: f64, radius: f64) -> bool {
     let cell = centre.floor();
     centre - radius >= cell && centre + radius <= cell + 1.0
 }
 
-/// A line between two columns or rows of pixels, about a disc.
+/// A grid line between two columns or rows of pixels, relative to a disc.
 #[derive(Clone, Copy)]
-struct Edge {
-    /// Distance a from the disc's centre, within [−r, r].
+struct GridLine {
+    /// Signed distance a from the disc's centre, clamped to [−r, r].
     a: f64,
-    /// Area of the disc on its lower side: πr²/2 + a√(r² − a²) + r² asin(a/r).
+    /// Area of the disc on the lower side: πr²/2 + a√(r² − a²) + r² asin(a/r).
     below: f64,
 }
 
-impl Edge {
+impl GridLine {
     fn new(a: f64, r: f64) -> Self {
         let a = a.clamp(-r, r);
         // (r − a)(r + a) keeps its digits where a is nearly r; asin(a/r) = atan2(a, √(r² − a²)).
@@ -97,11 +97,11 @@ impl Edge {
     }
 }
 
-/// Area of the disc x² + y² ≤ r² with x ≤ a and y ≤ b.
+/// Returns the area of the disc x² + y² ≤ r² with x ≤ a and y ≤ b.
 ///
-/// With the corner (a, b) in the disc: the lower left quarter, half a strip on each side of it, and a rectangle. Without:
-/// the lines cut the disc apart from each other, so that areas add.
-fn corner(a: &Edge, b: &Edge, r: f64) -> f64 {
+/// If the corner (a, b) lies in the disc, the area is a quarter of the disc, two half strips beside the quarter, and a
+/// rectangle. If not, the lines cut off disjoint parts of the disc, and areas add.
+fn corner(a: &GridLine, b: &GridLine, r: f64) -> f64 {
     if a.a * a.a + b.a * b.a < r * r {
         return (a.below + b.below) / 2.0 - PI * r * r / 4.0 + a.a * b.a;
     }

@@ -1,17 +1,28 @@
-//! From linear premultiplied light to the whole numbers of a PNG ([VAL-3]): the one place where a picture is encoded.
+//! Encoding of linear premultiplied light as the integers of a PNG ([VAL-3]). Pictures are encoded nowhere else.
 
 use drypoint_scene::color::{Rgba, linear_to_srgb, unpremultiply};
 
-/// One pixel as straight sRGB codes in [0, 1]: divided by α (α = 0: all 0), red, green and blue encoded, α as it is,
-/// everything clamped.
+/// Returns a pixel as straight sRGB codes in [0, 1]. Colours are divided by α (α = 0 gives 0) and encoded; α stays
+/// linear; all are clamped.
 pub fn straight_srgb(pixel: Rgba) -> Rgba {
     let [r, g, b, a] = unpremultiply(pixel);
     [linear_to_srgb(r), linear_to_srgb(g), linear_to_srgb(b), a].map(|c| c.clamp(0.0, 1.0))
 }
 
-/// A code in [0, 1] as the nearest of the whole numbers 0 … `largest`; a tie goes to the even one.
+/// Rounds a code in [0, 1] to the nearest of the integers 0 … `largest`. Ties go to even.
 pub fn quantize(code: f64, largest: u16) -> u16 {
     (code * f64::from(largest)).round_ties_even() as u16
+}
+
+/// Returns red, green and blue of a linear colour as sRGB bytes.
+pub fn srgb_bytes([r, g, b, _]: Rgba) -> [u8; 3] {
+    [r, g, b].map(|c| quantize(linear_to_srgb(c).clamp(0.0, 1.0), 255) as u8)
+}
+
+/// Returns a linear colour as `#rrggbb`.
+pub fn hex(color: Rgba) -> String {
+    let [r, g, b] = srgb_bytes(color);
+    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
-//! What can go wrong with a file of a picture.
+//! Errors of picture files.
 
 use drypoint_scene::memory::NoRoom;
 use std::path::PathBuf;
 
-/// A fault in writing, reading, comparing or laying out pictures. The message says what and where,
-/// [`OutputError::help`] what to do.
+/// An error in writing, reading, comparing or laying out pictures. The message says what and where;
+/// [`OutputError::help`] says what to do.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// The file could not be opened, read, written or renamed.
@@ -14,15 +14,15 @@ pub enum OutputError {
         path: PathBuf,
         /// "read" or "written".
         action: &'static str,
-        /// What the system said.
+        /// The operating system's error.
         source: std::io::Error,
     },
-    /// The file begins like no format that is read here.
+    /// The first bytes are those of no format that is read here.
     #[error("{}: neither a PNG nor an EXR file: it begins with the bytes {found:02x?}", path.display())]
     UnknownFormat {
         /// The file.
         path: PathBuf,
-        /// Its first bytes, eight at most.
+        /// First bytes of the file, at most eight.
         found: Vec<u8>,
     },
     /// The file is damaged, or uses a part of its format that is not supported.
@@ -32,10 +32,10 @@ pub enum OutputError {
         path: PathBuf,
         /// The part of the file.
         field: String,
-        /// What was found there.
+        /// The value found there.
         fault: String,
     },
-    /// The header promises more pixels than a file of that length can hold, so nothing was allocated.
+    /// The header claims more pixels than a file of that length can hold. Nothing was allocated.
     #[error("{}: its header claims {claimed} bytes of pixels, more than {length} bytes of file can hold", path.display())]
     TooLarge {
         /// The file.
@@ -45,26 +45,26 @@ pub enum OutputError {
         /// Length of the file in bytes.
         length: u64,
     },
-    /// The memory budget does not allow a picture's pixels, so nothing was allocated.
+    /// The memory budget does not allow the pixels. Nothing was allocated.
     #[error(
         "{}a picture of {} × {} pixels needs {no_room}; {} × {} pixels would fit",
         path.as_ref().map(|path| format!("{}: ", path.display())).unwrap_or_default(), size[0], size[1],
         no_room.fitting_size(*size)[0], no_room.fitting_size(*size)[1]
     )]
     NoRoom {
-        /// The file; none for a picture that is made.
+        /// The file; none for a picture that is not from a file.
         path: Option<PathBuf>,
-        /// Its width and height in pixels.
+        /// Width and height in pixels.
         size: [usize; 2],
-        /// The need, and the memory that is free.
+        /// The memory needed, and the memory that is free.
         no_room: NoRoom,
     },
-    /// A picture in colour was needed.
+    /// The picture has no colours where colours are needed.
     #[error("{name}: has no channels R, G and B; it has {}", list(found))]
     NoColor {
         /// The file, or the label, of the picture.
         name: String,
-        /// The channels that it has.
+        /// The channels of the picture.
         found: Vec<String>,
     },
     /// A picture without pixels, or a layer whose channels do not fit it.
@@ -72,13 +72,13 @@ pub enum OutputError {
     Layer {
         /// Name of the layer.
         layer: String,
-        /// What does not fit.
+        /// The mismatch.
         fault: String,
     },
-    /// A depth that PNG has for no colour picture.
+    /// A bit depth that PNG does not have for colour pictures.
     #[error("picture.bits: {bits} bits a channel")]
     Bits {
-        /// What was asked for.
+        /// The requested depth.
         bits: u8,
     },
     /// Pictures of different sizes cannot be compared.
@@ -89,10 +89,10 @@ pub enum OutputError {
         /// Width and height of the second.
         b: [usize; 2],
     },
-    /// A viewing distance at which FLIP's filters have no sensible size.
+    /// A viewing distance outside the range of FLIP's filters.
     #[error("{pixels_per_degree} pixels per degree")]
     Viewing {
-        /// What was asked for.
+        /// The requested number.
         pixels_per_degree: f64,
     },
     /// Two pictures without a channel of the same name.
@@ -103,28 +103,28 @@ pub enum OutputError {
         /// Channels of the second.
         b: Vec<String>,
     },
-    /// A list of marks that says something else than a mark.
+    /// A row of a list that is not a mark.
     #[error("{}: line {line}, column {column}: {fault}", path.display())]
     List {
         /// The file.
         path: PathBuf,
-        /// From 1, which is the header.
+        /// Line number; the header is line 1.
         line: u64,
         /// Name of the column.
         column: String,
-        /// What was found there, and what was expected.
+        /// The value found there, and the expected one.
         fault: String,
     },
     /// A contact sheet that cannot be laid out.
     #[error("sheet: {fault}")]
     Sheet {
-        /// What is wrong with it.
+        /// The reason.
         fault: String,
     },
 }
 
 impl OutputError {
-    /// One line that says what to do.
+    /// Returns one line that says what to do.
     pub fn help(&self) -> &'static str {
         match self {
             Self::Io { source, .. } if source.kind() == std::io::ErrorKind::OutOfMemory => {
@@ -148,7 +148,7 @@ impl OutputError {
     }
 }
 
-/// Names in a row, for a message.
+/// Returns names separated by commas, or "none", for a message.
 fn list(names: &[String]) -> String {
     if names.is_empty() { "none".into() } else { names.join(", ") }
 }

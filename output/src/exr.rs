@@ -11,14 +11,14 @@ use exr::prelude::{
 use std::io::Cursor;
 use std::path::Path;
 
-/// Names of the text attributes: the program and its version, the scene's hash, the plan.
+/// Names of the text attributes: program with version, hash of the scene, plan.
 pub const ATTRIBUTES: [&str; 3] = ["software", "drypointScene", "drypointPlan"];
 
-/// Writes every layer of the picture: one part, 32-bit float, ZIP in blocks of 16 lines, channels named as
-/// [`LayerKind::channels`]; linear, premultiplied, row 0 at the top.
+/// Writes every layer of the picture as one part: 32-bit float, ZIP in blocks of 16 lines. Channels are named as
+/// [`LayerKind::channels`]; values are linear and premultiplied, row 0 at the top.
 ///
-/// Text attributes (UTF-8) carry the provenance; there is no date, so the same picture gives the same bytes. A channel
-/// that two layers share (`curvature.KV`) is written once. The file appears whole or not at all.
+/// Text attributes (UTF-8) carry the provenance. There is no date: equal pictures give equal bytes. A channel that two
+/// layers share (`curvature.KV`) is written once. The file appears whole or not at all.
 ///
 /// # Errors
 /// [`OutputError::Layer`] when the picture has no layer or one that does not fit its size, [`OutputError::Io`].
@@ -26,11 +26,12 @@ pub fn write_exr(picture: &Picture, provenance: &Provenance, path: &Path) -> Res
     atomic::write(path, &encode_exr(picture, provenance)?)
 }
 
-/// The bytes of [`write_exr`].
+/// Returns the bytes of [`write_exr`].
 ///
 /// # Errors
-/// As [`write_exr`], but for the file's.
+/// Same errors as [`write_exr`], except those of the file.
 pub fn encode_exr(picture: &Picture, provenance: &Provenance) -> Result<Vec<u8>, OutputError> {
+    // Every channel once, as 32-bit floats.
     let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = SmallVec::new();
     for layer in &picture.layers {
         check(picture, layer)?;
@@ -49,7 +50,8 @@ pub fn encode_exr(picture: &Picture, provenance: &Provenance) -> Result<Vec<u8>,
         side(n, LayerKind::Beauty)?;
     }
 
-    // The two maps of further attributes are hash maps, whose order differs from run to run: one entry in each.
+    // Each of the two maps of further attributes gets one entry: they are hash maps, whose order differs from run to
+    // run.
     let mut attributes = LayerAttributes { software_name: Some(utf8(&provenance.software)), ..Default::default() };
     attributes.other.insert(utf8(ATTRIBUTES[1]), AttributeValue::Text(utf8(&provenance.scene_hash)));
     let encoding =
@@ -63,7 +65,7 @@ pub fn encode_exr(picture: &Picture, provenance: &Provenance) -> Result<Vec<u8>,
     Ok(file.into_inner())
 }
 
-/// A text attribute as UTF-8, which the format asks for; the crate's own conversion knows Latin-1 only.
+/// Returns a text attribute as UTF-8, which the format requires. The crate's own conversion knows Latin-1 only.
 fn utf8(text: &str) -> Text {
     Text::from_slice_unchecked(text.as_bytes())
 }

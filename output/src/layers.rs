@@ -1,18 +1,18 @@
-//! Layers that fit their picture: checked before anything is written.
+//! Checks of layers against their picture, before anything is written.
 
 use crate::OutputError;
 use drypoint_scene::memory;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use std::path::Path;
 
-/// The layer of that kind, if it is there and fits.
+/// Returns the layer of a kind, if the picture has it and it fits.
 pub(crate) fn fitting(picture: &Picture, kind: LayerKind) -> Result<&Layer, OutputError> {
     let layer = picture.layer(kind).ok_or_else(|| fault(kind, "the picture does not have it".into()))?;
     check(picture, layer)?;
     Ok(layer)
 }
 
-/// Checks that the picture has pixels, and the layer as many channels as its kind, each of one number a pixel.
+/// Checks that the picture has pixels, and that the layer has its kind's channels with one number a pixel each.
 pub(crate) fn check(picture: &Picture, layer: &Layer) -> Result<(), OutputError> {
     let (width, height, names) = (picture.width, picture.height, layer.kind.channels());
     let pixels = width.checked_mul(height).filter(|&n| n > 0);
@@ -24,7 +24,7 @@ pub(crate) fn check(picture: &Picture, layer: &Layer) -> Result<(), OutputError>
     }
 }
 
-/// A side in the range 1 … 2³¹ − 1 that both formats share.
+/// Returns a side as u32, in the range 1 … 2³¹ − 1 that both formats share.
 pub(crate) fn side(pixels: usize, kind: LayerKind) -> Result<u32, OutputError> {
     match u32::try_from(pixels) {
         Ok(n) if n > 0 && n < 1 << 31 => Ok(n),
@@ -32,13 +32,13 @@ pub(crate) fn side(pixels: usize, kind: LayerKind) -> Result<u32, OutputError> {
     }
 }
 
-/// Asks the memory budget for a picture of `each` bytes a pixel, which comes from the file `path` or is made.
+/// Asks the memory budget for a picture of `each` bytes a pixel. `path` is the file that it comes from, if any.
 pub(crate) fn room(path: Option<&Path>, size: [usize; 2], each: usize) -> Result<(), OutputError> {
     let bytes = size.into_iter().chain([each]).fold(1u64, |product, n| product.saturating_mul(n as u64));
     memory::room(bytes).map_err(|no_room| OutputError::NoRoom { path: path.map(Into::into), size, no_room })
 }
 
-/// What is wrong with a layer.
+/// Returns the error of a layer.
 pub(crate) fn fault(kind: LayerKind, fault: String) -> OutputError {
     OutputError::Layer { layer: kind.name().into(), fault }
 }

@@ -1,8 +1,8 @@
-//! Files of pictures: PNG, EXR, reading them back, comparing them, laying them out on a sheet; and marks on a page as
-//! PNG, SVG, PDF and lists, and in the order in which a plotter draws them.
+//! Files of pictures: PNG and EXR, written, read back, compared and laid out on contact sheets. Files of marks: PNG,
+//! SVG, PDF and lists, and the order in which a plotter draws them.
 //!
-//! This crate knows no volume: what it writes is a [`drypoint_scene::picture::Picture`] or
-//! [`drypoint_scene::marks::Marks`], what it reads is an [`read::Image`] or a list. Rules of the specification are cited by their tags, such as [VAL-3].
+//! This crate knows no volume. It writes a [`drypoint_scene::picture::Picture`] or [`drypoint_scene::marks::Marks`],
+//! and it reads an [`read::Image`] or a list. Comments cite rules of the specification by tags such as [VAL-3].
 
 pub mod atomic;
 pub mod compare;

@@ -1,4 +1,4 @@
-//! Writing PNG ([IO-2], [VAL-3]).
+//! Writing of PNG ([IO-2], [VAL-3]).
 
 use crate::encode::{quantize, straight_srgb};
 use crate::layers::{fault, fitting, side};
@@ -7,25 +7,25 @@ use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use png::text_metadata::ITXtChunk;
 use std::path::Path;
 
-/// Keywords of the text chunks: the program and its version, the scene's hash, the plan.
+/// Keywords of the text chunks: program with version, hash of the scene, plan.
 pub const KEYWORDS: [&str; 3] = ["Software", "Drypoint scene", "Drypoint plan"];
 
-/// Writes the layer `beauty` as an RGBA PNG of 8 or 16 bits a channel, straight alpha, sRGB.
+/// Writes the layer `beauty` as an RGBA PNG of 8 or 16 bits a channel, in straight sRGB.
 ///
-/// Text chunks carry the provenance, an `sRGB` chunk the colour space; there is no date, so the same picture gives the
-/// same bytes. The file appears whole or not at all.
+/// Text chunks carry the provenance, an `sRGB` chunk the colour space. There is no date: equal pictures give equal
+/// bytes. The file appears whole or not at all.
 ///
 /// # Errors
-/// [`OutputError::Bits`], [`OutputError::Layer`] when there is no beauty or it does not fit the picture's size,
+/// [`OutputError::Bits`], [`OutputError::Layer`] if the picture has no beauty or one that does not fit its size,
 /// [`OutputError::Io`].
 pub fn write_png(picture: &Picture, bits: u8, provenance: &Provenance, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_png(picture, bits, provenance)?)
 }
 
-/// The bytes of [`write_png`].
+/// Returns the bytes of [`write_png`].
 ///
 /// # Errors
-/// As [`write_png`], but for the file's.
+/// Same errors as [`write_png`], except those of the file.
 pub fn encode_png(picture: &Picture, bits: u8, provenance: &Provenance) -> Result<Vec<u8>, OutputError> {
     let depth = match bits {
         8 => png::BitDepth::Eight,

@@ -1,42 +1,43 @@
-//! Lines to pixels: polylines drawn with a round pen, as the share of each pixel that they cover.
+//! Coverage of pixels by polylines drawn with a round pen.
 
 use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, PathStroker, Stroke, Transform};
 
-/// What polylines drawn with a round pen of `pen` pixels across cover of each pixel, in [0, 1], row by row from the top.
+/// Returns the share of each pixel that polylines cover, in [0, 1], row by row from the top. The pen is round and `pen`
+/// pixels across.
 ///
-/// Points are in pixels, y down, the centre of the first pixel at (½, ½). A polyline of two equal points is a dot.
-/// Overlapping strokes cover once. Steps are 1/255. The caller sees to it that the pixels fit into memory; more than
-/// 2³² of them on a side stay blank.
+/// Points are in pixels, y down, and the first pixel's centre is (½, ½). A polyline of two equal points is a dot.
+/// Overlapping strokes cover once. Steps are 1/255. The caller checks the memory budget. More than 2³² pixels on a side
+/// stay blank.
 pub fn coverage(width: usize, height: usize, polylines: &[Vec<[f64; 2]>], pen: f64) -> Vec<f64> {
-    let Some(mut cover) = Cover::new(width, height) else {
+    let Some(mut cover) = CoverageMask::new(width, height) else {
         return vec![0.0; width * height];
     };
     cover.draw(polylines.iter().map(|line| (line.iter().copied(), false)), pen);
     cover.bytes().iter().map(|&covered| f64::from(covered) / 255.0).collect()
 }
 
-/// A picture of coverage that is drawn on, in steps of 1/255.
-pub(crate) struct Cover {
+/// A mask of coverage to draw on, in steps of 1/255.
+pub(crate) struct CoverageMask {
     mask: Mask,
 }
 
-impl Cover {
-    /// Nothing covered; none if there is no pixel, or more than 2³² on a side.
+impl CoverageMask {
+    /// Makes an empty mask; none without a pixel, or with more than 2³² on a side.
     pub(crate) fn new(width: usize, height: usize) -> Option<Self> {
         let mask = Mask::new(u32::try_from(width).ok()?, u32::try_from(height).ok()?)?;
         Some(Self { mask })
     }
 
-    /// Draws lines, each with whether it is closed, with a round pen. Lines of one call cover once where they cross; on
-    /// what was there before they add as c + d − cd.
+    /// Draws lines with a round pen; each comes with whether it is closed. Lines of one call cover once where they
+    /// cross. Successive calls add as c + d − cd.
     pub(crate) fn draw<L: Iterator<Item = [f64; 2]>>(&mut self, lines: impl Iterator<Item = (L, bool)>, pen: f64) {
-        // All strokes become one outline, filled by the nonzero rule, so that crossings do not darken.
+        // All strokes are one outline, filled by the nonzero rule, so that crossings do not darken.
         if let Some(outline) = outline(lines, pen) {
             self.mask.fill_path(&outline, FillRule::Winding, true, Transform::identity());
         }
     }
 
-    /// Fills outlines by the nonzero rule: those that turn the same way cover once where they overlap.
+    /// Fills outlines by the nonzero rule. Outlines of the same orientation cover once where they overlap.
     pub(crate) fn fill<L: Iterator<Item = [f64; 2]>>(&mut self, outlines: impl Iterator<Item = L>) {
         let mut all = PathBuilder::new();
         for mut points in outlines {
@@ -50,13 +51,13 @@ impl Cover {
         }
     }
 
-    /// Row by row from the top; 255 is all of a pixel.
+    /// Returns the coverage row by row from the top; 255 is a whole pixel.
     pub(crate) fn bytes(&self) -> &[u8] {
         self.mask.data()
     }
 }
 
-/// The outline of what a round pen draws; none of nothing.
+/// Returns the outline of lines drawn with a round pen; none for no line.
 fn outline<L: Iterator<Item = [f64; 2]>>(lines: impl Iterator<Item = (L, bool)>, pen: f64) -> Option<Path> {
     let mut path = PathBuilder::new();
     for (mut points, closed) in lines {

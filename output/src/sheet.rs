@@ -3,17 +3,17 @@
 use crate::OutputError;
 use crate::layers::room;
 use crate::raster::coverage;
-use crate::read::{Colors, Image};
+use crate::read::{ColorChannels, Image};
 use crate::text::{CAP_HEIGHT, DESCENT, WEIGHT, fit, strokes, width};
 use drypoint_scene::color::srgb_to_linear;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 
-/// How a sheet is laid out.
+/// Layout of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// Pictures in a row; left out: as many as make the sheet about as wide as high.
+    /// Pictures in a row; none: enough to make the sheet about as wide as high.
     pub columns: Option<usize>,
-    /// Pixels that a picture may take at most in width and height, 16 to 4096.
+    /// Largest width and height of a picture, 16 to 4096 pixels.
     pub cell: usize,
 }
 
@@ -23,23 +23,24 @@ impl Default for Layout {
     }
 }
 
-/// The largest sheet, in pixels: two gibibytes of channels.
+/// Largest sheet, in pixels: two gibibytes of channels.
 const LARGEST: usize = 1 << 26;
 
-/// Bytes of memory that a pixel of a sheet takes until it is written: light, channels and codes.
+/// Bytes of memory a pixel of a sheet until it is written: light, channels and codes.
 const PIXEL: usize = 2 * 4 * 8 + 4;
 
 /// sRGB code of the labels' ink.
 const INK: f64 = 0.1;
 
-/// Lays out labelled pictures in rows on white. Each is scaled to fit its cell, by the mean over the area of each new
-/// pixel in linear premultiplied light, and stands in the middle of it, its label below. The sheet's only layer is an
+/// Lays out labelled pictures in rows on white. Each is scaled to fit its cell and centred in it, its label below.
+/// Scaling takes the mean over each new pixel's area, in linear premultiplied light. The sheet's only layer is an
 /// opaque `beauty`.
 ///
 /// # Errors
-/// [`OutputError::Sheet`] for no pictures, an empty one, or a sheet that is too large, [`OutputError::NoColor`] with
+/// [`OutputError::Sheet`] for no pictures, an empty one, or a sheet that is too large; [`OutputError::NoColor`] with
 /// the label.
 pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, OutputError> {
+    // Rows, columns and the size of each picture in its cell.
     let fault = |fault: String| OutputError::Sheet { fault };
     if pictures.is_empty() {
         return Err(fault("there are no pictures".into()));
@@ -55,7 +56,7 @@ pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, Ou
         .map(|(label, image)| fitted(image, cell).ok_or_else(|| fault(format!("{label} has no pixels"))))
         .collect::<Result<Vec<_>, _>>()?;
 
-    // Everything is measured by the cell, but letters never get too small to read.
+    // Sizes are proportional to the cell, but letters stay readable.
     let margin = (cell / 16).max(8);
     let cap = (cell / 26).max(9);
     let rows: Vec<usize> = sizes.chunks(columns).map(|row| row.iter().map(|s| s[1]).max().unwrap_or(0)).collect();
@@ -67,22 +68,23 @@ pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, Ou
     }
 
     room(None, [total_width, total_height], PIXEL)?;
-    let mut ground = Ground::white(total_width, total_height);
+    // Row by row: pictures centred in their cells, labels below.
+    let mut canvas = SheetCanvas::white(total_width, total_height);
     let mut top = margin;
     for ((pictures, sizes), height) in pictures.chunks(columns).zip(sizes.chunks(columns)).zip(rows) {
         for (column, ((label, image), &[w, h])) in pictures.iter().zip(sizes).enumerate() {
             let left = margin + column * (cell + margin);
             let pixels = scaled(image, w, h)
                 .ok_or_else(|| OutputError::NoColor { name: label.clone(), found: image.names() })?;
-            ground.lay(&pixels, w, [left + (cell - w) / 2, top + (height - h) / 2]);
-            ground.write(label, [left, top + height], [cell, label_height], cap);
+            canvas.lay(&pixels, w, [left + (cell - w) / 2, top + (height - h) / 2]);
+            canvas.write(label, [left, top + height], [cell, label_height], cap);
         }
         top += height + label_height + margin;
     }
-    Ok(ground.into_picture())
+    Ok(canvas.into_picture())
 }
 
-/// The largest size of the image's proportions within a square cell.
+/// Returns the largest size of the image's proportions within a square cell.
 fn fitted(image: &Image, cell: usize) -> Option<[usize; 2]> {
     let (w, h) = (image.width, image.height);
     let longer = w.max(h);
@@ -90,19 +92,14 @@ fn fitted(image: &Image, cell: usize) -> Option<[usize; 2]> {
     (w.min(h) > 0).then(|| [side(w), side(h)])
 }
 
-/// Linear premultiplied pixels of the image at another size: the mean over the area that each new pixel covers. Nothing
-/// if the image has no colours.
+/// Returns linear premultiplied pixels of the image at another size: the mean over the area of each new pixel. None if
+/// the image has no colours.
 fn scaled(image: &Image, width: usize, height: usize) -> Option<Vec<[f64; 4]>> {
-    let Colors { rgb: [r, g, b], alpha } = image.colors()?;
-    let opaque;
-    let alpha = match alpha {
-        Some(alpha) => alpha,
-        None => {
-            opaque = vec![1.0; image.width * image.height];
-            &opaque
-        }
-    };
+    let ColorChannels { rgb: [r, g, b], alpha } = image.colors()?;
+    let opaque = alpha.is_none().then(|| vec![1.0; image.width * image.height]);
+    let alpha = alpha.or(opaque.as_deref()).unwrap_or_default();
     let [across, down] = [shares(image.width, width), shares(image.height, height)];
+    // The mean is separable: across each row first, then down each column.
     let mut rows = vec![[0.0; 4]; width * image.height];
     for (y, row) in rows.chunks_exact_mut(width).enumerate() {
         for (pixel, (first, weights)) in row.iter_mut().zip(&across) {
@@ -126,10 +123,10 @@ fn scaled(image: &Image, width: usize, height: usize) -> Option<Vec<[f64; 4]>> {
     Some(pixels)
 }
 
-/// For each of `to` equal parts of `from` pixels: the first pixel that it touches, and what share of the part lies in
-/// that and the following ones.
+/// Divides `from` pixels into `to` equal parts. Returns for each part the first pixel that it touches, and the shares
+/// of the part in this and the following pixels.
 fn shares(from: usize, to: usize) -> Vec<(usize, Vec<f64>)> {
-    // In units of 1/to of a pixel all ends are whole, so no share is lost to rounding.
+    // In units of 1/to of a pixel all ends are integers, so no share is lost to rounding.
     (0..to)
         .map(|part| {
             let (begin, end) = (part * from, (part + 1) * from);
@@ -140,19 +137,19 @@ fn shares(from: usize, to: usize) -> Vec<(usize, Vec<f64>)> {
         .collect()
 }
 
-/// An opaque linear picture that things are laid on.
-struct Ground {
+/// An opaque linear picture to compose a sheet on.
+struct SheetCanvas {
     width: usize,
     height: usize,
     channels: [Vec<f64>; 3],
 }
 
-impl Ground {
+impl SheetCanvas {
     fn white(width: usize, height: usize) -> Self {
         Self { width, height, channels: [0, 1, 2].map(|_| vec![1.0; width * height]) }
     }
 
-    /// Composites premultiplied rows of `width` pixels, the first at `corner`.
+    /// Composites premultiplied rows of `width` pixels, the first pixel at `corner`.
     fn lay(&mut self, pixels: &[[f64; 4]], width: usize, corner: [usize; 2]) {
         for (y, row) in pixels.chunks_exact(width).enumerate() {
             let start = (corner[1] + y) * self.width + corner[0];
@@ -164,12 +161,12 @@ impl Ground {
         }
     }
 
-    /// Writes a line of text with capitals `cap` pixels high into the middle of a box below `corner`.
+    /// Writes a line of text, centred in a box below `corner`, with capitals `cap` pixels high.
     fn write(&mut self, text: &str, corner: [usize; 2], size: [usize; 2], cap: usize) {
         let scale = cap as f64 / CAP_HEIGHT;
         let text = fit(text, size[0] as f64 / scale - WEIGHT);
         let left = (0.5 * (size[0] as f64 - width(&text) * scale)).round();
-        // What is left above the capitals is as much as below the descenders; whole pixels keep level strokes sharp.
+        // The space above the capitals equals that below the descenders. Whole pixels keep level strokes sharp.
         let baseline = (0.5 * (size[1] as f64 + (CAP_HEIGHT - DESCENT) * scale)).round();
         let lines: Vec<Vec<[f64; 2]>> = strokes(&text)
             .into_iter()

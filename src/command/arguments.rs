@@ -1,5 +1,5 @@
-//! The command line before and after `clap`: the default verb, verbs that are not built yet, points that begin with a
-//! minus, and wrong use in three lines as every other error.
+//! The command line around `clap`: the default verb, unbuilt verbs, points that begin with a minus, and usage errors in
+//! three lines.
 
 use super::Cli;
 use clap::CommandFactory;
@@ -8,7 +8,7 @@ use drypoint::Failure;
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Verbs of the specification that this version does not have, and where it has them.
+/// Verbs of the specification that this version lacks, with their tags.
 const LATER: &[(&str, &str)] = &[("validate", "GPU-1"), ("pick", "HALO-12"), ("paint", "VS-6"), ("halo", "HALO-4")];
 
 /// The verb of a command line that names none.
@@ -16,14 +16,14 @@ const DEFAULT: &str = "render";
 
 /// A command line with its verb in place.
 pub(super) struct Arguments {
-    /// What `clap` is to parse.
+    /// The words for `clap` to parse.
     pub words: Vec<OsString>,
     /// The verb, for messages.
     pub verb: String,
 }
 
 impl Arguments {
-    /// Puts the default verb in front of what is not one: options, a file, or nothing.
+    /// Puts the default verb in front of a command line that begins with options, a file, or nothing.
     ///
     /// # Errors
     /// A verb that is not built yet.
@@ -49,7 +49,7 @@ impl Arguments {
     }
 }
 
-/// How many words in front of a verb are options of all verbs, with their values.
+/// Returns the number of words in front of a verb: options of all verbs, with their values.
 fn in_front(words: &[OsString]) -> usize {
     let mut n = 0;
     while let Some(word) = words.get(n).and_then(|word| word.to_str()) {
@@ -69,13 +69,12 @@ fn not_built(verb: &str, tag: &str) -> Failure {
     Failure::new(format!("`{verb}` is not built yet ([{tag}])"), format!("drypoint {verb}"), remedy)
 }
 
-/// Whether what stands where a verb is expected is more likely a misspelt one than a file: letters only, and no such
-/// file.
+/// Whether a word in place of a verb is more likely a misspelt verb than a file: letters only, and no such file.
 fn is_word(first: &str) -> bool {
     !first.is_empty() && first.bytes().all(|b| b.is_ascii_alphabetic()) && !Path::new(first).exists()
 }
 
-/// Points may begin with a minus, which `clap` takes for an option. A blank in front does not change a number.
+/// Protects points that begin with a minus, which `clap` takes for an option. A leading blank does not change a number.
 fn protect_points(words: &mut [OsString]) {
     for word in words {
         let text = word.to_str().unwrap_or_default();
@@ -87,10 +86,10 @@ fn protect_points(words: &mut [OsString]) {
     }
 }
 
-/// Wrong use, in three lines.
+/// Returns a usage error in three lines.
 pub(super) fn refused(error: &clap::Error, verb: &str) -> Failure {
     let text = error.render().to_string();
-    // The first paragraph says what is wrong; what follows are hints and the usage.
+    // The first paragraph says what is wrong; hints and the usage follow.
     let what = text.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
     let what = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
         (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) => format!("there is no verb {word:?}"),
@@ -101,7 +100,7 @@ pub(super) fn refused(error: &clap::Error, verb: &str) -> Failure {
     let suggested = [ContextKind::SuggestedArg, ContextKind::SuggestedSubcommand, ContextKind::SuggestedValue];
     let meant = suggested.into_iter().find_map(|kind| match error.get(kind)? {
         ContextValue::String(one) => Some(one.clone()),
-        // The likeliest stands last.
+        // The likeliest suggestion is the last.
         ContextValue::Strings(some) => some.last().cloned(),
         _ => None,
     });

@@ -1,10 +1,10 @@
-//! `compare`: two pictures.
+//! The verb `compare`: two pictures.
 
 use super::report::{print, print_json};
-use super::{Done, Outcome, Talk, report, target};
+use super::{Done, Outcome, Talk, output_path, report};
 use clap::Args;
 use drypoint::output::compare::difference::difference_picture;
-use drypoint::output::compare::{self, Limits, Options, flip};
+use drypoint::output::compare::{self, CompareOptions, ErrorLimits, flip};
 use drypoint::output::read::read_image;
 use drypoint::output::{OutputError, png};
 use drypoint::scene::picture::Provenance;
@@ -13,12 +13,12 @@ use std::path::PathBuf;
 
 /// Compare two pictures: largest and RMS difference of every layer, and FLIP of the colours.
 #[derive(Debug, Args)]
-pub(super) struct Compare {
+pub(super) struct CompareArgs {
     /// A picture, PNG or EXR
     a: PathBuf,
     /// Another of the same size
     b: PathBuf,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
     /// Write a picture of the difference (FLIP), as PNG
@@ -35,17 +35,17 @@ pub(super) struct Compare {
     flip: Option<f64>,
 }
 
-/// A bound that something can exceed: NaN is none, and would let everything pass.
+/// Parses a bound. NaN is none: every comparison would pass.
 fn limit(text: &str) -> Result<f64, &'static str> {
     let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x >= 0.0);
     number.ok_or("a bound is a number of at least 0")
 }
 
-impl Compare {
+impl CompareArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         if let Some(path) = &self.diff {
-            target::picture(path, &[Format::Png])?;
-            target::apart(path, [&*self.a, &*self.b])?;
+            output_path::picture(path, &[Format::Png])?;
+            output_path::check_not_read(path, [&*self.a, &*self.b])?;
         }
         let say = |error: OutputError| {
             Failure::picture(&error, format_args!("{} and {}", self.a.display(), self.b.display()))
@@ -55,9 +55,10 @@ impl Compare {
             (Err(first), second) => return Err(Failures::new(first, second.err())),
             (Ok(_), Err(second)) => return Err(second.into()),
         };
-        let comparison = compare::compare(&a, &b, &Options::default()).map_err(say)?;
+        // The comparison goes to standard output, the picture of the difference to its file.
+        let comparison = compare::compare(&a, &b, &CompareOptions::default()).map_err(say)?;
         if let Some(path) = &self.diff {
-            let map = flip::flip(&a, &b, Options::default().pixels_per_degree).map_err(say)?;
+            let map = flip::flip(&a, &b, CompareOptions::default().pixels_per_degree).map_err(say)?;
             png::write_png(&difference_picture(&map), 8, &Provenance::default(), path).map_err(say)?;
             report::note(talk, path.display());
         }
@@ -66,7 +67,7 @@ impl Compare {
         } else {
             print(&format!("{comparison}\n"))?;
         }
-        let exceeded = comparison.exceeded(&Limits { max: self.max, rms: self.rms, flip: self.flip });
+        let exceeded = comparison.exceeded(&ErrorLimits { max: self.max, rms: self.rms, flip: self.flip });
         for line in &exceeded {
             report::note(talk, line);
         }

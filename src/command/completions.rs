@@ -1,16 +1,16 @@
-//! `completions`: for a shell.
+//! The verb `completions`.
 
 use super::{Cli, Outcome};
 use clap::{Args, CommandFactory};
 
 /// Print completions for a shell.
 #[derive(Debug, Args)]
-pub(super) struct Completions {
-    /// Which shell
+pub(super) struct CompletionsArgs {
+    /// The shell
     shell: clap_complete::Shell,
 }
 
-impl Completions {
+impl CompletionsArgs {
     pub(super) fn run(self) -> Outcome {
         let mut text = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "drypoint", &mut text);

@@ -1,4 +1,4 @@
-//! What is said where a page or a picture shows nothing, with the cause and the key that it hangs on.
+//! Warnings of an empty page or picture, with the cause and the key responsible.
 
 use super::Talk;
 use super::report::note;
@@ -7,7 +7,7 @@ use drypoint::job::Job;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::tables::{HatchIso, Hatching, Hidden, Iso, Outlines, Spacing};
 
-/// Says where the first frame shows nothing; `made` is what was done for it before and in it.
+/// Warns if the first frame shows nothing. `made` is the counts of preparation and of the frame.
 pub(super) fn warn_of_nothing(job: &Job, frame: &Frame, made: [&Counts; 2], talk: Talk) {
     let [dots, lines] = frame.marks();
     if frame.marks.is_some() && !job.draws_volume() && dots + lines == 0 {
@@ -21,7 +21,7 @@ pub(super) fn warn_of_nothing(job: &Job, frame: &Frame, made: [&Counts; 2], talk
     }
 }
 
-/// Which value of strokes' surfaces the volume does not have.
+/// Returns the reason if an iso-value of strokes lies outside the volume's range.
 fn absent(job: &Job) -> Option<String> {
     let hatching = job.scene.hatching.as_ref().and_then(|hatching| match hatching.iso {
         HatchIso::Surface(iso) => Some(("hatching.iso", iso)),
@@ -37,7 +37,7 @@ fn absent(job: &Job) -> Option<String> {
     })
 }
 
-/// Why there is nothing of each table of strokes that was drawn.
+/// Returns the reason for each table of strokes that was drawn and shows nothing.
 fn causes(job: &Job, made: [&Counts; 2]) -> Vec<String> {
     let there = |name: &str| made.iter().any(|counts| counts.preprocess.contains_key(name));
     let number = |name: &str| made.iter().filter_map(|counts| counts.preprocess.get(name)).sum();
@@ -48,7 +48,7 @@ fn causes(job: &Job, made: [&Counts; 2]) -> Vec<String> {
     hatching.into_iter().chain(outlines.map(|table| no_outlines(table, &number))).collect()
 }
 
-/// Why no stroke of hatching is on the page.
+/// Returns the reason why no stroke of hatching is on the page.
 fn no_strokes(table: &Hatching, number: &dyn Fn(&str) -> u64, has_grown: bool) -> String {
     let seeds = number("seeds");
     if seeds == 0 {
@@ -60,13 +60,14 @@ fn no_strokes(table: &Hatching, number: &dyn Fn(&str) -> u64, has_grown: bool) -
             }
             (_, HatchIso::Transfer) => "no cell of the volume has a value that transfer.nodes show".into(),
             (_, HatchIso::Surface(iso)) => {
-                format!("no cell of the volume has hatching.iso{} between its corners", said(iso))
+                format!("no cell of the volume has hatching.iso{} between its corners", iso_text(iso))
             }
         };
     }
     if number("seeds at values that nothing shows") == seeds {
         return format!("all {seeds} seeds are at values that transfer.nodes do not show");
     }
+    // The most frequent cause of rejected seeds, if no stroke has grown.
     let rejected = ["seeds without a direction", "seeds beside the surface", "seeds of strokes without length"];
     let [no_direction, no_surface, short] = rejected.map(number);
     let tried = no_direction + no_surface + short;
@@ -85,7 +86,7 @@ fn no_strokes(table: &Hatching, number: &dyn Fn(&str) -> u64, has_grown: bool) -
     format!("strokes of {short} of {tried} seeds have no length: hatching.length, hatching.min_step")
 }
 
-/// What strokes that have grown can be, not to be on the page.
+/// Returns the possible reasons why grown strokes are not on the page.
 fn unseen(table: &Hatching) -> String {
     let can_be = [
         (table.hidden != Hidden::Drawn, "hidden (hatching.hidden = \"drawn\" draws them)"),
@@ -93,21 +94,21 @@ fn unseen(table: &Hatching) -> String {
         (!table.has_one_width(), "thinner than hatching.stroke.min_width"),
         (table.spacing != Spacing::Random, "shorter than six widths of the pen"),
     ];
-    let all: Vec<&str> = can_be.into_iter().filter(|(can_be, _)| *can_be).map(|(_, said)| said).collect();
+    let all: Vec<&str> = can_be.into_iter().filter(|(can_be, _)| *can_be).map(|(_, text)| text).collect();
     all.join(", or ")
 }
 
-/// Why no outline is on the page.
+/// Returns the reason why no outline is on the page.
 fn no_outlines(table: &Outlines, number: &dyn Fn(&str) -> u64) -> String {
     match (number("outline places"), number("short strokes")) {
-        (0, _) => format!("the surface of outlines.iso{} has no outline from this camera", said(table.iso)),
+        (0, _) => format!("the surface of outlines.iso{} has no outline from this camera", iso_text(table.iso)),
         (_, 0) => "all outlines are hidden, or outside of the frame ([camera])".into(),
         (_, short) => format!("all that is seen of outlines, {short} lines, is shorter than outlines.min_length"),
     }
 }
 
-/// The value, where there is one.
-fn said(iso: Iso) -> String {
+/// Returns " = value" for a message, or nothing for an automatic one.
+fn iso_text(iso: Iso) -> String {
     match iso {
         Iso::Value(value) => format!(" = {value}"),
         Iso::Auto => String::new(),

@@ -1,10 +1,10 @@
-//! Which file each frame of a scene goes to, and the frames drawn into them.
+//! The files of a scene's frames, and the frames drawn into them.
 
 use super::empty::warn_of_nothing;
-use super::input::{self, Over};
+use super::input::{self, SceneOverrides};
 use super::report::{Progress, note};
-use super::stats::{Times, cpu_seconds};
-use super::{Talk, target};
+use super::stats::{FrameTimes, cpu_seconds};
+use super::{Talk, output_path};
 use drypoint::drawing::{Drawing, room_for_page, write_animation};
 use drypoint::job::Job;
 use drypoint::marking::Marking;
@@ -17,29 +17,30 @@ use std::time::Instant;
 
 /// The files of a scene's frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Files {
+pub(super) enum FrameFiles {
     /// One frame.
     One(PathBuf),
     /// All frames in one SVG.
     Animated(PathBuf),
-    /// A file a frame: what stands before and after its number, and the digits of that.
+    /// A file a frame: the text before and after its number, and the number's digits.
     Numbered(PathBuf, [String; 2], usize),
 }
 
-impl Files {
-    /// The files that a name stands for; each can be written now. A run of `#` in it is the number of a frame.
+impl FrameFiles {
+    /// Returns the files that a name stands for, and checks that each can be written. A run of `#` stands for the
+    /// number of a frame.
     ///
     /// # Errors
-    /// `#` without `[orbit]`, `[orbit]` without `#` where the format has no frames, fewer digits than the last frame needs,
-    /// more than one run, a file that the scene reads, or a folder that is not there or may not be written to.
+    /// `#` without `[orbit]`, or `[orbit]` without `#` if the format has no frames. Fewer digits than the last frame
+    /// needs, or more than one run. A file that the scene reads. A missing or read-only folder.
     pub(super) fn of(path: &Path, scene: &Scene) -> Result<Self, Failure> {
         let files = Self::named(path, scene)?;
-        target::writable(&files.path(0))?;
+        output_path::writable(&files.path(0))?;
         let frames = match files {
             Self::One(_) | Self::Animated(_) => 1,
             Self::Numbered(..) => scene.orbit.map_or(1, |orbit| orbit.frames),
         };
-        (0..frames).try_for_each(|frame| target::apart(&files.path(frame), scene.files()))?;
+        (0..frames).try_for_each(|frame| output_path::check_not_read(&files.path(frame), scene.files()))?;
         Ok(files)
     }
 
@@ -55,7 +56,7 @@ impl Files {
             return refused(what.into(), "add a table [orbit], or give a name without #".into());
         };
         let digits = (orbit.frames - 1).max(1).ilog10() as usize + 1;
-        let stem = target::stem(path);
+        let stem = output_path::stem(path);
         let suffix = path.extension().unwrap_or_default().to_string_lossy();
         let example = || format!("write {stem}_{}.{suffix}", "#".repeat(digits.max(3)));
         match runs[..] {
@@ -82,7 +83,7 @@ impl Files {
         }
     }
 
-    /// The file of a frame.
+    /// Returns the file of a frame.
     fn path(&self, frame: usize) -> PathBuf {
         match self {
             Self::One(path) | Self::Animated(path) => path.clone(),
@@ -92,8 +93,8 @@ impl Files {
         }
     }
 
-    /// What was written.
-    fn said(&self, frames: usize) -> String {
+    /// Returns the written files in words.
+    fn summary(&self, frames: usize) -> String {
         match self {
             Self::One(path) => path.display().to_string(),
             Self::Animated(path) => format!("{}: {frames} frames", path.display()),
@@ -104,15 +105,15 @@ impl Files {
     }
 }
 
-/// What drawing all frames took.
-pub(super) struct Drawn {
-    /// Of all frames together; what is made once is in them once, and of buffers the largest.
+/// Counts and times of drawing all frames.
+pub(super) struct DrawReport {
+    /// Counts of all frames together. Work done once counts once, and of buffers the largest.
     pub counts: Counts,
-    /// Of each frame.
-    pub times: Times,
+    /// Times of each frame.
+    pub times: FrameTimes,
 }
 
-/// The first frame of a job in pixels.
+/// Draws the first frame of a job in pixels.
 pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Picture, Failure> {
     let mut counts = Counts::default();
     let marking = Marking::new(job, &mut counts, &|_| ())?;
@@ -124,17 +125,17 @@ pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Pictur
 /// checked before anything is loaded.
 pub(super) fn load_and_draw(
     input: Option<&Path>,
-    over: &Over,
-    files: impl FnOnce(&Scene) -> Result<Files, Failure>,
+    over: &SceneOverrides,
+    files: impl FnOnce(&Scene) -> Result<FrameFiles, Failure>,
     repeat: usize,
     talk: Talk,
-) -> Result<Drawn, Failures> {
+) -> Result<DrawReport, Failures> {
     let start = Instant::now();
     let (job, files) = {
         let _loading = Progress::new(talk, "loading");
         let found = input::find(input, over)?;
         let files = files(&found.scene)?;
-        (found.load(over.wanted)?, files)
+        (found.load(over.target)?, files)
     };
     let loaded = start.elapsed().as_secs_f64();
     input::tell(talk, &job);
@@ -144,9 +145,10 @@ pub(super) fn load_and_draw(
 }
 
 /// Draws every frame of a job, `repeat` times each, and writes them.
-fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Failure> {
+fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> Result<DrawReport, Failure> {
     room_for_page(job, &files.path(0))?;
     let mut counts = job.counts.clone();
+    // Points, lines and the renderer are made once for all frames.
     let marking = {
         let progress = Progress::new(talk, "points and lines");
         Marking::new(job, &mut counts, &|made| {
@@ -160,20 +162,21 @@ fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Fa
         Drawing::new(job, &marking, &mut counts)?
     };
     let frames = drawing.frames();
+    // Frames are drawn, timed and written one after another.
     let (mut cpu, mut wall) = (Some(0.0), Vec::new());
-    let (mut said, mut marks) = (Vec::new(), [0, 0]);
+    let (mut notes, mut marks) = (Vec::new(), [0, 0]);
     let start = Instant::now();
     {
         let progress = Progress::new(talk, "rendering");
         if let Some(samples) = drawing.samples() {
             progress.amount(|| format!("up to {:.1e} samples", samples * repeat as f64));
         }
-        // Draws a frame as often as asked for, and times that without what writing takes.
+        // Draws a frame `repeat` times and times it, without the writing.
         let mut draw = |i: usize, counts: &Counts| {
             let before = cpu_seconds();
             let mut timed = || {
                 let start = Instant::now();
-                // Each frame is drawn as often as asked for.
+                // Progress counts all repetitions of all frames.
                 let before = wall.len() as f64;
                 let all = (frames * repeat) as f64;
                 let drawn = drawing.frame(i, &|share| progress.hear((before + share) / all));
@@ -192,36 +195,37 @@ fn draw(job: &Job, files: &Files, repeat: usize, talk: Talk) -> Result<Drawn, Fa
             Ok::<_, Failure>((frame, own))
         };
         match files {
-            Files::Animated(path) => write_animation(job, frames, path, |i| {
+            FrameFiles::Animated(path) => write_animation(job, frames, path, |i| {
                 let (frame, own) = draw(i, &counts)?;
                 counts.add_frame(&own);
                 Ok(frame)
             })?,
-            Files::One(_) | Files::Numbered(..) => {
+            FrameFiles::One(_) | FrameFiles::Numbered(..) => {
                 for i in 0..frames {
                     let (frame, own) = draw(i, &counts)?;
                     let written = frame.write(job, &files.path(i))?;
-                    // What a plotter leaves out is drawn by no one.
+                    // A dot or line that a plotter leaves out is not drawn.
                     let [points, strokes] = written.marks.map(|n| n as u64);
                     counts.add_frame(&Counts { points, strokes, ..own });
                     if i == 0 {
-                        (marks, said) = (written.marks, written.said);
+                        (marks, notes) = (written.marks, written.notes);
                     }
                 }
             }
         }
     }
+    // Everything that was not drawing was writing.
     let writing = start.elapsed().as_secs_f64() - wall.iter().sum::<f64>();
     counts.seconds.insert("write".into(), writing);
     let [dots, lines] = marks;
     match files {
-        Files::One(_) if !marking.is_empty() => {
-            note(talk, format_args!("{}: {dots} dots, {lines} lines", files.said(frames)));
+        FrameFiles::One(_) if !marking.is_empty() => {
+            note(talk, format_args!("{}: {dots} dots, {lines} lines", files.summary(frames)));
         }
-        _ => note(talk, files.said(frames)),
+        _ => note(talk, files.summary(frames)),
     }
-    said.iter().for_each(|line| note(talk, line));
-    Ok(Drawn { counts, times: Times::new(wall, cpu) })
+    notes.iter().for_each(|line| note(talk, line));
+    Ok(DrawReport { counts, times: FrameTimes::new(wall, cpu) })
 }
 
 #[cfg(test)]
@@ -229,9 +233,9 @@ mod tests {
     use super::*;
     use drypoint::scene::file::{Overrides, parse};
 
-    fn files(name: &str, rest: &str) -> Result<Files, Failure> {
+    fn files(name: &str, rest: &str) -> Result<FrameFiles, Failure> {
         let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
-        Files::named(Path::new(name), &parse(&text, Path::new("a.toml"), &Overrides::default()).unwrap())
+        FrameFiles::named(Path::new(name), &parse(&text, Path::new("a.toml"), &Overrides::default()).unwrap())
     }
 
     #[test]
@@ -240,8 +244,8 @@ mod tests {
         let numbered = files("a#/turn_###.png", orbit).unwrap();
         assert_eq!(numbered.path(7), Path::new("a#/turn_007.png"));
         assert_eq!(files("##.exr", orbit).unwrap().path(35), Path::new("35.exr"));
-        assert_eq!(files("a.png", "").unwrap(), Files::One("a.png".into()));
-        assert_eq!(files("a.svg", "[stipples]\n[orbit]\n").unwrap(), Files::Animated("a.svg".into()));
+        assert_eq!(files("a.png", "").unwrap(), FrameFiles::One("a.png".into()));
+        assert_eq!(files("a.svg", "[stipples]\n[orbit]\n").unwrap(), FrameFiles::Animated("a.svg".into()));
         for (name, rest, what, remedy) in [
             ("a_#.png", "", "a # stands for", "add a table [orbit], or give a name without #"),
             ("a.png", orbit, "[orbit] has 36 frames, and the name has no ###", "write a_###.png"),

@@ -1,6 +1,6 @@
-//! `info`: what a volume file holds.
+//! The verb `info`: the contents of a volume file.
 
-use super::raw::Raw;
+use super::raw::RawArgs;
 use super::report::{Progress, print, print_json};
 use super::{Outcome, Talk};
 use clap::Args;
@@ -9,18 +9,18 @@ use std::path::PathBuf;
 
 /// Say what a volume file holds: dims, type, spacing, range, invalid voxels, histogram.
 #[derive(Debug, Args)]
-pub(super) struct Info {
+pub(super) struct InfoArgs {
     /// A volume
     #[arg(value_name = "VOLUME")]
     volume: PathBuf,
     #[command(flatten)]
-    raw: Raw,
-    /// As JSON
+    raw: RawArgs,
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }
 
-impl Info {
+impl InfoArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let info = {
             let _reading = Progress::new(talk, "reading");

@@ -1,9 +1,9 @@
-//! What a verb is given: a scene, a bare volume, or nothing, which is the embedded scene.
+//! The input of a verb: a scene, a bare volume, or nothing, which means the embedded scene.
 
 use super::Talk;
 use super::raw::{self, layout};
 use super::report::{note, say};
-use drypoint::job::{Job, Wanted, bare, bare_for};
+use drypoint::job::{Job, RenderTarget, bare, bare_for};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
 use drypoint::scene::picture::LayerKind;
@@ -12,31 +12,31 @@ use drypoint::scene::volume::{Volume, read};
 use drypoint::{Failure, Failures};
 use std::path::{Path, PathBuf};
 
-/// `--set key=value`, as a verb takes them.
+/// The options `--set key=value` of a verb.
 #[derive(Clone, Debug, Default, clap::Args)]
-pub(super) struct Set {
+pub(super) struct SetArgs {
     /// Override a scene key, such as sampling.step="1 voxel"; `contours=off` removes a table
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
 
 /// A flag that stands for a scene key.
-pub(super) struct Flag {
+pub(super) struct KeyFlag {
     /// The key.
     pub key: &'static str,
-    /// Its value, as a scene file has it.
+    /// The value as TOML.
     pub value: String,
-    /// The flag as it was typed, for messages.
+    /// The flag as typed, for messages.
     pub typed: String,
 }
 
-impl Flag {
-    /// A flag whose value is a name, whatever TOML would make of it.
+impl KeyFlag {
+    /// Returns a flag with a text value, even if TOML would parse it as something else.
     pub(super) fn name(key: &'static str, flag: &str, value: &str) -> Self {
         Self { key, value: format!("{value:?}"), typed: format!("{flag} {}", value.trim()) }
     }
 
-    /// A flag whose value is a number or a text with a unit.
+    /// Returns a flag with a value that is a number, or a text with a unit.
     pub(super) fn length(key: &'static str, flag: &str, value: &str) -> Self {
         match value.trim().parse::<f64>() {
             Ok(number) => Self { value: format!("{number:?}"), ..Self::name(key, flag, value) },
@@ -45,44 +45,44 @@ impl Flag {
     }
 }
 
-/// What goes over a scene.
+/// Everything on the command line that overrides a scene.
 #[derive(Default)]
-pub(super) struct Over {
-    /// `--set`, then the flags.
+pub(super) struct SceneOverrides {
+    /// Overrides of `--set`, then of the flags.
     overrides: Overrides,
-    /// Those of `[picture]` alone.
+    /// Overrides of `[picture]` alone.
     picture: Overrides,
-    /// Those of `volume.raw` alone.
+    /// Overrides of `volume.raw` alone.
     raw: Overrides,
-    /// `preset` alone.
+    /// Override of `preset` alone.
     preset: Overrides,
-    /// Whether one changes the kind of the transfer function.
+    /// Whether an override changes the kind of the transfer function.
     sets_kind: bool,
-    flags: Vec<Flag>,
-    /// Whether only the layer `beauty` is wanted: what no one writes is not computed ([PLAN-1]).
+    flags: Vec<KeyFlag>,
+    /// Whether only the layer `beauty` is rendered. Layers that nobody writes are not computed ([PLAN-1]).
     pub beauty_only: bool,
-    /// Pixels that the longer side of the picture has, in place of what the scene says.
+    /// Pixels of the picture's longer side, in place of the scene's.
     pub longer_side: Option<usize>,
-    /// What of the scene is wanted.
-    pub wanted: Wanted,
+    /// The part of the scene to draw.
+    pub target: RenderTarget,
 }
 
-impl Over {
-    /// From a verb's `--set`s and its own flags, which go over them.
-    pub(super) fn new(set: &Set, flags: Vec<Flag>) -> Result<Self, Failures> {
+impl SceneOverrides {
+    /// Collects a verb's `--set`s and its flags. Flags win.
+    pub(super) fn new(set: &SetArgs, flags: Vec<KeyFlag>) -> Result<Self, Failures> {
         let mut over = Self::default();
         let mut failures = Vec::new();
         for argument in &set.set {
             over.sets_kind |= argument.trim_start().starts_with("transfer.kind");
             if let Some(part) = over.part(argument.trim_start()) {
-                // A fault of it is told of the whole.
+                // The push below reports its fault.
                 let _ = part.push_argument(argument);
             }
             if let Err(faults) = over.overrides.push_argument(argument) {
                 failures.extend(faults.iter().map(Failure::from));
             }
         }
-        for Flag { key, value, .. } in &flags {
+        for KeyFlag { key, value, .. } in &flags {
             over.overrides.push(*key, value.clone());
             if let Some(part) = over.part(key) {
                 part.push(*key, value.clone());
@@ -92,7 +92,7 @@ impl Over {
         Failures::check(failures).map(|()| over)
     }
 
-    /// Where an override is kept too, if it has to be known before there is a scene.
+    /// Returns the extra list for an override that must be known before there is a scene.
     fn part(&mut self, key: &str) -> Option<&mut Overrides> {
         match key {
             _ if key.starts_with("picture.") => Some(&mut self.picture),
@@ -102,7 +102,7 @@ impl Over {
         }
     }
 
-    /// The faults of a scene; what a flag said is shown as it was typed.
+    /// Returns the failures of a scene. A value from a flag is shown as it was typed.
     fn failures(&self, faults: Faults) -> Failures {
         let failure = |fault: &Fault| {
             let flag = match &fault.place {
@@ -110,7 +110,7 @@ impl Over {
                 Place::File { .. } | Place::Chosen => None,
             };
             match flag {
-                // One of its keys has a longer name.
+                // The flag stands for a table, of which the fault names no key.
                 Some(flag) if flag.key == raw::KEY && fault.key == raw::KEY => raw::no_keys(&flag.typed),
                 Some(flag) => Failure::new(fault.what(), &flag.typed, fault.remedy()),
                 None => Failure::from(fault),
@@ -125,47 +125,47 @@ impl Over {
     }
 }
 
-/// What a verb is given, before it is made into anything.
-pub(super) struct Found {
+/// A verb's input before loading.
+pub(super) struct VerbInput {
     /// The scene.
     pub scene: Scene,
-    /// Its volume, where that had to be read to make the scene.
+    /// The volume, if it had to be read to make the scene.
     pub volume: Option<Volume>,
-    /// What was looked at for that.
+    /// Counts of making the scene.
     pub counts: Counts,
 }
 
-/// Loads what a verb is given.
-pub(super) fn load(path: Option<&Path>, over: &Over) -> Result<Job, Failures> {
-    find(path, over)?.load(over.wanted)
+/// Loads a verb's input.
+pub(super) fn load(path: Option<&Path>, over: &SceneOverrides) -> Result<Job, Failures> {
+    find(path, over)?.load(over.target)
 }
 
-impl Found {
-    /// Loads what the scene names.
-    pub(super) fn load(self, wanted: Wanted) -> Result<Job, Failures> {
+impl VerbInput {
+    /// Loads everything that the scene names.
+    pub(super) fn load(self, target: RenderTarget) -> Result<Job, Failures> {
         let mut job = match self.volume {
-            Some(volume) => Job::with_volume_for(self.scene, volume, wanted),
-            None => Job::load_for(self.scene, wanted),
+            Some(volume) => Job::with_volume_for(self.scene, volume, target),
+            None => Job::load_for(self.scene, target),
         }?;
         job.counts.add(&self.counts);
         Ok(job)
     }
 }
 
-/// The scene that a verb is given, or that of a bare volume.
-pub(super) fn find(path: Option<&Path>, over: &Over) -> Result<Found, Failures> {
+/// Returns a verb's scene, or the one made for a bare volume.
+pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInput, Failures> {
     let finished = |mut scene: Scene| {
         if over.beauty_only {
             scene.picture.layers = vec![LayerKind::Beauty];
         }
-        // Dots are as large as the page says, and would cover a smaller one: that is shown smaller.
+        // Dots have the size that the page gives, and would cover a smaller page. Such a page is shown smaller instead.
         if let Some(side) = over.longer_side.filter(|_| !scene.has_marks()) {
             let [width, height] = scene.picture.size;
             scene.picture.size = [width, height].map(|n| (n * side).div_ceil(width.max(height)));
         }
         scene
     };
-    let found = |scene| Found { scene: finished(scene), volume: None, counts: Counts::default() };
+    let found = |scene| VerbInput { scene: finished(scene), volume: None, counts: Counts::default() };
     let Some(path) = path else {
         let scene = file::parse(file::DEFAULT_SCENE, Path::new("the embedded scene"), &over.overrides);
         return Ok(found(scene.map_err(|faults| over.failures(faults))?));
@@ -186,27 +186,21 @@ pub(super) fn find(path: Option<&Path>, over: &Over) -> Result<Found, Failures> 
         VolumeSource::File { path: shown, raw: described } => shown == path && described.as_ref() == raw,
         VolumeSource::Phantom(_) => false,
     };
-    Ok(Found { scene, volume: same.then_some(volume), counts })
+    Ok(VerbInput { scene, volume: same.then_some(volume), counts })
 }
 
-/// What `--set` says of a page that has no scene, all else being default.
-pub(super) fn page(set: &Set) -> Result<Scene, Failures> {
-    let over = Over::new(set, Vec::new())?;
+/// Returns the scene without volume that `--set` and flags describe, over the defaults.
+pub(super) fn settings(set: &SetArgs, flags: Vec<KeyFlag>) -> Result<Scene, Failures> {
+    let over = SceneOverrides::new(set, flags)?;
     file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
 }
 
-/// What flags alone say, all else being default: a scene of no volume.
-pub(super) fn settings(flags: Vec<Flag>) -> Result<Scene, Failures> {
-    let over = Over::new(&Set::default(), flags)?;
-    file::parse(NOTHING, Path::new(""), &over.overrides).map_err(|faults| over.failures(faults))
-}
-
-/// Whether a path is taken for a scene file.
+/// Whether a path has the suffix of a scene file.
 pub(super) fn is_scene(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
-/// Why a path is neither a scene nor a volume.
+/// Returns the reason why a path is neither a scene nor a volume.
 pub(super) fn no_input(path: &Path) -> Failure {
     if let Err(error) = read::refuse_dicom(path) {
         return error.into();
@@ -225,16 +219,16 @@ pub(super) fn no_input(path: &Path) -> Failure {
     }
 }
 
-/// The scene for a bare volume. It goes through its own text, so that overrides act on it as on any scene.
+/// Returns the scene for a bare volume. It goes through its own text, so that overrides act as on any scene.
 fn suggested(
     path: &Path,
     raw: Option<&RawLayout>,
     volume: &Volume,
-    over: &Over,
+    over: &SceneOverrides,
     counts: &mut Counts,
 ) -> Result<Scene, Failures> {
     let parse = |text: &str, name: &str, overrides: &Overrides| file::parse(text, Path::new(name), overrides);
-    // The camera frames the content in a picture of one shape. A fault of that is told below.
+    // The camera frames the content in a picture of one shape. Faults of these overrides are reported below.
     let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
     let preset = parse(NOTHING, "", &over.preset).ok();
     let suggested = match &preset {
@@ -243,35 +237,34 @@ fn suggested(
     };
     let mut text = file::write_full(&suggested);
     if over.sets_kind {
-        // Nodes of one kind do not fit the other: they are found anew.
+        // Nodes of one kind do not fit the other, so they are suggested anew.
         let nodes = Overrides::from_iter([("transfer.nodes", "off")]);
         text = parse(&text, "", &nodes).map_or(text, |scene| file::write_full(&scene));
     }
-    // A name without folder leaves the volume's path as it was given.
+    // A name without a folder keeps the volume's path as given.
     let name = format!("the scene for {}", path.file_name().unwrap_or_default().to_string_lossy());
     let mut scene = parse(&text, &name, &over.overrides).map_err(|faults| over.failures(faults))?;
-    // Nobody wrote its lines.
+    // No line of this text was written by a user.
     let default = Scene::for_volume(suggested.volume.source.clone());
     scene.given.keep_overrides(file::differences(&suggested, &default));
     if !scene.given.contains("volume.file") && !scene.given.contains("volume.phantom") {
-        // Not from the text, where a path that is no Unicode would be another one.
+        // The text would change a path that is not Unicode.
         scene.volume.source = VolumeSource::File { path: path.to_path_buf(), raw: raw.cloned() };
     }
     Ok(scene)
 }
 
-/// The flags that `--preset` of a picture stands for: a bare volume that is drawn as dots or outlines alone is drawn on a page,
-/// unless its size is said.
-pub(super) fn preset_flags(preset: &str, input: Option<&Path>, set: &Set, has_size: bool) -> Vec<Flag> {
+/// Returns the flags of `--preset`. A bare volume drawn as dots or outlines alone gets a page, unless a size is given.
+pub(super) fn preset_flags(preset: &str, input: Option<&Path>, set: &SetArgs, has_size: bool) -> Vec<KeyFlag> {
     let is_bare = input.is_some_and(|input| !is_scene(input));
     let on_a_page = is_bare && !has_size && (preset.starts_with("stipple") || preset == "outline");
     let page = if on_a_page { page_flags(set) } else { Vec::new() };
-    std::iter::once(Flag::name("preset", "--preset", preset)).chain(page).collect()
+    std::iter::once(KeyFlag::name("preset", "--preset", preset)).chain(page).collect()
 }
 
-/// What makes a page to print on, 160 mm wide and high, of a bare volume's points, rather than the pixels of a rendered
-/// picture; none where something else says a size. Where one length is said, the other is as long.
-pub(super) fn page_flags(set: &Set) -> Vec<Flag> {
+/// Returns the flags of a page to print on, 160 mm wide and high, for the marks of a bare volume. None if `--set` gives
+/// a size. If one length is given, the other equals it.
+pub(super) fn page_flags(set: &SetArgs) -> Vec<KeyFlag> {
     let said = |key: &str| set.set.iter().find_map(|set| Some(set.trim_start().strip_prefix(key)?.trim_start()));
     if said("picture.size").or(said("picture=")).is_some() {
         return Vec::new();
@@ -282,14 +275,14 @@ pub(super) fn page_flags(set: &Set) -> Vec<Flag> {
     flags
         .into_iter()
         .filter(|(_, own, _)| own.is_none())
-        .map(|(key, _, other)| Flag::name(key, key, &as_long(other)))
+        .map(|(key, _, other)| KeyFlag::name(key, key, &as_long(other)))
         .collect()
 }
 
-/// A scene that says nothing: every key has its default.
+/// A scene in which every key has its default.
 const NOTHING: &str = "drypoint = 1\nvolume.file = \"none\"\n";
 
-/// Warnings of a job and, where asked for, what it is made of.
+/// Prints the warnings of a job and, if verbose, its volume and plan.
 pub(super) fn tell(talk: Talk, job: &Job) {
     for warning in &job.plan.warnings {
         note(talk, format_args!("warning: {warning}"));
@@ -313,7 +306,7 @@ pub(super) fn tell(talk: Talk, job: &Job) {
     }
 }
 
-/// Every file of a list that is not there, so that work does not end in the middle.
+/// Reports every missing file of a list before work begins.
 pub(super) fn all_there(files: &[PathBuf]) -> Result<(), Failures> {
     Failures::check(files.iter().filter(|file| !file.is_file()).map(|file| no_input(file)))
 }

@@ -1,12 +1,12 @@
-//! `--threads` and `--memory`: how much of the machine the command may use.
+//! The options `--threads` and `--memory`.
 
 use clap::builder::RangedU64ValueParser;
 use drypoint::Failure;
 use drypoint::scene::memory;
 
-/// Limits that every verb obeys.
+/// Resource limits of every verb.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
-pub(super) struct Limits {
+pub(super) struct LimitArgs {
     /// Threads [default: one a processor]
     #[arg(long, global = true, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     threads: Option<usize>,
@@ -15,16 +15,16 @@ pub(super) struct Limits {
     memory: Option<u64>,
 }
 
-impl Limits {
-    /// Sets the memory budget and starts the one pool of threads, before any verb does its work.
+impl LimitArgs {
+    /// Sets the memory budget and starts the one pool of threads, before any verb works.
     ///
     /// # Errors
-    /// Threads that the system does not give.
+    /// The system refuses the threads.
     pub(super) fn apply(self) -> Result<(), Failure> {
         if let Some(bytes) = self.memory {
             memory::limit(bytes);
         }
-        // To the pool, 0 is its own default.
+        // For the pool 0 means its default.
         let started = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build_global();
         started.map_err(|error| {
             let what = format!("the threads cannot be started: {error}");
@@ -34,7 +34,7 @@ impl Limits {
     }
 }
 
-/// Bytes of a text such as `4GiB` or `512 MiB`.
+/// Parses a size such as `4GiB` or `512 MiB` into bytes.
 fn bytes(text: &str) -> Result<u64, &'static str> {
     let unit = |suffix: &str, shift: u32| Some((text.trim().strip_suffix(suffix)?.trim_end(), shift));
     let number = |(number, shift): (&str, u32)| {

@@ -1,4 +1,4 @@
-//! The verbs of the command line, one file each; exit codes are decided here and nowhere else.
+//! The verbs of the command line, one file each. Exit codes are decided here alone.
 
 mod arguments;
 mod compare;
@@ -9,6 +9,7 @@ mod frames;
 mod info;
 mod input;
 mod limits;
+mod output_path;
 mod page;
 mod phantom;
 mod plan;
@@ -23,13 +24,12 @@ mod signals;
 mod stats;
 mod strokes;
 mod styles;
-mod target;
 mod wedge;
 
 use arguments::Arguments;
 use clap::{Args, Parser, Subcommand};
 use drypoint::Failures;
-use limits::Limits;
+use limits::LimitArgs;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -45,10 +45,10 @@ struct Cli {
     #[command(flatten)]
     talk: Talk,
     #[command(flatten)]
-    limits: Limits,
+    limits: LimitArgs,
 }
 
-/// How much the command says.
+/// Verbosity of the command.
 #[derive(Clone, Copy, Debug, Default, Args)]
 struct Talk {
     /// Say nothing but errors
@@ -62,38 +62,38 @@ struct Talk {
 #[derive(Debug, Subcommand)]
 enum Verb {
     /// Render a scene or a bare volume to a picture (the default verb)
-    Render(render::Render),
+    Render(render::RenderArgs),
     /// Say what a volume file holds
-    Info(info::Info),
+    Info(info::InfoArgs),
     /// Print value, derivatives and curvature at points
-    Probe(probe::Probe),
+    Probe(probe::ProbeArgs),
     /// Write a phantom with known truth as a volume
-    Phantom(phantom::Phantom),
+    Phantom(phantom::PhantomArgs),
     /// Say what a scene calls for, and why
-    Plan(plan::Plan),
+    Plan(plan::PlanArgs),
     /// Stipple a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
-    Points(points::Points),
+    Points(points::PointsArgs),
     /// Draw the strokes of a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
-    Strokes(strokes::Strokes),
+    Strokes(strokes::StrokesArgs),
     /// List the styles of a theme, write a preview sheet, or make a style from a picture
-    Styles(styles::Styles),
+    Styles(styles::StylesArgs),
     /// Compare two pictures; exit code 1 when a bound is exceeded
-    Compare(compare::Compare),
+    Compare(compare::CompareArgs),
     /// Tell what accuracy costs: error and time of every knob of a scene
-    Cost(cost::Cost),
+    Cost(cost::CostArgs),
     /// Write a contact sheet of volumes, scenes or pictures
-    Sheet(sheet::Sheet),
+    Sheet(sheet::SheetArgs),
     /// Write a step wedge of a pen to be printed and measured, or plot what was measured
-    Wedge(wedge::Wedge),
+    Wedge(wedge::WedgeArgs),
     /// Print the JSON Schema of scene files
-    Schema(schema::Schema),
+    Schema(schema::SchemaArgs),
     /// Print completions for a shell
-    Completions(completions::Completions),
+    Completions(completions::CompletionsArgs),
 }
 
-/// How a verb ended well.
+/// Successful end of a verb.
 enum Done {
-    /// It did what it was asked.
+    /// The work is done.
     Yes,
     /// A comparison failed.
     Different,
@@ -101,10 +101,10 @@ enum Done {
 
 type Outcome = Result<Done, Failures>;
 
-/// Bad use or bad input.
+/// Exit code of bad use or bad input.
 const BAD: u8 = 2;
 
-/// Runs a command line. 0: done; 1: a comparison failed; 2: bad use or bad input; 128 and its number: ended by a signal.
+/// Runs a command line. Exit codes: 0 done, 1 a comparison failed, 2 bad use or bad input, 128 + n ended by signal n.
 pub(crate) fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     signals::remove_unfinished_at_the_end();
     match parsed(words) {
@@ -129,7 +129,7 @@ fn exit_code(outcome: Outcome) -> ExitCode {
     }
 }
 
-/// The verb and its arguments, or the help or version that was asked for.
+/// Returns the verb and its arguments, or the requested help or version.
 fn parsed(words: impl IntoIterator<Item = OsString>) -> Result<Result<Cli, clap::Error>, Failures> {
     let Arguments { words, verb } = Arguments::new(words)?;
     match Cli::try_parse_from(words) {

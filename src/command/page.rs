@@ -1,63 +1,63 @@
-//! What `points` and `strokes` have in common: a page of marks, of a scene, a bare volume or a saved list.
+//! The shared part of `points` and `strokes`: a page of marks from a scene, a bare volume or a saved list.
 
-use super::frames::{self, Files};
-use super::input::{self, Flag, Over, Set};
-use super::raw::Raw;
+use super::frames::{self, FrameFiles};
+use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
+use super::raw::RawArgs;
 use super::report::{Progress, note, print};
-use super::{Done, Outcome, Talk, stats, target};
-use drypoint::drawing::{Written, write_page};
-use drypoint::job::Wanted;
+use super::{Done, Outcome, Talk, output_path, stats};
+use drypoint::drawing::{WriteReport, mark_counts, write_page};
+use drypoint::job::RenderTarget;
 use drypoint::output::list;
 use drypoint::scene::counts::Counts;
-use drypoint::scene::marks::{Layer, Marks, Page as Paper, Pen};
+use drypoint::scene::marks::{Marks, Page, Pen};
 use drypoint::scene::tables::Scene;
 use drypoint::stroking::Stroking;
 use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// What is to be written.
+/// A page to be written.
 #[derive(Clone)]
-pub(super) struct Page {
+pub(super) struct PageRequest {
     /// A scene, a volume or a list.
     pub input: PathBuf,
-    /// Where to.
+    /// Output file.
     pub output: PathBuf,
-    /// The preset of a bare volume, where one is said.
+    /// Preset of a bare volume, if given.
     pub preset: Option<String>,
-    /// The preset where none is.
+    /// Preset of a bare volume otherwise.
     pub default_preset: &'static str,
-    /// Bytes without a header.
-    pub raw: Raw,
+    /// Layout of voxels without a header.
+    pub raw: RawArgs,
     /// `--set`.
-    pub set: Set,
+    pub set: SetArgs,
     /// Whether counts are printed.
     pub stats: bool,
     /// Points or strokes.
-    pub wanted: Wanted,
+    pub target: RenderTarget,
 }
 
-impl Page {
+impl PageRequest {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        if is_list(&self.input) {
+        if list::ListFormat::of(&self.input).is_some() {
             return self.list(talk);
         }
-        target::format(&self.output, &Format::ALL)?;
+        output_path::format(&self.output, &Format::ALL)?;
         let over = self.over()?;
-        let files = |scene: &Scene| Files::of(&self.output, scene);
+        let files = |scene: &Scene| FrameFiles::of(&self.output, scene);
         self.done(frames::load_and_draw(Some(&self.input), &over, files, 1, talk)?.counts)
     }
 
-    /// The cells that strokes can begin in, as a table or as a picture ([HATCH-17]).
+    /// Writes the cells that strokes can begin in, as a table or as a picture ([HATCH-17]).
     pub(super) fn seeds(&self, path: &Path, talk: Talk) -> Outcome {
         const FORMATS: [Format; 5] = [Format::Csv, Format::Svg, Format::Pdf, Format::Png, Format::Exr];
-        let format = target::picture(path, &FORMATS)?;
+        let format = output_path::picture(path, &FORMATS)?;
         let over = self.over()?;
         let job = {
             let _loading = Progress::new(talk, "loading");
             input::load(Some(&self.input), &over)?
         };
-        target::apart(path, job.scene.files())?;
+        output_path::check_not_read(path, job.scene.files())?;
         let mut counts = job.counts.clone();
         let stroking = Stroking::new(&job, &mut counts)?;
         let Some(map) = stroking.seeds(&mut counts) else {
@@ -70,27 +70,24 @@ impl Page {
             map.write(path)?;
         } else {
             let marks = stroking.seed_page(&map, &job.view()?, &mut counts);
-            write_page(marks, &job.scene, self.wanted, path)?;
+            write_page(marks, &job.scene, self.target, path)?;
         }
         let (cells, expected) = map.sums();
         note(talk, format_args!("{}: {cells} cells, {expected:.0} strokes to be expected", path.display()));
         self.done(counts)
     }
 
-    /// What is said of the scene on the command line.
-    fn over(&self) -> Result<Over, Failures> {
-        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
+    /// Returns the overrides from the command line.
+    fn over(&self) -> Result<SceneOverrides, Failures> {
+        let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
         let is_bare = !input::is_scene(&self.input);
-        if let Some(preset) = &self.preset {
-            flags.push(Flag::name("preset", "--preset", preset));
-        } else if is_bare {
-            flags.push(Flag::name("preset", "--preset", self.default_preset));
-        }
+        let preset = self.preset.as_deref().or(is_bare.then_some(self.default_preset));
+        flags.extend(preset.map(|preset| KeyFlag::name("preset", "--preset", preset)));
         if is_bare {
             flags.extend(input::page_flags(&self.set));
         }
-        let mut over = Over::new(&self.set, flags)?;
-        over.wanted = self.wanted;
+        let mut over = SceneOverrides::new(&self.set, flags)?;
+        over.target = self.target;
         Ok(over)
     }
 
@@ -98,38 +95,35 @@ impl Page {
         if self.stats { print(&stats::line(counts, None)?) } else { Ok(Done::Yes) }
     }
 
-    /// What the marks of a list are called.
-    fn noun(&self) -> &'static str {
-        if self.wanted == Wanted::Strokes { "lines" } else { "dots" }
-    }
-
-    /// A saved list, on the page that the overrides say.
+    /// Draws a saved list on the page that the overrides give.
     fn list(&self, talk: Talk) -> Outcome {
-        let noun = self.noun();
+        let noun = if self.target == RenderTarget::Strokes { "lines" } else { "dots" };
         for (flag, said) in [("--preset", self.preset.is_some()), ("--raw", self.raw.flag().is_some())] {
             if said {
                 let what = format!("a list of {noun} has no use for {flag}");
                 return Err(Failure::new(what, flag, "leave it out").into());
             }
         }
-        target::picture(&self.output, &Format::ALL)?;
+        output_path::picture(&self.output, &Format::ALL)?;
         let (mut counts, start) = (Counts::default(), Instant::now());
-        let scene = input::page(&self.set)?;
-        target::apart(&self.output, scene.files().into_iter().chain([&*self.input]))?;
-        let page = Paper::of(&scene);
+        let scene = input::settings(&self.set, Vec::new())?;
+        output_path::check_not_read(&self.output, scene.files().into_iter().chain([&*self.input]))?;
+        // The marks, checked against the verb.
+        let page = Page::of(&scene);
         let pens = Pen::of(&scene.pens, &page);
         let layers = list::read_list(&self.input, &page, &pens)
             .map_err(|error| Failure::picture(&error, self.input.display()))?;
-        let [dots, lines] = sums(&layers);
-        let strokes = self.wanted == Wanted::Strokes;
+        let [dots, lines] = mark_counts(&layers);
+        let strokes = self.target == RenderTarget::Strokes;
         if let (true, 1.., 0) = (strokes, dots, lines) {
             let remedy = "give it to `drypoint points`";
             return Err(Failure::new("the list has dots and no strokes", self.input.display(), remedy).into());
         }
+        // Marks outside the page are dropped, with a warning.
         let mut marks = Marks { page, layers };
         let read = if strokes { ends(&marks) } else { dots };
         marks.settle();
-        let [dots, _] = sums(&marks.layers);
+        let [dots, _] = mark_counts(&marks.layers);
         let kept = if strokes { ends(&marks) } else { dots };
         if kept < read {
             let (lost, [width, height]) = (read - kept, page.size.to_array());
@@ -139,26 +133,16 @@ impl Page {
         }
         counts.seconds.insert("load".into(), start.elapsed().as_secs_f64());
         let start = Instant::now();
-        let Written { marks: [dots, lines], said } = write_page(marks, &scene, self.wanted, &self.output)?;
+        let WriteReport { marks: [dots, lines], notes } = write_page(marks, &scene, self.target, &self.output)?;
         counts.seconds.insert("write".into(), start.elapsed().as_secs_f64());
         (counts.points, counts.strokes) = (dots as u64, lines as u64);
         note(talk, format_args!("{}: {dots} dots, {lines} lines", self.output.display()));
-        said.iter().for_each(|line| note(talk, line));
+        notes.iter().for_each(|line| note(talk, line));
         self.done(counts)
     }
 }
 
-/// Dots and lines of layers.
-fn sums(layers: &[Layer]) -> [usize; 2] {
-    [layers.iter().map(|layer| layer.dots.len()).sum(), layers.iter().map(|layer| layer.lines.len()).sum()]
-}
-
-/// The vertices of all lines: a line that the frame cuts has fewer, or more ends.
+/// Returns the number of vertices of all lines. A line that the frame cuts loses vertices, or gains ends.
 fn ends(marks: &Marks) -> usize {
     marks.layers.iter().flat_map(|layer| &layer.lines).map(|line| line.vertices.len()).sum()
-}
-
-/// Whether a path is taken for a list of marks.
-fn is_list(path: &Path) -> bool {
-    list::Form::of(path).is_some()
 }

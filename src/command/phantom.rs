@@ -1,4 +1,4 @@
-//! `phantom`: a volume with known truth.
+//! The verb `phantom`: a volume with known truth.
 
 use super::report::{Progress, note, print};
 use super::{Done, Outcome, Talk};
@@ -14,11 +14,11 @@ use std::path::{Path, PathBuf};
 
 /// Write a phantom as an NRRD volume.
 #[derive(Debug, Args)]
-pub(super) struct Phantom {
-    /// Which phantom; `--list` shows all
+pub(super) struct PhantomArgs {
+    /// The phantom; `--list` shows all
     #[arg(required_unless_present = "list", value_parser = PossibleValuesParser::new(phantom::names()), hide_possible_values = true)]
     name: Option<String>,
-    /// Where to write (.nrrd)
+    /// Output file (.nrrd)
     #[arg(short, long, value_name = "FILE", required_unless_present = "list")]
     output: Option<PathBuf>,
     /// Voxels along each axis: one number, or three as X,Y,Z
@@ -38,7 +38,7 @@ pub(super) struct Phantom {
     list: bool,
 }
 
-impl Phantom {
+impl PhantomArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let (false, Some(name), Some(output)) = (self.list, &self.name, &self.output) else { return print(&list()) };
         checked(output)?;
@@ -64,7 +64,7 @@ impl Phantom {
     }
 }
 
-/// The name must end as what is written, and be one that can be written now.
+/// Checks that a name ends in `.nrrd` and can be written now.
 fn checked(output: &Path) -> Result<(), Failures> {
     if !output.is_dir() && !output.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("nrrd")) {
         let what = "a phantom is written as NRRD";
@@ -73,7 +73,7 @@ fn checked(output: &Path) -> Result<(), Failures> {
     atomic::check(output).map_err(|source| Failure::from(WriteError { file: output.to_path_buf(), source }).into())
 }
 
-/// One number for all axes, or three.
+/// Returns three numbers from one for all axes, or from three.
 fn three<T: Copy>(given: &[T], flag: &str) -> Result<[T; 3], Failure> {
     match *given {
         [a] => Ok([a; 3]),
@@ -82,13 +82,13 @@ fn three<T: Copy>(given: &[T], flag: &str) -> Result<[T; 3], Failure> {
     }
 }
 
-/// `k=v`.
+/// Parses `k=v`.
 fn parameter(text: &str) -> Result<(String, f64), &'static str> {
     let pair = text.split_once('=').and_then(|(k, v)| Some((k.trim().to_owned(), v.trim().parse::<f64>().ok()?)));
     pair.ok_or("a parameter is a name and a number, such as R=40")
 }
 
-/// Every phantom with its parameters.
+/// Returns all phantoms with their parameters.
 fn list() -> String {
     let mut text = String::new();
     for about in phantom::describe() {

@@ -1,6 +1,6 @@
-//! `plan`: what a scene calls for, and why.
+//! The verb `plan`: what a scene calls for, and why.
 
-use super::input::{self, Over, Set};
+use super::input::{self, SceneOverrides, SetArgs};
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::Args;
@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 /// Say what a scene calls for, and which line asked.
 #[derive(Debug, Args)]
-pub(super) struct Plan {
+pub(super) struct PlanArgs {
     /// A scene or a volume; without either, the embedded scene
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
@@ -25,14 +25,14 @@ pub(super) struct Plan {
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     #[command(flatten)]
-    set: Set,
+    set: SetArgs,
 }
 
-impl Plan {
+impl PlanArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let flags = |preset: &String| input::preset_flags(preset, self.input.as_deref(), &self.set, false);
         let flags = self.preset.iter().flat_map(flags).collect();
-        let over = Over::new(&self.set, flags)?;
+        let over = SceneOverrides::new(&self.set, flags)?;
         let mut job = {
             let _loading = Progress::new(talk, "loading");
             input::load(self.input.as_deref(), &over)?

@@ -1,7 +1,7 @@
-//! `probe`: value, derivatives and curvature at points.
+//! The verb `probe`: value, derivatives and curvature at points.
 
-use super::input::{self, Flag};
-use super::raw::Raw;
+use super::input::{self, KeyFlag, SetArgs};
+use super::raw::RawArgs;
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::{Args, ValueEnum};
@@ -20,7 +20,7 @@ use std::path::PathBuf;
 /// Each object says in hessian_estimator which estimator made hessian, k1, k2, e1, e2, mean, gaussian and kv. Where
 /// there is no normal, normal, e1 and e2 are null and the curvatures 0.
 #[derive(Debug, Args)]
-pub(super) struct Probe {
+pub(super) struct ProbeArgs {
     /// A volume
     #[arg(value_name = "VOLUME")]
     volume: PathBuf,
@@ -45,11 +45,11 @@ pub(super) struct Probe {
     /// σ of the gaussian Hessian: a number in world units, or such as "2 voxels"
     #[arg(long, value_name = "LENGTH", default_value = "1 voxel")]
     scale: String,
-    /// Which values lie outside: low or high
+    /// The side of a surface that lies outside: low or high values
     #[arg(long, value_name = "NAME", default_value = "low")]
     outside: String,
     #[command(flatten)]
-    raw: Raw,
+    raw: RawArgs,
 }
 
 /// The space of a point.
@@ -61,15 +61,19 @@ enum Space {
     Index,
 }
 
-impl Probe {
+impl ProbeArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let settings = input::settings(vec![
-            Flag::name("sampling.kernel", "--kernel", &self.kernel),
-            Flag::name("sampling.gradient", "--gradient", &self.gradient),
-            Flag::name("sampling.hessian", "--hessian", &self.hessian),
-            Flag::length("sampling.scale", "--scale", &self.scale),
-            Flag::name("volume.outside", "--outside", &self.outside),
-        ])?;
+        // The options go through the walker of scenes, which checks them.
+        let settings = input::settings(
+            &SetArgs::default(),
+            vec![
+                KeyFlag::name("sampling.kernel", "--kernel", &self.kernel),
+                KeyFlag::name("sampling.gradient", "--gradient", &self.gradient),
+                KeyFlag::name("sampling.hessian", "--hessian", &self.hessian),
+                KeyFlag::length("sampling.scale", "--scale", &self.scale),
+                KeyFlag::name("volume.outside", "--outside", &self.outside),
+            ],
+        )?;
         let points = if self.at.is_empty() { from_input()? } else { self.at.clone() };
         let _working = Progress::new(talk, "probing");
         let volume = self.raw.read(&self.volume)?;
@@ -84,7 +88,7 @@ impl Probe {
             scale: sampling.scale.world(volume.grid()).ok_or_else(|| refused(&"--scale is no length in the volume"))?,
             outside: settings.volume.outside,
         };
-        // Bytes a voxel for the coefficients of the kernel, and for those of the smoothed volume while it is filtered.
+        // Bytes a voxel: the kernel's coefficients, and those of the smoothed volume during filtering.
         let prefiltered = matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5);
         let smoothed = matches!(sampling.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian);
         let each = 8 * u64::from(prefiltered) + 16 * u64::from(smoothed);
@@ -99,7 +103,7 @@ impl Probe {
         };
         let outside = points.iter().filter(|point| probe(**point).is_none()).take(TOLD);
         Failures::check(outside.map(|point| self.outside_of(volume.grid(), *point)))?;
-        // A point a line, printed some thousand bytes at a time.
+        // Output has a point a line and is printed in blocks of some thousand bytes.
         let mut text = String::from("[");
         for (i, probed) in points.iter().filter_map(|point| probe(*point)).enumerate() {
             text += if i > 0 { ",\n" } else { "\n" };
@@ -127,20 +131,20 @@ impl Probe {
     }
 }
 
-/// The most bytes of a line of standard input: three numbers of every digit that an f64 can have, with blanks.
+/// Longest line of standard input, in bytes: three numbers with every digit that an f64 can have, and blanks.
 const LINE: u64 = 4096;
 
-/// Bytes of memory that a byte of standard input takes in the end: the shortest point has 6, and is a vector in a list that
-/// may have grown to twice its need.
+/// Bytes of memory for a byte of standard input. The shortest point has 6 bytes; it becomes a vector in a list that may
+/// have grown to twice its need.
 const POINT_PER_BYTE: u64 = 12;
 
-/// The most points that are refused one by one.
+/// Most points that are reported one by one.
 const TOLD: usize = 20;
 
-/// Bytes that are printed at a time.
+/// Size of a block of output, in bytes.
 const PRINTED: usize = 1 << 16;
 
-/// The points of standard input, one a line, or the first lines that are none.
+/// Reads points from standard input, one a line, or returns failures for the first bad lines.
 fn from_input() -> Result<Vec<DVec3>, Failures> {
     let (mut points, mut failures) = (Vec::new(), Vec::new());
     let mut input = std::io::BufReader::new(Metered::new(std::io::stdin().lock(), POINT_PER_BYTE));
@@ -168,7 +172,7 @@ fn from_input() -> Result<Vec<DVec3>, Failures> {
     Failures::check(failures).map(|()| points)
 }
 
-/// Three finite numbers, separated by commas or spaces.
+/// Parses three finite numbers, separated by commas or spaces.
 fn vector(text: &str) -> Result<DVec3, &'static str> {
     let parts: Result<Vec<f64>, _> =
         text.split([',', ' ', '\t']).filter(|s| !s.is_empty()).map(str::parse::<f64>).collect();
@@ -178,12 +182,12 @@ fn vector(text: &str) -> Result<DVec3, &'static str> {
     }
 }
 
-/// Three numbers, not all 0.
+/// Parses three numbers, not all 0.
 fn direction(text: &str) -> Result<DVec3, &'static str> {
     vector(text).ok().filter(|v| *v != DVec3::ZERO).ok_or("a direction is three numbers that are not all 0, as X,Y,Z")
 }
 
-/// One point as the JSON object that `probe` prints.
+/// Returns a point as the JSON object that `probe` prints.
 fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
     let three = |v: DVec3| json!([v.x, v.y, v.z]);
     let h = p.hessian;
@@ -192,7 +196,7 @@ fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
         "value": p.value,
         "gradient": three(p.gradient),
         "hessian": [row(0), row(1), row(2)],
-        "hessian_estimator": name(estimator),
+        "hessian_estimator": estimator,
         "normal": p.normal.map(three),
         "k1": p.k1,
         "k2": p.k2,
@@ -205,14 +209,4 @@ fn object(p: &Probed, estimator: HessianEstimator) -> serde_json::Value {
         object.insert("kv".into(), json!(kv));
     }
     object
-}
-
-/// An estimator's name in a scene. A field has decided what `auto` is.
-fn name(estimator: HessianEstimator) -> &'static str {
-    match estimator {
-        HessianEstimator::Auto => "auto",
-        HessianEstimator::Analytic => "analytic",
-        HessianEstimator::Central => "central",
-        HessianEstimator::Gaussian => "gaussian",
-    }
 }

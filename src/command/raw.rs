@@ -1,6 +1,6 @@
-//! `--raw`: the layout of voxels without a header, where no sidecar describes them ([IO-1]).
+//! The option `--raw`: the layout of voxels without a header or sidecar ([IO-1]).
 
-use super::input::{self, Flag};
+use super::input::{self, KeyFlag, SetArgs};
 use drypoint::scene::tables::{RawLayout, VolumeSource};
 use drypoint::scene::volume::{Volume, read};
 use drypoint::{Failure, Failures};
@@ -9,29 +9,29 @@ use std::path::Path;
 /// The scene key that `--raw` stands for.
 pub(super) const KEY: &str = "volume.raw";
 
-/// The layout of a file without header, as verbs take it.
+/// The option `--raw` of verbs.
 #[derive(Clone, Debug, Default, clap::Args)]
-pub(super) struct Raw {
+pub(super) struct RawArgs {
     /// The layout of raw voxels, the keys of volume.raw: 'size = [256, 256, 113], type = "i16"'
     #[arg(long = "raw", value_name = "KEYS")]
     keys: Option<String>,
 }
 
-impl Raw {
-    /// The scene key that it stands for.
-    pub(super) fn flag(&self) -> Option<Flag> {
+impl RawArgs {
+    /// Returns the flag of the scene key `volume.raw`.
+    pub(super) fn flag(&self) -> Option<KeyFlag> {
         let keys = self.keys.as_ref()?;
-        Some(Flag { key: KEY, value: format!("{{ {keys} }}"), typed: format!("--raw {keys}") })
+        Some(KeyFlag { key: KEY, value: format!("{{ {keys} }}"), typed: format!("--raw {keys}") })
     }
 
-    /// Reads a volume: by its layout, if one was given.
+    /// Reads a volume, by its layout if one is given.
     pub(super) fn read(&self, path: &Path) -> Result<Volume, Failures> {
-        let scene = input::settings(self.flag().into_iter().collect())?;
+        let scene = input::settings(&SetArgs::default(), self.flag().into_iter().collect())?;
         Ok(read::read(path, layout(&scene.volume.source))?)
     }
 }
 
-/// The failure of a `--raw`, as it was typed, that is no list of keys.
+/// Returns the failure of a `--raw`, as typed, that is no list of keys.
 pub(super) fn no_keys(typed: &str) -> Failure {
     let has = |key: &str| typed.contains(key);
     let absent = match (has("size"), has("["), has("type")) {
@@ -49,7 +49,7 @@ pub(super) fn no_keys(typed: &str) -> Failure {
     )
 }
 
-/// The layout that a source has.
+/// Returns the layout of a source, if it has one.
 pub(super) fn layout(source: &VolumeSource) -> Option<&RawLayout> {
     match source {
         VolumeSource::File { raw, .. } => raw.as_ref(),

@@ -1,11 +1,11 @@
-//! `render`: a picture.
+//! The verb `render`: a picture.
 
-use super::frames::{self, Drawn};
-use super::input::{self, Flag, Over, Set};
-use super::raw::Raw;
+use super::frames::{self, DrawReport};
+use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
+use super::output_path::RenderOutput;
+use super::raw::RawArgs;
 use super::report::{note, print};
 use super::stats;
-use super::target::Target;
 use super::{Done, Outcome, Talk};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
@@ -14,18 +14,18 @@ use std::path::PathBuf;
 
 /// Render a scene or a bare volume to a picture; without either, the embedded scene.
 #[derive(Debug, Args)]
-pub(super) struct Render {
+pub(super) struct RenderArgs {
     /// A scene (.toml) or a volume (.nrrd, .nhdr, .nii, .nii.gz, .mhd, .mha, .raw)
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Where to write; the suffix chooses PNG or EXR, or SVG or PDF for points over the picture; ### is the number of a
+    /// Output file; the suffix chooses PNG or EXR, or SVG or PDF for points over the picture; ### is the number of a
     /// frame of [orbit] [default: the input's name with .png, in the working directory]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels of the picture
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
-    /// Who renders
+    /// The renderer
     #[arg(long, value_enum, default_value_t = Backend::Reference)]
     backend: Backend,
     /// The preset of a bare volume: style, toon, hatch, outline, stipple, or a figure: hatch-fig2, hatch-fig4, hatch-fig5,
@@ -37,9 +37,9 @@ pub(super) struct Render {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     layers: Vec<String>,
     #[command(flatten)]
-    raw: Raw,
+    raw: RawArgs,
     #[command(flatten)]
-    set: Set,
+    set: SetArgs,
     /// Print the counts of the render as one JSON object, alone on standard output
     #[arg(long)]
     stats: bool,
@@ -48,7 +48,7 @@ pub(super) struct Render {
     repeat: Option<usize>,
 }
 
-/// Who renders.
+/// The renderer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Backend {
     /// The CPU, in f64: the truth
@@ -57,17 +57,17 @@ enum Backend {
     Gpu,
 }
 
-impl Render {
+impl RenderArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         if self.backend == Backend::Gpu {
             let what = "the GPU backend is not built yet";
             return Err(Failure::new(what, "--backend gpu", "leave --backend out: the CPU renders").into());
         }
-        let target = Target::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
-        let mut over = Over::new(&self.set, self.flags()?)?;
+        let target = RenderOutput::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
+        let mut over = SceneOverrides::new(&self.set, self.flags()?)?;
         over.beauty_only = target.format != Format::Exr;
         let (input, files, repeat) = (self.input.as_deref(), |scene: &_| target.files(scene), self.repeat.unwrap_or(1));
-        let Drawn { counts, times } = frames::load_and_draw(input, &over, files, repeat, talk)?;
+        let DrawReport { counts, times } = frames::load_and_draw(input, &over, files, repeat, talk)?;
         let line = stats::line(counts, self.repeat.map(|_| &times))?;
         if self.stats {
             return print(&line);
@@ -78,9 +78,9 @@ impl Render {
         Ok(Done::Yes)
     }
 
-    /// The flags that stand for scene keys.
-    fn flags(&self) -> Result<Vec<Flag>, Failure> {
-        let mut flags: Vec<Flag> = self.raw.flag().into_iter().collect();
+    /// Returns the flags that stand for scene keys.
+    fn flags(&self) -> Result<Vec<KeyFlag>, Failure> {
+        let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
         if let Some(size) = &self.size {
             let typed = format!("--size {size}");
             let [w, h] = pixels(size).ok_or_else(|| {
@@ -90,20 +90,20 @@ impl Render {
                     "write width and height in pixels, such as 800x600",
                 )
             })?;
-            flags.push(Flag { key: "picture.size", value: format!("[{w}, {h}]"), typed });
+            flags.push(KeyFlag { key: "picture.size", value: format!("[{w}, {h}]"), typed });
         }
         if let Some(preset) = &self.preset {
             flags.extend(input::preset_flags(preset, self.input.as_deref(), &self.set, self.size.is_some()));
         }
         if !self.layers.is_empty() {
             let typed = format!("--layers {}", self.layers.join(","));
-            flags.push(Flag { key: "picture.layers", value: format!("{:?}", self.layers), typed });
+            flags.push(KeyFlag { key: "picture.layers", value: format!("{:?}", self.layers), typed });
         }
         Ok(flags)
     }
 }
 
-/// Width and height of `800x600`.
+/// Parses width and height of `800x600`.
 fn pixels(size: &str) -> Option<[u64; 2]> {
     let (w, h) = size.split_once('x')?;
     Some([w.parse().ok()?, h.parse().ok()?])

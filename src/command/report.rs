@@ -1,4 +1,4 @@
-//! Saying things: standard output, notes on standard error, progress.
+//! Output of the command: standard output, notes on standard error, progress.
 
 use super::{Done, Outcome, Talk};
 use drypoint::Failure;
@@ -24,7 +24,7 @@ fn write_out(text: &str) -> Outcome {
     }
 }
 
-/// A value, as `serde_json` has it, on standard output.
+/// Writes JSON from `serde_json` to standard output.
 pub(super) fn print_json(text: serde_json::Result<String>) -> Outcome {
     match text {
         Ok(text) => write_out(&(escaped_json(&text) + "\n")),
@@ -32,26 +32,26 @@ pub(super) fn print_json(text: serde_json::Result<String>) -> Outcome {
     }
 }
 
-/// A line on standard error, unless `-q`. A line break in it, which a file's name may have, is escaped.
+/// Writes a line to standard error, unless `-q`. Line breaks, which a file's name may have, are escaped.
 pub(super) fn note(talk: Talk, text: impl std::fmt::Display) {
     if !talk.quiet {
         say(text.to_string().replace('\n', "\\n"));
     }
 }
 
-/// A line on standard error.
+/// Writes a line to standard error.
 pub(super) fn say(text: impl std::fmt::Display) {
-    // Where standard error is closed nobody hears it, and work goes on.
+    // With a closed standard error nobody reads it, and work goes on.
     let _ = writeln!(std::io::stderr(), "{}", escaped(&text.to_string()));
 }
 
-/// Escapes a text for a terminal, where a name in it could change what is shown around it, by a colour or the direction of
-/// writing: ESC becomes `\u{1b}`. Line ends and tabs stay.
+/// Escapes unprintable characters for a terminal: ESC becomes `\u{1b}`. A name with such characters could change
+/// colours or the writing direction around it. Line ends and tabs stay.
 fn escaped(text: &str) -> String {
     with_escapes(text, |c| c.escape_unicode().to_string())
 }
 
-/// Escapes JSON as JSON does, so that its value stays: unprintable characters stand in its strings alone.
+/// Escapes unprintable characters as JSON does, so that the value stays. They occur only in its strings.
 fn escaped_json(text: &str) -> String {
     with_escapes(text, |c| format!("\\u{:04x}", u32::from(c)))
 }
@@ -68,34 +68,34 @@ fn with_escapes(text: &str, escape: impl Fn(char) -> String) -> String {
     escaped
 }
 
-/// Time until a bar is shown, and until an estimate is ventured: what is done by then needs neither.
+/// Time until a bar is shown, and until an estimate is made. Shorter work needs neither.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Expected time from which on work says how long it takes.
+/// Work that is expected to take this long announces its time.
 const LONG: Duration = Duration::from_secs(5);
 
-/// Share of the work from which its time is estimated before [`LONG`] has passed.
+/// Share of the work that allows an estimate before [`LONG`] has passed.
 const ENOUGH: f64 = 0.1;
 
-/// Work in progress. Work that is expected to take five seconds or more says so in one line; on a terminal, what takes over
-/// a second has a bar. Nothing is shown where output is quiet.
+/// Progress of work. Work expected to take five seconds or more announces its time in one line. On a terminal, work of
+/// more than a second has a bar. Nothing is shown in quiet mode.
 pub(super) struct Progress {
-    shown: Option<Arc<Shown>>,
+    shown: Option<Arc<ProgressState>>,
 }
 
-/// State that a thread of its own shows.
-struct Shown {
+/// State of work, shown by a thread of its own.
+struct ProgressState {
     doing: String,
     start: Instant,
     bar: Option<ProgressBar>,
     amount: OnceLock<String>,
-    /// Bits of the share that is done, in [0, 1].
+    /// Bits of the finished share, in [0, 1].
     share: AtomicU64,
     ended: (Mutex<bool>, Condvar),
 }
 
 impl Progress {
-    /// Begins without a known share: a spinner with a text.
+    /// Begins work of unknown length: a spinner with a text.
     pub(super) fn new(talk: Talk, doing: impl std::fmt::Display) -> Self {
         let shown = (!talk.quiet).then(|| {
             let doing = escaped(&doing.to_string());
@@ -109,7 +109,7 @@ impl Progress {
             });
             let (amount, share) = (OnceLock::new(), AtomicU64::new(0));
             let ended = (Mutex::new(false), Condvar::new());
-            let shown = Arc::new(Shown { doing, start: Instant::now(), bar, amount, share, ended });
+            let shown = Arc::new(ProgressState { doing, start: Instant::now(), bar, amount, share, ended });
             let watched = shown.clone();
             // Without a thread nothing is shown, and the work goes on.
             let _ = std::thread::Builder::new().spawn(move || watched.watch());
@@ -118,14 +118,14 @@ impl Progress {
         Self { shown }
     }
 
-    /// Tells how much there is to do, such as `3.1e6 dots`; the first time counts.
+    /// Announces the amount of work, such as `3.1e6 dots`. Only the first call counts.
     pub(super) fn amount(&self, amount: impl FnOnce() -> String) {
         if let Some(shown) = &self.shown {
             shown.amount.get_or_init(amount);
         }
     }
 
-    /// Hears the share that is done, in [0, 1], and shows it from then on.
+    /// Sets the finished share, in [0, 1], and shows it from then on.
     pub(super) fn hear(&self, share: f64) {
         let Some(shown) = &self.shown else { return };
         let before = f64::from_bits(shown.share.swap(share.to_bits(), Ordering::Relaxed));
@@ -140,8 +140,8 @@ impl Progress {
     }
 }
 
-impl Shown {
-    /// Shows the bar when its time has come, and says how long the work takes, if that is long.
+impl ProgressState {
+    /// Shows the bar in time, and announces the duration of long work.
     fn watch(&self) {
         if self.ended_within(PATIENCE) {
             return;
@@ -154,7 +154,8 @@ impl Shown {
         loop {
             let (elapsed, share) = (self.start.elapsed(), f64::from_bits(self.share.load(Ordering::Relaxed)));
             let all = elapsed.as_secs_f64() / share;
-            // The first rays meet little, so an early estimate may be far too low: what is twice as long is said again.
+            // The first rays meet little, so an early estimate may be far too low. An estimate twice as long is
+            // announced again.
             let ventured = elapsed >= LONG || (ENOUGH..1.0).contains(&share);
             if ventured && share > 0.0 && share < 1.0 && all >= LONG.as_secs_f64().max(2.0 * said) {
                 self.say(&format!("about {} in all", duration(all)));
@@ -186,7 +187,7 @@ impl Shown {
     }
 }
 
-/// Seconds in the unit that a person would take.
+/// Returns a duration in its natural unit.
 fn duration(seconds: f64) -> String {
     let units =
         [("seconds", 1.0), ("minutes", 60.0), ("hours", 3600.0), ("days", 86400.0), ("years", 365.25 * 86400.0)];

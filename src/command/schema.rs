@@ -1,13 +1,13 @@
-//! `schema`: the JSON Schema of scene files.
+//! The verb `schema`: the JSON Schema of scene files.
 
 use super::{Outcome, report::print_json};
 use clap::Args;
 
 /// Print the JSON Schema of scene files.
 #[derive(Debug, Args)]
-pub(super) struct Schema {}
+pub(super) struct SchemaArgs {}
 
-impl Schema {
+impl SchemaArgs {
     pub(super) fn run(self) -> Outcome {
         print_json(serde_json::to_string_pretty(&drypoint::scene::file::schema()))
     }

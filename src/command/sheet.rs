@@ -1,9 +1,9 @@
-//! `sheet`: many pictures on one.
+//! The verb `sheet`: many pictures on one.
 
 use super::frames;
-use super::input::{self, Over, Set};
+use super::input::{self, SceneOverrides, SetArgs};
 use super::report::{Progress, note};
-use super::{Done, Outcome, Talk, target};
+use super::{Done, Outcome, Talk, output_path};
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
 use drypoint::output::png;
@@ -15,11 +15,11 @@ use std::path::{Path, PathBuf};
 
 /// Write a contact sheet of volumes, scenes or pictures; volumes and scenes are rendered.
 #[derive(Debug, Args)]
-pub(super) struct Sheet {
+pub(super) struct SheetArgs {
     /// Volumes, scenes (.toml) or pictures (.png, .exr)
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Where to write, as PNG
+    /// Output file (.png)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Pixels along the side of a cell
@@ -29,19 +29,19 @@ pub(super) struct Sheet {
     #[arg(long, value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     columns: Option<usize>,
     #[command(flatten)]
-    set: Set,
+    set: SetArgs,
 }
 
-impl Sheet {
+impl SheetArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        target::picture(&self.output, &[Format::Png])?;
-        target::apart(&self.output, self.files.iter().map(PathBuf::as_path))?;
+        output_path::picture(&self.output, &[Format::Png])?;
+        output_path::check_not_read(&self.output, self.files.iter().map(PathBuf::as_path))?;
         input::all_there(&self.files)?;
-        let mut over = Over::new(&self.set, Vec::new())?;
+        let mut over = SceneOverrides::new(&self.set, Vec::new())?;
         (over.beauty_only, over.longer_side) = (true, Some(self.cell));
         let mut pictures = Vec::new();
         for file in &self.files {
-            pictures.push((target::stem(file), self.image(file, &over, talk)?));
+            pictures.push((output_path::stem(file), self.image(file, &over, talk)?));
         }
         let layout = Layout { columns: self.columns, cell: self.cell };
         let failed = |error| Failure::picture(&error, self.output.display());
@@ -51,8 +51,8 @@ impl Sheet {
         Ok(Done::Yes)
     }
 
-    /// One cell: a picture as it is, anything else rendered to fit.
-    fn image(&self, file: &Path, over: &Over, talk: Talk) -> Result<Image, Failures> {
+    /// Returns the picture of a cell: a file as it is, or anything else rendered to fit.
+    fn image(&self, file: &Path, over: &SceneOverrides, talk: Talk) -> Result<Image, Failures> {
         if Format::of(file).is_some_and(|format| Format::PICTURES.contains(&format)) {
             let image = read_image(file).map_err(|error| Failure::picture(&error, file.display()))?;
             if image.colors().is_none() {
@@ -65,7 +65,7 @@ impl Sheet {
             let _loading = Progress::new(talk, file.display());
             input::load(Some(file), over)?
         };
-        target::apart(&self.output, job.scene.files())?;
+        output_path::check_not_read(&self.output, job.scene.files())?;
         input::tell(talk, &job);
         let progress = Progress::new(talk, file.display());
         Ok(Image::from(&frames::first(&job, &|share| progress.hear(share))?))

@@ -1,11 +1,11 @@
-//! Signals that end the command: none of them leaves an unfinished file.
+//! Signals that end the command. No unfinished file stays.
 
 use drypoint::scene::atomic;
 
-/// Ends the process on SIGINT, SIGTERM and SIGHUP, after unfinished files are removed. The exit code is 128 and the
-/// number of the signal, as shells have it: 130, 143 and 129.
+/// Ends the process on SIGINT, SIGTERM and SIGHUP, after removing unfinished files. The exit code is 128 plus the
+/// signal's number, as in shells: 130, 143 and 129.
 ///
-/// Where no handler can be set, or no thread started, an unfinished file stays, under a name of its own.
+/// An unfinished file stays, under a temporary name, if no handler can be set or no thread started.
 #[cfg(unix)]
 pub(super) fn remove_unfinished_at_the_end() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -19,8 +19,8 @@ pub(super) fn remove_unfinished_at_the_end() {
     });
 }
 
-/// Whether SIGHUP is to end the process. `nohup` starts a program that ignores it, which a handler would undo; where the
-/// system does not say whether SIGHUP is ignored, it is left alone.
+/// Whether SIGHUP ends the process. `nohup` starts a program with SIGHUP ignored, which a handler would undo. If the
+/// system does not say whether it is ignored, SIGHUP is left alone.
 #[cfg(unix)]
 fn ends_on_hangup() -> bool {
     let ignored = std::fs::read_to_string("/proc/self/status").ok().and_then(|status| {
@@ -31,9 +31,9 @@ fn ends_on_hangup() -> bool {
     ignored.is_some_and(|mask| mask & 1 == 0)
 }
 
-/// Ends the process on Ctrl-C and when its console is closed, after unfinished files are removed, with exit code 130.
+/// Ends the process with exit code 130 on Ctrl-C and when its console closes, after removing unfinished files.
 ///
-/// Where no handler can be set, an unfinished file stays, under a name of its own.
+/// An unfinished file stays, under a temporary name, if no handler can be set.
 #[cfg(not(unix))]
 pub(super) fn remove_unfinished_at_the_end() {
     let _ = ctrlc::set_handler(|| {

@@ -5,24 +5,24 @@ use drypoint::cost::median;
 use drypoint::scene::counts::Counts;
 use serde_json::{Map, Value, json};
 
-/// What the frames of `--repeat` took.
-pub(super) struct Times {
+/// Times of the frames of `--repeat`.
+pub(super) struct FrameTimes {
     /// Seconds of each frame, in ascending order; at least one.
     wall: Vec<f64>,
-    /// Processor seconds of all of them, where the system says.
+    /// Processor seconds of all frames together, if the system reports them.
     cpu: Option<f64>,
 }
 
-impl Times {
-    /// From the seconds of each frame, at least one, and the processor's for all.
+impl FrameTimes {
+    /// Collects the seconds of each frame, at least one, and the processor seconds of all.
     pub(super) fn new(mut wall: Vec<f64>, cpu: Option<f64>) -> Self {
         wall.sort_by(f64::total_cmp);
         Self { wall, cpu }
     }
 }
 
-/// The counts on one line, with `times` where frames were repeated. What was not done is 0, never left out.
-pub(super) fn line(mut counts: Counts, times: Option<&Times>) -> Result<String, Failure> {
+/// Returns the counts on one line, with `times` if frames were repeated. Work not done counts 0 and is never left out.
+pub(super) fn line(mut counts: Counts, times: Option<&FrameTimes>) -> Result<String, Failure> {
     for quantity in ["differences", "gradients"] {
         counts.preprocess.entry(quantity.into()).or_default();
     }
@@ -40,10 +40,10 @@ pub(super) fn line(mut counts: Counts, times: Option<&Times>) -> Result<String, 
     Ok(format!("{}\n", Value::Object(object)))
 }
 
-/// Processor seconds that this process has used, where the system says so in its process table.
+/// Returns the processor seconds of this process, if the system has a process table.
 pub(super) fn cpu_seconds() -> Option<f64> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // Fields 14 and 15 (user and system time in ticks of 1/100 s), counted behind the name in parentheses.
+    // Fields 14 and 15 (user and system time in ticks of 1/100 s), counted after the name in parentheses.
     let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
     let (user, system) = (fields.next()?.parse::<f64>().ok()?, fields.next()?.parse::<f64>().ok()?);
     Some((user + system) / 100.0)
@@ -55,7 +55,7 @@ mod tests {
 
     #[test]
     fn medians_by_hand() {
-        let median = |wall: &[f64]| median(&Times::new(wall.to_vec(), None).wall);
+        let median = |wall: &[f64]| median(&FrameTimes::new(wall.to_vec(), None).wall);
         assert_eq!(median(&[3.0]), 3.0);
         assert_eq!(median(&[4.0, 1.0]), 2.5);
         assert_eq!(median(&[9.0, 1.0, 2.0]), 2.0);

@@ -1,22 +1,22 @@
-//! `strokes`: a page of hatching and outlines.
+//! The verb `strokes`: a page of hatching and outlines.
 
-use super::input::Set;
-use super::page::Page;
-use super::raw::Raw;
+use super::input::SetArgs;
+use super::page::PageRequest;
+use super::raw::RawArgs;
 use super::{Done, Outcome, Talk};
 use clap::Args;
 use drypoint::Failure;
-use drypoint::job::Wanted;
+use drypoint::job::RenderTarget;
 use std::path::PathBuf;
 
 /// Draw the strokes of a scene or a bare volume onto a page, without what is hidden, or write a saved list of strokes in another format.
 #[derive(Debug, Args)]
-pub(super) struct Strokes {
+pub(super) struct StrokesArgs {
     /// A scene (.toml) with [hatching] or [outlines], a volume, which is drawn 160 mm wide, or a list of strokes (.csv, .jsonl), whose page --set says
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
-    /// Where to write; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit],
-    /// all of which an SVG without it shows in turn
+    /// Output file; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit];
+    /// an SVG without it shows all frames in turn
     #[arg(short, long, value_name = "FILE", required_unless_present = "seeds")]
     output: Option<PathBuf>,
     /// The preset of a bare volume: hatch, outline, or one of the figures' [default: hatch]
@@ -27,27 +27,27 @@ pub(super) struct Strokes {
     #[arg(long, value_name = "FILE")]
     seeds: Option<PathBuf>,
     #[command(flatten)]
-    raw: Raw,
+    raw: RawArgs,
     #[command(flatten)]
-    set: Set,
+    set: SetArgs,
     /// Print the counts as one JSON object, alone on standard output
     #[arg(long)]
     stats: bool,
 }
 
-impl Strokes {
+impl StrokesArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let Self { input, output, preset, seeds, raw, set, stats } = self;
-        let (default_preset, wanted) = ("hatch", Wanted::Strokes);
+        let (default_preset, target) = ("hatch", RenderTarget::Strokes);
         let draws = output.is_some();
         let output = output.unwrap_or_default();
-        let page = Page { input, output, preset, default_preset, raw, set, stats: stats && draws, wanted };
+        let page = PageRequest { input, output, preset, default_preset, raw, set, stats: stats && draws, target };
         if let Some(path) = seeds.as_ref().filter(|path| **path == page.output) {
             let what = "the seeds and the strokes go to one file";
             return Err(Failure::new(what, path.display(), "give --seeds another name").into());
         }
         if let Some(path) = &seeds {
-            Page { stats: stats && !draws, ..page.clone() }.seeds(path, talk)?;
+            PageRequest { stats: stats && !draws, ..page.clone() }.seeds(path, talk)?;
         }
         if draws { page.run(talk) } else { Ok(Done::Yes) }
     }

@@ -1,9 +1,9 @@
-//! `styles`: the styles of a theme, and new ones from pictures.
+//! The verb `styles`: the styles of a theme, and new ones from pictures.
 
 mod extract;
 
 use super::report::{note, print};
-use super::{Done, Outcome, Talk, target};
+use super::{Done, Outcome, Talk, output_path};
 use clap::{Args, Subcommand};
 use drypoint::output::png;
 use drypoint::output::read::Image;
@@ -21,9 +21,9 @@ const CELL: usize = 176;
 /// List the styles of a theme; with -o, write a sheet of spheres with their names.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
-pub(super) struct Styles {
+pub(super) struct StylesArgs {
     #[command(subcommand)]
-    what: Option<What>,
+    what: Option<StylesVerb>,
     #[arg(long, value_name = "NAME|FOLDER", default_value = "textbook", help = theme_help())]
     theme: String,
     /// Write a preview sheet, as PNG
@@ -32,27 +32,28 @@ pub(super) struct Styles {
 }
 
 #[derive(Debug, Subcommand)]
-enum What {
+enum StylesVerb {
     /// Make a style from a part of a picture
-    Extract(extract::Extract),
+    Extract(extract::ExtractArgs),
 }
 
-/// What --theme takes, with the names that there are.
+/// Returns the help of `--theme` with the names of themes.
 fn theme_help() -> String {
     let names: Vec<&str> = Theme::embedded_names().collect();
     format!("An embedded theme ({}), or a folder of pictures", names.join(", "))
 }
 
-impl Styles {
+impl StylesArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        if let Some(What::Extract(verb)) = self.what {
+        if let Some(StylesVerb::Extract(verb)) = self.what {
             return verb.run(talk);
         }
         let folder = PathBuf::from(&self.theme);
         if let Some(output) = &self.output {
-            target::picture(output, &[Format::Png])?;
-            target::apart(output, [&*folder])?;
+            output_path::picture(output, &[Format::Png])?;
+            output_path::check_not_read(output, [&*folder])?;
         }
+        // The theme: an embedded one, or a folder.
         let source = if folder.is_dir() && !Theme::embedded_names().any(|name| name == self.theme) {
             StyleSource::Folder(folder)
         } else {
@@ -68,6 +69,7 @@ impl Styles {
         let Some(output) = &self.output else {
             return print(&names.iter().map(|name| format!("{name}\n")).collect::<String>());
         };
+        // The sheet: a sphere for each style.
         let (mut styles, mut failures) = (Vec::new(), Vec::new());
         for style in names.iter().filter_map(|name| theme.style(name)) {
             match style {

@@ -1,13 +1,12 @@
-//! `wedge`: a page to print and measure, and what was measured as a plot ([STIP-17]).
+//! The verb `wedge`: a page to print and measure, and a plot of the measured table ([STIP-17]).
 
-use super::input::{self, Set};
+use super::input::{self, SetArgs};
 use super::report::{Progress, note};
-use super::{Done, Outcome, Talk, target};
+use super::{Done, Outcome, Talk, output_path};
 use clap::Args;
 use drypoint::drawing::write_page;
 use drypoint::format::Format;
-use drypoint::job::Wanted;
-use drypoint::output::atomic;
+use drypoint::job::RenderTarget;
 use drypoint::scene::marks::{Page, Pen};
 use drypoint::scene::memory;
 use drypoint::scene::tables::Scene;
@@ -19,8 +18,8 @@ use std::path::{Path, PathBuf};
 
 /// Write a step wedge of a pen, to be printed and measured, with a table to fill in beside it; or plot such a table.
 #[derive(Debug, Args)]
-pub(super) struct Wedge {
-    /// Where to write; the suffix chooses SVG, PDF, PNG or EXR, of a plot SVG or PNG
+pub(super) struct WedgeArgs {
+    /// Output file; the suffix chooses SVG, PDF, PNG or EXR, of a plot SVG or PNG
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The pen's name; where --set says none, one of 0.3 mm in black
@@ -30,10 +29,10 @@ pub(super) struct Wedge {
     #[arg(long, value_name = "FILE", conflicts_with = "pen")]
     measured: Option<PathBuf>,
     #[command(flatten)]
-    set: Set,
+    set: SetArgs,
 }
 
-impl Wedge {
+impl WedgeArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         if let Some(measured) = &self.measured {
             return self.plot(measured, talk);
@@ -49,47 +48,47 @@ impl Wedge {
         // A table that is filled in stays, and may be read-only.
         let stays = memory::read_to_string(&table).is_ok_and(|there| there != template);
         for path in std::iter::once(&self.output).chain((!stays).then_some(&table)) {
-            atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))?;
+            output_path::writable(path)?;
         }
-        let scene = input::page(&self.set)?;
-        target::apart(&self.output, scene.files())?;
+        let scene = input::settings(&self.set, Vec::new())?;
+        output_path::check_not_read(&self.output, scene.files())?;
         let (pen, tone) = pen(&scene, self.pen.as_deref().unwrap_or_default())?;
         let drawing = Progress::new(talk, "step wedge");
         drawing.amount(|| format!("a nib of {} mm", pen.width));
         let page = wedge(&pen, &tone, &Page::of(&scene), 1)?;
         let [width, height] = page.marks.page.size.to_array();
-        let said = write_page(page.marks, &scene, Wanted::Marks, &self.output)?.said;
+        let notes = write_page(page.marks, &scene, RenderTarget::Marks, &self.output)?.notes;
         drop(drawing);
         note(talk, format_args!("{}: {width:.0} × {height:.0} mm", self.output.display()));
-        for line in said {
+        for line in notes {
             note(talk, line);
         }
         if stays {
             note(talk, format_args!("{}: is there and stays as it is", table.display()));
             return Ok(Done::Yes);
         }
-        atomic::write(&table, template.as_bytes()).map_err(|error| Failure::picture(&error, table.display()))?;
+        output_path::write(&table, template.as_bytes())?;
         note(talk, format_args!("{}: to be filled in, and given to [[pen]] as tone", table.display()));
         Ok(Done::Yes)
     }
 
     fn plot(&self, measured: &Path, talk: Talk) -> Outcome {
         let format = Format::among(&self.output, &[Format::Svg, Format::Png])?;
-        atomic::check(&self.output).map_err(|error| Failure::picture(&error, self.output.display()))?;
-        target::apart(&self.output, [measured])?;
-        let (tone, name) = (tone(measured)?, target::stem(measured));
+        output_path::writable(&self.output)?;
+        output_path::check_not_read(&self.output, [measured])?;
+        let (tone, name) = (tone(measured)?, output_path::stem(measured));
         let bytes = if format == Format::Svg {
             tone_plot::svg(&tone, &name).into_bytes()
         } else {
             tone_plot::png(&tone, &name).map_err(|fault| Failure::new(fault, self.output.display(), "write an .svg"))?
         };
-        atomic::write(&self.output, &bytes).map_err(|error| Failure::picture(&error, self.output.display()))?;
+        output_path::write(&self.output, &bytes)?;
         note(talk, self.output.display());
         Ok(Done::Yes)
     }
 }
 
-/// The pen of a name, and what it prints: a pen of `--set`, or where there is none an ordinary one.
+/// Returns the pen of a name and its tone: a pen of `--set`, or an ordinary one if there are none.
 fn pen(scene: &Scene, name: &str) -> Result<(Pen, Tone), Failures> {
     let pens = Pen::of(&scene.pens, &Page::of(scene));
     if pens.is_empty() {

@@ -1,48 +1,48 @@
-//! How far what a setting makes is from the truth.
+//! Errors of settings against the truth.
 
 use super::strokes::distances;
-use super::variant::Made;
+use super::variant::SettingOutput;
 use crate::Failure;
 use crate::drawing::Frame;
 use crate::job::Job;
 use drypoint_output::OutputError;
 use drypoint_output::compare::flip::{PIXELS_PER_DEGREE, flip};
-use drypoint_output::compare::{Options, compare};
+use drypoint_output::compare::{CompareOptions, compare};
 use drypoint_output::read::Image;
 use drypoint_scene::marks::Marks;
 
-/// As a row has it.
-pub(super) struct Error {
+/// Error of a setting, as in a row.
+pub(super) struct SettingError {
     pub(super) rms: f64,
     pub(super) max: f64,
     pub(super) flip: f64,
     pub(super) angle: Option<f64>,
 }
 
-/// The error of what a knob of a job's scene made, against the truth of the same kind.
-pub(super) fn error(job: &Job, made: &Made, truth: &Made) -> Result<Error, Failure> {
+/// Returns the error of a setting's output against a truth of the same kind.
+pub(super) fn error(job: &Job, made: &SettingOutput, truth: &SettingOutput) -> Result<SettingError, Failure> {
     let wrong = |error: OutputError| Failure::picture(&error, job.scene.given.position("picture.size"));
     match (made, truth) {
-        (Made::Picture(a), Made::Picture(b)) | (Made::Dots(a), Made::Dots(b)) => {
-            let error = compare(a, b, &Options::default()).map_err(wrong)?;
+        (SettingOutput::Picture(a), SettingOutput::Picture(b)) | (SettingOutput::Dots(a), SettingOutput::Dots(b)) => {
+            let error = compare(a, b, &CompareOptions::default()).map_err(wrong)?;
             // Both pictures have colours.
             let flip = error.flip.unwrap_or(f64::NAN);
-            Ok(Error { rms: error.rms, max: error.max, flip, angle: None })
+            Ok(SettingError { rms: error.rms, max: error.max, flip, angle: None })
         }
-        (Made::Strokes(a), Made::Strokes(b)) => {
+        (SettingOutput::Strokes(a), SettingOutput::Strokes(b)) => {
             let found = distances(a, b, job.volume.grid().voxel()).ok_or_else(|| {
                 let what = "a setting draws no stroke, so that there is nothing to compare";
                 Failure::new(what, job.scene.given.position(""), "`drypoint strokes` shows what is drawn")
             })?;
             let map = flip(&painted(job, &a.marks)?, &painted(job, &b.marks)?, PIXELS_PER_DEGREE).map_err(wrong)?;
-            Ok(Error { flip: map.mean(), ..found })
+            Ok(SettingError { flip: map.mean(), ..found })
         }
         // A knob changes one thing.
-        _ => Ok(Error { rms: f64::NAN, max: f64::NAN, flip: f64::NAN, angle: None }),
+        _ => Ok(SettingError { rms: f64::NAN, max: f64::NAN, flip: f64::NAN, angle: None }),
     }
 }
 
-/// Marks on their background, in pixels.
+/// Returns marks on their background, in pixels.
 fn painted(job: &Job, marks: &Marks) -> Result<Image, Failure> {
     let frame = Frame { number: 0, picture: None, marks: Some(marks.clone()), inside: 0 };
     Ok(Image::from(&frame.painted(job)?))

@@ -1,14 +1,17 @@
-//! The settings that nothing beats ([COST-1]).
+//! Pareto fronts of settings ([COST-1]).
 
-use super::{On, Row, Truth};
+use super::{CostRow, ErrorSubject, Truth};
 
-/// The rows that no other row beats, fastest first: none whose error is of the same and against the same kind of truth has
-/// at most their error in at most their time, and less of one. Against the formula all rows have one truth; against finest settings each row's error is
-/// what its own knob adds, and the front says which knob to turn first. A row without error is its own truth, and stands
-/// on none.
-pub fn front(rows: &[Row], on: On, analytic: bool) -> Vec<&Row> {
-    let mut of_kind: Vec<&Row> =
-        rows.iter().filter(|r| r.on == on && (r.truth == Truth::Analytic) == analytic && r.rms > 0.0).collect();
+/// Returns the Pareto-optimal rows, fastest first. No other row of the same subject and kind of truth is better in
+/// error or time and at least as good in both.
+///
+/// Against the formula all rows have one truth. Against finest settings a row's error is what its own knob adds, and
+/// the front says which knob to turn first. A row without error is its own truth and is on no front.
+pub fn front(rows: &[CostRow], subject: ErrorSubject, analytic: bool) -> Vec<&CostRow> {
+    let mut of_kind: Vec<&CostRow> = rows
+        .iter()
+        .filter(|r| r.subject == subject && (r.truth == Truth::Analytic) == analytic && r.rms > 0.0)
+        .collect();
     of_kind.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then(a.rms.total_cmp(&b.rms)));
     let mut least = f64::INFINITY;
     of_kind.retain(|row| {
@@ -23,10 +26,10 @@ pub fn front(rows: &[Row], on: On, analytic: bool) -> Vec<&Row> {
 mod tests {
     use super::*;
 
-    fn row(setting: &str, seconds: f64, rms: f64, truth: Truth) -> Row {
-        Row {
+    fn row(setting: &str, seconds: f64, rms: f64, truth: Truth) -> CostRow {
+        CostRow {
             knob: "sampling.step".into(),
-            on: On::Picture,
+            subject: ErrorSubject::Picture,
             setting: setting.into(),
             own: false,
             rms,
@@ -52,12 +55,13 @@ mod tests {
             row("worse in the same time", 2.0, 0.2, finest()),
             row("d", 9.0, 0.0, finest()),
             row("of another kind", 0.1, 0.01, Truth::Analytic),
-            Row { on: On::Dots, ..row("of dots", 0.1, 0.01, finest()) },
+            CostRow { subject: ErrorSubject::Dots, ..row("of dots", 0.1, 0.01, finest()) },
         ];
-        let names =
-            |analytic| front(&rows, On::Picture, analytic).iter().map(|row| row.setting.clone()).collect::<Vec<_>>();
+        let names = |analytic| {
+            front(&rows, ErrorSubject::Picture, analytic).iter().map(|row| row.setting.clone()).collect::<Vec<_>>()
+        };
         assert_eq!(names(false), ["a", "b"]);
         assert_eq!(names(true), ["of another kind"]);
-        assert!(front(&[], On::Picture, true).is_empty());
+        assert!(front(&[], ErrorSubject::Picture, true).is_empty());
     }
 }

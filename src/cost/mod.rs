@@ -1,52 +1,51 @@
-//! What accuracy costs: every knob of a scene turned from coarse to fine, error against time ([COST-1] … [COST-3]).
+//! Cost of accuracy: every knob of a scene turned from coarse to fine, error against time ([COST-1] … [COST-3]).
 //!
-//! One knob is turned at a time; all other keys stay as the scene has them. A row is a setting: how far its picture is
-//! from the truth, how long it takes, what it evaluates and keeps.
+//! One knob is turned at a time; all other keys stay as in the scene. A row is a setting: its error against the truth,
+//! its time, what it evaluates and keeps.
 //!
-//! **Truth** ([COST-2]). For a phantom the field itself is known: the knobs that decide how close the samples come to
-//! it (step, kernel, gradient, Hessian, κ) are compared with one picture of the phantom's formula and its exact
-//! derivatives, at their finest settings, without early termination. Where the error no longer falls with finer steps,
-//! what is left of it is the voxels'. The knobs that are no matter of the field (rays a pixel, number type, early
-//! termination, biases of mip-maps) are compared with the same scene at the finest setting, and so is every knob where
-//! the field is not known.
+//! **Truth** ([COST-2]). The field of a phantom is known. Knobs of the field (step, kernel, gradient, Hessian, κ)
+//! decide how close samples come to it. They are compared with one picture of the phantom's formula and its exact
+//! derivatives, at their finest settings and without early termination. Where finer steps no longer reduce the error,
+//! the rest is due to the voxels. Other knobs (rays a pixel, number type, early termination, biases of mip-maps) are
+//! compared with the same scene at the finest setting. So is every knob of a field that is not known.
 //!
-//! **Error** of what a knob changes ([`On`]):
-//! - a picture, as it is written, with its background, in linear premultiplied light: the RMS and the largest difference
-//!   over R, G, B and A, and the mean of FLIP;
-//! - dots, as the page of them alone, painted in pixels no finer than S_max, and blurred by a Gaussian of σ = 4 S_max, the
-//!   same three: the tone of a place counts, and how even it is, and not where a dot lies. Random dots that cover c leave
-//!   √(c/256) of noise for each list, hence 0.4 % of the light at c = 0.005 and 3 % at c = 0.25; evenly spread ones a
-//!   fraction of it;
-//! - strokes, as lines in the world, cut into pieces of 0.1 voxel: RMS and largest of the distances of their ends to the
-//!   other line, both ways, in voxels (the largest is Hausdorff's), the median angle at equal arc lengths, a voxel apart, in
-//!   degrees, and FLIP of the painted page. Hatching is compared by 2000 of its strokes, as they grow from seeds that both
-//!   have: which of them a page shows, and where it cuts them off, is no matter of a stroke's error. RMS and largest are of
-//!   the 95 in 100 that are nearest; the others end elsewhere, or part where lines of curvature meet, whatever the setting.
-//!   Outlines are compared as lists.
+//! **Error** of a knob's output, by its subject ([`ErrorSubject`]):
+//! - A picture as written, with its background, in linear premultiplied light: RMS and largest difference over R, G, B
+//!   and A, and the mean of FLIP.
+//! - Dots: the same three for the page of dots alone. It is painted in pixels no finer than S_max and blurred by a
+//!   Gaussian of σ = 4 S_max. The tone and evenness of a place count, not where a dot lies. Random dots of coverage c
+//!   leave noise of √(c/256) for each list, hence 0.4 % of the light at c = 0.005 and 3 % at c = 0.25. Evenly spread
+//!   dots leave a fraction of it.
+//! - Strokes, as lines in the world, cut into pieces of 0.1 voxel. RMS and largest distance of the pieces' ends to the
+//!   other line, both ways, are in voxels; the largest is Hausdorff's distance. The median angle at equal arc lengths,
+//!   a voxel apart, is in degrees; FLIP is of the painted page. Hatching is compared by 2000 of its strokes, grown from
+//!   seeds that both have. Which strokes a page shows, and where it cuts them, is no error. RMS and largest are of the
+//!   nearest 95 %; the others end elsewhere, or part where lines of curvature meet, whatever the setting. Outlines are
+//!   compared as lists.
 //!
-//! **Time** ([COST-3]): of a picture one frame of a prepared scene, as `render --repeat` has it; what is prepared once
-//! (coefficients of a spline, the range of |g|) is not in it, and is seen in the bytes. Of dots and strokes all of it, from
-//! the voxels to the page, since what their knobs cost is made once. After a warm-up all settings take turns,
-//! forwards and backwards, so that whatever else the machine does falls on each of them; what is told is the median, with
-//! the distance between the quartiles as its spread. A page of more than two seconds has no warm-up and three turns at the
-//! most; dots that differ in `stipples.even` alone are drawn from points that are made once for all of them.
+//! **Time** ([COST-3]) of a picture is one frame of a prepared scene, as in `render --repeat`. Work done once
+//! (coefficients of a spline, the range of |g|) is not in the time but in the bytes. Time of dots and strokes is
+//! everything from the voxels to the page, since their knobs change work done once. After a warm-up all settings take
+//! turns, forwards and backwards, so that other load falls on each of them. The result is the median, and the distance
+//! between the quartiles is its spread. A page of more than two seconds has no warm-up and at most three turns. Dots
+//! that differ in `stipples.even` alone share points made once.
 
 mod error;
-mod form;
 mod front;
 mod plot;
 mod statistics;
 mod strokes;
+mod sweep_format;
 mod table;
 mod tone;
 mod variant;
 
-pub use form::Form;
 pub use front::front;
 pub use statistics::median;
+pub use sweep_format::SweepFormat;
 pub use table::{csv, markdown};
 
-use crate::job::{Job, Turned};
+use crate::job::{Job, KnobVariant};
 use crate::{Failure, Failures};
 use drypoint_output::read::Image;
 use drypoint_scene::knobs::{Knob, Limit, knobs};
@@ -54,32 +53,32 @@ use drypoint_scene::phantom::{self, Phantom};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::tables::{Scene, VolumeSource};
-use error::{Error, error};
+use error::{SettingError, error};
 use statistics::quartiles;
 use std::fmt;
-use variant::{Made, Variant, take_turn, together};
+use variant::{SettingOutput, TimedVariant, take_turn, together};
 
-/// How to sweep.
+/// Settings of a sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// How often each setting is timed, after the warm-up; at least 1.
+pub struct SweepOptions {
+    /// Number of times each setting is timed after the warm-up; at least 1.
     pub runs: usize,
-    /// The keys of the knobs to turn; empty: all that the scene uses.
+    /// Keys of the knobs to turn; empty: all knobs that the scene uses.
     pub only: Vec<String>,
 }
 
-impl Default for Options {
+impl Default for SweepOptions {
     fn default() -> Self {
         Self { runs: 5, only: Vec::new() }
     }
 }
 
-/// What an error is measured against.
+/// The truth that an error is measured against.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// The phantom's formula, at the finest settings.
     Analytic,
-    /// The same scene with the knob's finest setting.
+    /// The scene itself with the knob's finest setting.
     Finest(String),
 }
 
@@ -92,9 +91,9 @@ impl fmt::Display for Truth {
     }
 }
 
-/// What a knob changes, and its error is measured on.
+/// The output that a knob changes, on which its error is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum On {
+pub enum ErrorSubject {
     /// The picture of the volume: light.
     Picture,
     /// The page of dots, blurred: light.
@@ -103,11 +102,11 @@ pub enum On {
     Strokes,
 }
 
-impl On {
-    /// Each of them.
+impl ErrorSubject {
+    /// All subjects.
     pub const ALL: [Self; 3] = [Self::Picture, Self::Dots, Self::Strokes];
 
-    /// What a knob of a scene changes: what its table draws, or the first that reads the field.
+    /// Returns the subject of a knob: the output of its table, or else the first output that reads the field.
     fn of(knob: &Knob, plan: &Plan) -> Self {
         match knob.key.split(['.', '[']).next() {
             Some("stipples") => Self::Dots,
@@ -121,24 +120,24 @@ impl On {
 
 /// A setting of a knob, and what it costs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct CostRow {
     /// The scene key.
     pub knob: String,
-    /// What the error is of.
-    pub on: On,
-    /// What it was set to.
+    /// The output that the error is measured on.
+    pub subject: ErrorSubject,
+    /// The setting.
     pub setting: String,
-    /// Whether it is what the scene says.
+    /// Whether the setting is the scene's own.
     pub own: bool,
-    /// Root mean square difference: of light, or of places in voxels ([`On`]).
+    /// Root mean square difference: of light, or of places in voxels ([`ErrorSubject`]).
     pub rms: f64,
     /// Largest difference.
     pub max: f64,
     /// Mean of FLIP.
     pub flip: f64,
-    /// Of hatching: degrees between strokes at equal arc lengths, the median.
+    /// Median angle between strokes of hatching at equal arc lengths, in degrees.
     pub angle: Option<f64>,
-    /// Median seconds of a frame; of dots and strokes with what is made once.
+    /// Median seconds of a frame; for dots and strokes with the work done once.
     pub seconds: f64,
     /// Seconds between the quartiles.
     pub spread: f64,
@@ -146,49 +145,50 @@ pub struct Row {
     pub samples: u64,
     /// Bytes of all buffers: the volume, what was prepared, the picture.
     pub bytes: u64,
-    /// What the error is measured against.
+    /// The truth that the error is measured against.
     pub truth: Truth,
 }
 
-/// What a sweep found.
+/// The result of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// The knobs in the order of the scene's tables, each from coarse to fine; a setting of the scene's own that is none
-    /// of the knob's comes first.
-    pub rows: Vec<Row>,
-    /// Settings that cannot be rendered, and why.
+    /// Rows in the order of the scene's tables, each knob from coarse to fine. A setting of the scene that is none of
+    /// the knob's comes first.
+    pub rows: Vec<CostRow>,
+    /// Settings that cannot be rendered: knob, setting and reason.
     pub left_out: Vec<(String, String, Failure)>,
-    /// Times each setting was timed.
+    /// Number of times each setting was timed.
     pub runs: usize,
-    /// Threads that rendered.
+    /// Number of threads.
     pub threads: usize,
     /// Pixels of the picture.
     pub size: [usize; 2],
 }
 
-/// Turns every knob of a job's scene. `progress` hears the share that is done.
+/// Turns every knob of a job's scene. `progress` gets the finished share.
 ///
 /// # Errors
-/// A key among `only` that is no knob of the scene, a truth that cannot be drawn.
-pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Sweep, Failures> {
-    // Other layers are no part of the error, and would be part of the time.
+/// A key in `only` that is no knob of the scene, or a truth that cannot be drawn.
+pub fn sweep(job: &Job, options: &SweepOptions, progress: &dyn Fn(f64)) -> Result<Sweep, Failures> {
+    // Other layers are not part of the error and would add time.
     let mut base = job.scene.clone();
     base.picture.layers = vec![LayerKind::Beauty];
-    let plan = job.turned(base.clone()).plan;
+    let plan = job.variant(base.clone()).plan;
     let all = knobs(&base, &plan);
     let turned = chosen(&all, &options.only, job)?;
     if let Some((knob, own)) = all.iter().find_map(|knob| Some((knob, knob.of(&base)?))) {
-        // Through the text that all settings go through, so that equal scenes are equal.
+        // The base goes through the same text as all settings, so that equal scenes compare equal.
         base = knob.set(&base, &own)?;
     }
     let phantom = match &base.volume.source {
         VolumeSource::Phantom(source) => phantom::of_source(source).ok().map(|(phantom, _)| phantom),
         VolumeSource::File { .. } => None,
     };
-    let mut different: Vec<(On, Turned)> = Vec::new();
+    // Each distinct scene is drawn once, whichever settings lead to it. `settings` has the index of its scene.
+    let mut different: Vec<(ErrorSubject, KnobVariant)> = Vec::new();
     let mut settings: Vec<(&Knob, String, usize)> = Vec::new();
     for knob in &turned {
-        let on = On::of(knob, &plan);
+        let subject = ErrorSubject::of(knob, &plan);
         let mut scenes = Vec::new();
         for setting in knob.settings {
             scenes.push(((*setting).to_owned(), knob.set(&base, setting)?));
@@ -199,20 +199,24 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
             scenes.insert(0, (own, base.clone()));
         }
         for (setting, scene) in scenes {
-            let known = different.iter().position(|other| other.0 == on && other.1.scene == scene);
+            let known = different.iter().position(|other| other.0 == subject && other.1.scene == scene);
             let at = known.unwrap_or(different.len());
             if known.is_none() {
-                different.push((on, job.turned(scene)));
+                different.push((subject, job.variant(scene)));
             }
             settings.push((knob, setting, at));
         }
     }
-    let is_of_field = |knob: &Knob| knob.limit == Limit::Field && On::of(knob, &plan) == On::Picture;
+    // One exact picture serves all knobs of the field.
+    let is_of_field =
+        |knob: &Knob| knob.limit == Limit::Field && ErrorSubject::of(knob, &plan) == ErrorSubject::Picture;
     let of_field = turned.iter().any(|knob| is_of_field(knob));
     let analytic = phantom.filter(|_| of_field).map(|phantom| exact(job, &base, &all, &*phantom)).transpose()?;
-    let mut variants: Vec<Variant> = different.iter().map(|(on, turned)| Variant::new(job, *on, turned)).collect();
+    let mut variants: Vec<TimedVariant> =
+        different.iter().map(|(subject, knobs)| TimedVariant::new(job, *subject, knobs)).collect();
     time(&mut variants, options.runs.max(1), progress)?;
 
+    // Rows: each setting against its truth.
     let mut found = Sweep {
         rows: Vec::new(),
         left_out: Vec::new(),
@@ -228,32 +232,29 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
             _ => match &variants[finest].made {
                 Some(Ok((made, _))) => (Truth::Finest(knob.finest().into()), made),
                 Some(Err(failure)) => return Err(failure.clone().into()),
-                // Each takes a first turn.
+                // Every variant has taken its first turn.
                 None => continue,
             },
         };
-        let left_out = |failure: &Failure| (knob.key.clone(), setting.clone(), failure.clone());
-        let (made, counts) = match &variant.made {
-            Some(Ok(made)) => made,
-            Some(Err(failure)) => {
-                found.left_out.push(left_out(failure));
-                continue;
-            }
-            None => continue,
-        };
-        let Error { rms, max, flip, angle } = match error(job, made, of_truth) {
-            Ok(error) => error,
+        // Every variant has taken its first turn.
+        let Some(made) = &variant.made else { continue };
+        let compared = made.as_ref().map_err(Clone::clone).and_then(|(made, counts)| {
+            let error = error(job, made, of_truth)?;
+            Ok((error, counts))
+        });
+        let (SettingError { rms, max, flip, angle }, counts) = match compared {
+            Ok(compared) => compared,
             Err(failure) => {
-                found.left_out.push(left_out(&failure));
+                found.left_out.push((knob.key.clone(), setting.clone(), failure));
                 continue;
             }
         };
         let quartiles = quartiles(&variant.seconds);
-        found.rows.push(Row {
+        found.rows.push(CostRow {
             knob: knob.key.clone(),
-            on: variant.on,
+            subject: variant.subject,
             setting: setting.clone(),
-            own: variant.turned.scene == base,
+            own: variant.knobs.scene == base,
             rms,
             max,
             flip,
@@ -268,7 +269,7 @@ pub fn sweep(job: &Job, options: &Options, progress: &dyn Fn(f64)) -> Result<Swe
     Ok(found)
 }
 
-/// The knobs that were asked for.
+/// Returns the requested knobs.
 fn chosen<'k>(all: &'k [Knob], only: &[String], job: &Job) -> Result<Vec<&'k Knob>, Failures> {
     let unknown = |key: &&String| all.iter().all(|knob| knob.key != **key);
     Failures::check(only.iter().filter(unknown).map(|key| {
@@ -279,20 +280,20 @@ fn chosen<'k>(all: &'k [Knob], only: &[String], job: &Job) -> Result<Vec<&'k Kno
     Ok(all.iter().filter(|knob| only.is_empty() || only.contains(&knob.key)).collect())
 }
 
-/// The picture of a phantom's formula, every knob of the field at its finest.
-fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result<Made, Failures> {
+/// Draws a phantom's formula with every knob of the field at its finest setting.
+fn exact(job: &Job, base: &Scene, all: &[Knob], phantom: &dyn Phantom) -> Result<SettingOutput, Failures> {
     let mut scene = base.clone();
     for knob in all.iter().filter(|knob| knob.limit == Limit::Field) {
         scene = knob.set(&scene, knob.finest())?;
     }
     scene.sampling.stop_below = 0.0;
-    let turned = job.turned(scene);
+    let turned = job.variant(scene);
     let (picture, _) = job.exact_renderer_of(&turned, phantom)?.frame(&|_| ());
-    Ok(Made::Picture(Image::from(&picture)))
+    Ok(SettingOutput::Picture(Image::from(&picture)))
 }
 
 /// Draws and times every setting, in turns.
-fn time(variants: &mut [Variant], runs: usize, progress: &dyn Fn(f64)) -> Result<(), Failure> {
+fn time(variants: &mut [TimedVariant], runs: usize, progress: &dyn Fn(f64)) -> Result<(), Failure> {
     let groups = together(variants);
     let total = (runs + 1) * groups.len();
     let (mut kept, mut done) = (0, 0);

@@ -1,7 +1,7 @@
-//! A sweep as a plot: error against time on two logarithmic axes, a colour and a mark for each knob, and the front of
-//! what nothing beats with its settings named ([COST-1]).
+//! Plots of sweeps ([COST-1]): error against time on two logarithmic axes. Each knob has a colour and a marker; the
+//! settings of the Pareto fronts are named.
 
-use super::{On, Row, Sweep, Truth, front};
+use super::{CostRow, ErrorSubject, Sweep, Truth, front};
 use drypoint_scene::math::ln;
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
@@ -14,8 +14,8 @@ use kuva::render::plots::Plot;
 use kuva::render::render::{Scene, render_multiple};
 use std::sync::Arc;
 
-/// Colours of knobs in their order, told apart by most colour-blind people (Okabe and Ito 2008) as far as they reach;
-/// then their darker sisters with other marks.
+/// Colours of knobs in order. The first are those of Okabe and Ito (2008), which most colour-blind people can tell
+/// apart; then follow darker variants with other markers.
 const COLORS: [&str; 12] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7a4fbf", "#8c510a", "#003f63", "#7f3800",
     "#005f45", "#7a4865",
@@ -24,24 +24,24 @@ const COLORS: [&str; 12] = [
 const MARKS: [MarkerShape; 5] =
     [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond, MarkerShape::TriangleDown];
 
-/// The smallest error and time that a logarithmic axis shows.
+/// Smallest error and time that a logarithmic axis shows.
 const LEAST: f64 = 1e-9;
 
-/// Width of the names of the front, over that from the fastest setting to the slowest.
+/// Width of the names on the front, relative to that from the fastest setting to the slowest.
 const NAMES: f64 = 0.25;
 
-/// From the middle of a disc of the front to the end of its name, and below it to the line that it stands on: clear of the
-/// bar of its spread.
+/// Offsets of a name: from the middle of a front's disc left to the name's end, and down to its baseline. They clear
+/// the bar of its spread.
 const BELOW: [f64; 2] = [8.0, 13.0];
 
-/// What settings span on the axes, at least, and the size of a letter, in the plot's units.
+/// Least span of the settings on the axes, and size of a letter, in the plot's units.
 const SPAN: [f64; 2] = [440.0, 440.0];
 const LETTER: [f64; 2] = [7.0, 15.0];
 
-/// Pixels of the PNG for each of the plot's units.
+/// Pixels of the PNG in a unit of the plot.
 const SCALE: f32 = 1.5;
 
-/// The plot as SVG; its letters are drawn in the viewer's font.
+/// Returns the plot as SVG, in the viewer's font.
 ///
 /// # Errors
 /// No setting has an error.
@@ -49,16 +49,16 @@ pub(super) fn svg(sweep: &Sweep, name: &str) -> Result<String, String> {
     Ok(SvgBackend::default().render_scene(&drawn(sweep, name)?))
 }
 
-/// The plot as PNG, with letters of its own.
+/// Returns the plot as PNG, in its own font.
 ///
 /// # Errors
-/// No setting has an error, or what the encoder says.
+/// No setting has an error, or the encoder fails.
 pub(super) fn png(sweep: &Sweep, name: &str) -> Result<Vec<u8>, String> {
     PngBackend::new().with_scale(SCALE).render_scene(&drawn(sweep, name)?)
 }
 
 fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
-    let shown: Vec<&Row> = sweep.rows.iter().filter(|row| row.rms >= LEAST && row.seconds >= LEAST).collect();
+    let shown: Vec<&CostRow> = sweep.rows.iter().filter(|row| row.rms >= LEAST && row.seconds >= LEAST).collect();
     if shown.is_empty() {
         return Err("there is nothing to plot: no setting has an error".into());
     }
@@ -66,9 +66,11 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     knobs.dedup();
     let reaches = [reach(&shown, |row| row.seconds), reach(&shown, |row| row.rms)];
     let [[fast, slow], [small, large]] = reaches;
+    // The fronts lie behind everything.
     let (mut plots, names) = fronts(sweep, reaches);
+    // A line with markers for each knob.
     for (i, knob) in knobs.iter().enumerate() {
-        let rows: Vec<&Row> = shown.iter().copied().filter(|row| row.knob == *knob).collect();
+        let rows: Vec<&CostRow> = shown.iter().copied().filter(|row| row.knob == *knob).collect();
         let Some(first) = rows.first() else { continue };
         let truth = match first.truth {
             Truth::Analytic => "",
@@ -83,15 +85,16 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
             .with_color(color)
             .with_marker(MARKS[i % MARKS.len()])
             .with_size(4.5)
-            .with_legend(format!("{knob}{truth}{}", of(first.on)));
+            .with_legend(format!("{knob}{truth}{}", of(first.subject)));
         plots.push(Plot::Scatter(marks));
     }
     plots.push(names);
     let [width, height] = sweep.size;
+    // Title, axes and legend.
     let analytic = sweep.rows.iter().any(|row| row.truth == Truth::Analytic);
     let against =
         if analytic { "against the formula; *: against the finest setting" } else { "*: against the finest setting" };
-    let of_picture = sweep.rows.iter().any(|row| row.on == On::Picture);
+    let of_picture = sweep.rows.iter().any(|row| row.subject == ErrorSubject::Picture);
     let what = if of_picture { "a frame" } else { "a page, from the voxels on," };
     let mut layout = Layout::auto_from_plots(&plots)
         .with_width(1000.0)
@@ -116,23 +119,23 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     Ok(render_multiple(plots, layout))
 }
 
-/// What the error is of, where it is not the picture's.
-fn of(on: On) -> &'static str {
-    match on {
-        On::Picture => "",
-        On::Dots => ", dots",
-        On::Strokes => ", strokes (voxels)",
+/// Returns the subject of an error for the legend, unless it is the picture.
+fn of(subject: ErrorSubject) -> &'static str {
+    match subject {
+        ErrorSubject::Picture => "",
+        ErrorSubject::Dots => ", dots",
+        ErrorSubject::Strokes => ", strokes (voxels)",
     }
 }
 
-/// Smallest and largest of what is shown.
-fn reach(rows: &[&Row], of: fn(&Row) -> f64) -> [f64; 2] {
+/// Returns the smallest and the largest value of rows.
+fn reach(rows: &[&CostRow], of: fn(&CostRow) -> f64) -> [f64; 2] {
     rows.iter().map(|row| of(row)).fold([f64::INFINITY, 0.0], |[lo, hi], x| [lo.min(x), hi.max(x)])
 }
 
-/// Seconds as people say them.
+/// Returns seconds in s, ms or µs.
 fn time(seconds: f64) -> String {
-    // Marks of a logarithmic axis are 1, 2 or 5 times a power of ten, but for rounding.
+    // Ticks of a logarithmic axis are 1, 2 or 5 times a power of ten, up to rounding.
     let digits = |x: f64| format!("{}", (x * 1e6).round() / 1e6);
     match seconds {
         _ if seconds >= 1.0 => format!("{} s", digits(seconds)),
@@ -141,13 +144,17 @@ fn time(seconds: f64) -> String {
     }
 }
 
-/// The fronts, wide and grey, which go behind all else, and the names of their settings, which go before it.
+/// Returns the fronts, wide and grey, which go behind everything, and the names of their settings, which go before
+/// everything.
 fn fronts(sweep: &Sweep, reaches: [[f64; 2]; 2]) -> (Vec<Plot>, Plot) {
     let (mut lines, mut places, mut names) = (Vec::new(), Vec::new(), Vec::new());
     let looks = [(true, "#bdbdbd", "Pareto front"), (false, "#e3e3e3", "Pareto front *")];
-    for (on, (analytic, color, legend)) in On::ALL.iter().flat_map(|on| looks.map(|look| (*on, look))) {
-        let legend = format!("{legend}{}", of(on));
-        let rows: Vec<&Row> = front(&sweep.rows, on, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
+    for (subject, (analytic, color, legend)) in
+        ErrorSubject::ALL.iter().flat_map(|subject| looks.map(|look| (*subject, look)))
+    {
+        let legend = format!("{legend}{}", of(subject));
+        let rows: Vec<&CostRow> =
+            front(&sweep.rows, subject, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
         if rows.is_empty() {
             continue;
         }
@@ -161,10 +168,9 @@ fn fronts(sweep: &Sweep, reaches: [[f64; 2]; 2]) -> (Vec<Plot>, Plot) {
         let discs = ScatterPlot::new().with_data(at).with_color(color).with_size(9.0);
         lines.extend([Plot::Line(line), Plot::Scatter(discs)]);
     }
-    // Left of a place of one front and below it there is nothing. Where fronts cross or are flat, names are pushed off each
-    // other.
+    // No setting lies to the lower left of a front's point. Where fronts cross or are flat, names are pushed apart.
     let (style, size) = if are_apart(&places, &names, reaches) {
-        // So large that no line leads from it to its name.
+        // The marker is so large that no line leads from it to its name.
         (LabelStyle::Arrow { offset_x: -BELOW[0], offset_y: -BELOW[1] }, BELOW[0].hypot(BELOW[1]))
     } else {
         (LabelStyle::Repel, 9.0)
@@ -173,7 +179,7 @@ fn fronts(sweep: &Sweep, reaches: [[f64; 2]; 2]) -> (Vec<Plot>, Plot) {
     (lines, Plot::Scatter(named.with_labels(names).with_label_style(style)))
 }
 
-/// Whether names that end at places have room beside each other, on axes that reach so far.
+/// Whether names that end at points do not overlap, on axes with these ranges.
 fn are_apart(places: &[(f64, f64)], names: &[String], [times, errors]: [[f64; 2]; 2]) -> bool {
     let units = |x: f64, [lo, hi]: [f64; 2], span: f64| ln(x / lo) / ln(hi / lo).max(ln(2.0)) * span;
     let ends: Vec<f64> = places.iter().map(|place| units(place.0, times, SPAN[0])).collect();
@@ -187,12 +193,12 @@ fn are_apart(places: &[(f64, f64)], names: &[String], [times, errors]: [[f64; 2]
 mod tests {
     use super::*;
 
-    fn row(knob: &str, setting: &str, seconds: f64, rms: f64) -> Row {
+    fn row(knob: &str, setting: &str, seconds: f64, rms: f64) -> CostRow {
         let truth = Truth::Finest("f".into());
         let (knob, setting) = (knob.into(), setting.into());
-        Row {
+        CostRow {
             knob,
-            on: On::Picture,
+            subject: ErrorSubject::Picture,
             setting,
             own: rms == 0.5,
             rms,
@@ -207,7 +213,7 @@ mod tests {
         }
     }
 
-    fn sweep(rows: Vec<Row>) -> Sweep {
+    fn sweep(rows: Vec<CostRow>) -> Sweep {
         Sweep { rows, left_out: Vec::new(), runs: 1, threads: 1, size: [3, 2] }
     }
 

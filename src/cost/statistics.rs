@@ -1,6 +1,6 @@
 //! Medians and quartiles of times ([COST-3]).
 
-/// The value below which a share of the others lies, between neighbours by straight lines; NaN where there is none.
+/// Returns the quantile of a share, linear between neighbours; NaN without a value.
 fn quantile(values: &[f64], share: f64) -> f64 {
     let mut values = values.to_vec();
     values.sort_by(f64::total_cmp);
@@ -11,12 +11,12 @@ fn quantile(values: &[f64], share: f64) -> f64 {
     values[below] + (at - below as f64) * (values[above] - values[below])
 }
 
-/// The median of numbers, the mean of the middle two where their number is even; NaN where there is none.
+/// Returns the median, the mean of the middle two of an even number of values; NaN without a value.
 pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }
 
-/// Those at a quarter and at three quarters.
+/// Returns the quartiles at a quarter and at three quarters.
 pub(super) fn quartiles(values: &[f64]) -> [f64; 2] {
     [0.25, 0.75].map(|share| quantile(values, share))
 }

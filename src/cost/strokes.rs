@@ -1,38 +1,39 @@
-//! How far strokes are from others ([COST-1]).
+//! Distances between strokes of two settings ([COST-1]).
 
-use super::error::Error;
+use super::error::SettingError;
 use super::statistics::median;
-use drypoint_output::compare::lines::{Apart, Course, angles, apart};
+use drypoint_output::compare::line_distance::{LineDistance, WorldLine, angles, line_distance};
 use drypoint_scene::marks::{Marks, Polyline};
 use drypoint_scene::strokes::Stroke;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// The longest piece of a stroke, in voxels.
+/// Longest piece of a stroke, in voxels.
 const PIECE: f64 = 0.1;
 
-/// The share of strokes, the nearest, whose distances count. The others part from theirs: they end elsewhere, or take another
-/// way where lines of curvature meet, and are then as far away as they are long, whatever the setting.
+/// Share of strokes, the nearest ones, whose distances count. The others end elsewhere, or part where lines of
+/// curvature meet, and are then as far away as they are long, whatever the setting.
 const TOGETHER: f64 = 0.95;
 
-/// What a setting draws.
-pub(super) struct Drawn {
-    /// Some strokes of hatching as they grow, whatever the camera sees of them.
+/// Strokes that a setting draws.
+pub(super) struct DrawnStrokes {
+    /// Some strokes of hatching as they grow, whether or not the camera sees them.
     pub(super) strokes: Option<Vec<Stroke>>,
-    /// All, on the page.
+    /// All marks on the page.
     pub(super) marks: Marks,
 }
 
-/// The distances and the angle of strokes to others, in voxels and degrees, without what FLIP says; none where there is
-/// nothing to compare. Hatching is compared stroke by stroke, those of the same seed; other lines as lists.
-pub(super) fn distances(drawn: &Drawn, truth: &Drawn, voxel: f64) -> Option<Error> {
+/// Returns distances and angle of strokes to others, in voxels and degrees, without FLIP; none if there is nothing to
+/// compare. Hatching is compared stroke by stroke, by seed; other lines as lists.
+pub(super) fn distances(drawn: &DrawnStrokes, truth: &DrawnStrokes, voxel: f64) -> Option<SettingError> {
     let (Some(a), Some(b)) = (&drawn.strokes, &truth.strokes) else {
-        let Apart { rms, max } = apart(lines(&drawn.marks), lines(&truth.marks), PIECE * voxel)?;
-        return Some(Error { rms: rms / voxel, max: max / voxel, flip: f64::NAN, angle: None });
+        let LineDistance { rms, max } = line_distance(lines(&drawn.marks), lines(&truth.marks), PIECE * voxel)?;
+        return Some(SettingError { rms: rms / voxel, max: max / voxel, flip: f64::NAN, angle: None });
     };
     let by_seed: BTreeMap<u64, &Stroke> = b.iter().map(|stroke| (stroke.key, stroke)).collect();
     let pairs: Vec<(&Stroke, &Stroke)> = a.iter().filter_map(|a| Some((a, *by_seed.get(&a.key)?))).collect();
-    let mut compared: Vec<(Apart, Vec<f64>)> = pairs.par_iter().filter_map(|pair| of_pair(*pair, voxel)).collect();
+    let mut compared: Vec<(LineDistance, Vec<f64>)> =
+        pairs.par_iter().filter_map(|pair| of_pair(*pair, voxel)).collect();
     if compared.is_empty() {
         return None;
     }
@@ -43,13 +44,15 @@ pub(super) fn distances(drawn: &Drawn, truth: &Drawn, voxel: f64) -> Option<Erro
     let turned: Vec<f64> = compared.iter().flat_map(|(_, angles)| angles.iter().map(|a| a.to_degrees())).collect();
     let rms = (squares / together.len() as f64).sqrt();
     let angle = (!turned.is_empty()).then(|| median(&turned));
-    Some(Error { rms: rms / voxel, max: max / voxel, flip: f64::NAN, angle })
+    Some(SettingError { rms: rms / voxel, max: max / voxel, flip: f64::NAN, angle })
 }
 
-/// The distances of two strokes, and the angles between them, a voxel apart; of closed ones, which have no tail, none.
-fn of_pair((a, b): (&Stroke, &Stroke), voxel: f64) -> Option<(Apart, Vec<f64>)> {
-    let found = apart([a].into_iter(), [b].into_iter(), PIECE * voxel)?;
-    let turned = if a.closed || b.closed { Vec::new() } else { angles(&Course::from(a), &Course::from(b), voxel) };
+/// Returns the distances of two strokes, and the angles between them at steps of a voxel. Closed strokes have no common
+/// start, hence no angles.
+fn of_pair((a, b): (&Stroke, &Stroke), voxel: f64) -> Option<(LineDistance, Vec<f64>)> {
+    let found = line_distance([a].into_iter(), [b].into_iter(), PIECE * voxel)?;
+    let turned =
+        if a.closed || b.closed { Vec::new() } else { angles(&WorldLine::from(a), &WorldLine::from(b), voxel) };
     Some((found, turned))
 }
 

@@ -1,16 +1,16 @@
-//! A sweep as CSV and as Markdown.
+//! Tables of sweeps: CSV and Markdown.
 
 use super::variant::{FEW, LONG};
-use super::{On, Row, Sweep, front};
+use super::{CostRow, ErrorSubject, Sweep, front};
 
-/// The columns of the contract.
+/// Columns of the CSV, a documented format.
 const COLUMNS: &str = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth,angle";
 
-/// One line a setting under a line of names. Numbers have all the digits that they need.
+/// Returns a line a setting under a line of names. Numbers have all significant digits.
 pub fn csv(sweep: &Sweep) -> String {
     let mut text = format!("{COLUMNS}\n");
     for row in &sweep.rows {
-        let Row { rms, max, flip, seconds, spread, samples, bytes, .. } = row;
+        let CostRow { rms, max, flip, seconds, spread, samples, bytes, .. } = row;
         let [knob, setting, truth] = [&row.knob, &row.setting, &row.truth.to_string()].map(|cell| quoted(cell));
         let angle = row.angle.map(|degrees| format!("{degrees:e}")).unwrap_or_default();
         text += &format!(
@@ -20,19 +20,20 @@ pub fn csv(sweep: &Sweep) -> String {
     text
 }
 
-/// A cell; in quotes where it would end before its end.
+/// Returns a cell, quoted if it has a comma, a quote or a line break.
 fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.into() }
 }
 
-/// A table for people: what the scene itself says in bold, what nothing beats with a dot.
+/// Returns a table for people. The scene's own settings are bold; Pareto-optimal ones have a dot.
 pub fn markdown(sweep: &Sweep) -> String {
     let Sweep { size: [width, height], runs, threads, .. } = sweep;
-    let of_strokes = sweep.rows.iter().any(|row| row.on == On::Strokes);
+    let of_strokes = sweep.rows.iter().any(|row| row.subject == ErrorSubject::Strokes);
     let voxels = if of_strokes { " RMS and max of strokes are in voxels." } else { "" };
     let has_angles = sweep.rows.iter().any(|row| row.angle.is_some());
     let [angle, angle_rule] = if has_angles { [" angle |", "--:|"] } else { [""; 2] };
-    let is_long = sweep.rows.iter().any(|row| row.on != On::Picture && row.seconds > LONG) && *runs > FEW;
+    let is_long =
+        sweep.rows.iter().any(|row| row.subject != ErrorSubject::Picture && row.seconds > LONG) && *runs > FEW;
     let few = if is_long { format!(", of {FEW} where a page takes more than {LONG} s") } else { String::new() };
     let mut text = format!(
         "{width} × {height} pixels, {threads} threads, medians of {runs} runs{few}. **Bold**: what the scene says; ●: no \
@@ -40,8 +41,8 @@ pub fn markdown(sweep: &Sweep) -> String {
          | knob | setting | RMS | max | FLIP |{angle} ms | spread | samples | MB | truth |\n\
          |---|---|--:|--:|--:|{angle_rule}--:|--:|--:|--:|---|\n"
     );
-    let kinds = On::ALL.iter().flat_map(|on| [(*on, true), (*on, false)]);
-    let best: Vec<&Row> = kinds.flat_map(|(on, analytic)| front(&sweep.rows, on, analytic)).collect();
+    let kinds = ErrorSubject::ALL.iter().flat_map(|subject| [(*subject, true), (*subject, false)]);
+    let best: Vec<&CostRow> = kinds.flat_map(|(subject, analytic)| front(&sweep.rows, subject, analytic)).collect();
     let mut last = "";
     for row in &sweep.rows {
         let knob = if row.knob == last { String::new() } else { format!("`{}`", row.knob) };
@@ -64,12 +65,12 @@ pub fn markdown(sweep: &Sweep) -> String {
     text
 }
 
-/// Two digits that count.
+/// Returns two significant digits.
 fn error(x: f64) -> String {
     if x == 0.0 { "0".into() } else { format!("{x:.1e}") }
 }
 
-/// In thousands or millions.
+/// Returns a count in thousands or millions.
 fn count(n: u64) -> String {
     match n {
         0..10_000 => n.to_string(),
@@ -84,9 +85,9 @@ mod tests {
     use super::*;
 
     fn sweep() -> Sweep {
-        let row = Row {
+        let row = CostRow {
             knob: "sampling.step".into(),
-            on: On::Picture,
+            subject: ErrorSubject::Picture,
             setting: "2 voxels".into(),
             own: false,
             rms: 0.0123,
@@ -99,8 +100,13 @@ mod tests {
             bytes: 2_600_000,
             truth: Truth::Analytic,
         };
-        let fine =
-            Row { setting: "1 voxel".into(), own: true, rms: 0.0, truth: Truth::Finest("a, b".into()), ..row.clone() };
+        let fine = CostRow {
+            setting: "1 voxel".into(),
+            own: true,
+            rms: 0.0,
+            truth: Truth::Finest("a, b".into()),
+            ..row.clone()
+        };
         Sweep { rows: vec![row, fine], left_out: Vec::new(), runs: 3, threads: 2, size: [32, 24] }
     }
 
@@ -128,7 +134,8 @@ mod tests {
     #[test]
     fn strokes_have_a_column_more() {
         let mut sweep = Sweep { runs: 5, ..sweep() };
-        let stroke = Row { on: On::Strokes, angle: Some(0.25), seconds: 3.0, ..sweep.rows[0].clone() };
+        let stroke =
+            CostRow { subject: ErrorSubject::Strokes, angle: Some(0.25), seconds: 3.0, ..sweep.rows[0].clone() };
         sweep.rows.push(stroke);
         assert!(csv(&sweep).ends_with(",analytic,2.5e-1\n"));
         let text = markdown(&sweep);

@@ -1,11 +1,11 @@
-//! What a setting makes, and the time that it takes.
+//! Output and time of settings.
 
-use super::On;
+use super::ErrorSubject;
 use super::statistics::median;
-use super::strokes::Drawn;
+use super::strokes::DrawnStrokes;
 use super::tone::tone;
 use crate::Failure;
-use crate::job::{Job, Turned};
+use crate::job::{Job, KnobVariant};
 use crate::stippling::Stippling;
 use crate::stroking::Stroking;
 use drypoint_output::read::Image;
@@ -15,52 +15,52 @@ use drypoint_scene::marks::{Marks, Page};
 use drypoint_scene::tables::{Even, Scene};
 use std::time::{Duration, Instant};
 
-/// Bytes that are kept prepared from turn to turn; what is more is prepared anew each time.
+/// Bytes of prepared renderers that are kept from turn to turn. Beyond them a renderer is prepared anew each time.
 const KEPT: u64 = 1 << 30;
 
-/// Seconds of a page of dots or strokes beyond which its first turn is no warm-up and [`FEW`] are enough.
+/// Seconds beyond which a page of dots or strokes needs no warm-up and [`FEW`] turns suffice.
 pub(super) const LONG: f64 = 2.0;
 
-/// Turns of what takes longer than [`LONG`].
+/// Number of turns of settings that take longer than [`LONG`].
 pub(super) const FEW: usize = 3;
 
-/// Strokes that are compared, of each setting.
+/// Number of strokes of a setting that are compared.
 const STROKES: usize = 2000;
 
-/// A scene that is drawn, whatever knobs lead to it.
-pub(super) struct Variant<'a> {
+/// A scene that is drawn and timed, whichever settings lead to it.
+pub(super) struct TimedVariant<'a> {
     job: &'a Job,
-    pub(super) on: On,
-    pub(super) turned: &'a Turned,
-    /// Ready for the next turn, where it may be kept.
+    pub(super) subject: ErrorSubject,
+    pub(super) knobs: &'a KnobVariant,
+    /// Renderer for the next turn, if it may be kept.
     renderer: Option<Renderer<'a>>,
-    /// What was made in the first turn, with its counts, or why there is none.
-    pub(super) made: Option<Result<(Made, Counts), Failure>>,
+    /// Output and counts of the first turn, or its failure.
+    pub(super) made: Option<Result<(SettingOutput, Counts), Failure>>,
     pub(super) seconds: Vec<f64>,
 }
 
-/// What a setting makes.
-pub(super) enum Made {
-    /// Of [`On::Picture`].
+/// Output of a setting.
+pub(super) enum SettingOutput {
+    /// Output for [`ErrorSubject::Picture`].
     Picture(Image),
-    /// Of [`On::Dots`]: the tone of the page.
+    /// Output for [`ErrorSubject::Dots`]: the tone of the page.
     Dots(Image),
-    /// Of [`On::Strokes`].
-    Strokes(Drawn),
+    /// Output for [`ErrorSubject::Strokes`].
+    Strokes(DrawnStrokes),
 }
 
-impl<'a> Variant<'a> {
-    pub(super) fn new(job: &'a Job, on: On, turned: &'a Turned) -> Self {
-        Self { job, on, turned, renderer: None, made: None, seconds: Vec::new() }
+impl<'a> TimedVariant<'a> {
+    pub(super) fn new(job: &'a Job, subject: ErrorSubject, knobs: &'a KnobVariant) -> Self {
+        Self { job, subject, knobs, renderer: None, made: None, seconds: Vec::new() }
     }
 
-    /// Whether it takes no more turns.
+    /// Whether the variant takes no more turns.
     pub(super) fn is_done(&self, runs: usize) -> bool {
-        let is_long = self.on != On::Picture && median(&self.seconds) > LONG;
+        let is_long = self.subject != ErrorSubject::Picture && median(&self.seconds) > LONG;
         matches!(self.made, Some(Err(_))) || self.seconds.len() >= if is_long { runs.min(FEW) } else { runs }
     }
 
-    /// Whether both draw the same points.
+    /// Whether both variants draw the same points.
     fn has_points_of(&self, other: &Self) -> bool {
         let points = |scene: &Scene| {
             let mut scene = scene.clone();
@@ -69,18 +69,15 @@ impl<'a> Variant<'a> {
             }
             scene
         };
-        [self.on, other.on] == [On::Dots; 2] && points(&self.turned.scene) == points(&other.turned.scene)
+        [self.subject, other.subject] == [ErrorSubject::Dots; 2]
+            && points(&self.knobs.scene) == points(&other.knobs.scene)
     }
 
-    fn fail(&mut self, failure: Failure) {
-        self.made = Some(Err(failure));
-    }
-
-    /// Times one frame of a picture; the first time prepares it and warms up. `kept` counts what the variants keep.
+    /// Times one frame of a picture. The first turn prepares and warms up. `kept` is the sum of kept bytes.
     fn take_picture(&mut self, kept: &mut u64) -> Result<(), Failure> {
         let anew = match &self.renderer {
             Some(_) => None,
-            None => Some(self.job.renderer_of(self.turned)?),
+            None => Some(self.job.renderer_of(self.knobs)?),
         };
         let Some(ready) = anew.as_ref().or(self.renderer.as_ref()) else { return Ok(()) };
         let start = Instant::now();
@@ -95,15 +92,16 @@ impl<'a> Variant<'a> {
             *kept += own;
             self.renderer = anew;
         }
-        self.made = Some(Ok((Made::Picture(Image::from(&picture)), counts)));
+        self.made = Some(Ok((SettingOutput::Picture(Image::from(&picture)), counts)));
         Ok(())
     }
 
-    /// Of a page that took so long: what it made the first time, which is a warm-up, and else the time.
+    /// Records a page that took `took`. The first turn is a warm-up: it keeps the output, and its time only if it is
+    /// long.
     fn take_page(
         &mut self,
         took: Duration,
-        made: impl FnOnce(&Job) -> Result<Made, Failure>,
+        made: impl FnOnce(&Job) -> Result<SettingOutput, Failure>,
         counts: Counts,
     ) -> Result<(), Failure> {
         let seconds = took.as_secs_f64();
@@ -117,8 +115,8 @@ impl<'a> Variant<'a> {
     }
 }
 
-/// Which variants take their turns together: dots of the same points, which are made once for all of them.
-pub(super) fn together(variants: &[Variant<'_>]) -> Vec<Vec<usize>> {
+/// Returns groups of variants that take turns together: dots of the same points, which are made once for the group.
+pub(super) fn together(variants: &[TimedVariant<'_>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (at, variant) in variants.iter().enumerate() {
         match groups.iter_mut().find(|group| group.iter().any(|&first| variants[first].has_points_of(variant))) {
@@ -129,48 +127,50 @@ pub(super) fn together(variants: &[Variant<'_>]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// A turn of variants that take theirs together: one frame of a picture, or all of a page of dots or strokes, from the
-/// voxels on. What fails the first time takes no more turns.
-pub(super) fn take_turn(variants: &mut [Variant<'_>], group: &[usize], kept: &mut u64) -> Result<(), Failure> {
+/// Takes a turn of a group: one frame of a picture, or all of a page of dots or strokes, from the voxels on. A variant
+/// that fails the first time takes no more turns.
+pub(super) fn take_turn(variants: &mut [TimedVariant<'_>], group: &[usize], kept: &mut u64) -> Result<(), Failure> {
     for (place, &at) in group.iter().enumerate() {
         let is_first = variants[at].made.is_none();
-        let done = match variants[at].on {
-            On::Picture => variants[at].take_picture(kept),
-            On::Dots if place == 0 => take_dots(variants, group),
-            On::Dots => Ok(()),
-            On::Strokes => take_strokes(&mut variants[at]),
+        let done = match variants[at].subject {
+            ErrorSubject::Picture => variants[at].take_picture(kept),
+            ErrorSubject::Dots if place == 0 => take_dots(variants, group),
+            ErrorSubject::Dots => Ok(()),
+            ErrorSubject::Strokes => take_strokes(&mut variants[at]),
         };
         match done {
-            Err(failure) if is_first => group[place..].iter().for_each(|&at| variants[at].fail(failure.clone())),
+            Err(failure) if is_first => {
+                group[place..].iter().for_each(|&at| variants[at].made = Some(Err(failure.clone())))
+            }
             done => done?,
         }
     }
     Ok(())
 }
 
-/// Makes points, and draws them as each of a group says; what they share counts for each.
-fn take_dots(variants: &mut [Variant<'_>], group: &[usize]) -> Result<(), Failure> {
-    let Variant { job, turned, .. } = variants[group[0]];
+/// Makes points and draws them for each variant of a group. The shared time counts for each.
+fn take_dots(variants: &mut [TimedVariant<'_>], group: &[usize]) -> Result<(), Failure> {
+    let TimedVariant { job, knobs, .. } = variants[group[0]];
     let mut counts = counts_of(job);
     let start = Instant::now();
-    let mut stippling = Stippling::of(job, &turned.scene, &mut counts, &|_| ())?;
+    let mut stippling = Stippling::of(job, &knobs.scene, &mut counts, &|_| ())?;
     let shared = start.elapsed();
     for &at in group {
         let (variant, mut counts) = (&mut variants[at], counts.clone());
-        let scene = &variant.turned.scene;
+        let scene = &variant.knobs.scene;
         let start = Instant::now();
         if let Some(stipples) = &scene.stipples {
             stippling.set_even(stipples.even);
         }
         let marks = stippling.frames().draw(&job.view()?, &mut counts);
         let took = shared + start.elapsed();
-        variant.take_page(took, |job| Ok(Made::Dots(tone(job, scene, &marks)?)), counts)?;
+        variant.take_page(took, |job| Ok(SettingOutput::Dots(tone(job, scene, &marks)?)), counts)?;
     }
     Ok(())
 }
 
-fn take_strokes(variant: &mut Variant<'_>) -> Result<(), Failure> {
-    let (job, scene) = (variant.job, &variant.turned.scene);
+fn take_strokes(variant: &mut TimedVariant<'_>) -> Result<(), Failure> {
+    let (job, scene) = (variant.job, &variant.knobs.scene);
     let mut counts = counts_of(job);
     let start = Instant::now();
     let stroking = Stroking::of(job, scene, &mut counts)?;
@@ -178,7 +178,11 @@ fn take_strokes(variant: &mut Variant<'_>) -> Result<(), Failure> {
     let [over, inside] = frames.draw(&job.view()?, &mut counts)?;
     let took = start.elapsed();
     let marks = || Marks { page: Page::of(scene), layers: over.into_iter().chain(inside).collect() };
-    variant.take_page(took, |_| Ok(Made::Strokes(Drawn { strokes: frames.sample(STROKES), marks: marks() })), counts)
+    variant.take_page(
+        took,
+        |_| Ok(SettingOutput::Strokes(DrawnStrokes { strokes: frames.sample(STROKES), marks: marks() })),
+        counts,
+    )
 }
 
 fn counts_of(job: &Job) -> Counts {

@@ -1,4 +1,4 @@
-//! The iso-values that a scene leaves to its volume.
+//! Iso-values that a scene leaves to its volume.
 
 use drypoint_reference::suggest;
 use drypoint_scene::counts::Counts;
@@ -6,7 +6,7 @@ use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::tables::{HatchIso, Iso, Scene};
 use drypoint_scene::volume::Volume;
 
-/// Puts the value that is found in the volume where a scene leaves it to that and something asks for it.
+/// Sets automatic iso-values to the one suggested by the volume, if something uses them.
 pub(super) fn find_iso_values(scene: &mut Scene, plan: &Plan, volume: &Volume, counts: &mut Counts) {
     let (drawn, hides) = (plan.needs(Quantity::Surface), plan.has_pass(Pass::HiddenStrokes));
     let strokes = hides || plan.has_pass(Pass::Strokes);

@@ -1,6 +1,6 @@
-//! What a job reads beside its scene: the volume and further ones, styles, and a picture behind.
+//! Loading of a job's data: the volume and further ones, styles, and a picture behind.
 
-use super::{Wanted, room};
+use super::{RenderTarget, room};
 use crate::Failure;
 use drypoint_output::OutputError;
 use drypoint_output::read::read_background;
@@ -28,7 +28,7 @@ pub(super) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, 
     }
 }
 
-/// The further volumes that the transfer function is over; what is wrong goes to `failures`.
+/// Reads the further volumes of the transfer function. Errors go to `failures`.
 pub(super) fn further(scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Volume>; 2] {
     let axes = scene.transfer.as_ref().map_or(&[][..], |transfer| transfer.over.axes());
     [0, 1].map(|i| match axes.get(i) {
@@ -37,7 +37,7 @@ pub(super) fn further(scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Vol
     })
 }
 
-/// The names of the styles that nodes carry.
+/// Returns the names of the nodes' styles.
 pub(super) fn named(transfer: &Transfer) -> impl Iterator<Item = &str> {
     transfer.all_nodes().filter_map(|node| match &node.color {
         NodeColor::Style(name) => Some(name.as_str()),
@@ -45,7 +45,7 @@ pub(super) fn named(transfer: &Transfer) -> impl Iterator<Item = &str> {
     })
 }
 
-/// What makes no function, at the key that says it.
+/// Returns the failure of a transfer function, at the key that causes it.
 pub(super) fn function_failure(error: &FunctionError, given: &Given, names: &LabelNames) -> Failure {
     let key = match error {
         FunctionError::UnknownLabel { row: Some(row), .. } | FunctionError::LabelTwice { row, .. } => {
@@ -64,7 +64,7 @@ pub(super) fn function_failure(error: &FunctionError, given: &Given, names: &Lab
     Failure::new(error, given.position(&key), remedy)
 }
 
-/// The styles of those names; what is wrong goes to `failures`.
+/// Loads styles by name. Errors go to `failures`.
 pub(super) fn styles<'a>(
     scene: &Scene,
     names: impl Iterator<Item = &'a str>,
@@ -80,7 +80,7 @@ pub(super) fn styles<'a>(
     styles
 }
 
-/// A style or theme that cannot be had, at the key that names it.
+/// Returns the failure of a style or theme, at the key that names it.
 fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
     let own = |name: &String| scene.styles.files.iter().any(|(known, _)| known == name);
     let is_bare = |name: &String| name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
@@ -95,10 +95,10 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
     Failure::new(error, scene.given.position(&key), error.help())
 }
 
-/// The pixels behind, where the scene has a picture there; what is wrong goes to `failures`.
-pub(super) fn background(scene: &Scene, wanted: Wanted, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
+/// Reads the picture behind the volume, if the scene has one. Errors go to `failures`.
+pub(super) fn background(scene: &Scene, target: RenderTarget, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
     let Background::Picture(path) = &scene.picture.background else { return None };
-    if wanted != Wanted::Picture {
+    if target != RenderTarget::Picture {
         let (what, remedy) = ("a page has no picture behind it", "give a colour, or \"none\", or render the scene");
         failures.push(Failure::new(what, scene.given.position("picture.background"), remedy));
         return None;

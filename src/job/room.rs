@@ -1,4 +1,4 @@
-//! The memory budget of a job: asked before anything large is made, with the key that makes it large.
+//! Memory checks of a job, before anything large is allocated. A failure names the key responsible.
 
 use super::Job;
 use crate::Failure;
@@ -18,19 +18,20 @@ pub(super) fn room_for_table(scene: &Scene) -> Result<(), Failure> {
     })
 }
 
-/// Checks that the memory budget allows so many bytes a pixel.
+/// Checks that the memory budget allows `bytes` bytes a pixel.
 pub(crate) fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
     let [width, height] = scene.picture.size;
     let needed = [width, height, bytes].into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
     memory::room(needed).map_err(|no_room| no_room_for_pixels(scene, scene.picture.size, &no_room))
 }
 
-/// The failure of a picture that the memory budget does not allow, at the key that makes it so large, with what fits.
+/// Returns the failure of a picture that the memory budget does not allow, at the key responsible, with a size that
+/// fits.
 pub(crate) fn no_room_for_pixels(scene: &Scene, size: [usize; 2], no_room: &NoRoom) -> Failure {
     let [width, height] = size;
     let what = format!("a picture of {width} × {height} pixels needs {no_room}");
     let [w, h] = no_room.fitting_size(size);
-    // A page in mm has its pixels from its resolution.
+    // A page in mm has as many pixels as its resolution gives.
     let (key, fits) = if scene.picture.extent().is_some() {
         let dpi = (scene.picture.dpi * w as f64 / width.max(1) as f64).floor();
         ("picture.dpi", format!("picture.dpi = {dpi:.0} would fit"))
@@ -40,11 +41,11 @@ pub(crate) fn no_room_for_pixels(scene: &Scene, size: [usize; 2], no_room: &NoRo
     Failure::new(what, scene.given.position(key), fits)
 }
 
-/// Whether there is memory for what is made of every voxel before the rays, points and lines.
+/// Checks that there is memory for the per-voxel passes before rays, points and lines.
 pub(crate) fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
     let voxels = job.volume.dims().into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
     let each = plan.passes.iter().map(|need| (need, voxels.saturating_mul(need.pass.bytes_a_voxel())));
-    // One after another they are kept, so together they have to fit.
+    // Passes are kept one after another, so their sum has to fit.
     let mut needed = 0u64;
     for (need, bytes) in each {
         needed = needed.saturating_add(bytes);

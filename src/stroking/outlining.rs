@@ -1,6 +1,6 @@
 //! Outlines on the page ([HATCH-18]).
 
-use super::{Frame, on_page, pen, value};
+use super::{StrokeCamera, on_page, pen, value};
 use crate::Failure;
 use drypoint_reference::interactive_volume_illustration::{Pen as Nib, outlines};
 use drypoint_reference::surface::IsoSurface;
@@ -9,16 +9,17 @@ use drypoint_scene::marks::{Layer, Page, Pen, Polyline};
 use drypoint_scene::tables::{Outlines, Scene};
 use std::time::Instant;
 
-/// How far in front of the surface outlines are asked for, in voxels. The surface leaves the line towards the eye slowly there,
-/// and that of a real scan is rough: with the 0.15 voxel of [HATCH-7] it breaks its own outline. With half a
-/// voxel lines go on round their ends, as small hooks.
+/// Distance in front of the surface at which outlines are tested for visibility, in voxels. The surface curves away
+/// slowly along the line to the eye, and that of a real scan is rough. With the 0.15 voxel of [HATCH-7] it hides parts
+/// of its own outline; with half a voxel lines continue around their ends as small hooks.
 const OFFSET: f64 = 0.3;
 
-/// What outlines are drawn with.
+/// Settings of outlines.
 pub(super) struct Outlining {
-    iso: f64,
+    /// Iso-value of the surface.
+    pub(super) iso: f64,
     pen: Pen,
-    /// In mm.
+    /// Least length, in mm.
     min_length: f64,
 }
 
@@ -31,15 +32,10 @@ impl Outlining {
         })
     }
 
-    /// The value of their surface.
-    pub(super) fn iso(&self) -> f64 {
-        self.iso
-    }
-
-    /// Those that a camera sees.
+    /// Returns the outlines that a camera sees.
     pub(super) fn draw(
         &self,
-        frame: &Frame<'_>,
+        frame: &StrokeCamera<'_>,
         surface: &IsoSurface<'_, '_>,
         voxel: f64,
         counts: &mut Counts,

@@ -1,12 +1,12 @@
-//! A few strokes as they grow, whatever a camera sees of them ([COST-1]).
+//! Samples of strokes as they grow, whether or not a camera sees them ([COST-1]).
 
 use super::StrokeFrames;
 use drypoint_scene::philox::uniform;
 use drypoint_scene::strokes::Stroke;
 
 impl StrokeFrames<'_> {
-    /// The strokes of at most `most` seeds of hatching; none without hatching. Random numbers of their cells choose them, so
-    /// that of two lists with nearly the same seeds nearly the same are chosen.
+    /// Returns the strokes of at most `most` seeds of hatching; none without hatching. Random numbers of the seeds'
+    /// cells choose them, so that two lists with nearly the same seeds give nearly the same sample.
     pub(crate) fn sample(&self, most: usize) -> Option<Vec<Stroke>> {
         let hatched = self.hatched.as_ref()?;
         let key = |cell: &[usize; 3]| uniform(0, cell.map(|i| i as u32), 0);

@@ -1,4 +1,5 @@
-//! Where strokes can begin and how probable that is, as a table and as a picture (Fig. 1 of Nagy et al.; [HATCH-17]).
+//! Maps of seeds (Fig. 1 of Nagy et al.; [HATCH-17]): the cells that strokes can begin in, with their probabilities, as
+//! a table and as a picture.
 
 use super::Stroking;
 use crate::Failure;
@@ -12,28 +13,30 @@ use rayon::prelude::*;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Tones of the picture, from the lightest, p = 0, to black, p = 1.
+/// Number of tones of the picture, from the lightest, p = 0, to black, p = 1.
 const TONES: usize = 16;
 
-/// The light of a cell that a stroke never begins in.
+/// Light of a cell in which no stroke ever begins.
 const LIGHTEST: f64 = 0.8;
 
-/// How far in front of its middle a cell is asked for, in voxels: more than half of its diagonal.
+/// Distance in front of its centre at which a cell is tested for visibility, in voxels. It is more than half of the
+/// cell's diagonal.
 const BEFORE: f64 = 1.0;
 
-/// The cells of hatching and their probabilities.
+/// Cells of hatching, and their probabilities.
 pub struct SeedMap(Seeds);
 
 impl Stroking<'_> {
-    /// The cells that strokes of the scene's hatching can begin in; none where it has none.
+    /// Returns the cells that strokes of the scene's hatching can begin in; none without hatching.
     pub fn seeds(&self, counts: &mut Counts) -> Option<SeedMap> {
         self.hatching.as_ref().map(|hatching| SeedMap(hatching.seeds(&self.field, counts)))
     }
 
-    /// The page of the cells that a camera sees: a dot each, as large as the cell, the darker the more probable a stroke is.
+    /// Returns the page of the cells that a camera sees. Each is a dot as large as the cell, the darker the more
+    /// probable a stroke is.
     pub fn seed_page(&self, map: &SeedMap, view: &View, counts: &mut Counts) -> Marks {
         let surfaces = self.surfaces();
-        let hides = self.hatching.as_ref().and_then(|hatching| self.hides.or(hatching.iso()));
+        let hides = self.hatching.as_ref().and_then(|hatching| self.hides.or(hatching.iso));
         let surface = hides.and_then(|iso| surfaces.iter().find(|surface| surface.iso() == iso));
         let sight = Sight { view, page: &self.page, near: self.near, surface, offset: 0.0 };
         let grid = self.field.volume().grid();
@@ -65,13 +68,13 @@ impl Stroking<'_> {
 }
 
 impl SeedMap {
-    /// How many cells there are, and Σp, the strokes that can be expected.
+    /// Returns the number of cells and Σp, the expected number of strokes.
     pub fn sums(&self) -> (usize, f64) {
         // The sum of no numbers is −0.
         (self.0.cells.len(), self.0.expected() + 0.0)
     }
 
-    /// Each cell by its lowest voxel, with its p.
+    /// Returns each cell, by its lowest voxel, with its p.
     pub fn cells(&self) -> &[([usize; 3], f64)] {
         &self.0.cells
     }
@@ -79,11 +82,11 @@ impl SeedMap {
     /// Writes `x,y,z,p`, a row a cell, z slowest; the file appears whole or not at all.
     ///
     /// # Errors
-    /// What the operating system refuses.
+    /// Errors of the operating system.
     pub fn write(&self, path: &Path) -> Result<(), Failure> {
         let mut out = String::from("x,y,z,p\n");
         for ([x, y, z], p) in &self.0.cells {
-            // A string takes all that it has room for.
+            // Writing to a string does not fail.
             let _ = writeln!(out, "{x},{y},{z},{p}");
         }
         atomic::write(path, out.as_bytes()).map_err(|error| Failure::picture(&error, path.display()))

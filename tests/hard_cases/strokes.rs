@@ -2,7 +2,7 @@
 
 use crate::common::{on, volume};
 use crate::stability::{Case, Theme};
-use drypoint::job::{Job, Wanted};
+use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::reference::field::{Field, Reconstruction, Rung};
 use drypoint::reference::interactive_volume_illustration::{
@@ -391,7 +391,7 @@ fn eye_inside() -> f64 {
              [hatching]\niso = 0\nseeds = \"dense\"\nspacing = \"random\"\n"
         );
         let scene = parse(&scene, Path::new("scene.toml"), &Overrides::default()).unwrap();
-        let job = Job::load_for(scene, Wanted::Strokes).unwrap();
+        let job = Job::load_for(scene, RenderTarget::Strokes).unwrap();
         let mut counts = Counts::default();
         let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
         let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::outside::{Codes, run};
 use drypoint::drawing::Drawing;
-use drypoint::job::{Job, Wanted};
+use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, data_folders, load};
@@ -21,7 +21,7 @@ fn draw(figure: &str, paths: [&Path; 3]) {
     let mut overrides = Overrides::default();
     overrides.push_argument("picture.blend_space=srgb").unwrap();
     let scene = load(&folder.join(figure).with_extension("toml"), &overrides).unwrap();
-    let job = Job::load_for(scene, Wanted::Marks).unwrap();
+    let job = Job::load_for(scene, RenderTarget::Marks).unwrap();
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
     let mut drawing = Drawing::new(&job, &marking, &mut counts).unwrap();

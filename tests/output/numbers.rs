@@ -2,9 +2,9 @@
 
 use crate::random::Random;
 use crate::sample;
-use drypoint::output::list::{Form, encode_dots, read_list};
+use drypoint::output::list::{ListFormat, encode_dots, read_list};
 use drypoint::output::plotter::{Speed, plan};
-use drypoint::output::vector::Sheet;
+use drypoint::output::vector::VectorPage;
 use drypoint::output::vector::pdf::encode_pdf;
 use drypoint::output::vector::svg::encode_svg;
 use drypoint::scene::glam::{DVec2, DVec3};
@@ -224,7 +224,7 @@ fn every_file_has_every_mark_where_it_is() {
         assert!(of_svg(&svg) == expected, "SVG");
         assert!(of_pdf(&encode_pdf(&sheet).unwrap()) == expected, "PDF");
         let folder = tempfile::tempdir().unwrap();
-        for (form, name) in [(Form::Csv, "a.csv"), (Form::JsonLines, "a.jsonl")] {
+        for (form, name) in [(ListFormat::Csv, "a.csv"), (ListFormat::JsonLines, "a.jsonl")] {
             let path = folder.path().join(name);
             std::fs::write(&path, encode_dots(&marks, form)).unwrap();
             let pens: Vec<_> = marks.layers.iter().map(|layer| layer.pen.clone()).collect();
@@ -238,7 +238,7 @@ fn every_file_has_every_mark_where_it_is() {
 fn a_plotter_gets_the_plan_in_its_order() {
     let provenance = Provenance::default();
     let plan = plan(&sample::marks(false), &Speed::default());
-    let sheet = Sheet { plotter: true, ..sample::sheet(&plan.marks, &provenance) };
+    let sheet = VectorPage { plotter: true, ..sample::sheet(&plan.marks, &provenance) };
     let svg = String::from_utf8(encode_svg(&sheet).unwrap()).unwrap();
     let expected: Vec<Drawn> = plan.marks.layers.iter().map(of_marks).collect();
     assert!(of_svg(&svg) == expected);

@@ -2,7 +2,7 @@
 
 use crate::outside::{Codes, run};
 use crate::sample;
-use drypoint::output::vector::Sheet;
+use drypoint::output::vector::VectorPage;
 use drypoint::output::vector::pdf::write_pdf;
 use drypoint::scene::picture::Provenance;
 
@@ -31,7 +31,7 @@ fn poppler_draws_what_we_draw() {
 fn beziers_are_the_curves_that_their_chords_stand_for() {
     let folder = tempfile::tempdir().unwrap();
     let (marks, provenance) = (sample::curves(0.05), Provenance::default());
-    let sheet = Sheet { beziers: true, ..sample::sheet(&marks, &provenance) };
+    let sheet = VectorPage { beziers: true, ..sample::sheet(&marks, &provenance) };
     write_pdf(&sheet, &folder.path().join("a.pdf")).unwrap();
     let dpi = (300 * FINER).to_string();
     let arguments = ["-r", &dpi, "-singlefile", "a.pdf", "theirs"];

@@ -2,7 +2,7 @@
 
 use crate::outside::{Codes, run};
 use crate::sample;
-use drypoint::output::vector::Sheet;
+use drypoint::output::vector::VectorPage;
 use drypoint::output::vector::svg::write_svg;
 use drypoint::scene::picture::Provenance;
 
@@ -29,7 +29,7 @@ fn beziers_are_the_curves_that_their_chords_stand_for() {
     let ours = sample::picture(&sample::curves(0.0005), folder.path());
     let sheet = sample::sheet(&marks, &provenance);
     let drawn = [true, false].map(|beziers| {
-        write_svg(&Sheet { beziers, ..sheet }, &folder.path().join("a.svg")).unwrap();
+        write_svg(&VectorPage { beziers, ..sheet }, &folder.path().join("a.svg")).unwrap();
         let arguments = ["-d", "300", "-p", "300", "-b", "white", "-o", "theirs.png", "a.svg"];
         run("rsvg-convert", Some("librsvg2-bin"), &arguments, folder.path())?;
         Some(Codes::of_png(&folder.path().join("theirs.png")))

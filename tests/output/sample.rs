@@ -2,9 +2,9 @@
 
 use crate::outside::Codes;
 use crate::random::Random;
-use drypoint::output::paint::{Window, blank, paint};
+use drypoint::output::paint::{PageWindow, blank, paint};
 use drypoint::output::png::write_png;
-use drypoint::output::vector::Sheet;
+use drypoint::output::vector::VectorPage;
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Layer, Marks, Page, Pen, Polyline, Vertex};
 use drypoint::scene::picture::Provenance;
@@ -48,8 +48,8 @@ pub(crate) fn marks(opaque: bool) -> Marks {
 }
 
 /// The sheet of marks on white paper.
-pub(crate) fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> Sheet<'a> {
-    Sheet { marks, background: None, picture: None, plotter: false, beziers: false, provenance }
+pub(crate) fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> VectorPage<'a> {
+    VectorPage { marks, background: None, picture: None, plotter: false, beziers: false, provenance }
 }
 
 /// Circles and waves of radii from 1 to 20 mm, of one width or tapered, in chords that are at most so many mm beside them, on the
@@ -83,7 +83,7 @@ pub(crate) fn curves(chord: f64) -> Marks {
 /// Our own picture of it, as it is in a PNG whose encoded values are blended.
 pub(crate) fn picture(marks: &Marks, folder: &Path) -> Codes {
     let mut picture = blank(&marks.page, Some([1.0; 4])).unwrap();
-    paint(marks, &Window::page(&marks.page), BlendSpace::Srgb, &mut picture).unwrap();
+    paint(marks, &PageWindow::page(&marks.page), BlendSpace::Srgb, &mut picture).unwrap();
     let path = folder.join("ours.png");
     write_png(&picture, 8, &Provenance::default(), &path).unwrap();
     Codes::of_png(&path)

@@ -11,7 +11,7 @@ fn vpype_finds_the_layers_their_pens_and_every_stroke() {
     let folder = tempfile::tempdir().unwrap();
     let provenance = Provenance::default();
     let plan = plan(&sample::marks(true), &Speed::default());
-    let sheet = drypoint::output::vector::Sheet { plotter: true, ..sample::sheet(&plan.marks, &provenance) };
+    let sheet = drypoint::output::vector::VectorPage { plotter: true, ..sample::sheet(&plan.marks, &provenance) };
     write_svg(&sheet, &folder.path().join("a.svg")).unwrap();
     let Some(said) = run("vpype", None, &["read", "a.svg", "stat"], folder.path()) else { return };
     let after = |text: &str, key: &str| -> Vec<String> {

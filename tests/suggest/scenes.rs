@@ -3,7 +3,7 @@
 use crate::data;
 use crate::measure::measure;
 use drypoint::drawing::Drawing;
-use drypoint::job::{Job, Wanted};
+use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
@@ -41,7 +41,8 @@ fn drawn(path: &Path) -> ([usize; 2], f64) {
         small.push(("picture.size", "[96, 96]"));
     }
     let scene = load(path, &small.into_iter().collect()).unwrap();
-    let job = Job::load_for(scene, Wanted::Marks).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
+    let job =
+        Job::load_for(scene, RenderTarget::Marks).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
     // Keys of what is not drawn here have their effect in the whole picture.
     let idle: Vec<_> = job.plan.idle_keys.iter().filter(|idle| idle.why != "the volume itself is not drawn").collect();
     assert!(idle.is_empty(), "{}: keys without effect: {idle:?}", path.display());

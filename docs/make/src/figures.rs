@@ -4,7 +4,7 @@
 use crate::files;
 use drypoint::Failures;
 use drypoint::drawing::Drawing;
-use drypoint::job::{Job, Wanted};
+use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::output::encode::{quantize, straight_srgb};
 use drypoint::scene::color::srgb_to_linear;
@@ -106,7 +106,7 @@ fn picture(scene: &Path) -> Result<(Picture, Encode), String> {
 
 /// Dots and lines, on their page, or where they have colours over the volume.
 fn marks(scene: Scene, colored: bool) -> Result<Picture, Failures> {
-    let job = Job::load_for(scene, if colored { Wanted::Picture } else { Wanted::Marks })?;
+    let job = Job::load_for(scene, if colored { RenderTarget::Picture } else { RenderTarget::Marks })?;
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ())?;
     let (frame, _) = Drawing::new(&job, &marking, &mut counts)?.frame(0, &|_| ())?;

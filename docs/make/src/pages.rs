@@ -2,7 +2,7 @@
 
 use crate::files::in_docs;
 use drypoint::job::Job;
-use drypoint::output::compare::{Options, compare};
+use drypoint::output::compare::{CompareOptions, compare};
 use drypoint::output::read::Image;
 use drypoint::scene::file::{Overrides, parse};
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ fn the_recipe_of_errata_gives_its_numbers() {
         let job = Job::load(parse(ball, Path::new("ball.toml"), &overrides).unwrap()).unwrap();
         Image::from(&job.renderer().unwrap().frame(&|_| ()).0)
     });
-    let compared = compare(&outward, &printed, &Options::default()).unwrap();
+    let compared = compare(&outward, &printed, &CompareOptions::default()).unwrap();
     let said = format!("differ by up to {:.2}, and the mean FLIP is {:.2}", compared.max, compared.flip.unwrap());
     assert!(text.contains(&said), "{said}");
 }

@@ -1,12 +1,12 @@
-//! Pictures of dots as they look from farther away: what dots cover in the mean of a place is their tone, where each of
-//! them lies is not ([COST-1]).
+//! Blurred pictures of dots, as seen from farther away ([COST-1]). A blur keeps the mean coverage around a place, which
+//! is its tone, and forgets where each dot lies.
 
 use super::flip::filter::{separable, unit_sum, weights};
 use crate::read::Image;
 use drypoint_scene::math;
 
-/// A picture blurred by a Gaussian of `sigma` pixels, cut off at three of them; beyond the border the outermost pixels go
-/// on. 0 leaves it as it is.
+/// Returns the picture blurred by a Gaussian of `sigma` pixels, cut off at 3 `sigma`. Beyond the border the outermost
+/// pixels repeat. With `sigma` = 0 the picture is unchanged.
 pub fn blurred(image: &Image, sigma: f64) -> Image {
     let kernel = if sigma > 0.0 {
         unit_sum(weights((3.0 * sigma).ceil(), |i| math::exp(-i * i / (2.0 * sigma * sigma))))

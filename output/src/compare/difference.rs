@@ -1,11 +1,11 @@
-//! A picture of where two pictures differ.
+//! Pictures of the difference of two pictures.
 
-use super::flip::Map;
+use super::flip::FlipMap;
 use drypoint_scene::color::srgb_to_linear;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 
-/// Sixteen evenly spaced colours (sRGB) of the map Magma by N. Smith and S. van der Walt (CC0), the one that FLIP's
-/// authors show their maps in. Linear between them it is within 2.2/255 of the published table of 256.
+/// Sixteen evenly spaced colours (sRGB) of the map Magma by N. Smith and S. van der Walt (CC0). FLIP's authors show
+/// their maps in it. Linear interpolation is within 2.2/255 of the published table of 256.
 const MAGMA: [[u8; 3]; 16] = [
     [0, 0, 4],
     [11, 9, 36],
@@ -36,8 +36,8 @@ pub fn magma(value: f64) -> [f64; 3] {
     })
 }
 
-/// The map as an opaque picture through [`magma`]; written as PNG it has its sRGB codes.
-pub fn difference_picture(map: &Map) -> Picture {
+/// Returns the map as an opaque picture in the colours of [`magma`]. A PNG of it has Magma's sRGB codes.
+pub fn difference_picture(map: &FlipMap) -> Picture {
     let colours: Vec<_> = map.values.iter().map(|&value| magma(value).map(srgb_to_linear)).collect();
     let mut channels: Vec<Vec<f64>> = (0..3).map(|c| colours.iter().map(|colour| colour[c]).collect()).collect();
     channels.push(vec![1.0; colours.len()]);
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn a_picture_of_a_map() {
-        let picture = difference_picture(&Map { width: 2, height: 1, values: vec![0.0, 1.0] });
+        let picture = difference_picture(&FlipMap { width: 2, height: 1, values: vec![0.0, 1.0] });
         let channels = &picture.layers[0].channels;
         let codes = |i: usize| [0, 1, 2].map(|c| (linear_to_srgb(channels[c][i]) * 255.0).round() as u8);
         assert_eq!((codes(0), codes(1)), (MAGMA[0], MAGMA[15]));

@@ -1,43 +1,43 @@
-//! How far two pictures are apart ([GPU-1], [GPU-5]).
+//! Differences of two pictures ([GPU-1], [GPU-5]).
 
 pub mod blur;
 pub mod difference;
 pub mod flip;
-pub mod lines;
+pub mod line_distance;
 
 use crate::OutputError;
-use crate::read::{Colors, Image};
+use crate::read::{ColorChannels, Image};
 use serde::Serialize;
 use std::fmt;
 
-/// What to compare by.
+/// Settings of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// Pixels with a larger difference than this in any channel are counted as `over`.
+pub struct CompareOptions {
+    /// Pixels with a larger difference than this in any channel count as `over`.
     pub tolerance: f64,
-    /// How closely the pictures are looked at, for FLIP.
+    /// Viewing distance for FLIP, in pixels per degree.
     pub pixels_per_degree: f64,
 }
 
-impl Default for Options {
+impl Default for CompareOptions {
     /// One step of 8 bits in linear light, and FLIP's usual screen.
     fn default() -> Self {
         Self { tolerance: 1.0 / 255.0, pixels_per_degree: flip::PIXELS_PER_DEGREE }
     }
 }
 
-/// What a comparison may show at most; nothing where there is no limit.
+/// Limits of a comparison's differences. None: no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limits {
-    /// For [`Comparison::max`].
+pub struct ErrorLimits {
+    /// Limit of [`Comparison::max`].
     pub max: Option<f64>,
-    /// For [`Comparison::rms`].
+    /// Limit of [`Comparison::rms`].
     pub rms: Option<f64>,
-    /// For [`Comparison::flip`].
+    /// Limit of [`Comparison::flip`].
     pub flip: Option<f64>,
 }
 
-/// The difference of two pictures. Numbers are those of the channels: linear premultiplied light for colours.
+/// The difference of two pictures, in the channels' units: linear premultiplied light for colours.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Pixels from left to right.
@@ -48,18 +48,18 @@ pub struct Comparison {
     pub max: f64,
     /// The largest root mean square of any layer's differences.
     pub rms: f64,
-    /// The mean of [`flip::flip`]; nothing if one of the pictures has no colours.
+    /// Mean of [`flip::flip`]; none if one of the pictures has no colours.
     pub flip: Option<f64>,
     /// Pixels with any difference at all.
     pub differing: usize,
-    /// What counts as `over`.
+    /// The tolerance above which a pixel counts as `over`.
     pub tolerance: f64,
     /// Pixels with a larger difference than `tolerance`.
     pub over: usize,
-    /// Values that only one picture has as a finite number, in all layers; they are pixels that differ and are over, but
-    /// no part of `max` and `rms`.
+    /// Values that are finite in one picture only, in all layers. Their pixels count as differing and as over; `max`
+    /// and `rms` leave them out.
     pub apart: usize,
-    /// Each layer that both have.
+    /// The layers that both pictures have.
     pub layers: Vec<LayerDifference>,
     /// Channels that only the first has.
     pub only_in_a: Vec<String>,
@@ -70,23 +70,23 @@ pub struct Comparison {
 /// The difference of one layer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LayerDifference {
-    /// `beauty`, `Z`, or what stands before the last dot of its channels' names.
+    /// `beauty`, `Z`, or the part of the channels' names before the last dot.
     pub name: String,
     /// The channels that were compared.
     pub channels: Vec<String>,
     /// The largest |a − b|.
     pub max: f64,
-    /// Column and row of the first pixel that has it.
+    /// Column and row of the first pixel with that difference.
     pub at: [usize; 2],
-    /// √(Σ(a − b)²/n) over all n values of its channels.
+    /// √(Σ(a − b)²/n) over all n values of the layer's channels.
     pub rms: f64,
     /// Values that only one of the pictures has as a finite number, or that are infinite with different signs.
     pub apart: usize,
 }
 
 impl Comparison {
-    /// The limits that are exceeded, each as a line; values that are `apart` exceed every limit for `max` and `rms`.
-    pub fn exceeded(&self, limits: &Limits) -> Vec<String> {
+    /// Returns a line for each limit that is exceeded. Values that are `apart` exceed every limit of `max` and `rms`.
+    pub fn exceeded(&self, limits: &ErrorLimits) -> Vec<String> {
         let mut lines = Vec::new();
         for (name, found, limit) in [("max", self.max, limits.max), ("rms", self.rms, limits.rms)] {
             if let Some(limit) = limit {
@@ -107,7 +107,7 @@ impl Comparison {
     }
 }
 
-/// Width and height of two pictures, which have to be the same and not 0.
+/// Returns the common width and height of two pictures. They must be equal and not 0.
 fn common_size(a: &Image, b: &Image) -> Result<[usize; 2], OutputError> {
     let [size, other] = [a, b].map(|image| [image.width, image.height]);
     if size != other {
@@ -124,12 +124,13 @@ fn common_size(a: &Image, b: &Image) -> Result<[usize; 2], OutputError> {
 /// # Errors
 /// [`OutputError::Sizes`], [`OutputError::Layer`] for pictures without pixels, [`OutputError::NothingInCommon`],
 /// [`OutputError::Viewing`], [`OutputError::NoRoom`].
-pub fn compare(a: &Image, b: &Image, options: &Options) -> Result<Comparison, OutputError> {
+pub fn compare(a: &Image, b: &Image, options: &CompareOptions) -> Result<Comparison, OutputError> {
     let [width, height] = common_size(a, b)?;
     let flip = match (a.colors(), b.colors()) {
         (Some(_), Some(_)) => Some(flip::flip(a, b, options.pixels_per_degree)?.mean()),
         _ => None,
     };
+    // Channels with a counterpart. A missing α is opaque.
     let opaque = vec![1.0; width * height];
     let (names_a, names_b) = (channels(a), channels(b));
     let (common, only_in_a): (Vec<_>, Vec<_>) = names_a.iter().cloned().partition(|name| names_b.contains(name));
@@ -138,6 +139,7 @@ pub fn compare(a: &Image, b: &Image, options: &Options) -> Result<Comparison, Ou
     }
     let only_in_b = names_b.into_iter().filter(|name| !common.contains(name)).collect();
 
+    // Differences of each channel, merged by layer; the largest of each pixel beside them.
     let mut largest = vec![0.0f64; width * height];
     let mut layers: Vec<LayerDifference> = Vec::new();
     for name in common {
@@ -170,10 +172,10 @@ pub fn compare(a: &Image, b: &Image, options: &Options) -> Result<Comparison, Ou
     })
 }
 
-/// The names of an image's channels, with the α that an image with colours has even if it is not written.
+/// Returns the names of an image's channels. An image with colours always has α, even if the file does not write it.
 fn channels(image: &Image) -> Vec<String> {
     let mut names = image.names();
-    if matches!(image.colors(), Some(Colors { alpha: None, .. })) {
+    if matches!(image.colors(), Some(ColorChannels { alpha: None, .. })) {
         names.push("A".into());
     }
     names
@@ -188,7 +190,7 @@ fn layer_of(channel: &str) -> &str {
     }
 }
 
-/// One channel's difference, `rms` still the sum of squares; raises `largest` at each pixel.
+/// Returns one channel's difference and raises `largest` at each pixel. Its `rms` is still the sum of squares.
 fn channel_difference(a: &[f64], b: &[f64], width: usize, largest: &mut [f64]) -> LayerDifference {
     let mut found =
         LayerDifference { name: String::new(), channels: Vec::new(), max: 0.0, at: [0, 0], rms: 0.0, apart: 0 };
@@ -209,7 +211,7 @@ fn channel_difference(a: &[f64], b: &[f64], width: usize, largest: &mut [f64]) -
 }
 
 impl LayerDifference {
-    /// Takes in a further channel, both `rms` still sums of squares.
+    /// Merges a further channel. Both `rms` are still sums of squares.
     fn join(&mut self, channel: String, other: Self) {
         self.channels.push(channel);
         if other.max > self.max {
@@ -259,7 +261,7 @@ mod tests {
         let a = image(2, &[("normal.X", &[0.0, 1.0, 2.0, 3.0]), ("normal.Y", &[0.0; 4]), ("Z", &[5.0; 4])]);
         let b =
             image(2, &[("Z", &[5.0; 4]), ("normal.X", &[0.0, 1.0, 2.0, -1.0]), ("normal.Y", &[0.0, 0.0, 2.0, 0.0])]);
-        let found = compare(&a, &b, &Options { tolerance: 2.0, ..Default::default() }).unwrap();
+        let found = compare(&a, &b, &CompareOptions { tolerance: 2.0, ..Default::default() }).unwrap();
         // Differences 4 and 2 among 8 values: √(20/8).
         let normal = &found.layers[0];
         assert_eq!((normal.name.as_str(), normal.max, normal.at), ("normal", 4.0, [1, 1]));
@@ -275,11 +277,11 @@ mod tests {
         let far = f64::INFINITY;
         let a = image(4, &[("Z", &[far, far, 1.0, f64::NAN])]);
         let b = image(4, &[("Z", &[far, 2.0, 1.5, f64::NAN])]);
-        let found = compare(&a, &b, &Options::default()).unwrap();
+        let found = compare(&a, &b, &CompareOptions::default()).unwrap();
         assert_eq!((found.max, found.apart, found.differing, found.over), (0.5, 1, 2, 2));
         assert_eq!(found.rms, 0.25);
-        assert_eq!(found.exceeded(&Limits { max: Some(1.0), ..Default::default() }).len(), 1);
-        assert_eq!(found.exceeded(&Limits { rms: Some(0.1), ..Default::default() }).len(), 2);
+        assert_eq!(found.exceeded(&ErrorLimits { max: Some(1.0), ..Default::default() }).len(), 1);
+        assert_eq!(found.exceeded(&ErrorLimits { rms: Some(0.1), ..Default::default() }).len(), 2);
     }
 
     #[test]
@@ -287,7 +289,7 @@ mod tests {
         let grey: &[f64] = &[0.5];
         let a = image(1, &[("R", grey), ("G", grey), ("B", grey)]);
         let b = image(1, &[("R", grey), ("G", grey), ("B", grey), ("A", &[0.75]), ("Z", grey)]);
-        let found = compare(&a, &b, &Options::default()).unwrap();
+        let found = compare(&a, &b, &CompareOptions::default()).unwrap();
         assert_eq!((found.max, found.layers[0].name.as_str()), (0.25, "beauty"));
         assert_eq!((found.only_in_a, found.only_in_b), (vec![], vec!["Z".to_string()]));
         assert!(found.flip.unwrap() > 0.0);
@@ -296,23 +298,23 @@ mod tests {
     #[test]
     fn limits_hold_or_not() {
         let [a, b] = [0.25, 0.5].map(|v| image(1, &[("R", &[v]), ("G", &[v]), ("B", &[v])]));
-        let found = compare(&a, &b, &Options::default()).unwrap();
+        let found = compare(&a, &b, &CompareOptions::default()).unwrap();
         let flip = found.flip.unwrap();
-        assert_eq!(found.exceeded(&Limits { max: Some(0.25), rms: Some(0.25), flip: Some(flip) }), [""; 0]);
-        let tight = Limits { max: Some(0.2), rms: Some(0.1), flip: Some(flip / 2.0) };
+        assert_eq!(found.exceeded(&ErrorLimits { max: Some(0.25), rms: Some(0.25), flip: Some(flip) }), [""; 0]);
+        let tight = ErrorLimits { max: Some(0.2), rms: Some(0.1), flip: Some(flip / 2.0) };
         assert_eq!(found.exceeded(&tight).len(), 3);
         let depth = image(1, &[("Z", &[1.0])]);
-        let found = compare(&depth, &depth, &Options::default()).unwrap();
-        assert_eq!(found.exceeded(&Limits { flip: Some(1.0), ..Default::default() }).len(), 1);
+        let found = compare(&depth, &depth, &CompareOptions::default()).unwrap();
+        assert_eq!(found.exceeded(&ErrorLimits { flip: Some(1.0), ..Default::default() }).len(), 1);
     }
 
     #[test]
     fn what_cannot_be_compared() {
         let (a, wide) = (image(1, &[("Z", &[1.0])]), image(2, &[("Z", &[1.0, 2.0])]));
-        assert!(matches!(compare(&a, &wide, &Options::default()), Err(OutputError::Sizes { .. })));
+        assert!(matches!(compare(&a, &wide, &CompareOptions::default()), Err(OutputError::Sizes { .. })));
         let none = image(1, &[("Z", &[])]);
-        assert!(matches!(compare(&none, &none, &Options::default()), Err(OutputError::Layer { .. })));
-        let error = compare(&a, &image(1, &[("Y", &[1.0])]), &Options::default()).unwrap_err();
+        assert!(matches!(compare(&none, &none, &CompareOptions::default()), Err(OutputError::Layer { .. })));
+        let error = compare(&a, &image(1, &[("Y", &[1.0])]), &CompareOptions::default()).unwrap_err();
         assert_eq!(error.to_string(), "no channel is in both pictures: the first has Z, the second Y");
     }
 
@@ -320,7 +322,7 @@ mod tests {
     fn as_a_table_and_as_json() {
         let a = image(1, &[("first.VALUE", &[1.0]), ("Y", &[0.0])]);
         let b = image(1, &[("first.VALUE", &[1.5])]);
-        let found = compare(&a, &b, &Options::default()).unwrap();
+        let found = compare(&a, &b, &CompareOptions::default()).unwrap();
         let expected = "\
 layer                     max          rms             at    apart
 first               5.0000e-1    5.0000e-1           0, 0        0

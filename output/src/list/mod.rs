@@ -1,5 +1,5 @@
-//! Lists of marks as data ([STIP-16]): the columns of the commands `points` and `strokes`, as CSV or as JSON lines, an
-//! object a line with the columns as its keys; written and read.
+//! Lists of marks as data ([STIP-16]): the columns of the commands `points` and `strokes`, as CSV or as JSON lines. A
+//! JSON line is an object with the columns as keys.
 //!
 //! | column | what | unit |
 //! |---|---|---|
@@ -11,8 +11,8 @@
 //! | `color` | lines only, where a vertex has one of its own: `#rrggbb` | |
 //! | `pen` | name of the pen, where there are several layers | |
 //!
-//! A closed line ends with its first vertex again, and an open one that ends where it began is read as closed. What was
-//! written is read back to the same numbers, bit for bit, if marks were on their steps and on the page
+//! A closed line repeats its first vertex at the end, and an open line that ends where it began is read as closed.
+//! Lists are read back bit for bit if the marks were rounded and on the page
 //! ([`Marks::settle`](drypoint_scene::marks::Marks::settle)).
 
 mod read;
@@ -23,17 +23,17 @@ pub use write::{encode_dots, encode_lines, write_dots, write_lines};
 
 use std::path::Path;
 
-/// How a list is written.
+/// File format of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// A header and a row a mark.
+pub enum ListFormat {
+    /// CSV: a header, then a row a mark.
     Csv,
-    /// A JSON object a line.
+    /// JSON lines: an object a mark.
     JsonLines,
 }
 
-impl Form {
-    /// The form of a name that ends in `.csv` or `.jsonl`; case does not count.
+impl ListFormat {
+    /// Returns the format of a name that ends in `.csv` or `.jsonl`, in any case.
     pub fn of(path: &Path) -> Option<Self> {
         let suffix = path.extension()?;
         let is = |name: &str| suffix.eq_ignore_ascii_case(name);
@@ -87,7 +87,7 @@ mod tests {
         marks
     }
 
-    const FORMS: [(Form, &str); 2] = [(Form::Csv, "list.csv"), (Form::JsonLines, "list.JSONL")];
+    const FORMS: [(ListFormat, &str); 2] = [(ListFormat::Csv, "list.csv"), (ListFormat::JsonLines, "list.JSONL")];
 
     fn pages() -> [Page; 4] {
         let px = |dpi| Page::in_pixels([500, 400], 1.0, dpi);
@@ -141,7 +141,7 @@ mod tests {
                 let found = read_list(&path, &marks.page, &pens).unwrap();
                 assert!(found.iter().zip(&marks.layers).all(|(a, b)| a.lines == b.lines), "{name}");
             }
-            let csv = String::from_utf8(encode_lines(&marks, Form::Csv)).unwrap();
+            let csv = String::from_utf8(encode_lines(&marks, ListFormat::Csv)).unwrap();
             assert!(csv.starts_with("stroke,t,x,y,wx,wy,wz,radius,opacity,color"), "{csv}");
             // 0.3 is 1.055·0.3^(1/2.4) − 0.055 = 0.5838 in sRGB: 149 of 255.
             assert!(csv.contains(",1,#00ff00") && csv.contains(",1,#95ff00"), "{csv}");
@@ -160,22 +160,24 @@ mod tests {
         list.layers[0].lines[0].vertices.truncate(2);
         let text = |bytes| String::from_utf8(bytes).unwrap();
         assert_eq!(
-            text(encode_dots(&list, Form::Csv)),
+            text(encode_dots(&list, ListFormat::Csv)),
             "x,y,wx,wy,wz,radius,opacity\n1.5,0.001,0.1,-2,300000000000000000000,0.15,0.0625\n"
         );
         assert_eq!(
-            text(encode_lines(&list, Form::Csv)),
+            text(encode_lines(&list, ListFormat::Csv)),
             "stroke,t,x,y,wx,wy,wz,radius,opacity\n0,0,0,0,0,-0,1000000000,0.2,1\n\
              0,0.14285714285714285,1,0.333,0.3333333333333333,-0.000000000001,500000000,0.2,1\n"
         );
         assert_eq!(
-            text(encode_dots(&list, Form::JsonLines)),
+            text(encode_dots(&list, ListFormat::JsonLines)),
             "{\"x\":1.5,\"y\":0.001,\"wx\":0.1,\"wy\":-2,\"wz\":300000000000000000000,\"radius\":0.15,\"opacity\":0.0625}\n"
         );
-        assert!(text(encode_lines(&list, Form::JsonLines)).starts_with("{\"stroke\":0,\"t\":0,\"x\":0,"));
+        assert!(text(encode_lines(&list, ListFormat::JsonLines)).starts_with("{\"stroke\":0,\"t\":0,\"x\":0,"));
         // 1.5 mm at 254 dpi are 15 px.
         list.page = Page { dpi: 254.0, ..Page::in_pixels([100, 100], 0.0, 254.0) };
-        assert!(text(encode_dots(&list, Form::Csv)).contains("\n15,0.01,0.1,-2,300000000000000000000,1.5,0.0625\n"));
+        assert!(
+            text(encode_dots(&list, ListFormat::Csv)).contains("\n15,0.01,0.1,-2,300000000000000000000,1.5,0.0625\n")
+        );
     }
 
     #[test]
@@ -247,7 +249,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(500))]
 
-        /// Whatever a file holds, it is a list or an error that names a line of it.
+        /// Any file is read as a list, or gives an error that names a line of it.
         #[test]
         fn files_of_anything(
             bytes in prop::collection::vec(any::<u8>(), 0..200),

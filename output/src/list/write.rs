@@ -1,6 +1,7 @@
-//! Writing lists.
+//! Writing of lists.
 
-use super::{COLUMNS, Form};
+use super::{COLUMNS, ListFormat};
+use crate::encode::hex;
 use crate::{OutputError, atomic};
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
@@ -8,25 +9,25 @@ use drypoint_scene::marks::{Layer, Marks, Page, PageUnit};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Writes the dots of all layers; the file appears whole or not at all.
+/// Writes the dots of all layers. The file appears whole or not at all.
 ///
 /// # Errors
 /// [`OutputError::Io`].
-pub fn write_dots(marks: &Marks, form: Form, path: &Path) -> Result<(), OutputError> {
+pub fn write_dots(marks: &Marks, form: ListFormat, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_dots(marks, form))
 }
 
-/// Writes the lines of all layers; the file appears whole or not at all.
+/// Writes the lines of all layers. The file appears whole or not at all.
 ///
 /// # Errors
 /// [`OutputError::Io`].
-pub fn write_lines(marks: &Marks, form: Form, path: &Path) -> Result<(), OutputError> {
+pub fn write_lines(marks: &Marks, form: ListFormat, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_lines(marks, form))
 }
 
-/// The bytes of [`write_dots`].
-pub fn encode_dots(marks: &Marks, form: Form) -> Vec<u8> {
-    let mut table = Table::new(marks, form, &COLUMNS);
+/// Returns the bytes of [`write_dots`].
+pub fn encode_dots(marks: &Marks, form: ListFormat) -> Vec<u8> {
+    let mut table = ListWriter::new(marks, form, &COLUMNS);
     for layer in &marks.layers {
         let end = table.end(layer);
         for dot in &layer.dots {
@@ -37,13 +38,13 @@ pub fn encode_dots(marks: &Marks, form: Form) -> Vec<u8> {
     table.out.into_bytes()
 }
 
-/// The bytes of [`write_lines`].
-pub fn encode_lines(marks: &Marks, form: Form) -> Vec<u8> {
+/// Returns the bytes of [`write_lines`].
+pub fn encode_lines(marks: &Marks, form: ListFormat) -> Vec<u8> {
     let columns: Vec<&'static str> = ["stroke", "t"].into_iter().chain(COLUMNS).collect();
-    let mut table = Table::new(marks, form, &columns);
+    let mut table = ListWriter::new(marks, form, &columns);
     let colored = marks.layers.iter().flat_map(|layer| &layer.lines).flat_map(|line| &line.vertices);
     let colored = colored.into_iter().any(|vertex| vertex.color.is_some());
-    if let (true, Form::Csv) = (colored, form) {
+    if let (true, ListFormat::Csv) = (colored, form) {
         table.add_color();
     }
     let mut number = 0;
@@ -66,42 +67,42 @@ pub fn encode_lines(marks: &Marks, form: Form) -> Vec<u8> {
     table.out.into_bytes()
 }
 
-/// A list while it is written.
-struct Table {
+/// A list being written.
+struct ListWriter {
     out: String,
-    form: Form,
-    unit: Unit,
+    form: ListFormat,
+    unit: LengthFormat,
     several: bool,
-    /// What stands before each number of a row: commas, or names.
+    /// Text before each number of a row: commas, or JSON keys.
     before: Vec<String>,
-    /// The next number of the row.
+    /// Index of the row's next number.
     next: usize,
 }
 
-impl Table {
-    fn new(marks: &Marks, form: Form, columns: &[&'static str]) -> Self {
+impl ListWriter {
+    fn new(marks: &Marks, form: ListFormat, columns: &[&'static str]) -> Self {
         let several = marks.layers.len() > 1;
         let (out, before) = match form {
-            Form::Csv => {
+            ListFormat::Csv => {
                 let before = (0..columns.len()).map(|i| if i == 0 { "" } else { "," }.to_owned());
                 (format!("{}{}\n", columns.join(","), if several { ",pen" } else { "" }), before.collect())
             }
-            Form::JsonLines => {
+            ListFormat::JsonLines => {
                 let name = |(i, column): (usize, &&str)| format!("{}\"{column}\":", if i == 0 { '{' } else { ',' });
                 (String::new(), columns.iter().enumerate().map(name).collect())
             }
         };
-        Self { out, form, unit: Unit::of(&marks.page), several, before, next: 0 }
+        Self { out, form, unit: LengthFormat::of(&marks.page), several, before, next: 0 }
     }
 
-    /// The end of a layer's rows, with its pen's name.
+    /// Returns the end of a layer's rows, with the pen's name if there are several layers.
     fn end(&self, layer: &Layer) -> String {
         let name = &layer.pen.name;
         match (self.form, self.several) {
-            (Form::Csv, false) => "\n".into(),
-            (Form::Csv, true) => format!(",\"{}\"\n", name.replace('"', "\"\"")),
-            (Form::JsonLines, false) => "}\n".into(),
-            (Form::JsonLines, true) => format!(",\"pen\":{}}}\n", serde_json::Value::from(name.as_str())),
+            (ListFormat::Csv, false) => "\n".into(),
+            (ListFormat::Csv, true) => format!(",\"{}\"\n", name.replace('"', "\"\"")),
+            (ListFormat::JsonLines, false) => "}\n".into(),
+            (ListFormat::JsonLines, true) => format!(",\"pen\":{}}}\n", serde_json::Value::from(name.as_str())),
         }
     }
 
@@ -113,23 +114,24 @@ impl Table {
         self.number(opacity);
     }
 
-    /// Puts the column of colours into the header, before that of pens.
+    /// Adds the column of colours to the header, before that of pens.
     fn add_color(&mut self) {
         let at = self.out.len() - if self.several { ",pen\n".len() } else { "\n".len() };
         self.out.insert_str(at, ",color");
     }
 
-    /// The last column but that of pens; empty, or in JSON absent, where the pen's colour holds.
+    /// Writes the colour of a vertex, before the pen. A vertex in the pen's colour has an empty cell, or in JSON no
+    /// key.
     fn color(&mut self, color: Option<Rgb>) {
-        let hex = color.map(|[r, g, b]| crate::vector::svg::hex([r, g, b, 1.0]));
-        match (self.form, hex) {
-            (Form::Csv, hex) => {
+        let own = color.map(|[r, g, b]| hex([r, g, b, 1.0]));
+        match (self.form, own) {
+            (ListFormat::Csv, own) => {
                 self.out.push(',');
-                self.out.push_str(&hex.unwrap_or_default());
+                self.out.push_str(&own.unwrap_or_default());
             }
             // A String takes whatever is written to it.
-            (Form::JsonLines, Some(hex)) => drop(write!(self.out, ",\"color\":\"{hex}\"")),
-            (Form::JsonLines, None) => {}
+            (ListFormat::JsonLines, Some(own)) => drop(write!(self.out, ",\"color\":\"{own}\"")),
+            (ListFormat::JsonLines, None) => {}
         }
     }
 
@@ -139,11 +141,11 @@ impl Table {
         let _ = write!(self.out, "{n}");
     }
 
-    /// A length on the page, in its unit.
+    /// Writes a length in the page's unit.
     fn length(&mut self, mm: f64) {
         match self.unit {
-            Unit::Millimetres => self.number(mm),
-            Unit::Pixels(scale, decimals) => {
+            LengthFormat::Millimetres => self.number(mm),
+            LengthFormat::Pixels(scale, decimals) => {
                 self.begin();
                 let _ = write!(self.out, "{:.decimals$}", mm * scale);
                 let kept = self.out.trim_end_matches('0').trim_end_matches('.').len();
@@ -158,20 +160,20 @@ impl Table {
     }
 }
 
-/// How a length on the page is written.
+/// Unit and digits of lengths.
 #[derive(Clone, Copy)]
-enum Unit {
+enum LengthFormat {
     Millimetres,
-    /// Times so many pixels, with so many decimals.
+    /// Pixels of a millimetre, and the number of decimals.
     Pixels(f64, usize),
 }
 
-impl Unit {
+impl LengthFormat {
     fn of(page: &Page) -> Self {
         let scale = page.pixels_per_mm();
         match page.unit {
             PageUnit::Millimetres => Self::Millimetres,
-            // So many that a step of 0.001 mm is known again: an error of a quarter of it at most.
+            // Enough decimals to recover a step of 0.001 mm: the error is at most a quarter of it.
             PageUnit::Pixels => {
                 let finest = (1..20).find(|&d| 2.0 / (0.001 * scale) <= f64::powi(10.0, d)).unwrap_or(20);
                 Self::Pixels(scale, finest as usize)

@@ -1,29 +1,30 @@
-//! Lines as what they leave on the rays of a picture, which composites them at their depths ([HATCH-14] d).
+//! Fragments of lines on the rays of a picture, which composites them at their depths ([HATCH-14] d).
 
-use super::Window;
-use super::lines::{Part, each_of_joined, goes_on};
+use super::PageWindow;
+use super::lines::{PixelRect, each_of_joined, goes_on};
 use drypoint_scene::fragments::{Fragment, Fragments};
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Marks, Piece, Polyline};
 use drypoint_scene::view::View;
 
-/// What the lines of marks leave on the n×n rays of each pixel of a view: a fragment a line on each ray whose part of a pixel
-/// it covers, at the depth of the place on its middle that is nearest to the ray on the page.
+/// Returns the fragments of lines on the n×n rays of each pixel of a view. A line has one fragment on each ray whose
+/// part of the pixel it covers. Its depth is that of the point on the line's middle that is nearest to the ray on the
+/// page.
 pub fn fragments(marks: &Marks, view: &View, samples: usize) -> Fragments {
     let rays = view.size.map(|n| n * samples);
-    let window = Window::frame(&marks.page, rays);
+    let window = PageWindow::frame(&marks.page, rays);
     let mut found = Vec::new();
     for layer in &marks.layers {
         let [r, g, b, opacity] = layer.pen.color;
         for line in &layer.lines {
             let pieces = line.pieces();
-            let Some(part) = Part::around(&pieces, &window, rays) else { continue };
+            let Some(part) = PixelRect::around(&pieces, &window, rays) else { continue };
             let depths = depths(line, &part, &window, view);
             for joined in pieces.chunk_by(goes_on) {
                 each_of_joined(joined, &part, &window, opacity, |i, ray, color, share| {
                     let fragment =
                         Fragment { depth: depths[i], rgb: color.unwrap_or([r, g, b]), opacity: share * opacity };
-                    // A place that no segment comes near has the depth of none.
+                    // A pixel that no segment comes near has an infinite depth.
                     if fragment.depth.is_finite() && fragment.opacity > 0.0 {
                         found.push((ray, fragment));
                     }
@@ -34,9 +35,10 @@ pub fn fragments(marks: &Marks, view: &View, samples: usize) -> Fragments {
     Fragments::new(view.size, samples, &found)
 }
 
-/// The depth of a line's middle at the place that is nearest to each pixel of a part; without bound where the line is not near.
-fn depths(line: &Polyline, part: &Part, window: &Window, view: &View) -> Vec<f64> {
-    // Square of the distance, depth.
+/// Returns the depth of a line's middle at the point nearest to each pixel of a rectangle; infinite where the line is
+/// not near.
+fn depths(line: &Polyline, part: &PixelRect, window: &PageWindow, view: &View) -> Vec<f64> {
+    // Squared distance and depth of the nearest point so far.
     let mut nearest = vec![[f64::INFINITY; 2]; part.columns * part.rows];
     let ends = line.vertices.windows(2).map(|pair| [pair[0], pair[1]]);
     let joint = line.vertices.last().zip(line.vertices.first()).filter(|_| line.closed).map(|(a, b)| [*a, *b]);
@@ -50,7 +52,7 @@ fn depths(line: &Polyline, part: &Part, window: &Window, view: &View) -> Vec<f64
             ends: [true; 2],
         };
         let Some(near) =
-            Part::around(std::slice::from_ref(&piece), window, [part.left + part.columns, part.top + part.rows])
+            PixelRect::around(std::slice::from_ref(&piece), window, [part.left + part.columns, part.top + part.rows])
         else {
             continue;
         };
@@ -73,7 +75,7 @@ fn depths(line: &Polyline, part: &Part, window: &Window, view: &View) -> Vec<f64
     nearest.into_iter().map(|[_, depth]| depth).collect()
 }
 
-/// The depth so far along a segment of the page: in perspective 1/depth is linear there.
+/// Returns the depth at the share `s` of a segment on the page. In perspective 1/depth is linear on the page.
 fn between([a, b]: [f64; 2], s: f64, perspective: bool) -> f64 {
     if !perspective {
         return a + (b - a) * s;
@@ -113,7 +115,8 @@ mod tests {
         Marks { page, layers: vec![Layer { lines: vec![line], ..Layer::new(pen) }] }
     }
 
-    /// A line two pixels wide from x = 10 to 30, between the rows 9 and 10, which it covers whole; its depth goes from 3 to 8.
+    /// A line two pixels wide from x = 10 to 30, between the rows 9 and 10, which it covers whole. Its depth goes from
+    /// 3 to 8.
     #[test]
     fn depths_are_linear_where_rays_are_parallel() {
         let view = view(Projection::Orthographic { height: None }, 5.0);
@@ -128,7 +131,7 @@ mod tests {
         }
     }
 
-    /// In perspective it is 1/depth; and of four rays a pixel each has its own place.
+    /// The depth is interpolated as 1/depth in perspective, and each of four rays a pixel has its own point.
     #[test]
     fn one_over_depth_is_linear_in_perspective() {
         let view = view(Projection::Perspective { fov: 90.0 }, 10.0);
@@ -141,7 +144,7 @@ mod tests {
         }
     }
 
-    /// Where a line crosses itself it covers once.
+    /// A line that crosses itself covers once.
     #[test]
     fn a_line_covers_a_ray_once() {
         let view = view(Projection::Orthographic { height: None }, 5.0);

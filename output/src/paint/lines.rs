@@ -1,18 +1,18 @@
-//! Lines over a picture.
+//! Painting of lines over a picture.
 
-use super::Window;
-use super::canvas::{Canvas, Ink};
-use crate::raster::Cover;
+use super::PageWindow;
+use super::canvas::{BlendColor, Canvas};
+use crate::raster::CoverageMask;
 use drypoint_scene::color::Rgb;
 use drypoint_scene::marks::{Piece, Polyline};
 
-/// Draws a layer's lines: first those of the pen's colour, then those with colours of their own, in their order.
-pub(super) fn paint(lines: &[Polyline], window: &Window, size: [usize; 2], ink: &Ink, canvas: &mut Canvas) {
+/// Draws a layer's lines: first those in the pen's colour, then those with their own colours, in order.
+pub(super) fn paint(lines: &[Polyline], window: &PageWindow, size: [usize; 2], ink: &BlendColor, canvas: &mut Canvas) {
     let pieces: Vec<Piece> = lines.iter().flat_map(Polyline::pieces).collect();
     let (colored, pieces): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|piece| piece.color.is_some());
     let (whole, faint): (Vec<Piece>, Vec<Piece>) =
         pieces.into_iter().partition(|piece| piece.opacity * ink.opacity == 1.0);
-    // One outline of each width, and one of those whose width changes; a stable sort keeps the order of the others.
+    // One outline for each width, and one for all lines of varying width. A stable sort keeps the order within a width.
     let (mut strokes, mut tapered) = (Vec::new(), Vec::new());
     for piece in &whole {
         match piece.stroke(1.0) {
@@ -22,7 +22,7 @@ pub(super) fn paint(lines: &[Polyline], window: &Window, size: [usize; 2], ink: 
     }
     strokes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let [width, height] = size;
-    if let Some(mut cover) = Cover::new(width, height).filter(|_| !whole.is_empty()) {
+    if let Some(mut cover) = CoverageMask::new(width, height).filter(|_| !whole.is_empty()) {
         for same in strokes.chunk_by(|a, b| a.0 == b.0) {
             let lines = same.iter().map(|(_, piece)| (piece.points.iter().map(|&p| window.place(p)), piece.closed));
             cover.draw(lines, 2.0 * window.length(same[0].0));
@@ -33,31 +33,32 @@ pub(super) fn paint(lines: &[Polyline], window: &Window, size: [usize; 2], ink: 
         }
     }
     for line in faint.chunk_by(goes_on).chain(colored.chunk_by(goes_on)) {
-        if let Some(part) = Part::around(line, window, size) {
+        if let Some(part) = PixelRect::around(line, window, size) {
             paint_joined(line, &part, window, ink, canvas);
         }
     }
 }
 
-/// Whether a piece goes on where the one before ended: both are of one line, which covers once.
+/// Whether piece `b` begins where piece `a` ends. Both are then of one line, which covers once.
 pub(super) fn goes_on(a: &Piece, b: &Piece) -> bool {
     a.points.last() == b.points.first()
 }
 
-/// Draws a line of pieces of different colours and opacities.
-fn paint_joined(line: &[Piece], part: &Part, window: &Window, pen: &Ink, canvas: &mut Canvas) {
+/// Draws a line whose pieces differ in colour and opacity.
+fn paint_joined(line: &[Piece], part: &PixelRect, window: &PageWindow, pen: &BlendColor, canvas: &mut Canvas) {
     each_of_joined(line, part, window, pen.opacity, |_, pixel, color, share| {
         let own = color.map(|[r, g, b]| canvas.ink([r, g, b, pen.opacity]));
         canvas.put(pixel, own.as_ref().unwrap_or(pen), share);
     });
 }
 
-/// Each pixel that a line of pieces covers, once where they overlap: its number in the part and in the picture, the pieces'
-/// own colour, and the share times their opacity. Of several pieces a pixel has the mean, by how much of it each covers.
+/// Calls `put` once for each pixel that a line of pieces covers. Arguments are the pixel's index in the rectangle and
+/// in the picture, the pieces' own colour, and the share times opacity. Pieces that share a pixel are averaged by the
+/// share that each covers.
 pub(super) fn each_of_joined(
     line: &[Piece],
-    part: &Part,
-    window: &Window,
+    part: &PixelRect,
+    window: &PageWindow,
     ink: f64,
     mut put: impl FnMut(usize, usize, Option<Rgb>, f64),
 ) {
@@ -70,7 +71,7 @@ pub(super) fn each_of_joined(
     for piece in line {
         let color = piece.color.unwrap_or_default();
         let each = std::slice::from_ref(piece);
-        let Some(own) = Part::around(each, window, part.picture) else { continue };
+        let Some(own) = PixelRect::around(each, window, part.picture) else { continue };
         let Some(cover) = own.cover(each, window, ink) else { continue };
         own.each(&cover, |_, pixel, covered| {
             let sum = &mut sums[part.index(pixel)];
@@ -81,7 +82,7 @@ pub(super) fn each_of_joined(
     }
     part.each(&whole, |i, pixel, covered| {
         let [r, g, b, opacity, all] = sums[i];
-        // A pixel of which each piece covers less than a step has no colour.
+        // A pixel that each piece covers by less than a step has no colour.
         if all > 0.0 {
             let own = line[0].color.map(|_| [r / all, g / all, b / all]);
             put(i, pixel, own, covered * (opacity / all));
@@ -89,8 +90,8 @@ pub(super) fn each_of_joined(
     });
 }
 
-/// The pixels that pieces can touch, and one more around.
-pub(super) struct Part {
+/// A rectangle of pixels that contains everything pieces can touch, and one pixel around it.
+pub(super) struct PixelRect {
     pub(super) left: usize,
     pub(super) top: usize,
     pub(super) columns: usize,
@@ -98,8 +99,8 @@ pub(super) struct Part {
     picture: [usize; 2],
 }
 
-impl Part {
-    pub(super) fn around(pieces: &[Piece], window: &Window, picture: [usize; 2]) -> Option<Self> {
+impl PixelRect {
+    pub(super) fn around(pieces: &[Piece], window: &PageWindow, picture: [usize; 2]) -> Option<Self> {
         let ends = |axis: usize| {
             let mut range = [f64::INFINITY, f64::NEG_INFINITY];
             for piece in pieces {
@@ -115,9 +116,9 @@ impl Part {
         (columns > 0 && rows > 0).then_some(Self { left, top, columns, rows, picture })
     }
 
-    /// What pieces cover of it in ink of an opacity, once where they overlap.
-    fn cover(&self, pieces: &[Piece], window: &Window, ink: f64) -> Option<Cover> {
-        let mut cover = Cover::new(self.columns, self.rows)?;
+    /// Returns the coverage by pieces within the rectangle, for ink of an opacity. Overlapping pieces cover once.
+    fn cover(&self, pieces: &[Piece], window: &PageWindow, ink: f64) -> Option<CoverageMask> {
+        let mut cover = CoverageMask::new(self.columns, self.rows)?;
         let corner = [self.left as f64, self.top as f64];
         let outlines: Vec<_> = pieces.iter().flat_map(|piece| piece.outlines(ink)).collect();
         cover.fill(outlines.iter().map(|outline| {
@@ -129,15 +130,15 @@ impl Part {
         Some(cover)
     }
 
-    /// Each covered pixel: its number here, in the picture, and how much of it is covered.
-    fn each(&self, cover: &Cover, mut put: impl FnMut(usize, usize, f64)) {
+    /// Calls `put` for each covered pixel: its index in the rectangle, its index in the picture, the covered share.
+    fn each(&self, cover: &CoverageMask, mut put: impl FnMut(usize, usize, f64)) {
         for (i, &covered) in cover.bytes().iter().enumerate().filter(|(_, covered)| **covered > 0) {
             let pixel = (self.top + i / self.columns) * self.picture[0] + self.left + i % self.columns;
             put(i, pixel, f64::from(covered) / 255.0);
         }
     }
 
-    /// The number here of a pixel of the picture that lies in it.
+    /// Returns the index in the rectangle of a picture's pixel inside it.
     fn index(&self, pixel: usize) -> usize {
         let [x, y] = [pixel % self.picture[0], pixel / self.picture[0]];
         (y - self.top) * self.columns + x - self.left

@@ -1,5 +1,5 @@
-//! Marks over a picture ([STIP-16], [VAL-3]): dots by the exact area that they cover of each pixel, lines by the coverage
-//! of [`raster`](crate::raster), in steps of 1/255.
+//! Painting of marks over a picture ([STIP-16], [VAL-3]). Dots cover pixels by their exact area; lines cover them as
+//! [`raster`](crate::raster) does, in steps of 1/255.
 
 mod canvas;
 mod fragments;
@@ -17,44 +17,45 @@ use drypoint_scene::tables::BlendSpace;
 
 pub use fragments::fragments;
 
-/// Which part of a page a picture shows, and how large.
+/// The part of a page that a picture shows, and its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
-    /// Of the picture's upper left corner on the page, in mm.
+pub struct PageWindow {
+    /// Upper left corner of the picture on the page, in mm.
     pub corner: DVec2,
     /// Pixels of a millimetre, across and down.
     pub scale: DVec2,
 }
 
-impl Window {
-    /// The whole page, as [`blank`] makes it.
+impl PageWindow {
+    /// Returns the window of the whole page, as [`blank`] makes it.
     pub fn page(page: &Page) -> Self {
         Self { corner: DVec2::ZERO, scale: DVec2::splat(page.pixels_per_mm()) }
     }
 
-    /// The frame alone, which a rendered picture of `size` pixels fills.
+    /// Returns the window of the frame alone, which a rendered picture of `size` pixels fills.
     pub fn frame(page: &Page, size: [usize; 2]) -> Self {
         Self { corner: DVec2::splat(page.margin), scale: DVec2::from(size.map(|n| n as f64)) / page.picture() }
     }
 
-    /// A place on the page in pixels of the picture.
+    /// Returns a point on the page in pixels of the picture.
     fn place(&self, at: DVec2) -> [f64; 2] {
         ((at - self.corner) * self.scale).to_array()
     }
 
-    /// A length in pixels that keeps areas: across and down the scales differ by what a size in mm was rounded by.
+    /// Returns a length in pixels, scaled so that areas are kept. Rounding a size in mm makes the scales across and
+    /// down differ slightly.
     fn length(&self, mm: f64) -> f64 {
         mm * (self.scale.x * self.scale.y).sqrt()
     }
 }
 
-/// The most pixels of a page: those of the largest picture.
+/// Largest number of pixels of a page, that of the largest picture.
 const LARGEST: usize = 1 << 30;
 
-/// Bytes of memory that a pixel of a page takes until it is written: four channels, and their codes twice.
+/// Bytes of memory a pixel of a page until it is written: four channels, and their codes twice.
 const PIXEL: usize = 4 * (8 + 2 + 2);
 
-/// Checks that a page can be had in pixels: its width and height.
+/// Checks that a page can be painted in pixels. Returns its width and height.
 ///
 /// # Errors
 /// [`OutputError::Layer`] for a page without a pixel, or of more than 2³⁰; [`OutputError::NoRoom`].
@@ -67,25 +68,25 @@ pub fn pixels(page: &Page) -> Result<[usize; 2], OutputError> {
     Ok([width, height])
 }
 
-/// A page without marks: `background` is linear, straight; none: transparent.
+/// Returns a page without marks. `background` is linear and straight; none is transparent.
 ///
 /// # Errors
-/// As [`pixels`].
+/// Same errors as [`pixels`].
 pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputError> {
     let [width, height] = pixels(page)?;
     let channels = premultiply(background.unwrap_or_default()).map(|c| vec![c; width * height]).into();
     Ok(Picture { width, height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] })
 }
 
-/// Draws marks over the layer `beauty`, layer by layer: first a layer's lines, then its dots.
+/// Draws marks over the layer `beauty`, layer by layer: lines first, then dots.
 ///
-/// A dot covers the exact share of a pixel; two dots that share a pixel add as c + d − cd, as if independent. What has
-/// the whole opacity of lines is drawn as one outline of each width; a translucent line, or one with colours, is
-/// composited by itself. In `srgb` the encoded colours are composited, as viewers of SVG and PDF do.
+/// A dot covers the exact share of a pixel; two dots on a pixel add as c + d − cd, as if independent. Opaque lines are
+/// drawn as one outline a width. A translucent or coloured line is composited by itself. In `srgb` encoded colours are
+/// composited, as viewers of SVG and PDF do.
 ///
 /// # Errors
-/// [`OutputError::Layer`] when there is no beauty or it does not fit the picture's size.
-pub fn paint(marks: &Marks, window: &Window, blend: BlendSpace, picture: &mut Picture) -> Result<(), OutputError> {
+/// [`OutputError::Layer`] if the picture has no beauty, or one that does not fit its size.
+pub fn paint(marks: &Marks, window: &PageWindow, blend: BlendSpace, picture: &mut Picture) -> Result<(), OutputError> {
     let size = [picture.width, picture.height];
     let at = picture.layers.iter().position(|layer| layer.kind == LayerKind::Beauty);
     let at = at.ok_or_else(|| fault(LayerKind::Beauty, "the picture does not have it".into()))?;
@@ -140,7 +141,7 @@ mod tests {
 
     fn painted(marks: &Marks, background: Option<Rgba>, blend: BlendSpace) -> Picture {
         let mut picture = blank(&marks.page, background).unwrap();
-        paint(marks, &Window::page(&marks.page), blend, &mut picture).unwrap();
+        paint(marks, &PageWindow::page(&marks.page), blend, &mut picture).unwrap();
         picture
     }
 
@@ -149,8 +150,8 @@ mod tests {
         [0, 1, 2, 3].map(|c| channels[c][j * picture.width + i])
     }
 
-    /// A line of two colours covers what a line of one does, also where they meet and where it grows wider; each half has
-    /// its own colour, and one that comes later lies over it.
+    /// A line of two colours covers what a line of one colour does, also where they meet and where it grows wider. Each
+    /// half has its own colour, and a later one lies over an earlier one.
     #[test]
     fn lines_with_colours_of_their_own() {
         let (red, blue) = (Some([1.0, 0.0, 0.0]), Some([0.0, 0.0, 1.0]));
@@ -262,7 +263,7 @@ mod tests {
     fn the_frame_is_the_picture() {
         // With a margin of 2 mm the frame's corner is (2, 2) mm; a picture of 8 × 4 px over 4 × 2 mm has 2 px a mm.
         let page = Page::in_millimetres(DVec2::new(4.0, 2.0), 2.0, 127.0);
-        let window = Window::frame(&page, [8, 4]);
+        let window = PageWindow::frame(&page, [8, 4]);
         assert_eq!(window.place(DVec2::new(3.0, 2.5)), [2.0, 1.0]);
         assert_eq!(window.length(0.25), 0.5);
         let mut picture = Picture { width: 8, height: 4, ..blank(&Page::in_pixels([8, 4], 0.0, 1.0), None).unwrap() };
@@ -278,6 +279,6 @@ mod tests {
         assert!(blank(&Page::in_millimetres(DVec2::splat(0.01), 0.0, 1.0), None).is_err());
         let mut none = Picture { width: 2, height: 2, layers: vec![] };
         let list = marks(BLACK, vec![], vec![]);
-        assert!(paint(&list, &Window::page(&list.page), BlendSpace::Linear, &mut none).is_err());
+        assert!(paint(&list, &PageWindow::page(&list.page), BlendSpace::Linear, &mut none).is_err());
     }
 }

@@ -1,26 +1,28 @@
-//! Dots larger than the nib, drawn by the nib.
+//! Strokes that fill dots larger than the nib.
 
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Dot, Polyline, Vertex, on_step};
 use drypoint_scene::math::{cos, sin};
 use std::f64::consts::TAU;
 
-/// Half of the nib's width may lie beyond the dot's rim, in mm: the step that radii have.
+/// Largest overhang of the nib beyond the dot's rim, in mm: half the step of radii.
 const SLACK: f64 = 0.0025;
 
-/// How far a turn of a spiral lies outside the one before, in nibs: they overlap, so that no paper shows between.
+/// Pitch of the spiral, in nibs. Turns overlap, so that no paper shows between them.
 const PITCH: f64 = 0.8;
 
-/// How far a chord of the curve may lie off it, in mm.
+/// Largest distance of a chord from its curve, in mm.
 const CHORD: f64 = 0.005;
 
-/// The stroke that fills a dot with a nib of that width: a circle, or where that leaves a hole, a spiral from the centre
-/// to a circle along the rim. None for a dot that the nib sets with one touch.
+/// Returns the stroke that fills a dot with a nib of that width. It is a circle, or where a circle leaves a hole a
+/// spiral from the centre with a circle along the rim. None for a dot that one touch of the nib makes.
 pub(super) fn stroke(dot: &Dot, nib: f64) -> Option<Polyline> {
     let rim = dot.radius - nib / 2.0;
     if rim <= SLACK || nib <= 0.0 {
         return None;
     }
+    // Points as (distance from the centre, turns). First the spiral, if one circle leaves a hole; then the circle along
+    // the rim.
     let mut places = Vec::new();
     if rim > nib / 2.0 {
         let turns = (rim / (PITCH * nib)).ceil();
@@ -41,7 +43,7 @@ pub(super) fn stroke(dot: &Dot, nib: f64) -> Option<Polyline> {
     Some(Polyline { vertices: places.into_iter().enumerate().map(vertex).collect(), closed: false })
 }
 
-/// Returns how many vertices [`stroke`] gives at most.
+/// Returns an upper bound of the number of vertices of [`stroke`].
 pub(super) fn vertices(dot: &Dot, nib: f64) -> f64 {
     let rim = dot.radius - nib / 2.0;
     if rim <= SLACK || nib <= 0.0 {
@@ -51,7 +53,7 @@ pub(super) fn vertices(dot: &Dot, nib: f64) -> f64 {
     (turns + 1.0) * steps_of(rim) + 2.0
 }
 
-/// Steps of a turn of that radius: a chord over the angle 2φ lies r(1 − cos φ) ≈ rφ²/2 off its arc.
+/// Returns the steps of a turn of that radius. A chord over the angle 2φ lies r(1 − cos φ) ≈ rφ²/2 off its arc.
 fn steps_of(radius: f64) -> f64 {
     (TAU / (2.0 * (2.0 * CHORD / radius).sqrt())).ceil().max(8.0)
 }

@@ -1,35 +1,35 @@
-//! What a pen plotter draws ([IO-7], [STIP-16]): dots of the nib's size, larger ones filled by the nib, none too close to
-//! another, all in an order with little way between.
+//! Plans for pen plotters ([IO-7], [STIP-16]). Dots have the nib's size, larger ones are filled, close ones are
+//! dropped, and the order keeps pen travel short.
 
+mod dot_spacing;
 mod fill;
 mod order;
-mod thin;
 mod travel;
 
 use drypoint_scene::marks::{Layer, Marks, Polyline};
 
 pub use travel::{Speed, Travel};
 
-/// Marks that a plotter draws as they stand, and what that takes.
+/// Marks that a plotter draws as they are, and what drawing takes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
-    /// Every stroke has its nib's width, its colour, and is opaque; dots and lines stand in the order in which they are drawn: a
-    /// layer's dots, then its lines, each from its first vertex to its last.
+pub struct PlotterPlan {
+    /// Strokes of the nib's width in its colour, opaque, in drawing order. Each layer's dots come first, then its
+    /// lines, each from its first vertex to its last.
     pub marks: Marks,
-    /// For each layer, in their order.
+    /// Pen travel of each layer, in order.
     pub travel: Vec<Travel>,
-    /// Dots that were left out for being closer than 0.7 nib to one that is drawn.
+    /// Number of dots dropped because they are closer than 0.7 nib to a drawn one.
     pub dropped: usize,
-    /// Dots larger than their nib, which are among the lines.
+    /// Number of dots larger than their nib, which are among the lines.
     pub larger: usize,
-    /// Lines that lose a taper, a colour or faintness to the nib ([HATCH-21]).
+    /// Number of lines that lose a taper, a colour or translucency to the nib ([HATCH-21]).
     pub plain: usize,
 }
 
-/// How close dots of one pen may be, in nibs.
+/// Least distance of dots of one pen, in nibs.
 const CLOSEST: f64 = 0.7;
 
-/// Returns how many vertices the strokes have at most that [`plan`] fills dots larger than the nib with.
+/// Returns an upper bound of the vertices of the strokes that fill dots larger than the nib in [`plan`].
 pub fn filling_vertices(marks: &Marks) -> f64 {
     let of_layer = |layer: &Layer| layer.dots.iter().map(|dot| fill::vertices(dot, layer.pen.width)).sum::<f64>();
     marks.layers.iter().map(of_layer).sum()
@@ -37,15 +37,16 @@ pub fn filling_vertices(marks: &Marks) -> f64 {
 
 /// Turns marks into what their pens can draw.
 ///
-/// A dot up to the nib's size becomes one touch of the nib, a larger one a circle or a spiral out to its rim. Pens know no
-/// opacity, no other width and no other colour: a translucent dot is drawn whole, a line once along its middle. Of two dots closer than
-/// 0.7 nib the first in the list stays. The order is never longer than the list's own; the pen starts at the page's upper
-/// left corner for each layer.
-pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
+/// A dot up to the nib's size becomes one touch, a larger one a circle or a spiral out to its rim. A pen has one width,
+/// one colour and no opacity: a translucent dot is drawn whole, a line once along its middle.
+///
+/// The first of two dots closer than 0.7 nib stays. The order is never longer than the list's own. Each layer begins at
+/// the page's upper left corner.
+pub fn plan(marks: &Marks, speed: &Speed) -> PlotterPlan {
     let (mut layers, mut travel, mut dropped, mut larger, mut plain) = (Vec::new(), Vec::new(), 0, 0, 0);
     for layer in &marks.layers {
         let nib = layer.pen.width;
-        let kept = thin::apart(&layer.dots, CLOSEST * nib);
+        let kept = dot_spacing::spaced(&layer.dots, CLOSEST * nib);
         dropped += layer.dots.len() - kept.len();
         let mut drawn = Layer::new(layer.pen.clone());
         for mut dot in kept {
@@ -69,7 +70,7 @@ pub fn plan(marks: &Marks, speed: &Speed) -> Plan {
         travel.push(Travel::of(&drawn, speed));
         layers.push(drawn);
     }
-    Plan { marks: Marks { page: marks.page, layers }, travel, dropped, larger, plain }
+    PlotterPlan { marks: Marks { page: marks.page, layers }, travel, dropped, larger, plain }
 }
 
 /// Whether a line has one width, is opaque and has no colour of its own.
@@ -78,7 +79,7 @@ fn has_one_ink(line: &Polyline) -> bool {
     line.vertices.iter().all(|v| Some(v.radius) == first && v.opacity == 1.0 && v.color.is_none())
 }
 
-/// The line as the nib draws it.
+/// Returns the line as the nib draws it.
 fn thin_line(line: &Polyline, nib: f64) -> Polyline {
     let mut line = line.clone();
     for vertex in &mut line.vertices {
@@ -109,7 +110,7 @@ mod tests {
         Polyline { vertices: places.iter().map(vertex).collect(), closed: false }
     }
 
-    fn planned(dots: Vec<Dot>, lines: Vec<Polyline>) -> Plan {
+    fn planned(dots: Vec<Dot>, lines: Vec<Polyline>) -> PlotterPlan {
         let pen = Pen { number: 1, name: "black".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] };
         let page = Page::in_millimetres(DVec2::splat(100.0), 0.0, 300.0);
         plan(&Marks { page, layers: vec![Layer { dots, lines, ..Layer::new(pen) }] }, &Speed::default())

@@ -1,16 +1,16 @@
-//! How far a pen goes, and how long that takes.
+//! Distances and drawing time of a pen.
 
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::Layer;
 
-/// How fast a plotter is.
+/// Speeds of a plotter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speed {
-    /// Drawing, in mm/s.
+    /// Speed with the pen down, in mm/s.
     pub down: f64,
-    /// Moving with the pen up, in mm/s.
+    /// Speed with the pen up, in mm/s.
     pub up: f64,
-    /// Lowering the pen and raising it again, in seconds.
+    /// Time to lower the pen and raise it again, in seconds.
     pub touch: f64,
 }
 
@@ -21,21 +21,21 @@ impl Default for Speed {
     }
 }
 
-/// What drawing a layer takes, from the page's upper left corner on.
+/// Pen travel of a layer, from the page's upper left corner.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Travel {
-    /// Way with the pen up, in mm.
+    /// Distance with the pen up, in mm.
     pub pen_up: f64,
-    /// Way with the pen down, in mm.
+    /// Distance with the pen down, in mm.
     pub pen_down: f64,
-    /// How often the pen is lowered.
+    /// Number of times the pen is lowered.
     pub touches: usize,
-    /// An estimate: ways over speeds, and the touches; starting and stopping are not counted.
+    /// Estimated seconds: distances over speeds, and the touches. Acceleration is not counted.
     pub seconds: f64,
 }
 
 impl Travel {
-    /// Of a layer that is drawn in the order in which it stands: dots, then lines.
+    /// Returns the travel of a layer drawn in its order: dots, then lines.
     pub fn of(layer: &Layer, speed: &Speed) -> Self {
         let mut travel = Self::default();
         let mut pen = DVec2::ZERO;

@@ -1,15 +1,16 @@
-//! A picture behind the volume ([IO-6]).
+//! Pictures behind the volume ([IO-6]).
 
-use super::{Colors, Image, read_image};
+use super::{ColorChannels, Image, read_image};
 use crate::OutputError;
 use drypoint_scene::color::Rgba;
 use std::path::Path;
 
-/// The picture in a file, stretched to `width` × `height` pixels: linear premultiplied, row by row from the top.
+/// Returns the picture in a file, stretched to `width` × `height` pixels: linear premultiplied, row by row from the
+/// top.
 ///
 /// # Errors
-/// Those of [`read_image`], [`OutputError::NoColor`], and [`OutputError::Malformed`] for a colour that is not finite: it
-/// would spread through the picture as NaN.
+/// Same errors as [`read_image`]; [`OutputError::NoColor`]; [`OutputError::Malformed`] for a colour that is not finite,
+/// which would spread through the picture as NaN.
 pub fn read_background(path: &Path, width: usize, height: usize) -> Result<Vec<Rgba>, OutputError> {
     let image = read_image(path)?;
     for name in ["R", "G", "B", "A"] {
@@ -25,12 +26,12 @@ pub fn read_background(path: &Path, width: usize, height: usize) -> Result<Vec<R
         .ok_or_else(|| OutputError::NoColor { name: path.display().to_string(), found: image.names() })
 }
 
-/// The colours of an image at the pixel centres of a frame that it is stretched to, bilinearly in linear premultiplied
-/// light; opaque where it has no α. Nothing if it has no colours or no pixels.
+/// Returns the colours of an image at the pixel centres of a frame that it is stretched to. Interpolation is bilinear
+/// in linear premultiplied light. An image without α is opaque. None without colours or pixels.
 ///
-/// Pixel centre i + ½ of W lies at (i + ½)·w/W − ½ in the image's own pixels, whose outermost ones extend to its edge.
+/// Pixel centre i + ½ of W lies at (i + ½)·w/W − ½ in the image's pixels. The outermost pixels extend to the edge.
 pub fn stretch(image: &Image, width: usize, height: usize) -> Option<Vec<Rgba>> {
-    let Colors { rgb, alpha } = image.colors().filter(|_| image.width > 0 && image.height > 0)?;
+    let ColorChannels { rgb, alpha } = image.colors().filter(|_| image.width > 0 && image.height > 0)?;
     let columns: Vec<_> = (0..width).map(|i| between(i, width, image.width)).collect();
     let mut pixels = Vec::with_capacity(width.saturating_mul(height));
     for j in 0..height {
@@ -49,14 +50,14 @@ pub fn stretch(image: &Image, width: usize, height: usize) -> Option<Vec<Rgba>> 
     Some(pixels)
 }
 
-/// The two of `n` pixels between which the centre of pixel `i` of `size` lies, and how far from the first to the second.
+/// Returns the two of `n` pixels around the centre of pixel `i` of `size`, and the weight of the second one.
 fn between(i: usize, size: usize, n: usize) -> (usize, usize, f64) {
     let x = ((i as f64 + 0.5) * n as f64 / size as f64 - 0.5).clamp(0.0, (n - 1) as f64);
     let first = x as usize;
     (first, (first + 1).min(n - 1), x - first as f64)
 }
 
-/// a + w(b − a), which is a where both are equal.
+/// Returns a + w(b − a), which is exactly a if both are equal.
 fn mix(a: f64, b: f64, w: f64) -> f64 {
     a + w * (b - a)
 }

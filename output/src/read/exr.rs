@@ -1,4 +1,4 @@
-//! EXR as it is: every flat channel of every part.
+//! Reading of EXR: every flat channel of every part, unchanged.
 
 use super::{DEFLATE, Image, check_claim};
 use crate::OutputError;
@@ -13,7 +13,7 @@ use std::path::Path;
 /// Decodes the largest level of every part.
 pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     let broken = |field: &str, fault: String| OutputError::Malformed { path: path.into(), field: field.into(), fault };
-    // The decoder asserts its invariants by panics. Should a damaged file reach one, it is an error all the same.
+    // The decoder asserts its invariants by panics. A damaged file that reaches one is an error here.
     let image = catch_unwind(AssertUnwindSafe(|| -> Result<FlatImage, OutputError> {
         let chunks = exr::block::read(Cursor::new(bytes), false).map_err(|e| broken("EXR", e.to_string()))?;
         check_headers(chunks.headers(), bytes, path)?;
@@ -49,7 +49,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     Ok(result)
 }
 
-/// Refuses what is not supported and what the file cannot hold, before anything is allocated for it.
+/// Refuses unsupported files and claims that the file cannot hold, before anything is allocated.
 fn check_headers(headers: &[Header], bytes: &[u8], path: &Path) -> Result<(), OutputError> {
     let refuse =
         |field: &str, fault: String| Err(OutputError::Malformed { path: path.into(), field: field.into(), fault });
@@ -76,14 +76,14 @@ fn check_headers(headers: &[Header], bytes: &[u8], path: &Path) -> Result<(), Ou
     }
     // Both windows were counted, and one file fills both.
     check_claim(claimed, 2 * ratio, bytes, path)?;
-    // A sample is decoded, becomes an f64, and is placed in the frame.
+    // A sample is decoded, converted to f64, and placed in the frame.
     let channels: usize = headers.iter().map(|header| header.channels.list.len()).sum();
     let sizes = headers.iter().flat_map(|h| [h.layer_size, h.shared_attributes.display_window.size]);
     let largest = sizes.max_by_key(|size| size.area()).unwrap_or_default();
     room(Some(path), [largest.width(), largest.height()], (4 + 8 + 8) * channels)
 }
 
-/// The samples without loss: f64 holds every f16, f32 and u32.
+/// Returns the samples as f64, which holds every f16, f32 and u32.
 fn numbers(samples: &FlatSamples) -> Vec<f64> {
     match samples {
         FlatSamples::F16(values) => values.iter().copied().map(f16::to_f64).collect(),
@@ -92,7 +92,7 @@ fn numbers(samples: &FlatSamples) -> Vec<f64> {
     }
 }
 
-/// Moves what `data` covers into the frame of `window`, 0 where there is no data.
+/// Moves the values of the window `data` into the frame `window`. The frame is 0 where there is no data.
 fn place(values: &[f64], data: IntegerBounds, window: IntegerBounds) -> Vec<f64> {
     if data == window {
         return values.to_vec();

@@ -1,4 +1,4 @@
-//! Pictures from files: our own and other renderers' ([GPU-5]).
+//! Pictures read from files, our own and other renderers' ([GPU-5]).
 
 mod background;
 mod exr;
@@ -11,22 +11,22 @@ use std::path::Path;
 
 pub use background::{read_background, stretch};
 
-/// A picture of any origin as named channels of numbers, row by row from the top.
+/// A picture of any origin, as named channels of numbers, row by row from the top.
 ///
-/// Colours (`R`, `G`, `B`) are linear and premultiplied by `A`; all else is as the file has it.
+/// Colours (`R`, `G`, `B`) are linear and premultiplied by `A`. Other channels are unchanged.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Image {
     /// Pixels from left to right.
     pub width: usize,
     /// Pixels from top to bottom.
     pub height: usize,
-    /// Name and `width · height` numbers of each channel; no name occurs twice.
+    /// Name and `width · height` numbers of each channel. Names are unique.
     pub channels: Vec<(String, Vec<f64>)>,
 }
 
 /// The colours of an [`Image`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Colors<'a> {
+pub struct ColorChannels<'a> {
     /// Red, green and blue, linear and premultiplied.
     pub rgb: [&'a [f64]; 3],
     /// α; an image without it is opaque.
@@ -34,25 +34,25 @@ pub struct Colors<'a> {
 }
 
 impl Image {
-    /// The channel of that name.
+    /// Returns the channel of a name.
     pub fn channel(&self, name: &str) -> Option<&[f64]> {
         self.channels.iter().find(|(n, _)| n == name).map(|(_, values)| values.as_slice())
     }
 
-    /// Red, green, blue and, where the picture has it, α; nothing if a colour is missing.
-    pub fn colors(&self) -> Option<Colors<'_>> {
+    /// Returns red, green, blue and, if present, α; none if a colour is missing.
+    pub fn colors(&self) -> Option<ColorChannels<'_>> {
         let rgb = [self.channel("R")?, self.channel("G")?, self.channel("B")?];
-        Some(Colors { rgb, alpha: self.channel("A") })
+        Some(ColorChannels { rgb, alpha: self.channel("A") })
     }
 
-    /// The names of the channels, in their order.
+    /// Returns the names of the channels, in order.
     pub fn names(&self) -> Vec<String> {
         self.channels.iter().map(|(name, _)| name.clone()).collect()
     }
 }
 
 impl From<&Picture> for Image {
-    /// Every layer; of channels of the same name the first one.
+    /// Converts every layer. Of channels with the same name the first counts.
     fn from(picture: &Picture) -> Self {
         let mut image = Self { width: picture.width, height: picture.height, channels: Vec::new() };
         for layer in &picture.layers {
@@ -66,12 +66,14 @@ impl From<&Picture> for Image {
     }
 }
 
-/// Reads a PNG (8 or 16 bits or fewer, any colour type) or an EXR (flat, any channels, one part or several). The
-/// file's first bytes decide which it is, not its name.
+/// Reads a PNG (at most 16 bits, any colour type) or an EXR (flat, any channels, one part or several). The first bytes
+/// decide which it is, not the name.
 ///
-/// A PNG becomes `R G B A`: sRGB decoded to linear light, then multiplied by α ([VAL-3]); gAMA, cHRM and ICC chunks are
-/// ignored. An EXR is taken as it is: its display window is the picture, 0 where the file has no data; channels of the
-/// second and further parts bear the part's name in front.
+/// A PNG becomes `R G B A`: sRGB decoded to linear light, then multiplied by α ([VAL-3]). Chunks gAMA, cHRM and ICC are
+/// ignored.
+///
+/// An EXR stays as it is. Its display window is the picture, 0 where there is no data. Channels of the second and
+/// further parts get the part's name as prefix.
 ///
 /// # Errors
 /// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], and before anything is allocated
@@ -81,10 +83,10 @@ pub fn read_image(path: &Path) -> Result<Image, OutputError> {
     decode(&bytes, path)
 }
 
-/// [`read_image`] from bytes that are already here; the path is only for messages.
+/// Decodes bytes as [`read_image`] does. The path is only for messages.
 ///
 /// # Errors
-/// As [`read_image`].
+/// Same errors as [`read_image`].
 pub fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     if bytes.starts_with(&[0x89, b'P', b'N', b'G']) {
         png::decode(bytes, path)
@@ -95,7 +97,7 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     }
 }
 
-/// Refuses pixels that no file of that length can hold. `ratio` is the most bytes that one byte of file can expand to.
+/// Refuses pixels that no file of that length can hold. `ratio` is the largest expansion of a byte of the file.
 fn check_claim(claimed: Option<u64>, ratio: u64, bytes: &[u8], path: &Path) -> Result<(), OutputError> {
     let length = bytes.len() as u64;
     match claimed {
@@ -104,7 +106,7 @@ fn check_claim(claimed: Option<u64>, ratio: u64, bytes: &[u8], path: &Path) -> R
     }
 }
 
-/// One byte of DEFLATE gives at most 1032.
+/// Largest expansion of a byte of DEFLATE.
 const DEFLATE: u64 = 1032;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! PNG to linear premultiplied light ([VAL-3]).
+//! Reading of PNG as linear premultiplied light ([VAL-3]).
 
 use super::{DEFLATE, Image, check_claim};
 use crate::OutputError;
@@ -8,7 +8,7 @@ use png::{BitDepth, ColorType, DecodeOptions, Decoder, DecodingError, Info, Limi
 use std::io::Cursor;
 use std::path::Path;
 
-/// The most bytes of memory that a pixel takes while it is decoded: four channels of 16 bits, their codes, and light.
+/// Most bytes of memory that a pixel takes while decoding: four channels of 16 bits, their codes, and light.
 const PIXEL: usize = 4 * (2 + 2 + 8);
 
 /// Decodes a PNG of any colour type and depth.
@@ -18,7 +18,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
         field: "PNG".into(),
         fault: error.to_string(),
     };
-    // Text and colour profiles say nothing about the numbers, so they are not even unpacked.
+    // Text and colour profiles do not affect the numbers, so they are not unpacked.
     let mut options = DecodeOptions::default();
     options.set_ignore_text_chunk(true);
     options.set_ignore_iccp_chunk(true);
@@ -27,7 +27,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     let (claimed, size) = (raw_bytes(info), [info.width, info.height].map(|n| n as usize));
     check_claim(claimed, DEFLATE, bytes, path)?;
     room(Some(path), size, PIXEL)?;
-    // The claim is checked above; the decoder's own limit would refuse large honest pictures.
+    // The claim is checked above. The decoder's own limit would refuse large honest pictures.
     decoder.set_limits(Limits { bytes: usize::MAX });
     // Palette to colours, grey of 1, 2 and 4 bits to 8 (a whole factor), transparent colours to alpha.
     decoder.set_transformations(Transformations::EXPAND);
@@ -43,7 +43,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     };
     let largest = if info.bit_depth == BitDepth::Sixteen { 65535 } else { 255 };
     let light: Vec<f64> = (0..=largest).map(|code| srgb_to_linear(f64::from(code) / f64::from(largest))).collect();
-    // Where red, green, blue and alpha stand among the samples of a pixel; no place for alpha: opaque.
+    // Indices of red, green, blue and alpha among the samples of a pixel. No alpha: opaque.
     let (samples, places, alpha) = match info.color_type {
         ColorType::Grayscale => (1, [0, 0, 0], None),
         ColorType::GrayscaleAlpha => (2, [0, 0, 0], Some(1)),
@@ -62,7 +62,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     Ok(Image { width, height, channels })
 }
 
-/// Bytes of the unpacked rows, a filter byte a row included; nothing when the number overflows.
+/// Returns the bytes of the unpacked rows, with a filter byte a row; none if the number overflows.
 fn raw_bytes(info: &Info<'_>) -> Option<u64> {
     let bits = u64::from(info.width) * info.color_type.samples() as u64 * info.bit_depth as u64;
     (bits.div_ceil(8) + 1).checked_mul(u64::from(info.height))
@@ -71,7 +71,7 @@ fn raw_bytes(info: &Info<'_>) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::read::Colors;
+    use crate::read::ColorChannels;
     use png::Encoder;
 
     fn file(width: u32, color: ColorType, depth: BitDepth, data: &[u8], palette: Option<(&[u8], &[u8])>) -> Vec<u8> {
@@ -95,7 +95,7 @@ mod tests {
 
     fn pixels(bytes: &[u8]) -> Vec<[f64; 4]> {
         let image = decode(bytes, Path::new("a.png")).unwrap();
-        let Colors { rgb: [r, g, b], alpha } = image.colors().unwrap();
+        let ColorChannels { rgb: [r, g, b], alpha } = image.colors().unwrap();
         (0..r.len()).map(|i| [r[i], g[i], b[i], alpha.unwrap()[i]]).collect()
     }
 

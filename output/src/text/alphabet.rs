@@ -1,16 +1,16 @@
 //! The table of characters.
 
-use super::pieces::Piece::{self, P};
-use super::pieces::arc;
+use super::elements::StrokeElement::{self, P};
+use super::elements::arc;
 
 /// Space between two upright stems.
 pub(super) const GAP: f64 = 5.8;
 
 /// The strokes of a character.
-type Strokes = &'static [&'static [Piece]];
+type GlyphStrokes = &'static [&'static [StrokeElement]];
 
-/// Each character, the width of its strokes and the strokes. Round letters may swing out a little.
-const ALPHABET: &[(char, f64, Strokes)] = &[
+/// Each character, the width of its strokes, and the strokes. Round letters may overhang a little.
+const ALPHABET: &[(char, f64, GlyphStrokes)] = &[
     (' ', 4.0, &[]),
     ('A', 15.5, &[&[P(0.0, 0.0), P(7.75, 20.0), P(15.5, 0.0)], &[P(2.7, 7.0), P(12.8, 7.0)]]),
     (
@@ -215,11 +215,11 @@ const ALPHABET: &[(char, f64, Strokes)] = &[
     ),
 ];
 
-/// An empty box, for what is not in the alphabet.
-const UNKNOWN: (f64, Strokes) = (11.0, &[&[P(0.0, 0.0), P(0.0, 20.0), P(11.0, 20.0), P(11.0, 0.0), P(0.0, 0.0)]]);
+/// An empty box, for characters that are not in the alphabet.
+const UNKNOWN: (f64, GlyphStrokes) = (11.0, &[&[P(0.0, 0.0), P(0.0, 20.0), P(11.0, 20.0), P(11.0, 0.0), P(0.0, 0.0)]]);
 
-/// Advance and strokes of a character.
-pub(super) fn glyph_of(character: char) -> (f64, Strokes) {
+/// Returns advance and strokes of a character.
+pub(super) fn glyph_of(character: char) -> (f64, GlyphStrokes) {
     let (width, strokes) =
         ALPHABET.iter().find(|(c, ..)| *c == character).map_or(UNKNOWN, |&(_, width, strokes)| (width, strokes));
     (width + GAP, strokes)

@@ -1,44 +1,44 @@
-//! Text as single strokes: every letter is a few polylines, to be drawn with a round pen.
+//! Text as single strokes: every letter is a few polylines for a round pen.
 //!
-//! An alphabet of our own design, made of straight lines and arcs of ellipses, for labels of sheets and for plotters,
+//! The alphabet is our own, made of straight lines and arcs of ellipses. It serves labels of sheets, and plotters,
 //! whose pen draws a letter's middle line. Lengths are in font units: capitals are [`CAP_HEIGHT`] high, y goes up from
 //! the baseline, x goes right from the pen position.
 
 mod alphabet;
-mod pieces;
+mod elements;
 
 use alphabet::glyph_of;
-use pieces::polyline;
+use elements::polyline;
 
 /// Height of capitals and digits.
 pub const CAP_HEIGHT: f64 = 20.0;
-/// How far small letters reach below the baseline.
+/// Depth of small letters below the baseline.
 pub const DESCENT: f64 = 6.0;
-/// A pen this wide gives an even, readable weight.
+/// Pen width that gives an even, readable weight.
 pub const WEIGHT: f64 = 2.6;
 
 /// One character.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Glyph {
-    /// How far it moves the pen position.
+    /// Distance to the next pen position.
     pub advance: f64,
-    /// Its strokes. One of two equal points is a dot.
+    /// Strokes; one of two equal points is a dot.
     pub strokes: Vec<Vec<[f64; 2]>>,
 }
 
-/// The strokes of a character; an empty box for one that the alphabet does not have.
+/// Returns the strokes of a character, or an empty box if the alphabet does not have it.
 pub fn glyph(character: char) -> Glyph {
     let (advance, strokes) = glyph_of(character);
     Glyph { advance, strokes: strokes.iter().map(|stroke| polyline(stroke)).collect() }
 }
 
-/// How far a line of text reaches, in font units, without the space after its last character.
+/// Returns the width of a line of text in font units, without the space after its last character.
 pub fn width(text: &str) -> f64 {
     let advances: f64 = text.chars().map(|c| glyph_of(c).0).sum();
     (advances - alphabet::GAP).max(0.0)
 }
 
-/// The strokes of a line of text whose first character stands at x = 0 on the baseline y = 0.
+/// Returns the strokes of a line of text that begins at x = 0 on the baseline y = 0.
 pub fn strokes(text: &str) -> Vec<Vec<[f64; 2]>> {
     let mut pen = 0.0;
     let mut strokes = Vec::new();
@@ -51,7 +51,7 @@ pub fn strokes(text: &str) -> Vec<Vec<[f64; 2]>> {
     strokes
 }
 
-/// The text, or as much of its beginning and end as fits into `limit` font units, joined by three dots: the ends of file
+/// Returns the text, shortened in the middle by three dots if it is wider than `limit` font units. The ends of file
 /// names tell more than their middle.
 pub fn fit(text: &str, limit: f64) -> String {
     if width(text) <= limit {

@@ -1,6 +1,6 @@
-//! Bytes as text (RFC 4648), for a picture inside an SVG.
+//! Base64 (RFC 4648), for a picture inside an SVG.
 
-/// The standard alphabet, padded.
+/// Appends `bytes` in the standard alphabet, padded.
 pub(super) fn encode(bytes: &[u8], out: &mut Vec<u8>) {
     const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     out.reserve(bytes.len().div_ceil(3) * 4);

@@ -1,45 +1,45 @@
-//! Lines as cubic Bézier curves ([HATCH-10]): smooth through their points, in as few pieces as their form allows.
+//! Cubic Bézier curves through the points of lines ([HATCH-10]), with as few segments as their shape allows.
 
-use super::fit::{Cubic, fewer};
-use super::groups::Place;
+use super::fit::{CubicBezier, fewer};
+use super::groups::PagePoint;
 use crate::grid::micrometres;
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::math;
 
-/// How far chords of a curve are from it at the most, in mm ([HATCH-10]): a bend that leaves more is a corner.
+/// Largest distance of chords from their curve, in mm ([HATCH-10]). A bend that leaves more is a corner.
 const CHORD: f64 = 0.05;
 
-/// cos 60°: what bends by more is a corner.
+/// cos 60°: a sharper bend is a corner.
 const SHARP: f64 = 0.5;
 
-/// Points that are nearer to each other are one, in mm: their steps of 0.001 would be bends.
+/// Points nearer than this are one, in mm: their steps of 0.001 mm would be bends.
 const NEAR: f64 = 0.01;
 
-/// What is drawn from where the last step ended.
+/// A segment of a path, from the end of the one before.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Step {
-    /// Straight on.
-    Line(Place),
+pub(super) enum PathSegment {
+    /// A straight line to a point.
+    Line(PagePoint),
     /// Two control points and the end.
-    Curve([Place; 3]),
+    Curve([PagePoint; 3]),
 }
 
-impl Step {
-    /// Where it ends.
-    pub(super) fn end(&self) -> Place {
+impl PathSegment {
+    /// Returns the end point.
+    pub(super) fn end(&self) -> PagePoint {
         match self {
             Self::Line(at) | Self::Curve([.., at]) => *at,
         }
     }
 }
 
-/// The curve through the points of a line, from its first on; none where there is nothing to bend. Of a closed line the last
-/// step ends at the first point.
+/// Returns the first point and the curve through the points of a line; none with fewer than three points. The last
+/// segment of a closed line ends at the first point.
 ///
-/// At a point the curve has the direction of the circle through it and its neighbours: of points on a circle it is that
-/// circle. Where the line has a corner so has the curve.
-pub(super) fn curves(points: &[DVec2], closed: bool) -> Option<(Place, Vec<Step>)> {
-    let points = apart(points, closed);
+/// The curve's direction at a point is that of the circle through it and its neighbours, so points on a circle give
+/// that circle. The curve keeps the line's corners.
+pub(super) fn curves(points: &[DVec2], closed: bool) -> Option<(PagePoint, Vec<PathSegment>)> {
+    let points = distinct(points, closed);
     let n = points.len();
     if n < 3 {
         return None;
@@ -47,17 +47,17 @@ pub(super) fn curves(points: &[DVec2], closed: bool) -> Option<(Place, Vec<Step>
     let ways = directions(&points, closed);
     let place = |p: DVec2| p.to_array().map(micrometres);
     let mut steps = Vec::new();
-    // What goes on without a corner.
-    let mut run: Vec<Cubic> = Vec::new();
-    let flush = |run: &mut Vec<Cubic>, steps: &mut Vec<Step>| {
-        steps.extend(fewer(run).map(|[_, a, b, to]| Step::Curve([a, b, to].map(place))));
+    // Curves that follow each other without a corner.
+    let mut run: Vec<CubicBezier> = Vec::new();
+    let flush = |run: &mut Vec<CubicBezier>, steps: &mut Vec<PathSegment>| {
+        steps.extend(fewer(run).map(|[_, a, b, to]| PathSegment::Curve([a, b, to].map(place))));
         run.clear();
     };
     for i in 0..if closed { n } else { n - 1 } {
         let j = (i + 1) % n;
         let [from, to] = [points[i], points[j]];
         let chord = to - from;
-        // At an end, and beside a corner, it bends as it does on the other side.
+        // At an end, and beside a corner, the curve bends as it does at its other end.
         let mirrored = |way: DVec2| 2.0 * way.project_onto(chord) - way;
         let ends = match (ways[i], ways[j]) {
             (None, None) => None,
@@ -68,19 +68,19 @@ pub(super) fn curves(points: &[DVec2], closed: bool) -> Option<(Place, Vec<Step>
         }
         match ends {
             Some((leaves, comes)) => {
-                // Of an arc over 2α the handles are chord · ⅔ / (1 + cos α).
+                // An arc over 2α has handles of length chord · ⅔ / (1 + cos α).
                 let handle = chord.length() * 2.0 / 3.0 / (1.0 + 0.5 * (leaves + comes).dot(chord.normalize()));
                 run.push([from, from + handle * leaves, to - handle * comes, to]);
             }
-            None => steps.push(Step::Line(place(to))),
+            None => steps.push(PathSegment::Line(place(to))),
         }
     }
     flush(&mut run, &mut steps);
     Some((place(points[0]), steps))
 }
 
-/// The points without those that are one with another; the ends of an open line stay.
-fn apart(points: &[DVec2], closed: bool) -> Vec<DVec2> {
+/// Returns the points without near repetitions. The ends of an open line stay.
+fn distinct(points: &[DVec2], closed: bool) -> Vec<DVec2> {
     let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
     for &at in points {
         if kept.last().is_none_or(|last| last.distance(at) >= NEAR) {
@@ -101,7 +101,7 @@ fn apart(points: &[DVec2], closed: bool) -> Vec<DVec2> {
     kept
 }
 
-/// The unit direction at each point; none at the ends of a line and at corners.
+/// Returns the unit direction at each point; none at the ends of a line and at corners.
 fn directions(points: &[DVec2], closed: bool) -> Vec<Option<DVec2>> {
     let n = points.len();
     let at = |i: usize| {
@@ -111,8 +111,8 @@ fn directions(points: &[DVec2], closed: bool) -> Vec<Option<DVec2>> {
         let [before, after] = [points[i] - points[(i + n - 1) % n], points[(i + 1) % n] - points[i]];
         let [h, k] = [before.length(), after.length()];
         let [from, to] = [before / h, after / k];
-        // An arc's chord is off by ½ chord · tan ½α, α half of its turn; both chords turn by what the point does, each by its
-        // share of their length.
+        // A chord lies ½ chord · tan ½α off its arc, where α is half the arc's turn. The bend at a point is shared
+        // between its two chords by their lengths.
         let bend = math::atan2(from.perp_dot(to).abs(), from.dot(to));
         let longer = h.max(k);
         let half = 0.5 * bend * longer / (h + k);
@@ -128,7 +128,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    fn mm(place: Place) -> DVec2 {
+    fn mm(place: PagePoint) -> DVec2 {
         DVec2::from_array(place.map(|n| n as f64 / 1000.0))
     }
 
@@ -143,8 +143,8 @@ mod tests {
         for step in &steps {
             let from = all[all.len() - 1];
             let [a, b, to] = match *step {
-                Step::Line(to) => [from.lerp(mm(to), 1.0 / 3.0), from.lerp(mm(to), 2.0 / 3.0), mm(to)],
-                Step::Curve(places) => places.map(mm),
+                PathSegment::Line(to) => [from.lerp(mm(to), 1.0 / 3.0), from.lerp(mm(to), 2.0 / 3.0), mm(to)],
+                PathSegment::Curve(places) => places.map(mm),
             };
             for t in (1..=64).map(|i| f64::from(i) / 64.0) {
                 let [p, q, r] = [from.lerp(a, t), a.lerp(b, t), b.lerp(to, t)];
@@ -163,8 +163,8 @@ mod tests {
         each.fold(f64::INFINITY, f64::min)
     }
 
-    /// Of places on circles, so far apart that chords are 0.05 mm off, the curve is the circle but for what it may miss and the
-    /// steps of places, in a few pieces.
+    /// Points on circles, so far apart that chords are 0.05 mm off, give the circle in a few pieces. The error is at
+    /// most the allowed one and that of rounding points.
     #[test]
     fn a_circle_is_round() {
         for radius in [0.4, 1.0, 5.0, 40.0] {
@@ -210,9 +210,12 @@ mod tests {
     fn corners_stay() {
         let p = DVec2::new;
         let legs = [p(0.0, 0.0), p(3.0, 0.0), p(3.0, 2.0)];
-        assert_eq!(curves(&legs, false), Some(([0, 0], vec![Step::Line([3000, 0]), Step::Line([3000, 2000])])));
+        assert_eq!(
+            curves(&legs, false),
+            Some(([0, 0], vec![PathSegment::Line([3000, 0]), PathSegment::Line([3000, 2000])]))
+        );
         let square = [p(0.0, 0.0), p(3.0, 0.0), p(3.0, 3.0), p(0.0, 3.0)];
-        let round = [[3000, 0], [3000, 3000], [0, 3000], [0, 0]].map(Step::Line);
+        let round = [[3000, 0], [3000, 3000], [0, 3000], [0, 0]].map(PathSegment::Line);
         assert_eq!(curves(&square, true), Some(([0, 0], round.to_vec())));
         let arch = |left: f64| {
             (0..=20).map(move |i| {
@@ -226,7 +229,7 @@ mod tests {
         assert!(curve.iter().map(off).fold(0.0, f64::max) < ACCURACY + 0.0015);
     }
 
-    /// Whatever a line is, its curve goes from its first point to its last and is no farther from it than a chord may be.
+    /// Any line's curve goes from its first point to its last and is no farther from the line than a chord may be.
     #[test]
     fn no_line_is_left() {
         for seed in 0..2000 {
@@ -242,7 +245,7 @@ mod tests {
             let points = places(points);
             for closed in [false, true] {
                 if curves(&points, closed).is_none() {
-                    assert!(apart(&points, closed).len() < 3);
+                    assert!(distinct(&points, closed).len() < 3);
                     continue;
                 }
                 let ring: Vec<DVec2> = points.iter().copied().chain(closed.then_some(points[0])).collect();

@@ -1,24 +1,16 @@
-//! Numbers as text: whole micrometres as the shortest decimal of millimetres, so that nothing is rounded on the way.
+//! Numbers as text: micrometres as the shortest decimal of millimetres, without rounding.
 
-/// Adds `n` thousandths: without a zero before the point or at the end.
+use std::io::Write;
+
+/// Appends `n` thousandths, without a zero before the point or at the end.
 pub(super) fn push(out: &mut Vec<u8>, n: i64) {
     if n < 0 {
         out.push(b'-');
     }
     let (whole, part) = (n.unsigned_abs() / 1000, n.unsigned_abs() % 1000);
     if whole > 0 || part == 0 {
-        let mut digits = [0; 20];
-        let mut from = digits.len();
-        let mut rest = whole;
-        loop {
-            from -= 1;
-            digits[from] = b'0' + (rest % 10) as u8;
-            rest /= 10;
-            if rest == 0 {
-                break;
-            }
-        }
-        out.extend_from_slice(&digits[from..]);
+        // A Vec takes whatever is written to it.
+        let _ = write!(out, "{whole}");
     }
     if part > 0 {
         let digits = [part / 100, part / 10 % 10, part % 10].map(|d| b'0' + d as u8);
@@ -28,7 +20,7 @@ pub(super) fn push(out: &mut Vec<u8>, n: i64) {
     }
 }
 
-/// Adds a pair of numbers, with a space between only where no sign parts them.
+/// Appends a pair of numbers. A space separates them unless a sign does.
 pub(super) fn push_pair(out: &mut Vec<u8>, [x, y]: [i64; 2]) {
     push(out, x);
     if y >= 0 {
@@ -37,7 +29,7 @@ pub(super) fn push_pair(out: &mut Vec<u8>, [x, y]: [i64; 2]) {
     push(out, y);
 }
 
-/// A share or a size as text: six decimals at most.
+/// Returns a share or a size as text, with at most six decimals.
 pub(super) fn number(x: f64) -> String {
     format!("{}", (x * 1e6).round_ties_even() / 1e6)
 }

@@ -1,32 +1,32 @@
-//! One cubic Bézier curve for several that go on smoothly (after Schneider, An algorithm for automatically fitting digitized
-//! curves, Graphics Gems, 1990).
+//! Fits of one cubic Bézier curve to several smooth ones (after Schneider, An algorithm for automatically fitting
+//! digitized curves, Graphics Gems, 1990).
 
 use drypoint_scene::glam::DVec2;
 
-/// Beginning, two control points, end.
-pub(super) type Cubic = [DVec2; 4];
+/// Start, two control points, end.
+pub(super) type CubicBezier = [DVec2; 4];
 
-/// How far what is drawn may be from what it stands for, in mm: half a dot at 2400 dpi.
+/// Largest distance of a fitted curve from the original ones, in mm: half a dot at 2400 dpi.
 pub(super) const ACCURACY: f64 = 0.005;
 
-/// The most curves that one stands for.
+/// Most curves that one fit replaces.
 const MOST: usize = 64;
 
-/// How often the places that a curve is compared at are moved to those that are nearest.
+/// Rounds of reparametrization: sample points move to their nearest points on the fit.
 const ROUNDS: usize = 4;
 
-/// The weight of what handles were before against what places tell.
+/// Weight of the previous handle lengths against the sample points.
 const HOLD: f64 = 0.01;
 
-/// In units of [`ACCURACY`], what no more rounds mend.
+/// Distance that further rounds cannot mend, in units of [`ACCURACY`].
 const HOPELESS: f64 = 40.0;
 
-/// Curves that go on smoothly, as few as stay within [`ACCURACY`] of them and have their directions at their own ends.
-pub(super) fn fewer(run: &[Cubic]) -> impl Iterator<Item = Cubic> {
+/// Returns as few curves as stay within [`ACCURACY`] of a smooth run and keep the directions at their ends.
+pub(super) fn fewer(run: &[CubicBezier]) -> impl Iterator<Item = CubicBezier> {
     let mut rest = run;
     std::iter::from_fn(move || {
         let mut found = *rest.first()?;
-        // As many as double while they fit, then what lies between.
+        // The number of curves doubles while they fit, then bisection finds the largest that fits.
         let (mut fits, mut too_many) = (1, rest.len().min(MOST) + 1);
         while fits + 1 < too_many {
             let next = if too_many <= MOST && too_many <= rest.len() { fits.midpoint(too_many) } else { 2 * fits };
@@ -41,11 +41,12 @@ pub(super) fn fewer(run: &[Cubic]) -> impl Iterator<Item = Cubic> {
     })
 }
 
-/// One curve for several; none where it would be farther from them than [`ACCURACY`].
-fn one(run: &[Cubic]) -> Option<Cubic> {
+/// Returns one curve for several; none if it is farther than [`ACCURACY`] from them.
+fn one(run: &[CubicBezier]) -> Option<CubicBezier> {
     let [first, .., last] = run else { return None };
     let ([from, leaves, ..], [.., comes, to]) = (*first, *last);
     let [leaves, comes] = [(leaves - from).try_normalize()?, (to - comes).try_normalize()?];
+    // Four samples a curve, with their share of the chord length as first parameters.
     let places: Vec<DVec2> = run.iter().flat_map(|cubic| [0.25, 0.5, 0.75, 1.0].map(|t| at(cubic, t))).collect();
     let mut length = 0.0;
     let mut last = from;
@@ -57,11 +58,13 @@ fn one(run: &[Cubic]) -> Option<Cubic> {
         })
         .collect();
     along.iter_mut().for_each(|t| *t /= length);
+    // The end tangents are fixed, so that a fit has two unknowns: the lengths of its handles.
     let cubic = |[a, b]: [f64; 2]| [from, from + a * leaves, to - b * comes, to];
     let mut lengths = [from.distance(to) / 3.0; 2];
     for round in 0..ROUNDS {
-        // First all of what is missed counts, then, at the nearest places, only what is beside the curve.
-        let mut sums = Sums::default();
+        // The first round fits the whole distance. Later rounds, at the nearest points, fit only the part across the
+        // curve.
+        let mut sums = NormalEquations::default();
         let drawn = cubic(lengths);
         for (&place, &t) in places.iter().zip(&along) {
             let s = 1.0 - t;
@@ -78,7 +81,7 @@ fn one(run: &[Cubic]) -> Option<Cubic> {
         }
         lengths = sums.solved().unwrap_or(lengths);
         let [a, b] = lengths;
-        // Handles that are longer than the way cross, and the curve has a loop.
+        // Handles longer than the curve cross and make a loop.
         if !(a > 0.0 && b > 0.0 && a + b < length) {
             return None;
         }
@@ -100,7 +103,7 @@ fn one(run: &[Cubic]) -> Option<Cubic> {
 
 /// The normal equations of a u + b v = r.
 #[derive(Default)]
-struct Sums {
+struct NormalEquations {
     uu: f64,
     uv: f64,
     vv: f64,
@@ -108,7 +111,7 @@ struct Sums {
     vr: f64,
 }
 
-impl Sums {
+impl NormalEquations {
     fn add(&mut self, u: f64, v: f64, r: f64) {
         self.uu += u * u;
         self.uv += u * v;
@@ -117,7 +120,7 @@ impl Sums {
         self.vr += v * r;
     }
 
-    /// Keeps what the others hardly tell where it is.
+    /// Regularizes towards the given solution where the equations hardly determine it.
     fn hold(&mut self, [a, b]: [f64; 2]) {
         let weight = HOLD * (self.uu + self.vv);
         self.uu += weight;
@@ -126,7 +129,7 @@ impl Sums {
         self.vr += weight * b;
     }
 
-    /// a and b; none where they are not known apart, as those of a straight line.
+    /// Returns a and b; none if they are not independent, as on a straight line.
     fn solved(&self) -> Option<[f64; 2]> {
         let Self { uu, uv, vv, ur, vr } = *self;
         let over = uu * vv - uv * uv;
@@ -134,20 +137,20 @@ impl Sums {
     }
 }
 
-/// The place of a curve at t.
-fn at([a, b, c, d]: &Cubic, t: f64) -> DVec2 {
+/// Returns the point of a curve at t.
+fn at([a, b, c, d]: &CubicBezier, t: f64) -> DVec2 {
     let [p, q, r] = [a.lerp(*b, t), b.lerp(*c, t), c.lerp(*d, t)];
     p.lerp(q, t).lerp(q.lerp(r, t), t)
 }
 
-/// A third of its derivative.
-fn slope([a, b, c, d]: &Cubic, t: f64) -> DVec2 {
+/// Returns a third of the derivative at t.
+fn slope([a, b, c, d]: &CubicBezier, t: f64) -> DVec2 {
     let s = 1.0 - t;
     s * s * (*b - *a) + 2.0 * s * t * (*c - *b) + t * t * (*d - *c)
 }
 
-/// A step of Newton's to where a curve is nearest to a place.
-fn nearer(cubic: &Cubic, place: DVec2, t: f64) -> f64 {
+/// Returns t after one step of Newton's method towards the nearest point.
+fn nearer(cubic: &CubicBezier, place: DVec2, t: f64) -> f64 {
     let [a, b, c, d] = *cubic;
     let s = 1.0 - t;
     let off = at(cubic, t) - place;
@@ -175,8 +178,8 @@ mod tests {
                 let [leaves, comes] = [from, to].map(|t| (to - from) * slope(&whole, t));
                 [first, first + leaves, last - comes, last]
             };
-            let run: Vec<Cubic> = [0.0, 0.1, 0.3, 0.55, 0.6, 1.0].windows(2).map(|t| cut(t[0], t[1])).collect();
-            let found: Vec<Cubic> = fewer(&run).collect();
+            let run: Vec<CubicBezier> = [0.0, 0.1, 0.3, 0.55, 0.6, 1.0].windows(2).map(|t| cut(t[0], t[1])).collect();
+            let found: Vec<CubicBezier> = fewer(&run).collect();
             assert_eq!(found.len(), 1, "{found:?}");
             for t in (0..=100).map(|i| f64::from(i) / 100.0) {
                 let place = at(&found[0], t);
@@ -188,10 +191,10 @@ mod tests {
         assert_eq!(fewer(&[]).count(), 0);
     }
 
-    /// What is more than one curve stays more than one, end by end.
+    /// A run that needs several curves keeps several, end by end.
     #[test]
     fn a_circle_is_four_at_least() {
-        let run: Vec<Cubic> = (0..40)
+        let run: Vec<CubicBezier> = (0..40)
             .map(|i| {
                 let way = |i: u32| DVec2::from_angle(std::f64::consts::TAU * f64::from(i) / 40.0);
                 let [a, b] = [way(i), way(i + 1)].map(|p| 20.0 * p);
@@ -199,7 +202,7 @@ mod tests {
                 [a, a + handle * way(i).perp(), b - handle * way(i + 1).perp(), b]
             })
             .collect();
-        let found: Vec<Cubic> = fewer(&run).collect();
+        let found: Vec<CubicBezier> = fewer(&run).collect();
         assert!((4..=6).contains(&found.len()), "{}", found.len());
         assert!(found.windows(2).all(|pair| pair[0][3] == pair[1][0]));
         assert_eq!((found[0][0], found[found.len() - 1][3]), (run[0][0], run[39][3]));

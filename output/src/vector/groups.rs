@@ -1,46 +1,46 @@
-//! A layer's marks as few paths: what has the same width and opacity stands together; lines with colours of their own keep
+//! A layer's marks as few paths. Marks of equal width and opacity share a group; lines with their own colours keep
 //! their order.
 
-use super::apart::apart;
-use super::curves::{Step, curves};
+use super::curves::{PathSegment, curves};
+use super::disjoint_dots::disjoint_sets;
 use crate::grid::micrometres;
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Layer, Piece, Polyline};
 use std::collections::BTreeMap;
 
-/// A place on the page.
-pub(super) type Place = [i64; 2];
+/// A point on the page, in micrometres.
+pub(super) type PagePoint = [i64; 2];
 
-/// What is stroked with one width, or filled, in one opacity and one colour, in whole micrometres.
-pub(super) struct Group {
-    /// Across the stroke; none: outlines to be filled.
+/// Paths of one width, opacity and colour, in micrometres.
+pub(super) struct PathGroup {
+    /// Width of the strokes; none: outlines to be filled.
     pub(super) width: Option<i64>,
-    /// In (0, 1], the pen's colour's included.
+    /// Opacity in (0, 1], times that of the pen's colour.
     pub(super) opacity: f64,
-    /// In place of the pen's; none: the pen's.
+    /// Colour; none: the pen's.
     pub(super) color: Option<Rgb>,
-    /// Dots, each inner list for one path.
-    pub(super) dots: Vec<Vec<Place>>,
-    /// Lines, each for a path of its own.
-    pub(super) lines: Vec<Line>,
+    /// Dots; each inner list is one path.
+    pub(super) dots: Vec<Vec<PagePoint>>,
+    /// Lines, each a path of its own.
+    pub(super) lines: Vec<VectorPath>,
 }
 
-/// A line of at least two points, or the outlines of one.
-pub(super) struct Line {
-    pub(super) paths: Vec<Trace>,
+/// A line of at least two points, or its outlines.
+pub(super) struct VectorPath {
+    pub(super) paths: Vec<Subpath>,
     pub(super) closed: bool,
 }
 
-/// What is drawn in one go.
-pub(super) enum Trace {
-    /// Straight from point to point.
-    Straight(Vec<Place>),
-    /// From a point on, step by step; of a closed one the last step ends there.
-    Curved(Place, Vec<Step>),
+/// A connected part of a path.
+pub(super) enum Subpath {
+    /// Straight lines from point to point.
+    Straight(Vec<PagePoint>),
+    /// A start point and segments. The last segment of a closed path ends at the start.
+    Curved(PagePoint, Vec<PathSegment>),
 }
 
-impl Trace {
+impl Subpath {
     fn of(points: &[DVec2], closed: bool, beziers: bool) -> Self {
         match beziers.then(|| curves(points, closed)).flatten() {
             Some((start, steps)) => Self::Curved(start, steps),
@@ -48,41 +48,40 @@ impl Trace {
         }
     }
 
-    /// Where it begins, and what is drawn from there on; none without a point.
-    pub(super) fn steps(&self) -> Option<(Place, impl Iterator<Item = Step>)> {
-        let (start, points, steps): (_, &[Place], &[Step]) = match self {
+    /// Returns the start point and the segments; none without a point.
+    pub(super) fn steps(&self) -> Option<(PagePoint, impl Iterator<Item = PathSegment>)> {
+        let (start, points, steps): (_, &[PagePoint], &[PathSegment]) = match self {
             Self::Straight(points) => (*points.first()?, &points[1..], &[]),
             Self::Curved(start, steps) => (*start, &[], steps),
         };
-        Some((start, points.iter().copied().map(Step::Line).chain(steps.iter().copied())))
+        Some((start, points.iter().copied().map(PathSegment::Line).chain(steps.iter().copied())))
     }
 }
 
-impl Line {
+impl VectorPath {
     fn of(piece: &Piece, is_stroke: bool, ink: f64, beziers: bool) -> Self {
         if is_stroke {
-            return Self { paths: vec![Trace::of(&piece.points, piece.closed, beziers)], closed: piece.closed };
+            return Self { paths: vec![Subpath::of(&piece.points, piece.closed, beziers)], closed: piece.closed };
         }
         let outlines = piece.outlines(ink);
-        Self { paths: outlines.iter().map(|outline| Trace::of(outline, true, beziers)).collect(), closed: true }
+        Self { paths: outlines.iter().map(|outline| Subpath::of(outline, true, beziers)).collect(), closed: true }
     }
 }
 
-/// The width, and the bits of the opacity.
-type Key = (Option<i64>, u64);
+/// Width, and the bits of the opacity.
+type GroupKey = (Option<i64>, u64);
 
-/// Dots of one path: few enough that a reader which adds relative moves in single precision stays within 0.001 mm, and
-/// that an editor stays quick.
+/// Most dots of one path. A reader that adds relative moves in single precision stays within 0.001 mm, and an editor
+/// stays quick.
 const CHUNK: usize = 256;
 
-/// The groups of a layer, outlines first, then by width, then by opacity; after them lines with colours, in their order.
+/// Returns the groups of a layer: outlines, then strokes by width and opacity, then coloured lines in order.
 ///
-/// A path inks once what it strokes, so that dots of one path must not overlap unless they are opaque. Dots are put into
-/// rows, to and fro, so that the moves between them are short; `keep` keeps the order that they have. With `beziers` lines
-/// are smooth.
-pub(super) fn groups(layer: &Layer, keep: bool, beziers: bool) -> Vec<Group> {
-    // The bits of a number above 0 order as the number does.
-    let mut found: BTreeMap<Key, (Vec<Place>, Vec<Line>)> = BTreeMap::new();
+/// Dots of one path must not overlap unless they are opaque, because a path inks once. Dots are sorted into alternating
+/// rows, so that the moves between them are short. `keep` keeps their order instead. With `beziers` lines are smooth.
+pub(super) fn groups(layer: &Layer, keep: bool, beziers: bool) -> Vec<PathGroup> {
+    // The bits of positive numbers order as the numbers do.
+    let mut found: BTreeMap<GroupKey, (Vec<PagePoint>, Vec<VectorPath>)> = BTreeMap::new();
     let ink = layer.pen.color[3];
     let bits = |opacity: f64| (opacity * ink).to_bits();
     for dot in &layer.dots {
@@ -94,13 +93,13 @@ pub(super) fn groups(layer: &Layer, keep: bool, beziers: bool) -> Vec<Group> {
     let key = |piece: &Piece| (piece.stroke(ink).map(|radius| micrometres(2.0 * radius)), bits(piece.opacity));
     for piece in plain {
         let key = key(&piece);
-        found.entry(key).or_default().1.push(Line::of(&piece, key.0.is_some(), ink, beziers));
+        found.entry(key).or_default().1.push(VectorPath::of(&piece, key.0.is_some(), ink, beziers));
     }
     let like = |piece: &Piece| (key(piece), piece.color);
     let colored = colored.chunk_by(|a, b| like(a) == like(b)).map(|same| {
         let ((width, bits), color) = like(&same[0]);
-        let lines = same.iter().map(|piece| Line::of(piece, width.is_some(), ink, beziers)).collect();
-        Group { width, opacity: f64::from_bits(bits), color, dots: Vec::new(), lines }
+        let lines = same.iter().map(|piece| VectorPath::of(piece, width.is_some(), ink, beziers)).collect();
+        PathGroup { width, opacity: f64::from_bits(bits), color, dots: Vec::new(), lines }
     });
     found
         .into_iter()
@@ -109,21 +108,21 @@ pub(super) fn groups(layer: &Layer, keep: bool, beziers: bool) -> Vec<Group> {
             if !keep {
                 rows(&mut dots);
             }
-            let sets = if opacity < 1.0 { apart(&dots, width.unwrap_or_default()) } else { vec![dots] };
+            let sets = if opacity < 1.0 { disjoint_sets(&dots, width.unwrap_or_default()) } else { vec![dots] };
             let dots = sets.iter().flat_map(|set| set.chunks(CHUNK)).map(<[_]>::to_vec).collect();
-            Group { width, opacity, color: None, dots, lines }
+            PathGroup { width, opacity, color: None, dots, lines }
         })
         .chain(colored)
         .collect()
 }
 
-/// Orders dots by rows of such a height that the way from dot to dot is short, every other row backwards.
-fn rows(dots: &mut [Place]) {
+/// Sorts dots by rows of a height that keeps the moves short, every second row backwards.
+fn rows(dots: &mut [PagePoint]) {
     let Some(&first) = dots.first() else { return };
     let low = dots.iter().fold(first, |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
     let high = dots.iter().fold(first, |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
     let area = (high[0] - low[0]) as f64 * (high[1] - low[1]) as f64;
-    // In a row of height h of a plane with n dots a unit the next dot is 1/(hn) to the side and h/3 up or down.
+    // In a row of height h, with n dots a unit area, the next dot is on average 1/(hn) to the side and h/3 up or down.
     let height = ((3.0 * area / dots.len() as f64).sqrt() as i64).max(1);
     dots.sort_unstable_by_key(|&[x, y]| {
         let row = (y - low[1]) / height;
@@ -195,7 +194,7 @@ mod tests {
     #[test]
     fn rows_to_and_fro() {
         // A grid of 4 × 4: rows of √(3·9/16) = 1.3 steps hold one or two lines of it.
-        let mut dots: Vec<Place> = (0..16).map(|i| [i * 7 % 4 * 1000, i * 5 % 16 / 4 * 1000]).collect();
+        let mut dots: Vec<PagePoint> = (0..16).map(|i| [i * 7 % 4 * 1000, i * 5 % 16 / 4 * 1000]).collect();
         rows(&mut dots);
         let way: i64 = dots.windows(2).map(|w| (w[1][0] - w[0][0]).abs() + (w[1][1] - w[0][1]).abs()).sum();
         // The shortest way is 15 steps; a row of two lines costs at most one more a dot.

@@ -1,10 +1,11 @@
-//! Writing PDF ([IO-2], [IO-7]): the groups of the SVG with the same numbers, each layer an optional-content group.
+//! Writing of PDF ([IO-2], [IO-7]): the groups of the SVG with the same numbers. Each layer is an optional-content
+//! group.
 
-use super::curves::Step;
+use super::VectorPage;
+use super::curves::PathSegment;
 use super::decimals::{number, push};
-use super::groups::{Group, Trace, groups};
-use super::{Sheet, bytes};
-use crate::encode::{quantize, straight_srgb};
+use super::groups::{PathGroup, Subpath, groups};
+use crate::encode::{quantize, srgb_bytes, straight_srgb};
 use crate::layers::{fitting, side};
 use crate::{OutputError, atomic};
 use drypoint_scene::color::Rgba;
@@ -14,13 +15,13 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use std::path::Path;
 
-/// Keys of the document's information: the scene's hash and the plan; the program is its `Producer`.
+/// Keys of the document's information: hash of the scene, and plan. The program is its `Producer`.
 pub const KEYS: [&str; 2] = ["DrypointScene", "DrypointPlan"];
 
-/// Points of a millimetre.
+/// Points in a millimetre.
 const POINTS: f64 = 72.0 / INCH;
 
-/// How hard the streams are packed, of 10.
+/// Compression level of the streams, of 10.
 const LEVEL: u8 = 6;
 
 const CATALOG: Ref = Ref::new(1);
@@ -30,25 +31,25 @@ const CONTENT: Ref = Ref::new(4);
 const INFO: Ref = Ref::new(5);
 const IMAGE: Ref = Ref::new(6);
 const MASK: Ref = Ref::new(7);
-/// Where the layers begin.
+/// First reference of the layers.
 const FIRST: i32 = 8;
 
-/// Writes a sheet as PDF; the file appears whole or not at all.
+/// Writes a page as PDF. The file appears whole or not at all.
 ///
-/// The one page has the sheet's size. Dots are strokes of length zero with round ends, as PDF defines them. There is no
-/// date and no random number, so the same sheet gives the same bytes.
+/// The PDF page has the marks' page size. Dots are strokes of length zero with round ends, as PDF defines them. There
+/// is no date and no random number: equal pages give equal bytes.
 ///
 /// # Errors
-/// [`OutputError::Layer`] when the picture has no beauty that fits, [`OutputError::Io`].
-pub fn write_pdf(sheet: &Sheet, path: &Path) -> Result<(), OutputError> {
+/// [`OutputError::Layer`] if the picture has no beauty that fits, [`OutputError::Io`].
+pub fn write_pdf(sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_pdf(sheet)?)
 }
 
-/// The bytes of [`write_pdf`].
+/// Returns the bytes of [`write_pdf`].
 ///
 /// # Errors
-/// As [`write_pdf`], but for the file's.
-pub fn encode_pdf(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
+/// Same errors as [`write_pdf`], except those of the file.
+pub fn encode_pdf(sheet: &VectorPage) -> Result<Vec<u8>, OutputError> {
     let mut content = Content::new(sheet);
     if let Some(color) = sheet.background {
         content.background(sheet, color);
@@ -60,6 +61,7 @@ pub fn encode_pdf(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
         content.layer(layer, sheet);
     }
 
+    // The picture, then an optional-content group for each layer.
     let mut pdf = Pdf::new();
     if let Some(picture) = sheet.picture {
         image(&mut pdf, picture)?;
@@ -68,6 +70,7 @@ pub fn encode_pdf(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
     for (&layer, label) in layers.iter().zip(&content.labels) {
         pdf.indirect(layer).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(label));
     }
+    // The catalog lists the layers and their order.
     let mut catalog = pdf.catalog(CATALOG);
     catalog.pages(PAGES);
     let mut properties = catalog.insert(Name(b"OCProperties")).dict();
@@ -77,6 +80,7 @@ pub fn encode_pdf(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
     shown.finish();
     properties.finish();
     catalog.finish();
+    // The page and its resources: the picture, opacities, layers.
     pdf.pages(PAGES).kids([PAGE]).count(1);
     let size = sheet.marks.page.size * POINTS;
     let mut page = pdf.page(PAGE);
@@ -109,24 +113,24 @@ pub fn encode_pdf(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
     Ok(pdf.finish())
 }
 
-/// What is drawn, and what it refers to by number.
+/// The content stream, and the objects that it refers to by number.
 struct Content {
     bytes: Vec<u8>,
-    /// Of the layers, `L0` and on.
+    /// Labels of the layers, `L0` and on.
     labels: Vec<String>,
-    /// Of the states, `G0` and on.
+    /// Opacities of the graphics states, `G0` and on.
     opacities: Vec<f64>,
 }
 
 impl Content {
-    /// A page in millimetres, y down, round ends and joins.
-    fn new(sheet: &Sheet) -> Self {
+    /// Begins a page in millimetres, y down, with round caps and joins.
+    fn new(sheet: &VectorPage) -> Self {
         let height = number(sheet.marks.page.size.y * POINTS);
         let bytes = format!("{POINTS:.9} 0 0 -{POINTS:.9} 0 {height} cm 1 J 1 j\n");
         Self { bytes: bytes.into_bytes(), labels: Vec::new(), opacities: Vec::new() }
     }
 
-    /// A layer of that label around what is drawn.
+    /// Wraps drawing in a layer of that label.
     fn within(&mut self, label: String, draw: impl FnOnce(&mut Self)) {
         self.add(&format!("/OC /L{} BDC q\n", self.labels.len()));
         self.labels.push(label);
@@ -134,7 +138,7 @@ impl Content {
         self.add("Q EMC\n");
     }
 
-    fn background(&mut self, sheet: &Sheet, color: Rgba) {
+    fn background(&mut self, sheet: &VectorPage, color: Rgba) {
         let [width, height] = sheet.marks.page.size.to_array().map(number);
         self.within("%background".into(), |content| {
             content.state(color[3]);
@@ -143,7 +147,7 @@ impl Content {
         });
     }
 
-    fn picture(&mut self, sheet: &Sheet) {
+    fn picture(&mut self, sheet: &VectorPage) {
         let page = &sheet.marks.page;
         let [width, height] = page.picture().to_array().map(number);
         let (left, bottom) = (number(page.margin), number(page.size.y - page.margin));
@@ -153,7 +157,7 @@ impl Content {
         });
     }
 
-    fn layer(&mut self, layer: &Layer, sheet: &Sheet) {
+    fn layer(&mut self, layer: &Layer, sheet: &VectorPage) {
         self.within(layer.pen.label(), |content| {
             content.color(layer.pen.color, "RG");
             for group in groups(layer, sheet.plotter, sheet.beziers) {
@@ -162,7 +166,8 @@ impl Content {
         });
     }
 
-    fn group(&mut self, group: &Group, pen: Rgba) {
+    fn group(&mut self, group: &PathGroup, pen: Rgba) {
+        // Graphics state of the group: opacity, then width and colour of strokes or colour of fills.
         self.add("q ");
         self.state(group.opacity);
         let [r, g, b] = group.color.unwrap_or([pen[0], pen[1], pen[2]]);
@@ -176,6 +181,7 @@ impl Content {
             }
             None => self.color([r, g, b, 1.0], "rg"),
         }
+        // Dots, then lines: moves, segments, and the operator that paints the path.
         for chunk in group.dots.iter().filter(|chunk| !chunk.is_empty()) {
             for &at in chunk {
                 self.step(at, b" m ");
@@ -184,12 +190,12 @@ impl Content {
             self.add("S\n");
         }
         for line in &group.lines {
-            for (start, steps) in line.paths.iter().filter_map(Trace::steps) {
+            for (start, steps) in line.paths.iter().filter_map(Subpath::steps) {
                 self.step(start, b" m\n");
                 for step in steps {
                     match step {
-                        Step::Line(at) => self.step(at, b" l\n"),
-                        Step::Curve([a, b, at]) => {
+                        PathSegment::Line(at) => self.step(at, b" l\n"),
+                        PathSegment::Curve([a, b, at]) => {
                             self.step(a, b" ");
                             self.step(b, b" ");
                             self.step(at, b" c\n");
@@ -215,11 +221,11 @@ impl Content {
     }
 
     fn color(&mut self, color: Rgba, operator: &str) {
-        let [r, g, b] = bytes(color).map(|byte| number(f64::from(byte) / 255.0));
+        let [r, g, b] = srgb_bytes(color).map(|byte| number(f64::from(byte) / 255.0));
         self.add(&format!("{r} {g} {b} {operator}\n"));
     }
 
-    /// Everything after it has that opacity.
+    /// Sets the opacity of everything that follows.
     fn state(&mut self, opacity: f64) {
         if opacity != 1.0 {
             let known = self.opacities.iter().position(|&o| o == opacity);
@@ -236,7 +242,7 @@ impl Content {
     }
 }
 
-/// The picture as 8-bit sRGB, with its opacity beside it.
+/// Adds the picture as 8-bit sRGB, with its opacity as a mask.
 fn image(pdf: &mut Pdf, picture: &Picture) -> Result<(), OutputError> {
     let channels = &fitting(picture, LayerKind::Beauty)?.channels;
     let (mut color, mut mask) = (Vec::new(), Vec::new());
@@ -296,7 +302,7 @@ mod tests {
     fn encoded(background: Option<Rgba>, picture: Option<&Picture>) -> Vec<u8> {
         let provenance = Provenance { software: "Drypoint 0.1.0".into(), scene_hash: "00ff".into(), plan: "κ".into() };
         let marks = marks();
-        encode_pdf(&Sheet {
+        encode_pdf(&VectorPage {
             marks: &marks,
             background,
             picture,
@@ -315,7 +321,7 @@ mod tests {
     fn what_is_drawn() {
         let provenance = Provenance::default();
         let marks = marks();
-        let sheet = Sheet {
+        let sheet = VectorPage {
             marks: &marks,
             background: None,
             picture: None,

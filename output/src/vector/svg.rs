@@ -1,10 +1,11 @@
-//! Writing SVG ([IO-2], [IO-7]): one user unit is a millimetre, a layer is a group at the top that Inkscape and plotters
-//! know by its label, and nothing has a transform.
+//! Writing of SVG ([IO-2], [IO-7]). One user unit is a millimetre. Layers are top-level groups that Inkscape and
+//! plotters know by their labels. Nothing has a transform.
 
-use super::curves::Step;
+use super::curves::PathSegment;
 use super::decimals::{number, push_pair};
-use super::groups::{Group, Line, Place, Trace, groups};
-use super::{Sheet, base64, bytes, decimals};
+use super::groups::{PagePoint, PathGroup, Subpath, VectorPath, groups};
+use super::{VectorPage, base64, decimals};
+use crate::encode::hex;
 use crate::grid::micrometres;
 use crate::png::{KEYWORDS, encode_png};
 use crate::{OutputError, atomic};
@@ -12,21 +13,20 @@ use drypoint_scene::marks::Layer;
 use std::io::Write;
 use std::path::Path;
 
-/// Writes a sheet as SVG; the file appears whole or not at all.
+/// Writes a page as SVG. The file appears whole or not at all.
 ///
-/// Dots are strokes of length zero with round ends, many to a path, so that half a million fill a few megabytes; on a
-/// plotter's sheet each is an element of its own, in the order of the plan, which pen plotters' programs read where they
-/// pass over an empty stroke inside a path. Places have 0.001 mm, as the marks do; there is no date, so the same sheet
-/// gives the same bytes.
+/// Dots are strokes of length zero with round ends, many to a path, so that half a million take a few megabytes. On a
+/// plotter's page each dot is an element of its own in drawing order, since plotter programs skip empty strokes inside
+/// a path. Coordinates have steps of 0.001 mm, as marks do. There is no date: equal pages give equal bytes.
 ///
 /// # Errors
-/// [`OutputError::Layer`] when the picture has no beauty that fits, [`OutputError::Io`].
-pub fn write_svg(sheet: &Sheet, path: &Path) -> Result<(), OutputError> {
+/// [`OutputError::Layer`] if the picture has no beauty that fits, [`OutputError::Io`].
+pub fn write_svg(sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_svg(sheet)?)
 }
 
-/// An SVG that shows frames in turn, over and over (SMIL). It is written frame by frame and keeps none of them. A viewer
-/// without animation shows frame 0.
+/// An SVG that shows frames in turn, repeatedly (SMIL). It is written frame by frame and keeps none. A viewer without
+/// animation shows frame 0.
 pub struct Animation<'w> {
     out: &'w mut dyn Write,
     frames: usize,
@@ -35,17 +35,16 @@ pub struct Animation<'w> {
 }
 
 impl<'w> Animation<'w> {
-    /// Begins an SVG of so many frames of `seconds` each.
+    /// Begins an SVG of `frames` frames of `seconds` each.
     pub fn new(out: &'w mut dyn Write, frames: usize, seconds: f64) -> Self {
         Self { out, frames, seconds, written: 0 }
     }
 
-    /// Writes the next frame. The first one gives the page, the metadata and the background of all, and the last one ends
-    /// the file.
+    /// Writes the next frame. The first frame gives page, metadata and background of all; the last one ends the file.
     ///
     /// # Errors
     /// Errors of the writer, as [`OutputError::Io`] of the file `path`, and of a picture that cannot be encoded.
-    pub fn frame(&mut self, sheet: &Sheet, path: &Path) -> Result<(), OutputError> {
+    pub fn frame(&mut self, sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
         let (i, all) = (self.written, self.frames);
         let mut bytes = Vec::new();
         if i == 0 {
@@ -56,7 +55,7 @@ impl<'w> Animation<'w> {
             &mut bytes,
             format_args!("<g inkscape:groupmode=\"layer\" inkscape:label=\"%frame {i}\" id=\"frame{i}\"{hidden}>\n"),
         );
-        // The end of one frame and the beginning of the next are the same number.
+        // The end of one frame and the start of the next are the same number.
         let [from, to] = [i, i + 1].map(|i| i as f64 / all as f64);
         let turns = match (i, i + 1 == all) {
             (0, true) => None,
@@ -85,11 +84,11 @@ impl<'w> Animation<'w> {
     }
 }
 
-/// The bytes of [`write_svg`].
+/// Returns the bytes of [`write_svg`].
 ///
 /// # Errors
-/// As [`write_svg`], but for the file's.
-pub fn encode_svg(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
+/// Same errors as [`write_svg`], except those of the file.
+pub fn encode_svg(sheet: &VectorPage) -> Result<Vec<u8>, OutputError> {
     let mut out = Vec::new();
     head(sheet, &mut out);
     content(sheet, "", &mut out)?;
@@ -97,8 +96,8 @@ pub fn encode_svg(sheet: &Sheet) -> Result<Vec<u8>, OutputError> {
     Ok(out)
 }
 
-/// The page, where it comes from, and its background.
-fn head(sheet: &Sheet, out: &mut Vec<u8>) {
+/// Writes page, metadata and background.
+fn head(sheet: &VectorPage, out: &mut Vec<u8>) {
     let [width, height] = sheet.marks.page.size.to_array().map(number);
     text(
         out,
@@ -122,8 +121,8 @@ fn head(sheet: &Sheet, out: &mut Vec<u8>) {
     }
 }
 
-/// The picture and the marks; `id` stands before their names.
-fn content(sheet: &Sheet, id: &str, out: &mut Vec<u8>) -> Result<(), OutputError> {
+/// Writes the picture and the marks. `id` is the prefix of their names.
+fn content(sheet: &VectorPage, id: &str, out: &mut Vec<u8>) -> Result<(), OutputError> {
     let page = &sheet.marks.page;
     if let Some(picture) = sheet.picture {
         let [width, height] = page.picture().to_array().map(number);
@@ -145,8 +144,8 @@ fn content(sheet: &Sheet, id: &str, out: &mut Vec<u8>) -> Result<(), OutputError
     Ok(())
 }
 
-/// Where the program, the scene and the plan stand.
-fn metadata(sheet: &Sheet, out: &mut Vec<u8>) {
+/// Writes program, scene and plan.
+fn metadata(sheet: &VectorPage, out: &mut Vec<u8>) {
     let said = sheet.provenance;
     out.extend_from_slice(b"<metadata>\n");
     for (keyword, said) in KEYWORDS.into_iter().zip([&said.software, &said.scene_hash, &said.plan]) {
@@ -155,7 +154,7 @@ fn metadata(sheet: &Sheet, out: &mut Vec<u8>) {
     out.extend_from_slice(b"</metadata>\n");
 }
 
-fn draw(layer: &Layer, id: &str, sheet: &Sheet, out: &mut Vec<u8>) {
+fn draw(layer: &Layer, id: &str, sheet: &VectorPage, out: &mut Vec<u8>) {
     let (label, color, width) = (escaped(&layer.pen.label()), hex(layer.pen.color), number(layer.pen.width));
     text(
         out,
@@ -166,7 +165,7 @@ fn draw(layer: &Layer, id: &str, sheet: &Sheet, out: &mut Vec<u8>) {
     );
     let pen = micrometres(layer.pen.width);
     for group in groups(layer, sheet.plotter, sheet.beziers) {
-        // What the pen draws as it is needs no group.
+        // Marks in the pen's own width, opacity and colour need no group.
         let plain = group.width == Some(pen) && group.opacity == 1.0 && group.color.is_none();
         if !plain {
             let own = group.color.map(|[r, g, b]| hex([r, g, b, 1.0]));
@@ -192,7 +191,7 @@ fn draw(layer: &Layer, id: &str, sheet: &Sheet, out: &mut Vec<u8>) {
     out.extend_from_slice(b"</g>\n");
 }
 
-fn dots(group: &Group, plotter: bool, out: &mut Vec<u8>) {
+fn dots(group: &PathGroup, plotter: bool, out: &mut Vec<u8>) {
     for chunk in group.dots.iter().filter(|chunk| !chunk.is_empty()) {
         if plotter {
             for &at in chunk {
@@ -218,15 +217,15 @@ fn dots(group: &Group, plotter: bool, out: &mut Vec<u8>) {
     }
 }
 
-/// Two numbers with a comma, as lists of points are mostly written.
+/// Appends two numbers with a comma, the usual form in lists of points.
 fn push_pair_apart(out: &mut Vec<u8>, [x, y]: [i64; 2]) {
     decimals::push(out, x);
     out.push(b',');
     decimals::push(out, y);
 }
 
-fn path(line: &Line, out: &mut Vec<u8>) {
-    let mut paths = line.paths.iter().filter_map(Trace::steps).peekable();
+fn path(line: &VectorPath, out: &mut Vec<u8>) {
+    let mut paths = line.paths.iter().filter_map(Subpath::steps).peekable();
     if paths.peek().is_none() {
         return;
     }
@@ -236,9 +235,9 @@ fn path(line: &Line, out: &mut Vec<u8>) {
         push_pair(out, last);
         let mut letter = None;
         for step in steps {
-            let (own, places): (u8, &[Place]) = match &step {
-                Step::Line(at) => (b'l', std::slice::from_ref(at)),
-                Step::Curve(places) => (b'c', places),
+            let (own, places): (u8, &[PagePoint]) = match &step {
+                PathSegment::Line(at) => (b'l', std::slice::from_ref(at)),
+                PathSegment::Curve(places) => (b'c', places),
             };
             let mut follows = letter == Some(own);
             if !follows {
@@ -261,13 +260,7 @@ fn path(line: &Line, out: &mut Vec<u8>) {
     out.extend_from_slice(b"\"/>\n");
 }
 
-/// `#rrggbb`.
-pub(crate) fn hex(color: [f64; 4]) -> String {
-    let [r, g, b] = bytes(color);
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
-/// The attribute, where it says anything.
+/// Returns the attribute; empty for a value of 1.
 fn opacity(name: &str, value: f64) -> String {
     if value == 1.0 { String::new() } else { format!(" {name}=\"{}\"", number(value)) }
 }
@@ -277,7 +270,7 @@ fn text(out: &mut Vec<u8>, said: std::fmt::Arguments) {
     let _ = out.write_fmt(said);
 }
 
-/// Text as XML has it, in an attribute or between tags; what XML 1.0 has no place for becomes U+FFFD.
+/// Returns text escaped for XML, in an attribute or between tags. Characters that XML 1.0 does not allow become U+FFFD.
 fn escaped(said: &str) -> String {
     let mut out = String::with_capacity(said.len());
     for c in said.chars() {
@@ -332,7 +325,7 @@ mod tests {
         let provenance =
             Provenance { software: "Drypoint 0.1.0".into(), scene_hash: "00ff".into(), plan: "κ < 1\n\u{1}".into() };
         let marks = marks();
-        let sheet = Sheet { marks: &marks, background, picture, plotter, beziers: false, provenance: &provenance };
+        let sheet = VectorPage { marks: &marks, background, picture, plotter, beziers: false, provenance: &provenance };
         String::from_utf8(encode_svg(&sheet).unwrap()).unwrap()
     }
 
@@ -367,8 +360,14 @@ Drypoint plan: κ &lt; 1
     fn frames_take_turns() {
         let (provenance, marks) = (Provenance::default(), marks());
         let background = Some([1.0; 4]);
-        let sheet =
-            Sheet { marks: &marks, background, picture: None, plotter: false, beziers: false, provenance: &provenance };
+        let sheet = VectorPage {
+            marks: &marks,
+            background,
+            picture: None,
+            plotter: false,
+            beziers: false,
+            provenance: &provenance,
+        };
         let frames = |n: usize| {
             let mut bytes = Vec::new();
             let mut animation = Animation::new(&mut bytes, n, 0.5);

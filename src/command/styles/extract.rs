@@ -1,7 +1,7 @@
-//! `styles extract`: a style from a part of a picture ([STF-2]).
+//! The verb `styles extract`: a style from a part of a picture ([STF-2]).
 
 use super::super::report::note;
-use super::super::{Done, Outcome, Talk, target};
+use super::super::{Done, Outcome, Talk, output_path};
 use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
 use drypoint::output::{OutputError, png};
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Places are in pixels of the picture, x from the left and y from the top; fractions are allowed.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("region").required(true))]
-pub(super) struct Extract {
+pub(super) struct ExtractArgs {
     /// The picture, PNG, JPEG or OpenEXR
     picture: PathBuf,
     /// A sphere: its middle and its radius
@@ -30,10 +30,10 @@ pub(super) struct Extract {
     /// Any closed shape: the points of its outline as "X,Y X,Y …", or a file with a point on each line
     #[arg(long, value_name = "POINTS|FILE", group = "region", allow_hyphen_values = true)]
     outline: Option<String>,
-    /// How far the body reaches out of the picture, in pixels [default: as its largest inner circle would]
+    /// Depth of the body towards the viewer, in pixels [default: that of its largest inner circle]
     #[arg(long, value_name = "PX", conflicts_with = "circle", allow_negative_numbers = true)]
     depth: Option<f64>,
-    /// Where to write the style, as PNG
+    /// Output file of the style (.png)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Texels along the side of the style
@@ -44,11 +44,11 @@ pub(super) struct Extract {
     linear: bool,
 }
 
-impl Extract {
+impl ExtractArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        target::picture(&self.output, &[Format::Png])?;
+        output_path::picture(&self.output, &[Format::Png])?;
         let outline = self.outline.as_deref().map(Path::new);
-        target::apart(&self.output, outline.into_iter().chain([&*self.picture]))?;
+        output_path::check_not_read(&self.output, outline.into_iter().chain([&*self.picture]))?;
         let (option, region) = self.region()?;
         let source = self.source()?;
         let found = extract(&source, &region, self.size).map_err(|error| {
@@ -59,7 +59,7 @@ impl Extract {
             .map_err(|error| Failure::picture(&error, self.output.display()))?;
         note(talk, self.output.display());
         if found.shown < 1.0 {
-            // Never 100 %, where a texel is missing.
+            // Rounded down: never 100 % if a texel is missing.
             let shown = (found.shown * 100.0).floor();
             note(
                 talk,
@@ -79,7 +79,7 @@ impl Extract {
         SourcePicture::decode(&bytes, self.linear).map_err(|fault| Failure::new(&fault, place(), fault.help()))
     }
 
-    /// The region, and the option that gives it.
+    /// Returns the region, and the option that gives it.
     fn region(&self) -> Result<(String, Region), Failure> {
         if let Some(text) = &self.circle {
             let option = format!("--circle {text}");
@@ -107,18 +107,18 @@ impl Extract {
     }
 }
 
-/// N numbers between commas.
+/// Parses N numbers between commas.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
     numbers?.try_into().ok()
 }
 
-/// Points between blanks; none where the text is something else, such as a file.
+/// Parses points between blanks; none if the text is something else, such as a file name.
 fn inline(text: &str) -> Option<Vec<[f64; 2]>> {
     text.contains(',').then(|| text.split_whitespace().map(numbers).collect()).flatten()
 }
 
-/// A point on each line; empty lines and such that begin with # are passed over, as is a first line with names.
+/// Reads a point a line. Empty lines, lines that begin with # and a first line with names are skipped.
 fn file(path: &Path) -> Result<Vec<[f64; 2]>, Failure> {
     let remedy = "write x,y on each line, in pixels, or all points as \"x,y x,y …\"";
     let text = memory::read_to_string(path)

@@ -1,4 +1,4 @@
-//! Gaps where nearer lines cross ([HATCH-20]).
+//! Gaps in lines where nearer ones cross ([HATCH-20]).
 
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
@@ -6,7 +6,8 @@ use drypoint_scene::marks::{Layer, Polyline};
 use drypoint_scene::view::View;
 use std::time::Instant;
 
-/// The lines of the `own` first layers without what is near a line in front of them, all as they were before any was cut.
+/// Cuts gaps into the lines of the first `own` layers near lines in front of them. All gaps refer to the lines before
+/// any was cut.
 pub(super) fn cut_gaps([gap, deeper]: [f64; 2], layers: &mut [Layer], own: usize, view: &View, counts: &mut Counts) {
     let start = Instant::now();
     let before: Vec<Vec<Polyline>> = layers.iter().map(|layer| layer.lines.clone()).collect();

@@ -1,11 +1,11 @@
 //! Hatching on the page: grown once ([HATCH-6] … [HATCH-11]), drawn for each camera ([HATCH-13], [HATCH-19]).
 
-mod drawn;
+mod draw;
 mod gaps;
-mod kept;
-mod setting;
+mod growth_counts;
+mod growth_settings;
 
-use super::shown::Shown;
+use super::visible_values::VisibleValues;
 use super::{in_world, on_page, pen, value};
 use crate::Failure;
 use drypoint_reference::field::Field;
@@ -22,68 +22,69 @@ use drypoint_scene::tables::{
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 use gaps::cut_gaps;
-use kept::{add, count_kept};
-use setting::{how, line_light};
+use growth_counts::{add, count_kept};
+use growth_settings::{growth_settings, line_light};
 use std::time::Instant;
 
-/// How far chords may be off on the page, in mm ([HATCH-10]).
+/// Largest distance of chords from their curve on the page, in mm ([HATCH-10]).
 const MOST_OFF: f64 = 0.05;
 
-/// In voxels, what the page's measures leave chords and δ at the least: from an eye inside the volume a voxel is as large as
-/// one likes.
+/// Least chord distance and δ, in voxels. An eye inside the volume can make a voxel arbitrarily large on the page.
 const FINEST: f64 = 0.01;
 
-/// Bytes of memory that a vertex of a dash takes until it is written: itself, in a list that may have grown to twice its need,
-/// once more on the way to a file, and its text.
+/// Bytes of memory, until it is written, for a vertex of a dash. It is in a list that may have grown to twice its need,
+/// once more on the way to a file, and in its text.
 const DASH_VERTEX: u64 = 5 * size_of::<Vertex>() as u64;
 
-/// Bytes of memory that a node of a table of light on lines takes.
+/// Bytes of memory for a node of a table of light on lines.
 const TERMS: u64 = 16;
 
-/// The faintest tone that spacing gives.
+/// Faintest tone that spacing gives.
 const LEAST: f64 = 0.08;
 
-/// What hatching is made by.
-pub(super) struct Hatching<'a> {
+/// Settings of hatching for a scene and its page.
+pub(super) struct HatchingSetup<'a> {
     table: &'a Table,
     light: LightDirection,
-    /// Of the surface that strokes lie on; none: they are where the function shows something.
-    iso: Option<f64>,
-    seen: Option<Shown<'a>>,
+    /// Iso-value of the surface that strokes lie on; none: strokes are where the function shows something.
+    pub(super) iso: Option<f64>,
+    seen: Option<VisibleValues<'a>>,
     pen: Pen,
     cross_pen: Pen,
-    /// In mm.
+    /// Least width, in mm.
     min_width: f64,
     spacing: Option<room::Apart>,
     how: room::Hatching,
     gradient_range: GradientRange,
     lighting: Option<room::LineLight>,
-    /// In mm, and how much nearer what cuts is, in world units.
+    /// Gap in mm, and the least distance in front of what cuts, in world units.
     gap: Option<[f64; 2]>,
-    /// On and off, in mm.
+    /// Lengths of dashes and gaps, in mm.
     dash: Option<[f64; 2]>,
-    /// The place of the key that says so.
+    /// Place of the key that gives dashes.
     dash_place: String,
     is_pencil: bool,
-    is_merged: bool,
+    /// Whether strokes are inside the picture of the volume, if there is one.
+    pub(super) is_merged: bool,
 }
 
-/// The strokes of a surface.
-pub(super) struct Hatched<'a> {
-    hatching: &'a Hatching<'a>,
+/// Grown strokes of hatching.
+pub(super) struct GrownHatching<'a> {
+    hatching: &'a HatchingSetup<'a>,
     pub(super) strokes: room::Strokes<'a, 'a>,
     pub(super) cells: Vec<[usize; 3]>,
-    /// Of all cells, where they fall as their seeds do: the first, and those that cross, with N at their seeds.
-    grown: Option<Grown>,
+    /// Strokes of all cells, if they fall as their seeds do.
+    grown: Option<GrownStrokes>,
 }
 
-struct Grown {
+/// Strokes of the first direction, and crossing ones with N at their seeds.
+struct GrownStrokes {
     first: Vec<Stroke>,
     across: Vec<(DVec3, Stroke)>,
 }
 
-impl<'a> Hatching<'a> {
-    /// `scale` is the most millimetres of the page that a world unit takes.
+impl<'a> HatchingSetup<'a> {
+    /// Converts the table. `scale` is the largest number of mm on the page a world unit takes.
     pub(super) fn new(
         (scene, function): (&'a Scene, Option<&'a Function>),
         table: &'a Table,
@@ -96,6 +97,7 @@ impl<'a> Hatching<'a> {
             Spacing::Tone => Some(room::Apart::Tone { least: LEAST }),
             Spacing::Length(length) => Some(room::Apart::Everywhere(on_page(scene, page, length, "hatching.spacing")?)),
         };
+        // Pens: crossing strokes have their own, or the pen of the first direction.
         let ink = (table.width, table.color);
         let cross_pen = match (&table.cross_pen, &table.pen) {
             (Some(named), _) => pen(scene, "hatching.cross_pen", page, Some(named), ink)?,
@@ -103,14 +105,17 @@ impl<'a> Hatching<'a> {
             (None, None) => Pen { name: "cross".into(), ..pen(scene, "hatching", page, None, ink)? },
         };
         let pen = pen(scene, "hatching", page, table.pen.as_deref(), ink)?;
+        // The surface that strokes lie on, or the values at which the function shows something.
         let (iso, seen) = match table.iso {
             HatchIso::Surface(iso) => (Some(value(scene, iso, "hatching.iso")?), None),
-            HatchIso::Transfer => (None, Some(Shown::new(scene, function)?)),
+            HatchIso::Transfer => (None, Some(VisibleValues::new(scene, function)?)),
         };
-        let mut how = how(scene, table, grid)?;
+        // Tolerances follow from the page: the finest details that it can show.
+        let mut how = growth_settings(scene, table, grid)?;
         let finest = FINEST * grid.voxel();
         how.chord = how.chord.min((MOST_OFF / scale).max(finest));
         how.offset = how.offset.min((0.5 * pen.width / scale).max(finest));
+        // Gaps, the table of light, and dashes, each checked.
         let deeper = in_world(scene, table.gap_depth, "hatching.gap_depth", grid)?;
         let gap = table.gap.map(|gap| on_page(scene, page, gap, "hatching.gap")).transpose()?;
         if let Some(side) = table.lighting(scene).and_then(|lighting| lighting.table) {
@@ -147,12 +152,8 @@ impl<'a> Hatching<'a> {
         })
     }
 
-    /// The value of the surface that strokes lie on, where they lie on one.
-    pub(super) fn iso(&self) -> Option<f64> {
-        self.iso
-    }
-
-    /// The lines of its `own` first layers with gaps where nearer ones of any layer cross them ([HATCH-20]), and in dashes.
+    /// Cuts gaps into the lines of the first `own` layers where nearer lines of any layer cross them ([HATCH-20]), then
+    /// dashes.
     ///
     /// # Errors
     /// Dashes that the memory budget does not allow.
@@ -180,7 +181,7 @@ impl<'a> Hatching<'a> {
         Ok(())
     }
 
-    /// Whether what is hidden of strokes is cut off.
+    /// Whether hidden parts of strokes are cut off.
     pub(super) fn is_cut(&self) -> bool {
         match self.table.hidden {
             Hidden::Cut => true,
@@ -189,13 +190,8 @@ impl<'a> Hatching<'a> {
         }
     }
 
-    /// Whether strokes are inside the picture of the volume, where there is one.
-    pub(super) fn is_merged(&self) -> bool {
-        self.is_merged
-    }
-
-    /// Finds the seeds, and grows their strokes where no camera has a say in which.
-    pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> Hatched<'a> {
+    /// Finds the seeds, and grows their strokes if no camera decides which grow.
+    pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> GrownHatching<'a> {
         let (pyramid, strokes) = self.strokes(field, counts);
         strokes.prepare();
         let pyramid = match self.table.seeds {
@@ -208,7 +204,7 @@ impl<'a> Hatching<'a> {
         let mut cells: Vec<[usize; 3]> = seeds.draw(table.seed).collect();
         counts.preprocess.insert("seeds".into(), cells.len() as u64);
         if let Some(shown) = &self.seen {
-            // A stroke stays at the value of its seed: from one that is not seen all of it is transparent.
+            // A stroke stays at the value of its seed. If that value is invisible, so is the whole stroke.
             let drawn = cells.len();
             cells.retain(|cell| {
                 let centre = field.volume().grid().to_world(DVec3::from_array(cell.map(|i| i as f64 + 0.5)));
@@ -222,23 +218,24 @@ impl<'a> Hatching<'a> {
             let crossed = table.cross.is_some();
             let grown = strokes.grow_all(&cells, |_| crossed);
             add(counts, &grown.counts);
-            Grown {
+            GrownStrokes {
                 first: grown.strokes.into_iter().map(|(_, stroke)| stroke).collect(),
                 across: grown.cross.into_iter().map(|(seed, stroke)| (seed.normal, stroke)).collect(),
             }
         });
         count_kept(counts, &strokes);
         counts.seconds.insert("grown strokes".into(), start.elapsed().as_secs_f64());
-        Hatched { hatching: self, strokes, cells, grown }
+        GrownHatching { hatching: self, strokes, cells, grown }
     }
 
-    /// The cells that strokes can begin in.
+    /// Returns the cells that strokes can begin in.
     pub(super) fn seeds(&self, field: &Field<'_, f64>, counts: &mut Counts) -> room::Seeds {
         let (pyramid, strokes) = self.strokes(field, counts);
         self.seeds_of(&pyramid, &strokes, field, counts)
     }
 
-    /// The way to the cells of the surface, and what grows there, with the noise of the data as it is there ([HATCH-3]).
+    /// Returns the pyramid that finds cells of the surface, and the strokes that grow there, with the noise of the data
+    /// near the surface ([HATCH-3]).
     fn strokes<'f, 'v>(
         &self,
         field: &'f Field<'v, f64>,

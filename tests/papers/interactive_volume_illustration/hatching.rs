@@ -1,7 +1,7 @@
 //! Hatching on the page ([HATCH-6] … [HATCH-13], [HATCH-19]), of a torus, whose lines of curvature are circles.
 
 use super::page;
-use drypoint::job::Wanted;
+use drypoint::job::RenderTarget;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::{Marks, Polyline};
 
@@ -36,7 +36,7 @@ fn places(line: &Polyline, centre: DVec3) -> Vec<(f64, f64)> {
 /// (1/8)·(1/r) of a voxel.
 #[test]
 fn lines_of_the_larger_curvature_are_meridians() {
-    let (marks, counts, job) = page(&torus("seeds = \"dense\"\n"), Wanted::Strokes);
+    let (marks, counts, job) = page(&torus("seeds = \"dense\"\n"), RenderTarget::Strokes);
     let lines = lines(&marks);
     assert!(lines.len() > 500, "{}", lines.len());
     let mut along = 0.0f64;
@@ -61,7 +61,7 @@ fn lines_of_the_larger_curvature_are_meridians() {
 fn directions_are_stored_where_the_scene_says_so() {
     let drawn = |directions: &str| {
         let (marks, counts, _) =
-            page(&torus(&format!("seeds = \"dense\"\n[hatching.directions]\n{directions}")), Wanted::Strokes);
+            page(&torus(&format!("seeds = \"dense\"\n[hatching.directions]\n{directions}")), RenderTarget::Strokes);
         (marks, counts.preprocess["stored directions"], counts.bytes["stored directions"], counts.directions)
     };
     let (direct, none, no_bytes, asked) = drawn("");
@@ -79,7 +79,7 @@ fn directions_are_stored_where_the_scene_says_so() {
 /// The other family are the circles about z.
 #[test]
 fn lines_of_the_smaller_curvature_go_round_the_axis() {
-    let (marks, ..) = page(&torus("seeds = \"dense\"\nfamily = \"min\"\n"), Wanted::Strokes);
+    let (marks, ..) = page(&torus("seeds = \"dense\"\nfamily = \"min\"\n"), RenderTarget::Strokes);
     let height = |line: &Polyline| {
         let heights = line.vertices.iter().map(|v| v.world.z);
         let (lo, hi) = heights.fold((f64::MAX, f64::MIN), |(lo, hi), z| (lo.min(z), hi.max(z)));
@@ -96,7 +96,7 @@ fn lines_of_the_smaller_curvature_go_round_the_axis() {
 fn widths_are_those_of_the_tone_or_of_the_pen() {
     let style =
         "seeds = \"dense\"\nwidth = \"0.5 mm\"\n[hatching.stroke]\nlight = [-1, 1, 1]\nmin_width = \"0.1 mm\"\n";
-    let (marks, ..) = page(&torus(style), Wanted::Strokes);
+    let (marks, ..) = page(&torus(style), RenderTarget::Strokes);
     // A line that gets too thin ends where it is as wide as the least: on steps of 0.005 mm, none is thinner.
     let radii: Vec<f64> = lines(&marks).iter().flat_map(|line| line.vertices.iter().map(|v| v.radius)).collect();
     assert!(radii.iter().all(|&r| (0.05 - 1e-9..=0.25 + 1e-9).contains(&r)));
@@ -106,7 +106,7 @@ fn widths_are_those_of_the_tone_or_of_the_pen() {
         .collect::<Vec<_>>();
     assert!(ends.iter().filter(|&&r| r == 0.05).count() > ends.len() / 2 && radii.iter().any(|&r| r > 0.2));
     let even = "seeds = \"dense\"\nwidth = \"0.3 mm\"\nspacing = \"tone\"\n[hatching.stroke]\nlight = [-1, 1, 1]\n";
-    let (marks, counts, _) = page(&torus(even), Wanted::Strokes);
+    let (marks, counts, _) = page(&torus(even), RenderTarget::Strokes);
     let lines = lines(&marks);
     assert!(lines.len() > 30 && lines.iter().flat_map(|l| &l.vertices).all(|v| v.radius == 0.15 && v.opacity == 1.0));
     assert!(lines.iter().all(|line| line.length() > 1.7), "six nibs at least");
@@ -118,7 +118,7 @@ fn widths_are_those_of_the_tone_or_of_the_pen() {
 #[test]
 fn strokes_are_crossed_where_the_light_falls_flatly() {
     let number = |more: &str| {
-        let (marks, ..) = page(&torus(&format!("seeds = \"dense\"\n{more}")), Wanted::Strokes);
+        let (marks, ..) = page(&torus(&format!("seeds = \"dense\"\n{more}")), RenderTarget::Strokes);
         lines(&marks).len()
     };
     let (plain, some, most) = (number(""), number("cross = 80\n"), number("cross = 30\n"));
@@ -131,7 +131,7 @@ fn threads_do_not_show() {
     let scene = torus("seeds = \"curvature\"\nmin_curvature = 0\ncross = 60\nspacing = \"tone\"\n");
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| page(&scene, Wanted::Strokes).0)
+        pool.install(|| page(&scene, RenderTarget::Strokes).0)
     };
     let (one, three) = (with(1), with(3));
     assert!(!lines(&one).is_empty());
@@ -151,7 +151,7 @@ fn inks_of_a_cylinder(family: &str, millimetres: f64) -> Vec<[f64; 2]> {
              [picture]\nwidth = \"{side} mm\"\nheight = \"{side} mm\"\n[hatching]\niso = 0\nseeds = \"dense\"\n\
              family = \"{family}\"\nspacing = \"tone\"\nwidth = \"{NIB} mm\"\n[hatching.stroke]\nlight = [1, 0, 0.3]\nambient = 0.1\n"
         ),
-        Wanted::Strokes,
+        RenderTarget::Strokes,
     );
     let pieces: Vec<_> =
         lines(&marks).iter().flat_map(|line| line.vertices.windows(2)).map(|p| [p[0].at, p[1].at]).collect();
@@ -198,7 +198,7 @@ const LIT: &str = "seeds = \"dense\"\n[hatching.stroke]\nlight = [-1, 1.5, 0.8]\
 /// which the mean is a small part.
 #[test]
 fn strokes_are_lit_as_lines() {
-    let (marks, counts, job) = page(&torus(LIT), Wanted::Strokes);
+    let (marks, counts, job) = page(&torus(LIT), RenderTarget::Strokes);
     let view = job.view().unwrap();
     let eye = -view.forward;
     let light = view.direction_to_world(DVec3::new(-1.0, 1.5, 0.8).normalize());
@@ -238,7 +238,7 @@ fn what_has_one_colour_is_not_lit() {
         (torus(&format!("pen = \"ink\"\n{LIT}")) + pen, "hatching.pen says the colour"),
         (torus(&format!("spacing = \"2 mm\"\n{LIT}")), "strokes that keep their distance have one colour"),
     ] {
-        let (marks, _, job) = page(&scene, Wanted::Strokes);
+        let (marks, _, job) = page(&scene, RenderTarget::Strokes);
         assert!(lines(&marks).iter().flat_map(|line| &line.vertices).all(|vertex| vertex.color.is_none()));
         let idle = job.plan.idle_keys.iter().find(|idle| idle.key == "hatching.lighting").unwrap();
         assert_eq!(idle.why, why);
@@ -249,8 +249,8 @@ fn what_has_one_colour_is_not_lit() {
 /// With `hidden = "drawn"` no surface is looked at, strokes are seen from both sides, and the nearer come later.
 #[test]
 fn strokes_alone_are_seen_from_both_sides() {
-    let (cut, ..) = page(&torus(LIT), Wanted::Strokes);
-    let (all, counts, job) = page(&torus(&format!("hidden = \"drawn\"\n{LIT}")), Wanted::Strokes);
+    let (cut, ..) = page(&torus(LIT), RenderTarget::Strokes);
+    let (all, counts, job) = page(&torus(&format!("hidden = \"drawn\"\n{LIT}")), RenderTarget::Strokes);
     let length = |marks: &Marks| lines(marks).iter().map(|line| line.length()).sum::<f64>();
     // A line 0.15 voxel in front of a tube of radius 6 is seen 12.7° past its rim, 0.57 of a meridian at the most.
     assert!(length(&all) > length(&cut) / 0.57, "{} {}", length(&all), length(&cut));
@@ -270,9 +270,9 @@ fn gaps_where_a_nearer_line_crosses() {
             "hidden = \"drawn\"\nseeds = \"dense\"\nwidth = \"0.2 mm\"\n{more}[hatching.stroke]\ntone = 0\n[outlines]\niso = 0\n"
         ))
     };
-    let (plain, counts, _) = page(&scene(""), Wanted::Strokes);
+    let (plain, counts, _) = page(&scene(""), RenderTarget::Strokes);
     assert!(!counts.preprocess.contains_key("segments with gaps"));
-    let (gapped, counts, _) = page(&scene("gap = \"0.6 mm\"\ngap_depth = \"4 voxels\"\n"), Wanted::Strokes);
+    let (gapped, counts, _) = page(&scene("gap = \"0.6 mm\"\ngap_depth = \"4 voxels\"\n"), RenderTarget::Strokes);
     assert!(counts.preprocess["segments with gaps"] > 100);
     let length = |marks: &Marks, layer: usize| marks.layers[layer].lines.iter().map(|line| line.length()).sum::<f64>();
     // Most of what lies behind the tube goes, and none of what is in front; outlines stay as they are.
@@ -280,7 +280,7 @@ fn gaps_where_a_nearer_line_crosses() {
     assert!((0.3..0.75).contains(&left), "{left}");
     assert_eq!(plain.layers[1].lines, gapped.layers[1].lines);
     // Nothing is 100 voxels nearer.
-    let (none, ..) = page(&scene("gap = \"0.6 mm\"\ngap_depth = \"100 voxels\"\n"), Wanted::Strokes);
+    let (none, ..) = page(&scene("gap = \"0.6 mm\"\ngap_depth = \"100 voxels\"\n"), RenderTarget::Strokes);
     assert_eq!(none.layers[0].lines, plain.layers[0].lines);
 }
 
@@ -291,7 +291,7 @@ fn styles_of_strokes() {
     let with = |key: &str, stroke: &str| {
         let scene =
             format!("{key}width = \"0.5 mm\"\nmax_angle = 179\n[hatching.stroke]\nlight = [-1, 1, 1]\n{stroke}");
-        page(&torus(&format!("seeds = \"dense\"\n{scene}")), Wanted::Strokes).0
+        page(&torus(&format!("seeds = \"dense\"\n{scene}")), RenderTarget::Strokes).0
     };
     let vertices = |marks: &Marks| lines(marks).iter().flat_map(|line| line.vertices.clone()).collect::<Vec<_>>();
     let pencil = vertices(&with("style = \"pencil\"\n", ""));

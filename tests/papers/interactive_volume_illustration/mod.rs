@@ -7,7 +7,7 @@ mod outlines;
 mod toon;
 mod without_iso;
 
-use drypoint::job::{Job, Wanted};
+use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
@@ -15,9 +15,9 @@ use drypoint::scene::marks::Marks;
 use std::path::Path;
 
 /// The points and lines of a scene's first frame.
-fn page(scene: &str, wanted: Wanted) -> (Marks, Counts, Job) {
+fn page(scene: &str, target: RenderTarget) -> (Marks, Counts, Job) {
     let scene = parse(scene, Path::new("scene.toml"), &Overrides::default()).unwrap();
-    let job = Job::load_for(scene, wanted).unwrap();
+    let job = Job::load_for(scene, target).unwrap();
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
     let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts).unwrap();

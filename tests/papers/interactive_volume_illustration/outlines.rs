@@ -2,7 +2,7 @@
 
 use super::page;
 use drypoint::drawing::Drawing;
-use drypoint::job::{Job, Wanted};
+use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::reference::field::{Field, Reconstruction, Rung};
 use drypoint::reference::interactive_volume_illustration::outlines;
@@ -34,7 +34,7 @@ fn lines(marks: &Marks) -> Vec<&Polyline> {
 /// A ball is one closed circle of its own radius on the page; a pixel is a known length of the world.
 #[test]
 fn a_ball_is_a_circle() {
-    let (marks, counts, job) = page(BALL, Wanted::Strokes);
+    let (marks, counts, job) = page(BALL, RenderTarget::Strokes);
     let lines = lines(&marks);
     assert!(lines.len() == 1 && lines[0].closed && counts.strokes == 1);
     let view = job.view().unwrap();
@@ -60,10 +60,10 @@ fn what_lies_behind_is_not_drawn() {
     let torus =
         |direction: &str| BALL.replace("name = \"sphere\"", "name = \"torus\"").replace("[0.3, 0.7, -0.4]", direction);
     // From above both circles are seen whole.
-    let (above, ..) = page(&torus("[0.02, 0.01, -1]"), Wanted::Strokes);
+    let (above, ..) = page(&torus("[0.02, 0.01, -1]"), RenderTarget::Strokes);
     assert_eq!(lines(&above).iter().map(|line| line.closed).collect::<Vec<_>>(), [true, true]);
     for direction in ["[1, 0.1, -0.6]", "[1, 0.1, -0.3]", "[1, 0.1, -0.1]"] {
-        let (marks, _, job) = page(&torus(direction), Wanted::Strokes);
+        let (marks, _, job) = page(&torus(direction), RenderTarget::Strokes);
         let (centre, v) = (job.volume.grid().centre(), -job.view().unwrap().forward);
         let seen = lines(&marks);
         for vertex in seen.iter().flat_map(|line| &line.vertices) {
@@ -89,10 +89,10 @@ fn what_lies_behind_is_not_drawn() {
 #[test]
 fn over_a_surface_and_without() {
     let scene = format!("{BALL}[surface]\niso = 0\n").replace("size = [400, 400]", "size = [80, 80]");
-    let (_, counts, job) = page(&scene, Wanted::Picture);
+    let (_, counts, job) = page(&scene, RenderTarget::Picture);
     assert_eq!(counts.strokes, 1);
     let bare = parse(&scene, Path::new("s"), &[("outlines", "off")].into_iter().collect()).unwrap();
-    let bare = Job::load_for(bare, Wanted::Picture).unwrap();
+    let bare = Job::load_for(bare, RenderTarget::Picture).unwrap();
     let drawn = |job: &Job| {
         let mut counts = Counts::default();
         let marking = Marking::new(job, &mut counts, &|_| ()).unwrap();

@@ -1,7 +1,7 @@
 //! Strokes without an iso-value ([HATCH-16]): wherever the transfer function shows something, and as opaque as that.
 
 use super::page;
-use drypoint::job::Wanted;
+use drypoint::job::RenderTarget;
 use drypoint::scene::glam::DVec3;
 
 const RING: f64 = 14.0;
@@ -21,7 +21,7 @@ fn scene(more: &str) -> String {
 /// Seeds are in the cells whose range of voxels meets the open range of what is seen, and each stroke stays at a value.
 #[test]
 fn strokes_fill_what_is_seen() {
-    let (marks, counts, job) = page(&scene("seeds = \"dense\"\n[hatching.stroke]\ntone = 0\n"), Wanted::Strokes);
+    let (marks, counts, job) = page(&scene("seeds = \"dense\"\n[hatching.stroke]\ntone = 0\n"), RenderTarget::Strokes);
     let volume = &job.volume;
     let seen = |x: usize, y: usize, z: usize| {
         let corners = (0..8).map(|c| volume.value([x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)]));
@@ -60,7 +60,7 @@ fn strokes_fill_what_is_seen() {
 #[test]
 fn a_surface_hides_strokes_in_what_is_seen() {
     let lines = |more: &str| {
-        let (marks, counts, _) = page(&scene(&format!("seeds = \"dense\"\n{more}")), Wanted::Strokes);
+        let (marks, counts, _) = page(&scene(&format!("seeds = \"dense\"\n{more}")), RenderTarget::Strokes);
         let length: f64 = marks.layers.iter().flat_map(|layer| &layer.lines).map(|line| line.length()).sum();
         (length, counts.preprocess["looks for what hides"])
     };

@@ -4,7 +4,7 @@
 
 use super::planes;
 use crate::common::{Stage, orthographic, volume};
-use drypoint::output::compare::{Comparison, Options, compare};
+use drypoint::output::compare::{CompareOptions, Comparison, compare};
 use drypoint::output::png::encode_png;
 use drypoint::output::read::{Image, decode};
 use drypoint::reference::style_transfer_functions::extract::{Extracted, Region, extract};
@@ -76,7 +76,7 @@ impl Trip {
     }
 
     fn compare(&self) -> Comparison {
-        compare(&self.first, &self.second, &Options::default()).unwrap()
+        compare(&self.first, &self.second, &CompareOptions::default()).unwrap()
     }
 
     /// The largest difference of any channel, in the codes of the files: 255ths of sRGB.

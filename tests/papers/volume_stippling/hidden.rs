@@ -1,6 +1,6 @@
 //! Points behind an iso-surface ([STIP-15]), in whole pages.
 
-use drypoint::job::{Job, Wanted};
+use drypoint::job::{Job, RenderTarget};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
@@ -26,7 +26,7 @@ snap = "edge"
 /// counted, and the middle of the sphere.
 fn page(line: &str) -> (Vec<Dot>, Counts, DVec3) {
     let scene = parse(&format!("{SCENE}{line}\n"), Path::new("sphere.toml"), &Overrides::default()).unwrap();
-    let job = Job::load_for(scene, Wanted::Marks).unwrap();
+    let job = Job::load_for(scene, RenderTarget::Marks).unwrap();
     let mut counts = Counts::default();
     let stippling = Stippling::new(&job, &mut counts, &|_| ()).unwrap();
     let marks = stippling.frames().draw(&job.view().unwrap(), &mut counts);

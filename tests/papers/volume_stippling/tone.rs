@@ -2,7 +2,7 @@
 
 use super::{drawn_from, made_from, table};
 use crate::common;
-use drypoint::output::paint::{Window, blank, paint};
+use drypoint::output::paint::{PageWindow, blank, paint};
 use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, PenTone, Preprocess};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3};
@@ -12,7 +12,7 @@ use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{BlendSpace, Camera, Ink, Length, PointsPerPixel, Projection, Stipples, Threshold};
 use drypoint::scene::tone::Tone;
 use drypoint::scene::view::View;
-use drypoint::wedge::{Patch, Wedge, wedge};
+use drypoint::wedge::{StepWedge, WedgePatch, wedge};
 use std::f64::consts::{PI, TAU};
 
 fn pen(width: f64) -> Pen {
@@ -22,7 +22,7 @@ fn pen(width: f64) -> Pen {
 /// The share of a square of the page that marks cover, by their pixels.
 fn coverage(marks: &Marks, corner: DVec2, side: f64) -> f64 {
     let mut picture = blank(&marks.page, None).unwrap();
-    paint(marks, &Window::page(&marks.page), BlendSpace::Linear, &mut picture).unwrap();
+    paint(marks, &PageWindow::page(&marks.page), BlendSpace::Linear, &mut picture).unwrap();
     let alpha = &picture.layer(LayerKind::Beauty).unwrap().channels[3];
     let scale = marks.page.pixels_per_mm();
     let [x0, y0] = (corner * scale).to_array().map(|x| x.ceil() as usize);
@@ -32,7 +32,7 @@ fn coverage(marks: &Marks, corner: DVec2, side: f64) -> f64 {
 }
 
 /// What the inner part of each patch covers when the pen draws dots so many times as wide: an outline is drawn apart.
-fn measured(wedge: &Wedge, gain: f64) -> Vec<(Patch, f64)> {
+fn measured(wedge: &StepWedge, gain: f64) -> Vec<(WedgePatch, f64)> {
     let mut marks = wedge.marks.clone();
     let layer = &mut marks.layers[0];
     layer.lines.clear();

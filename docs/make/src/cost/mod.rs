@@ -1,7 +1,7 @@
 //! `docs/cost.md`: what accuracy costs, measured by `drypoint cost` on two phantoms and four data sets.
 
 use crate::files;
-use drypoint::cost::{Form, Options, Sweep, markdown, sweep};
+use drypoint::cost::{Sweep, SweepFormat, SweepOptions, markdown, sweep};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, load};
 use std::path::Path;
@@ -55,7 +55,7 @@ pub(crate) fn write() -> Result<(), String> {
             continue;
         }
         let found = measured(file, over)?;
-        let plot = Form::Png.of_sweep(&found, name)?;
+        let plot = SweepFormat::Png.of_sweep(&found, name)?;
         if plot.len() > LARGEST {
             return Err(format!("the plot of {name} has {} bytes, more than {LARGEST}", plot.len()));
         }
@@ -69,7 +69,7 @@ fn measured(file: &str, over: &[(&str, &str)]) -> Result<Sweep, String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes").join(file);
     let scene = load(&path, &over.iter().copied().collect::<Overrides>()).map_err(|e| e.to_string())?;
     let job = Job::load(scene).map_err(|e| e.to_string())?;
-    sweep(&job, &Options { runs: RUNS, only: Vec::new() }, &|_| ()).map_err(|e| e.to_string())
+    sweep(&job, &SweepOptions { runs: RUNS, only: Vec::new() }, &|_| ()).map_err(|e| e.to_string())
 }
 
 /// The table under a plot, from its line of runs to its last row.

@@ -9,10 +9,10 @@ const TO_XYZ: [[f64; 3]; 3] = [
     [1_425_312.0 / 73_733_382.0, 8_788_810.0 / 73_733_382.0, 70_074_185.0 / 73_733_382.0],
 ];
 
-/// XYZ of the D65 white: the sums of those rows.
+/// XYZ of the D65 white: the row sums of [`TO_XYZ`].
 const WHITE: [f64; 3] = [31_271.0 / 32_902.0, 1.0, 35_827.0 / 32_902.0];
 
-/// XYZ, each over the white's, to linear sRGB: the exact inverse, rounded once.
+/// Relative XYZ (each divided by the white's) to linear sRGB: the exact inverse, rounded once.
 const FROM_RELATIVE_XYZ: [[f64; 3]; 3] = [
     [3.080_341_988_280_461, -1.537_398_969_488_785_5, -0.542_943_018_791_675_1],
     [-0.921_178_396_165_123_6, 1.875_929_983_695_176, 0.045_248_412_469_947_58],
@@ -26,7 +26,7 @@ fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
-/// Linear sRGB to XYZ, each over the white's, so that white is (1, 1, 1).
+/// Linear sRGB to relative XYZ: each divided by the white's, so that white is (1, 1, 1).
 fn linear_to_relative_xyz(rgb: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = times(&TO_XYZ, rgb);
     [x / WHITE[0], y / WHITE[1], z / WHITE[2]]
@@ -44,7 +44,7 @@ pub(super) fn ycxcz_to_linear([luminance, cx, cz]: [f64; 3]) -> [f64; 3] {
     times(&FROM_RELATIVE_XYZ, [y + cx / 500.0, y, y - cz / 200.0])
 }
 
-/// Linear sRGB to L*a*b*, a* and b* times 0.01 L*: dark colours look less colourful (Hunt's effect).
+/// Linear sRGB to L*a*b*, with a* and b* multiplied by 0.01 L*. Dark colours look less colourful (Hunt's effect).
 pub(super) fn hunt_lab(rgb: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = linear_to_relative_xyz(rgb).map(root);
     let l = 116.0 * y - 16.0;
@@ -56,7 +56,7 @@ fn root(t: f64) -> f64 {
     if t > DELTA * DELTA * DELTA { math::pow(t, 1.0 / 3.0) } else { t / (3.0 * DELTA * DELTA) + 4.0 / 29.0 }
 }
 
-/// HyAB: |ΔL*| + √(Δa*² + Δb*²), made for large differences.
+/// HyAB distance |ΔL*| + √(Δa*² + Δb*²), made for large differences.
 pub(super) fn lab_distance(p: [f64; 3], q: [f64; 3]) -> f64 {
     let [l, a, b] = [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     l.abs() + (a * a + b * b).sqrt()

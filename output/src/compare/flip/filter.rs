@@ -1,13 +1,13 @@
 //! The filters of FLIP (sections 4.1 and 4.2) and separable convolution with them.
 //!
-//! Every filter of the paper is a product of functions of x and y, or the sum of two such, so each is applied as two
-//! passes of one dimension, which changes nothing but the cost.
+//! Every filter of the paper is a product of a function of x and one of y, or a sum of two such products. Two passes of
+//! one dimension therefore give the same result at less cost.
 
 use drypoint_scene::math;
 use std::f64::consts::PI;
 
-/// Gaussians of the contrast sensitivity of one opponent channel: amplitudes a and widths b in degrees squared, of
-/// g(d) = a √(π/b) exp(−π² d²/b), d the distance in degrees.
+/// Gaussians of the contrast sensitivity of the opponent channels, g(d) = a √(π/b) exp(−π² d²/b) of the distance d in
+/// degrees. Each pair is the amplitude a and the width b in degrees squared.
 const Y: (f64, f64) = (1.0, 0.0047);
 const CX: (f64, f64) = (1.0, 0.0053);
 const CZ: [(f64, f64); 2] = [(34.1, 0.04), (13.5, 0.025)];
@@ -15,30 +15,30 @@ const CZ: [(f64, f64); 2] = [(34.1, 0.04), (13.5, 0.025)];
 /// Width w of the features that the eye detects best, in degrees.
 const FEATURE_WIDTH: f64 = 0.082;
 
-/// One-dimensional weights, of odd number, the middle one at the pixel itself.
+/// One-dimensional weights, an odd number of each, with the middle weight at the pixel itself.
 pub(super) struct Kernels {
     /// Sums to 1.
     pub y: Vec<f64>,
     /// Sums to 1.
     pub cx: Vec<f64>,
-    /// Two Gaussians, each applied along x and y; the squares of their sums sum to 1.
+    /// Two Gaussians, each applied along x and y. The squares of their sums add up to 1.
     pub cz: [Vec<f64>; 2],
     /// Sums to 1.
     pub gaussian: Vec<f64>,
-    /// First derivative of a Gaussian; its positive weights sum to 1, the negative ones to −1.
+    /// First derivative of a Gaussian. Its positive weights sum to 1 and its negative ones to −1.
     pub edge: Vec<f64>,
-    /// Second derivative, likewise.
+    /// Second derivative of a Gaussian, with the same sums.
     pub point: Vec<f64>,
 }
 
 impl Kernels {
-    /// The weights at a viewing distance.
+    /// Returns the weights for a viewing distance.
     pub(super) fn new(pixels_per_degree: f64) -> Self {
-        // Three standard deviations of the widest Gaussian of 4.1, b = 0.04: σ² = b/2π².
+        // Three standard deviations of the widest Gaussian of section 4.1, b = 0.04: σ² = b/2π².
         let radius = (3.0 * (CZ[0].1 / (2.0 * PI * PI)).sqrt() * pixels_per_degree).ceil();
         let degrees = |i: f64| i / pixels_per_degree;
         let [y, cx] = [Y, CX].map(|(_, b)| unit_sum(weights(radius, |i| bell(degrees(i), b))));
-        // In two dimensions each Gaussian has the amplitude a √(π/b), of which either dimension gets the root.
+        // In two dimensions each Gaussian has the amplitude a √(π/b). Each dimension gets the square root of it.
         let cz = CZ.map(|(a, b)| weights(radius, |i| (a * (PI / b).sqrt()).sqrt() * bell(degrees(i), b)));
         let volume: f64 = cz.iter().map(|kernel| kernel.iter().sum::<f64>()).map(|sum| sum * sum).sum();
         let cz = cz.map(|kernel| kernel.into_iter().map(|w| w / volume.sqrt()).collect());
@@ -62,7 +62,7 @@ fn bell(d: f64, b: f64) -> f64 {
     math::exp(-PI * PI * d * d / b)
 }
 
-/// f at the whole numbers −radius … radius.
+/// Returns f at the integers −radius … radius.
 pub(in crate::compare) fn weights(radius: f64, f: impl Fn(f64) -> f64) -> Vec<f64> {
     let radius = radius as i32;
     (-radius..=radius).map(|i| f(f64::from(i))).collect()
@@ -79,8 +79,8 @@ fn unit_signs(kernel: Vec<f64>) -> Vec<f64> {
     kernel.iter().map(|&w| if w > 0.0 { w / positive } else { w / negative }).collect()
 }
 
-/// Correlates a plane with `along_x` in each row and then with `along_y` in each column; beyond the border the outermost
-/// pixels go on.
+/// Correlates a plane with `along_x` in each row, then with `along_y` in each column. Beyond the border the outermost
+/// pixels repeat.
 pub(in crate::compare) fn separable(
     plane: &[f64],
     width: usize,

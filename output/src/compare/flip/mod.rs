@@ -1,22 +1,22 @@
-//! LDR-FLIP, the difference that a viewer sees when two pictures alternate.
+//! LDR-FLIP: the difference that a viewer sees when two pictures alternate.
 //!
 //! P. Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild: FLIP: A Difference Evaluator
 //! for Alternating Images. Proc. ACM Comput. Graph. Interact. Tech. 3(2), 15:1–15:23, 2020 (HPG).
 //!
-//! The colour pipeline (section 4.1) filters both pictures as the eye does at the viewing distance and measures how far
-//! the colours are apart; the feature pipeline (4.2) looks for edges and points that only one of them has; the
-//! difference (4.3) is ΔE = ΔE_c^(1 − ΔE_f) in [0, 1], a pixel's own. It is symmetric in the two pictures.
+//! The colour pipeline (section 4.1) filters both pictures as the eye does at the viewing distance, then measures
+//! colour distances. The feature pipeline (4.2) finds edges and points that only one picture has. The difference of a
+//! pixel (4.3) is ΔE = ΔE_c^(1 − ΔE_f), in [0, 1]. It is symmetric in the two pictures.
 //!
-//! The authors' tool computes in f32, here all is f64. Its pictures are sRGB files, decoded first; linear pictures are
-//! therefore clamped to [0, 1], which is what encoding, clamping and decoding them would give, without the rounding to
-//! 8 bits. FLIP knows no α: pictures that are not opaque are laid on white.
+//! The authors' tool computes in f32; this module computes in f64. FLIP's inputs are decoded sRGB files, so linear
+//! pictures are clamped to [0, 1]. That is what encoding and decoding them gives, without rounding to 8 bits. FLIP has
+//! no α: pictures that are not opaque are laid on white.
 
 mod color;
 pub(super) mod filter;
 
 use crate::OutputError;
 use crate::layers::room;
-use crate::read::{Colors, Image};
+use crate::read::{ColorChannels, Image};
 use color::{hunt_lab, lab_distance, linear_to_ycxcz, ycxcz_to_linear};
 use drypoint_scene::math;
 use filter::{Kernels, separable};
@@ -26,19 +26,19 @@ pub const PIXELS_PER_DEGREE: f64 = 67.0206;
 
 /// q_c of section 4.1: the exponent of colour distances.
 const Q_C: f64 = 0.7;
-/// p_c: the share of the largest distance up to which differences fill [0, p_t].
+/// p_c: colour distances up to this share of the largest one fill [0, p_t].
 const P_C: f64 = 0.4;
-/// p_t: where the two linear pieces meet.
+/// p_t: the value where the two linear pieces meet.
 const P_T: f64 = 0.95;
 /// q_f of section 4.2: the exponent of feature differences.
 const Q_F: f64 = 0.5;
 
-/// Bytes of memory that a pixel takes: the colours, edges and points of both pictures, and what is filtered for them.
+/// Bytes of memory a pixel: colours, edges and points of both pictures, and the filtered planes.
 const PIXEL: usize = 400;
 
-/// One difference in [0, 1] for each pixel, row by row from the top.
+/// A map of differences in [0, 1], one a pixel, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Map {
+pub struct FlipMap {
     /// Pixels from left to right.
     pub width: usize,
     /// Pixels from top to bottom.
@@ -47,19 +47,20 @@ pub struct Map {
     pub values: Vec<f64>,
 }
 
-impl Map {
-    /// The mean over all pixels, which the authors recommend as the single number.
+impl FlipMap {
+    /// Returns the mean over all pixels, the single number that the authors recommend.
     pub fn mean(&self) -> f64 {
         self.values.iter().sum::<f64>() / self.values.len() as f64
     }
 }
 
-/// The FLIP map of two pictures of one size; `pixels_per_degree` from 1 to 1000, usually [`PIXELS_PER_DEGREE`].
+/// Returns the FLIP map of two pictures of equal size. `pixels_per_degree` is from 1 to 1000, usually
+/// [`PIXELS_PER_DEGREE`].
 ///
 /// # Errors
 /// [`OutputError::Viewing`], [`OutputError::Sizes`], [`OutputError::Layer`] for pictures without pixels,
 /// [`OutputError::NoColor`] for one without colours, [`OutputError::NoRoom`].
-pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputError> {
+pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<FlipMap, OutputError> {
     if !(1.0..=1000.0).contains(&pixels_per_degree) {
         return Err(OutputError::Viewing { pixels_per_degree });
     }
@@ -68,9 +69,9 @@ pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputE
     let kernels = Kernels::new(pixels_per_degree);
     let [a, b] = [("the first picture", a), ("the second picture", b)].map(|(name, image)| {
         let rgb = seen(image).ok_or_else(|| OutputError::NoColor { name: name.into(), found: image.names() })?;
-        Ok(Eye::new(&rgb, width, height, &kernels))
+        Ok(FilteredImage::new(&rgb, width, height, &kernels))
     });
-    let (a, b): (Eye, Eye) = (a?, b?);
+    let (a, b): (FilteredImage, FilteredImage) = (a?, b?);
     let largest = largest_distance();
     let values = (0..width * height)
         .map(|i| {
@@ -79,32 +80,33 @@ pub fn flip(a: &Image, b: &Image, pixels_per_degree: f64) -> Result<Map, OutputE
             math::pow(colour, 1.0 - feature)
         })
         .collect();
-    Ok(Map { width, height, values })
+    Ok(FlipMap { width, height, values })
 }
 
-/// The linear colours that a viewer sees: laid on white, clamped to [0, 1]. What is no number counts as 0.
+/// Returns the linear colours that a viewer sees: laid on white, clamped to [0, 1], NaN as 0. None if the picture has
+/// no colours.
 fn seen(image: &Image) -> Option<Vec<[f64; 3]>> {
-    let Colors { rgb, alpha } = image.colors()?;
+    let ColorChannels { rgb, alpha } = image.colors()?;
     let white = |i: usize| alpha.map_or(0.0, |a| 1.0 - unit(a[i]));
     Some((0..image.width * image.height).map(|i| rgb.map(|c| unit(c[i] + white(i)))).collect())
 }
 
-/// Clamped to [0, 1]; 0 for what is no number.
+/// Returns c clamped to [0, 1], and 0 for NaN.
 fn unit(c: f64) -> f64 {
     if c.is_nan() { 0.0 } else { c.clamp(0.0, 1.0) }
 }
 
-/// What the two pipelines make of one picture.
-struct Eye {
+/// One picture filtered by both pipelines.
+struct FilteredImage {
     /// Filtered colours in L*a*b*, chroma adjusted after Hunt.
     lab: Vec<[f64; 3]>,
     /// ‖gradient‖ of the filtered luminance.
     edge: Vec<f64>,
-    /// Norm of its second derivatives.
+    /// Norm of the second derivatives of the filtered luminance.
     point: Vec<f64>,
 }
 
-impl Eye {
+impl FilteredImage {
     fn new(rgb: &[[f64; 3]], width: usize, height: usize, k: &Kernels) -> Self {
         let [y, cx, cz]: [Vec<f64>; 3] = {
             let opponent: Vec<_> = rgb.iter().map(|&c| linear_to_ycxcz(c)).collect();
@@ -112,7 +114,8 @@ impl Eye {
         };
         let smooth = |plane: &[f64], kernel: &[f64]| separable(plane, width, height, kernel, kernel);
 
-        // 4.1: each opponent channel through its contrast sensitivity function; Cz's is the sum of two Gaussians.
+        // Section 4.1: each opponent channel goes through its contrast sensitivity function. That of Cz is the sum of
+        // two Gaussians.
         let [y_seen, cx_seen] = [smooth(&y, &k.y), smooth(&cx, &k.cx)];
         let cz_seen = k.cz.each_ref().map(|kernel| smooth(&cz, kernel));
         let lab = (0..rgb.len())
@@ -122,7 +125,7 @@ impl Eye {
             })
             .collect();
 
-        // 4.2: derivatives of Gaussians on the luminance of the unfiltered picture, in [0, 1].
+        // Section 4.2: derivatives of Gaussians on the unfiltered luminance, in [0, 1].
         let grey: Vec<f64> = y.iter().map(|y| (y + 16.0) / 116.0).collect();
         let norm = |kernel: &[f64]| -> Vec<f64> {
             let along_x = separable(&grey, width, height, kernel, &k.gaussian);
@@ -133,18 +136,18 @@ impl Eye {
     }
 }
 
-/// The largest distance there is, that of the green and the blue primary, to the power q_c.
+/// Returns the largest colour distance, that of the green and the blue primary, to the power q_c.
 fn largest_distance() -> f64 {
     math::pow(lab_distance(hunt_lab([0.0, 1.0, 0.0]), hunt_lab([0.0, 0.0, 1.0])), Q_C)
 }
 
-/// ΔE_c: distances up to p_c of the largest fill [0, p_t], the rest fill (p_t, 1].
+/// ΔE_c: distances up to p_c of the largest fill [0, p_t], the others (p_t, 1].
 fn redistribute(distance: f64, largest: f64) -> f64 {
     let knee = P_C * largest;
     if distance < knee { distance * P_T / knee } else { P_T + (distance - knee) / (largest - knee) * (1.0 - P_T) }
 }
 
-/// ΔE_f of the norms of edges and points at a pixel of both pictures.
+/// ΔE_f of a pixel, from the norms of edges and points in both pictures.
 fn feature_difference(a: [f64; 2], b: [f64; 2]) -> f64 {
     let [edge, point] = [(a[0] - b[0]).abs(), (a[1] - b[1]).abs()];
     math::pow(edge.max(point) / 2f64.sqrt(), Q_F)
@@ -208,7 +211,7 @@ mod tests {
     /// `mean` and `pixels` are the tool's own, in f32; see [`rounding`]. `mean_f64` comes from the same source with
     /// `double` in place of `float`. There only the nine digits of its matrices differ from ours: 10⁻⁹ of Y, which
     /// where both pictures agree is 10⁻⁷ of L* and (10⁻⁷)^0.7 · 0.95/16.5 = 7·10⁻⁷ of the difference; in the mean less.
-    struct Case {
+    struct FlipCase {
         name: &'static str,
         a: Pattern,
         b: Pattern,
@@ -220,8 +223,8 @@ mod tests {
 
     const PIXELS: [(usize, usize); 6] = [(0, 0), (12, 9), (14, 9), (31, 23), (16, 0), (5, 17)];
 
-    const CASES: [Case; 6] = [
-        Case {
+    const CASES: [FlipCase; 6] = [
+        FlipCase {
             name: "black and white",
             a: black,
             b: white,
@@ -230,7 +233,7 @@ mod tests {
             mean: 0.967385530,
             pixels: [0.96738553; 6],
         },
-        Case {
+        FlipCase {
             name: "one white dot",
             a: ramp,
             b: dotted,
@@ -239,7 +242,7 @@ mod tests {
             mean: 0.007999178,
             pixels: [0.0, 0.44633532, 0.17539598, 0.0, 0.00012188, 0.00007049],
         },
-        Case {
+        FlipCase {
             name: "a checkerboard moved by a pixel",
             a: checker,
             b: shifted,
@@ -248,7 +251,7 @@ mod tests {
             mean: 0.305729509,
             pixels: [0.04387386, 0.52227437, 0.52227414, 0.79876256, 0.45823967, 0.00006766],
         },
-        Case {
+        FlipCase {
             name: "a change of colour",
             a: waves,
             b: warm,
@@ -257,7 +260,7 @@ mod tests {
             mean: 0.574709254,
             pixels: [0.09415459, 0.54917300, 0.62672675, 0.78083360, 0.39407003, 0.58299398],
         },
-        Case {
+        FlipCase {
             name: "the same from nearby",
             a: waves,
             b: warm,
@@ -266,7 +269,7 @@ mod tests {
             mean: 0.533823973,
             pixels: [0.11913928, 0.54064381, 0.75210541, 0.88782686, 0.23207051, 0.69818944],
         },
-        Case {
+        FlipCase {
             name: "nothing in common",
             a: ramp,
             b: waves,
@@ -277,7 +280,7 @@ mod tests {
         },
     ];
 
-    /// How far f32 throws off a difference c.
+    /// Bound of the error by f32 for a difference c.
     ///
     /// The weights of the feature filters sum to 0; in f32 the positive and the negative half leave δ = 2⁻²³, and ΔE_f
     /// is its root, √(δ/√2) = 2.9·10⁻⁴, so that c^(1 − ΔE_f) is off by 2.9·10⁻⁴·(−c ln c). The colour filters sum

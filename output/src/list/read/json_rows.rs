@@ -1,6 +1,6 @@
-//! The rows of a file of JSON lines: an object a line.
+//! Rows of a file of JSON lines, an object a line.
 
-use super::{Column, Rows, Wrong};
+use super::{ListColumn, RowError, RowReader};
 use drypoint_scene::memory::Metered;
 use serde_json::{Map, Value};
 use std::fs::File;
@@ -19,13 +19,13 @@ impl JsonRows {
     }
 }
 
-impl Rows for JsonRows {
-    fn next(&mut self) -> Result<bool, Wrong> {
+impl RowReader for JsonRows {
+    fn next(&mut self) -> Result<bool, RowError> {
         loop {
             self.text.clear();
             self.line += 1;
-            let wrong = |at: usize, fault: &str| Wrong::Row(format!("character {at}"), fault.into());
-            let read = self.file.read_until(b'\n', &mut self.text).map_err(Wrong::File)?;
+            let wrong = |at: usize, fault: &str| RowError::Row(format!("character {at}"), fault.into());
+            let read = self.file.read_until(b'\n', &mut self.text).map_err(RowError::File)?;
             if read == 0 {
                 return Ok(false);
             }
@@ -42,19 +42,19 @@ impl Rows for JsonRows {
         self.line
     }
 
-    fn has(&self, column: Column) -> bool {
+    fn has(&self, column: ListColumn) -> bool {
         self.row.contains_key(column.name())
     }
 
-    fn number(&self, column: Column) -> Option<f64> {
+    fn number(&self, column: ListColumn) -> Option<f64> {
         self.row.get(column.name()).and_then(Value::as_f64)
     }
 
-    fn text(&self, column: Column) -> Option<&str> {
+    fn text(&self, column: ListColumn) -> Option<&str> {
         self.row.get(column.name()).and_then(Value::as_str).map(str::trim)
     }
 
-    fn found(&self, column: Column) -> Option<String> {
+    fn found(&self, column: ListColumn) -> Option<String> {
         self.row.get(column.name()).map(Value::to_string)
     }
 }

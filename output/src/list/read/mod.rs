@@ -1,9 +1,9 @@
-//! Reading lists.
+//! Reading of lists.
 
 mod csv_rows;
 mod json_rows;
 
-use super::Form;
+use super::ListFormat;
 use crate::OutputError;
 use csv_rows::CsvRows;
 use drypoint_scene::color::{Rgb, srgb_to_linear};
@@ -17,7 +17,7 @@ use std::path::Path;
 
 /// The columns of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Column {
+enum ListColumn {
     X,
     Y,
     Wx,
@@ -31,47 +31,23 @@ enum Column {
     Pen,
 }
 
-impl Column {
-    const ALL: [Self; 11] = [
-        Self::X,
-        Self::Y,
-        Self::Wx,
-        Self::Wy,
-        Self::Wz,
-        Self::Radius,
-        Self::Opacity,
-        Self::Stroke,
-        Self::T,
-        Self::Color,
-        Self::Pen,
-    ];
+impl ListColumn {
+    const NAMES: [&str; 11] = ["x", "y", "wx", "wy", "wz", "radius", "opacity", "stroke", "t", "color", "pen"];
 
     fn name(self) -> &'static str {
-        match self {
-            Self::X => "x",
-            Self::Y => "y",
-            Self::Wx => "wx",
-            Self::Wy => "wy",
-            Self::Wz => "wz",
-            Self::Radius => "radius",
-            Self::Opacity => "opacity",
-            Self::Stroke => "stroke",
-            Self::T => "t",
-            Self::Color => "color",
-            Self::Pen => "pen",
-        }
+        Self::NAMES[self as usize]
     }
 }
 
-/// A fault that ends reading.
-enum Wrong {
+/// An error that ends reading.
+enum RowError {
     /// The file cannot be read on.
     File(io::Error),
-    /// The column or the character of a row, and its fault.
+    /// Column or character of a row, and the fault.
     Row(String, String),
 }
 
-impl Wrong {
+impl RowError {
     fn at(self, path: &Path, line: u64) -> OutputError {
         match self {
             Self::File(source) => OutputError::Io { path: path.into(), action: "read", source },
@@ -80,53 +56,54 @@ impl Wrong {
     }
 }
 
-/// The rows of a file, one after another.
-trait Rows {
-    /// Goes on to the next row, if there is one.
-    fn next(&mut self) -> Result<bool, Wrong>;
-    /// The row's line, from 1; before the first row, the header's.
+/// Rows of a file, read one after another.
+trait RowReader {
+    /// Reads the next row. Returns whether there is one.
+    fn next(&mut self) -> Result<bool, RowError>;
+    /// Returns the line number of the row, from 1. Before the first row it is that of the header.
     fn line(&self) -> u64;
-    /// Whether there is such a column.
-    fn has(&self, column: Column) -> bool;
-    /// A number that stands there.
-    fn number(&self, column: Column) -> Option<f64>;
-    /// A text that stands there.
-    fn text(&self, column: Column) -> Option<&str>;
-    /// What stands there, for a message; none for nothing.
-    fn found(&self, column: Column) -> Option<String>;
+    /// Whether the row has a column.
+    fn has(&self, column: ListColumn) -> bool;
+    /// Returns the column's value as a number.
+    fn number(&self, column: ListColumn) -> Option<f64>;
+    /// Returns the column's value as text, without blanks around it.
+    fn text(&self, column: ListColumn) -> Option<&str>;
+    /// Returns the column's value for a message; none if it is absent.
+    fn found(&self, column: ListColumn) -> Option<String>;
 }
 
 /// Bytes of marks in memory for each byte of a list: the shortest rows have 16 bytes, and a vertex has 112.
 const MARKS_PER_BYTE: u64 = 7;
 
-/// Reads a list of dots, or of lines if it has the column `stroke`, as JSON lines if the name ends in `.jsonl` and as CSV
-/// otherwise: a layer for each of `pens`, in their order, or where there are none a layer for each name that the list has, in
-/// the colour that a name such as `#c04006` says, and else in black.
+/// Reads a list of dots, or of lines if it has the column `stroke`. A name that ends in `.jsonl` is read as JSON lines,
+/// any other as CSV.
 ///
-/// Lengths are in the page's unit; marks are put onto their steps. Without a column `pen` all belong to the first pen.
-/// Columns may stand in any order, and others beside them are passed over.
+/// Returns a layer for each of `pens`, in their order. Without pens each name in the list gets a layer, in the colour
+/// that a name such as `#c04006` gives, or in black.
+///
+/// Lengths are in the page's unit, and marks are rounded. Without a column `pen` all marks belong to the first pen.
+/// Columns stand in any order; unknown columns are ignored.
 ///
 /// # Errors
-/// [`OutputError::Io`]; [`OutputError::List`] with the line and the column for what is missing or cannot stand there.
+/// [`OutputError::Io`]; [`OutputError::List`] with line and column for a value that is missing or invalid.
 pub fn read_list(path: &Path, page: &Page, pens: &[Pen]) -> Result<Vec<Layer>, OutputError> {
-    let refused = |source| OutputError::Io { path: path.into(), action: "read", source };
-    let file = Metered::new(File::open(path).map_err(refused)?, MARKS_PER_BYTE);
-    match Form::of(path) {
-        Some(Form::JsonLines) => List { path, rows: JsonRows::new(file) }.read(page, pens),
-        Some(Form::Csv) | None => {
+    let file = Metered::new(File::open(path).map_err(|source| RowError::File(source).at(path, 1))?, MARKS_PER_BYTE);
+    match ListFormat::of(path) {
+        Some(ListFormat::JsonLines) => ListReader { path, rows: JsonRows::new(file) }.read(page, pens),
+        Some(ListFormat::Csv) | None => {
             let rows = CsvRows::new(file).map_err(|wrong| wrong.at(path, 1))?;
-            List { path, rows }.read(page, pens)
+            ListReader { path, rows }.read(page, pens)
         }
     }
 }
 
-/// The file while it is read.
-struct List<'a, R> {
+/// A file being read.
+struct ListReader<'a, R> {
     path: &'a Path,
     rows: R,
 }
 
-impl<R: Rows> List<'_, R> {
+impl<R: RowReader> ListReader<'_, R> {
     fn read(mut self, page: &Page, pens: &[Pen]) -> Result<Vec<Layer>, OutputError> {
         let scale = match page.unit {
             PageUnit::Millimetres => 1.0,
@@ -136,18 +113,19 @@ impl<R: Rows> List<'_, R> {
         let mut last = None;
         while self.rows.next().map_err(|wrong| wrong.at(self.path, self.rows.line()))? {
             let any = |column| self.number(column, |_| true, "a number");
-            let at = DVec2::new(any(Column::X)?, any(Column::Y)?) * scale;
-            let world = DVec3::new(any(Column::Wx)?, any(Column::Wy)?, any(Column::Wz)?);
-            let radius = self.number(Column::Radius, |r| r > 0.0, "a number above 0")? * scale;
-            let opacity = self.number(Column::Opacity, |a| a > 0.0 && a <= 1.0, "a number above 0 and of at most 1")?;
+            let at = DVec2::new(any(ListColumn::X)?, any(ListColumn::Y)?) * scale;
+            let world = DVec3::new(any(ListColumn::Wx)?, any(ListColumn::Wy)?, any(ListColumn::Wz)?);
+            let radius = self.number(ListColumn::Radius, |r| r > 0.0, "a number above 0")? * scale;
+            let opacity =
+                self.number(ListColumn::Opacity, |a| a > 0.0 && a <= 1.0, "a number above 0 and of at most 1")?;
             let layer = self.layer(&mut layers, pens.is_empty())?;
-            if !self.rows.has(Column::Stroke) {
+            if !self.rows.has(ListColumn::Stroke) {
                 layer.dots.push(Dot { at, world, radius, opacity });
                 continue;
             }
             let color = self.color()?;
-            let number = self.number(Column::Stroke, |n| n.fract() == 0.0, "a whole number")?;
-            let t = self.number(Column::T, |t| (0.0..=1.0).contains(&t), "a number from 0 to 1")?;
+            let number = self.number(ListColumn::Stroke, |n| n.fract() == 0.0, "a whole number")?;
+            let t = self.number(ListColumn::T, |t| (0.0..=1.0).contains(&t), "a number from 0 to 1")?;
             if last != Some(number) {
                 layer.lines.push(Polyline { vertices: Vec::new(), closed: false });
                 last = Some(number);
@@ -166,8 +144,8 @@ impl<R: Rows> List<'_, R> {
         OutputError::List { path: self.path.into(), line: self.rows.line(), column: column.into(), fault }
     }
 
-    /// What the row has in a column is not what should stand there.
-    fn wrong(&self, column: Column, expected: &str) -> OutputError {
+    /// Returns the error of a value that is not the expected one.
+    fn wrong(&self, column: ListColumn, expected: &str) -> OutputError {
         let name = column.name();
         let fault = match self.rows.found(column) {
             Some(found) => format!("found {found}, expected {expected}"),
@@ -176,33 +154,32 @@ impl<R: Rows> List<'_, R> {
         self.fault(name, fault)
     }
 
-    /// A finite number that may stand there.
-    fn number(&self, column: Column, may: impl Fn(f64) -> bool, expected: &str) -> Result<f64, OutputError> {
+    /// Returns a finite number for which `may` holds.
+    fn number(&self, column: ListColumn, may: impl Fn(f64) -> bool, expected: &str) -> Result<f64, OutputError> {
         let number = self.rows.number(column);
         number.filter(|&n| n.is_finite() && may(n)).ok_or_else(|| self.wrong(column, expected))
     }
 
-    /// The colour that a vertex has of its own.
+    /// Returns a vertex's own colour, if it has one.
     fn color(&self) -> Result<Option<Rgb>, OutputError> {
-        let said = self.rows.has(Column::Color).then(|| self.rows.text(Column::Color)).flatten().map(str::trim);
-        let Some(said) = said.filter(|said| !said.is_empty()) else { return Ok(None) };
-        hex(said).map(Some).ok_or_else(|| self.wrong(Column::Color, "a colour such as #c04006"))
+        let Some(text) = self.rows.text(ListColumn::Color).filter(|text| !text.is_empty()) else { return Ok(None) };
+        hex(text).map(Some).ok_or_else(|| self.wrong(ListColumn::Color, "a colour such as #c04006"))
     }
 
-    /// The layer of the row's pen.
+    /// Returns the layer of the row's pen. With `are_found` a new pen name adds a layer.
     fn layer<'l>(&self, layers: &'l mut Vec<Layer>, are_found: bool) -> Result<&'l mut Layer, OutputError> {
-        let has_pens = self.rows.has(Column::Pen);
+        let has_pens = self.rows.has(ListColumn::Pen);
         if are_found {
-            let name = if has_pens { self.rows.text(Column::Pen) } else { Some("stipples") };
-            if let Some(name) = name.map(str::trim).filter(|name| layers.iter().all(|layer| layer.pen.name != *name)) {
+            let name = if has_pens { self.rows.text(ListColumn::Pen) } else { Some("stipples") };
+            if let Some(name) = name.filter(|name| layers.iter().all(|layer| layer.pen.name != *name)) {
                 layers.push(Layer::new(found_pen(layers.len() + 1, name)));
             }
         }
         let at = if has_pens {
-            let text = self.rows.text(Column::Pen).map(str::trim);
+            let text = self.rows.text(ListColumn::Pen);
             layers.iter().position(|layer| text == Some(layer.pen.name.trim())).ok_or_else(|| {
                 let names: Vec<String> = layers.iter().map(|layer| format!("{:?}", layer.pen.name)).collect();
-                self.wrong(Column::Pen, &names.join(" or "))
+                self.wrong(ListColumn::Pen, &names.join(" or "))
             })?
         } else {
             0
@@ -211,23 +188,23 @@ impl<R: Rows> List<'_, R> {
     }
 }
 
-/// A pen that is known by its name alone.
+/// Returns a pen of which only the name is known.
 fn found_pen(number: usize, name: &str) -> Pen {
     let [r, g, b] = hex(name).unwrap_or_default();
     Pen { number, name: name.into(), width: FOUND_WIDTH, color: [r, g, b, 1.0] }
 }
 
-/// The linear colour that `#rrggbb` says.
+/// Returns the linear colour of `#rrggbb`.
 fn hex(name: &str) -> Option<Rgb> {
     let digits = name.strip_prefix('#').filter(|digits| digits.len() == 6)?;
     let bytes = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
     Some([bytes[1], bytes[2], bytes[3]].map(|byte| srgb_to_linear(f64::from(byte) / 255.0)))
 }
 
-/// The nib of such a pen, in mm.
+/// Nib of a pen that is known by its name alone, in mm.
 const FOUND_WIDTH: f64 = 0.3;
 
-/// A line whose last vertex is its first again is closed.
+/// Closes a line whose last vertex repeats the first.
 fn close(line: &mut Polyline) {
     if let [first, .., last] = line.vertices.as_slice()
         && line.vertices.len() > 3

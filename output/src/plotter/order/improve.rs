@@ -4,20 +4,19 @@ use super::neighbours::Neighbours;
 use super::tour::Tour;
 use std::collections::VecDeque;
 
-/// Longest run that a move may turn or pass over: longer ones gain no more and cost their length.
+/// Longest run of strokes that a move may reverse or pass over. Longer runs gain no more and cost their length.
 const RUN: usize = 50_000;
 
-/// Strokes that an Or-opt move takes along at most.
+/// Most strokes that an Or-opt move takes along.
 const TAKEN: usize = 3;
 
-/// Stops that moves may change in all, for each stroke: far more than moves on a random page need, so that only a
-/// contrived list ends here.
+/// Stops a stroke that all moves together may change. Random pages need far fewer; only a contrived list ends here.
 const BUDGET: usize = 10_000;
 
-/// What a move must gain, in mm: more than rounding can.
+/// Least gain of a move, in mm: more than rounding can make.
 const GAIN: f64 = 1e-7;
 
-/// Shortens a tour until no move between neighbours does.
+/// Shortens a tour until no move between neighbours gains.
 pub(super) fn improve(tour: &mut Tour) {
     let near = Neighbours::new(tour.ends());
     let mut waiting: VecDeque<usize> = tour.stops().map(|stop| stop.item).collect();
@@ -25,10 +24,10 @@ pub(super) fn improve(tour: &mut Tour) {
     let mut budget = tour.len().saturating_mul(BUDGET);
     while let Some(item) = waiting.pop_front() {
         waits[item] = false;
-        while let Some(touched) = near.of(item).find_map(|other| better(tour, item, other)) {
+        while let Some(touched) = near.of(item).find_map(|other| improving_move(tour, item, other)) {
             let changed = touched.1 - touched.0;
             budget = budget.saturating_sub(changed);
-            // Only at the ends of what has moved have strokes got new neighbours; a moved run lies at one of them.
+            // Only strokes at the ends of the changed range have new neighbours. A moved run lies at one of these ends.
             let (first, last) = (touched.0.saturating_sub(1), touched.1.min(tour.len() - 1));
             let ends = (first..=last).take(TAKEN + 2).chain((first..=last).rev().take(TAKEN + 2));
             for other in ends.map(|position| tour.item(position)) {
@@ -43,18 +42,18 @@ pub(super) fn improve(tour: &mut Tour) {
     }
 }
 
-/// Makes a move that brings two strokes together, if one gains; which positions have changed, from … to before.
-fn better(tour: &mut Tour, item: usize, other: usize) -> Option<(usize, usize)> {
+/// Makes a move that brings two strokes together, if one gains. Returns the half-open range of changed positions.
+fn improving_move(tour: &mut Tour, item: usize, other: usize) -> Option<(usize, usize)> {
     let (p, q) = (tour.position(item), tour.position(other));
-    turned(tour, p.min(q), p.max(q)).or_else(|| taken_along(tour, p, q))
+    two_opt(tour, p.min(q), p.max(q)).or_else(|| or_opt(tour, p, q))
 }
 
-/// 2-opt: the run between two strokes backwards, so that their ends meet, or their starts.
-fn turned(tour: &mut Tour, p: usize, q: usize) -> Option<(usize, usize)> {
+/// 2-opt: reverses the run between two strokes, so that their ends meet, or their starts.
+fn two_opt(tour: &mut Tour, p: usize, q: usize) -> Option<(usize, usize)> {
     if q - p > RUN {
         return None;
     }
-    // Ends: p+1 … q turned. Starts: p … q−1 turned.
+    // The ends meet if p+1 … q is reversed, the starts if p … q−1 is.
     for (first, last) in [(p + 1, q), (p, q - 1)] {
         let (before, after) = (tour.before(first), tour.stop(last));
         let old = tour.on_to(before, first) + tour.on_to(after, last + 1);
@@ -67,8 +66,8 @@ fn turned(tour: &mut Tour, p: usize, q: usize) -> Option<(usize, usize)> {
     None
 }
 
-/// Or-opt: a run of up to three strokes that begins or ends at p goes before or after the stroke at q.
-fn taken_along(tour: &mut Tour, p: usize, q: usize) -> Option<(usize, usize)> {
+/// Or-opt: moves a run of up to three strokes that begins or ends at p before or after the stroke at q.
+fn or_opt(tour: &mut Tour, p: usize, q: usize) -> Option<(usize, usize)> {
     if p.abs_diff(q) > RUN {
         return None;
     }
@@ -83,7 +82,7 @@ fn taken_along(tour: &mut Tour, p: usize, q: usize) -> Option<(usize, usize)> {
             if freed <= GAIN {
                 continue;
             }
-            // Before the stroke at `to`; next to itself there is nothing to gain.
+            // The run goes before the stroke at `to`. Beside itself there is nothing to gain.
             for to in [q, q + 1].into_iter().filter(|&to| to < first || to > last + 1) {
                 let place = tour.before(to);
                 let old = tour.on_to(place, to);

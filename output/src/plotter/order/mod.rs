@@ -1,31 +1,31 @@
-//! In which order strokes are drawn, so that the pen goes a short way between them: a tour along a space-filling curve,
-//! improved by 2-opt and Or-opt moves between neighbours (Bentley 1992).
+//! Order of strokes that keeps pen travel short: a tour along a space-filling curve, improved by 2-opt and Or-opt moves
+//! between neighbours (Bentley 1992).
 
+mod hilbert;
 mod improve;
 mod neighbours;
-mod start;
 mod tour;
 
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Dot, Polyline};
-use tour::{Stop, Tour};
+use tour::{Tour, TourStop};
 
-/// Orders dots for a pen that comes from the page's corner.
+/// Orders dots for a pen that starts at the page's corner.
 pub(super) fn dots(dots: &mut [Dot]) {
-    let tour = best(dots.iter().map(|dot| [dot.at; 2]).collect(), DVec2::ZERO);
+    let tour = short_tour(dots.iter().map(|dot| [dot.at; 2]).collect(), DVec2::ZERO);
     let ordered: Vec<Dot> = tour.stops().map(|stop| dots[stop.item]).collect();
     dots.copy_from_slice(&ordered);
 }
 
-/// Orders lines, and turns those that are better drawn backwards, for a pen that comes from a place.
+/// Orders lines for a pen that starts at `from`, and reverses those that are better drawn backwards.
 pub(super) fn lines(lines: &mut Vec<Polyline>, from: DVec2) {
     let ends = |line: &Polyline| {
         let [first, last] = [line.vertices.first(), line.vertices.last()].map(|v| v.map(|v| v.at).unwrap_or_default());
         [first, if line.closed { first } else { last }]
     };
-    let tour = best(lines.iter().map(ends).collect(), from);
+    let tour = short_tour(lines.iter().map(ends).collect(), from);
     let mut taken: Vec<Option<Polyline>> = std::mem::take(lines).into_iter().map(Some).collect();
-    lines.extend(tour.stops().filter_map(|Stop { item, turned }| {
+    lines.extend(tour.stops().filter_map(|TourStop { item, turned }| {
         let mut line = taken[item].take()?;
         if turned && !line.closed {
             line.vertices.reverse();
@@ -34,15 +34,15 @@ pub(super) fn lines(lines: &mut Vec<Polyline>, from: DVec2) {
     }));
 }
 
-/// A short tour through strokes given by their two ends; at most as long as in the order that they have.
-fn best(ends: Vec<[DVec2; 2]>, from: DVec2) -> Tour {
+/// Returns a short tour through strokes given by their two ends. It is never longer than the given order.
+fn short_tour(ends: Vec<[DVec2; 2]>, from: DVec2) -> Tour {
     let given = Tour::new(ends, from);
-    let mut tour = start::along_curve(&given);
+    let mut tour = hilbert::along_curve(&given);
     if given.length() <= tour.length() {
         tour = given.clone();
     }
     improve::improve(&mut tour);
-    // Each move shortens the tour by more than its sum rounds, but the sum is what is compared.
+    // Each move gains more than rounding, but the comparison is of whole sums.
     if given.length() < tour.length() { given } else { tour }
 }
 

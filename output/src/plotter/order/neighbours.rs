@@ -1,22 +1,22 @@
-//! Which strokes begin or end near each other.
+//! Strokes that begin or end near each other.
 
-use crate::grid::{Grid, micrometres};
+use crate::grid::{CellGrid, micrometres};
 use drypoint_scene::glam::DVec2;
 
-/// Strokes near each end of a stroke: this many of each end.
+/// Number of near strokes that are kept for each end.
 const NEAREST: usize = 8;
 
-/// The strokes near each stroke, the nearest first: by both ends, where it has two.
+/// The strokes near each stroke by both of its ends, nearest first.
 pub(super) struct Neighbours {
     lists: Vec<u32>,
-    /// Where each stroke's list begins; one more than there are strokes.
+    /// Start of each stroke's list, and the end of the last.
     begins: Vec<usize>,
 }
 
 impl Neighbours {
-    /// Of strokes by their ends, fewer than 2³².
+    /// Finds the neighbours of strokes given by their ends; fewer than 2³² strokes.
     pub(super) fn new(ends: &[[DVec2; 2]]) -> Self {
-        let places = Places::new(ends);
+        let places = EndpointGrid::new(ends);
         let (mut lists, mut begins) = (Vec::with_capacity(ends.len() * NEAREST), vec![0]);
         let mut near = Vec::new();
         for (item, &[a, b]) in ends.iter().enumerate() {
@@ -34,18 +34,18 @@ impl Neighbours {
         Self { lists, begins }
     }
 
-    /// Near a stroke.
+    /// Returns the strokes near a stroke.
     pub(super) fn of(&self, item: usize) -> impl Iterator<Item = usize> {
         self.lists[self.begins[item]..self.begins[item + 1]].iter().map(|&other| other as usize)
     }
 }
 
-/// Ends of strokes by cells.
-struct Places {
-    grid: Option<Grid>,
-    /// Each end with its stroke, cell by cell.
+/// Ends of strokes, sorted into cells.
+struct EndpointGrid {
+    grid: Option<CellGrid>,
+    /// Each end in micrometres with its stroke, cell by cell.
     ends: Vec<([i64; 2], u32)>,
-    /// Where each cell begins; one more than there are cells.
+    /// Start of each cell, and the end of the last.
     begins: Vec<usize>,
 }
 
@@ -53,7 +53,7 @@ fn steps(place: DVec2) -> [i64; 2] {
     place.to_array().map(micrometres)
 }
 
-impl Places {
+impl EndpointGrid {
     fn new(strokes: &[[DVec2; 2]]) -> Self {
         let mut ends: Vec<([i64; 2], u32)> = Vec::with_capacity(strokes.len());
         for (item, &[a, b]) in strokes.iter().enumerate() {
@@ -63,7 +63,7 @@ impl Places {
             }
         }
         let all: Vec<[i64; 2]> = ends.iter().map(|end| end.0).collect();
-        let Some(grid) = Grid::new(&all, 1) else { return Self { grid: None, ends, begins: Vec::new() } };
+        let Some(grid) = CellGrid::new(&all, 1) else { return Self { grid: None, ends, begins: Vec::new() } };
         let cell = |end: &([i64; 2], u32)| grid.index(grid.cell_of(&end.0));
         ends.sort_by_key(cell);
         let mut begins = vec![0; grid.cells() + 1];
@@ -74,14 +74,15 @@ impl Places {
         Self { grid: Some(grid), ends, begins }
     }
 
-    /// The strokes whose ends are nearest to a place, as squared distances and numbers, ties by number.
+    /// Finds the strokes whose ends are nearest to a point, as squared distances and indices. Ties go to the smaller
+    /// index.
     fn nearest(&self, item: usize, place: DVec2, near: &mut Vec<(i64, u32)>) {
         near.clear();
         let Some(grid) = &self.grid else { return };
         let place = steps(place);
         let [i, j] = grid.cell_of(&place);
         for ring in 0..grid.columns.max(grid.rows) {
-            // What lies in this ring is at least so far away.
+            // Everything in this ring is at least `least` away.
             let least = (ring as i64 - 1).max(0) * grid.side;
             if near.len() == NEAREST && near[NEAREST - 1].0 < least * least {
                 break;

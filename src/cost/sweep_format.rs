@@ -1,24 +1,24 @@
-//! Which form of a sweep the suffix of a name asks for.
+//! File formats of sweeps.
 
 use super::{Sweep, csv, markdown, plot};
 use crate::Failure;
 use std::path::Path;
 
-/// A form that a sweep is written in.
+/// A file format of sweeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// The table of the contract.
+pub enum SweepFormat {
+    /// The table for programs.
     Csv,
     /// The table for people.
     Markdown,
-    /// The plot in lines and letters; the letters' font is the viewer's.
+    /// The plot in lines and letters, in the viewer's font.
     Svg,
     /// The plot in pixels, with a font of its own.
     Png,
 }
 
-impl Form {
-    /// The form of a name, by its suffix; case does not count.
+impl SweepFormat {
+    /// Returns the format of a name by its suffix, in any case.
     ///
     /// # Errors
     /// Any other suffix.
@@ -39,7 +39,7 @@ impl Form {
         }
     }
 
-    /// The bytes of a file; `name` is the title of a plot.
+    /// Returns the bytes of a file; `name` is the title of a plot.
     ///
     /// # Errors
     /// A plot without a point: no setting has an error.
@@ -59,10 +59,10 @@ mod tests {
 
     #[test]
     fn the_suffix_chooses() {
-        let of = |name: &str| Form::of(Path::new(name));
+        let of = |name: &str| SweepFormat::of(Path::new(name));
         assert_eq!(
             [of("a.csv"), of("b.MD"), of("c.svg"), of("d.x.png")].map(Result::unwrap),
-            [Form::Csv, Form::Markdown, Form::Svg, Form::Png]
+            [SweepFormat::Csv, SweepFormat::Markdown, SweepFormat::Svg, SweepFormat::Png]
         );
         for (name, what) in [
             ("a.pdf", ".pdf is the suffix of no form that costs are written in"),

@@ -1,13 +1,13 @@
-//! Dots that a nib can set beside each other.
+//! Dots far enough from each other for a nib.
 
-use crate::grid::{Grid, NONE, micrometres};
+use crate::grid::{CellGrid, NONE, micrometres};
 use drypoint_scene::marks::Dot;
 
-/// The dots, in their order, without those closer than `closest` mm to one before them that stays.
-pub(super) fn apart(dots: &[Dot], closest: f64) -> Vec<Dot> {
+/// Returns the dots in order, without those closer than `closest` mm to a kept one before them.
+pub(super) fn spaced(dots: &[Dot], closest: f64) -> Vec<Dot> {
     let places: Vec<[i64; 2]> = dots.iter().map(|dot| dot.at.to_array().map(micrometres)).collect();
     let reach = closest * 1000.0;
-    let Some(grid) = Grid::new(&places, reach.ceil() as i64) else { return Vec::new() };
+    let Some(grid) = CellGrid::new(&places, reach.ceil() as i64) else { return Vec::new() };
     let mut heads = vec![NONE; grid.cells()];
     let mut nexts = vec![NONE; dots.len()];
     let mut kept = Vec::new();
@@ -17,7 +17,7 @@ pub(super) fn apart(dots: &[Dot], closest: f64) -> Vec<Dot> {
             let mut other = heads[cell];
             while free && other != NONE {
                 let [dx, dy] = [0, 1].map(|k| (places[other][k] - place[k]) as f64);
-                // Half a step of slack in the square: 0.7 nib itself is far enough, whatever its last bit.
+                // Half a step of slack in the square: exactly 0.7 nib is far enough, whatever its last bit.
                 free = dx * dx + dy * dy + 0.5 > reach * reach;
                 other = nexts[other];
             }

@@ -1,83 +1,75 @@
-//! Frames on paper: as pixels, vectors or a list.
+//! Writing of frames: pixels, vectors or a list.
 
-use super::{Frame, Written};
-use crate::job::{Job, Wanted, no_room_for_pixels};
+use super::{Frame, WriteReport, mark_counts};
+use crate::job::{Job, RenderTarget, background_color, no_room_for_pixels};
 use crate::{Failure, Format};
-use drypoint_output::vector::{Sheet, pdf, svg};
+use drypoint_output::vector::{VectorPage, pdf, svg};
 use drypoint_output::{OutputError, exr, list, paint, plotter, png};
 use drypoint_scene::atomic;
-use drypoint_scene::color::Rgba;
-use drypoint_scene::marks::{Layer, Marks, Page, Vertex};
+use drypoint_scene::marks::{Marks, Page, Vertex};
 use drypoint_scene::memory;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::tables::{Background, Scene};
+use drypoint_scene::tables::Scene;
 use std::borrow::Cow;
 use std::io;
 use std::path::Path;
 
-/// Seconds for which an animation shows a frame: between the 4 and 15 frames a second of Lu et al.
+/// Seconds that an animation shows a frame, between the 4 and 15 frames a second of Lu et al.
 const FRAME_SECONDS: f64 = 0.1;
 
-/// Bytes of memory that a vertex of a stroke that fills a dot takes until it is written.
+/// Bytes of memory, until it is written, for a vertex of a stroke that fills a dot.
 const FILLING_VERTEX: u64 = 3 * size_of::<Vertex>() as u64;
 
 /// The error that ended an animation before its last frame.
-enum Stopped {
+enum AnimationError {
     Drawing(Failure),
-    Writing(OutputError),
     System(io::Error),
 }
 
-impl From<Failure> for Stopped {
+impl From<Failure> for AnimationError {
     fn from(failure: Failure) -> Self {
         Self::Drawing(failure)
     }
 }
 
-impl From<OutputError> for Stopped {
-    fn from(error: OutputError) -> Self {
-        Self::Writing(error)
-    }
-}
-
-impl From<io::Error> for Stopped {
+impl From<io::Error> for AnimationError {
     fn from(error: io::Error) -> Self {
         Self::System(error)
     }
 }
 
-/// What frames of a scene are written on.
-pub(super) struct Paper<'a> {
+/// Writer of a scene's frames.
+pub(super) struct FrameWriter<'a> {
     pub(super) scene: &'a Scene,
-    pub(super) wanted: Wanted,
+    pub(super) target: RenderTarget,
     pub(super) provenance: Provenance,
 }
 
-/// Marks as they are drawn, and what a plotter does with them.
-struct Planned<'a> {
+/// Marks as they are drawn, and the report on them.
+struct PlannedMarks<'a> {
     marks: Cow<'a, Marks>,
-    written: Written,
+    written: WriteReport,
 }
 
-impl<'a> Paper<'a> {
+impl<'a> FrameWriter<'a> {
     pub(super) fn of(job: &'a Job, frame: usize) -> Self {
-        Self { scene: &job.scene, wanted: job.wanted(), provenance: job.provenance_of(frame) }
+        Self { scene: &job.scene, target: job.target(), provenance: job.provenance_of(frame) }
     }
 
     /// See [`Frame::write`].
-    pub(super) fn write(&self, frame: Frame, path: &Path) -> Result<Written, Failure> {
+    pub(super) fn write(&self, frame: Frame, path: &Path) -> Result<WriteReport, Failure> {
         let format = Format::among(path, &Format::ALL)?;
         let wrong = |error: OutputError| Failure::picture(&error, path.display());
         let whole = frame.marks();
-        if let (Some(form), Some(marks)) = (list::Form::of(path), &frame.marks) {
-            if self.wanted == Wanted::Strokes {
+        if let (Some(form), Some(marks)) = (list::ListFormat::of(path), &frame.marks) {
+            if self.target == RenderTarget::Strokes {
                 list::write_lines(marks, form, path).map_err(wrong)?;
-                return Ok(Written { marks: whole, said: Vec::new() });
+                return Ok(WriteReport { marks: whole, notes: Vec::new() });
             }
             list::write_dots(marks, form, path).map_err(wrong)?;
             let [_, lines] = whole;
-            let said = (lines > 0).then(|| format!("{lines} lines are left out: a list has dots alone"));
-            return Ok(Written { marks: whole, said: said.into_iter().collect() });
+            let notes = (lines > 0).then(|| format!("{lines} lines are left out: a list has dots alone"));
+            return Ok(WriteReport { marks: whole, notes: notes.into_iter().collect() });
         }
         let planned = frame.marks.as_ref().map(|marks| self.planned(marks)).transpose()?;
         let marks = planned.as_ref().map(|planned| &*planned.marks);
@@ -104,22 +96,19 @@ impl<'a> Paper<'a> {
         mut draw: impl FnMut(usize) -> Result<Frame, Failure>,
     ) -> Result<(), Failure> {
         let nothing = Marks { page: Page::of(self.scene), layers: Vec::new() };
+        let wrong = |error: OutputError| Failure::picture(&error, path.display());
         let written = atomic::write(path, |out| {
             let mut animation = svg::Animation::new(out, frames, FRAME_SECONDS);
             for i in 0..frames {
                 let frame = draw(i)?;
                 let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing))?;
-                animation.frame(&self.sheet(&planned.marks, frame.picture.as_ref()), path)?;
+                animation.frame(&self.sheet(&planned.marks, frame.picture.as_ref()), path).map_err(wrong)?;
             }
             Ok(())
         });
         written.map_err(|stopped| match stopped {
-            Stopped::Drawing(failure) => failure,
-            Stopped::Writing(error) => Failure::picture(&error, path.display()),
-            Stopped::System(source) => {
-                let error = OutputError::Io { path: path.into(), action: "written", source };
-                Failure::picture(&error, path.display())
-            }
+            AnimationError::Drawing(failure) => failure,
+            AnimationError::System(source) => wrong(OutputError::Io { path: path.into(), action: "written", source }),
         })
     }
 
@@ -129,7 +118,7 @@ impl<'a> Paper<'a> {
         let wrong = |error: OutputError| self.refused(&error);
         let mut picture = match picture {
             Some(picture) => picture,
-            None => paint::blank(&blank, self.background()).map_err(wrong)?,
+            None => paint::blank(&blank, background_color(self.scene)).map_err(wrong)?,
         };
         if let Some(marks) = marks.filter(|_| picture.layer(LayerKind::Beauty).is_some()) {
             paint::paint(marks, &window, self.scene.picture.blend_space, &mut picture).map_err(wrong)?;
@@ -145,19 +134,21 @@ impl<'a> Paper<'a> {
         paint::pixels(&self.window().1).map(drop).map_err(|error| self.refused(&error))
     }
 
-    /// The part of the page that pixels show, and the page that they fill. A picture has its own size, without the page's
-    /// margin.
-    fn window(&self) -> (paint::Window, Page) {
+    /// Returns the part of the page that pixels show, and the page that they fill. A picture has its own size, without
+    /// the page's margin.
+    fn window(&self) -> (paint::PageWindow, Page) {
         let (page, settings) = (Page::of(self.scene), &self.scene.picture);
-        match self.wanted {
-            Wanted::Marks | Wanted::Points | Wanted::Strokes => (paint::Window::page(&page), page),
-            Wanted::Picture => {
-                (paint::Window::frame(&page, settings.size), Page::in_pixels(settings.size, 0.0, settings.dpi))
+        match self.target {
+            RenderTarget::Marks | RenderTarget::Points | RenderTarget::Strokes => {
+                (paint::PageWindow::page(&page), page)
+            }
+            RenderTarget::Picture => {
+                (paint::PageWindow::frame(&page, settings.size), Page::in_pixels(settings.size, 0.0, settings.dpi))
             }
         }
     }
 
-    /// The failure of a page that cannot be had in pixels.
+    /// Returns the failure of a page that cannot be painted in pixels.
     fn refused(&self, error: &OutputError) -> Failure {
         match error {
             OutputError::NoRoom { size, no_room, .. } => no_room_for_pixels(self.scene, *size, no_room),
@@ -165,32 +156,25 @@ impl<'a> Paper<'a> {
         }
     }
 
-    fn sheet<'s>(&'s self, marks: &'s Marks, picture: Option<&'s Picture>) -> Sheet<'s> {
-        // The paper has its colour, and programs that know nothing of layers with % would draw round the page.
-        let background = self.background().filter(|_| !self.plotter());
+    fn sheet<'s>(&'s self, marks: &'s Marks, picture: Option<&'s Picture>) -> VectorPage<'s> {
+        // Paper has its own colour, and programs that ignore % in labels would draw around the page.
+        let background = background_color(self.scene).filter(|_| !self.plotter());
         let beziers = self.scene.hatching.as_ref().is_some_and(|hatching| hatching.beziers);
-        Sheet { marks, background, picture, plotter: self.plotter(), beziers, provenance: &self.provenance }
+        VectorPage { marks, background, picture, plotter: self.plotter(), beziers, provenance: &self.provenance }
     }
 
     fn plotter(&self) -> bool {
         self.scene.page.as_ref().is_some_and(|page| page.plotter)
     }
 
-    fn background(&self) -> Option<Rgba> {
-        match self.scene.picture.background {
-            Background::Color(color) => Some(color),
-            Background::None | Background::Picture(_) => None,
-        }
-    }
-
-    /// Marks as they are drawn.
+    /// Returns marks as they are drawn: for a plotter its plan.
     ///
     /// # Errors
     /// Dots so large for the nib that the memory budget does not allow the strokes that fill them.
-    fn planned<'m>(&self, marks: &'m Marks) -> Result<Planned<'m>, Failure> {
+    fn planned<'m>(&self, marks: &'m Marks) -> Result<PlannedMarks<'m>, Failure> {
         if !self.plotter() {
-            let written = Written { marks: sums(marks), said: Vec::new() };
-            return Ok(Planned { marks: Cow::Borrowed(marks), written });
+            let written = WriteReport { marks: mark_counts(&marks.layers), notes: Vec::new() };
+            return Ok(PlannedMarks { marks: Cow::Borrowed(marks), written });
         }
         let vertices = plotter::filling_vertices(marks);
         memory::room_for(vertices as u64, FILLING_VERTEX).map_err(|no_room| {
@@ -199,22 +183,16 @@ impl<'a> Paper<'a> {
             Failure::new(what, self.scene.given.position("page.plotter"), "take a wider pen, or smaller or fewer dots")
         })?;
         let plan = plotter::plan(marks, &plotter::Speed::default());
-        let [touches, lines] = sums(&plan.marks);
-        let written = Written { marks: [touches + plan.larger, lines - plan.larger], said: travel(&plan) };
-        Ok(Planned { marks: Cow::Owned(plan.marks), written })
+        let [touches, lines] = mark_counts(&plan.marks.layers);
+        let written = WriteReport { marks: [touches + plan.larger, lines - plan.larger], notes: travel(&plan) };
+        Ok(PlannedMarks { marks: Cow::Owned(plan.marks), written })
     }
 }
 
-/// Dots, and lines.
-pub(super) fn sums(marks: &Marks) -> [usize; 2] {
-    let sum = |n: fn(&Layer) -> usize| marks.layers.iter().map(n).sum();
-    [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
-}
-
-/// What a plotter does, a sentence a layer.
-fn travel(plan: &plotter::Plan) -> Vec<String> {
+/// Returns a plotter's plan in words, a sentence a layer.
+fn travel(plan: &plotter::PlotterPlan) -> Vec<String> {
     let layers = plan.marks.layers.iter().zip(&plan.travel);
-    let mut said: Vec<String> = layers
+    let mut notes: Vec<String> = layers
         .map(|(layer, t)| {
             let (name, down, up) = (layer.pen.label(), t.pen_down / 1000.0, t.pen_up / 1000.0);
             let minutes = t.seconds / 60.0;
@@ -222,10 +200,10 @@ fn travel(plan: &plotter::Plan) -> Vec<String> {
         })
         .collect();
     if plan.dropped > 0 {
-        said.push(format!("{} dots are left out: they are closer than 0.7 nib to another", plan.dropped));
+        notes.push(format!("{} dots are left out: they are closer than 0.7 nib to another", plan.dropped));
     }
     if plan.plain > 0 {
-        said.push(format!("{} lines lose taper, colour or faintness: the nib draws one width in one ink", plan.plain));
+        notes.push(format!("{} lines lose taper, colour or faintness: the nib draws one width in one ink", plan.plain));
     }
-    said
+    notes
 }

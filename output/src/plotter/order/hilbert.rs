@@ -1,12 +1,12 @@
-//! A tour to begin with: along Hilbert's curve.
+//! The initial tour, along Hilbert's curve.
 
 use super::tour::Tour;
 use drypoint_scene::glam::DVec2;
 
-/// Cells of a side of the curve's square: 2¹⁶.
+/// Cells along a side of the curve's square: 2¹⁶.
 const SIDE: u32 = 1 << 16;
 
-/// The strokes in the order in which the curve meets their middles.
+/// Returns the strokes in the order in which the curve meets their midpoints.
 pub(super) fn along_curve(tour: &Tour) -> Tour {
     let middles: Vec<DVec2> = tour.ends().iter().map(|[a, b]| (*a + *b) / 2.0).collect();
     let low = middles.iter().copied().reduce(DVec2::min).unwrap_or_default();
@@ -24,7 +24,7 @@ pub(super) fn along_curve(tour: &Tour) -> Tour {
     tour.reordered(keys.into_iter().map(|(_, i)| i))
 }
 
-/// How far along Hilbert's curve a cell is: quadrant by quadrant, each turned so that the curve goes on.
+/// Returns the distance of a cell along Hilbert's curve. Each quadrant is turned so that the curve is connected.
 fn along(mut x: u32, mut y: u32) -> u32 {
     let mut length = 0;
     let mut half = SIDE / 2;

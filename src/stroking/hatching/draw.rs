@@ -1,8 +1,8 @@
-//! The strokes of hatching that a camera sees: as they fall ([HATCH-13]), or evenly on the page ([HATCH-19]).
+//! Drawing of hatching for a camera: as strokes fall ([HATCH-13]), or evenly on the page ([HATCH-19]).
 
-use super::kept::{add, count_kept};
-use super::{Grown, Hatched, Hatching};
-use crate::stroking::Frame;
+use super::growth_counts::{add, count_kept};
+use super::{GrownHatching, GrownStrokes, HatchingSetup};
+use crate::stroking::StrokeCamera;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DVec2, DVec3};
@@ -16,23 +16,23 @@ use drypoint_scene::view::View;
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// τ above which strokes are crossed where the tone is in the spacing ([HATCH-19]).
+/// τ above which strokes are crossed if the tone is in the spacing ([HATCH-19]).
 const CROSSED: f64 = 0.6;
 
-/// A grain of pencil on paper, in voxels.
+/// Size of a pencil's grain on paper, in voxels.
 const GRAIN: f64 = 0.4;
 
-/// The shortest line on the page, in pen's widths.
+/// Shortest line on the page, in widths of the pen.
 const SHORTEST: f64 = 6.0;
 
-impl Hatched<'_> {
-    /// Those that a camera sees, and where some cross the others those as a layer of their own.
-    pub(in crate::stroking) fn draw(&self, frame: &Frame<'_>, counts: &mut Counts) -> Vec<Layer> {
-        let Hatching { table, pen, cross_pen, spacing, .. } = self.hatching;
+impl GrownHatching<'_> {
+    /// Returns the strokes that a camera sees. Crossing strokes are a layer of their own.
+    pub(in crate::stroking) fn draw(&self, frame: &StrokeCamera<'_>, counts: &mut Counts) -> Vec<Layer> {
+        let HatchingSetup { table, pen, cross_pen, spacing, .. } = self.hatching;
         let start = Instant::now();
         let light = frame.view.towards(self.hatching.light);
         let tone = |normal: DVec3| 1.0 - (table.stroke.ambient + normal.dot(light)).clamp(0.0, 1.0);
-        // They lie in front of the surface themselves.
+        // Strokes lie in front of the surface themselves.
         let sight = frame.sight(0.0);
         let [lines, across] = match (&self.grown, *spacing) {
             (Some(grown), _) => self.as_they_fall(&sight, grown, light, &tone, counts),
@@ -44,18 +44,19 @@ impl Hatched<'_> {
         std::iter::once(Layer { lines, ..Layer::new(pen.clone()) }).chain(crossed).collect()
     }
 
-    /// All strokes, drawn as `[hatching.stroke]` says, and those that cross, where the light falls flatly enough; where all
-    /// are seen and their colours tell near from far, together.
+    /// Draws all strokes as `[hatching.stroke]` says, and crossing ones where the light falls flatly enough. If hidden
+    /// strokes are drawn, too, and colours tell near from far, both are sorted by depth together.
     fn as_they_fall(
         &self,
         sight: &room::Sight<'_>,
-        grown: &Grown,
+        grown: &GrownStrokes,
         light: DVec3,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
     ) -> [Vec<Polyline>; 2] {
-        let Hatching { table, pen, cross_pen, .. } = self.hatching;
+        let HatchingSetup { table, pen, cross_pen, .. } = self.hatching;
         let may_be_seen = |stroke: &&Stroke| !self.turns_away(sight, stroke);
+        // Strokes that may be seen. Crossing ones need flat light at their seeds.
         let mut first: Vec<&Stroke> = grown.first.iter().filter(may_be_seen).collect();
         let mut across: Vec<&Stroke> = table.cross.map_or_else(Vec::new, |angle| {
             let limit = math::cos(angle.to_radians());
@@ -66,6 +67,7 @@ impl Hatched<'_> {
         if by_depth {
             first.append(&mut across);
         }
+        // Each direction in its pen: style along the stroke, then hidden parts cut off.
         let depths = Depths::new(sight.view, self.strokes.ground().grid());
         let one_width = [table.has_one_width(), table.has_one_width() || table.cross_pen.is_some()];
         let inks = [pen, cross_pen].into_iter().zip(one_width).map(|(pen, one)| (pen.width, one));
@@ -87,7 +89,7 @@ impl Hatched<'_> {
         [lines.next().unwrap_or_default(), lines.next().unwrap_or_default()]
     }
 
-    /// What a stroke is drawn with at a place.
+    /// Returns width, opacity and colour of a stroke at a point.
     fn pen(
         &self,
         sight: &room::Sight<'_>,
@@ -96,7 +98,7 @@ impl Hatched<'_> {
         (light, depths): (DVec3, Depths),
         tone: &impl Fn(DVec3) -> f64,
     ) -> room::Pen {
-        let Hatching { table, lighting, .. } = self.hatching;
+        let HatchingSetup { table, lighting, .. } = self.hatching;
         let width = if one_width {
             widest
         } else {
@@ -104,6 +106,7 @@ impl Hatched<'_> {
                 widest * math::pow(tone(vertex.normal), table.tone()) * taper(stroke, vertex.u, table.taper());
             tapered * self.scattered(stroke) * (1.0 - table.stroke.depth * depths.share(sight.view, vertex.world))
         };
+        // Colour and opacity: light on lines, a pencil's grain, the transfer function.
         let lit = lighting.as_ref().map(|lighting| {
             let view = sight.view;
             let eye = if view.perspective { (view.eye - vertex.world).normalize_or_zero() } else { -view.forward };
@@ -120,15 +123,15 @@ impl Hatched<'_> {
         room::Pen { radius: width / 2.0, opacity, color }
     }
 
-    /// What the width of a stroke is multiplied by: 1 ± jitter.
+    /// Returns the random factor of a stroke's width, 1 ± jitter.
     fn scattered(&self, stroke: &Stroke) -> f64 {
         let Table { stroke: style, seed, .. } = self.hatching.table;
         let key = [stroke.key as u32, (stroke.key >> 32) as u32, 0];
         if style.jitter == 0.0 { 1.0 } else { 1.0 + style.jitter * (2.0 * uniform(*seed, key, 3) - 1.0) }
     }
 
-    /// Whether all of a stroke turns away from the eye, so that its own surface hides it; unknown where another one hides
-    /// ([HATCH-10]).
+    /// Whether a whole stroke turns away from the eye, so that its own surface hides it. False if another surface hides
+    /// it ([HATCH-10]).
     fn turns_away(&self, sight: &room::Sight<'_>, stroke: &Stroke) -> bool {
         let view = sight.view;
         sight.surface.is_some_and(|surface| Some(surface.iso()) == self.hatching.iso && surface.front(view) > 0.0) && {
@@ -137,7 +140,7 @@ impl Hatched<'_> {
         }
     }
 
-    /// Strokes that keep their distance on the page, those of each direction among themselves.
+    /// Draws strokes that keep their distance on the page from others of the same direction.
     fn evenly(
         &self,
         sight: &room::Sight<'_>,
@@ -145,11 +148,11 @@ impl Hatched<'_> {
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
     ) -> [Vec<Polyline>; 2] {
-        let Hatching { table, pen, cross_pen, .. } = self.hatching;
+        let HatchingSetup { table, pen, cross_pen, .. } = self.hatching;
         let crossed = table.cross.is_some();
         let by_tone = table.spacing == Spacing::Tone;
-        // Of what both print together 1 − (1 − τ₁)(1 − τ₂) is the tone. Where the distance is the same everywhere the second
-        // begins at the same tone.
+        // Both directions together print 1 − (1 − τ₁)(1 − τ₂), which is the tone. With a constant distance the second
+        // direction begins at the same tone.
         let first = |normal: DVec3| match (by_tone, crossed) {
             (true, true) => tone(normal).min(CROSSED),
             (true, false) => tone(normal),
@@ -175,7 +178,7 @@ impl Hatched<'_> {
     }
 }
 
-/// The depths of the nearest and the farthest corner of a volume.
+/// Depths of the nearest and the farthest corner of a volume.
 #[derive(Clone, Copy)]
 struct Depths([f64; 2]);
 
@@ -188,14 +191,14 @@ impl Depths {
         Self(depths.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], depth| [lo.min(depth), hi.max(depth)]))
     }
 
-    /// 0 at the nearest, 1 at the farthest.
+    /// Returns the relative depth: 0 at the nearest corner, 1 at the farthest.
     fn share(&self, view: &View, world: DVec3) -> f64 {
         let [near, far] = self.0;
         if far > near { ((-view.to_eye(world).z - near) / (far - near)).clamp(0.0, 1.0) } else { 0.0 }
     }
 }
 
-/// min(1, u/b, (1 − u)/b); 1 on a stroke without ends.
+/// Returns the taper min(1, u/b, (1 − u)/b), and 1 on a stroke without ends.
 fn taper(stroke: &Stroke, u: f64, b: f64) -> f64 {
     if stroke.closed || b == 0.0 { 1.0 } else { (u / b).min((1.0 - u) / b).clamp(0.0, 1.0) }
 }

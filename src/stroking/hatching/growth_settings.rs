@@ -1,4 +1,4 @@
-//! The table of hatching in world units, as growing takes it.
+//! Settings of growing strokes: the table of hatching in world units.
 
 use crate::Failure;
 use crate::stroking::in_world;
@@ -8,16 +8,18 @@ use drypoint_scene::tables::{
     DirectionRule, DirectionSource, Family, Hatching as Table, Interpolate, LineLighting, Reference, Scene, StoredAt,
 };
 
-/// The least `chord`, in voxels: the vertices of a stroke grow with 1/√c, and a default one has some 600 there.
+/// Least `chord`, in voxels. The number of a stroke's vertices grows with 1/√chord, and a default stroke has some 600
+/// there.
 const LEAST_CHORD: f64 = 1e-4;
 
-/// The least `min_step`, in voxels: a stroke of 30 voxels takes up to ten million steps there.
+/// Least `min_step`, in voxels. A stroke of 30 voxels takes up to ten million steps there.
 const LEAST_STEP: f64 = 1e-6;
 
-/// The table in world units.
-pub(super) fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
+/// Converts the table to world units.
+pub(super) fn growth_settings(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
     let length = |length, key: &str| in_world(scene, length, &format!("hatching.{key}"), grid);
     let directions = &table.directions;
+    // Lengths so small that strokes would not end are refused.
     let chord = length(table.chord, "chord")?;
     if chord < LEAST_CHORD * grid.voxel() {
         let what = format!("hatching.chord is below {LEAST_CHORD} voxels, where strokes have no end of vertices");
@@ -72,7 +74,7 @@ pub(super) fn how(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hat
     })
 }
 
-/// The table's light on lines.
+/// Converts the table's light on lines.
 pub(super) fn line_light(table: &LineLighting) -> room::LineLight {
     room::LineLight {
         diffuse: table.diffuse,

@@ -1,13 +1,13 @@
-//! Where a picture or a volume goes, settled before any work is done.
+//! Output paths, checked before any work.
 
-use super::frames::Files;
+use super::frames::FrameFiles;
 use drypoint::output::atomic;
 use drypoint::scene::tables::Scene;
 use drypoint::scene::volume::read;
 use drypoint::{Failure, Format};
 use std::path::{Path, PathBuf};
 
-/// The name of an input without its folder and suffix: `head` of `ct/head.nii.gz`, `my.scene` of `my.scene.toml`.
+/// Returns the name of an input without folder and suffix: `head` of `ct/head.nii.gz`, `my.scene` of `my.scene.toml`.
 pub(super) fn stem(input: &Path) -> String {
     let name = input.file_name().unwrap_or_default().to_string_lossy();
     let lower = name.to_ascii_lowercase();
@@ -21,10 +21,10 @@ pub(super) fn stem(input: &Path) -> String {
     if stem.is_empty() { "drypoint".into() } else { stem.into() }
 }
 
-/// A picture's file of one format, which can be written now.
+/// Returns the format of one picture's file, which can be written now.
 ///
 /// # Errors
-/// A wrong suffix, a pattern for several frames, a folder, or a folder that is not there or may not be written to.
+/// A wrong suffix, a pattern for several frames, a folder, or a missing or read-only folder.
 pub(super) fn picture(path: &Path, formats: &[Format]) -> Result<Format, Failure> {
     if path.file_name().unwrap_or_default().to_string_lossy().contains('#') {
         let what = "a # stands for the number of a frame, and this picture has one";
@@ -33,10 +33,10 @@ pub(super) fn picture(path: &Path, formats: &[Format]) -> Result<Format, Failure
     format(path, formats)
 }
 
-/// The format of a file, or of files of frames, in a folder that can be written to now.
+/// Returns the format of a file, or of files of frames, in a folder that can be written to now.
 pub(super) fn format(path: &Path, formats: &[Format]) -> Result<Format, Failure> {
     if path.is_dir() {
-        // Its suffix does not matter.
+        // A folder's suffix does not matter.
         writable(path)?;
     }
     let format = Format::among(path, formats)?;
@@ -44,18 +44,23 @@ pub(super) fn format(path: &Path, formats: &[Format]) -> Result<Format, Failure>
     Ok(format)
 }
 
-/// Whether a picture's file can be written now.
+/// Checks whether a picture's file can be written now.
 pub(super) fn writable(path: &Path) -> Result<(), Failure> {
     atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))
 }
 
-/// Whether a file that is to be written is none of those that are read. Of a folder, which is a theme, no picture may be
-/// written over. Symbolic links and other spellings of one path are the same file.
+/// Writes a file that is no picture of a scene, whole or not at all.
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    atomic::write(path, bytes).map_err(|error| Failure::picture(&error, path.display()))
+}
+
+/// Checks that an output file is none of the inputs. An input folder is a theme, of which no picture may be
+/// overwritten. Symbolic links and other spellings of a path are the same file.
 ///
 /// # Errors
-/// It is one of them.
-pub(super) fn apart<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
-    // What is not there yet is nobody's input.
+/// The output file is an input.
+pub(super) fn check_not_read<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+    // A file that does not exist yet is nobody's input.
     let Ok(written) = output.canonicalize() else { return Ok(()) };
     let is_picture = Format::of(&written).is_some_and(|format| Format::PICTURES.contains(&format));
     for read in inputs.into_iter().filter_map(|input| input.canonicalize().ok()) {
@@ -67,22 +72,22 @@ pub(super) fn apart<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
     Ok(())
 }
 
-/// Where a rendered picture goes, and frames of it.
-pub(super) struct Target {
-    /// The file, or what the names of frames are made of.
+/// The output of a rendered picture or its frames.
+pub(super) struct RenderOutput {
+    /// The file, or the pattern of the frames' names.
     path: PathBuf,
-    /// Whether `-o` says it.
+    /// Whether `-o` gives the path.
     said: bool,
-    /// How it is written.
+    /// File format.
     pub format: Format,
 }
 
-impl Target {
-    /// What `-o` says; without it, the input's name in the working directory, `drypoint` for the embedded scene. Its
-    /// suffix is `.png`, or `.exr` where layers are asked for, which only an EXR has.
+impl RenderOutput {
+    /// Returns the output of `-o`, or else the input's name in the working directory, `drypoint` for the embedded
+    /// scene. The default suffix is `.png`, or `.exr` if layers are requested, which only an EXR has.
     ///
     /// # Errors
-    /// As [`picture`], and layers for another format.
+    /// Same errors as [`picture`], and layers for a format other than EXR.
     pub(super) fn new(output: Option<&Path>, input: Option<&Path>, layers: bool) -> Result<Self, Failure> {
         let suffix = if layers { "exr" } else { "png" };
         let default = || format!("{}.{suffix}", input.map_or("drypoint".into(), stem)).into();
@@ -96,11 +101,11 @@ impl Target {
         Ok(Self { path, said: output.is_some(), format })
     }
 
-    /// The files of a scene's frames. A name that nobody said gets the numbers of frames.
+    /// Returns the files of a scene's frames. A default name gets the numbers of frames.
     ///
     /// # Errors
-    /// As [`Files::of`], and a vector file of a scene without points.
-    pub(super) fn files(&self, scene: &Scene) -> Result<Files, Failure> {
+    /// Same errors as [`FrameFiles::of`], and a vector file of a scene without points.
+    pub(super) fn files(&self, scene: &Scene) -> Result<FrameFiles, Failure> {
         if !Format::PICTURES.contains(&self.format) && !scene.has_marks() {
             let suffix = self.format.suffix();
             let what = format!(".{suffix} is for points and lines, and the scene has none");
@@ -110,9 +115,9 @@ impl Target {
             Some(orbit) if !self.said => {
                 let digits = orbit.frames.to_string().len().max(3);
                 let name = format!("{}_{}.{}", stem(&self.path), "#".repeat(digits), self.format.suffix());
-                Files::of(Path::new(&name), scene)
+                FrameFiles::of(Path::new(&name), scene)
             }
-            _ => Files::of(&self.path, scene),
+            _ => FrameFiles::of(&self.path, scene),
         }
     }
 }

@@ -1,46 +1,52 @@
-//! How far two lists of lines are apart in the world, Hausdorff's distance, and the angle between two lines ([COST-1]).
+//! Distances of two lists of lines in the world (Hausdorff's and RMS), and angles between two lines ([COST-1]).
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::marks::Polyline;
 use drypoint_scene::math::atan2;
 use drypoint_scene::strokes::Stroke;
 
-/// The way that a line takes through the world.
+/// A line through the world.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course {
-    /// Its vertices, in order.
+pub struct WorldLine {
+    /// Vertices, in order.
     pub places: Vec<DVec3>,
-    /// Whether it goes on from the last to the first.
+    /// Whether the last vertex is joined to the first.
     pub closed: bool,
 }
 
-impl From<&Polyline> for Course {
+impl From<&Polyline> for WorldLine {
     fn from(line: &Polyline) -> Self {
         Self { places: line.vertices.iter().map(|vertex| vertex.world).collect(), closed: line.closed }
     }
 }
 
-impl From<&Stroke> for Course {
+impl From<&Stroke> for WorldLine {
     fn from(stroke: &Stroke) -> Self {
         Self { places: stroke.vertices.iter().map(|vertex| vertex.world).collect(), closed: stroke.closed }
     }
 }
 
-/// How far two lists of lines are apart, both ways, in world units.
+/// Distance of two lists of lines, symmetric, in world units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Apart {
-    /// Root mean square of the distances of places on either list to the other.
+pub struct LineDistance {
+    /// Root mean square over points of both lists of the distance to the other list.
     pub rms: f64,
-    /// The largest of them: Hausdorff's distance.
+    /// Largest of these distances: Hausdorff's distance.
     pub max: f64,
 }
 
-/// A part of a line.
-type Piece = [DVec3; 2];
+/// A straight piece of a line, as its two ends.
+type WorldSegment = [DVec3; 2];
 
-/// Cuts all lines into pieces of at most `step` and takes the distance of each of their ends to the other list's pieces,
-/// as segments: so lines that are the same with other vertices are not apart. None where a list has no line.
-pub fn apart<L: Into<Course>>(a: impl Iterator<Item = L>, b: impl Iterator<Item = L>, step: f64) -> Option<Apart> {
+/// Returns the distance of two lists of lines; none if a list has no line.
+///
+/// All lines are cut into pieces of at most `step`. Each end of a piece has a distance to the other list's pieces,
+/// taken as segments. Equal curves with different vertices therefore have distance 0.
+pub fn line_distance<L: Into<WorldLine>>(
+    a: impl Iterator<Item = L>,
+    b: impl Iterator<Item = L>,
+    step: f64,
+) -> Option<LineDistance> {
     let (mut a, mut b) = (pieces(a, step), pieces(b, step));
     if a.is_empty() || b.is_empty() {
         return None;
@@ -55,18 +61,18 @@ pub fn apart<L: Into<Course>>(a: impl Iterator<Item = L>, b: impl Iterator<Item 
             (sum, most, places) = (sum + best, most.max(best), places + 1);
         }
     }
-    Some(Apart { rms: (sum / places as f64).sqrt(), max: most.sqrt() })
+    Some(LineDistance { rms: (sum / places as f64).sqrt(), max: most.sqrt() })
 }
 
-/// The angles between two lines, in radians from 0 to π/2, at equal arc lengths from their first places: `step`, 2·`step`
-/// and so on, as far as both go.
-pub fn angles(a: &Course, b: &Course, step: f64) -> Vec<f64> {
+/// Returns the angles between two lines, in radians from 0 to π/2, at the arc lengths `step`, 2·`step` … from their
+/// first vertices. The shorter line ends the list.
+pub fn angles(a: &WorldLine, b: &WorldLine, step: f64) -> Vec<f64> {
     let [along_a, along_b] = [a, b].map(|line| directions(line, step));
     along_a.iter().zip(&along_b).map(|(p, q)| atan2(p.cross(*q).length(), p.dot(*q).abs())).collect()
 }
 
-/// The directions of a line at the arc lengths `step`, 2·`step` and so on.
-fn directions(Course { places, closed }: &Course, step: f64) -> Vec<DVec3> {
+/// Returns the directions of a line at the arc lengths `step`, 2·`step` and so on.
+fn directions(WorldLine { places, closed }: &WorldLine, step: f64) -> Vec<DVec3> {
     let next = places.iter().skip(1).chain(places.first().filter(|_| *closed));
     let (mut directions, mut gone) = (Vec::new(), 0.0);
     for (a, b) in places.iter().zip(next) {
@@ -78,11 +84,11 @@ fn directions(Course { places, closed }: &Course, step: f64) -> Vec<DVec3> {
     directions
 }
 
-/// Lines in pieces of at most `step`.
-fn pieces<L: Into<Course>>(lines: impl Iterator<Item = L>, step: f64) -> Vec<Piece> {
+/// Cuts lines into pieces of at most `step`.
+fn pieces<L: Into<WorldLine>>(lines: impl Iterator<Item = L>, step: f64) -> Vec<WorldSegment> {
     let mut pieces = Vec::new();
     for line in lines {
-        let Course { places, closed } = line.into();
+        let WorldLine { places, closed } = line.into();
         let next = places.iter().skip(1).chain(places.first().filter(|_| closed));
         for (&a, &b) in places.iter().zip(next) {
             let n = (a.distance(b) / step).ceil().max(1.0) as usize;
@@ -93,16 +99,16 @@ fn pieces<L: Into<Course>>(lines: impl Iterator<Item = L>, step: f64) -> Vec<Pie
     pieces
 }
 
-/// Pieces that are looked at one by one.
+/// Largest number of pieces that are searched one by one.
 const FEW: usize = 8;
 
-fn middle(piece: &Piece, axis: usize) -> f64 {
+fn middle(piece: &WorldSegment, axis: usize) -> f64 {
     0.5 * (piece[0][axis] + piece[1][axis])
 }
 
-/// As a tree: the middle piece by one coordinate, before it those with a smaller one, behind it the others, each half by
-/// the next coordinate.
-fn sort(pieces: &mut [Piece], axis: usize) {
+/// Sorts pieces into an implicit k-d tree by their midpoints. The median by one coordinate stands in the middle,
+/// smaller pieces before it, larger ones after it. Each half is sorted by the next coordinate.
+fn sort(pieces: &mut [WorldSegment], axis: usize) {
     if pieces.len() <= FEW {
         return;
     }
@@ -113,14 +119,15 @@ fn sort(pieces: &mut [Piece], axis: usize) {
     sort(&mut rest[1..], (axis + 1) % 3);
 }
 
-/// The square of the distance to the nearest piece, none of which reaches farther than `half` from its middle.
-fn nearest(pieces: &[Piece], axis: usize, place: DVec3, half: f64, best: &mut f64) {
+/// Lowers `best` to the squared distance to the nearest piece. No piece reaches farther than `half` from its midpoint.
+fn nearest(pieces: &[WorldSegment], axis: usize, place: DVec3, half: f64, best: &mut f64) {
     if pieces.len() <= FEW {
         pieces.iter().for_each(|piece| *best = best.min(squared(piece, place)));
         return;
     }
     let at = pieces.len() / 2;
     *best = best.min(squared(&pieces[at], place));
+    // The half on the point's own side first. The other half lies at least |beyond| − half away.
     let beyond = place[axis] - middle(&pieces[at], axis);
     let (before, behind) = (&pieces[..at], &pieces[at + 1..]);
     let (near, far) = if beyond < 0.0 { (before, behind) } else { (behind, before) };
@@ -131,8 +138,8 @@ fn nearest(pieces: &[Piece], axis: usize, place: DVec3, half: f64, best: &mut f6
     }
 }
 
-/// The square of a place's distance to a segment.
-fn squared([a, b]: &Piece, place: DVec3) -> f64 {
+/// Returns the squared distance of a point to a segment.
+fn squared([a, b]: &WorldSegment, place: DVec3) -> f64 {
     let (along, from) = (*b - *a, place - *a);
     let length = along.length_squared();
     let t = if length > 0.0 { (from.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
@@ -157,8 +164,8 @@ mod tests {
         Polyline { vertices: places.into_iter().map(vertex).collect(), closed }
     }
 
-    fn of(a: &[Polyline], b: &[Polyline], step: f64) -> Option<Apart> {
-        apart(a.iter(), b.iter(), step)
+    fn of(a: &[Polyline], b: &[Polyline], step: f64) -> Option<LineDistance> {
+        line_distance(a.iter(), b.iter(), step)
     }
 
     #[test]
@@ -204,7 +211,8 @@ mod tests {
         };
         let (a, b) = (list(), list());
         let (all_a, all_b) = (pieces(a.iter(), 0.5), pieces(b.iter(), 0.5));
-        let least = |place: DVec3, all: &[Piece]| all.iter().map(|p| squared(p, place)).fold(f64::INFINITY, f64::min);
+        let least =
+            |place: DVec3, all: &[WorldSegment]| all.iter().map(|p| squared(p, place)).fold(f64::INFINITY, f64::min);
         let slow = all_a.iter().flatten().map(|&p| least(p, &all_b));
         let slow = slow.chain(all_b.iter().flatten().map(|&p| least(p, &all_a))).fold(0.0, f64::max);
         assert_eq!(of(&a, &b, 0.5).unwrap().max, slow.sqrt());
@@ -212,7 +220,7 @@ mod tests {
 
     #[test]
     fn angles_at_equal_arc_lengths_by_hand() {
-        let course = |closed, places: &[[f64; 3]]| Course {
+        let course = |closed, places: &[[f64; 3]]| WorldLine {
             places: places.iter().map(|p| DVec3::from_array(*p)).collect(),
             closed,
         };

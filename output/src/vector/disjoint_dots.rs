@@ -1,24 +1,25 @@
-//! Translucent dots into sets of which no two overlap.
+//! Partition of translucent dots into sets of disjoint ones.
 //!
-//! What one path strokes, it inks once; two dots that overlap must add. So dots that touch go into different paths.
+//! A path inks what it strokes once, but two overlapping dots must add. Dots that touch therefore go into different
+//! paths.
 
-use super::groups::Place;
-use crate::grid::{Grid, NONE};
+use super::groups::PagePoint;
+use crate::grid::{CellGrid, NONE};
 
-/// A path that holds the dots of one set is one element; more sets than this become elements of one dot each, so that a
-/// heap of dots in one place costs no more than its size.
+/// Largest number of sets, each one path. Dots beyond them become elements of their own, so that a heap of dots in one
+/// place costs no more than its size.
 const SETS: usize = 64;
 
-/// Parts dots of one diameter into sets without overlap, keeping their order in each.
-pub(super) fn apart(dots: &[Place], diameter: i64) -> Vec<Vec<Place>> {
-    let Some(grid) = Grid::new(dots, diameter) else { return Vec::new() };
+/// Partitions dots of one diameter into sets without overlap. Each set keeps their order.
+pub(super) fn disjoint_sets(dots: &[PagePoint], diameter: i64) -> Vec<Vec<PagePoint>> {
+    let Some(grid) = CellGrid::new(dots, diameter) else { return Vec::new() };
     let mut heads = vec![NONE; grid.cells()];
     let mut nexts = vec![NONE; dots.len()];
     let mut set_of = vec![0; dots.len()];
-    let mut sets: Vec<Vec<Place>> = Vec::new();
-    let mut single: Vec<Vec<Place>> = Vec::new();
+    let mut sets: Vec<Vec<PagePoint>> = Vec::new();
+    let mut single: Vec<Vec<PagePoint>> = Vec::new();
     for (i, dot) in dots.iter().enumerate() {
-        // One bit a set that holds a dot that overlaps this one.
+        // A bit for each set that holds a dot overlapping this one.
         let mut taken = 0_u64;
         grid.around(dot, |cell| {
             let mut other = heads[cell];
@@ -51,7 +52,7 @@ pub(super) fn apart(dots: &[Place], diameter: i64) -> Vec<Vec<Place>> {
 mod tests {
     use super::*;
 
-    fn overlap(a: &Place, b: &Place, diameter: i64) -> bool {
+    fn overlap(a: &PagePoint, b: &PagePoint, diameter: i64) -> bool {
         (a[0] - b[0]).pow(2) + (a[1] - b[1]).pow(2) < diameter * diameter
     }
 
@@ -63,8 +64,8 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 33) as i64 % 20_000 - 7000
         };
-        let dots: Vec<Place> = (0..3000).map(|_| [draw(), draw()]).collect();
-        let sets = apart(&dots, 500);
+        let dots: Vec<PagePoint> = (0..3000).map(|_| [draw(), draw()]).collect();
+        let sets = disjoint_sets(&dots, 500);
         assert!(sets.len() > 1 && sets.len() < 30, "{}", sets.len());
         for set in &sets {
             for (i, a) in set.iter().enumerate() {
@@ -80,17 +81,17 @@ mod tests {
 
     #[test]
     fn few_dots() {
-        assert!(apart(&[], 100).is_empty());
-        assert_eq!(apart(&[[5, 5]], 100), [[[5, 5]]]);
+        assert!(disjoint_sets(&[], 100).is_empty());
+        assert_eq!(disjoint_sets(&[[5, 5]], 100), [[[5, 5]]]);
         // Touching is not overlapping.
-        assert_eq!(apart(&[[0, 0], [100, 0], [199, 0]], 100), [vec![[0, 0], [100, 0]], vec![[199, 0]]]);
+        assert_eq!(disjoint_sets(&[[0, 0], [100, 0], [199, 0]], 100), [vec![[0, 0], [100, 0]], vec![[199, 0]]]);
         // All on a line, and far apart.
-        assert_eq!(apart(&[[0, 7], [1_000_000_000, 7]], 2).len(), 1);
+        assert_eq!(disjoint_sets(&[[0, 7], [1_000_000_000, 7]], 2).len(), 1);
     }
 
     #[test]
     fn a_heap_is_sets_of_one() {
-        let sets = apart(&vec![[3, 4]; 20_000], 100);
+        let sets = disjoint_sets(&vec![[3, 4]; 20_000], 100);
         assert_eq!(sets.len(), 20_000);
     }
 }

@@ -1,9 +1,9 @@
-//! What growing strokes did, as counts ([PLAN-2]).
+//! Counts of growing strokes ([PLAN-2]).
 
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
 
-/// What strokes keep of the directions that they asked for.
+/// Counts the directions that strokes have stored.
 pub(super) fn count_kept(counts: &mut Counts, strokes: &room::Strokes<'_, '_>) {
     let [made, bytes] = strokes.stored();
     counts.preprocess.insert("stored directions".into(), made);
@@ -11,7 +11,7 @@ pub(super) fn count_kept(counts: &mut Counts, strokes: &room::Strokes<'_, '_>) {
     counts.bytes.insert("smoothed bricks".into(), strokes.directions().bytes());
 }
 
-/// Adds what growing did.
+/// Adds the counts of growing.
 pub(super) fn add(counts: &mut Counts, grown: &room::HatchCounts) {
     counts.directions += grown.scales.directions();
     for (cause, number) in grown.stops.named() {
