@@ -9,7 +9,7 @@ use drypoint_output::paint::fragments;
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::{self, Marks};
+use drypoint_scene::marks::{Marks, mark_counts};
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::tables::{Orbit, Scene};
@@ -182,12 +182,6 @@ pub fn write_animation(
     draw: impl FnMut(usize) -> Result<Frame, Failure>,
 ) -> Result<(), Failure> {
     FrameWriter::of(job, 0).write_animation(frames, path, draw)
-}
-
-/// Returns the numbers of dots and lines in layers.
-pub fn mark_counts(layers: &[marks::Layer]) -> [usize; 2] {
-    let sum = |n: fn(&marks::Layer) -> usize| layers.iter().map(n).sum();
-    [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
 }
 
 /// Returns premultiplied pixels as a picture.

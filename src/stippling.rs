@@ -3,7 +3,6 @@
 mod pens;
 
 use crate::Failure;
-use crate::drawing::mark_counts;
 use crate::job::{Job, near};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::suggest;
@@ -12,7 +11,7 @@ use drypoint_reference::volume_stippling::{
     Drawn, Edges, FrameInputs, Frames, Inputs, PenTone, Preprocess, StippleError, choose_on_page, joined, seen,
 };
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::{Layer, Marks, Page, Pen};
+use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
 use drypoint_scene::memory;
 use drypoint_scene::plan::PointsPlan;
 use drypoint_scene::points::Points;

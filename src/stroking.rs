@@ -8,14 +8,13 @@ mod seeding;
 mod visible_values;
 
 use crate::Failure;
-use crate::drawing::mark_counts;
 use crate::job::{Job, in_world, near, pen_named, render_failure};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::interactive_volume_illustration::Sight;
 use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::{Layer, Marks, Page, Pen};
+use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Iso, Length, Scene};
 use drypoint_scene::view::View;

@@ -1,12 +1,12 @@
 //! Writing of frames: pixels, vectors or a list.
 
-use super::{Frame, WriteReport, mark_counts};
+use super::{Frame, WriteReport};
 use crate::job::{Job, RenderTarget, background_color, no_room_for_pixels};
 use crate::{Failure, Format};
 use drypoint_output::vector::{VectorPage, pdf, svg};
 use drypoint_output::{OutputError, exr, list, paint, plotter, png};
 use drypoint_scene::atomic;
-use drypoint_scene::marks::{Marks, Page, Vertex};
+use drypoint_scene::marks::{Marks, Page, Vertex, mark_counts};
 use drypoint_scene::memory;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::tables::Scene;

@@ -1,11 +1,11 @@
 //! The rays of a picture, tile by tile.
 
 use super::brick_occupancy::{Beam, RayIntervals};
-use super::composite::plane_order::TileRays;
 use super::composite::{Cast, Sums, pooled};
+use super::inputs::Backdrop;
 use super::lattice::IndexRay;
 use super::prepared::Prepared;
-use super::render::Backdrop;
+use super::tile_work::{CastAll, TileRays, TileWork};
 use crate::number::Real;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
@@ -24,24 +24,6 @@ struct TilePixels {
     pixels: Vec<f64>,
     counts: Counts,
 }
-
-/// Rays of one tile that are to be cast.
-pub(super) struct TileWork<'a> {
-    /// The number of the tile.
-    pub(super) tile: usize,
-    /// Points of the picture that the rays go through, in pixels from the top left corner.
-    pub(super) points: &'a [[f64; 2]],
-    /// RayIntervals of visible bricks that they can meet; none where nothing is skipped.
-    pub(super) boxes: Option<&'a mut RayIntervals>,
-    pub(super) counts: &'a mut Counts,
-    /// Results, appended in the order of the points.
-    pub(super) casts: &'a mut Vec<Cast>,
-}
-
-/// Casts rays of a tile.
-pub(super) trait CastAll: Fn(TileWork<'_>) + Sync {}
-
-impl<F: Fn(TileWork<'_>) + Sync> CastAll for F {}
 
 /// Casts all rays of a picture. Each pixel is a function of its place alone, so neither threads nor the order of tiles
 /// show ([RAY-3]).

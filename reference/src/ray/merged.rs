@@ -1,7 +1,7 @@
 //! Lines inside a translucent volume ([HATCH-14] d): rays with lines on them are cast alone, the others side by side.
 
-use super::draw::{CastAll, TileWork};
 use super::prepared::Prepared;
+use super::tile_work::{CastAll, TileWork};
 use crate::number::Real;
 
 /// Casts rays with lines on them alone, and those without side by side; what comes out of each is appended in the order of the

@@ -1,102 +1,27 @@
-//! A picture of a shot: the data that it is made of, and what can be wrong with that.
+//! Pictures of a shot, any number of them.
 
 use super::composite::{PlaneEffect, plane_order, ray_order};
-use super::draw::{CastAll, TileWork, draw, rays_of_tiles};
+use super::draw::{draw, rays_of_tiles};
+use super::inputs::{Backdrop, Inputs, RenderError};
 use super::lanes;
-use super::lattice::{MOST_SAMPLES, samples_in};
+use super::lattice::samples_in;
 use super::merged;
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
-use crate::field::{Exact, FieldError, Sampler};
+use super::tile_work::{CastAll, TileWork};
+use crate::field::{Exact, Sampler};
 use crate::number::Real;
-use crate::transfer::NodesError;
 use crate::with_sampler;
-use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::{Number, Shot};
-use drypoint_scene::style::Style;
-use drypoint_scene::volume::Volume;
-use drypoint_scene::volume::labels::LabelVolume;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Pixels along the side of a tile, the work of one thread at a time.
 const TILE: usize = 8;
-
-/// The data that a shot names.
-#[derive(Clone, Copy, Debug)]
-pub struct Inputs<'a> {
-    /// The volume.
-    pub volume: &'a Volume,
-    /// The labels beside the volume, where the function reads them ([STF-13]).
-    pub labels: Option<&'a LabelVolume>,
-    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
-    pub further: [Option<&'a Volume>; 2],
-    /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names).
-    pub styles: &'a [Style],
-    /// The background.
-    pub background: Backdrop<'a>,
-}
-
-/// The background of a picture, linear.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Backdrop<'a> {
-    /// Nothing.
-    None,
-    /// One straight colour.
-    Color(Rgba),
-    /// Premultiplied pixels of the picture's size, row by row from the top.
-    Pixels(&'a [Rgba]),
-}
-
-/// A picture that cannot be made.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RenderError {
-    /// The field cannot be reconstructed as the scene asks.
-    #[error(transparent)]
-    Field(#[from] FieldError),
-    /// Sample planes that fall together ([RAY-1]): k + ½ has no half from 2⁵² on.
-    #[error("the volume reaches {planes:.1e} steps from the eye, where sample planes are not told apart any more")]
-    TooManyPlanes {
-        /// The largest distance from the eye, in steps.
-        planes: f64,
-    },
-    /// More samples than can be evaluated in months.
-    #[error("the rays have some {samples:.1e} samples, more than {:.0e}, which would take months", MOST_SAMPLES)]
-    Endless {
-        /// Samples of all rays, if none is skipped.
-        samples: f64,
-    },
-    /// The nodes make no function.
-    #[error(transparent)]
-    Nodes(#[from] NodesError),
-    /// A quantity of the function is a volume that was not handed over.
-    #[error("the transfer function is over a further volume, and none was loaded")]
-    NoFurtherVolume,
-    /// A quantity of the function reads labels, and there are none.
-    #[error("the transfer function reads labels, and there are none")]
-    NoLabels,
-    /// A distance to a label that no voxel has.
-    #[error("no voxel has the label {id}")]
-    NoSuchLabel {
-        /// The label.
-        id: u32,
-    },
-    /// The function and the material do not fit.
-    #[error("the material is of colours and the transfer function of styles, or the other way round")]
-    Material,
-    /// The function's nodes and the styles do not fit.
-    #[error("the transfer function names {named} styles, {given} were loaded")]
-    Styles {
-        /// Styles that the function names.
-        named: usize,
-        /// Styles that were handed over.
-        given: usize,
-    },
-}
 
 /// A shot that is ready to be rendered any number of times.
 pub struct Renderer<'a> {

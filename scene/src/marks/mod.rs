@@ -27,6 +27,12 @@ pub use pen::Pen;
 pub use polyline::{Piece, Polyline, Vertex, color_between};
 pub use round::on_step;
 
+/// The numbers of dots and lines in layers.
+pub fn mark_counts(layers: &[Layer]) -> [usize; 2] {
+    let sum = |n: fn(&Layer) -> usize| layers.iter().map(n).sum();
+    [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
+}
+
 /// All that is drawn on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marks {

@@ -4,6 +4,7 @@
 //! what lies on the planes before. Both give the same bits and the same counts.
 
 mod accumulator;
+mod cast;
 mod layers;
 mod path;
 mod plane_effect;
@@ -12,6 +13,6 @@ pub(super) mod ray_order;
 mod ray_state;
 
 pub(super) use accumulator::Accumulator;
+pub(super) use cast::Cast;
 pub(super) use layers::{Sums, pooled};
 pub use plane_effect::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};
-pub(super) use ray_state::Cast;

@@ -3,24 +3,17 @@
 //! Rays of one tile lie together, and the tiles that have something on a plane are visited in parallel. Between planes all
 //! threads meet, since an effect may read what its neighbours left on the planes before.
 
+use super::cast::Cast;
 use super::path::Step;
 use super::plane_effect::{Hook, LayBehind, PlaneEffect, RayOnPlane};
-use super::ray_state::{Cast, RayState};
+use super::ray_state::RayState;
 use crate::field::Sampler;
 use crate::number::Real;
-use crate::ray::brick_occupancy::RayIntervals;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need, Needs};
+use crate::ray::tile_work::TileRays;
 use drypoint_scene::counts::Counts;
 use rayon::prelude::*;
-
-/// The rays of a tile: the points that they go through, in pixels from the top left corner, and their column and row among
-/// all rays; with the boxes of visible bricks that they can meet.
-pub(crate) struct TileRays {
-    pub(crate) points: Vec<[f64; 2]>,
-    pub(crate) places: Vec<[usize; 2]>,
-    pub(crate) boxes: Option<RayIntervals>,
-}
 
 /// A ray that waits for its next plane.
 struct WaitingRay<'p, 'v, R: Real, S> {

@@ -5,9 +5,9 @@ use super::ray_state::RayState;
 use crate::field::Sampler;
 use crate::number::Real;
 use crate::ray::brick_occupancy::RayIntervals;
-use crate::ray::draw::TileWork;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need, Needs};
+use crate::ray::tile_work::TileWork;
 
 /// Casts rays of a tile one by one.
 pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {

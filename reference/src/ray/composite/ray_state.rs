@@ -1,6 +1,7 @@
 //! A ray on its way, sample by sample, front to back ([VAL-3], [VAL-4], [RAY-2]).
 
 use super::Accumulator;
+use super::cast::Cast;
 use super::layers::{LayerSample, Sums};
 use super::path::Step;
 use super::plane_effect::Hook;
@@ -16,16 +17,6 @@ use crate::transfer;
 use crate::transfer::over::Here;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
-
-/// The result of one ray.
-pub(crate) struct Cast {
-    /// Premultiplied colour and opacity in the blend space, without the background.
-    pub(crate) rgba: [f64; 4],
-    /// Sums for the other layers; none where there are none, or nothing was seen.
-    pub(crate) sums: Option<Box<Sums>>,
-    /// Samples evaluated.
-    pub(crate) samples: u64,
-}
 
 /// The most values that are computed at once.
 const MOST_AT_ONCE: usize = 8;

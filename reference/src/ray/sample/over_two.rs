@@ -3,7 +3,7 @@
 use crate::field::Field;
 use crate::labels::Labels;
 use crate::number::Real;
-use crate::ray::render::{Inputs, RenderError};
+use crate::ray::inputs::{Inputs, RenderError};
 use crate::transfer::over::{Differential, Distance, Further, Here, Label, LabelDistance, Magnitude, Measure, Value};
 use crate::transfer::{Patch, Plane};
 use drypoint_scene::counts::Counts;

@@ -1,0 +1,13 @@
+//! The result of a ray, as pixels are made of it.
+
+use super::layers::Sums;
+
+/// The result of one ray.
+pub(crate) struct Cast {
+    /// Premultiplied colour and opacity in the blend space, without the background.
+    pub(crate) rgba: [f64; 4],
+    /// Sums for the other layers; none where there are none, or nothing was seen.
+    pub(crate) sums: Option<Box<Sums>>,
+    /// Samples evaluated.
+    pub(crate) samples: u64,
+}
