@@ -5,7 +5,7 @@
 
 use divan::Bencher;
 use drypoint::job::Job;
-use drypoint::reference::ray::Renderer;
+use drypoint::reference::ray::{PlaneEffect, RayOnPlane, Renderer, SampleOnPlane};
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::phantom;
 use drypoint::scene::tables::VolumeSource;
@@ -121,4 +121,36 @@ fn style_with_contours_ray_by_ray(bencher: Bencher) {
 #[divan::bench(sample_count = 15)]
 fn style_with_contours_plane_by_plane(bencher: Bencher) {
     frame_in_order(bencher, &[STYLES, "[contours]\n"], |renderer| renderer.plane_by_plane());
+}
+
+/// An effect that does nothing, over groups of so many planes.
+struct Nothing(i64);
+
+impl PlaneEffect for Nothing {
+    fn numbers(&self) -> usize {
+        1
+    }
+
+    fn planes_per_group(&self) -> i64 {
+        self.0
+    }
+
+    fn before(&self, _: &SampleOnPlane<'_>, rgb: [f64; 3]) -> [f64; 3] {
+        rgb
+    }
+
+    fn after(&self, _: &SampleOnPlane<'_>, _: &mut [f64]) {}
+
+    fn behind(&self, _: i64, _: RayOnPlane<'_>) {}
+
+    fn end_of_group(&mut self, _: i64, _: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool {
+        false
+    }
+}
+
+#[divan::bench(args = [1, 4], sample_count = 15)]
+fn phong_with_an_effect(bencher: Bencher, planes: i64) {
+    let job = job(&[COLOURS, "[shading]\n"]);
+    let renderer = job.renderer().expect("the scene above");
+    bencher.bench_local(|| renderer.frame_with(&mut Nothing(planes), &|_| ()));
 }

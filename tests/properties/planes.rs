@@ -62,35 +62,40 @@ fn planes_show_nowhere() {
     assert!(shown > 150 && surfaces > 15 && layers > 40 && lined > 40 && kinds.len() == 10, "{kinds:?}");
 }
 
-/// An effect that needs no halo: what lies on planes before tints what comes behind it, and each plane shines a little.
+/// An effect that needs no halo: it tints samples, and each plane shines a little.
 struct Fog {
-    numbers: usize,
-    /// Planes that have ended, in their order.
+    /// M.
+    planes: i64,
+    /// Groups that have ended, in their order.
     ended: Vec<i64>,
-    /// Samples that were seen after the end of their plane, or on another one.
+    /// Planes of samples that were seen after the end of their group.
     late: Mutex<Vec<i64>>,
     /// Σ of the samples' opacities by ray.
     sums: BTreeMap<[usize; 2], f64>,
     tint: Option<[f64; 3]>,
     shine: f64,
-    /// Planes that are due after the last sample.
-    beyond: usize,
+    /// Groups that are due in any case.
+    due: usize,
 }
 
 impl Fog {
     fn new() -> Self {
         let (ended, late, sums) = (Vec::new(), Mutex::default(), BTreeMap::new());
-        Self { numbers: 2, ended, late, sums, tint: None, shine: 0.0, beyond: 0 }
+        Self { planes: 1, ended, late, sums, tint: None, shine: 0.0, due: 0 }
     }
 }
 
 impl PlaneEffect for Fog {
     fn numbers(&self) -> usize {
-        self.numbers
+        1
+    }
+
+    fn planes_per_group(&self) -> i64 {
+        self.planes
     }
 
     fn before(&self, sample: &SampleOnPlane<'_>, rgb: [f64; 3]) -> [f64; 3] {
-        if self.ended.last().is_some_and(|&last| last >= sample.k) {
+        if self.ended.last().is_some_and(|&last| last >= sample.k.div_euclid(self.planes)) {
             self.late.lock().unwrap().push(sample.k);
         }
         self.tint.unwrap_or(rgb)
@@ -98,25 +103,23 @@ impl PlaneEffect for Fog {
 
     fn after(&self, sample: &SampleOnPlane<'_>, own: &mut [f64]) {
         own[0] += sample.alpha;
-        own[1] = sample.k as f64;
     }
 
-    fn end_of_plane(&mut self, k: i64, rays: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool {
-        let mut seen = 0;
-        for ray in rays {
-            seen += 1;
-            if ray.own[1] == k as f64 {
-                *self.sums.entry(ray.ray).or_default() += ray.own[0];
-            }
-            ray.own[0] = 0.0;
-            if ray.is_open && self.shine > 0.0 {
-                ray.front.over([1.0; 3], self.shine);
-            }
+    fn behind(&self, _: i64, ray: RayOnPlane<'_>) {
+        assert!(ray.is_open);
+        if self.shine > 0.0 {
+            ray.front.over([1.0; 3], self.shine);
         }
-        assert!(seen > 0);
-        self.ended.push(k);
-        self.beyond = self.beyond.saturating_sub(1);
-        self.beyond > 0
+    }
+
+    fn end_of_group(&mut self, group: i64, rays: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool {
+        for ray in rays {
+            *self.sums.entry(ray.ray).or_default() += ray.own[0];
+            ray.own[0] = 0.0;
+        }
+        self.ended.push(group);
+        self.due = self.due.saturating_sub(1);
+        self.due > 0
     }
 }
 
@@ -136,28 +139,28 @@ fn with(stage: &Stage, fog: &mut Fog) -> Shown {
     shown.unwrap()
 }
 
-/// An effect that changes nothing changes no bit and no count. It hears every plane once, nearest first, after all of its
+/// An effect that changes nothing changes no bit and no count. It hears every group once, nearest first, after all of its
 /// samples, and sees each visible sample of each ray.
 #[test]
 fn an_effect_sees_all_and_changes_nothing_by_itself() {
-    for stage in [translucent(), translucent().with(|s| s.picture.samples = 2)] {
-        let (mut fog, plain) = (Fog::new(), stage.render());
+    for (stage, planes) in [(translucent(), 1), (translucent().with(|s| s.picture.samples = 2), 1), (translucent(), 4)]
+    {
+        let (mut fog, plain) = (Fog { planes, ..Fog::new() }, stage.render());
         let shown = with(&stage, &mut fog);
         assert_eq!(shown.bits(), plain.bits());
         assert_eq!(counted(&shown.counts), counted(&plain.counts));
         assert!(fog.late.lock().unwrap().is_empty());
-        assert!(fog.ended.windows(2).all(|k| k[0] < k[1]), "{:?}", fog.ended);
+        assert!(fog.ended.windows(2).all(|g| g[0] < g[1]), "{:?}", fog.ended);
         // (1 − 0.1)^n lets through what n samples leave, and Σα = 0.1·n.
         let n = stage.scene.picture.samples;
         let [width, height] = stage.scene.picture.size;
         for (i, pixel) in plain.pixels().iter().enumerate() {
             let parts = (0..n * n).map(|part| [i % width * n + part % n, i / width * n + part / n]);
-            let opacity =
-                parts.map(|ray| 1.0 - 0.9f64.powf(fog.sums.get(&ray).copied().unwrap_or(0.0) / 0.1)).sum::<f64>();
+            let opacity = parts.map(|ray| 1.0 - 0.9f64.powf(fog.sums[&ray] / 0.1)).sum::<f64>();
             assert!((pixel[3] - opacity / (n * n) as f64).abs() < 1e-12, "{i}: {} {opacity}", pixel[3]);
         }
-        assert!(fog.sums.len() > width * height / 4);
-        assert!(fog.sums.keys().all(|[x, y]| *x < width * n && *y < height * n));
+        assert_eq!(fog.sums.len(), width * height * n * n);
+        assert!(fog.sums.values().filter(|sum| **sum > 0.0).count() > width * height / 4);
     }
 }
 
@@ -172,23 +175,22 @@ fn an_effect_tints_samples() {
     }
 }
 
-/// A plane that shines lies behind its samples, on rays without samples too; planes beyond the last sample come as long as they
-/// are due.
+/// A plane that shines lies behind its samples, on rays without samples too. Groups beyond the last sample come as long as they
+/// are due. Where the groups have as many planes in all, their size does not show.
 #[test]
 fn an_effect_lays_light_behind_planes() {
     let stage = translucent();
     let mut still = Fog::new();
     with(&stage, &mut still);
-    for beyond in [0, 1000] {
-        let mut fog = Fog { shine: 0.01, beyond, ..Fog::new() };
+    for (planes, due) in [(1, 0), (1, 1000), (4, 250)] {
+        let mut fog = Fog { planes, shine: 0.01, due, ..Fog::new() };
         let shown = with(&stage, &mut fog);
-        let planes = fog.ended.len();
-        let more = if beyond == 0 { still.ended.len() } else { beyond };
-        assert_eq!(planes, more);
-        assert!(fog.ended.windows(2).all(|k| k[1] == k[0] + 1));
+        let groups = fog.ended.len();
+        assert_eq!(groups, if due == 0 { still.ended.len() } else { due });
+        assert!(fog.ended.windows(2).all(|g| g[1] == g[0] + 1));
         // In the corner nothing is but light: A = 1 − 0.99ⁿ, white.
         let corner = shown.pixels()[0];
-        let wanted = 1.0 - 0.99f64.powi(planes as i32);
+        let wanted = 1.0 - 0.99f64.powi(groups as i32 * planes as i32);
         assert!(corner.iter().all(|c| (c - wanted).abs() < 1e-12), "{corner:?} {wanted}");
         // In the middle samples and light alternate.
         let middle = shown.pixels()[4 * 12 + 6];

@@ -5,10 +5,16 @@ use crate::ray::sample::{Sample, SampleAttributes};
 
 /// An effect over the planes of a picture. Numbers are f64, whatever the samples compute in.
 ///
-/// On each plane all samples are visited first, in any order and from any thread; then comes the end of the plane.
+/// Planes come in groups: group g has the planes k with ⌊k/M⌋ = g. Within a group rays go on independently, on any thread. At
+/// the end of a group all rays meet, so an effect reads what its neighbours left on the groups before.
 pub trait PlaneEffect: Sync {
     /// How many numbers the effect keeps for each ray.
     fn numbers(&self) -> usize;
+
+    /// M, the planes of a group.
+    fn planes_per_group(&self) -> i64 {
+        1
+    }
 
     /// The linear straight colour that a visible sample is composited in.
     fn before(&self, sample: &SampleOnPlane<'_>, rgb: [f64; 3]) -> [f64; 3];
@@ -16,8 +22,11 @@ pub trait PlaneEffect: Sync {
     /// Reads a sample after it was composited; `own` are the ray's numbers.
     fn after(&self, sample: &SampleOnPlane<'_>, own: &mut [f64]);
 
-    /// Ends a plane, of which each ray is seen once. Returns whether the next plane is due even if no ray has a sample there.
-    fn end_of_plane(&mut self, k: i64, rays: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool;
+    /// Lays something behind a plane of an open ray, with or without a sample there.
+    fn behind(&self, k: i64, ray: RayOnPlane<'_>);
+
+    /// Ends a group, of which each ray is seen once. Returns whether the next group is due even if no ray has a sample there.
+    fn end_of_group(&mut self, group: i64, rays: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool;
 }
 
 /// A visible sample.
@@ -34,7 +43,7 @@ pub struct SampleOnPlane<'a> {
     pub attributes: &'a SampleAttributes<f64>,
 }
 
-/// A ray at the end of a plane.
+/// A ray at the end of a plane or of a group.
 pub struct RayOnPlane<'a> {
     /// Column and row among the rays of the picture.
     pub ray: [usize; 2],

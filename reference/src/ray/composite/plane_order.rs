@@ -1,7 +1,7 @@
-//! Plane order: all rays of a picture, plane by plane, each with a path on which it can go on ([HALO-1]).
+//! Plane order: all rays of a picture, group of planes by group, each with a path on which it can go on ([HALO-1], [HALO-8]).
 //!
-//! Rays of one tile lie together, and the tiles that have something on a plane are visited in parallel. Between planes all
-//! threads meet, since an effect may read what its neighbours left on the planes before.
+//! Rays of one tile lie together, and the tiles that have something in a group are visited in parallel. Between groups all
+//! threads meet, since an effect may read what its neighbours left on the groups before. Without an effect a group is a plane.
 
 use super::cast::Cast;
 use super::path::Step;
@@ -64,20 +64,26 @@ fn cast_with<N: Need, R: Real, S: Sampler<R> + Sync>(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<(Vec<Cast>, Counts)> {
     let numbers = effect.as_ref().map_or(0, |effect| effect.numbers());
+    let planes = effect.as_ref().map_or(1, |effect| effect.planes_per_group().max(1));
     let aim = |tile: TileRays| WaitingTile::new(prepared, sampler, tile, numbers);
     let mut tiles: Vec<WaitingTile<'_, '_, R, S>> = tiles.into_par_iter().map(aim).collect();
     let last = tiles.iter().flat_map(|tile| &tile.rays).filter_map(WaitingRay::last).max().unwrap_or(0);
     let first = tiles.iter().map(|tile| tile.next).min().unwrap_or(ENDED);
-    let mut k = first;
-    while k != ENDED {
+    let (mut next, mut is_due) = (first, false);
+    let mut group = first.div_euclid(planes);
+    while next != ENDED || is_due {
         let seen: Option<&dyn PlaneEffect> = effect.as_deref();
-        tiles.par_iter_mut().filter(|tile| tile.next == k).for_each(|tile| tile.visit::<N>(k, seen));
-        let is_due = effect.as_deref_mut().is_some_and(|effect| {
-            effect.end_of_plane(k, &mut tiles.iter_mut().flat_map(|tile| &mut tile.rays).map(WaitingRay::on_plane))
+        let range = [group * planes, group * planes + planes - 1];
+        // An effect lays something behind rays without samples, too.
+        let has_work = |tile: &WaitingTile<'_, '_, R, S>| seen.is_some() || tile.next <= range[1];
+        tiles.par_iter_mut().filter(|tile| has_work(tile)).for_each(|tile| tile.visit::<N>(range, seen));
+        is_due = effect.as_deref_mut().is_some_and(|effect| {
+            let rays = tiles.iter_mut().flat_map(|tile| &mut tile.rays);
+            effect.end_of_group(group, &mut rays.map(WaitingRay::on_plane))
         });
-        let next = tiles.iter().map(|tile| tile.next).min().unwrap_or(ENDED);
-        k = if is_due { k + 1 } else { next };
-        progress((k.min(last) - first) as f64 / (last - first).max(1) as f64);
+        next = tiles.iter().map(|tile| tile.next).min().unwrap_or(ENDED);
+        group = if is_due { group + 1 } else { next.div_euclid(planes) };
+        progress((next.min(last) - first) as f64 / (last - first).max(1) as f64);
     }
     tiles.into_par_iter().map(WaitingTile::finish).collect()
 }
@@ -97,12 +103,14 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
         Self { rays, next, counts: Counts::default() }
     }
 
-    /// Visits what its rays have on a plane.
-    fn visit<N: Need>(&mut self, k: i64, effect: Option<&dyn PlaneEffect>) {
+    /// Visits the planes first..=last of its rays.
+    fn visit<N: Need>(&mut self, range: [i64; 2], effect: Option<&dyn PlaneEffect>) {
         let mut next = ENDED;
         for ray in &mut self.rays {
-            if ray.next == k {
-                ray.visit::<N>(k, effect, &mut self.counts);
+            match effect {
+                None if ray.next <= range[1] => ray.visit::<N>(range, &mut None, &mut self.counts),
+                None => {}
+                Some(effect) => ray.visit_with::<N>(range, effect, &mut self.counts),
             }
             next = next.min(ray.next);
         }
@@ -120,26 +128,41 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 }
 
 impl<R: Real, S: Sampler<R>> WaitingRay<'_, '_, R, S> {
-    /// Takes all its steps on a plane.
-    fn visit<N: Need>(&mut self, k: i64, effect: Option<&dyn PlaneEffect>, counts: &mut Counts) {
-        if effect.is_some() && !self.state.is_open() {
-            // What the effect laid behind hides all that follows.
-            self.next = ENDED;
-        }
-        let mut hook = effect.map(|effect| Hook { effect, ray: self.place, own: &mut self.own });
-        while self.next == k {
+    /// Takes all its steps on the planes up to `last`.
+    fn visit<N: Need>(&mut self, [_, last]: [i64; 2], hook: &mut Option<Hook<'_>>, counts: &mut Counts) {
+        while self.next <= last {
             let whole = self.path[self.at];
-            let step = if let Step::Samples(_) = whole { Step::Samples([k, k]) } else { whole };
-            if !self.state.take::<N>(&step, &mut hook, counts) {
+            let step = match whole {
+                Step::Samples([_, end]) => Step::Samples([self.next, end.min(last)]),
+                other => other,
+            };
+            if !self.state.take::<N>(&step, hook, counts) {
                 self.next = ENDED;
                 return;
             }
             match whole {
-                Step::Samples([_, last]) if k < last => self.next = k + 1,
+                Step::Samples([_, end]) if last < end => self.next = last + 1,
                 _ => {
                     self.at += 1;
                     self.next = self.path.get(self.at).map_or(ENDED, Step::plane);
                 }
+            }
+        }
+    }
+
+    /// Takes all its steps on some planes, each plane followed by what an effect lays behind it.
+    fn visit_with<N: Need>(&mut self, [first, last]: [i64; 2], effect: &dyn PlaneEffect, counts: &mut Counts) {
+        for k in first..=last {
+            if !self.state.is_open() {
+                self.next = ENDED;
+                return;
+            }
+            let mut own = std::mem::take(&mut self.own);
+            let mut hook = Some(Hook { effect, ray: self.place, own: &mut own });
+            self.visit::<N>([k, k], &mut hook, counts);
+            self.own = own;
+            if self.state.is_open() {
+                effect.behind(k, self.on_plane());
             }
         }
     }
