@@ -1,4 +1,4 @@
-//! From a field to the seeds of its strokes ([HATCH-5], [HATCH-6]).
+//! Measures |∇| and κ of a field, by which the seeds of its strokes are chosen ([HATCH-5], [HATCH-6]).
 
 use super::measures::Measure;
 use super::pyramid::Pyramid;
@@ -11,7 +11,8 @@ use crate::with_sampler;
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::tables::{GradientRange, Measure as Kind};
 
-/// What |∇| = 0 and 1 stand for ([VAL-2]), times the power of two of [SPACE-4], and the voxels that were looked at for it.
+/// Gradient lengths that count as |∇| = 0 and 1 ([VAL-2]), times the power of two of [SPACE-4], and the number of
+/// voxels read to find them.
 pub fn gradient_range(field: &Field<'_, f64>, range: GradientRange) -> ([f64; 2], u64) {
     match range {
         GradientRange::Fixed(range) => (range.map(|g| scale_by_power_of_two(g, -field.scale_exponent())), 0),
@@ -24,7 +25,7 @@ pub fn gradient_range(field: &Field<'_, f64>, range: GradientRange) -> ([f64; 2]
 }
 
 impl Strokes<'_, '_> {
-    /// |∇| and κ at a voxel: 0 where it has no direction, as on flat and on round surfaces.
+    /// Returns |∇| and κ at a voxel. κ is 0 where the voxel has no direction, as on flat and on round surfaces.
     pub(super) fn measure(&self, voxel: [usize; 3], kind: Kind, [lo, hi]: [f64; 2]) -> Measure {
         let ground = self.ground();
         let [x, y, z] = voxel.map(|i| i as f64);
@@ -42,8 +43,8 @@ impl Strokes<'_, '_> {
         (curvature * self.ground().grid().voxel()).min(1.0)
     }
 
-    /// The pyramid with the largest curvature of each entry, where directions of all voxels are stored; else as it was, and
-    /// curvatures are measured where the surface goes ([HATCH-5]).
+    /// Adds the largest curvature of each entry to a pyramid if the directions of all voxels are stored. Otherwise
+    /// the pyramid comes back unchanged, and curvatures are measured at the surface's cells only ([HATCH-5]).
     pub fn with_curvature(&self, pyramid: Pyramid, kind: Kind) -> Pyramid {
         if !self.is_prepared() {
             return pyramid;
@@ -51,8 +52,8 @@ impl Strokes<'_, '_> {
         pyramid.with_curvature(self.ground().grid().dims(), |voxel| self.kappa(voxel, kind))
     }
 
-    /// The cells of the surface f = `iso` of a field, which the strokes grow on, with their probabilities. `range` is what |∇| is
-    /// measured by, and idle where every cell has a seed.
+    /// Returns the cells of the surface f = `iso`, with their probabilities. The strokes grow on this field. `range`
+    /// scales |∇|; it has no effect if every cell has a seed.
     pub fn seeds(
         &self,
         pyramid: &Pyramid,

@@ -1,20 +1,22 @@
-//! Pieces of curves joined to chains.
+//! Segments of curves joined to chains.
 
-/// Places in their order along a curve.
+/// Places along a curve, in order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Chain {
-    /// Their keys; at least two.
+    /// Keys of the places; at least two.
     pub(super) places: Vec<u64>,
-    /// Whether the last is joined to the first.
+    /// Whether the last place is joined to the first.
     pub(super) closed: bool,
 }
 
-/// No place.
+/// Index of a missing place.
 const NONE: usize = usize::MAX;
 
-/// Joins pieces, each between two places, that meet in their keys. No place has more than two pieces; a third is left
-/// out. Open chains come before closed ones, each in the order of the smallest key that they can begin with, and a closed
-/// chain goes on from there to the smaller of both neighbours: the order of the pieces does not show.
+/// Joins segments whose end keys are equal. A place has at most two segments; a third one is left out.
+///
+/// Open chains come before closed ones, each group in the order of the smallest possible first key. A closed chain
+/// starts at its smallest key and continues to the smaller of the two neighbours. So the result does not depend on
+/// the order of the segments.
 pub(super) fn chains(mut pieces: Vec<[u64; 2]>) -> Vec<Chain> {
     pieces.iter_mut().for_each(|piece| piece.sort_unstable());
     pieces.sort_unstable();
@@ -23,7 +25,7 @@ pub(super) fn chains(mut pieces: Vec<[u64; 2]>) -> Vec<Chain> {
     keys.dedup();
     let mut joined = vec![[NONE; 2]; keys.len()];
     for piece in pieces {
-        // Every key of a piece is among them.
+        // `keys` contains every key of a segment.
         let [a, b] = piece.map(|key| keys.partition_point(|&k| k < key));
         let free = |i: usize| joined[i].iter().position(|&n| n == NONE);
         if let (Some(i), Some(j)) = (free(a), free(b)) {

@@ -1,9 +1,9 @@
-//! Where scales are clear of masked voxels ([HATCH-3], [PREC-2]).
+//! Margins around masked voxels, one for each scale of smoothing ([HATCH-3], [PREC-2]).
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::{Mask, Volume};
 
-/// Which voxels have a masked one near: a bit a scale.
+/// Flags for the voxels that have a masked voxel nearby: one bit for each scale.
 #[derive(Debug)]
 pub(super) struct Clear {
     dims: [usize; 3],
@@ -11,7 +11,8 @@ pub(super) struct Clear {
 }
 
 impl Clear {
-    /// For each scale, along each axis, how many voxels away a masked one must be; none where no voxel is masked.
+    /// `rooms` holds the margin of each scale: the required distance from masked voxels along each axis, in voxels.
+    /// Returns none if no voxel is masked.
     pub(super) fn new<const N: usize>(volume: &Volume, rooms: [[f64; 3]; N]) -> Option<Self> {
         let mask = volume.mask()?;
         let dims = volume.dims();
@@ -23,8 +24,8 @@ impl Clear {
         Some(Self { dims, near })
     }
 
-    /// Whether no masked voxel is near a place in index space, for a scale: none that is nearer than its room is overlooked, and
-    /// none is seen that is more than half a voxel farther.
+    /// Whether no masked voxel lies within the scale's margin of a place in index space. The margin may reach up to
+    /// half a voxel farther, but never less far.
     pub(super) fn is_clear(&self, scale: usize, at: DVec3) -> bool {
         let [nx, ny, nz] = self.dims;
         let voxel = |x: f64, n: usize| (x.round().max(0.0) as usize).min(n - 1);
@@ -37,7 +38,7 @@ impl Clear {
     }
 }
 
-/// The voxels in whose box, so many voxels to either side along each axis, a masked one lies: axis by axis.
+/// Dilates a mask by a box of `room` voxels to either side along each axis, one axis after the other.
 fn grown(mask: &Mask, dims: [usize; 3], room: [usize; 3]) -> Vec<bool> {
     let [nx, ny, nz] = dims;
     let mut set: Vec<bool> = (0..nx * ny * nz).map(|i| mask.voxel([i % nx, i / nx % ny, i / (nx * ny)])).collect();
@@ -48,7 +49,7 @@ fn grown(mask: &Mask, dims: [usize; 3], room: [usize; 3]) -> Vec<bool> {
         for start in starts {
             line.clear();
             line.extend((0..n).map(|i| set[start + i * stride]));
-            // How many of the line are set up to one before each.
+            // Prefix sums: the number of set voxels of the line before each voxel.
             let mut sum = 0;
             let sums: Vec<usize> = std::iter::once(0)
                 .chain(line.iter().map(|&is_set| {
@@ -72,7 +73,7 @@ mod tests {
     use drypoint_scene::space::Grid;
     use drypoint_scene::volume::Voxels;
 
-    /// By looking at every masked voxel from every place.
+    /// Compares with a search through all masked voxels from every place.
     #[test]
     fn boxes_by_brute_force() {
         let dims = [9, 7, 12];

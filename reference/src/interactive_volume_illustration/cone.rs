@@ -1,11 +1,11 @@
-//! The cone of a stroke's normals, by which strokes that face away are left out at once ([HATCH-10]).
+//! The cone of a stroke's normals, which culls strokes that face away as a whole ([HATCH-10]).
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::{angle, atan2};
 use drypoint_scene::strokes::Stroke;
 use std::f64::consts::FRAC_PI_2;
 
-/// All normals of a stroke lie within an angle about an axis, and all vertices within a sphere.
+/// A bounding cone of a stroke's normals and a bounding sphere of its vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalCone {
     /// The normalized sum of the normals; 0 where they cancel.
@@ -14,7 +14,7 @@ pub struct NormalCone {
     pub half_angle: f64,
     /// The middle of the vertices' box, in world space.
     pub center: DVec3,
-    /// The largest distance of a vertex from it.
+    /// The largest distance of a vertex from `center`.
     pub radius: f64,
 }
 
@@ -24,7 +24,7 @@ fn between(a: DVec3, b: DVec3) -> f64 {
 }
 
 impl NormalCone {
-    /// Of a stroke with a vertex at least.
+    /// The cone of a stroke that has at least one vertex.
     pub fn new(stroke: &Stroke) -> Self {
         let normals = || stroke.vertices.iter().map(|v| v.normal);
         let places = || stroke.vertices.iter().map(|v| v.world);
@@ -37,21 +37,21 @@ impl NormalCone {
         Self { axis, half_angle, center, radius: places().map(|p| p.distance(center)).fold(0.0, f64::max) }
     }
 
-    /// Whether no vertex faces an eye at a place of the world: the angle from the axis to the eye is above 90° and the half
-    /// angle and β, that of the sphere as the eye sees it.
+    /// Whether no vertex faces an eye at a place of the world. Let β be the angular radius of the bounding sphere as
+    /// the eye sees it. Then the angle from the axis to the eye exceeds 90° + `half_angle` + β.
     pub fn culled(&self, eye: DVec3) -> bool {
         let to_eye = eye - self.center;
         let square = to_eye.length_squared() - self.radius * self.radius;
         square > 0.0 && self.faces_away(to_eye, atan2(self.radius, square.sqrt()))
     }
 
-    /// The same for an eye that is infinitely far in a direction.
+    /// Like [`culled`](Self::culled), but for an eye infinitely far away in a direction.
     pub fn culled_from(&self, to_eye: DVec3) -> bool {
         self.faces_away(to_eye, 0.0)
     }
 
     fn faces_away(&self, to_eye: DVec3, beta: f64) -> bool {
-        // What rounding does to the three angles.
+        // Bound on the rounding errors of the three angles.
         let rounding = 16.0 * f64::EPSILON;
         self.half_angle < FRAC_PI_2 && between(self.axis, to_eye) > FRAC_PI_2 + self.half_angle + beta + rounding
     }
@@ -63,8 +63,8 @@ mod tests {
     use drypoint_scene::philox::uniform;
     use drypoint_scene::strokes::StrokeVertex;
 
-    /// On 10⁵ random strokes none that is culled has a vertex that faces the eye, and of those that turn little and are seen from
-    /// far most that face away are culled.
+    /// On 10⁵ random strokes, no culled stroke has a vertex that faces the eye. Of the strokes that turn little, are
+    /// seen from far and face away, most are culled.
     #[test]
     fn no_culled_stroke_faces_the_eye() {
         let (mut culled, mut away) = (0, 0);

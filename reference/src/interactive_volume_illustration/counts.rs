@@ -1,53 +1,53 @@
-//! What was grown and what was not, and why ([HATCH-3], [HATCH-7], [HATCH-8]).
+//! Counts of strokes, rejected cells and ends of strokes, by cause ([HATCH-3], [HATCH-7], [HATCH-8]).
 
 use std::ops::AddAssign;
 
 /// Why a place has no direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoDirection {
-    /// It lies outside the volume, or in a cell that touches a masked voxel.
+    /// The place lies outside the volume, or in a cell that touches a masked voxel.
     Volume,
-    /// The gradient is rounding ([PREC-3]).
+    /// The gradient is no larger than its rounding error ([PREC-3]).
     Gradient,
-    /// Within the data's error the surface bends the same way in all directions, the estimates of the direction disagree, or
-    /// the volume's border is too near to tell.
+    /// No estimate is certain. Within the data's error the surface bends equally in all directions, or the estimates
+    /// at two scales disagree, or the volume's border is too near.
     Umbilic,
 }
 
-/// Why a cell that was drawn has no stroke.
+/// Why a selected cell has no stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rejected {
-    /// The straight line of the gradient does not meet the surface within the cell's diagonal, or none was found in 60
-    /// evaluations.
+    /// The straight line along the gradient does not meet the surface within the cell's diagonal, or 60 evaluations
+    /// find no crossing.
     NoSurface,
-    /// There is no direction where it does.
+    /// The place where the line meets the surface has no direction.
     Direction(NoDirection),
-    /// The stroke has no two vertices.
+    /// The stroke has fewer than two vertices.
     Short,
 }
 
 /// Why a stroke ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// It has its length.
+    /// The stroke has its full length.
     Length,
-    /// Its direction is too far from the first.
+    /// The direction differs too much from the first one.
     Angle,
-    /// It leaves the volume.
+    /// The stroke leaves the volume.
     Volume,
-    /// There is no direction.
+    /// The place has no direction.
     Direction,
     /// The gradient is too small.
     Gradient,
-    /// The tolerance asks for a step below the smallest.
+    /// The tolerance asks for a step below the smallest one.
     Step,
     /// The directions turn within the smallest step.
     Turns,
-    /// It is back at its beginning.
+    /// The stroke is closed: it is back at its beginning.
     Closed,
 }
 
-/// Ends of strokes by cause: two each, one of those that are closed.
+/// Numbers of ends of strokes, by cause. A stroke has two ends; a closed one counts as one end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub struct Stops {
@@ -62,7 +62,7 @@ pub struct Stops {
 }
 
 impl Stops {
-    /// Counts one.
+    /// Counts one end.
     pub(super) fn count(&mut self, stop: Stop) {
         *match stop {
             Stop::Length => &mut self.length,
@@ -104,7 +104,7 @@ impl AddAssign for Stops {
     }
 }
 
-/// Cells without a stroke by cause.
+/// Numbers of cells without a stroke, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub struct Rejections {
@@ -114,12 +114,12 @@ pub struct Rejections {
 }
 
 impl Rejections {
-    /// All of them.
+    /// Number of all cells without a stroke.
     pub fn total(&self) -> u64 {
         self.no_surface + self.no_direction + self.short
     }
 
-    /// Counts one.
+    /// Counts one cell.
     pub(super) fn count(&mut self, rejected: Rejected) {
         *match rejected {
             Rejected::NoSurface => &mut self.no_surface,
@@ -137,30 +137,30 @@ impl AddAssign for Rejections {
     }
 }
 
-/// Places at which a direction was asked for, by scale and cause ([HATCH-3]); with `rule = "raw"` the first scale stands for
-/// the field's own.
+/// Numbers of places at which a direction was asked for, by scale and cause ([HATCH-3]). With `rule = "raw"` the
+/// first scale stands for the field's own Hessian.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Scales {
-    /// Places that got one, by the scale that counted: σ = 1, 2, 4 voxels.
+    /// Places that got a direction, by the scale that gave it: σ = 1, 2, 4 voxels.
     pub given: [u64; 3],
-    /// By scale, estimates that were refused because the border of the volume is too near.
+    /// Estimates refused because the volume's border is too near, by scale.
     pub border: [u64; 3],
-    /// … because the curvatures are nearly equal.
+    /// Estimates refused because the curvatures are nearly equal, by scale.
     pub umbilic: [u64; 3],
-    /// … because their difference may be the data's noise.
+    /// Estimates refused because the difference of the curvatures may be noise of the data, by scale.
     pub noise: [u64; 3],
-    /// … because the lines at σ and 1.5 σ disagree.
+    /// Estimates refused because the lines at σ and 1.5 σ disagree, by scale.
     pub disagree: [u64; 3],
-    /// Places where the gradient is rounding.
+    /// Places whose gradient is no larger than its rounding error.
     pub gradient: u64,
-    /// Places that got one between stored ones.
+    /// Places whose direction was interpolated between stored ones.
     pub between: u64,
-    /// Places between voxels that have none, or none that agree.
+    /// Places whose voxels have no directions, or directions that disagree.
     pub missing: u64,
 }
 
 impl Scales {
-    /// Principal directions that were given.
+    /// Number of principal directions found.
     pub fn directions(&self) -> u64 {
         self.given.iter().sum::<u64>() + self.between
     }
@@ -181,22 +181,22 @@ impl AddAssign for Scales {
     }
 }
 
-/// What growing strokes did.
+/// Statistics of growing strokes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct HatchCounts {
     /// Strokes along the first direction.
     pub strokes: u64,
-    /// Strokes along the other one ([HATCH-11]).
+    /// Strokes along the second direction ([HATCH-11]).
     pub cross: u64,
     /// Cells without a stroke.
     pub rejected: Rejections,
     /// Ends of all strokes.
     pub stops: Stops,
-    /// Directions.
+    /// Queries of directions.
     pub scales: Scales,
-    /// Steps that were put back onto their iso-surface.
+    /// Steps whose end was put back onto the iso-surface.
     pub put_back: u64,
-    /// Strokes of which a part was cut off because it dips behind the surface whatever its vertices.
+    /// Strokes that lost a part because it dips behind the surface however finely it is divided.
     pub cut: u64,
 }
 

@@ -2,14 +2,15 @@
 
 use drypoint_scene::marks::{Polyline, Vertex};
 
-/// What is drawn of lines: `on` mm, then `off` mm left out, from the beginning of each. Both are above 0.
+/// Cuts lines into dashes of `on` mm with gaps of `off` mm, from the beginning of each line. Both lengths are above
+/// 0.
 pub fn dashed(lines: &[Polyline], [on, off]: [f64; 2]) -> Vec<Polyline> {
     lines.iter().flat_map(|line| dashes(line, on, off)).collect()
 }
 
-/// Returns how many vertices [`dashed`] gives at most.
+/// Returns an upper bound on the number of vertices that [`dashed`] gives.
 pub fn dash_vertices(lines: &[Polyline], [on, off]: [f64; 2]) -> f64 {
-    // A dash has two ends, and the vertices between.
+    // A dash has two ends and the line's vertices between them.
     let of = |line: &Polyline| 2.0 * (line.length() / (on + off) + 1.0) + line.vertices.len() as f64;
     lines.iter().map(of).sum()
 }
@@ -19,7 +20,7 @@ fn dashes(line: &Polyline, on: f64, off: f64) -> Vec<Polyline> {
     let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(again).collect();
     let mut parts: Vec<Vec<Vertex>> = Vec::new();
     let mut part: Vec<Vertex> = vertices.first().copied().into_iter().collect();
-    // What is left of the dash, or of what is between two, and which of both it is.
+    // The rest of the current dash or gap, in mm, and whether it is a dash.
     let (mut left, mut drawn) = (on, true);
     for pair in vertices.windows(2) {
         let length = pair[0].at.distance(pair[1].at);

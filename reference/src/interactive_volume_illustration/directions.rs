@@ -1,30 +1,32 @@
 //! Principal directions by the matrix of section 3.1 ([HATCH-1]; Monga, Benayoun and Faugeras 1992).
 //!
-//! With G = ∇F and γ = √(g₀² + g₁²) the tangent plane is spanned by h = (g₁, −g₀, 0)/γ and
-//! f = (g₀g₂, g₁g₂, −γ²)/(γ‖G‖) = n × h. A direction at the angle θ from h has the second derivative vᵀHv, which is largest
-//! and smallest where tan 2θ = 2hᵀHf/(hᵀHh − fᵀHf). (The paper prints +γ² in f, which is then no tangent.)
+//! With G = ∇F and γ = √(g₀² + g₁²), two orthonormal vectors h = (g₁, −g₀, 0)/γ and f = (g₀g₂, g₁g₂, −γ²)/(γ‖G‖) = n
+//! × h span the tangent plane. A direction v at the angle θ from h has the second derivative vᵀHv. Its extremes lie
+//! where tan 2θ = 2hᵀHf/(hᵀHh − fᵀHf). (The paper prints +γ² in f, which is then no tangent.)
 //!
-//! θ is the half of an angle in all four quadrants, as `atan2` has it. Of that angle cosine and sine are known, and those of θ
-//! follow by roots alone, in a third of the time.
+//! 2θ is an angle in all four quadrants, as `atan2` gives it. Its cosine and sine are known, and those of θ follow by
+//! roots alone, in a third of the time.
 
 use crate::field::Outside;
 use crate::field::curvature::Curvature;
 use crate::number::{Sym3, Vec3};
 
-/// √(a² + b²), and a and b over it; neither overflows nor vanishes on the way. 0 for two zeros, with [1, 0].
+/// √(a² + b²), and a and b divided by this root. Intermediate results neither overflow nor underflow. Two zeros give
+/// 0 and [1, 0].
 #[inline(always)]
 fn polar(a: f64, b: f64) -> (f64, [f64; 2]) {
     let largest = a.abs().max(b.abs());
     if largest == 0.0 {
         return (0.0, [1.0, 0.0]);
     }
-    // Divided, not multiplied by the reciprocal, which overflows for the smallest numbers.
+    // A division, not a product with the reciprocal: the reciprocal of the smallest numbers overflows.
     let (a, b) = (a / largest, b / largest);
     let root = (a * a + b * b).sqrt();
     (largest * root, [a / root, b / root])
 }
 
-/// Cosine and sine of half an angle in [−π, π] with these; the root is of a sum without cancellation.
+/// Cosine and sine of half an angle in [−π, π], from the angle's cosine and sine. The radicand is a sum without
+/// cancellation.
 #[inline(always)]
 fn half_angle([cos, sin]: [f64; 2]) -> [f64; 2] {
     let larger = (0.5 + 0.5 * cos.abs()).sqrt();
@@ -32,25 +34,25 @@ fn half_angle([cos, sin]: [f64; 2]) -> [f64; 2] {
     if cos >= 0.0 { [larger, smaller] } else { [smaller.abs(), larger.copysign(sin)] }
 }
 
-/// h and f for a gradient that has been divided by its largest component, and the gradient's length; at γ = 0 exactly h = x
-/// and f = y.
+/// h and f for a gradient that was divided by its largest component, and the gradient's length. If γ = 0, h = x and f
+/// = y.
 #[inline(always)]
 fn frame(g: Vec3<f64>) -> (Vec3<f64>, Vec3<f64>, f64) {
     let (gamma, [p, q]) = polar(g.x, g.y);
     if gamma == 0.0 {
         return (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), g.z.abs());
     }
-    // At least 1, the largest component.
+    // The length is at least 1, since the largest component is.
     let length = (gamma * gamma + g.z * g.z).sqrt();
     (Vec3::new(q, -p, 0.0), Vec3::new(p * g.z, q * g.z, -gamma) * (1.0 / length), length)
 }
 
-/// The principal curvatures and directions of the surface with gradient G and Hessian H, both in world space; a common factor
-/// of the two cancels. G must not be 0.
+/// Returns the principal curvatures and directions of the surface with gradient G and Hessian H, both in world space.
+/// A common factor of G and H cancels. G must not be 0.
 ///
-/// θ of the largest vᵀHv is that of `atan2`, so a vanishing denominator alone is nothing special; where numerator and
-/// denominator vanish together every direction is principal, and some frame is given ([HATCH-3] decides what counts as
-/// vanishing). The curvatures are those of [`field::curvature`](crate::field::curvature), by value.
+/// θ of the largest vᵀHv is that of `atan2`, so a denominator of 0 needs no special case. If numerator and
+/// denominator are both 0, every direction is principal, and the result is some frame. [HATCH-3] decides which values
+/// count as 0. The curvatures equal those of [`field::curvature`](crate::field::curvature).
 #[inline]
 pub fn principal(gradient: Vec3<f64>, hessian: Sym3<f64>, outside: Outside) -> Curvature<f64> {
     let largest = gradient.x.abs().max(gradient.y.abs()).max(gradient.z.abs());
@@ -92,7 +94,7 @@ mod tests {
         }
     }
 
-    /// a bᵀ + b aᵀ, times ½.
+    /// (a bᵀ + b aᵀ)/2.
     fn product(a: Vec3<f64>, b: Vec3<f64>, s: f64) -> Sym3<f64> {
         let h = 0.5 * s;
         Sym3 {
@@ -120,7 +122,7 @@ mod tests {
         (h.xx * h.xx + h.yy * h.yy + h.zz * h.zz + 2.0 * (h.xy * h.xy + h.xz * h.xz + h.yz * h.yz)).sqrt()
     }
 
-    /// θ = ½ atan2: roots and a quotient of numbers of some roundings each.
+    /// θ = ½ atan2: roots and a quotient of numbers with a few roundings each.
     #[test]
     fn half_angles_are_those_of_the_arc_tangent() {
         let mut r = Random(1 << 24);
@@ -138,7 +140,8 @@ mod tests {
         assert_eq!(half_angle(polar(-2.0, 0.0).1), [0.0, 1.0]);
     }
 
-    /// The frame is orthonormal and tangent; with the sign that the paper prints f is not: G·f = 2g₂γ/‖G‖ then.
+    /// The frame is orthonormal and tangent. With the sign that the paper prints, f is not tangent: then G·f =
+    /// 2g₂γ/‖G‖.
     #[test]
     fn the_printed_sign_is_an_erratum() {
         let mut r = Random(0);

@@ -1,7 +1,7 @@
-//! Strokes that lie evenly on the page, grown where it is free ([HATCH-19]).
+//! Strokes that lie evenly on the page, grown where the page is free ([HATCH-19]).
 //!
-//! Of a hundred thousand cells in which a stroke could begin a page has room for some thousand, so strokes are grown only
-//! where one may still begin: in the order of the cells' random numbers, by groups.
+//! A page has room for some thousand strokes, but a hundred thousand cells could begin one. So only strokes that may
+//! still begin are grown, in groups, in the order of the cells' random numbers.
 
 use super::counts::{HatchCounts, Rejected};
 use super::ground::{inside, normal};
@@ -14,40 +14,40 @@ use drypoint_scene::philox::uniforms;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use rayon::prelude::*;
 
-/// Strokes that are grown side by side, before any of them takes its place.
+/// Number of strokes that are grown in parallel before any of them takes its place.
 const GROUP: usize = 256;
 
-/// How far in front of a place it is asked whether the place is seen, in voxels.
+/// Distance in front of the surface at which a place's visibility is tested, in voxels.
 const BEFORE: f64 = 1.0;
 
-/// Lines begin at places drawn in their cells: so many distances of the densest lines make another one. A line is as long as
-/// many cells, each of which had a place to offer beside it.
+/// Size of a cell on the page for each place drawn in it, in distances of the densest lines. A line is as long as
+/// many cells, and each of these has offered a place beside the line.
 const DISTANCES: f64 = 2.0;
 
-/// The most places in a cell.
+/// The largest number of places in a cell.
 const MOST: f64 = 32.0;
 
-/// Which of the two directions of their cells strokes follow.
+/// The direction that strokes follow in their cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// That of the table's family.
+    /// The direction of the table's family.
     First,
-    /// The other one ([HATCH-11]).
+    /// The second direction ([HATCH-11]).
     Across,
 }
 
-/// What came of cells.
+/// Strokes that were placed evenly, with statistics.
 #[derive(Clone, Debug, Default)]
 pub struct Even {
-    /// On the page, in the order in which they took their places.
+    /// Lines on the page, in the order in which they took their places.
     pub lines: Vec<Polyline>,
-    /// Places in cells that the camera sees.
+    /// Number of places that the camera sees.
     pub seen: u64,
-    /// Of those, strokes that were grown, or could not be.
+    /// Number of places at which growing a stroke was tried.
     pub tried: u64,
-    /// How often the surface was asked for.
+    /// Number of queries of the hiding surface.
     pub looks: u64,
-    /// What growing did.
+    /// Statistics of growing.
     pub counts: HatchCounts,
 }
 
@@ -55,15 +55,15 @@ pub struct Even {
 struct Candidate {
     order: f64,
     cell: [usize; 3],
-    /// In world space, with the value there.
+    /// Place in world space, and the value there.
     place: (DVec3, f64),
     at: DVec2,
     tone: f64,
 }
 
 impl Strokes<'_, '_> {
-    /// The lines of the strokes that begin in cells where the page is still free, and that take their places on it; `tone` is τ
-    /// by N, what the lines print.
+    /// Returns the lines of strokes that begin in cells where the page is still free, and adds them to `spread`.
+    /// `tone` maps N to τ, the tone that the lines print.
     pub fn evenly(
         &self,
         sight: &Sight<'_>,
@@ -82,7 +82,7 @@ impl Strokes<'_, '_> {
             if group.is_empty() {
                 return even;
             }
-            // What hides is asked for only where there is room for a line.
+            // A first test without the hiding surface: it is queried only if there is room for a line.
             let ink = |_: &Stroke, vertex: &StrokeVertex| Pen {
                 radius: 0.0,
                 opacity: tone(vertex.normal).max(0.0),
@@ -100,7 +100,7 @@ impl Strokes<'_, '_> {
             for (candidate, (stroke, counts)) in group.iter().zip(grown) {
                 match stroke {
                     Some(stroke) => strokes.push(stroke),
-                    // Nor does any come of another that begins there.
+                    // Other strokes that begin there would fail, too.
                     None => spread.close(candidate.at),
                 }
                 even.counts += counts;
@@ -111,8 +111,8 @@ impl Strokes<'_, '_> {
         }
     }
 
-    /// The places of a cell where a line could begin; more than one where a cell is many times as large on the page as lines
-    /// are apart, which is at `least` so much.
+    /// Returns the places of a cell at which a line could begin. A cell has more than one place if its size on the
+    /// page is many times `least`, the smallest distance of lines.
     fn candidates(
         &self,
         sight: &Sight<'_>,

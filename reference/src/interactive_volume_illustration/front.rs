@@ -1,4 +1,5 @@
-//! The polyline of a stroke: as few vertices as the curve allows, all of it in front of the surface ([HATCH-9], [HATCH-10]).
+//! The polyline of a stroke: as few vertices as the curve allows, and no part behind the surface ([HATCH-9],
+//! [HATCH-10]).
 
 use super::counts::HatchCounts;
 use super::ground::{inside, normal};
@@ -10,27 +11,28 @@ use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 
-/// How often a segment that dips behind the surface is halved before the stroke is cut there.
+/// Number of halvings of a segment that dips behind the surface, before the stroke is cut there.
 const HALVINGS: u32 = 8;
 
-/// How far, in voxels, the surface of a vertex is looked for, at how many places to either side, and in how many evaluations.
+/// Distance from a vertex within which the surface is searched, in voxels; number of places to either side; number of
+/// evaluations.
 const REACH: f64 = 1.0;
 const PLACES: u32 = 8;
 const EVALUATIONS: u32 = 40;
 
 const THIRD: f64 = 1.0 / 3.0;
 
-/// A vertex of the polyline: its place on the curve, and where it is put.
+/// A vertex of the polyline: its place on the curve, and its corrected place.
 #[derive(Clone, Copy)]
 struct Vertex {
     t: f64,
     world: DVec3,
 }
 
-/// Vertices in a row; from one run to the next the stroke is broken.
+/// Runs of vertices. The stroke is broken between two runs.
 struct Runs {
     each: Vec<Vec<Vertex>>,
-    /// Where a segment meets faces of cells, kept so that not each has to ask for memory.
+    /// Buffer for the parameters at which a segment meets faces of cells.
     faces: Vec<f64>,
 }
 
@@ -48,8 +50,8 @@ impl Runs {
 }
 
 impl Strokes<'_, '_> {
-    /// The stroke of a curve on which the seed is the beginning of piece `at_seed`; of one that is broken the part with the
-    /// seed, and none if that has no two vertices.
+    /// Returns the stroke of a curve whose seed is the beginning of segment `at_seed`. If the curve is broken, only
+    /// the run with the seed remains. Returns none if this run has fewer than two vertices.
     pub(super) fn polyline(
         &self,
         pieces: &[Piece],
@@ -80,14 +82,14 @@ impl Strokes<'_, '_> {
         let mut run = runs.each.into_iter().find(holds)?;
         let closed = closed && !broken;
         if closed {
-            // Its last vertex is its first.
+            // The last vertex of a closed run equals its first.
             run.pop();
         }
         let places: Vec<_> = run.iter().map(|v| v.world).collect();
         self.finished(&places, closed, seed)
     }
 
-    /// Adds the end of a segment, and what must come between so that none of it lies behind the surface.
+    /// Adds the end of a segment, and the vertices before it that are needed for no part to lie behind the surface.
     fn segment(&self, pieces: &[Piece], target: f64, [a, b]: [Vertex; 2], halvings: u32, runs: &mut Runs) {
         if self.stays_in_front([a.world, b.world], &mut runs.faces) {
             runs.push(b);
@@ -107,7 +109,8 @@ impl Strokes<'_, '_> {
         }
     }
 
-    /// A place moved along its normal to where the field has a value; none where there is none near.
+    /// Moves a place along its normal to where the field has the value `target`. Returns none if there is no such
+    /// place nearby.
     pub(super) fn put_back(&self, x: DVec3, target: f64) -> Option<DVec3> {
         let index = inside(self.ground(), x)?;
         if (self.ground().value(index) - target).abs() <= self.near(target) {
@@ -119,11 +122,11 @@ impl Strokes<'_, '_> {
         Some(x + n * s)
     }
 
-    /// Whether a segment lies in front of the surface, all of it; without a surface it always does ([HATCH-16]).
+    /// Whether a whole segment lies in front of the surface. Without a surface every segment does ([HATCH-16]).
     ///
-    /// Between two faces of cells trilinear values along a line are a cubic, which four of them give, and it is largest or
-    /// smallest at an end or where its derivative is 0. Along a line the values of other kernels are of a higher degree: there
-    /// the four places and the extremes of the cubic through them are looked at.
+    /// Between two faces of cells, trilinear values along a line are a cubic. Four values determine it, and its
+    /// extremes lie at the ends or at zeros of its derivative. Values of other kernels have a higher degree along a
+    /// line. For them the four places and the extremes of the cubic through them are tested.
     fn stays_in_front(&self, [a, b]: [DVec3; 2], faces: &mut Vec<f64>) -> bool {
         let Some(iso) = self.iso() else { return true };
         let (ground, grid) = (self.ground(), self.ground().grid());
@@ -134,7 +137,8 @@ impl Strokes<'_, '_> {
             return false;
         }
         let outside = ground.outside();
-        // How far in front; along the border of the volume rounding does not lead out of it.
+        // Signed distance in front, as f − target. The clamp keeps rounding from leading out of the volume along its
+        // border.
         let over = |s: f64| {
             let at = Vec3::from_glam((from + (to - from) * s).clamp(lo, hi));
             match outside {
@@ -161,7 +165,8 @@ impl Strokes<'_, '_> {
         })
     }
 
-    /// The stroke of a polyline, with normals and u; none if it has no two vertices or if one has no normal.
+    /// Returns the stroke of a polyline, with normals and u. Returns none if it has fewer than two vertices or if a
+    /// vertex has no normal.
     fn finished(&self, places: &[DVec3], closed: bool, seed: &Seed) -> Option<Stroke> {
         if places.len() < 2 {
             return None;
@@ -188,21 +193,22 @@ impl Strokes<'_, '_> {
     }
 }
 
-/// Whether the cubic with these values at 0, ⅓, ⅔ and 1 is certain to be nowhere below 0 between: it lies within the hull of
-/// its Bernstein coefficients. Often it is, and its extremes need not be known.
+/// Whether the cubic with these values at 0, ⅓, ⅔ and 1 is certainly nowhere below 0 on [0, 1]. The cubic lies within
+/// the hull of its Bernstein coefficients. This cheap test often makes the extremes unnecessary.
 fn is_positive([v0, v1, v2, v3]: [f64; 4]) -> bool {
     let (b1, b2) = (18.0 * v1 - 9.0 * v2 - 5.0 * v0 + 2.0 * v3, 18.0 * v2 - 9.0 * v1 - 5.0 * v3 + 2.0 * v0);
     v0 >= 0.0 && b1 >= 0.0 && b2 >= 0.0 && v3 >= 0.0
 }
 
-/// Where within (0, 1) the cubic with these values at 0, ⅓, ⅔ and 1 has its extremes.
+/// Places within (0, 1) of the extremes of the cubic with these values at 0, ⅓, ⅔ and 1.
 fn extremes([v0, v1, v2, v3]: [f64; 4]) -> [Option<f64>; 2] {
     // Its derivative is a + 2bu + cu².
     let a = -5.5 * v0 + 9.0 * v1 - 4.5 * v2 + v3;
     let b = 9.0 * v0 - 22.5 * v1 + 18.0 * v2 - 4.5 * v3;
     let c = 13.5 * (v3 - v0 + 3.0 * (v1 - v2));
     let root = (b * b - a * c).sqrt();
-    // One of the roots by the sum without cancellation, the other by their product; what is no number is not within.
+    // The sum without cancellation gives one root, the product of the roots gives the other. NaN is not within the
+    // interval.
     let q = -(b + root.copysign(b));
     [q / c, a / q].map(|u| (u > 0.0 && u < 1.0).then_some(u))
 }
@@ -231,7 +237,8 @@ mod tests {
         near(of(&|_| 7.0), &[]);
     }
 
-    /// In the Bernstein basis: all coefficients at or above 0 are certain, and one below 0 is not, though the cubic may be.
+    /// Cubics whose Bernstein coefficients are all at or above 0 are certain. A coefficient below 0 makes a cubic
+    /// uncertain, even if it is positive.
     #[test]
     fn cubics_that_are_certain_to_be_positive() {
         let of = |b: [f64; 4]| {

@@ -5,18 +5,21 @@ use drypoint_scene::marks::{Polyline, Vertex};
 use drypoint_scene::view::View;
 use rayon::prelude::*;
 
-/// Lines with gaps, and how many places were cut out.
+/// Lines with gaps, and the number of cuts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Gapped {
-    /// In the order of the lines, the parts of one in their order along it.
+    /// Lines in their order; the parts of a line in their order along it.
     pub lines: Vec<Polyline>,
-    /// Of segments.
+    /// Number of cuts of segments.
     pub cuts: u64,
 }
 
-/// Lines without what lies within `gap` mm on the page of a line, among them or of `others`, that is nearer to the eye by more
-/// than `deeper`, in world units along the view, where the two come closest. The gap is measured from middle to middle of what is
-/// drawn; each line is cut by all others as they were, and by itself never: one that runs away from the eye is not beside itself.
+/// Cuts a gap into each line where a nearer line crosses it. A place is cut out if it lies within `gap` mm on the
+/// page of another line, of `lines` or `others`, that is nearer to the eye. Where the two lines are closest, the
+/// depths must differ by more than `deeper`, in world units along the view.
+///
+/// The gap is measured between centre lines. Each line is cut by all others as they were before cutting. A line never
+/// cuts itself: a line that runs away from the eye would.
 pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, deeper: f64) -> Gapped {
     let all: Vec<Segment> =
         lines.iter().chain(others).enumerate().flat_map(|(number, line)| segments(line, number, view)).collect();
@@ -41,7 +44,7 @@ pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, de
     Gapped { lines: each.into_iter().flat_map(|(lines, _)| lines).collect(), cuts }
 }
 
-/// A straight part of a line.
+/// A straight segment of a line.
 struct Segment {
     ends: [Vertex; 2],
     depths: [f64; 2],
@@ -67,14 +70,14 @@ impl Segment {
         self.depths[0] + (self.depths[1] - self.depths[0]) * s
     }
 
-    /// Along the segment, the place that is nearest to a point of the page.
+    /// Parameter of the place on the segment that is nearest to a point of the page.
     fn nearest(&self, to: DVec2) -> f64 {
         let along = self.ends[1].at - self.ends[0].at;
         let square = along.length_squared();
         if square == 0.0 { 0.0 } else { ((to - self.ends[0].at).dot(along) / square).clamp(0.0, 1.0) }
     }
 
-    /// How far along both are where they are closest: at a crossing, or else at an end of one.
+    /// Parameters of both segments where they are closest: at a crossing, or at an end of one of them.
     fn closest(&self, other: &Self) -> [f64; 2] {
         let (a, b) = (self.ends[1].at - self.ends[0].at, other.ends[1].at - other.ends[0].at);
         let (between, cross) = (other.ends[0].at - self.ends[0].at, a.perp_dot(b));
@@ -88,11 +91,12 @@ impl Segment {
         own.into_iter().chain(its).min_by(|&p, &q| square(p).total_cmp(&square(q))).unwrap_or_default()
     }
 
-    /// The parts of this one that lie within `gap` of nearer ones; once it is cut out as a whole the rest is not asked.
+    /// Parts of this segment that lie within `gap` of nearer ones. The search stops when the whole segment is cut
+    /// out.
     fn behind_each<'a>(&self, others: impl Iterator<Item = &'a Self>, gap: f64, deeper: f64) -> Vec<[f64; 2]> {
         let deepest = self.depths[0].max(self.depths[1]);
         let mut out = Vec::new();
-        // Most of what is near is part of the same surface, and as deep.
+        // Most segments nearby belong to the same surface and have the same depth.
         for other in others.filter(|other| deepest - other.depths[0].min(other.depths[1]) > deeper) {
             out.extend(self.behind(other, gap, deeper));
             if out.last() == Some(&[0.0, 1.0]) {
@@ -102,15 +106,15 @@ impl Segment {
         out
     }
 
-    /// The part of this one that lies within `gap` of a nearer one.
+    /// Part of this segment that lies within `gap` of a nearer one.
     fn behind(&self, other: &Self, gap: f64, deeper: f64) -> Option<[f64; 2]> {
         let range = self.within(other, gap)?;
         let [s, t] = self.closest(other);
         (self.depth(s) - other.depth(t) > deeper).then_some(range)
     }
 
-    /// The part of this one whose distance from another is at most `gap`: what is near is convex, two discs and what is
-    /// between them, so that it is one part.
+    /// Part of this segment whose distance from another is at most `gap`. The neighbourhood of a segment is convex,
+    /// two discs and the strip between them, so there is one part at most.
     fn within(&self, other: &Self, gap: f64) -> Option<[f64; 2]> {
         let along = self.ends[1].at - self.ends[0].at;
         let ends = other.ends.map(|end| in_disc(self.ends[0].at - end.at, along, gap));
@@ -132,14 +136,14 @@ fn both(a: [f64; 2], b: [f64; 2]) -> Option<[f64; 2]> {
     (range[0] < range[1]).then_some(range)
 }
 
-/// Where from + s·along lies within `gap` of the origin.
+/// Parameters s for which from + s·along lies within `gap` of the origin.
 fn in_disc(from: DVec2, along: DVec2, gap: f64) -> Option<[f64; 2]> {
     let (a, b, c) = (along.length_squared(), from.dot(along), from.length_squared() - gap * gap);
     let root = b * b - a * c;
     (a > 0.0 && root > 0.0).then(|| [(-b - root.sqrt()) / a, (-b + root.sqrt()) / a])
 }
 
-/// Where from + s·slope lies between two numbers.
+/// Parameters s for which from + s·slope lies between two numbers.
 fn in_strip(from: f64, slope: f64, [lo, hi]: [f64; 2]) -> Option<[f64; 2]> {
     if slope == 0.0 {
         return (lo..=hi).contains(&from).then_some([f64::NEG_INFINITY, f64::INFINITY]);
@@ -148,7 +152,7 @@ fn in_strip(from: f64, slope: f64, [lo, hi]: [f64; 2]) -> Option<[f64; 2]> {
     Some([ends[0].min(ends[1]), ends[0].max(ends[1])])
 }
 
-/// What is left of a line of segments without these parts of each.
+/// Parts of a line that remain when the intervals `out` of each segment are removed.
 fn left(segments: &[Segment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Polyline> {
     let mut parts: Vec<Vec<Vertex>> = vec![Vec::new()];
     for (segment, out) in segments.iter().zip(out) {
@@ -164,7 +168,7 @@ fn left(segments: &[Segment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Polyli
                 }
             }
             if start < 1.0 {
-                // The next part begins anew.
+                // The next part starts anew.
                 parts.push(Vec::new());
             }
             from = f64::max(from, end);
@@ -175,7 +179,7 @@ fn left(segments: &[Segment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Polyli
     if let (true, [first, .., last]) = (closed, parts.as_mut_slice())
         && [first.first(), last.last()].iter().all(|end| end.map(|vertex| vertex.at) == seam)
     {
-        // The last part goes on in the first.
+        // The last part continues in the first.
         last.pop();
         last.append(first);
         parts.remove(0);
@@ -183,15 +187,15 @@ fn left(segments: &[Segment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Polyli
     parts.into_iter().map(|vertices| Polyline { vertices, closed: false }).collect()
 }
 
-/// The most buckets of a side.
+/// The largest number of buckets along a side.
 const MOST: f64 = 1024.0;
 
-/// The segments that touch each square of a raster over the page.
+/// A raster over the page that lists the segments touching each square.
 struct Buckets {
     first: DVec2,
     side: f64,
     dims: [usize; 2],
-    /// Where the numbers of each square begin.
+    /// Start of each square's entries.
     starts: Vec<usize>,
     numbers: Vec<usize>,
 }
@@ -220,7 +224,7 @@ impl Buckets {
         buckets
     }
 
-    /// The squares of the rectangle around a segment, with so much around it.
+    /// Squares that a segment's bounding rectangle touches, grown by `around`.
     fn touched(&self, segment: &Segment, around: f64) -> impl Iterator<Item = usize> + use<> {
         let [a, b] = segment.ends.map(|end| end.at - self.first);
         let square = |at: DVec2, axis: usize| ((at[axis].max(0.0) / self.side) as usize).min(self.dims[axis] - 1);
@@ -229,7 +233,7 @@ impl Buckets {
         rows.flat_map(move |y| columns.clone().map(move |x| x + y * width))
     }
 
-    /// The segments that may be within `gap` of one, some of them more than once.
+    /// Segments that may be within `gap` of a segment, possibly with repetitions.
     fn near(&self, segment: &Segment, gap: f64) -> impl Iterator<Item = usize> {
         self.touched(segment, gap)
             .flat_map(|square| &self.numbers[self.starts[square]..self.starts[square + 1]])
@@ -245,7 +249,7 @@ mod tests {
     use drypoint_scene::space::Grid;
     use drypoint_scene::tables::{Camera, Projection};
 
-    /// Along −z: depth is the eye's z less that of the place.
+    /// A view along −z: depth is the eye's z minus the place's z.
     fn view() -> View {
         let grid = Grid::with_spacing([3; 3], [1.0; 3]).unwrap();
         let (projection, eye, target) =
@@ -254,7 +258,7 @@ mod tests {
         View::new(&camera, &grid, [100, 100]).unwrap()
     }
 
-    /// Through places of the page at these heights towards the eye, in so many segments.
+    /// A line through two places of the page with these heights towards the eye, in `pieces` segments.
     fn line(from: [f64; 3], to: [f64; 3], pieces: usize) -> Polyline {
         let (from, to) = (DVec3::from(from), DVec3::from(to));
         let vertex = |i: usize| {
@@ -270,8 +274,8 @@ mod tests {
         lines.iter().map(|line| [x(&line.vertices[0]), x(&line.vertices[line.vertices.len() - 1])]).collect()
     }
 
-    /// A line along x at height 0 under one along y at height 3, x = 10: 0.5 mm to either side are cut out; at an angle of 30°
-    /// 0.5/sin 30° are. The nearer one is never cut, however many segments the two have.
+    /// A line along x at height 0 under one along y at height 3, x = 10, loses 0.5 mm to either side. At an angle of
+    /// 30° it loses 0.5/sin 30°. The nearer line is never cut, however many segments the two have.
     #[test]
     fn the_farther_of_two_that_cross_has_a_gap() {
         let view = view();
@@ -292,8 +296,8 @@ mod tests {
         }
     }
 
-    /// Nearer by 3: a `gap_depth` of 3 leaves the line whole, one that is a little less does not. Along a line that climbs only
-    /// what crosses where it is deep enough cuts.
+    /// The nearer line is nearer by 3. A `gap_depth` of 3 leaves the other whole; a slightly smaller one does not. A
+    /// climbing line is cut only where it is deep enough.
     #[test]
     fn only_what_is_nearer_by_so_much() {
         let view = view();
@@ -308,7 +312,7 @@ mod tests {
         assert_eq!(ends(&gapped(&[climbs], &across, &view, 0.5, 2.0).lines), [[0.0, 3.5], [4.5, 20.0]]);
     }
 
-    /// Past its end a line cuts what is within a disc about it, and beyond that nothing.
+    /// Beyond its end a line cuts a disc about the end, and nothing farther.
     #[test]
     fn beside_an_end() {
         let view = view();
@@ -320,7 +324,7 @@ mod tests {
         assert_eq!(with(5.51).cuts, 0);
     }
 
-    /// A closed line that is cut is open, and one that is not stays as it is; a line does not cut itself.
+    /// A closed line that is cut becomes open; otherwise it stays closed. A line does not cut itself.
     #[test]
     fn rings() {
         let view = view();
@@ -336,7 +340,7 @@ mod tests {
         assert!(found.lines.len() == 2 && found.lines.iter().all(|part| !part.closed), "{}", found.lines.len());
     }
 
-    /// What is left of random lines keeps its distance from all nearer ones, to a hair; the grid misses none.
+    /// Remaining parts of random lines keep their distance from all nearer lines, to a hair: the grid misses none.
     #[test]
     fn what_is_left_keeps_its_distance() {
         let view = view();

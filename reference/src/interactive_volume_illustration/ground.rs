@@ -1,4 +1,4 @@
-//! What strokes ask of a field, whatever its kernel.
+//! The field that strokes grow on, independent of its kernel.
 
 use crate::field::normal::outward;
 use crate::field::{Field, Outside, Sampler};
@@ -7,22 +7,22 @@ use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 
-/// A field as strokes grow on it: positions are in index space inside the box of [SPACE-1], derivatives in world space, times
-/// 2^−e ([SPACE-4]).
+/// A field that strokes can grow on. Positions are in index space inside the box of [SPACE-1]; derivatives are in
+/// world space, times 2^−e ([SPACE-4]).
 pub trait Ground: Sync {
-    /// Where it lies.
+    /// The grid of the field.
     fn grid(&self) -> &Grid;
 
-    /// Which values are outside ([NORM-1]).
+    /// The side of the surface that is outside ([NORM-1]).
     fn outside(&self) -> Outside;
 
-    /// Lowest and highest value.
+    /// The lowest and the highest value.
     fn range(&self) -> [f64; 2];
 
-    /// e.
+    /// The exponent e.
     fn exponent(&self) -> i32;
 
-    /// The length of a gradient, times 2^−e, at or below which it is rounding ([PREC-3]).
+    /// The length of a gradient, times 2^−e, at or below which it is rounding error ([PREC-3]).
     fn no_normal_below(&self) -> f64;
 
     /// Whether a cell touches a masked voxel ([PREC-2]).
@@ -36,7 +36,7 @@ pub trait Ground: Sync {
         self.masked(self.cell(index))
     }
 
-    /// The value.
+    /// The value at a position.
     fn value(&self, index: Vec3<f64>) -> f64;
 
     /// The gradient by the field's estimator.
@@ -45,7 +45,7 @@ pub trait Ground: Sync {
     /// The Hessian by the field's estimator, after the gradient that it belongs to.
     fn second(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>);
 
-    /// The same at a voxel, to rounding.
+    /// The gradient and the Hessian at a voxel, as [`second`](Self::second) gives them up to rounding.
     fn second_at_voxel(&self, voxel: [usize; 3]) -> (Vec3<f64>, Sym3<f64>) {
         let [x, y, z] = voxel.map(|i| i as f64);
         self.second(Vec3::new(x, y, z))
@@ -102,12 +102,13 @@ impl Ground for Field<'_, f64> {
     }
 }
 
-/// A place of the world in index space; none outside the volume's box and in cells that touch a masked voxel.
+/// Converts a place of the world to index space. Returns none outside the volume's box and in cells that touch a
+/// masked voxel.
 pub(super) fn inside(ground: &dyn Ground, world: DVec3) -> Option<Vec3<f64>> {
     index_inside(ground, ground.grid().to_index(world))
 }
 
-/// The same of a place in index space.
+/// Like [`inside`], but for a place in index space.
 pub(super) fn index_inside(ground: &dyn Ground, index: DVec3) -> Option<Vec3<f64>> {
     let [lo, hi] = ground.grid().index_box();
     if !(index.cmpge(lo).all() && index.cmple(hi).all()) {
@@ -117,7 +118,7 @@ pub(super) fn index_inside(ground: &dyn Ground, index: DVec3) -> Option<Vec3<f64
     (!ground.masked_at(index)).then_some(index)
 }
 
-/// N and ‖g‖, in the value's unit per world unit times 2^−e; none where the gradient is rounding.
+/// N and ‖g‖, in the value's unit per world unit times 2^−e. Returns none where the gradient is rounding error.
 pub(super) fn normal(ground: &dyn Ground, index: Vec3<f64>) -> Option<(DVec3, f64)> {
     let gradient = ground.gradient(index);
     outward(gradient, ground.outside(), ground.no_normal_below()).map(|n| (n.to_glam(), gradient.length()))

@@ -1,13 +1,13 @@
-//! Differences from an iso-value that neither overflow nor vanish when they are multiplied.
+//! Scaled differences from an iso-value, whose products neither overflow nor underflow.
 
 use drypoint_scene::math;
 use drypoint_scene::volume::Volume;
 
-/// A value of a volume.
+/// An iso-value with a scale for differences from it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Level {
     iso: f64,
-    /// A power of two by which differences come out below 2.
+    /// A power of two that brings all differences below 2.
     scale: f64,
 }
 
@@ -17,7 +17,7 @@ impl Level {
         Self { iso, scale: math::scale_by_power_of_two(1.0, -exponent) }
     }
 
-    /// f − iso, scaled.
+    /// f − iso, times the scale.
     #[inline(always)]
     pub(super) fn over(&self, value: f64) -> f64 {
         value * self.scale - self.iso * self.scale

@@ -1,8 +1,8 @@
 //! Light on a line (Banks 1994; 4.3.1; [HATCH-12]).
 //!
-//! A line has no normal but all that are at right angles to its tangent T. Of those the one that faces the light most
-//! counts, N·L = √(1 − (L·T)²), so that two numbers say how bright a line is, L·T and V·T; both only through products that
-//! T and −T have in common. N of the surface that the line lies on says which of two colours it has.
+//! A line has no single normal: all vectors at right angles to its tangent T are normals. The normal that faces the
+//! light most counts, with N·L = √(1 − (L·T)²). So two numbers determine the brightness of a line, L·T and V·T. T and
+//! −T give the same result. N of the surface under the line selects between its two colours.
 
 use drypoint_scene::color::Rgba;
 use drypoint_scene::glam::DVec3;
@@ -18,8 +18,8 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// Of L·T and V·T, L and V towards the light and the eye, all of length 1; p tames what all normals together would make
-    /// too bright.
+    /// The terms for L·T and V·T. L and V point towards the light and the eye; all vectors have length 1. The
+    /// exponent p reduces the excess brightness that comes from choosing the brightest normal.
     pub fn new(l_t: f64, v_t: f64, p: f64, s: f64) -> Self {
         let across = |x: f64| (1.0 - x * x).max(0.0).sqrt();
         let (n_l, n_v) = (across(l_t), across(v_t));
@@ -27,16 +27,16 @@ impl Terms {
     }
 }
 
-/// Both over (L·T, V·T) in [−1, 1]², at so many nodes a side, bilinear between them: the paper's texture.
+/// Both terms tabulated over (L·T, V·T) in [−1, 1]², with bilinear interpolation: the paper's texture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TermsTable {
     side: usize,
-    /// Row by row, V·T the rows.
+    /// Nodes in rows of equal V·T.
     nodes: Vec<Terms>,
 }
 
 impl TermsTable {
-    /// With `side` nodes a side, two at least.
+    /// A table with `side` nodes along each side, at least two.
     pub fn new(side: usize, p: f64, s: f64) -> Self {
         let side = side.max(2);
         let at = |i: usize| -1.0 + 2.0 * i as f64 / (side - 1) as f64;
@@ -44,7 +44,7 @@ impl TermsTable {
         Self { side, nodes }
     }
 
-    /// Bilinear at L·T and V·T.
+    /// Interpolates bilinearly at L·T and V·T.
     pub fn at(&self, l_t: f64, v_t: f64) -> Terms {
         let cell = |x: f64| {
             let x = (0.5 * (x + 1.0)).clamp(0.0, 1.0) * (self.side - 1) as f64;
@@ -61,31 +61,33 @@ impl TermsTable {
     }
 }
 
-/// How lines are lit.
+/// Parameters of the light on lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineLight {
-    /// k_d, how much of the colour diffuse light shows.
+    /// k_d, the share of the colour that diffuse light shows.
     pub diffuse: f64,
     /// p.
     pub p: f64,
-    /// k_s, how white the specular light is.
+    /// k_s, the strength of the white specular light.
     pub specular: f64,
     /// s.
     pub s: f64,
-    /// Of lines on what faces the eye; linear, straight.
+    /// Colour of lines where the surface faces the eye; linear, straight.
     pub front: Rgba,
-    /// Of those on what turns away.
+    /// Colour of lines where the surface turns away; linear, straight.
     pub back: Rgba,
-    /// Whether max(0, N·L) multiplies what the light does: a surface lies in its own shadow.
+    /// Whether max(0, N·L) multiplies the light, so that a surface lies in its own shadow.
     pub self_shadow: bool,
-    /// In place of the exact terms; of the same p and s.
+    /// A table of the same p and s that replaces the exact terms.
     pub table: Option<TermsTable>,
 }
 
 impl LineLight {
-    /// The colour of a line of tangent `t` on a surface of normal `n`, from L, towards the light, and V, towards the eye; all
-    /// of length 1, in one space. Each of the two colours is lit, c·k_d·diffuse + k_s·specular under white light, and they are
-    /// mixed by ½ + ½N·V. Linear, straight; no channel is above 1.
+    /// Returns the colour of a line of tangent `t` on a surface of normal `n`. L points towards the light, V towards
+    /// the eye; all vectors have length 1 and are in one space.
+    ///
+    /// Each of the two colours is lit, c·k_d·diffuse + k_s·specular under white light, and they are mixed by ½ +
+    /// ½N·V. The result is linear and straight; no channel is above 1.
     pub fn color(&self, l: DVec3, v: DVec3, t: DVec3, n: DVec3) -> Rgba {
         let (l_t, v_t) = (l.dot(t).clamp(-1.0, 1.0), v.dot(t).clamp(-1.0, 1.0));
         let terms = match &self.table {
@@ -147,8 +149,8 @@ mod tests {
         assert_eq!(Terms::new(1.0 + 1e-15, -1.0 - 1e-15, P, 1.0), Terms { diffuse: 0.0, specular: 1.0 });
     }
 
-    /// √(1−a²)√(1−b²) − ab = −cos(α + β) with a = cos α, b = cos β: below 0 where both are on the same side of the line, near
-    /// it. T and −T look alike.
+    /// With a = cos α and b = cos β: √(1−a²)√(1−b²) − ab = −cos(α + β). The value is below 0 where light and eye are
+    /// on the same side of the line, near it. T and −T look alike.
     #[test]
     fn a_line_has_no_direction_and_highlights_are_clamped() {
         let light = light();
@@ -165,8 +167,8 @@ mod tests {
         assert!(dark > 200, "{dark}");
     }
 
-    /// Of all normals of a line the one that faces the light most, by search: Banks' closed form is its N·L, and the
-    /// reflection of L about it gives V·R.
+    /// A search through all normals of a line finds the one that faces the light most. Banks' closed form is its N·L,
+    /// and the reflection of L about it gives V·R.
     #[test]
     fn the_brightest_normal_is_the_one_in_the_plane_of_light_and_line() {
         for k in 0..50 {
@@ -208,7 +210,7 @@ mod tests {
         assert!(slanted(1.0) > slanted(2.0) && slanted(2.0) > slanted(P));
     }
 
-    /// The largest error of tables, and that where the function is smooth, at 4n² places.
+    /// The largest error of tables at 4n² places, everywhere and where the function is smooth.
     fn errors(side: usize, within: f64) -> [f64; 2] {
         let table = TermsTable::new(side, P, 20.0);
         let (mut diffuse, mut specular) = (0.0f64, 0.0f64);
@@ -223,9 +225,9 @@ mod tests {
         [diffuse, specular]
     }
 
-    /// Bilinear: where the function is smooth a table of twice the steps has a quarter of the error. At the border √(1 − x²) has
-    /// an infinite slope, which the power 4.8 tames in the diffuse term but 20 does not in the specular one: of twice the steps
-    /// the largest error there is more than half. The bounds are what was measured, rounded up: the documents have them.
+    /// A table with half the step has a quarter of the error where the function is smooth. At the border √(1 − x²)
+    /// has an infinite slope. The power 4.8 tames it in the diffuse term, but 20 does not in the specular one, whose
+    /// largest error falls by less than half. The bounds are measurements, rounded up; the documents list them.
     #[test]
     fn the_table_converges() {
         let all = [33, 65, 129].map(|side| errors(side, 0.9));

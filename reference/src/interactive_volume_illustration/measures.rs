@@ -1,4 +1,4 @@
-//! What a seed's probability is made from, at the voxels of blocks (3.2; [HATCH-5]).
+//! The quantities of a seed's probability, measured at the voxels of blocks (3.2; [HATCH-5]).
 
 use super::pyramid::{outwards, span};
 use rayon::prelude::*;
@@ -14,16 +14,16 @@ pub struct Measure {
     pub curvature: f64,
 }
 
-/// The largest of each over the voxels of a block, as bytes that are rounded outwards.
+/// The largest values over the voxels of a block, as bytes rounded up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Largest {
-    /// Of |∇|.
+    /// The largest |∇|.
     pub gradient: u8,
-    /// Of the curvature.
+    /// The largest curvature.
     pub curvature: u8,
 }
 
-/// Measures every voxel of some blocks once, and how many there are.
+/// Measures every voxel of some blocks once, and returns the number of these voxels.
 pub(super) fn of_blocks(
     blocks: &[[usize; 3]],
     dims: [usize; 3],
@@ -47,18 +47,18 @@ pub(super) fn of_blocks(
     (blocks.par_iter().map(largest).collect(), measured.len() as u64)
 }
 
-/// The voxels of a block row by row, by their linear indices.
+/// Rows of a block's voxels, as ranges of linear indices.
 fn rows_of(block: [usize; 3], dims: [usize; 3]) -> impl Iterator<Item = Range<usize>> {
     let [x, y, z] = [0, 1, 2].map(|a| span(block[a], dims[a]));
     let start = move |j: usize, k: usize| dims[0] * (j + dims[1] * k);
     z.flat_map(move |k| y.clone().map(move |j| start(j, k))).map(move |row| row + x.start..row + x.end)
 }
 
-/// Which voxels of a grid are asked for.
+/// A set of voxels of a grid, with ranks.
 struct Asked {
-    /// A bit for each voxel.
+    /// One bit for each voxel.
     bits: Vec<u64>,
-    /// How many are asked for before each word of bits.
+    /// Number of members before each word of bits.
     before: Vec<usize>,
 }
 
@@ -84,7 +84,7 @@ impl Asked {
         Self { bits, before }
     }
 
-    /// Those that are asked for, in their order.
+    /// Members in ascending order.
     fn voxels(&self) -> impl ParallelIterator<Item = usize> {
         self.bits.par_iter().enumerate().flat_map_iter(|(word, &bits)| {
             let next = |bits: &u64| Some(bits & (bits - 1)).filter(|rest| *rest != 0);
@@ -93,7 +93,7 @@ impl Asked {
         })
     }
 
-    /// How many of them come before a voxel.
+    /// Number of members before a voxel.
     #[inline]
     fn before(&self, at: usize) -> usize {
         let lower = self.bits[at / 64] & ((1 << (at % 64)) - 1);
@@ -107,7 +107,7 @@ mod tests {
     use std::collections::BTreeSet;
     use std::sync::Mutex;
 
-    /// Each voxel of a block is measured once, whatever blocks share it, and nothing else is.
+    /// Each voxel of a block is measured once, whatever blocks share it. No other voxel is measured.
     #[test]
     fn voxels_of_blocks_are_measured_once() {
         for dims in [[130, 5, 4], [2, 2, 2], [1, 9, 70], [64, 3, 3]] {

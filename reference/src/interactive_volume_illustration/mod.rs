@@ -1,11 +1,12 @@
 //! Interactive volume illustration (Nagy, Schneider and Westermann, Vision, Modeling and Visualization 2002).
 //!
-//! Lines on iso-surfaces: [`Pyramid`] leads to the cells of one, [`Seeds`] are those of them that strokes begin in, and
-//! [`Strokes`] grows a stroke along a line of curvature from each (3, 4.1, 4.2). [`outlines`] are found anew for each camera.
-//! [`Sight`] brings both to the page, without what is hidden (4.3.2), and a [`Spread`] keeps them apart there.
+//! A [`Pyramid`] finds the cells of an iso-surface (3.2). [`Seeds`] selects the cells in which strokes begin (4.1).
+//! [`Strokes`] grows a stroke along a line of curvature from each seed (3, 4.2). [`outlines`] are found anew for each
+//! camera. [`Sight`] projects strokes and outlines onto the page and removes their hidden parts (4.3.2). A [`Spread`]
+//! keeps lines apart on the page.
 //!
-//! Section 4.4: [`toon`] chooses a tone by the light, [`silhouette`] blackens what turns away from the eye, and
-//! [`view_opacity`] makes it more opaque.
+//! Section 4.4: [`toon`] selects a tone by the light, [`silhouette`] blackens surfaces that turn away from the eye,
+//! and [`view_opacity`] makes them more opaque.
 
 mod cells;
 mod chain;

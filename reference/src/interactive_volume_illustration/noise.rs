@@ -1,22 +1,23 @@
-//! How noisy the values are at an iso-surface ([HATCH-3]).
+//! Noise of the values at an iso-surface ([HATCH-3]).
 //!
-//! The rule knows the rounding of stored numbers, which is all the error of a phantom. Scanners' noise is up to fifty
-//! times as large, and makes directions of nothing just as rounding does.
+//! The rule for directions knows the rounding of stored numbers, which is the only error of a phantom. A scanner's
+//! noise is up to fifty times as large, and like rounding it creates directions where there are none.
 
 use super::pyramid::Pyramid;
 use crate::field::Outside;
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
 
-/// The median of |x| of normal numbers, in standard deviations.
+/// The median of |x| of a normal variable x, in standard deviations.
 const MEDIAN: f64 = 0.674_489_750_196_081_7;
 
-/// The standard deviation of the noise of a volume's values on the inner side of the surface f = `iso`; 0 where nothing can be said.
+/// Estimates the standard deviation of a volume's noise on the inner side of the surface f = `iso`. Returns 0 if
+/// there is no estimate.
 ///
-/// The second difference along each axis in turn, at one voxel of each block of the pyramid that holds the value, of the noise
-/// has the standard deviation √6 an axis. Of an edge it is next to nothing: what depends on one axis or two, or is a
-/// polynomial of a lower degree than 2 along any, is gone. The median is that of most places, whatever corners and points do.
-/// Axes of fewer than three voxels are left out.
+/// The estimate uses second differences taken along each axis in turn, at one voxel of each pyramid block that holds
+/// the value. For noise, each axis multiplies the standard deviation by √6. For an edge, the differences nearly
+/// vanish: they cancel functions of one or two axes, and polynomials of degree below 2 along any axis. The median
+/// ignores corners and points. Axes of fewer than three voxels are left out.
 pub fn deviation(volume: &Volume, pyramid: &Pyramid, iso: f64, outside: Outside) -> f64 {
     let dims = volume.dims();
     let differs = dims.map(|n| n >= 3);
@@ -49,7 +50,7 @@ fn masked(volume: &Volume, at: [usize; 3]) -> bool {
     (0..8).any(|corner| mask.touches_cell([0, 1, 2].map(|a| at[a].saturating_sub(corner >> a & 1))))
 }
 
-/// The second differences along these axes, one after the other.
+/// The second difference along these axes, one after the other.
 fn difference(volume: &Volume, at: [usize; 3], along: [bool; 3]) -> f64 {
     let taps =
         |axis: usize| -> &[(isize, f64)] { if along[axis] { &[(-1, 1.0), (0, -2.0), (1, 1.0)] } else { &[(0, 1.0)] } };
@@ -82,14 +83,14 @@ mod tests {
         deviation(volume, &Pyramid::new(volume), iso, Outside::Low)
     }
 
-    /// Normal numbers by Box and Muller.
+    /// Normal numbers (Box and Muller).
     fn normal(at: [usize; 3]) -> f64 {
         let [a, b, ..] = uniforms(7, at.map(|i| i as u32), 0);
         (-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos()
     }
 
-    /// The median of n numbers |x| of normal noise has a standard deviation of 1.17/√n of itself; four of them are beyond
-    /// chance. About half of the blocks have their middle on the inner side.
+    /// The median of n numbers |x| of normal noise has a relative standard deviation of 1.17/√n; four of these are
+    /// beyond chance. About half of the blocks have their middle on the inner side.
     fn is_found(volume: &Volume, noise: f64) {
         let n = Pyramid::new(volume).blocks(0.0, None).len() as f64 / 2.0;
         let found = of(volume, 0.0);
@@ -110,7 +111,7 @@ mod tests {
         is_found(&volume([200, 200, 1], |at| 0.25 * (at[0] as f64 - 100.0) + 2.5 * normal(at)), 2.5);
     }
 
-    /// Differences that vanish in whole numbers vanish exactly, and what is no noise is none.
+    /// Differences of integers that vanish vanish exactly, and a smooth volume has no noise.
     #[test]
     fn what_is_smooth_has_none() {
         let paraboloid = volume([33; 3], |at| at.map(|i| (i as f64 - 16.0) * (i as f64 - 16.0)).iter().sum());
@@ -120,7 +121,7 @@ mod tests {
         assert_eq!(of(&volume([2, 2, 2], |at| at[0] as f64), 0.5), 0.0);
     }
 
-    /// Rounding is noise of 1/√12, to one step: |x| is a whole number, and so is the median.
+    /// Rounding is noise of 1/√12. The estimate is exact to one step: |x| is an integer, and so is the median.
     #[test]
     fn rounding_is_found() {
         let wave = |at: [usize; 3]| {

@@ -1,10 +1,10 @@
-//! Which way a stroke's coordinate runs: the sign of its seed's direction ([HATCH-4]). There is no orientation of all lines of
-//! curvature; a reference field makes it the same for neighbours where it can.
+//! The sense in which a stroke's coordinate runs: the sign of its seed's direction ([HATCH-4]). Lines of curvature
+//! have no global orientation; a reference field gives neighbours the same sense where it can.
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 
-/// |e·r| below which the reference says nothing, and a component of e that counts as 0.
+/// |e·r| below which the reference decides nothing, and the size of a component of e that counts as 0.
 const ACROSS: f64 = 1e-6;
 
 /// A reference field.
@@ -12,31 +12,31 @@ const ACROSS: f64 = 1e-6;
 pub enum Reference {
     /// a × (x − c).
     Cylindrical {
-        /// a, of whatever length.
+        /// The axis a, of any length.
         axis: DVec3,
-        /// c.
+        /// The centre c.
         center: DVec3,
     },
     /// a.
     Axial {
-        /// a, of whatever length.
+        /// The axis a, of any length.
         axis: DVec3,
     },
     /// x − c.
     Radial {
-        /// c.
+        /// The centre c.
         center: DVec3,
     },
 }
 
 impl Reference {
-    /// Around the longest axis of a grid's box, the first of equals, through its centre.
+    /// The field around the longest axis of a grid's box (the first of equals), through the box's centre.
     pub fn cylindrical(grid: &Grid) -> Self {
         Self::Cylindrical { axis: longest_axis(grid), center: grid.centre() }
     }
 
-    /// The direction at a place with the reference's sign; where they are at right angles, with the first component that is not
-    /// 0 positive.
+    /// Returns the direction at a place with the sign of the reference field. If the two are at right angles, the
+    /// first nonzero component is made positive.
     pub fn signed(&self, direction: DVec3, x: DVec3) -> DVec3 {
         let reference = match *self {
             Self::Cylindrical { axis, center } => axis.normalize_or_zero().cross(x - center),

@@ -1,11 +1,11 @@
-//! Outlines: where an iso-surface turns away from the eye, f = iso and N·v = 0, and where it meets the volume's box
-//! ([HATCH-18]).
+//! Outlines: the curves on which an iso-surface turns away from the eye, f = iso and N·v = 0, and its intersection
+//! with the volume's box ([HATCH-18]).
 //!
-//! In the tetrahedra of each cell both functions are taken as linear, which gives closed curves without branches; their
-//! places are then moved onto the curve of the reconstruction itself. N·v is g·v here, with v towards the eye at each
-//! place, so that it has no norm in it and its zeros are those of the gradient that the scene samples with.
+//! Both functions are taken as linear in the tetrahedra of each cell, which gives closed curves without branches.
+//! Their places are then moved onto the curve of the reconstruction itself. N·v is computed as g·v, with v towards
+//! the eye at each place. So it contains no norm, and its zeros are those of the gradient that the scene samples.
 //!
-//! A grid with an axis of one voxel has no cells, and no outline.
+//! A grid with an axis of one voxel has no cells and no outline.
 
 use super::chain::{Chain, chains};
 use super::level::Level;
@@ -26,27 +26,29 @@ use drypoint_scene::view::View;
 use drypoint_scene::volume::{BRICK, Mask};
 use rayon::prelude::*;
 
-/// How far from the curve the straight pieces of a stroke may be, in voxels: half of what an outline may be off.
+/// Largest distance of a stroke's segments from the curve, in voxels: half of an outline's tolerance.
 const CHORD: f64 = 0.005;
 
-/// How often a piece that is farther is halved.
+/// Number of halvings of a segment that is farther from the curve.
 const HALVINGS: u32 = 4;
 
-/// The longest way between neighbours on a curve, in voxels: a piece lies in a tetrahedron, of length √3 at most, before its
-/// ends are moved.
+/// The largest distance of neighbours on a curve, in voxels. A segment lies in a tetrahedron, of length √3 at most,
+/// before its ends are moved.
 const LONGEST: f64 = 2.0;
 
-/// Below which length, in voxels, a piece that turns back is rounding of places whose order is not known.
+/// Length below which a segment that turns back is an artefact of rounding, in voxels: the order of such places is
+/// uncertain.
 const BACK: f64 = 0.3;
 
-/// The outlines that a camera sees or would see.
+/// The outlines of a surface for one camera, hidden parts included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outlines {
-    /// In world space, those where the surface turns away before those on the box, each in the order of their cells.
+    /// Strokes in world space. Those where the surface turns away come before those on the box, each group in the
+    /// order of their cells.
     pub strokes: Vec<Stroke>,
-    /// Places that the linear functions had on curves.
+    /// Number of places on curves of the linear functions.
     pub places: u64,
-    /// Those of them without a root of the reconstruction nearby, or without a normal there.
+    /// Number of places that were lost, because the reconstruction has no root or no normal nearby.
     pub lost: u64,
 }
 
@@ -65,18 +67,18 @@ pub fn outlines(surface: &IsoSurface<'_, '_>, view: &View) -> Outlines {
     with_sampler!(field, |sampler| search.outlines(sampler, &surface.bricks()))
 }
 
-/// What a search for outlines knows beside the field.
+/// The inputs of a search for outlines, except the field.
 pub(super) struct Search<'a> {
     pub(super) grid: &'a Grid,
     pub(super) mask: Option<&'a Mask>,
     pub(super) level: Level,
     pub(super) view: &'a View,
     pub(super) outside: Outside,
-    /// [PREC-3].
+    /// Gradient length that is rounding error ([PREC-3]).
     pub(super) no_normal_below: f64,
 }
 
-/// A place on a curve in index space, by the key of the face or edge that it lies on.
+/// A place on a curve in index space, with the key of the face or edge on which it lies.
 pub(super) type Place = (u64, DVec3);
 
 impl Search<'_> {
@@ -127,7 +129,7 @@ impl Search<'_> {
         (z as u64 * ny + y as u64) * nx + x as u64
     }
 
-    /// The pieces of curves in the cells of a brick.
+    /// Segments of curves in the cells of a brick.
     fn in_brick<S: Sampler<f64>>(&self, sampler: &S, brick: [usize; 3]) -> Vec<[Place; 2]> {
         const SIDE: usize = BRICK + 1;
         let first = brick.map(|b| b * BRICK);
@@ -167,7 +169,7 @@ impl Search<'_> {
         pieces
     }
 
-    /// The pieces in the tetrahedra of a cell, by the functions at its corners.
+    /// Adds the segments in the tetrahedra of a cell, from the functions at its corners.
     fn in_cell(&self, cell: [usize; 3], corners: &[Pair; 8], pieces: &mut Vec<[Place; 2]>) {
         for tetrahedron in TETRAHEDRA {
             let Some(faces) = crossed(tetrahedron.map(|steps| corners[steps])) else { continue };
@@ -176,15 +178,15 @@ impl Search<'_> {
                 let w = weights([a, b, c].map(|steps| corners[steps]));
                 let from: [usize; 3] = std::array::from_fn(|axis| cell[axis] + (a >> axis & 1));
                 let at = [a, b, c].map(|steps| position(std::array::from_fn(|axis| cell[axis] + (steps >> axis & 1))));
-                // A face is known by its first voxel and the steps from there to the other two.
+                // A face's key: its first voxel, and the steps from it to the other two.
                 let key = (self.voxel(from) << 6) | ((b - a) << 3 | (c - a)) as u64;
                 (key, at[0] * w[0] + at[1] * w[1] + at[2] * w[2])
             }));
         }
     }
 
-    /// The strokes of a chain: one, or several where places on the way are lost. A key is its voxel's and so many bits;
-    /// `onto_curve` moves a place that is near the curve onto it.
+    /// Returns the strokes of a chain; several if places on it are lost. A place's key is its voxel's key followed by
+    /// `bits` bits. `onto_curve` moves a nearby place onto the curve.
     fn strokes<S: Sampler<f64>>(
         &self,
         sampler: &S,
@@ -218,7 +220,7 @@ impl Search<'_> {
 }
 
 impl Search<'_> {
-    /// A curve with places more where its straight pieces are too far from it.
+    /// Adds places to a curve where its segments are too far from `onto_curve`.
     fn bent(
         &self,
         places: Vec<DVec3>,
@@ -233,14 +235,14 @@ impl Search<'_> {
             if i + 1 == n && !closed {
                 break;
             }
-            // Pieces that are still to be looked at, the next one last.
+            // A stack of the remaining segments' ends; the next one is last.
             let mut rest = vec![(places[(i + 1) % n], 0)];
             let mut at = from;
             while let Some(&(to, halvings)) = rest.last() {
                 let middle = 0.5 * (at + to);
                 let moved = onto_curve(middle).filter(|moved| {
                     let off = (self.grid.axes() * (*moved - middle)).length();
-                    // Not over to a neighbour's part of the curve.
+                    // A longer move would lead to a neighbouring part of the curve.
                     off > within && off < 0.5 * (self.grid.axes() * (to - at)).length()
                 });
                 match moved.filter(|_| halvings < HALVINGS) {
@@ -262,7 +264,7 @@ impl Search<'_> {
     }
 }
 
-/// Calls a function for each triple of numbers below three others, the first running fastest.
+/// Calls a function for each index triple below the given sizes, the first index fastest.
 fn for_each([nx, ny, nz]: [usize; 3], mut f: impl FnMut([usize; 3])) {
     for z in 0..nz {
         for y in 0..ny {
@@ -273,12 +275,12 @@ fn for_each([nx, ny, nz]: [usize; 3], mut f: impl FnMut([usize; 3])) {
     }
 }
 
-/// A voxel in index space.
+/// The position of a voxel in index space.
 pub(super) fn position(voxel: [usize; 3]) -> DVec3 {
     DVec3::from_array(voxel.map(|i| i as f64))
 }
 
-/// The chains of pieces, and all places in the order of their keys.
+/// Chains of segments, and all places sorted by key.
 fn joined(pieces: Vec<[Place; 2]>) -> (Vec<Chain>, Vec<Place>) {
     let chains = chains(pieces.iter().map(|piece| piece.map(|(key, _)| key)).collect());
     let mut places: Vec<Place> = pieces.into_iter().flatten().collect();
@@ -288,7 +290,7 @@ fn joined(pieces: Vec<[Place; 2]>) -> (Vec<Chain>, Vec<Place>) {
     (chains, places)
 }
 
-/// Leaves out places at which the curve turns back for less than [`BACK`].
+/// Removes places at which the curve turns back by less than [`BACK`].
 fn without_turns(places: &mut Vec<DVec3>) {
     let mut left: Vec<DVec3> = Vec::with_capacity(places.len());
     for &c in places.iter() {
@@ -304,7 +306,7 @@ fn without_turns(places: &mut Vec<DVec3>) {
     *places = left;
 }
 
-/// A curve cut where neighbours are far from each other; whether a part is closed.
+/// Cuts a curve where neighbours are too far apart. The flag tells whether a part is closed.
 fn split(places: Vec<DVec3>, closed: bool) -> Vec<(Vec<DVec3>, bool)> {
     let (first, last) = (places.first().copied(), places.last().copied());
     let mut parts: Vec<Vec<DVec3>> = Vec::new();
@@ -318,7 +320,7 @@ fn split(places: Vec<DVec3>, closed: bool) -> Vec<(Vec<DVec3>, bool)> {
     match (meets, parts.len()) {
         (true, 1) => parts.pop().into_iter().map(|part| (part, true)).collect(),
         (true, n) if n > 1 => {
-            // The last goes on in the first.
+            // The last part continues in the first.
             let mut last = parts.pop().unwrap_or_default();
             last.append(&mut parts[0]);
             parts[0] = last;
@@ -328,7 +330,7 @@ fn split(places: Vec<DVec3>, closed: bool) -> Vec<(Vec<DVec3>, bool)> {
     }
 }
 
-/// Sets u: the arc length over the whole.
+/// Sets u: the arc length as a share of the whole length.
 fn measure(stroke: &mut Stroke) {
     let mut along = 0.0;
     let mut before: Option<DVec3> = None;

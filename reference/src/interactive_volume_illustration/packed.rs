@@ -1,27 +1,27 @@
-//! Strokes in 14 bytes a vertex, as a graphics card takes them ([HATCH-10]): three numbers of 32 bits for the place, two of
-//! eight for the normal on the octahedron (Meyer et al. 2010).
+//! Strokes in 14 bytes a vertex, in the layout of a graphics card ([HATCH-10]): three numbers of 32 bits for the
+//! place, two of eight bits for the octahedral normal (Meyer et al. 2010).
 
 use drypoint_scene::glam::{DVec2, DVec3, Vec3};
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
 
-/// Bytes of a vertex.
+/// Size of a vertex in bytes.
 const BYTES: usize = 14;
 
-/// Of a signed byte.
+/// Largest value of a signed byte.
 const STEPS: f64 = 127.0;
 
-/// Strokes, one vertex after the other.
+/// Packed strokes, one vertex after the other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Packed {
     vertices: Vec<[u8; BYTES]>,
-    /// Where each stroke ends.
+    /// Index after the last vertex of each stroke.
     ends: Vec<u32>,
 }
 
 impl Packed {
-    /// Packs strokes on a grid, whose index space their places are in: there 32 bits are 2⁻²⁴ of the grid's side at the worst,
-    /// wherever it lies in the world. A closed stroke has its first vertex again.
+    /// Packs strokes with places in the grid's index space. There the error of 32 bits is at most 2⁻²⁴ of the grid's
+    /// side, wherever the grid lies in the world. A closed stroke repeats its first vertex.
     pub fn new<'s>(strokes: impl Iterator<Item = &'s Stroke>, grid: &Grid) -> Self {
         let mut packed = Self::default();
         for stroke in strokes {
@@ -40,12 +40,12 @@ impl Packed {
         packed
     }
 
-    /// Bytes of all vertices and ends.
+    /// Size of all vertices and ends in bytes.
     pub fn bytes(&self) -> u64 {
         (size_of_val(&*self.vertices) + size_of_val(&*self.ends)) as u64
     }
 
-    /// Vertices of all strokes.
+    /// Number of vertices of all strokes.
     pub fn vertices(&self) -> u64 {
         self.vertices.len() as u64
     }
@@ -60,18 +60,18 @@ impl Packed {
     }
 }
 
-/// Where the ray along a unit vector meets |x| + |y| + |z| = 1, its lower half folded outwards onto the square.
+/// Projects a unit vector onto |x| + |y| + |z| = 1 and unfolds the lower half outwards onto the square.
 fn unfolded(n: DVec3) -> DVec2 {
     let p = n / (n.x.abs() + n.y.abs() + n.z.abs());
     if p.z >= 0.0 { DVec2::new(p.x, p.y) } else { folded(DVec2::new(p.x, p.y)) }
 }
 
-/// The other side of the square's diagonals.
+/// Reflects a point across the square's diagonals.
 fn folded(p: DVec2) -> DVec2 {
     DVec2::new((1.0 - p.y.abs()).copysign(p.x), (1.0 - p.x.abs()).copysign(p.y))
 }
 
-/// Of the four corners around it the one whose normal is nearest.
+/// Returns the nearest normal among the four grid corners around a direction.
 fn octahedral(n: DVec3) -> [i8; 2] {
     let low = (unfolded(n) * STEPS).floor();
     let corner = |i: u32| {
@@ -87,7 +87,7 @@ fn octahedral(n: DVec3) -> [i8; 2] {
     best
 }
 
-/// The normal of two bytes.
+/// Decodes a normal from two bytes.
 fn normal(bytes: [i8; 2]) -> DVec3 {
     let p = DVec2::new(f64::from(bytes[0]), f64::from(bytes[1])) / STEPS;
     let z = 1.0 - p.x.abs() - p.y.abs();
@@ -101,8 +101,8 @@ mod tests {
     use drypoint_scene::philox::uniform;
     use drypoint_scene::strokes::StrokeVertex;
 
-    /// On a face of the octahedron the bytes are the corners of equilateral triangles with sides of √2/127, of which nothing is
-    /// farther than their circumradius, √(2/3)/127; from the origin, at least 1/√3 away, that is √2/127 or 0.638°.
+    /// On a face of the octahedron the bytes form equilateral triangles with sides of √2/127. The largest error is
+    /// their circumradius, √(2/3)/127. Seen from the origin, at least 1/√3 away, this is √2/127 or 0.638°.
     #[test]
     fn normals_come_back_within_their_step() {
         let mut worst: f64 = 0.0;

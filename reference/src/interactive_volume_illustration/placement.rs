@@ -1,4 +1,5 @@
-//! Where a stroke begins: from a cell's centre along its gradient to a place just in front of the surface ([HATCH-7]).
+//! The start of a stroke: from a cell's centre along its gradient to a place just in front of the surface
+//! ([HATCH-7]).
 
 use super::counts::{HatchCounts, NoDirection, Rejected};
 use super::ground::{Ground, inside, normal};
@@ -10,35 +11,35 @@ use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::scale_by_power_of_two;
 
-/// Places to either side of the centre at which the value is looked at.
+/// Number of places to either side of the centre at which the value is evaluated.
 const PLACES: u32 = 12;
 
-/// Evaluations of the value for a seed.
+/// Number of evaluations of the value for a seed.
 const EVALUATIONS: u32 = 60;
 
-/// The largest share of the range of values that the target is away from the surface's value.
+/// The largest distance of the target from the surface's value, as a share of the range of values.
 const LARGEST_SHARE: f64 = 0.1;
 
-/// A place that a stroke grows from.
+/// A place from which a stroke grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seed {
-    /// The cell that it was drawn in.
+    /// The cell that contains the seed.
     pub cell: [usize; 3],
-    /// In world space.
+    /// Place in world space.
     pub world: DVec3,
-    /// N there.
+    /// N at the place.
     pub normal: DVec3,
-    /// The value whose surface the stroke stays on.
+    /// The value of the iso-surface on which the stroke stays.
     pub target: f64,
-    /// Per world unit, with both directions.
+    /// Curvatures per world unit, with both directions.
     pub curvature: Curvature<f64>,
-    /// `Max` or `Min`, the family of the stroke.
+    /// The stroke's family: `Max` or `Min`.
     pub family: Family,
 }
 
 impl Hatching {
-    /// The value in front of a surface by δ, where the gradient has the length ‖g‖, in the value's unit per world unit:
-    /// iso ∓ min(δ‖g‖, 0.1 of the range).
+    /// Returns the value at the distance δ in front of a surface: iso ∓ min(δ‖g‖, 0.1 of the range). `slope` is ‖g‖,
+    /// in the value's unit per world unit.
     fn target(&self, ground: &dyn Ground, iso: f64, slope: f64) -> f64 {
         let [lo, hi] = ground.range();
         let by = (self.in_front(ground.grid()) * slope).min(LARGEST_SHARE * (hi - lo));
@@ -50,20 +51,21 @@ impl Hatching {
 }
 
 impl<'f> Strokes<'f, '_> {
-    /// The seed of a cell.
+    /// Returns the seed of a cell.
     ///
     /// # Errors
-    /// The cell's line does not meet the surface, or there is no direction where it does.
+    /// The cell's line does not meet the surface, or there is no direction at the crossing.
     pub fn place(&self, cell: [usize; 3], counts: &mut HatchCounts) -> Result<Seed, Rejected> {
         let (world, target) = self.on_surface(cell, [0.5; 3])?;
         self.seed(cell, world, target, counts).map_err(Rejected::Direction)
     }
 
-    /// Where the gradient's line through a place in a cell, each coordinate in [0, 1] of it, meets what strokes lie on, with
-    /// the value there; the place itself where strokes go without a surface.
+    /// Follows the gradient's line through a place in a cell to the surface of the strokes. Returns the crossing and
+    /// the value there. `within` holds coordinates in [0, 1] of the cell. Without a surface the place itself is
+    /// returned.
     ///
     /// # Errors
-    /// It does not, or has no gradient.
+    /// The line does not meet the surface, or the place has no gradient.
     pub(super) fn on_surface(&self, cell: [usize; 3], within: [f64; 3]) -> Result<(DVec3, f64), Rejected> {
         let ground = self.ground();
         let grid = ground.grid();
@@ -78,16 +80,17 @@ impl<'f> Strokes<'f, '_> {
         let Some(iso) = self.iso() else { return Ok((from, ground.value(index))) };
         let slope = scale_by_power_of_two(slope, ground.exponent());
         let target = self.how().target(ground, iso, slope);
-        // As far as the cell's diagonal is long, in voxels, so that no cell of a long spacing is passed over.
+        // The search reaches as far as the cell's diagonal, in voxels, so that cells with a long spacing are searched
+        // as well.
         let reach = 3f64.sqrt() / (grid.inverse_axes() * outward).length();
         let s = self.meets(from, outward, target, reach, PLACES, EVALUATIONS).ok_or(Rejected::NoSurface)?;
         Ok((from + outward * s, target))
     }
 
-    /// A seed at a place in world space, of the stroke that stays at the value `target`.
+    /// Returns the seed at a place in world space, for a stroke that stays at the value `target`.
     ///
     /// # Errors
-    /// There is no direction.
+    /// The place has no direction.
     pub(super) fn seed(
         &self,
         cell: [usize; 3],
@@ -102,8 +105,8 @@ impl<'f> Strokes<'f, '_> {
         Ok(Seed { cell, world, normal, target, curvature, family })
     }
 
-    /// Where the line x + s·along, a unit vector of the world, has a value nearest to s = 0, |s| ≤ `reach`, as near as
-    /// [`Self::near`].
+    /// Finds the place nearest to s = 0, |s| ≤ `reach`, at which the line x + s·along has a value. `along` is a unit
+    /// vector of the world. [`Self::near`] is the tolerance.
     pub(super) fn meets(
         &self,
         x: DVec3,
@@ -118,8 +121,8 @@ impl<'f> Strokes<'f, '_> {
         Search { over, tolerance: self.near(target), budget: evaluations }.nearest(reach, places)
     }
 
-    /// |f − target| that counts as none: 2⁻⁴⁰ of the range of values, or the rounding of a large target, or what the values
-    /// change by over the rounding of places far from the world's origin.
+    /// Tolerance of |f − target|: the largest of 2⁻⁴⁰ of the range of values, the rounding of a large target, and the
+    /// change of values over the rounding of places far from the world's origin.
     pub(super) fn near(&self, target: f64) -> f64 {
         let [lo, hi] = self.ground().range();
         let places = self.rounding() * (hi - lo);

@@ -1,11 +1,11 @@
-//! Straight pieces of the world on the page: in front of the camera and inside the frame.
+//! Projection of world segments onto the page: in front of the camera and inside the frame.
 
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::Page;
 use drypoint_scene::marks::frame::clipped;
 use drypoint_scene::view::View;
 
-/// From the world to a page.
+/// A projection from the world to a page.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Onto<'a> {
     view: &'a View,
@@ -13,15 +13,15 @@ pub(super) struct Onto<'a> {
     near: f64,
 }
 
-/// What the frame holds of a piece. The way along it on the page is s: 0 and 1 are its ends, or in perspective where it
-/// comes nearer than `near`.
+/// The part of a segment inside the frame. s is the parameter along the segment on the page: 0 and 1 are its ends or,
+/// in perspective, its crossings of the plane at depth `near`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cut {
-    /// Where on the page s is 0 and 1, in mm.
+    /// Places on the page for s = 0 and 1, in mm.
     ends: [DVec2; 2],
-    /// The share of the way along the piece in the world for s = 0 and 1.
+    /// Parameters along the world segment for s = 0 and 1.
     world: [f64; 2],
-    /// The depth there; 1 where rays are parallel.
+    /// Depths for s = 0 and 1; 1 where rays are parallel.
     depths: [f64; 2],
     /// The range of s inside the frame.
     pub(super) range: [f64; 2],
@@ -30,19 +30,19 @@ pub(super) struct Cut {
 }
 
 impl<'a> Onto<'a> {
-    /// `near` is that of a perspective camera, in world units.
+    /// `near` is the near distance of a perspective camera, in world units.
     pub(super) fn new(view: &'a View, page: &'a Page, near: f64) -> Self {
         Self { view, page, near }
     }
 
-    /// The place on the page of one in eye space, of depth 1 where rays are parallel.
+    /// The place on the page of a point in eye space. `depth` is 1 where rays are parallel.
     fn on_page(&self, eye: DVec3, depth: f64) -> DVec2 {
         let size = DVec2::from(self.view.size.map(|n| n as f64));
         let off = DVec2::new(eye.x, -eye.y) / (self.view.pixel * depth);
         self.page.place(size / 2.0 + off, self.view.size)
     }
 
-    /// The place of a point of the world inside the frame.
+    /// The place on the page of a point of the world. Returns none outside the frame.
     pub(super) fn place(&self, world: DVec3) -> Option<DVec2> {
         let eye = self.view.to_eye(world);
         if self.view.perspective && -eye.z < self.near {
@@ -53,7 +53,7 @@ impl<'a> Onto<'a> {
         (at.cmpge(margin).all() && at.cmple(self.page.size - margin).all()).then_some(at)
     }
 
-    /// What the frame, with `beyond` mm around it, holds of a piece of the world.
+    /// Clips a world segment to the frame, grown by `beyond` mm.
     pub(super) fn cut(&self, piece: [DVec3; 2], beyond: f64) -> Option<Cut> {
         let eye = piece.map(|p| self.view.to_eye(p));
         let mut world = [0.0, 1.0];
@@ -81,7 +81,7 @@ impl<'a> Onto<'a> {
 }
 
 impl Cut {
-    /// The share of the way along the piece in the world.
+    /// The parameter along the world segment.
     pub(super) fn along_world(&self, s: f64) -> f64 {
         let [from, to] = self.world;
         if s == 0.0 {
@@ -100,18 +100,18 @@ impl Cut {
         if s == 1.0 { self.ends[1] } else { self.ends[0].lerp(self.ends[1], s) }
     }
 
-    /// Whether s is the beginning of the piece itself.
+    /// Whether s is the beginning of the unclipped segment.
     pub(super) fn is_start(&self, s: f64) -> bool {
         s == 0.0 && self.world[0] == 0.0
     }
 
-    /// Whether s is its end.
+    /// Whether s is the end of the unclipped segment.
     pub(super) fn is_end(&self, s: f64) -> bool {
         s == 1.0 && self.world[1] == 1.0
     }
 }
 
-/// The range from 0 to 1 in which a piece lies in a rectangle.
+/// The part of [0, 1] on which a segment lies in a rectangle.
 fn inside([a, b]: [DVec2; 2], lo: DVec2, hi: DVec2) -> Option<[f64; 2]> {
     let sides = |axis: usize| [(a[axis] - lo[axis], b[axis] - lo[axis]), (hi[axis] - a[axis], hi[axis] - b[axis])];
     clipped((0..2).flat_map(sides))

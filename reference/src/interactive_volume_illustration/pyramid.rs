@@ -1,7 +1,7 @@
-//! The pyramid over the volume that leads to the cells of an iso-surface (3.2; [HATCH-5]).
+//! The pyramid over the volume that finds the cells of an iso-surface (3.2; [HATCH-5]).
 //!
-//! A pointerless octree. An entry of its lowest level, the paper's second, is a *block* of 2 × 2 × 2 cells, that is of
-//! 3 × 3 × 3 voxels: neighbours share voxels, or no block would hold the cells between them.
+//! The pyramid is a pointerless octree. An entry of its lowest level, the paper's second, is a *block* of 2 × 2 × 2 cells,
+//! that is of 3 × 3 × 3 voxels. Neighbours share voxels; otherwise no block would hold the cells between them.
 
 use crate::field::Columns;
 use drypoint_scene::volume::{Volume, Voxel};
@@ -9,38 +9,38 @@ use drypoint_scene::with_access;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Ranges of values, level by level, and the largest curvature where it is known everywhere.
+/// Ranges of values, level by level, and the largest curvatures if they are known everywhere.
 #[derive(Clone, Debug)]
 pub struct Pyramid {
-    /// Blocks first, then each level of 2 × 2 × 2 entries of the one below, up to a single one. The least and the largest value
-    /// of an entry as bytes, rounded outwards.
+    /// The least and the largest value of each entry as bytes, rounded outwards. The first level holds blocks, each
+    /// further level 2 × 2 × 2 entries of the one below, up to a single entry.
     ranges: Vec<Level<[u8; 2]>>,
-    /// The largest κ of an entry as a byte, rounded outwards; as many levels, or none.
+    /// The largest κ of each entry as a byte, rounded up. There are as many levels as in `ranges`, or none.
     curvatures: Vec<Level<u8>>,
     cells: [usize; 3],
     /// The values of byte 0 and of byte 255.
     range: [f64; 2],
 }
 
-/// A level, x fastest.
+/// One level of the pyramid, x fastest.
 #[derive(Clone, Debug)]
 struct Level<T> {
     dims: [usize; 3],
     entries: Vec<T>,
 }
 
-/// The cells of a grid along each axis; an axis of one voxel has one, without thickness.
+/// Number of the grid's cells along each axis. An axis of one voxel has one cell without thickness.
 pub(super) fn cells_of(dims: [usize; 3]) -> [usize; 3] {
     dims.map(|n| (n - 1).max(1))
 }
 
-/// The voxels of a block along an axis.
+/// Voxels of a block along an axis.
 pub(super) fn span(block: usize, voxels: usize) -> Range<usize> {
     2 * block..(2 * block + 3).min(voxels)
 }
 
 impl<T: Copy + Send> Level<T> {
-    /// Blocks, of which `row` makes those that lie side by side: it is given their places in y and z.
+    /// Builds a level of blocks from rows: `row` gets a row's y and z and returns its blocks.
     fn of_rows(dims: [usize; 3], row: impl Fn([usize; 2]) -> Vec<T> + Sync) -> Self {
         let blocks = cells_of(dims).map(|n| n.div_ceil(2));
         let rows = (0..blocks[1] * blocks[2]).into_par_iter();
@@ -52,7 +52,7 @@ impl<T: Copy + Send> Level<T> {
         self.entries[x + self.dims[0] * (y + self.dims[1] * z)]
     }
 
-    /// This level and all above it, of whose entries each is what its children make.
+    /// Returns this level and all above it. `join` combines children to an entry.
     fn levels(self, join: impl Fn(T, T) -> T) -> Vec<Self> {
         let mut levels = vec![self];
         while let Some(last) = levels.last().filter(|level| level.dims != [1; 3]) {
@@ -65,19 +65,19 @@ impl<T: Copy + Send> Level<T> {
     }
 }
 
-/// The places of a grid, x fastest.
+/// Positions in a grid, x fastest.
 fn positions([nx, ny, nz]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
     (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
 }
 
-/// The up to eight parts of an entry among the finer ones, x fastest.
+/// Up to eight children of an entry on the finer level, x fastest.
 fn children(entry: [usize; 3], finer: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
     let part = move |axis: usize| 2 * entry[axis]..(2 * entry[axis] + 2).min(finer[axis]);
     part(2).flat_map(move |z| part(1).flat_map(move |y| part(0).map(move |x| [x, y, z])))
 }
 
 impl Pyramid {
-    /// Looks once at each voxel of a volume; more often where blocks share it.
+    /// Builds the pyramid of a volume. Voxels that blocks share are read more than once.
     pub fn new(volume: &Volume) -> Self {
         let dims = volume.dims();
         let range = volume.range();
@@ -101,7 +101,7 @@ impl Pyramid {
         Self { ranges, curvatures: Vec::new(), cells: cells_of(dims), range }
     }
 
-    /// With the largest curvature of each entry, from those of all voxels, κ in [0, 1] ([HATCH-5]).
+    /// Adds the largest curvature of each entry, from κ in [0, 1] of all voxels ([HATCH-5]).
     pub(super) fn with_curvature(self, dims: [usize; 3], curvature: impl Fn([usize; 3]) -> f64 + Sync) -> Self {
         let row = |[y, z]: [usize; 2]| {
             let rows = || span(z, dims[2]).flat_map(|k| span(y, dims[1]).map(move |j| [j, k]));
@@ -113,31 +113,31 @@ impl Pyramid {
         Self { curvatures: Level::of_rows(dims, row).levels(u8::max), ..self }
     }
 
-    /// The cells of the grid along each axis.
+    /// Number of the grid's cells along each axis.
     pub fn cells(&self) -> [usize; 3] {
         self.cells
     }
 
-    /// Bytes of all levels.
+    /// Size of all levels in bytes.
     pub fn bytes(&self) -> u64 {
         let curvatures: usize = self.curvatures.iter().map(|level| level.entries.len()).sum();
         self.entries() * size_of::<[u8; 2]>() as u64 + curvatures as u64
     }
 
-    /// Entries of all levels.
+    /// Number of entries of all levels.
     pub fn entries(&self) -> u64 {
         self.ranges.iter().map(|level| level.entries.len() as u64).sum()
     }
 
-    /// The blocks that a value may lie in, depth first: no block is left out that has it in its closed range (4.1;
-    /// [HATCH-6]), but, where curvatures are known, those that are nowhere above C₀, if it is given.
+    /// Returns the blocks that may contain a value, depth first: every block whose closed range contains it (4.1;
+    /// [HATCH-6]). If curvatures are known and C₀ is given, blocks without κ above C₀ are left out.
     pub fn blocks(&self, value: f64, min_curvature: Option<f64>) -> Vec<[usize; 3]> {
         let b = byte(self.range, value);
         self.found(|[lo, hi]| lo <= b.ceil() && b.floor() <= hi, min_curvature)
     }
 
-    /// The same of blocks in whose closed range of values one may lie that counts ([HATCH-16]): of ranges that are wider by a
-    /// step of a byte to either side.
+    /// Like [`blocks`](Self::blocks), for blocks whose closed range may contain a value that counts ([HATCH-16]).
+    /// `counts` gets ranges that are widened by one step of a byte to either side.
     pub fn blocks_among(&self, counts: impl Fn([f64; 2]) -> bool, min_curvature: Option<f64>) -> Vec<[usize; 3]> {
         let [lo, hi] = self.range;
         let value = |byte: f64| {
@@ -177,26 +177,26 @@ impl Pyramid {
         }
     }
 
-    /// The cells of a block, x fastest.
+    /// Cells of a block, x fastest.
     pub fn cells_of_block(&self, block: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
         children(block, self.cells)
     }
 }
 
-/// A measure in [0, 1] as a byte that is not below it.
+/// Converts a measure in [0, 1] to a byte, rounded up.
 pub(super) fn outwards(measure: f64) -> u8 {
     (measure * 255.0).ceil() as u8
 }
 
-/// Whether a measure that is kept as a byte is above a bound.
+/// Whether a measure stored as a byte may be above a bound.
 pub(super) fn is_above(byte: u8, bound: f64) -> bool {
     f64::from(byte) / 255.0 > bound
 }
 
-/// A value on the scale of bytes, not yet rounded; it keeps the order of values. All is 0 in a constant volume but what
-/// lies outside of its value.
+/// Maps a value onto the scale of bytes, not yet rounded. The map is monotonic. In a constant volume its value maps
+/// to 0.
 fn byte([lo, hi]: [f64; 2], value: f64) -> f64 {
-    // Halves, since the difference of the largest numbers is none.
+    // Halves, because the difference of the largest numbers overflows.
     let (width, above) = (0.5 * hi - 0.5 * lo, 0.5 * value - 0.5 * lo);
     if width > 0.0 {
         above / width * 255.0
@@ -228,7 +228,7 @@ mod tests {
         span(2).flat_map(move |z| span(1).flat_map(move |y| span(0).map(move |x| [x, y, z])))
     }
 
-    /// All blocks whose voxels have a value in their closed range.
+    /// All blocks whose voxels' closed range contains the value.
     fn exhaustive(volume: &Volume, value: f64) -> Vec<[usize; 3]> {
         let dims = volume.dims();
         let block_has = |block: &[usize; 3]| {
@@ -238,7 +238,7 @@ mod tests {
         positions(cells_of(dims).map(|n| n.div_ceil(2))).filter(block_has).collect()
     }
 
-    /// Nothing is lost, whatever the sides; what is too much is no more than a byte's rounding lets in.
+    /// No block is missing, whatever the sides. Surplus blocks are no more than a byte's rounding lets in.
     #[test]
     fn blocks_are_those_of_a_search_through_all() {
         for dims in [[2, 2, 2], [3, 4, 5], [9, 2, 17], [1, 6, 6], [1, 1, 1], [12, 13, 8]] {
@@ -257,7 +257,7 @@ mod tests {
         }
     }
 
-    /// Of bytes nothing is rounded: exactly the blocks of the search.
+    /// Byte volumes need no rounding: the blocks are exactly those of the search.
     #[test]
     fn of_bytes_no_block_is_too_much() {
         let volume = volume([11, 9, 10], |at| (uniform(5, at.map(|i| i as u32), 0) * 256.0).floor().max(0.0));
@@ -276,8 +276,8 @@ mod tests {
         }
     }
 
-    /// An entry's curvature is the largest of all voxels below it: blocks are those of a search through all, and the way down
-    /// stops above where nothing is curved enough.
+    /// An entry's curvature is the largest of all voxels below it. The blocks equal those of a search through all,
+    /// and the descent stops above regions that are not curved enough.
     #[test]
     fn blocks_that_are_curved_enough() {
         for dims in [[9, 8, 20], [2, 2, 2], [1, 6, 6], [33, 17, 5]] {

@@ -1,33 +1,33 @@
-//! A place that is near a common zero of two functions, moved onto it ([HATCH-18]).
+//! Newton's method onto a common zero of two functions ([HATCH-18]).
 
 use crate::field::Sampler;
 use crate::number::Vec3;
 use drypoint_scene::glam::{DVec2, DVec3};
 
-/// The last step, in voxels.
+/// Length of the last step, in voxels.
 const CLOSE: f64 = 1e-6;
 
-/// How far from each other, in voxels, values are whose difference is a derivative: between the root of an ulp, where
-/// rounding would show, and what bends within a cell.
+/// Distance of the places of a difference quotient, in voxels. It lies between the root of an ulp, where rounding
+/// would show, and the scale on which a field bends within a cell.
 const APART: f64 = 1e-5;
 
-/// The longest step, in voxels.
+/// Length of the longest step, in voxels.
 const LONGEST: f64 = 0.5;
 
-/// How far a place may move in all, in voxels.
+/// The largest distance from the start, in voxels.
 const REACH: f64 = 1.75;
 
-/// Steps, of which the last ones are shortened: where the field has a kink Newton's may go to and fro.
+/// Number of steps. The last ones are shortened, because at a kink of the field Newton's method may oscillate.
 const STEPS: u32 = 24;
 
 /// Moves places in index space along the shortest way onto f = iso, q = 0.
 pub(super) struct Refine<'s, S, Q> {
     pub(super) sampler: &'s S,
-    /// f − iso, scaled, of a value.
+    /// Maps a value to f − iso, scaled.
     pub(super) over: &'s (dyn Fn(f64) -> f64 + Sync),
     /// q at a place, in index space.
     pub(super) q: Q,
-    /// Where the box begins and ends.
+    /// The first and the last corner of the box.
     pub(super) bounds: [DVec3; 2],
 }
 
@@ -36,14 +36,14 @@ impl<S: Sampler<f64>, Q: Fn(DVec3) -> f64> Refine<'_, S, Q> {
         DVec2::new((self.over)(self.sampler.value(Vec3::from_glam(at))), (self.q)(at))
     }
 
-    /// Newton's method for two equations with three unknowns: each step is the shortest that the linear functions ask for.
-    /// None where it does not come to rest near the place.
+    /// Newton's method for two equations with three unknowns. Each step is the shortest that solves the linear
+    /// equations. Returns none if the method does not converge near the start.
     pub(super) fn onto_curve(&self, start: DVec3) -> Option<DVec3> {
         let [lo, hi] = self.bounds;
         let mut at = start;
         for step in 0..STEPS {
             let here = self.both(at);
-            // Towards the middle of the box, so that none lies outside.
+            // The difference goes towards the middle of the box, so that no place lies outside.
             let way = DVec3::select(at.cmpgt((lo + hi) / 2.0), DVec3::NEG_ONE, DVec3::ONE);
             let along = |axis: DVec3| (self.both(at + axis * way * APART) - here) / APART;
             let (dx, dy, dz) = (along(DVec3::X), along(DVec3::Y), along(DVec3::Z));
@@ -64,8 +64,8 @@ impl<S: Sampler<f64>, Q: Fn(DVec3) -> f64> Refine<'_, S, Q> {
     }
 }
 
-/// The shortest step after which two linear functions with these gradients and values are 0; none where the gradients are
-/// parallel.
+/// The shortest step to a common zero of two linear functions with these gradients and values. Returns none if the
+/// gradients are parallel.
 fn shortest([f, q]: [DVec3; 2], values: DVec2) -> Option<DVec3> {
     /// The sine of the angle between gradients below which they are parallel.
     const PARALLEL: f64 = 1e-6;

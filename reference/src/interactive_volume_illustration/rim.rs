@@ -1,4 +1,4 @@
-//! Where an iso-surface meets the volume's box ([HATCH-18]).
+//! The intersection of an iso-surface with the faces of the volume's box ([HATCH-18]).
 
 use super::outline::{Place, Search, position};
 use super::tetrahedra::is_above;
@@ -8,8 +8,9 @@ use crate::surface::bracketed;
 use drypoint_scene::glam::DVec3;
 use rayon::prelude::*;
 
-/// The pieces of f = iso in the faces of the box, each face of a cell as the two triangles that its tetrahedra have there.
-/// Ends are roots along the triangles' edges, which are known by their first voxel and the steps to the other.
+/// Returns the segments of f = iso in the faces of the box. Each cell face is split into the two triangles that its
+/// tetrahedra have there. Ends are roots along the triangles' edges. An edge's key is its first voxel and the step to
+/// the other one.
 pub(super) fn rim<S: Sampler<f64>>(search: &Search<'_>, sampler: &S) -> Vec<[Place; 2]> {
     let dims = search.grid.dims();
     let side = |i: usize| {
@@ -36,7 +37,7 @@ pub(super) fn rim<S: Sampler<f64>>(search: &Search<'_>, sampler: &S) -> Vec<[Pla
     (0..6).into_par_iter().flat_map(side).collect()
 }
 
-/// The piece in a triangle, by the steps from a voxel to its corners.
+/// Adds the segment in a triangle. The triangle's corners are given as steps from a voxel.
 fn in_triangle<S: Sampler<f64>>(
     search: &Search<'_>,
     sampler: &S,

@@ -4,13 +4,13 @@
 pub(super) struct Search<F> {
     /// f(s) − target; none outside the field.
     pub over: F,
-    /// |f − target| that is near enough.
+    /// |f − target| that is accepted as a root.
     pub tolerance: f64,
-    /// Evaluations that may still be made.
+    /// Number of evaluations left.
     pub budget: u32,
 }
 
-/// A place on the line and f − target there.
+/// A place on the line, and f − target there.
 type Known = [f64; 2];
 
 impl<F: Fn(f64) -> Option<f64>> Search<F> {
@@ -19,8 +19,8 @@ impl<F: Fn(f64) -> Option<f64>> Search<F> {
         (self.over)(s)
     }
 
-    /// The root next to s = 0 in [−reach, reach]: places at `steps` equal distances to either side are looked at, nearest
-    /// first, and the first change of sign is narrowed down.
+    /// Returns the root next to s = 0 in [−reach, reach]. `steps` equidistant places to either side are evaluated,
+    /// nearest first, and the first change of sign is refined.
     pub(super) fn nearest(&mut self, reach: f64, steps: u32) -> Option<f64> {
         let first = self.at(0.0)?;
         if first.abs() <= self.tolerance {
@@ -48,9 +48,9 @@ impl<F: Fn(f64) -> Option<f64>> Search<F> {
         None
     }
 
-    /// A root between two places whose values differ in sign: the secant's in place of Newton's, since an estimated gradient
-    /// need not be the derivative. An end that stays twice counts less (Anderson and Björck 1973), and every fourth step halves
-    /// the interval, so that no shape of the function makes it slow.
+    /// Returns a root between two places whose values differ in sign. Secants replace Newton's steps, since an
+    /// estimated gradient need not be the derivative. An end that stays twice gets less weight (Anderson and Björck
+    /// 1973). Every fourth step halves the interval, so that no shape of the function slows the search down.
     fn between(&mut self, [mut a, mut at_a]: Known, [mut b, mut at_b]: Known) -> Option<f64> {
         if at_b.abs() <= self.tolerance {
             return Some(b);
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    /// The root, and how many evaluations it took.
+    /// The root, and the number of evaluations.
     fn search(f: impl Fn(f64) -> Option<f64>, budget: u32) -> (Option<f64>, u32) {
         let asked = Cell::new(0);
         let over = |s: f64| {

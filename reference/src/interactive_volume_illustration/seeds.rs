@@ -1,4 +1,4 @@
-//! Where strokes begin (4.1; [HATCH-6]).
+//! Selection of the cells in which strokes begin (4.1; [HATCH-6]).
 
 use super::measures::{Largest, Measure, of_blocks};
 use super::pyramid::{Pyramid, is_above};
@@ -6,22 +6,22 @@ use drypoint_scene::philox::uniform;
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
 
-/// Which cells of an iso-surface get a stroke.
+/// The rule by which cells of an iso-surface get a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SeedRule {
-    /// By chance, p = ½(κ + |∇|) where κ > C₀ and |∇| > C₁, else 0.
+    /// At random: p = ½(κ + |∇|) if κ > C₀ and |∇| > C₁, otherwise 0.
     Curvature {
-        /// C₀.
+        /// The bound C₀.
         min_curvature: f64,
-        /// C₁.
+        /// The bound C₁.
         min_gradient: f64,
     },
-    /// Every one (Fig. 6, right).
+    /// Every cell (Fig. 6, right).
     Dense,
 }
 
 impl SeedRule {
-    /// p of a block.
+    /// The probability p of a block.
     pub fn probability(self, largest: Largest) -> f64 {
         match self {
             Self::Dense => 1.0,
@@ -34,7 +34,7 @@ impl SeedRule {
         }
     }
 
-    /// C₀, where there is one.
+    /// C₀, if the rule has one.
     fn min_curvature(self) -> Option<f64> {
         match self {
             Self::Dense => None,
@@ -43,18 +43,19 @@ impl SeedRule {
     }
 }
 
-/// The cells of an iso-surface and which of them strokes begin in.
+/// The cells of an iso-surface, with the probability that a stroke begins in each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seeds {
-    /// Each cell that holds the value, with its p; z slowest. Those are left out whose p the pyramid knows to be 0.
+    /// Cells that hold the value, with their p; z slowest. Cells whose p the pyramid knows to be 0 are left out.
     pub cells: Vec<([usize; 3], f64)>,
-    /// Voxels that were measured.
+    /// Number of voxels that were measured.
     pub measured: u64,
 }
 
 impl Seeds {
-    /// The cells of the surface f = `iso` and their probabilities: the way down the pyramid, then each cell of a block by
-    /// its eight voxels. Cells with a masked voxel are empty ([PREC-2]). `measure` is asked only where the rule needs it.
+    /// Finds the cells of the surface f = `iso` and their probabilities: down the pyramid to blocks, then each cell
+    /// of a block by its eight voxels. Cells with a masked voxel are empty ([PREC-2]). `measure` is called only if
+    /// the rule needs it.
     pub fn new(
         pyramid: &Pyramid,
         volume: &Volume,
@@ -66,7 +67,7 @@ impl Seeds {
         Self::of_blocks(pyramid, volume, (pyramid.blocks(iso, rule.min_curvature()), counts), rule, measure)
     }
 
-    /// The same of the cells in whose closed range of values one counts ([HATCH-16]).
+    /// Like [`new`](Self::new), for the cells in whose closed range of values one counts ([HATCH-16]).
     pub fn among(
         pyramid: &Pyramid,
         volume: &Volume,
@@ -100,19 +101,19 @@ impl Seeds {
         Self { cells, measured }
     }
 
-    /// The cells in which a stroke begins: each with its p, by the number that seed and cell have ([RAY-4]), so that they
-    /// depend on neither camera nor light.
+    /// Draws the cells in which a stroke begins. A cell is drawn by its p and a random number of seed and cell
+    /// ([RAY-4]), so that the result depends on neither camera nor light.
     pub fn draw(&self, seed: u64) -> impl Iterator<Item = [usize; 3]> {
         self.cells.iter().filter(move |(cell, p)| uniform(seed, cell.map(|i| i as u32), 0) < *p).map(|(cell, _)| *cell)
     }
 
-    /// Σp, of which the number of strokes is a sample.
+    /// Σp, the expected number of strokes.
     pub fn expected(&self) -> f64 {
         self.cells.iter().map(|(_, p)| p).sum()
     }
 }
 
-/// Whether the closed range of a cell's voxels counts, and none of them is masked.
+/// Whether the closed range of a cell's voxels counts and no voxel is masked.
 fn holds(volume: &Volume, [x, y, z]: [usize; 3], counts: impl Fn([f64; 2]) -> bool) -> bool {
     if volume.mask().is_some_and(|mask| mask.touches_cell([x, y, z])) {
         return false;
@@ -148,13 +149,13 @@ mod tests {
         volume(dims, |at| uniform(1, at.map(|i| i as u32), 0))
     }
 
-    /// Numbers of a voxel that have nothing to do with its value.
+    /// Pseudo-random measures of a voxel, unrelated to its value.
     fn measure(at: [usize; 3]) -> Measure {
         let [a, b, ..] = uniforms(2, at.map(|i| i as u32 / 3), 0);
         Measure { gradient: a, curvature: if b < 0.3 { 0.0 } else { b * b } }
     }
 
-    /// Cell by cell: its block's 27 voxels, its own eight.
+    /// All cells by brute force: the block's 27 voxels and the cell's own eight.
     fn exhaustive(volume: &Volume, iso: f64, rule: SeedRule) -> Vec<([usize; 3], f64)> {
         let dims = volume.dims();
         let [nx, ny, nz] = cells_of(dims);
@@ -206,7 +207,8 @@ mod tests {
         }
     }
 
-    /// Where the pyramid knows the curvature, the cells that can have a seed are the same, and no more voxels are measured.
+    /// If the pyramid knows the curvature, the cells that can have a seed are the same, and no more voxels are
+    /// measured.
     #[test]
     fn seeds_are_the_same_where_the_pyramid_knows_the_curvature() {
         let can = |cells: &[([usize; 3], f64)]| cells.iter().copied().filter(|(_, p)| *p > 0.0).collect::<Vec<_>>();
@@ -230,7 +232,7 @@ mod tests {
         }
     }
 
-    /// Values in two ranges count: the cells are those of all, whatever the way down.
+    /// Values in two ranges count: the cells equal those of a search through all.
     #[test]
     fn cells_whose_values_count() {
         let counts = |[least, largest]: [f64; 2]| (least < 0.06 && largest > 0.05) || (least < 0.9 && largest > 0.88);
@@ -245,8 +247,8 @@ mod tests {
         }
     }
 
-    /// |n − Σp| ≤ 5√Σp(1 − p) for 20 seeds, and of the cells whose p lies in one of ten bins n is binomial, too: χ² of all
-    /// bins over 20 seeds, 200 degrees of freedom at the most, exceeds 268 in 10⁻³ of all cases and 282 in 10⁻⁴.
+    /// |n − Σp| ≤ 5√Σp(1 − p) for 20 seeds. Also n is binomial among the cells whose p lies in one of ten bins. χ² of
+    /// all bins over 20 seeds, with at most 200 degrees of freedom, exceeds 268 in 10⁻³ of all cases and 282 in 10⁻⁴.
     #[test]
     fn as_many_seeds_as_their_probabilities_say() {
         let volume = noise([40, 40, 40]);

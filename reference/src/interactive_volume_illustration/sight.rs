@@ -1,7 +1,7 @@
-//! Strokes on the page, without what is hidden ([HATCH-14]).
+//! Strokes on the page, without their hidden parts ([HATCH-14]).
 //!
-//! A straight piece of a stroke is a straight piece of the page, along which the surface in front is asked for every half
-//! pixel; where the answer changes, the change is narrowed down to a tenth of one.
+//! A straight segment of a stroke is straight on the page. Visibility is tested along it every half pixel, and each
+//! change is narrowed down to a tenth of a pixel.
 
 use super::project::{Cut, Onto};
 use super::styled::Drawn;
@@ -13,60 +13,60 @@ use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use drypoint_scene::view::View;
 use rayon::prelude::*;
 
-/// How far apart places are at which the surface is asked for, in pixels.
+/// Distance of visibility tests along a segment, in pixels.
 const APART: f64 = 0.5;
 
-/// How exactly a change is known, in pixels.
+/// Accuracy of a change of visibility, in pixels.
 const CHANGE: f64 = 0.1;
 
-/// A camera with its page, and what hides strokes from it.
+/// A camera with its page, and the surface that hides strokes from it.
 #[derive(Clone, Copy, Debug)]
 pub struct Sight<'a> {
     /// The camera.
     pub view: &'a View,
-    /// The page that it is seen on.
+    /// The page onto which the camera projects.
     pub page: &'a Page,
-    /// `near` of a perspective camera, in world units: what is nearer is not drawn.
+    /// The near distance of a perspective camera, in world units. Nearer parts are not drawn.
     pub near: f64,
-    /// What hides strokes; none: nothing does.
+    /// The surface that hides strokes; none if nothing does.
     pub surface: Option<&'a IsoSurface<'a, 'a>>,
-    /// How far in front of it a stroke is asked for, along its normal, in world units: δ of [HATCH-7] for strokes that lie
-    /// on the surface, 0 for those that lie in front of it themselves.
+    /// Offset of visibility tests along a stroke's normal, in world units: δ of [HATCH-7] for strokes on the surface,
+    /// 0 for strokes that already lie in front of it.
     pub offset: f64,
 }
 
-/// What a stroke is drawn with at a place.
+/// The pen at one place of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pen {
     /// Half the width, in mm on the page.
     pub radius: f64,
-    /// In (0, 1].
+    /// Opacity in (0, 1].
     pub opacity: f64,
-    /// In place of the layer's.
+    /// Colour that replaces the layer's.
     pub color: Option<Rgb>,
 }
 
 /// Strokes as lines on the page.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seen {
-    /// In the order of the strokes, the parts of one in their order along it.
+    /// Lines in the order of the strokes; the parts of a stroke in their order along it.
     pub lines: Vec<Polyline>,
-    /// How often the surface was asked for.
+    /// Number of queries of the surface.
     pub looks: u64,
 }
 
 impl Sight<'_> {
-    /// Where a place of the world is on the page; none outside the frame.
+    /// The place on the page of a point of the world. Returns none outside the frame.
     pub fn place(&self, world: DVec3) -> Option<DVec2> {
         Onto::new(self.view, self.page, self.near).place(world)
     }
 
-    /// Whether a place is not hidden.
+    /// Whether the surface does not hide a place.
     pub fn sees(&self, world: DVec3) -> bool {
         self.surface.is_none_or(|surface| !surface.hides(world, self.view, self.near))
     }
 
-    /// What is seen of strokes, inside the frame, drawn with what `pen` says for each of their vertices.
+    /// Returns the visible parts of strokes inside the frame. `pen` gives the pen at each vertex.
     pub fn seen(&self, strokes: &[Stroke], pen: impl Fn(&Stroke, &StrokeVertex) -> Pen + Sync) -> Seen {
         self.each(strokes, |stroke| {
             let ends = stroke.vertices.iter().map(|vertex| End { vertex: *vertex, pen: pen(stroke, vertex) });
@@ -74,7 +74,7 @@ impl Sight<'_> {
         })
     }
 
-    /// The same of strokes with their pens.
+    /// Like [`seen`](Self::seen), but for strokes that carry their pens.
     pub fn seen_drawn(&self, strokes: &[Drawn]) -> Seen {
         self.each(strokes, |Drawn { stroke, pens }| {
             let ends = stroke.vertices.iter().zip(pens).map(|(vertex, pen)| End { vertex: *vertex, pen: *pen });
@@ -82,8 +82,7 @@ impl Sight<'_> {
         })
     }
 
-    /// Orders lines from the farthest to the nearest, by the depth of their middles: what is drawn later lies over what was
-    /// drawn before.
+    /// Orders lines from the farthest to the nearest, by the depth of their middles. Later lines cover earlier ones.
     pub fn far_to_near(&self, lines: &mut [Polyline]) {
         let depth = |line: &Polyline| {
             let middle = line.vertices.get(line.vertices.len() / 2);
@@ -106,7 +105,7 @@ impl Sight<'_> {
     }
 }
 
-/// On the way along a stroke.
+/// The visibility tests along a stroke.
 struct Walk<'a, 's> {
     sight: &'a Sight<'s>,
     onto: Onto<'a>,
@@ -114,7 +113,7 @@ struct Walk<'a, 's> {
     looks: u64,
 }
 
-/// A vertex with what draws it.
+/// A vertex with its pen.
 #[derive(Clone, Copy)]
 struct End {
     vertex: StrokeVertex,
@@ -127,7 +126,7 @@ impl Walk<'_, '_> {
             ends.push(End { vertex: StrokeVertex { u: 1.0, ..first.vertex }, ..first });
         }
         let mut parts: Vec<Vec<Vertex>> = Vec::new();
-        // Whether the last part ends where the next piece begins, and what is known of that place.
+        // Whether the last part ends where the next segment begins, and the visibility at that place if it is known.
         let (mut joins, mut known) = (false, None);
         let mut begins_seen = false;
         for (i, pair) in ends.windows(2).enumerate() {
@@ -158,7 +157,7 @@ impl Walk<'_, '_> {
             return vec![Polyline { vertices: parts.pop().unwrap_or_default(), closed: true }];
         }
         if meets {
-            // The last part goes on in the first.
+            // The last part continues in the first.
             let mut last = parts.pop().unwrap_or_default();
             last.pop();
             last.append(&mut parts[0]);
@@ -167,7 +166,7 @@ impl Walk<'_, '_> {
         parts.into_iter().map(|vertices| Polyline { vertices, closed: false }).collect()
     }
 
-    /// The ranges of the way along a piece that are seen, and whether its end is.
+    /// Returns the visible parameter ranges of a segment, and whether its end is visible.
     fn ranges(&mut self, piece: &[End; 2], cut: &Cut, known: Option<bool>) -> (Vec<[f64; 2]>, bool) {
         let [from, to] = cut.range;
         if self.sight.surface.is_none() {
@@ -209,7 +208,7 @@ impl Walk<'_, '_> {
     }
 }
 
-/// The vertex so far along a piece of the page.
+/// The vertex at the parameter s of a segment on the page.
 fn between([a, b]: &[End; 2], cut: &Cut, s: f64) -> Vertex {
     let u = cut.along_world(s);
     let mix = |x: f64, y: f64| if u == 1.0 { y } else { x + (y - x) * u };

@@ -14,7 +14,7 @@ impl<R: Real> Silhouette<R> {
         Self { offset: R::from_f64(offset) }
     }
 
-    /// Whether a place with that N·V, of either sign, is black.
+    /// Whether a place with this N·V, of either sign, is black.
     #[inline]
     pub fn is_black(self, n_dot_v: R) -> bool {
         n_dot_v * n_dot_v + self.offset <= R::from_f64(0.5)
@@ -25,7 +25,7 @@ impl<R: Real> Silhouette<R> {
 mod tests {
     use super::*;
 
-    /// The edge is at |N·V| = √(½ − offset), and belongs to the black; squares have no sign.
+    /// The edge lies at |N·V| = √(½ − offset) and belongs to the black part. Squares have no sign.
     #[test]
     fn black_up_to_the_root() {
         let black = |offset: f64, x: f64| {

@@ -1,34 +1,35 @@
-//! Tone from spacing, for pens of one width ([HATCH-19]; after Jobard and Lefer, *Creating Evenly-Spaced Streamlines of
-//! Arbitrary Density*, 1997).
+//! Tone from spacing, for pens of one width ([HATCH-19]; after Jobard and Lefer, *Creating Evenly-Spaced Streamlines
+//! of Arbitrary Density*, 1997).
 //!
-//! Lines come with their tone as opacity and leave with none: where the tone is τ they are a pen's width over τ apart, on the
-//! mean. Of many parallel lines, accepted in some order where they are farther than d from all before, the gaps that remain
-//! are d/0.7476 wide on the mean (Rényi 1958, the parking problem); so d is 0.7476 times the distance that is wanted.
+//! Lines arrive with their tone as opacity and leave opaque. Where the tone is τ, their mean distance is the pen's
+//! width over τ. Suppose parallel lines are accepted in some order, if they are farther than d from all accepted
+//! ones. Then their mean distance is d/0.7476 (Rényi 1958, the parking problem). So d is 0.7476 times the wanted
+//! distance.
 
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Polyline, Vertex};
 
-/// Rényi's constant: how full a street is where cars park at random.
+/// Rényi's constant: the filled share of a street on which cars park at random.
 const RENYI: f64 = 0.747_597_920_253_411_4;
 
-/// A line begins where it is farther than d from all others, and goes on until it is nearer than this share of d: what lines
-/// lose before the ends of others, and where their distance changes on their way, they gain here.
+/// Share of d at which a line ends. A line begins where it is farther than d from all others, and ends where it is
+/// nearer than this share of d. The gain makes up for gaps before the ends of other lines and for changing distances.
 const GOES_ON: f64 = 0.88;
 
-/// How far apart lines are wanted.
+/// The wanted distance of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Apart {
-    /// The pen's width over the tone, which is a line's opacity; below `least` nothing is drawn.
+    /// The pen's width over the tone, which is a line's opacity. Tones below `least` are not drawn.
     Tone {
         /// The faintest tone.
         least: f64,
     },
-    /// The same everywhere, in mm; tone 0 is white.
+    /// A constant distance, in mm. Tone 0 is white.
     Everywhere(f64),
 }
 
 impl Apart {
-    /// The distance that is wanted where the tone is τ, none where nothing is drawn.
+    /// The wanted distance at the tone τ; none if nothing is drawn.
     fn at(self, nib: f64, tone: f64) -> Option<f64> {
         match self {
             Self::Tone { least } => (tone >= least).then(|| nib / tone.min(1.0)),
@@ -36,7 +37,7 @@ impl Apart {
         }
     }
 
-    /// The largest.
+    /// The largest distance.
     fn most(self, nib: f64) -> f64 {
         match self {
             Self::Tone { least } => nib / least,
@@ -45,7 +46,7 @@ impl Apart {
     }
 }
 
-/// A page on which lines keep their distance.
+/// A page on which lines keep their distance from each other.
 pub struct Spread {
     paper: Paper,
     nib: f64,
@@ -54,13 +55,13 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// An empty page between two corners, for a nib of this width; parts of lines that are shorter than `shortest` are left out.
-    /// All lengths in mm.
+    /// An empty page between two corners, for a nib of width `nib`. Parts of lines shorter than `shortest` are left
+    /// out. All lengths are in mm.
     pub fn new(corners: [DVec2; 2], nib: f64, apart: Apart, shortest: f64) -> Self {
         Self { paper: Paper::new(corners, nib, RENYI * apart.most(nib)), nib, apart, shortest }
     }
 
-    /// The least distance of lines, where the tone is 1.
+    /// The least distance of lines, at tone 1.
     pub(super) fn least(&self) -> f64 {
         RENYI * self.apart.at(self.nib, 1.0).unwrap_or(self.nib)
     }
@@ -70,7 +71,7 @@ impl Spread {
         !self.paper.is_closed(at) && self.distance(tone).is_some_and(|d| self.paper.is_free(at, d))
     }
 
-    /// No other line is to begin at a place, nor a nib's width around it.
+    /// Forbids lines to begin within a nib's width of a place.
     pub fn close(&mut self, at: DVec2) {
         self.paper.close(at);
     }
@@ -79,12 +80,12 @@ impl Spread {
         self.apart.at(self.nib, tone).map(|d| RENYI * d)
     }
 
-    /// Whether some part of lines would be taken, if it were alone.
+    /// Whether a part of the lines would be accepted, each line taken alone.
     pub fn has_room(&self, lines: &[Polyline]) -> bool {
         lines.iter().any(|line| self.parts(line).next().is_some())
     }
 
-    /// The parts of a line that are so far from all lines.
+    /// Parts of a line that are far enough from all accepted lines.
     fn parts(&self, line: &Polyline) -> impl Iterator<Item = Polyline> {
         let parts =
             if line.length() < self.shortest { Vec::new() } else { self.paper.free(line, |tone| self.distance(tone)) };
@@ -92,7 +93,8 @@ impl Spread {
         parts.filter(|part| part.length() >= self.shortest)
     }
 
-    /// Takes the parts of lines that are so far from all before, longest lines first, as the nib draws them.
+    /// Accepts the parts of lines that are far enough from all earlier ones, longest lines first. Returns these parts
+    /// with the nib's width.
     pub fn add(&mut self, lines: &[Polyline]) -> Vec<Polyline> {
         let mut order: Vec<(f64, &Polyline)> = lines.iter().map(|line| (line.length(), line)).collect();
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -111,23 +113,23 @@ impl Spread {
     }
 }
 
-/// The most cells of a side.
+/// The largest number of cells along a side.
 const MOST: f64 = 4096.0;
 
-/// No place is near.
+/// Index for no place nearby.
 const NONE: u32 = u32::MAX;
 
-/// The places of the lines that were taken, and which of them is near each cell of a raster.
+/// The places of accepted lines, and for each cell of a raster the nearest of them.
 struct Paper {
     first: DVec2,
-    /// Side of a cell, and how far apart places are along a line.
+    /// Side of a cell, and distance of places along a line, in mm.
     cell: f64,
     dims: [usize; 2],
-    /// How far lines are felt.
+    /// Largest distance at which a line affects others, in mm.
     reach: f64,
     near: Vec<u32>,
     places: Vec<DVec2>,
-    /// Where no line is to begin.
+    /// Cells in which no line may begin.
     closed: Vec<bool>,
 }
 
@@ -158,17 +160,19 @@ impl Paper {
         [inside(at.x - self.first.x, self.dims[0]), inside(at.y - self.first.y, self.dims[1])]
     }
 
-    /// Whether a place is at least `d` from all that was taken.
+    /// Whether a place is at least `d` from all accepted lines.
     fn is_free(&self, at: DVec2, d: f64) -> bool {
         let [x, y] = self.cell_of(at);
-        // The nearest of a cell's middle need not be that of each of its places: its neighbours know others.
+        // The place nearest to a cell's middle need not be nearest to every point of the cell. So the eight
+        // neighbours are tested, too.
         about(y, 1, self.dims[1]).flat_map(|j| about(x, 1, self.dims[0]).map(move |i| (i, j))).all(|(i, j)| {
             let near = self.near[i + j * self.dims[0]];
             near == NONE || self.places[near as usize].distance_squared(at) >= d * d
         })
     }
 
-    /// The parts of a line that go on, where it has a distance at all, and in which it could begin.
+    /// Returns the parts of a line that may continue and that contain a place at which a line may begin. `apart` maps
+    /// a tone to its distance; places without a distance end a part.
     fn free(&self, line: &Polyline, apart: impl Fn(f64) -> Option<f64>) -> Vec<Vec<Vertex>> {
         let mut parts = Vec::new();
         let (mut part, mut begins) = (Vec::<Vertex>::new(), false);
@@ -181,7 +185,7 @@ impl Paper {
                 let wanted = apart(place.opacity);
                 if wanted.is_some_and(|d| self.is_free(place.at, GOES_ON * d)) {
                     begins = begins || wanted.is_some_and(|d| self.is_free(place.at, d));
-                    // Places in the middle of a straight piece are not kept, but its ends are.
+                    // Places inside a straight segment are dropped; its ends are kept.
                     if part.len() > 1 && step > 1 {
                         part.pop();
                     }
@@ -201,12 +205,12 @@ impl Paper {
         parts
     }
 
-    /// The steps of a straight piece, a cell each at the most.
+    /// Number of steps along a straight segment; a step is at most one cell long.
     fn steps(&self, a: DVec2, b: DVec2) -> usize {
         ((a.distance(b) / self.cell).ceil() as usize).max(1)
     }
 
-    /// Takes the place of a line.
+    /// Marks the places of an accepted line.
     fn take(&mut self, line: &Polyline) {
         for pair in line.vertices.windows(2) {
             let steps = self.steps(pair[0].at, pair[1].at);
@@ -234,7 +238,7 @@ impl Paper {
     }
 }
 
-/// The cells of a row around one, so many to both sides.
+/// The cells of a row within `cells` of cell i.
 fn about(i: usize, cells: usize, n: usize) -> std::ops::Range<usize> {
     i.saturating_sub(cells)..(i + cells + 1).min(n)
 }
@@ -247,7 +251,7 @@ mod tests {
 
     const NIB: f64 = 0.3;
 
-    /// Of all lines at once.
+    /// Adds all lines at once.
     fn spread(lines: &[Polyline], apart: Apart, shortest: f64) -> Vec<Polyline> {
         Spread::new([DVec2::splat(-10.0), DVec2::splat(90.0)], NIB, apart, shortest).add(lines)
     }
@@ -271,7 +275,7 @@ mod tests {
         (0..n).map(of).collect()
     }
 
-    /// The length of all lines between two x, times the nib, over the area.
+    /// The total length of lines between two x, times the nib, over the area.
     fn ink(lines: &[Polyline], [from, to]: [f64; 2]) -> f64 {
         let inside = |pair: &[Vertex]| (pair[0].at.x.max(from)..pair[1].at.x.min(to)).len_f64();
         lines.iter().flat_map(|line| line.vertices.windows(2).map(inside)).sum::<f64>() * NIB / (60.0 * (to - from))
@@ -302,7 +306,7 @@ mod tests {
         one_way(a, b).min(one_way(b, a))
     }
 
-    /// The tone is within ±0.05 of what is wanted, from 0.1 to 0.8.
+    /// The printed tone is within ±0.05 of the wanted one, from 0.1 to 0.8.
     #[test]
     fn flat_tones_print_as_they_are_wanted() {
         for tone in [0.1, 0.2, 0.35, 0.5, 0.65, 0.8] {
@@ -325,8 +329,8 @@ mod tests {
         }
     }
 
-    /// No two parts of different lines come nearer than 0.88 d, less what lies between the places of a line: half a nib along
-    /// it, √((0.88 d)² − (nib/4)²) across at the least.
+    /// Parts of different lines come no nearer than 0.88 d, less the spacing of places along a line: half a nib along
+    /// it, √((0.88 d)² − (nib/4)²) across at least.
     #[test]
     fn lines_keep_their_distance() {
         let slanted = |k: u32| {

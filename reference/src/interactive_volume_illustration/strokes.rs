@@ -1,4 +1,5 @@
-//! Strokes along the lines of curvature, traced both ways from their seeds ([HATCH-4], [HATCH-8], [HATCH-9], [HATCH-11]).
+//! Strokes along the lines of curvature, traced in both directions from their seeds ([HATCH-4], [HATCH-8], [HATCH-9],
+//! [HATCH-11]).
 
 use super::counts::{HatchCounts, NoDirection, Rejected, Scales, Stop};
 use super::ground::{Ground, inside, normal};
@@ -17,48 +18,50 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
 use rayon::prelude::*;
 
-/// The share by which the larger |κ| must exceed the other to be called so.
+/// The share by which one |κ| must exceed the other to count as larger.
 const TIE: f64 = 0.01;
 
-/// The largest step, in voxels: stages are then in neighbouring cells, and nothing is stepped over.
+/// The largest step, in voxels. Its stages lie in neighbouring cells, so that no cell is skipped.
 const LARGEST_STEP: f64 = 2.0;
 
-/// The tolerance, in voxels, below which steps end at the faces of cells and narrow down to where the scale of the directions
-/// changes. There an interpolated field has kinks and jumps; what a step across one errs by, a few thousandths of a voxel, the
-/// difference of two stages near its end does not show.
+/// The tolerance, in voxels, below which steps end at the faces of cells and narrow down to changes of the
+/// directions' scale. An interpolated field has kinks and jumps there. A step across one errs by a few thousandths of
+/// a voxel, and the difference of two stages near its end does not show this error.
 const EXACT_BELOW: f64 = 0.005;
 
-/// How far, in voxels, a step may come off its iso-surface before it is put back.
+/// Distance from the iso-surface, in voxels, at which a step's end is put back onto it.
 const DRIFT: f64 = 0.5;
 
-/// The least part of a direction that lies in the tangent plane, cos 60°: surface and derivatives are of one place.
+/// The least share of a direction in the tangent plane, cos 60°. A direction with less does not belong to the place's
+/// surface normal.
 const TANGENT: f64 = 0.5;
 
-/// Cells whose strokes one thread grows in a row.
+/// Number of cells whose strokes one thread grows in a row.
 const AT_ONCE: usize = 64;
 
-/// The side of the boxes of cells whose strokes are grown one after the other: what these read lies near together.
+/// Side of the boxes of cells whose strokes are grown one after the other, so that the data they read lie close
+/// together.
 const NEIGHBOURS: usize = 16;
 
-/// How many times the distance that closes a curve it must have gone before it can come back to its beginning.
+/// Length that a curve must have before it can close, as a multiple of the distance at which it closes.
 const OUT: f64 = 4.0;
 
-/// What δ is at least beyond the chords' error, in voxels ([HATCH-7]).
+/// The least distance of strokes from the surface beyond the chords' error, in voxels ([HATCH-7]).
 const CLEARANCE: f64 = 0.05;
 
-/// Which lines of curvature strokes follow; all are told apart by the value of their curvature.
+/// The lines of curvature that strokes follow. The value of the curvature tells the two families apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Those of the curvature that is larger in magnitude at the seed; within 1 %, of the larger one.
+    /// The lines of the curvature of larger magnitude at the seed. If the two differ by less than 1 %, those of κ₁.
     Larger,
-    /// Those of κ₁, the larger one.
+    /// The lines of κ₁, the larger curvature.
     Max,
-    /// Those of κ₂.
+    /// The lines of κ₂, the smaller curvature.
     Min,
 }
 
 impl Family {
-    /// `Max` or `Min`, for a stroke that begins where these are the curvatures.
+    /// Returns `Max` or `Min` for a stroke that begins at these curvatures.
     pub fn of(self, c: &Curvature<f64>) -> Self {
         match self {
             Self::Larger if c.k2.abs() > (1.0 + TIE) * c.k1.abs() => Self::Min,
@@ -67,7 +70,7 @@ impl Family {
         }
     }
 
-    /// The other one; of `Larger` nothing.
+    /// The other family; `Larger` has no other.
     fn other(self) -> Self {
         match self {
             Self::Max => Self::Min,
@@ -84,39 +87,39 @@ impl Family {
     }
 }
 
-/// How strokes are grown; lengths are in world units, angles in degrees.
+/// Parameters of growing strokes. Lengths are in world units, angles in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hatching {
-    /// Of a whole stroke, both ways together.
+    /// Length of a whole stroke, both halves together.
     pub length: f64,
-    /// Of a stroke along the other direction, as a share of it.
+    /// Length of a stroke along the second direction, as a share of `length`.
     pub cross_length: f64,
-    /// Of a step of the integration.
+    /// Error tolerance of a step of the integration.
     pub tolerance: f64,
-    /// The least step.
+    /// Length of the smallest step.
     pub min_step: f64,
-    /// δ, how far strokes lie in front of the surface; what chords take and 0.05 voxel at least.
+    /// δ, the distance of strokes in front of the surface. It is at least the chords' error plus 0.05 voxel.
     pub offset: f64,
-    /// c, how far a chord may be from the curve.
+    /// c, the largest distance of a chord from the curve.
     pub chord: f64,
-    /// From the seed's direction, each way; 180: any.
+    /// The largest angle to the seed's direction on each half; 180 allows any.
     pub max_angle: f64,
-    /// Which lines.
+    /// The family of lines.
     pub family: Family,
-    /// How directions are found.
+    /// The rule that computes directions.
     pub rule: Rule,
-    /// How they are stored; none: they are computed wherever they are asked for.
+    /// The storage of directions. None computes them at every query.
     pub stored: Option<Storing>,
-    /// Which way they run.
+    /// The reference field for the sense of the strokes.
     pub reference: Reference,
-    /// The share of `length` by which strokes are longer or shorter, at random.
+    /// The random variation of `length`, as a share.
     pub jitter: f64,
-    /// Key of those random numbers ([RAY-4]).
+    /// Key of the random numbers ([RAY-4]).
     pub seed: u64,
 }
 
 impl Hatching {
-    /// The defaults of a scene for a grid.
+    /// A scene's defaults for a grid.
     pub fn new(grid: &Grid) -> Self {
         let voxel = grid.voxel();
         Self {
@@ -136,7 +139,7 @@ impl Hatching {
         }
     }
 
-    /// What the length of a cell's stroke is multiplied by: 1 ± `jitter`.
+    /// The random factor of the length of a cell's stroke: 1 ± `jitter`.
     fn scattered(&self, cell: [usize; 3]) -> f64 {
         if self.jitter == 0.0 {
             return 1.0;
@@ -144,20 +147,20 @@ impl Hatching {
         1.0 + self.jitter * (2.0 * uniform(self.seed, cell.map(|i| i as u32), 4) - 1.0)
     }
 
-    /// δ, but no less than the chords and 0.05 voxel.
+    /// The effective δ: at least the chords' error plus 0.05 voxel.
     pub(super) fn in_front(&self, grid: &Grid) -> f64 {
         self.offset.max(self.chord + CLEARANCE * grid.voxel())
     }
 }
 
-/// Strokes of seeds, in their order.
+/// Strokes of seeds, in the order of the seeds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grown {
-    /// Along the first direction, each with its seed.
+    /// Strokes along the first direction, each with its seed.
     pub strokes: Vec<(Seed, Stroke)>,
-    /// Along the other one, of the seeds that were to have one.
+    /// Strokes along the second direction, for the selected seeds.
     pub cross: Vec<(Seed, Stroke)>,
-    /// What was done.
+    /// Statistics of growing.
     pub counts: HatchCounts,
 }
 
@@ -172,13 +175,14 @@ pub struct Strokes<'f, 'v> {
 }
 
 impl<'f, 'v> Strokes<'f, 'v> {
-    /// On the surface f = iso of a field; without a value each stroke stays at the value of its cell's centre ([HATCH-16]). The
-    /// field has to be prepared for gradients, with the rule `raw` for Hessians. Nothing is computed yet.
+    /// Strokes on the surface f = iso of a field. If `iso` is none, each stroke stays at the value of its cell's
+    /// centre ([HATCH-16]). The field must be prepared for gradients, and for Hessians if the rule is `raw`. Nothing
+    /// is computed yet.
     pub fn new(field: &'f Field<'v, f64>, iso: Option<f64>, how: Hatching) -> Self {
         Self::with(field, Directions::new(field, how.rule), iso, how)
     }
 
-    /// On whatever ground, by the ground's own Hessians.
+    /// Strokes on any ground, with the ground's own Hessians.
     pub fn on(ground: &'f dyn Ground, iso: Option<f64>, how: Hatching) -> Self {
         Self::with(ground, Directions::raw(), iso, how)
     }
@@ -193,19 +197,20 @@ impl<'f, 'v> Strokes<'f, 'v> {
         Self { ground, directions, stored, iso, how, rounding }
     }
 
-    /// Makes the directions of all voxels, in parallel, where that was asked for.
+    /// Computes the directions of all voxels in parallel, if the storage asks for it.
     pub fn prepare(&self) {
         if let Some(stored) = self.stored.as_ref().filter(|_| self.is_prepared()) {
             stored.fill(&self.source());
         }
     }
 
-    /// Whether directions of all voxels are made before.
+    /// Whether the directions of all voxels are computed in advance.
     pub(super) fn is_prepared(&self) -> bool {
         self.how.stored.is_some_and(|storing| storing.all)
     }
 
-    /// How far values may change by over the rounding of a place in the world, over their range: some units of it in voxels.
+    /// The largest change of values over the rounding of a place in the world, as a share of their range: a few units
+    /// of rounding in voxels.
     pub(super) fn rounding(&self) -> f64 {
         self.rounding
     }
@@ -214,7 +219,7 @@ impl<'f, 'v> Strokes<'f, 'v> {
         Source { ground: self.ground, directions: &self.directions }
     }
 
-    /// Makes the directions of all voxels, each with signs at random.
+    /// Computes the directions of all voxels, with random signs.
     #[cfg(test)]
     pub(super) fn turn_signs(&self) {
         if let Some(stored) = &self.stored {
@@ -222,7 +227,7 @@ impl<'f, 'v> Strokes<'f, 'v> {
         }
     }
 
-    /// Voxels with a stored direction, and the bytes that they take.
+    /// Number of voxels with a stored direction, and its size in bytes.
     pub fn stored(&self) -> [u64; 2] {
         self.stored.as_ref().map_or([0; 2], |stored| [stored.made(), stored.bytes()])
     }
@@ -246,7 +251,7 @@ impl<'f, 'v> Strokes<'f, 'v> {
         }
     }
 
-    /// What they grow on.
+    /// The field on which strokes grow.
     pub fn ground(&self) -> &'f dyn Ground {
         self.ground
     }
@@ -256,18 +261,18 @@ impl<'f, 'v> Strokes<'f, 'v> {
         &self.directions
     }
 
-    /// The surface's value.
+    /// The surface's value; none if each stroke has its own.
     pub fn iso(&self) -> Option<f64> {
         self.iso
     }
 
-    /// How they are grown.
+    /// The parameters of growing.
     pub fn how(&self) -> &Hatching {
         &self.how
     }
 
-    /// The strokes of cells, in parallel and in their order; a second one along the other direction where `cross` says so for
-    /// the seed ([HATCH-11]).
+    /// Grows the strokes of cells, in parallel and in the order of the cells. If `cross` accepts a seed, a second
+    /// stroke follows the other direction ([HATCH-11]).
     pub fn grow_all(&self, cells: &[[usize; 3]], cross: impl Fn(&Seed) -> bool + Sync) -> Grown {
         let mut order: Vec<usize> = (0..cells.len()).collect();
         order.sort_by_key(|&i| cells[i].map(|c| c / NEIGHBOURS));
@@ -307,17 +312,18 @@ impl<'f, 'v> Strokes<'f, 'v> {
         grown
     }
 
-    /// The stroke of a seed.
+    /// Grows the stroke of a seed.
     ///
     /// # Errors
-    /// It has no two vertices.
+    /// The stroke has fewer than two vertices.
     pub fn grow(&self, seed: &Seed, counts: &mut HatchCounts) -> Result<Stroke, Rejected> {
         let stroke = self.follow(seed, seed.family, self.how.length, counts).ok_or(Rejected::Short)?;
         counts.strokes += 1;
         Ok(stroke)
     }
 
-    /// The shorter stroke of a seed along the other principal direction ([HATCH-11]); none if it has no two vertices.
+    /// Grows the shorter stroke of a seed along the other principal direction ([HATCH-11]). Returns none if it has
+    /// fewer than two vertices.
     pub fn grow_across(&self, seed: &Seed, counts: &mut HatchCounts) -> Option<Stroke> {
         let length = self.how.length * self.how.cross_length;
         let stroke = self.follow(seed, seed.family.other(), length, counts)?;
@@ -341,7 +347,7 @@ impl<'f, 'v> Strokes<'f, 'v> {
             cos_max_angle: if self.how.max_angle >= 180.0 { -1.0 } else { cos(self.how.max_angle.to_radians()) },
             goal: None,
         };
-        // As near as its own error and a chord's: what is joined there shows no kink.
+        // The tolerance is the sum of the curve's error and a chord's error: such a joint shows no kink.
         let within = self.how.chord + 5.0 * self.how.tolerance;
         let goal = |at: DVec3, along: DVec3, after: f64| Some(Goal { at, along, within, after });
         let back_again = goal(seed.world, along, OUT * within);
@@ -350,7 +356,8 @@ impl<'f, 'v> Strokes<'f, 'v> {
         let (pieces, at_seed, stops) = if stop == Stop::Closed {
             (forward.pieces, 0, [Some(stop), None])
         } else {
-            // The other half may come round to where this one ended, at once where that is just before the seed.
+            // The other half may come round to the end of the first half. If that end lies just before the seed, it
+            // does so at once.
             let far = forward.pieces.last().filter(|_| stop == Stop::Length);
             let far = far.and_then(|piece| goal(piece.ends[1], -piece.tangents[1].normalize_or_zero(), 0.0));
             lines.scale = scale;
@@ -367,7 +374,8 @@ impl<'f, 'v> Strokes<'f, 'v> {
     }
 }
 
-/// Both halves as one curve from its tail, the number of the piece that begins at the seed, and why the ends are there.
+/// Joins both halves to one curve from its tail. Returns the curve, the index of the segment that begins at the seed,
+/// and the causes of its ends.
 fn joined(
     back: &Half<NoDirection>,
     forward: Half<NoDirection>,
@@ -375,7 +383,7 @@ fn joined(
 ) -> (Vec<Piece>, usize, [Option<Stop>; 2]) {
     let stop_back = stop(&back.end);
     let pieces = back.pieces.iter().rev().map(Piece::reversed).chain(forward.pieces).collect();
-    // Where they meet there is one end, not two.
+    // Where the halves meet there is one end, not two.
     let first = (stop_back != Stop::Closed).then_some(stop_forward);
     (pieces, back.pieces.len(), [first, Some(stop_back)])
 }
@@ -399,15 +407,15 @@ pub(super) struct OnSurface<'s, 'f, 'v> {
     family: Family,
     target: f64,
     counts: &'s mut HatchCounts,
-    /// Which σ the last direction is of.
+    /// Index of the last direction's σ.
     scale: usize,
-    /// The tolerance where steps end at faces, in world units.
+    /// The tolerance, in world units, if steps end at faces.
     exact: Option<f64>,
-    /// How far, in world units, a step may come off its surface.
+    /// Distance from the surface, in world units, at which a step's end is put back.
     drift: f64,
-    /// Stored directions about the last place.
+    /// Stored directions read around the last place.
     near: Near,
-    /// The last place, in the world and in index space, and ‖g‖ there.
+    /// The last place in the world and in index space, and ‖g‖ there.
     last: Option<(DVec3, Vec3<f64>, f64)>,
 }
 
@@ -423,7 +431,7 @@ impl<'s, 'f, 'v> OnSurface<'s, 'f, 'v> {
 }
 
 impl OnSurface<'_, '_, '_> {
-    /// The principal direction, projected onto the tangent plane of ∇f there ([HATCH-9]). `like` is the current one.
+    /// The principal direction, projected onto the tangent plane of ∇f ([HATCH-9]). `like` is the current direction.
     fn tangent(&mut self, x: DVec3, like: Option<DVec3>) -> Result<DVec3, NoDirection> {
         let (strokes, ground) = (self.strokes, self.strokes.ground);
         let index = inside(ground, x).ok_or(NoDirection::Volume)?;
@@ -459,7 +467,7 @@ impl Lines for OnSurface<'_, '_, '_> {
         if self.exact.is_some() { self.scale } else { 0 }
     }
 
-    /// Where it leaves its cell, farther from its ends than the tolerance: what is nearer does not count.
+    /// The parameter at which a segment leaves its cell. Crossings nearer to an end than the tolerance are ignored.
     fn kink(&self, piece: &Piece) -> Option<f64> {
         let grid = self.strokes.ground.grid();
         let near = self.exact? / piece.ends[0].distance(piece.ends[1]);
@@ -477,7 +485,7 @@ impl Lines for OnSurface<'_, '_, '_> {
             }
         };
         let over = ground.value(index) - self.target;
-        // f − target over ‖g‖, without dividing.
+        // The test |f − target|/‖g‖ ≤ drift, without a division.
         if scale_by_power_of_two(over.abs(), -ground.exponent()) <= self.drift * slope {
             return None;
         }

@@ -1,5 +1,5 @@
-//! Strokes as a pen draws them: with vertices where its width or colour changes, and without what is too thin ([HATCH-12],
-//! [HATCH-13]).
+//! Strokes as a pen draws them: vertices are added where its width or colour changes, and parts that are too thin are
+//! removed ([HATCH-12], [HATCH-13]).
 
 use super::sight::Pen;
 use drypoint_scene::color::linear_to_srgb;
@@ -7,45 +7,45 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::philox::uniform;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 
-/// How far half the width may be from what is linear between two vertices, in mm: with what steps of 0.005 round, less than
+/// The largest error of half the width between two vertices, in mm. With widths rounded to 0.005 mm it is less than
 /// half a dot at 2400 dpi.
 const RADIUS: f64 = 0.002;
 
-/// A change of half the width over a segment that its middle tells enough of, in mm.
+/// The change of half the width over a segment, in mm, up to which testing the middle is enough.
 const SMALL: f64 = 0.01;
 
-/// The most that a channel of the colour may change by between two vertices, in sRGB.
+/// The largest change of a colour channel between two vertices, in sRGB.
 const CHANNEL: f64 = 0.06;
 
-/// The most that the opacity may.
+/// The largest change of the opacity between two vertices.
 const OPACITY: f64 = 0.1;
 
-/// The largest share of its opacity that a stroke of pencil loses to the paper's grain.
+/// The largest share of its opacity that a pencil stroke loses to the paper's grain.
 const GRAIN: f64 = 0.6;
 
-/// How often a segment is halved at the most.
+/// The largest number of halvings of a segment.
 const HALVINGS: u32 = 5;
 
 /// A place on a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Where it is.
+    /// Place, normal and u.
     pub vertex: StrokeVertex,
     /// T, of length 1; 0 where the stroke turns back on itself.
     pub tangent: DVec3,
 }
 
-/// A stroke, or a part of one, with what each of its vertices is drawn with.
+/// A stroke, or a part of one, with the pen of each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
-    /// The part.
+    /// The stroke or part.
     pub stroke: Stroke,
-    /// As many as vertices.
+    /// One pen for each vertex.
     pub pens: Vec<Pen>,
 }
 
-/// What a stroke of pencil keeps of its opacity on grainy paper, so many grains along it: random numbers of the stroke's key, and
-/// straight between two.
+/// Share of its opacity that a pencil stroke keeps on grainy paper. `along` counts grains along the stroke. Values
+/// are random numbers of the stroke's key at whole grains, and linear between them.
 pub fn grain(seed: u64, key: u64, along: f64) -> f64 {
     let first = along.max(0.0).floor();
     let node = |n: f64| uniform(seed, [key as u32, (key >> 32) as u32, n as u32], 2);
@@ -53,9 +53,10 @@ pub fn grain(seed: u64, key: u64, along: f64) -> f64 {
     1.0 - GRAIN * (a + (b - a) * (along - first).clamp(0.0, 1.0))
 }
 
-/// The parts of a stroke that are at least `least` mm wide to either side, drawn with what `pen` says for places on it. Between
-/// two vertices the pen is linear in the arc length; vertices are added where its width is not and where its colour changes
-/// much, and a part ends where it becomes too thin.
+/// Returns the parts of a stroke that are at least `least` mm wide to either side. `pen` gives the pen at each place.
+///
+/// The pen is linear in the arc length between two vertices. Vertices are added where the width is not linear and
+/// where the colour changes much. A part ends where the stroke becomes too thin.
 pub fn drawn(stroke: &Stroke, least: f64, pen: impl Fn(&Place) -> Pen) -> Vec<Drawn> {
     let mut along = places(stroke).into_iter().map(|place| (place, pen(&place)));
     let mut all: Vec<(Place, Pen)> = along.next().into_iter().collect();
@@ -68,7 +69,7 @@ pub fn drawn(stroke: &Stroke, least: f64, pen: impl Fn(&Place) -> Pen) -> Vec<Dr
     thick(&all, least, stroke, &pen)
 }
 
-/// The vertices with their tangents; of a closed stroke the first comes again at u = 1.
+/// The vertices with their tangents. A closed stroke repeats its first vertex at u = 1.
 fn places(stroke: &Stroke) -> Vec<Place> {
     let vertices = &stroke.vertices;
     let n = vertices.len();
@@ -90,7 +91,7 @@ fn places(stroke: &Stroke) -> Vec<Place> {
     (0..number).map(|i| Place { vertex: at(i), tangent: tangent(i) }).collect()
 }
 
-/// Adds what lies between two places, where the pen changes much.
+/// Adds the vertices between two places at which the pen changes much.
 fn halve([a, b]: [(Place, Pen); 2], left: u32, pen: &impl Fn(&Place) -> Pen, all: &mut Vec<(Place, Pen)>) {
     if left == 0 {
         return;
@@ -102,8 +103,8 @@ fn halve([a, b]: [(Place, Pen); 2], left: u32, pen: &impl Fn(&Place) -> Pen, all
         let (from, to) = (channels(a), channels(b));
         (a.opacity - b.opacity).abs() <= OPACITY && (0..3).all(|i| (from[i] - to[i]).abs() <= CHANNEL)
     };
-    // A corner of the width, wherever between the two it is, is off by at most twice of what the middle is; where the width
-    // goes another way before the middle than behind it, the quarters tell.
+    // At a corner of the width, the error is at most twice the error in the middle. If the width bends to different
+    // sides before and behind the middle, the quarters show it.
     let bent = |s: f64, own: &Pen| (own.radius - (a.1.radius + (b.1.radius - a.1.radius) * s)).abs() > RADIUS / 2.0;
     let is_small = (a.1.radius - b.1.radius).abs() <= SMALL;
     let straight =
@@ -126,8 +127,7 @@ fn between(a: &Place, b: &Place, s: f64) -> Place {
     Place { vertex, tangent: a.tangent.lerp(b.tangent, s).normalize_or(a.tangent) }
 }
 
-/// Where two neighbours are on either side of the least width, the place where the width is that, with what `pen` says there
-/// of all else.
+/// The place between two neighbours at which the width is `least`, with the pen there.
 fn edge([a, b]: [&(Place, Pen); 2], least: f64, pen: &impl Fn(&Place) -> Pen) -> (Place, Pen) {
     let s = (a.1.radius - least) / (a.1.radius - b.1.radius);
     let place = between(&a.0, &b.0, s);
@@ -135,7 +135,7 @@ fn edge([a, b]: [&(Place, Pen); 2], least: f64, pen: &impl Fn(&Place) -> Pen) ->
     (place, Pen { radius: least, ..own })
 }
 
-/// The parts that are wide enough.
+/// Splits a stroke into the parts that are wide enough.
 fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke, pen: &impl Fn(&Place) -> Pen) -> Vec<Drawn> {
     let is_thick = |at: &(Place, Pen)| at.1.radius >= least;
     let drawn = |part: Vec<(Place, Pen)>, closed: bool| {
@@ -163,7 +163,7 @@ fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke, pen: &impl Fn(&Place
     }
     let ends = [all.first(), all.last()].map(|end| end.is_some_and(is_thick));
     if let (true, [true, true], Some(first)) = (stroke.closed, ends, parts.first_mut()) {
-        // The last part goes on in the first.
+        // The last part continues in the first.
         part.pop();
         part.append(first);
         *first = part;
@@ -178,7 +178,7 @@ fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke, pen: &impl Fn(&Place
 mod tests {
     use super::*;
 
-    /// Along x from 0 to 10, one vertex a unit.
+    /// A line along x from 0 to 10, with one vertex per unit.
     fn line(closed: bool) -> Stroke {
         let vertex = |i: u32| {
             let u = f64::from(i) / 10.0;
@@ -202,8 +202,8 @@ mod tests {
         assert!(drawn(&Stroke { closed: true, ..Stroke::default() }, 0.0, |_| plain(1.0)).is_empty());
     }
 
-    /// The tip of a taper 0.5·u/0.3 is 0.05 wide at u = 0.03, to the last bit of what is linear between vertices; the part from
-    /// there on has no vertex that is thinner.
+    /// A taper 0.5·u/0.3 is 0.05 wide at u = 0.03, exactly within the linear interpolation of vertices. No vertex of
+    /// the part is thinner.
     #[test]
     fn ends_are_where_the_width_is_the_least() {
         let taper = |place: &Place| plain(0.5 * (place.vertex.u / 0.3).min((1.0 - place.vertex.u) / 0.3).min(1.0));
@@ -249,8 +249,8 @@ mod tests {
         }
     }
 
-    /// A thin stretch from x = 4.5 to 5.5 leaves two parts of an open stroke, and two of a closed one, which comes back the same
-    /// way: one of them through its seam.
+    /// A thin stretch from x = 4.5 to 5.5 divides an open stroke into two parts. A closed stroke that passes it on
+    /// the way back, too, has two parts, one of them through its seam.
     #[test]
     fn a_thin_stretch_cuts() {
         let thin = |place: &Place| plain(((place.vertex.world.x - 5.0).abs() * 0.2).min(0.3));
@@ -268,7 +268,7 @@ mod tests {
         assert!(ring[0].stroke.vertices.iter().any(|vertex| vertex.world.x == 0.0));
     }
 
-    /// Seeded, within its range, without jumps, and another one on another stroke.
+    /// The grain is seeded, within its range and continuous. Another stroke has another grain.
     #[test]
     fn the_grain_of_paper() {
         let at = |key, i: u32| grain(5, key, f64::from(i) / 64.0);
@@ -281,7 +281,7 @@ mod tests {
         assert!(at(9, 77) == at(9, 77) && at(9, 77) != at(10, 77) && at(9, 77) != at(9 + (1 << 32), 77));
     }
 
-    /// Red goes from 0 to 1 on the way: neighbours differ by less than two steps of a piece, and T is that of the line.
+    /// Red goes from 0 to 1 on the way. Neighbours differ by less than two steps, and T is the line's direction.
     #[test]
     fn vertices_come_where_colours_change() {
         let red = |place: &Place| {

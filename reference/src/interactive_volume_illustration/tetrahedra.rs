@@ -1,11 +1,13 @@
-//! Where two functions vanish together, in the six tetrahedra of a cell ([HATCH-18]).
+//! Common zeros of two functions in the six tetrahedra of a cell ([HATCH-18]).
 //!
-//! Both functions are linear in a tetrahedron, so that their common zeros are a straight piece, which enters through one face
-//! and leaves through another. A face has a zero where the pairs of values at its corners, as points of a plane, go round
-//! the origin. Whether they do is decided by the signs of three determinants, exactly, and where one is 0 as if every value
-//! were shifted by an amount of its own that is smaller than all numbers and all shifts before it (Edelsbrunner and Mücke,
-//! *Simulation of Simplicity*, ACM Transactions on Graphics 9, 1990). So each tetrahedron has two such faces or none, each
-//! face is decided alike from both of its sides, and pieces join to curves without branches, on plateaus and noise too.
+//! Both functions are linear in a tetrahedron, so their common zeros are a straight segment that crosses two faces. A
+//! face has a zero if its corners' pairs of values, as points of a plane, enclose the origin. The signs of three
+//! determinants decide this exactly.
+//!
+//! If a determinant is 0, the decision is made as if every value were shifted by an infinitesimal amount. Each amount
+//! is smaller than all numbers and all earlier amounts (Edelsbrunner and Mücke, *Simulation of Simplicity*, ACM
+//! Transactions on Graphics 9, 1990). So each tetrahedron has two crossed faces or none, and both of its tetrahedra
+//! agree on a face. Segments join to curves without branches, even on plateaus and noise.
 
 use drypoint_scene::math::compare_products;
 use std::cmp::Ordering;
@@ -13,23 +15,24 @@ use std::cmp::Ordering;
 /// The values of the two functions at a voxel.
 pub(super) type Pair = [f64; 2];
 
-/// The six tetrahedra, as the steps from the cell's first voxel to their other corners: bit a is a step along axis a.
-/// All have the diagonal from 0 to 7, and each corner has the steps of the one before it and one more.
+/// The six tetrahedra, as steps from the cell's first voxel to their other corners: bit a is a step along axis a. All
+/// share the diagonal from 0 to 7. Each corner has one more step than the corner before.
 pub(super) const TETRAHEDRA: [[usize; 4]; 6] =
     [[0, 1, 3, 7], [0, 1, 5, 7], [0, 2, 3, 7], [0, 2, 6, 7], [0, 4, 5, 7], [0, 4, 6, 7]];
 
 /// The corners of the four faces of a tetrahedron.
 pub(super) const FACES: [[usize; 3]; 4] = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]];
 
-/// The pairs of corners of a tetrahedron.
+/// Pairs of corners of a tetrahedron.
 const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
-/// Whether a value counts as above 0: 0 itself is shifted upwards.
+/// Whether a value counts as above 0. The value 0 itself is shifted upwards.
 pub(super) fn is_above(value: f64) -> bool {
     value >= 0.0
 }
 
-/// Whether the determinant of two pairs is above 0, the first that of the voxel that comes first in the volume.
+/// Whether the determinant of two pairs is above 0. The first pair belongs to the voxel that comes first in the
+/// volume.
 fn turns_left(a: Pair, b: Pair) -> bool {
     let shifted = |x: f64| (x != 0.0).then_some(x > 0.0);
     match compare_products([a[0], b[1]], [a[1], b[0]]) {
@@ -40,7 +43,8 @@ fn turns_left(a: Pair, b: Pair) -> bool {
     }
 }
 
-/// The two faces of a tetrahedron that have a common zero, by the pairs at its corners in the order of the voxels.
+/// Returns the two faces of a tetrahedron that contain a common zero. The pairs are those of its corners, in the
+/// order of the voxels.
 pub(super) fn crossed(corners: [Pair; 4]) -> Option<[usize; 2]> {
     let mut left = [[false; 4]; 4];
     for [i, j] in EDGES {
@@ -54,7 +58,7 @@ pub(super) fn crossed(corners: [Pair; 4]) -> Option<[usize; 2]> {
     Some([faces.next()?, faces.next()?])
 }
 
-/// How much of each corner of a face its common zero is; the sum is 1.
+/// Barycentric coordinates of a face's common zero.
 pub(super) fn weights([a, b, c]: [Pair; 3]) -> [f64; 3] {
     let cross = |p: Pair, q: Pair| (p[0] * q[1] - p[1] * q[0]).abs();
     let each = [cross(b, c), cross(c, a), cross(a, b)];
@@ -67,7 +71,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Whether a triangle has the origin inside, in whole numbers and without shifts; none where it is on the rim.
+    /// Whether a triangle encloses the origin, in integers and without shifts. Returns none if the origin is on its
+    /// rim.
     fn holds_origin(p: [[i64; 2]; 3]) -> Option<bool> {
         let det = |a: [i64; 2], b: [i64; 2]| a[0] * b[1] - a[1] * b[0];
         let d = [det(p[0], p[1]), det(p[1], p[2]), det(p[2], p[0])];
@@ -77,8 +82,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
 
-        /// Values of few levels, with many zeros and multiples: always two faces or none, those of plain arithmetic where
-        /// that decides, and the same for both tetrahedra at a face.
+        /// Values on few levels, with many zeros and multiples: there are two crossed faces or none. Plain arithmetic
+        /// agrees where it decides, and both tetrahedra agree on a face.
         #[test]
         fn two_faces_or_none(values in prop::array::uniform5(prop::array::uniform2(-2i64..3))) {
             let pair = |i: usize| values[i].map(|x| x as f64);

@@ -1,9 +1,9 @@
-//! Fewer vertices on a curve, as straight pieces that stay as near to it as is said.
+//! Simplification of curves to fewer vertices within a distance.
 
 use drypoint_scene::glam::DVec3;
 
-/// Which places of a curve are kept (Ramer 1972, Douglas and Peucker 1973): no place that is left out is farther than
-/// `within` from the piece that takes its place. The ends stay; of a closed curve the first and the one farthest from it.
+/// Flags of the places to keep (Ramer 1972, Douglas and Peucker 1973). No removed place is farther than `within` from
+/// the segment that replaces it. The ends stay; a closed curve keeps the first place and the place farthest from it.
 pub(super) fn kept(places: &[DVec3], closed: bool, within: f64) -> Vec<bool> {
     let n = places.len();
     let mut is_kept = vec![false; n];
@@ -34,7 +34,7 @@ pub(super) fn kept(places: &[DVec3], closed: bool, within: f64) -> Vec<bool> {
     is_kept
 }
 
-/// How far a place is from a straight piece.
+/// Distance of a place from a segment.
 fn from_piece(p: DVec3, [a, b]: [DVec3; 2]) -> f64 {
     let (along, from) = (b - a, p - a);
     let length = along.length_squared();

@@ -9,7 +9,7 @@ pub struct Toon<R> {
     /// L: the unit vector towards the light.
     light: Vec3<R>,
     offset: R,
-    /// Where tones begin in L·N + offset, ascending, and what they multiply colours by. The first holds from −∞ on.
+    /// Lower bounds of L·N + offset, ascending, and the factor of each tone. The first tone holds from −∞ on.
     tones: Vec<(R, [R; 3])>,
 }
 
@@ -24,7 +24,8 @@ impl<R: Real> Toon<R> {
         }
     }
 
-    /// A colour in the tone of a normal. Of two tones the second is the paper's L·N + offset > ½.
+    /// Shades a colour by the tone of a normal. With two tones, the second one holds where L·N + offset > ½, as in
+    /// the paper.
     #[inline]
     pub fn shade(&self, c_u: [R; 3], n: Vec3<R>) -> [R; 3] {
         let x = n.dot(self.light) + self.offset;
@@ -49,7 +50,7 @@ mod tests {
         Toon::new(&ToonParams { light: DVec3::Z, offset, tones: at.iter().enumerate().map(tone).collect() })
     }
 
-    /// Which tone a normal at cos θ = L·N has.
+    /// Index of the tone of a normal with cos θ = L·N.
     fn tone<R: Real>(toon: &Toon<R>, cosine: f64) -> usize {
         let n = Vec3::from_glam(DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine));
         let [r, g, b] = toon.shade([R::ONE; 3], n).map(Real::to_f64);
@@ -57,7 +58,7 @@ mod tests {
         (8.0 * r) as usize - 1
     }
 
-    /// The step is strict: x = ½ itself is dark. Next to it in the last place it is not.
+    /// The step is strict: x = ½ is dark, and the next larger number is not.
     #[test]
     fn two_tones_part_at_one_half() {
         for (offset, terminator) in [(0.0, 0.5), (0.5, 0.0), (0.25, 0.25), (1.0, -0.5), (-0.5, 1.0)] {
@@ -71,7 +72,8 @@ mod tests {
         }
     }
 
-    /// n tones: the last that begins below x, and the first wherever none does, whatever its own `at`.
+    /// With n tones, the last one that begins below x holds. If none does, the first one holds, whatever its own
+    /// `at`.
     #[test]
     fn tones_by_table() {
         for first in [-9.0, 0.0, -0.5] {

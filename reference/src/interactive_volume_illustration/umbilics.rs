@@ -1,9 +1,10 @@
-//! Which directions mean something: umbilics and the data's error ([HATCH-3]).
+//! Certainty of principal directions: umbilics and the data's error ([HATCH-3]).
 //!
-//! On a sampled sphere the two curvatures differ by noise, and a plain formula makes a direction of it everywhere. So a
-//! direction counts only where the curvatures differ by a share of themselves and by more than the rounding of the stored
-//! numbers can make, and where a somewhat larger scale says the same; the finest scale at which all holds is taken. A scale
-//! says nothing where it reaches beyond the volume, or into voxels without a value.
+//! On a sampled sphere the two curvatures differ by noise, and a plain formula makes a direction of it everywhere. So
+//! a direction counts only under three conditions. The curvatures differ by a share of themselves. They differ by
+//! more than the rounding of the stored numbers can cause. A somewhat larger scale gives the same direction. The
+//! finest scale that meets all conditions is taken. A scale decides nothing where it reaches beyond the volume or
+//! into voxels without a value.
 
 use super::clear::Clear;
 use super::counts::{NoDirection, Scales};
@@ -22,19 +23,19 @@ use drypoint_scene::volume::Volume;
 use std::cell::OnceCell;
 use std::sync::OnceLock;
 
-/// σ in voxels.
+/// Scales σ, in voxels.
 const SCALES: [f64; 3] = [1.0, 2.0, 4.0];
 
-/// The scale that a direction is compared at, in σ.
+/// The scale for the comparison of directions, in σ.
 const LARGER: f64 = 1.5;
 
-/// How far, in σ, a place must be from the border along each axis. Samples beyond it are continued by parabolas, which a
-/// smoothed second derivative nearer to it takes for data: of spheres that touch or cross the border, 18 to 90 % of the places
-/// within 2σ of it get a direction by that σ, and none beyond.
+/// The least distance from the border along each axis, in σ. Samples beyond the border are continued by parabolas,
+/// which a smoothed second derivative nearer to it takes for data. On spheres that touch or cross the border, σ gives
+/// a direction to 18 to 90 % of the places within 2σ of it, and to none farther away.
 const ROOM: f64 = 2.0;
 
-/// The same from voxels without a value of their own, which have that of the nearest other one: a step, of which of a cylinder
-/// rulings 2σ away are up to 10° off, and 3σ away 1.4°.
+/// The least distance from voxels without a value, in σ. These have the value of the nearest other voxel, which makes
+/// a step. On a cylinder, rulings 2σ away are up to 10° off, and 3σ away 1.4°.
 const MASK_ROOM: f64 = 3.0;
 
 /// The constants of the rule `scaled`.
@@ -42,11 +43,11 @@ const MASK_ROOM: f64 = 3.0;
 pub struct Thresholds {
     /// ε: |κ₁ − κ₂| > ε(|κ₁| + |κ₂|).
     pub gap: f64,
-    /// How many standard deviations of the noise |κ₁ − κ₂|·‖g‖ must be above.
+    /// The least |κ₁ − κ₂|·‖g‖, in standard deviations of its noise.
     pub noise: f64,
-    /// The standard deviation of the values, where it is more than that of their rounding.
+    /// The standard deviation of the values, if it exceeds that of their rounding.
     pub deviation: f64,
-    /// The angle, in degrees, below which the lines at σ and 1.5σ are to differ.
+    /// The largest angle, in degrees, between the lines at σ and 1.5σ.
     pub agree: f64,
 }
 
@@ -56,10 +57,10 @@ impl Default for Thresholds {
     }
 }
 
-/// How directions are found.
+/// The rule that computes directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rule {
-    /// From Gaussian derivatives at the first of σ = 1, 2, 4 voxels that is sure.
+    /// Gaussian derivatives at the first of σ = 1, 2, 4 voxels that is certain.
     Scaled(Thresholds),
     /// The paper's plain formula on the field's own Hessian.
     Raw,
@@ -74,23 +75,23 @@ pub struct Directions<'f, 'v> {
 #[derive(Debug)]
 struct Scaled<'f, 'v> {
     thresholds: Thresholds,
-    /// At σ and 1.5σ.
+    /// Derivatives at σ and 1.5σ, for each scale.
     pairs: [[Smoothed<'f, 'v>; 2]; 3],
-    /// For each σ the box of index space that is far enough from the border.
+    /// The box in index space that is far enough from the border, for each σ.
     inner: [[DVec3; 2]; 3],
-    /// Where masked voxels are far enough; made where the first direction is asked for.
+    /// Places far enough from masked voxels; computed at the first query of a direction.
     clear: OnceLock<Option<Clear>>,
     volume: &'v Volume,
-    /// The values' standard deviation, times 2^−e.
+    /// The standard deviation of the values, times 2^−e.
     deviation: f64,
-    /// cos of twice the angle within which two lines agree.
+    /// Cosine of twice the angle within which two lines agree.
     cos_double: f64,
     outside: Outside,
     no_normal_below: f64,
 }
 
 impl<'f, 'v> Directions<'f, 'v> {
-    /// Nothing is smoothed before a direction is asked for.
+    /// Prepares the rule. Nothing is smoothed before the first query of a direction.
     pub fn new(field: &'f Field<'v, f64>, rule: Rule) -> Self {
         match rule {
             Rule::Raw => Self::raw(),
@@ -110,25 +111,25 @@ impl<'f, 'v> Directions<'f, 'v> {
         }
     }
 
-    /// The paper's plain formula, on whatever ground.
+    /// The paper's plain formula, for any ground.
     pub fn raw() -> Self {
         Self { scaled: None }
     }
 
-    /// Bytes of the smoothed bricks that were made, and of what tells where masked voxels are near.
+    /// Size of the smoothed bricks and the mask's margins in bytes.
     pub fn bytes(&self) -> u64 {
         let Some(scaled) = &self.scaled else { return 0 };
         let clear = scaled.clear.get().and_then(Option::as_ref).map_or(0, Clear::bytes);
         clear + scaled.pairs.iter().flatten().map(Smoothed::bytes).sum::<u64>()
     }
 
-    /// The curvatures and their directions at a position in index space inside the box of [SPACE-1].
+    /// Returns the curvatures and their directions at a position in index space inside the box of [SPACE-1].
     ///
     /// # Errors
-    /// There is none.
+    /// The position has no direction.
     ///
     /// # Panics
-    /// With the rule `raw`, if the ground has no Hessian: a field that was prepared for a lower rung.
+    /// With the rule `raw`, if the ground has no Hessian because its field was prepared for a lower rung.
     pub fn at(
         &self,
         ground: &dyn Ground,
@@ -141,13 +142,14 @@ impl<'f, 'v> Directions<'f, 'v> {
         }
     }
 
-    /// Those at a voxel, as they are stored: to rounding what [`at`](Self::at) gives there, sooner.
+    /// Returns the curvatures and their directions at a voxel, as they are stored. The result equals [`at`](Self::at)
+    /// to rounding and takes less time.
     ///
     /// # Errors
-    /// There is none.
+    /// The voxel has no direction.
     ///
     /// # Panics
-    /// As [`at`](Self::at).
+    /// Under the same condition as [`at`](Self::at).
     pub fn at_voxel(
         &self,
         ground: &dyn Ground,
@@ -157,7 +159,8 @@ impl<'f, 'v> Directions<'f, 'v> {
         self.with_regions(ground, voxel, &Regions::default(), counts)
     }
 
-    /// What has those of the voxels of a box. What is smoothed for them is kept as long as it.
+    /// Returns a function that computes the curvatures of the voxels of a box. It owns the samples that are smoothed
+    /// for the box.
     pub(super) fn of_voxels(
         &self,
         ground: &dyn Ground,
@@ -204,35 +207,35 @@ fn plain(
     Ok(c)
 }
 
-/// Where derivatives are asked for.
+/// The place at which derivatives are computed.
 #[derive(Clone, Copy)]
 enum Place {
     Voxel([usize; 3]),
     Between(Vec3<f64>),
 }
 
-/// Smoothed samples of a box of voxels, made where they are asked for; of no box those of the bricks.
+/// Smoothed samples of a box of voxels, computed on demand. Without a box, the bricks' samples serve.
 #[derive(Default)]
 struct Regions {
     voxels: Option<Voxels>,
     made: [[OnceCell<Region>; 2]; 3],
 }
 
-/// The room of a length in voxels along each axis in index space; of axes of two samples none: they have no curvature that a
-/// continuation could make up.
+/// Converts a margin in voxels to index space along each axis. Axes of two samples need no margin: a continuation
+/// cannot add curvature to them.
 fn along_axes(grid: &Grid, room: f64) -> [f64; 3] {
     let (n, spacing) = (grid.dims(), grid.spacing());
     std::array::from_fn(|a| if n[a] > 2 { room * grid.voxel() / spacing[a] } else { 0.0 })
 }
 
-/// The box in index space of the places that are `room` voxels from the border.
+/// The box in index space of the places that are at least `room` voxels from the border.
 fn inner(grid: &Grid, room: f64) -> [DVec3; 2] {
     let [lo, hi] = grid.index_box();
     let room = DVec3::from_array(along_axes(grid, room));
     [lo.max(room), hi.min(DVec3::from_array(grid.dims().map(|n| n as f64 - 1.0)) - room)]
 }
 
-/// Why a scale is not sure.
+/// The reason why a scale is uncertain.
 enum Unsure {
     Border,
     Gradient,
@@ -268,7 +271,7 @@ impl Scaled<'_, '_> {
         Err(if flat { NoDirection::Gradient } else { NoDirection::Umbilic })
     }
 
-    /// The curvatures at one scale, if the border is far enough and all three conditions hold.
+    /// Returns the curvatures at one scale, if the border is far enough and all three conditions hold.
     #[inline]
     fn estimate(&self, i: usize, at: DVec3, place: Place, regions: &Regions) -> Result<Curvature<f64>, Unsure> {
         let [lo, hi] = self.inner[i];
@@ -291,7 +294,7 @@ impl Scaled<'_, '_> {
             return Err(Unsure::Noise);
         }
         let (larger_gradient, larger_hessian) = self.derivatives([i, 1], place, regions)?;
-        // Of an umbilic it is no number.
+        // For an umbilic the cosine is NaN, and the comparison is false.
         if shape.cos_double(&Shape::new(larger_gradient, larger_hessian)) > self.cos_double {
             Ok(directions::principal(gradient, hessian, self.outside))
         } else {
@@ -299,7 +302,7 @@ impl Scaled<'_, '_> {
         }
     }
 
-    /// Whether no masked voxel is near.
+    /// Whether no masked voxel is nearby.
     #[inline]
     fn is_clear(&self, i: usize, at: DVec3) -> bool {
         if self.volume.mask().is_none() {
@@ -332,8 +335,8 @@ impl Scaled<'_, '_> {
     }
 }
 
-/// PHP, P = I − nnᵀ, as a multiple m of P and a part D without trace: the shape operator times ∓‖g‖. What [HATCH-3] asks
-/// needs neither its lines nor the length of the gradient.
+/// The shape operator times ∓‖g‖ for a test without eigenvectors: PHP, P = I − nnᵀ, as a multiple m of P and a
+/// trace-free part D. The conditions of [HATCH-3] need neither the lines nor the length of the gradient.
 struct Shape {
     mean: f64,
     d: Sym3<f64>,
@@ -359,7 +362,7 @@ impl Shape {
         Self { mean, d }
     }
 
-    /// D:E.
+    /// The product D:E.
     #[inline(always)]
     fn product(&self, other: &Self) -> f64 {
         let (d, e) = (&self.d, &other.d);
@@ -372,14 +375,14 @@ impl Shape {
         2.0 * self.product(self)
     }
 
-    /// ((|κ₁| + |κ₂|)‖g‖)²: of curvatures of one sign |κ₁ + κ₂|, else |κ₁ − κ₂|.
+    /// ((|κ₁| + |κ₂|)‖g‖)². The sum is |κ₁ + κ₂| for curvatures of one sign, otherwise |κ₁ − κ₂|.
     #[inline(always)]
     fn sum_squared(&self) -> f64 {
         self.difference_squared().max(4.0 * self.mean * self.mean)
     }
 
-    /// D:E/(‖D‖‖E‖), the cosine of twice the angle between the lines, where the tangent planes are the same. No number where
-    /// one of them is 0.
+    /// D:E/(‖D‖‖E‖), the cosine of twice the angle between the lines if the tangent planes are equal. The result is
+    /// NaN if D or E is 0.
     #[inline(always)]
     fn cos_double(&self, other: &Self) -> f64 {
         self.product(other) / (self.product(self).sqrt() * other.product(other).sqrt())
@@ -391,7 +394,8 @@ mod tests {
     use super::*;
     use drypoint_scene::philox::uniform;
 
-    /// By the curvatures and lines of both, of which the tangent planes are up to 60° apart: their eight angles.
+    /// Compares with the curvatures and lines of both, by their double angles. The tangent planes are up to 60°
+    /// apart.
     #[test]
     fn shapes_know_differences_sums_and_angles_without_lines() {
         for i in 0..20_000 {

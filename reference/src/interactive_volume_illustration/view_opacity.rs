@@ -4,26 +4,27 @@ use crate::number::Real;
 
 /// α' = 1 − (1 − α)^(1 + s(1/max(|N·V|, 2⁻⁶) − 1)).
 ///
-/// With s = 1 the exponent is 1/|N·V|: a thin layer seen at a slant, through which the way is so much longer.
+/// With s = 1 the exponent is 1/|N·V|: the ray through a thin layer seen at a slant is longer by this factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewOpacity {
-    /// s.
+    /// The strength s.
     strength: f64,
 }
 
-/// What |N·V| counts as at least.
+/// The lower bound of |N·V|.
 const FLOOR: f64 = 1.0 / 64.0;
 
 impl ViewOpacity {
-    /// By its strength; none where it is 0, for then the exponent is 1 everywhere.
+    /// View-dependent opacity of a strength. Returns none if the strength is 0, since the exponent is then 1
+    /// everywhere.
     pub fn new(strength: f64) -> Option<Self> {
         (strength > 0.0).then_some(Self { strength })
     }
 
-    /// The exponent where N·V, of either sign, has that size: at least 1, and 1 where the surface faces the eye.
+    /// The exponent for N·V of either sign: at least 1, and 1 where the surface faces the eye.
     #[inline]
     pub fn exponent<R: Real>(self, n_dot_v: R) -> f64 {
-        // Unit vectors round to a product above 1.
+        // The product of unit vectors may round to a number above 1.
         let n_dot_v = n_dot_v.to_f64().abs().clamp(FLOOR, 1.0);
         1.0 + self.strength * (1.0 / n_dot_v - 1.0)
     }

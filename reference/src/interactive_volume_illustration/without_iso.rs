@@ -1,4 +1,4 @@
-//! Strokes without an iso-value, wherever values count ([HATCH-16]).
+//! Strokes without an iso-value, at all values that count ([HATCH-16]).
 
 use super::ground::inside;
 use super::pyramid::Pyramid;
@@ -9,7 +9,7 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::tables::Measure as Kind;
 
 impl Strokes<'_, '_> {
-    /// As [`seeds`](Self::seeds), of the cells in whose closed range of values one counts.
+    /// Like [`seeds`](Self::seeds), for the cells in whose closed range of values one counts.
     pub fn seeds_among(
         &self,
         pyramid: &Pyramid,
@@ -21,7 +21,7 @@ impl Strokes<'_, '_> {
         Seeds::among(pyramid, field.volume(), counts, rule, |voxel| self.measure(voxel, kind, range))
     }
 
-    /// The value at a place of the world; none outside the volume.
+    /// The value at a place of the world. Returns none outside the volume.
     pub fn value(&self, world: DVec3) -> Option<f64> {
         inside(self.ground(), world).map(|index| self.ground().value(index))
     }

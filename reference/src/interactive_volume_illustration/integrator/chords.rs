@@ -1,24 +1,25 @@
-//! The fewest vertices of a polyline that stays within a distance of a curve ([HATCH-10]).
+//! Polylines with the fewest vertices that stay within a distance of a curve ([HATCH-10]).
 
 use super::Piece;
 use drypoint_scene::glam::DVec3;
 
-/// Places on each piece at which the distance to a chord is taken, and on a chord that is shorter than a piece.
+/// Number of places at which the distance to a chord is taken: on each segment, and on a chord that is shorter than a
+/// segment.
 const PLACES: usize = 4;
 
-/// A chord is long enough whose distance is at least this share of what it may be: some hundredths of the distance are half as
-/// many of the length.
+/// Share of the allowed distance from which a chord counts as long enough. A few hundredths of the distance are half
+/// as many of the length.
 const ENOUGH: f64 = 0.96;
 
-/// What a chord that is not yet too long grows by at least.
+/// The least growth of a chord that is not yet too long.
 const LONGER: f64 = 1.125;
 
-/// Trials that find the end of a chord.
+/// Number of trials that find the end of a chord.
 const TRIALS: usize = 24;
 
-/// Where the vertices of a polyline lie on the curve of these pieces: whole parts number the piece, the rest is its
-/// parameter. From each vertex the chord is as long as it can be without leaving the curve by more than `chord`; both ends of
-/// the curve are vertices.
+/// Returns the vertices of a polyline as parameters on the curve of these segments: the integer part is the segment's
+/// index, the fraction its parameter. Each chord is as long as possible within the distance `chord` of the curve.
+/// Both ends of the curve are vertices.
 pub fn vertices(pieces: &[Piece], chord: f64) -> Vec<f64> {
     let curve = Curve::new(pieces);
     let end = pieces.len() as f64;
@@ -43,10 +44,10 @@ pub fn point(pieces: &[Piece], t: f64) -> DVec3 {
     pieces[i].point(t - i as f64)
 }
 
-/// A curve with its places.
+/// A curve with sampled places.
 struct Curve<'a> {
     pieces: &'a [Piece],
-    /// Those at the quarters of pieces, from the first one's beginning on.
+    /// Places at the quarters of segments, from the first segment's beginning on.
     places: Vec<DVec3>,
 }
 
@@ -58,12 +59,13 @@ impl<'a> Curve<'a> {
         Self { pieces, places }
     }
 
-    /// Where the longest chord from a place ends, by trials of which the first is as long as the chord before: longer ones until
-    /// one is too long, then between the two.
+    /// Returns the end of the longest chord from a place. The first trial is as long as the chord before. Longer ones
+    /// follow until one is too long, then trials between the two.
     fn chord_end(&self, from: f64, long: f64, chord: f64) -> f64 {
         let end = self.pieces.len() as f64;
         let (enough, aim) = (ENOUGH.sqrt(), (0.5 * (1.0 + ENOUGH)).sqrt());
-        // Ends of chords, with the root of the distance in what it may be, which grows nearly as the length does.
+        // Ends of chords that are good and bad, with √(distance/allowed distance), which is nearly linear in the
+        // length.
         let mut good = [from, 0.0];
         let mut bad: Option<[f64; 2]> = None;
         let mut to = (from + long).min(end);
@@ -81,17 +83,17 @@ impl<'a> Curve<'a> {
                 None => (from + (to - from) * (aim / found).clamp(LONGER, 2.0)).min(end),
                 Some(bad) => {
                     let share = (aim - good[1]) / (bad[1] - good[1]);
-                    // What is far from linear is halved now and then.
+                    // If the root is far from linear, every fourth trial bisects.
                     let share = if trial % 4 != 0 && share > 0.0 && share < 1.0 { share } else { 0.5 };
                     good[0] + (bad[0] - good[0]) * share
                 }
             };
         }
-        // No chord is short enough for a distance of 0: the piece's end has to do.
+        // No chord reaches a distance of 0; then the segment's end serves.
         if good[0] == from { (from.floor() + 1.0).min(end) } else { good[0] }
     }
 
-    /// The largest distance from a chord: of parabolas through neighbouring places.
+    /// The largest distance from a chord, from parabolas through neighbouring places.
     fn error(&self, from: f64, to: f64) -> f64 {
         let chord = Chord::new(point(self.pieces, from), point(self.pieces, to));
         let mut largest = Largest { before: [from, 0.0], last: [from, 0.0], found: 0.0 };
@@ -114,7 +116,7 @@ impl<'a> Curve<'a> {
 struct Chord {
     from: DVec3,
     along: DVec3,
-    /// 1/‖along‖², 0 where that is no number.
+    /// 1/‖along‖², or 0 if this is not finite.
     inverse: f64,
 }
 
@@ -133,9 +135,9 @@ impl Chord {
     }
 }
 
-/// The largest of distances along a curve, of which squares come in.
+/// The running maximum of distances along a curve. Squared distances come in.
 struct Largest {
-    /// The last two: where, and the square.
+    /// The last two places: parameter and squared distance.
     before: [f64; 2],
     last: [f64; 2],
     found: f64,
@@ -152,7 +154,7 @@ impl Largest {
     }
 }
 
-/// How high a parabola through three places reaches, the middle one of which is not lower than the others.
+/// The maximum of the parabola through three places whose middle one is not lower than the others.
 fn top(before: [f64; 2], last: [f64; 2], next: [f64; 2]) -> f64 {
     let distance = last[1].sqrt();
     let (back, ahead) = (last[0] - before[0], next[0] - last[0]);
@@ -160,7 +162,7 @@ fn top(before: [f64; 2], last: [f64; 2], next: [f64; 2]) -> f64 {
     let bend = (rise + fall) / (back + ahead);
     let slope = rise - bend * back;
     let above = slope * slope / (4.0 * bend);
-    // Of places that coincide, and of three at one height, there is none.
+    // Coincident places and equal heights have no parabola; the result is not finite.
     if above.is_finite() { distance + above } else { distance }
 }
 
@@ -204,7 +206,7 @@ mod tests {
         }
     }
 
-    /// h − a(t − m)² through three places that are not as far from each other.
+    /// h − a(t − m)² through three unequally spaced places.
     #[test]
     fn the_top_of_a_parabola() {
         let (h, a, m) = (2.0, 0.7, 0.4);

@@ -1,4 +1,4 @@
-//! Curves along fields of lines, of any kind: steps that keep an error, the cubics between them, and chords of those
+//! Integral curves of fields of lines: steps with error control, the cubics between them, and chords of these cubics
 //! ([HATCH-4], [HATCH-8], [HATCH-10]).
 
 mod chords;

@@ -1,14 +1,14 @@
-//! A piece of a curve: the cubic Hermite between two places with their directions ([HATCH-8]).
+//! A cubic Hermite segment of a curve, between two places with their directions ([HATCH-8]).
 
 use drypoint_scene::glam::DVec3;
 
-/// Places on a piece among which the start of a search is chosen.
+/// Number of places on a segment among which the start of a search is chosen.
 const STARTS: u32 = 8;
 
-/// Bisections that find a place on a piece: to 2⁻⁴⁰ of it.
+/// Number of bisections that find a place on a segment, to 2⁻⁴⁰ of it.
 const BISECTIONS: u32 = 40;
 
-/// A difference of cosines that is not rounding.
+/// The least difference of cosines that is not rounding.
 const CLEAR: f64 = 1e-9;
 
 /// A cubic Hermite, p(s) for s in [0, 1].
@@ -42,10 +42,12 @@ impl Piece {
         (q - p) * (6.0 - 12.0 * s) + t * (6.0 * s - 4.0) + u * (6.0 * s - 2.0)
     }
 
-    /// Where its direction first is further from a unit vector than an angle with this cosine; none where it nowhere is.
+    /// Returns the first place at which the direction differs from a unit vector by more than an angle with this
+    /// cosine. Returns none if there is no such place.
     ///
-    /// The largest angle may lie between the ends: where (p''·a)(p'·p') − (p'·a)(p'·p''), which has the sign of the cosine's
-    /// derivative, grows through 0. It is a polynomial of degree four, whose roots are looked for in eighths of the piece.
+    /// The largest angle may lie between the ends, where (p''·a)(p'·p') − (p'·a)(p'·p'') grows through 0. This
+    /// expression has the sign of the cosine's derivative. It is a polynomial of degree four, whose roots are
+    /// bracketed in eighths of the segment.
     pub fn turned(&self, along: DVec3, cos: f64) -> Option<f64> {
         if self.stays_within(along, cos) {
             return None;
@@ -69,21 +71,22 @@ impl Piece {
         })
     }
 
-    /// Whether all its directions are nearer than an angle of 90° at most to a unit vector, because those are that it is the mean
-    /// of: p' = (1 − s)² p'₀ + 2s(1 − s) m + s² p'₁. What is nearer than rounding is not said.
+    /// Whether all directions differ from a unit vector by less than an angle, which is at most 90°. p' = (1 − s)²
+    /// p'₀ + 2s(1 − s) m + s² p'₁ is a mean of three vectors; the test checks these. Differences within rounding
+    /// count as too large.
     fn stays_within(&self, along: DVec3, cos: f64) -> bool {
         let ([p, q], [t, u]) = (self.ends, self.tangents);
         let within = |v: DVec3| v.dot(along) > (cos + CLEAR) * v.length();
         cos >= 0.0 && within(t) && within(u) && within((q - p) * 3.0 - t - u)
     }
 
-    /// What of it lies in [0, s], again as a piece: the same cubic.
+    /// Returns the part of this segment on [0, s]. It is the same cubic.
     pub fn until(&self, s: f64) -> Self {
         Self { ends: [self.ends[0], self.point(s)], tangents: [self.tangents[0] * s, self.tangent(s) * s] }
     }
 
-    /// Where between two of its places it first meets one of the planes on which a coordinate is a whole number; none where both
-    /// places lie between the same ones.
+    /// Returns the parameter between two of its places at which the segment first meets a plane with an integer
+    /// coordinate. Returns none if both places lie between the same planes.
     pub fn face(&self, [from, to]: [f64; 2]) -> Option<f64> {
         if from >= to {
             return None;
@@ -99,19 +102,19 @@ impl Piece {
         (0..3).filter_map(meets).reduce(f64::min)
     }
 
-    /// The same curve in other coordinates, by an affine map of places and what it does to directions.
+    /// Maps the curve affinely: `place` maps places and `direction` maps directions.
     pub fn mapped(&self, place: impl Fn(DVec3) -> DVec3, direction: impl Fn(DVec3) -> DVec3) -> Self {
         Self { ends: self.ends.map(place), tangents: self.tangents.map(direction) }
     }
 
-    /// The same curve from its end to its beginning.
+    /// The curve from its end to its beginning.
     pub fn reversed(&self) -> Self {
         let ([p, q], [t, u]) = (self.ends, self.tangents);
         Self { ends: [q, p], tangents: [-u, -t] }
     }
 
-    /// The parameter of the point nearest to a place, and its distance: Gauss–Newton on (p(s) − x)·p'(s) from the best of
-    /// nine starts. On a piece that hardly bends the second derivative does not matter.
+    /// Returns the parameter of the point nearest to a place, and its distance: Gauss–Newton on (p(s) − x)·p'(s) from
+    /// the best of nine starts. The second derivative is neglected, since segments hardly bend.
     pub fn nearest(&self, x: DVec3) -> (f64, f64) {
         let distance = |s: f64| self.point(s).distance(x);
         let starts = (0..=STARTS).map(|i| f64::from(i) / f64::from(STARTS));
@@ -137,7 +140,7 @@ impl Piece {
     }
 }
 
-/// Where a condition begins to hold between one place where it does not and one where it does.
+/// Bisects for the place at which a condition begins to hold. It does not hold at `lo` and holds at `hi`.
 fn bisect([mut lo, mut hi]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..BISECTIONS {
         let s = 0.5 * (lo + hi);
@@ -155,7 +158,7 @@ mod tests {
         Piece { ends: [a, b], tangents: [DVec3::new(0.5, 0.7, 0.1), DVec3::new(1.1, -0.4, 0.9)] }
     }
 
-    /// A Hermite of a cubic is that cubic: p(s) = (s³, s², s).
+    /// The Hermite segment of a cubic is this cubic: p(s) = (s³, s², s).
     #[test]
     fn it_is_the_cubic_of_its_ends() {
         let p = Piece { ends: [DVec3::ZERO, DVec3::ONE], tangents: [DVec3::Z, DVec3::new(3.0, 2.0, 1.0)] };
@@ -175,8 +178,8 @@ mod tests {
         }
     }
 
-    /// p(s) = (s, s − s², 0), and with a second bend out of its plane: the largest angle is found where it is, and the first
-    /// place beyond an angle, wherever both ends lie.
+    /// p(s) = (s, s − s², 0), and a cubic with a second bend out of its plane. The largest angle is found between the
+    /// ends, as is the first place beyond an angle.
     #[test]
     fn the_largest_angle_is_found_between_the_ends() {
         // Directions (1, 1 − 2s): along (1, 0) the angle is 45° at both ends, and its limit is met at s = (1 − tan)/2.
@@ -205,7 +208,7 @@ mod tests {
         }
     }
 
-    /// p(s) = (1.2 + s, 0.1 + 3s², 2): x = 2 is met at 0.8, y = 1 at √0.3, and it stays on the face z = 2.
+    /// p(s) = (1.2 + s, 0.1 + 3s², 2) meets x = 2 at 0.8 and y = 1 at √0.3, and stays on the face z = 2.
     #[test]
     fn faces_are_met() {
         let ends = [DVec3::new(1.2, 0.1, 2.0), DVec3::new(2.2, 3.1, 2.0)];

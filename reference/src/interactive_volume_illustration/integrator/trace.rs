@@ -1,156 +1,158 @@
-//! Curves along a field of lines: RK4(3) with first-same-as-last, adaptive steps and dense output ([HATCH-4], [HATCH-8];
-//! Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4; Stalling and Hege 1995).
+//! Integral curves of a field of lines: RK4(3) with first-same-as-last, adaptive steps and dense output ([HATCH-4],
+//! [HATCH-8]; Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4; Stalling and Hege 1995).
 //!
-//! A field of lines has directions without sign: v and −v are the same. So the stages of a step are turned to its first one,
-//! k₁, and the new direction k₅ to k₄; no orientation of the whole field is needed, and there may be none.
+//! A field of lines has directions without sign: v and −v are the same. So the stages of a step are turned to its
+//! first one, k₁, and the new direction k₅ to k₄. The whole field needs no orientation, and it may have none.
 
 use super::Piece;
 use drypoint_scene::glam::DVec3;
 use std::cell::Cell;
 
-/// cos 60°: a stage that turns by more belongs to no smooth line.
+/// cos 60°: a stage that turns by more does not belong to a smooth line.
 const SMOOTH: f64 = 0.5;
 
-/// How often a step is tried again to end at a kink: each time it is as near as its own error.
+/// Number of retries of a step that should end at a kink. Each retry ends as near to the kink as its own error.
 const TRIES_AT_KINK: u32 = 3;
 
-/// Pieces that there is room for from the start.
+/// Initial capacity for segments.
 const PIECES: usize = 16;
 
 /// A field of lines.
 pub trait Lines {
-    /// Why there may be none.
+    /// The reason why a place has no direction.
     type Cause;
 
     /// The direction at a place, of length 1, with either sign.
     ///
     /// # Errors
-    /// There is none here.
+    /// The place has no direction.
     fn at(&mut self, x: DVec3) -> Result<DVec3, Self::Cause>;
 
-    /// The same where a curve comes along `like`, for fields whose lines depend on it.
+    /// The direction at a place on a curve that arrives along `like`. It differs from [`at`](Self::at) for fields
+    /// whose lines depend on the curve.
     ///
     /// # Errors
-    /// There is none here.
+    /// The place has no direction.
     fn at_along(&mut self, x: DVec3, _like: DVec3) -> Result<DVec3, Self::Cause> {
         self.at(x)
     }
 
-    /// Where a step ends instead that has come off what the curve is to stay on; none where it is fine.
+    /// Moves the end of a step back onto the surface or curve on which the curve must stay. Returns none if the end
+    /// needs no correction.
     fn put_back(&mut self, _x: DVec3) -> Option<DVec3> {
         None
     }
 
-    /// The parameter of a piece, inside it, at which it first comes to where the field has a kink: the step is to end there.
+    /// The parameter inside a segment at which it first meets a kink of the field. The step ends there.
     fn kink(&self, _piece: &Piece) -> Option<f64> {
         None
     }
 
-    /// By which of its formulas the field had its last direction; from one to another it jumps.
+    /// Index of the formula that gave the last direction. The field jumps from one formula to another.
     fn formula(&self) -> usize {
         0
     }
 }
 
-/// A place that a curve may come to, to end there.
+/// A place at which a curve ends if it comes close.
 #[derive(Clone, Copy, Debug)]
 pub struct Goal {
-    /// Where it is.
+    /// The place.
     pub at: DVec3,
-    /// The direction of a curve that comes to it.
+    /// The direction of a curve that arrives at the place.
     pub along: DVec3,
-    /// How near a curve must pass.
+    /// The largest distance at which a curve counts as arrived.
     pub within: f64,
-    /// How far a curve must have gone before: one that begins at its goal comes back, and is not there at once.
+    /// The least length of the curve. A curve that begins at its goal must come back, and is not there at once.
     pub after: f64,
 }
 
-/// How far and how exactly a curve is followed; all lengths in the unit of the places.
+/// Length and accuracy of a curve. All lengths are in the unit of the places.
 #[derive(Clone, Copy, Debug)]
 pub struct Control {
-    /// The most that a step may err by, as it estimates itself: ‖h/6·(k₄ − k₅)‖, and h/6 times the most that a stage differs
-    /// from k₁ where the field jumps between them.
+    /// The largest estimated error of a step. The estimate is ‖h/6·(k₄ − k₅)‖. Where the field jumps between stages,
+    /// h/6 times the largest difference of a stage from k₁ is added.
     pub tolerance: f64,
-    /// The first step.
+    /// Length of the first step.
     pub first: f64,
-    /// The least step; a curve that needs a smaller one ends.
+    /// Length of the smallest step; a curve that needs a smaller one ends.
     pub min_step: f64,
     /// The largest step.
     pub max_step: f64,
     /// The arc length.
     pub length: f64,
-    /// cos of the largest angle to the first direction; −1: any.
+    /// Cosine of the largest angle to the first direction; −1 allows any.
     pub cos_max_angle: f64,
-    /// Where the curve is closed.
+    /// The place at which the curve closes.
     pub goal: Option<Goal>,
 }
 
-/// Why a curve ends.
+/// The cause of a curve's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End<C> {
-    /// It has its length.
+    /// The curve has its full length.
     Length,
-    /// Its direction is too far from the first.
+    /// The direction differs too much from the first one.
     Angle,
     /// The field has no direction, whatever the step.
     Field(C),
-    /// The lines of the field turn within the smallest step.
+    /// The field's lines turn within the smallest step.
     Turns,
-    /// The tolerance asks for a smaller step than the smallest.
+    /// The tolerance asks for a step below the smallest one.
     Step,
-    /// It is at its goal, and its last piece ends there.
+    /// The curve is at its goal, and its last segment ends there.
     Closed,
 }
 
-/// One way from a place.
+/// One half of a curve, from a place in one direction.
 #[derive(Clone, Debug)]
 pub struct Half<C> {
-    /// One after another.
+    /// Consecutive segments.
     pub pieces: Vec<Piece>,
-    /// Its arc length, the sum of the steps.
+    /// The arc length, the sum of the steps.
     pub length: f64,
-    /// Why it ends.
+    /// The cause of the end.
     pub end: End<C>,
-    /// How often the field was asked.
+    /// Number of evaluations of the field.
     pub evaluations: u32,
-    /// Steps that were tried again.
+    /// Number of rejected steps.
     pub rejected: u32,
 }
 
-/// What is wrong with a step.
+/// The reason why a step is rejected.
 enum Fault<C> {
     Field(C),
     Turns,
-    /// The error is too large; the factor for the next try.
+    /// The error is too large. The value is the factor for the next try.
     Error(f64),
 }
 
-/// Where a step begins.
+/// The start of a step.
 struct State {
     x: DVec3,
-    /// k₁.
+    /// The direction k₁.
     k: DVec3,
-    /// By which formula.
+    /// Index of the formula that gave k₁.
     formula: usize,
 }
 
-/// A step that is fine.
+/// An accepted step.
 struct Step {
     piece: Piece,
-    /// Where the next one begins, with k₅ for its k₁.
+    /// The start of the next step, with k₅ as its k₁.
     to: State,
-    /// For the next step.
+    /// Factor for the length of the next step.
     factor: f64,
 }
 
-/// Follows the line from `start` along `along`, the field's direction there with the sign that is wanted; the field was asked
-/// for it last.
+/// Traces the line from `start`. `along` is the field's direction there, with the wanted sign, and must be the
+/// field's last answer.
 pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Control) -> Half<L::Cause> {
     let mut half =
         Half { pieces: Vec::with_capacity(PIECES), length: 0.0, end: End::Length, evaluations: 0, rejected: 0 };
     let mut at = State { x: start, k: along, formula: field.formula() };
     let mut h = control.first.min(control.max_step);
-    // The step that would have been fine but for a kink, and how often it was shortened.
+    // The length of the step without the kink, and the number of times it was shortened.
     let mut kink: Option<(f64, u32)> = None;
     loop {
         let left = control.length - half.length;
@@ -182,7 +184,7 @@ pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Cont
                 half.pieces.push(done.piece);
                 half.length = if last { control.length } else { half.length + step };
                 at = done.to;
-                // One that was cut short at a kink says nothing about the next.
+                // A step that was shortened at a kink does not limit the next one.
                 h = (step * done.factor).max(if tries > 0 { whole } else { 0.0 }).min(control.max_step);
             }
             Err(fault) if step <= control.min_step => {
@@ -203,8 +205,8 @@ pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Cont
     }
 }
 
-/// A step of classical RK4 with its error by the third-order solution that has k₅ in place of k₄, and the factor for the
-/// next: clamp(0.9·(tol/err)^¼, 0.2, 4).
+/// One step of the classical RK4. The error estimate comes from the third-order solution that has k₅ in place of k₄.
+/// The factor for the next step is clamp(0.9·(tol/err)^¼, 0.2, 4).
 fn try_step<L: Lines>(
     field: &mut L,
     from: &State,
@@ -218,7 +220,7 @@ fn try_step<L: Lines>(
         *evaluations += 1;
         let v = field.at_along(at, like).map_err(Fault::Field)?;
         let v = if v.dot(like) < 0.0 { -v } else { v };
-        // k₅ has its sign from k₄, and both may have turned away from k₁.
+        // The sign of k₅ comes from k₄, and both may have turned away from k₁.
         if v.dot(like) < SMOOTH || v.dot(k1) < SMOOTH {
             return Err(Fault::Turns);
         }
@@ -233,14 +235,14 @@ fn try_step<L: Lines>(
     let mut to = x + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0);
     let mut k5 = stage(field, to, k4)?;
     let error = (k4 - k5).length() * (h / 6.0);
-    // k₄ and k₅ may agree beyond a jump. What it does to the smallest step is no reason to end.
+    // k₄ and k₅ may agree beyond a jump, so the jump has an estimate of its own. It does not end the smallest step.
     let across = if h > control.min_step { jump.get() * (h / 6.0) } else { 0.0 };
     if across > tolerance && across > error {
         return Err(Fault::Error((0.9 * (tolerance / across)).clamp(0.2, 0.9)));
     }
     let factor = if error > 0.0 { (0.9 * (tolerance / error).sqrt().sqrt()).clamp(0.2, 4.0) } else { 4.0 };
     if error > tolerance {
-        // Another try is a shorter one.
+        // A retry is always shorter.
         return Err(Fault::Error(factor.min(0.9)));
     }
     if let Some(back) = field.put_back(to) {
@@ -251,7 +253,8 @@ fn try_step<L: Lines>(
     Ok(Step { piece: Piece { ends: [x, to], tangents: [k1 * h, k5 * h] }, to: next, factor })
 }
 
-/// Whether a step is the last: what of its piece counts, as a piece and as a share, and why it ends there.
+/// Tests whether a step is the last one. Returns the part of its segment that counts, its share, and the cause of the
+/// end.
 fn ends<C>(done: &Step, along: DVec3, before: f64, step: f64, control: &Control) -> Option<(Piece, f64, End<C>)> {
     let piece = &done.piece;
     let any = control.cos_max_angle <= -1.0;

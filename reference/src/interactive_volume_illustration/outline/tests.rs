@@ -6,7 +6,7 @@ use drypoint_scene::philox::uniform;
 use drypoint_scene::tables::{Camera, Projection};
 use drypoint_scene::volume::{Volume, Voxels};
 
-/// Half of what an outline may be off: what a straight piece leaves; the other half is that of its ends.
+/// Half of an outline's tolerance, for straight segments. The other half is for their ends.
 const OFF: f64 = 0.01;
 
 fn view(grid: &Grid, direction: [f64; 3], projection: Projection) -> View {
@@ -63,7 +63,7 @@ fn a_sphere_has_one_circle() {
     let grid = Grid::with_spacing([41; 3], [1.0; 3]).unwrap();
     let radius = 14.0;
     let phantom = sphere(&grid, radius);
-    // Along axes and diagonals many voxels have g·v = 0 to the last bit.
+    // Along axes and diagonals many voxels have exactly g·v = 0.
     for direction in [[0.3, 0.7, -0.4], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]] {
         let view = view(&grid, direction, PARALLEL);
         let found = exact(phantom.as_ref(), &grid, 0.0, &view);
@@ -77,20 +77,21 @@ fn a_sphere_has_one_circle() {
         }
         for vertex in &stroke.vertices {
             let from = vertex.world - grid.centre();
-            // Newton's last step is below 1e-6 and each squares the error; the clamp of a step is not met.
+            // The last step of Newton's method is below 1e-6, and each step squares the error. The clamp of a step is
+            // not met.
             assert!(from.dot(view.forward).abs() < 1e-6 && (from.length() - radius).abs() < 1e-6, "{from}");
             assert!((vertex.normal - from / radius).length() < 1e-6);
         }
         // The longest chord that stays within half of 0.01 voxel is 2√(2·14·0.005) = 0.75.
         assert!(largest_gap(&all, grid.centre(), view.forward) < 0.75 / radius);
-        // Each place once: the circle is not gone round twice.
+        // Each place occurs once: the circle is not traversed twice.
         let length: f64 = all.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         assert!((length / radius - std::f64::consts::TAU).abs() < 0.06, "{length}");
         assert!(stroke.vertices.windows(2).all(|pair| pair[0].u < pair[1].u) && stroke.vertices[0].u == 0.0);
     }
 }
 
-/// In perspective the circle is nearer: at R²/D from the centre, of radius R√(1 − R²/D²).
+/// In perspective the circle is nearer to the eye: at R²/D from the centre, of radius R√(1 − R²/D²).
 #[test]
 fn a_sphere_in_perspective() {
     let grid = Grid::with_spacing([41; 3], [1.0; 3]).unwrap();
@@ -108,8 +109,8 @@ fn a_sphere_in_perspective() {
     }
 }
 
-/// Two closed curves on a torus seen from above its side; places on it have f = 0 and N·v = 0 to a hundredth of a voxel,
-/// by the distance that a step of Newton's would go.
+/// A torus seen from above its side has two closed curves. Their places have f = 0 and N·v = 0 to a hundredth of a
+/// voxel, measured by the length of a Newton step.
 #[test]
 fn a_torus_turns_away_twice() {
     let grid = Grid::with_spacing([49, 49, 33], [1.0; 3]).unwrap();
@@ -131,7 +132,7 @@ fn a_torus_turns_away_twice() {
     }
 }
 
-/// Anisotropic and sheared grids: the circle is the world's, to a hundredth of the smallest voxel.
+/// On anisotropic and sheared grids the circle is a circle of the world, to a hundredth of the smallest voxel.
 #[test]
 fn grids_of_any_shape() {
     let thin = Grid::with_spacing([45, 45, 13], [1.0, 1.0, 4.0]).unwrap();
@@ -168,7 +169,7 @@ fn found(volume: &Volume, iso: f64, direction: [f64; 3], projection: Projection)
     outlines(&IsoSurface::new(&field, iso), &view)
 }
 
-/// A ball that the box cuts: the circle on the box's face, a corner to corner round of it, and the curve that ends there.
+/// A ball cut by the box: its circle on the box's face, closed to a corner, and the curve that ends there.
 #[test]
 fn where_the_surface_meets_the_box() {
     let grid = Grid::with_spacing([33, 33, 17], [1.0; 3]).unwrap();
@@ -187,7 +188,7 @@ fn where_the_surface_meets_the_box() {
     let turning = &found.strokes[0];
     let last = turning.vertices.len() - 1;
     assert!(!turning.closed && turning.vertices[0].world.z < 0.1 && turning.vertices[last].world.z < 0.1);
-    // At the corners of the box the rim goes on over its edge: closed all the same.
+    // At the corners of the box the loop continues over its edge and is closed all the same.
     let corner = sampled(
         Grid::with_spacing([17; 3], [1.0; 3]).unwrap(),
         |p| 9.0 - (p - DVec3::splat(2.0)).length(),
@@ -201,7 +202,7 @@ fn where_the_surface_meets_the_box() {
     assert!(rim.len() == 1 && rim[0].closed);
 }
 
-/// Iso-values that voxels have, flat parts and steps: every stroke is finite and on the surface.
+/// Iso-values equal to voxels' values, flat parts and steps: every stroke is finite and on the surface.
 #[test]
 fn plateaus_and_stored_values() {
     let ball = |p: DVec3| (150.0 - 8.0 * (p - DVec3::splat(12.0)).length()).round();
@@ -223,7 +224,8 @@ fn plateaus_and_stored_values() {
                             let at = Vec3::from_glam(volume.grid().to_index(vertex.world));
                             let value: f64 = with_sampler!(field, |sampler| sampler.value(at));
                             assert!(vertex.world.is_finite() && (vertex.normal.length() - 1.0).abs() < 1e-12);
-                            // A place within 1e-6 voxel of the surface, where values change by 255 a voxel at most.
+                            // The place is within 1e-6 voxel of the surface, and values change by at most 255 a
+                            // voxel.
                             assert!((value - iso).abs() < 1e-3, "{value} {iso}");
                             assert!((0.0..=1.0).contains(&vertex.u));
                         }
@@ -236,7 +238,8 @@ fn plateaus_and_stored_values() {
     assert!(ball.strokes.iter().any(|stroke| stroke.closed && stroke.vertices.len() > 20));
 }
 
-/// Noise has a curve in most cells: the same strokes on any number of threads, and an eye amid it.
+/// Noise has a curve in most cells. The strokes do not depend on the number of threads, nor fail for an eye amid the
+/// noise.
 #[test]
 fn noise_on_any_number_of_threads() {
     let grid = Grid::with_spacing([21, 18, 19], [1.0, 0.7, 1.3]).unwrap();
@@ -255,7 +258,7 @@ fn noise_on_any_number_of_threads() {
     let surface = IsoSurface::new(&field, 1.0);
     let strokes = outlines(&surface, &amid).strokes;
     assert!(strokes.iter().flat_map(|s| &s.vertices).all(|v| v.world.is_finite() && v.normal.is_finite()));
-    // Ranges of bricks leave nothing out.
+    // Skipping by ranges of bricks leaves nothing out.
     assert_eq!(strokes, outlines(&IsoSurface::without_skipping(&field, 1.0), &amid).strokes);
     // A flat volume has no cells.
     let flat =

@@ -28,10 +28,10 @@ fn latitude(centre: DVec3, radius: f64, lambda: f64) -> Stroke {
     Stroke { vertices: (0..n).map(vertex).collect(), closed: true, key: 0 }
 }
 
-/// [HATCH-14]'s oracle: how much of a circle of latitude is seen, at 1000² pixels.
+/// [HATCH-14]'s oracle: the visible share of a circle of latitude, at 1000² pixels.
 ///
-/// With δ = 0 the field is R² − ‖p‖², which B-splines reproduce, and circles lie 1e-5 voxel in front of it; the trilinear
-/// ball of δ = 0.1 is off by 1/(8·20) at most, which moves the share by 0.001.
+/// With δ = 0 the field is R² − ‖p‖², which B-splines reproduce, and circles lie 1e-5 voxel in front of it. The
+/// trilinear ball of δ = 0.1 is off by at most 1/(8·20), which moves the share by 0.001.
 #[test]
 fn circles_of_latitude_on_a_ball() {
     let ball = |n: usize, value: &dyn Fn(f64) -> f64| {
@@ -70,7 +70,7 @@ fn circles_of_latitude_on_a_ball() {
             let whole = length(&sight_without(&sight).seen(&[stroke], |_, _| INK).lines);
             let got = length(&seen.lines) / whole;
             assert!((got - share).abs() < 0.002, "{lambda} {i} {offset}: {got} {share}");
-            // One part, and the same however the circle was cut open.
+            // One part, however the circle was cut open.
             assert_eq!(seen.lines.len(), 1, "{lambda} {i}");
             assert!(!seen.lines[0].closed && seen.looks > 1000);
         }
@@ -81,7 +81,7 @@ fn sight_without<'a>(sight: &Sight<'a>) -> Sight<'a> {
     Sight { surface: None, ..*sight }
 }
 
-/// A closed stroke that is all seen stays closed; without a surface none is asked for.
+/// A closed stroke that is all visible stays closed. Without a surface there are no visibility tests.
 #[test]
 fn what_nothing_hides() {
     let grid = Grid::with_spacing([41; 3], [1.0; 3]).unwrap();
@@ -106,7 +106,8 @@ fn what_nothing_hides() {
     }
 }
 
-/// Strokes around, behind and through an eye: every number is finite, and inside the frame but for the pen's half width.
+/// Strokes around, behind and through an eye: every number is finite, and every place lies inside the frame, grown by
+/// the pen's half width.
 #[test]
 fn an_eye_amid_strokes() {
     let n = 25;
@@ -135,6 +136,6 @@ fn an_eye_amid_strokes() {
         assert!(vertex.world.is_finite() && (0.0..=1.0).contains(&vertex.t));
         assert!(view.to_eye(vertex.world).z <= -0.5 + 1e-9);
     }
-    // π is a number of radians that no frame holds: half of the circle is behind the eye.
+    // No frame contains an angle of π: half of the circle is behind the eye.
     assert!(length(&lines[..1]) < PI);
 }

@@ -1,4 +1,4 @@
-//! Directions of voxels in memory: made when they are asked for, by whichever thread asks first.
+//! Storage for the directions of voxels. A direction is computed on demand, by the first thread that asks for it.
 
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
@@ -7,27 +7,29 @@ use rayon::prelude::*;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Voxels along the side of a block.
+/// Number of voxels along the side of a block.
 const SIDE: usize = 8;
 const VOXELS: usize = SIDE * SIDE * SIDE;
 
-/// Blocks along the side of what is made at once for the whole grid: large enough that what neighbours share is little.
+/// Number of blocks along the side of a group that is computed at once for the whole grid. It is large enough that
+/// neighbouring groups share little work.
 const AT_ONCE: usize = 6;
 
-/// Numbers of a line: its direction, and its curvature.
+/// Numbers of a line: its direction and its curvature.
 const NUMBERS: usize = 4;
 
-/// The corners of a cell: steps from its first voxel.
+/// The corners of a cell, as steps from its first voxel.
 pub(super) const CORNERS: [[usize; 3]; 8] =
     [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]];
 
-/// The first number's bits are kept inverted, so that 0, what memory begins with, is none of them.
+/// The stored first number of an unknown line. Bits are stored inverted, so that zeroed memory is no valid number.
 const UNKNOWN: u64 = 0;
 
-/// There is no direction: inverted bits of something that is no number.
+/// The stored first number of a voxel without a direction: the inverted bits of NaN.
 const NONE: u64 = !0x7ff8_0000_0000_0000;
 
-/// One of a voxel's lines; two of them fill a line of a cache. All that write to it write the same, the first number last.
+/// One of a voxel's lines; two of them fill a cache line. All threads that write to it write the same numbers, the
+/// first number last.
 #[derive(Debug, Default)]
 #[repr(align(32))]
 struct Slot([AtomicU64; NUMBERS]);
@@ -43,13 +45,13 @@ impl Slot {
         self.0[0].store(first, Ordering::Release);
     }
 
-    /// The first number as it is kept.
+    /// The stored bits of the first number.
     #[inline]
     fn first(&self) -> u64 {
         self.0[0].load(Ordering::Acquire)
     }
 
-    /// The line whose first number is kept like this.
+    /// The line whose first number has these stored bits.
     #[inline]
     fn line(&self, first: u64) -> Option<Vec3<f64>> {
         (first != NONE).then(|| Vec3::new(f64::from_bits(!first), self.number(1), self.number(2)))
@@ -71,7 +73,7 @@ impl Pair<'_> {
         self.0[1].set(made.map(|c| (c.e2, c.k2)));
     }
 
-    /// One of them, made now.
+    /// Computes one of the lines.
     #[cold]
     #[inline(never)]
     fn make(self, which: usize, make: impl FnOnce() -> Option<Curvature<f64>>) -> Option<Vec3<f64>> {
@@ -79,25 +81,25 @@ impl Pair<'_> {
         self.0[which].line(self.0[which].first())
     }
 
-    /// One of them, whose first number is kept like this, made now if need be.
+    /// Returns one of the lines and computes it if needed. `first` holds the stored bits of its first number.
     #[inline]
     fn line(self, which: usize, first: u64, make: impl FnOnce() -> Option<Curvature<f64>>) -> Option<Vec3<f64>> {
         if first == UNKNOWN { self.make(which, make) } else { self.0[which].line(first) }
     }
 }
 
-/// The voxels of a grid in blocks, each made when the first of its voxels is asked for.
+/// The voxels of a grid in blocks. A block is allocated at the first query of one of its voxels.
 #[derive(Debug)]
 pub(super) struct Blocks {
-    /// Voxels along each axis.
+    /// Number of voxels along each axis.
     voxels: [usize; 3],
-    /// Blocks along each axis.
+    /// Number of blocks along each axis.
     dims: [usize; 3],
-    /// One without slots has no direction anywhere.
+    /// Blocks with their slots. A block without slots has no direction anywhere.
     blocks: Vec<OnceLock<Box<[Slot]>>>,
 }
 
-/// Voxels of a box, x fastest: from the first up to, not including, the end.
+/// Voxels of a box, x fastest: from `first` up to, but excluding, `end`.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Voxels {
     pub(in super::super) first: [usize; 3],
@@ -105,12 +107,12 @@ pub(in super::super) struct Voxels {
 }
 
 impl Voxels {
-    /// Along each axis.
+    /// Number of voxels along each axis.
     pub(in super::super) fn sides(&self) -> [usize; 3] {
         [0, 1, 2].map(|a| self.end[a] - self.first[a])
     }
 
-    /// Each of them.
+    /// All voxels of the box.
     pub(in super::super) fn each(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
         let Self { first, end } = *self;
         let row = move |z, y| (first[0]..end[0]).map(move |x| [x, y, z]);
@@ -118,7 +120,7 @@ impl Voxels {
     }
 }
 
-/// Of a block: all first lines, then all second ones.
+/// Slots of a block: all first lines, then all second ones.
 fn slots() -> Box<[Slot]> {
     (0..2 * VOXELS).map(|_| Slot::default()).collect()
 }
@@ -137,18 +139,18 @@ impl Blocks {
         Some(Pair([block.get(at)?, block.get(VOXELS + at)?]))
     }
 
-    /// All of a voxel.
+    /// Both curvatures and directions of a voxel.
     pub(super) fn get(&self, voxel: [usize; 3], make: impl Fn() -> Option<Curvature<f64>>) -> Option<Curvature<f64>> {
         let pair = self.pair(voxel)?;
         let [first, second] = pair.0;
         let e1 = pair.line(0, first.first(), &make)?;
-        // Another thread that makes the voxel may have written the first line alone.
+        // Another thread may have written only the first line so far.
         let e2 = pair.line(1, second.first(), &make)?;
         Some(Curvature { k1: first.number(3), k2: second.number(3), e1, e2 })
     }
 
-    /// The first or second lines of those corners of a cell whose bits are set, and a bit for each that has one. Memory is
-    /// asked for all of them before any is waited for.
+    /// Reads the first or second lines of the corners of a cell whose bits are set. Returns a bit for each corner
+    /// that has a line. All corners are requested from memory before any is used.
     #[inline]
     pub(super) fn lines(
         &self,
@@ -176,7 +178,8 @@ impl Blocks {
         has
     }
 
-    /// Makes every voxel, some blocks at once: `start` is given a box, and has what makes each of its voxels.
+    /// Computes every voxel, some blocks at once. `start` gets a box and returns the function that computes its
+    /// voxels.
     pub(super) fn fill<M: FnMut([usize; 3]) -> Option<Curvature<f64>>>(&self, start: impl Fn(Voxels) -> M + Sync) {
         let groups = self.dims.map(|n| n.div_ceil(AT_ONCE));
         (0..groups.iter().product::<usize>()).into_par_iter().for_each(|i| {
@@ -196,7 +199,7 @@ impl Blocks {
         });
     }
 
-    /// Keeps the voxels of a block, in their order.
+    /// Stores the voxels of a block, in their order.
     fn keep(&self, block: [usize; 3], voxels: Voxels, made: &[Option<Curvature<f64>>]) {
         let [nx, ny, _] = self.dims;
         let place = &self.blocks[(block[2] * ny + block[1]) * nx + block[0]];
@@ -209,13 +212,13 @@ impl Blocks {
         }
     }
 
-    /// Voxels with a direction.
+    /// Number of voxels with a direction.
     pub(super) fn made(&self) -> u64 {
         let has = |slot: &&Slot| ![UNKNOWN, NONE].contains(&slot.first());
         self.kept().map(|block| block.iter().take(VOXELS).filter(has).count() as u64).sum()
     }
 
-    /// Bytes of the blocks that were made.
+    /// Size of the allocated blocks in bytes.
     pub(super) fn bytes(&self) -> u64 {
         self.kept().map(|block| size_of_val(block) as u64).sum()
     }

@@ -1,28 +1,29 @@
-//! The mean of lines ([HATCH-4]).
+//! The mean of lines, that is of directions without sign ([HATCH-4]).
 
 use drypoint_scene::glam::DVec3;
 
-/// The least difference of the two largest eigenvalues of a mean of e eᵀ, whose sum is 1: below it the corners agree on a
-/// plane at best.
+/// The least difference of the two largest eigenvalues of a mean of e eᵀ, whose sum is 1. Below it, the corners agree
+/// on a plane at best.
 const GAP: f64 = 0.2;
 
 /// The share of the weight that corners with a direction must exceed.
 const HALF: f64 = 0.5;
 
-/// Steps of Halley's method; each is shorter than the one before, and two are enough where there is a gap.
+/// Number of steps of Halley's method. Each is shorter than the one before, and two are enough if the eigenvalues
+/// have a gap.
 const STEPS: u32 = 24;
 
-/// A step after which the next is rounding: where there is a gap, the next is 75 times its third power at most.
+/// Length of a step after which the next one is rounding. With a gap, the next is at most 75 times its third power.
 const LAST: f64 = 1e-6;
 
-/// A sum of directions with weights, of 1 in all.
+/// A weighted sum of directions; the full weight is 1.
 #[derive(Clone, Debug)]
 pub(super) struct Mean {
     weight: f64,
-    /// The direction that signs are chosen by; none: e eᵀ is summed.
+    /// The direction by which signs are chosen. Without it, the tensor e eᵀ is summed.
     like: Option<DVec3>,
     vector: DVec3,
-    /// Σ w e eᵀ: xx, yy, zz, and yz, xz, xy.
+    /// The tensor Σ w e eᵀ: xx, yy, zz, and yz, xz, xy.
     tensor: [DVec3; 2],
 }
 
@@ -43,7 +44,7 @@ impl Mean {
         }
     }
 
-    /// Adds directions with their weights, in their order, of those corners whose bits are set.
+    /// Adds the directions of the corners whose bits are set, with their weights and in their order.
     #[inline]
     pub(super) fn add_all(&mut self, has: u8, corners: &[DVec3; 8], weights: &[f64; 8]) {
         let mut sum = self.clone();
@@ -53,12 +54,12 @@ impl Mean {
         *self = sum;
     }
 
-    /// What was added.
+    /// The sum of the added weights.
     pub(super) fn weight(&self) -> f64 {
         self.weight
     }
 
-    /// The direction, of length 1; none where half the weight is missing, and where what was added has none.
+    /// The mean direction, of length 1. Returns none if half the weight is missing or if the directions disagree.
     pub(super) fn direction(&self) -> Option<DVec3> {
         if self.weight <= HALF {
             return None;
@@ -73,12 +74,12 @@ impl Mean {
     }
 }
 
-/// The eigenvector of the largest eigenvalue of a matrix T without negative eigenvalues: `d` its diagonal, `o` the entries yz,
-/// xz, xy. None where the next eigenvalue is nearer than the gap times their sum t.
+/// The eigenvector of the largest eigenvalue of a matrix T without negative eigenvalues. `d` is the diagonal, `o`
+/// holds the entries yz, xz, xy. Returns none if the next eigenvalue is nearer than the gap times the trace t.
 ///
-/// The roots of the characteristic polynomial λ³ − tλ² + mλ − det are not negative, and the two smaller ones have the sum t − λ
-/// and so squares of (t − λ)²/2 at least, of t² − 2m in all: λ is (t + √(4t² − 12m))/3 at most. From there Halley's method
-/// comes down to it. There the adjugate of T − λI is a multiple of v vᵀ.
+/// The roots of the characteristic polynomial λ³ − tλ² + mλ − det are not negative. The two smaller ones have the sum
+/// t − λ, so their squares sum to at least (t − λ)²/2. All squares sum to t² − 2m. Hence λ is at most (t + √(4t² −
+/// 12m))/3. Halley's method descends from there. The adjugate of T − λI is then a multiple of v vᵀ.
 #[inline]
 fn dominant(d: DVec3, o: DVec3) -> Option<DVec3> {
     const THIRD: f64 = 1.0 / 3.0;
@@ -98,7 +99,7 @@ fn dominant(d: DVec3, o: DVec3) -> Option<DVec3> {
             break;
         }
     }
-    // The other two have the sum s and the product m − λs.
+    // The other two eigenvalues have the sum s and the product m − λs.
     let s = t - largest;
     let other = 0.5 * s + (0.25 * s * s - (m - largest * s)).max(0.0).sqrt();
     if largest - other < GAP * t {
@@ -135,8 +136,8 @@ mod tests {
         mean
     }
 
-    /// λ₁(1, v) + λ₂(…) of an orthonormal frame, by the entries: the eigenvector within rounding over the gap, and none below
-    /// a gap of 0.2.
+    /// A tensor with the eigenvalues λ₁, λ₂, λ₃ of an orthonormal frame. The eigenvector is exact to rounding divided
+    /// by the gap; below a gap of 0.2 there is none.
     #[test]
     fn the_dominant_eigenvector_is_that_of_the_frame() {
         let mut given = 0;
@@ -166,8 +167,8 @@ mod tests {
         assert!(given > 12_000, "{given}");
     }
 
-    /// Worked by hand: two lines at ±45° from x with the same weight have the mean diag(½, ½, 0), and none; at ±30°
-    /// diag(¾, ¼, 0), and x.
+    /// Worked by hand. Two lines at ±45° from x with equal weights have the mean diag(½, ½, 0) and no direction. At
+    /// ±30° the mean is diag(¾, ¼, 0), and the direction is x.
     #[test]
     fn lines_by_hand() {
         let at = |degrees: f64| DVec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0);
@@ -184,7 +185,7 @@ mod tests {
         assert!((flipped.direction().unwrap() - DVec3::X).length() < 1e-15);
     }
 
-    /// No sign of what is added changes a bit.
+    /// The signs of the added directions do not change a bit.
     #[test]
     fn signs_do_not_show() {
         for i in 0..1000 {

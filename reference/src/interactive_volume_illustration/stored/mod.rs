@@ -1,7 +1,7 @@
 //! Principal directions stored at voxels (3.1, 4.2; [HATCH-4], [HATCH-5]).
 //!
-//! A direction is made when a place near its voxel is asked for, or before, for the whole grid. It depends on the voxel
-//! alone, so that it does not matter when, in which order and by which thread.
+//! A direction is computed at the first query near its voxel, or in advance for the whole grid. It depends on the
+//! voxel alone, so that the time, the order and the thread do not matter.
 
 mod blocks;
 mod mean;
@@ -16,22 +16,22 @@ use blocks::{Blocks, CORNERS};
 use drypoint_scene::glam::DVec3;
 use mean::Mean;
 
-/// What stored directions make between voxels ([HATCH-4]).
+/// Interpolation of stored directions between voxels ([HATCH-4]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Between {
     /// The dominant eigenvector of the trilinear mean of e eᵀ.
     Tensor,
-    /// The trilinear mean of directions, each turned to the current one: the paper's. Without a current one, at a seed, the
-    /// tensor's.
+    /// The trilinear mean of directions, each turned to the current one: the paper's method. At a seed there is no
+    /// current direction, and `Tensor` is used.
     Flipped,
 }
 
-/// How directions are stored.
+/// Parameters of the storage of directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Storing {
-    /// What they make between voxels.
+    /// Interpolation between voxels.
     pub between: Between,
-    /// Whether those of the whole grid are made before the first is asked for.
+    /// Whether the directions of the whole grid are computed before the first query.
     pub all: bool,
 }
 
@@ -43,15 +43,15 @@ pub(super) struct Stored {
     blocks: Blocks,
 }
 
-/// What was read of the cell that a stroke was in last: lines at its corners, as far as they were asked for.
+/// Cached lines at the corners of the cell in which a stroke was last.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     cell: [usize; 3],
     /// A bit for each corner that was read.
     read: u8,
-    /// Which of those have one.
+    /// A bit for each corner that was read and has a direction.
     has: u8,
-    /// 0 where there is none.
+    /// Directions at the corners; 0 if there is none.
     corners: [DVec3; 8],
 }
 
@@ -67,7 +67,7 @@ impl Near {
     }
 }
 
-/// What the directions of voxels are made from.
+/// The inputs from which the directions of voxels are computed.
 pub(super) struct Source<'a, 'f, 'v> {
     pub(super) ground: &'a dyn Ground,
     pub(super) directions: &'a Directions<'f, 'v>,
@@ -75,24 +75,24 @@ pub(super) struct Source<'a, 'f, 'v> {
 
 impl Source<'_, '_, '_> {
     fn at(&self, voxel: [usize; 3]) -> Option<Curvature<f64>> {
-        // Why there is none is not kept.
+        // The cause of a missing direction is not stored.
         self.directions.at_voxel(self.ground, voxel, &mut Scales::default()).ok()
     }
 }
 
 impl Stored {
-    /// Nothing is made yet.
+    /// An empty storage.
     pub(super) fn new(ground: &dyn Ground, between: Between) -> Self {
         let dims = ground.grid().dims();
         Self { between, dims, blocks: Blocks::new(dims) }
     }
 
-    /// Makes all that there are, in parallel.
+    /// Computes the directions of all voxels, in parallel.
     pub(super) fn fill(&self, source: &Source<'_, '_, '_>) {
         self.blocks.fill(|voxels| source.directions.of_voxels(source.ground, voxels));
     }
 
-    /// As [`fill`](Self::fill), with signs at random.
+    /// Like [`fill`](Self::fill), with random signs.
     #[cfg(test)]
     pub(super) fn turn_signs(&self, source: &Source<'_, '_, '_>) {
         let turned = |voxel: [usize; 3], draw: u32, e: Vec3<f64>| {
@@ -103,25 +103,25 @@ impl Stored {
         self.blocks.fill(|_| make);
     }
 
-    /// Voxels with a stored direction.
+    /// Number of voxels with a stored direction.
     pub(super) fn made(&self) -> u64 {
         self.blocks.made()
     }
 
-    /// Bytes of what is stored.
+    /// Size of the stored directions in bytes.
     pub(super) fn bytes(&self) -> u64 {
         self.blocks.bytes()
     }
 
-    /// Those of a voxel.
+    /// Curvatures and directions at a voxel.
     pub(super) fn voxel(&self, source: &Source<'_, '_, '_>, voxel: [usize; 3]) -> Option<Curvature<f64>> {
         self.blocks.get(voxel, || source.at(voxel))
     }
 
-    /// The weights of a cell's corners.
+    /// Trilinear weights of a cell's corners.
     #[inline]
     fn weights(&self, cell: [usize; 3], index: Vec3<f64>) -> [f64; 8] {
-        // Along an axis of one voxel nothing changes.
+        // Values are constant along an axis of one voxel.
         let up = |a: usize, x: f64| if self.dims[a] == 1 { 0.0 } else { x - cell[a] as f64 };
         let (x, y, z) = (up(0, index.x), up(1, index.y), up(2, index.z));
         let (x, y, z) = ([1.0 - x, x], [1.0 - y, y], [1.0 - z, z]);
@@ -129,8 +129,8 @@ impl Stored {
         [a * z[0], b * z[0], c * z[0], d * z[0], a * z[1], b * z[1], c * z[1], d * z[1]]
     }
 
-    /// The direction of a family at a place in index space, of length 1 and with either sign. `like` is the current one, `near`
-    /// has what was read of the cell by whoever asks for this family.
+    /// The direction of a family at a place in index space, of length 1 and with either sign. `like` is the current
+    /// direction. `near` caches the cell's corners for the caller and the family.
     pub(super) fn line(
         &self,
         source: &Source<'_, '_, '_>,
@@ -146,7 +146,7 @@ impl Stored {
             *near = Near::of(cell);
         }
         let weights = self.weights(cell, index);
-        // Corners without a weight are not made.
+        // Corners with weight 0 are not computed.
         let new = weights.iter().enumerate().fold(0, |new, (i, w)| new | u8::from(*w > 0.0) << i) & !near.read;
         if new != 0 {
             near.read |= new;

@@ -76,7 +76,7 @@ fn cube(n: usize) -> Grid {
     Grid::with_spacing([n; 3], [1.0; 3]).unwrap()
 }
 
-/// A phantom itself, without voxels.
+/// A phantom's formula, without voxels.
 fn exact(
     name: &str,
     grid: Grid,
@@ -106,7 +106,7 @@ fn seed_at(strokes: &Strokes<'_, '_>, world: DVec3) -> Seed {
     strokes.seed([0; 3], world, target, &mut HatchCounts::default()).unwrap()
 }
 
-/// Cells whose corners' values lie on both sides of a value.
+/// Cells whose corners have values on both sides of a value.
 fn active(volume: &Volume, iso: f64) -> Vec<[usize; 3]> {
     let [nx, ny, nz] = volume.dims();
     let cells = (0..nz - 1).flat_map(|z| (0..ny - 1).flat_map(move |y| (0..nx - 1).map(move |x| [x, y, z])));

@@ -18,7 +18,7 @@ fn torus(voxels: VoxelType, spacing: [f64; 3], dims: [usize; 3]) -> Volume {
     sampled("torus", grid, voxels, &[("R", 11.0), ("r", 6.0), ("w", 1.5), ("high", 255.0)])
 }
 
-/// 64 places along every segment in front of the surface, as the trilinear values have it.
+/// Tests 64 places along every segment: they lie in front of the trilinear surface.
 fn assert_in_front(field: &Field<'_, f64>, iso: f64, stroke: &Stroke) {
     let grid = field.volume().grid();
     let places: Vec<DVec3> = stroke.vertices.iter().map(|v| v.world).collect();
@@ -38,8 +38,8 @@ fn assert_in_front(field: &Field<'_, f64>, iso: f64, stroke: &Stroke) {
     }
 }
 
-/// Seeds and rejections are the cells; strokes lie in front, run from 0 to 1 in u, within their length, and on the torus: so
-/// far outside of it as δ and a chord say.
+/// Seeds and rejections add up to the cells. Strokes lie in front, u runs from 0 to 1, and lengths are within the
+/// limit. On the torus, strokes lie outside by δ and a chord's error.
 #[test]
 fn on_a_torus_of_eight_bits() {
     for (spacing, dims) in [([1.0; 3], [40, 40, 18]), ([1.0, 0.5, 2.0], [40, 80, 9])] {
@@ -60,7 +60,8 @@ fn on_a_torus_of_eight_bits() {
             assert!(seed.target < iso);
             assert_in_front(&field, iso, stroke);
             let length: f64 = stroke.vertices.windows(2).map(|v| v[0].world.distance(v[1].world)).sum();
-            // Vertices are put onto the surface, across the tangent planes of the estimated gradients: cos 11° at the most.
+            // Vertices are moved onto the surface, across the tangent planes of estimated gradients; the angle is at
+            // most 11°.
             assert!(length <= how.length * 1.02, "{length}");
             assert_eq!(stroke.vertices[0].u, 0.0);
             assert!(stroke.vertices.windows(2).all(|v| v[0].u < v[1].u));
@@ -71,12 +72,12 @@ fn on_a_torus_of_eight_bits() {
                 worst = worst.max(off.abs());
             }
         }
-        // δ, c, and half of the spacing that the surface lies between.
+        // δ, c, and half of the spacing between whose voxels the surface lies.
         assert!(worst <= 0.15 + 0.1 + 0.5 * spacing[2], "{worst}");
     }
 }
 
-/// The same strokes whatever the threads, and whatever was grown before.
+/// Strokes do not depend on the number of threads, nor on what was grown before.
 #[test]
 fn threads_and_order_do_not_show() {
     let volume = torus(VoxelType::U8, [1.0; 3], [40, 40, 18]);
@@ -96,7 +97,7 @@ fn threads_and_order_do_not_show() {
     assert!(back.strokes.iter().rev().eq(&one.strokes));
 }
 
-/// Values times 2ᵏ: the same bits. The world times 10^±6 with all lengths: the same strokes.
+/// Values times 2ᵏ give the same bits. The world times 10^±6, with all lengths, gives the same strokes.
 #[test]
 fn units_do_not_show() {
     let volume = torus(VoxelType::F64, [1.0, 0.5, 2.0], [40, 80, 9]);
@@ -129,7 +130,7 @@ fn units_do_not_show() {
     }
 }
 
-/// Both ways from the seeds of cells, with the directions that were asked for and those of each σ.
+/// Both halves from the seeds of cells, with the number of directions, in all and for each σ.
 fn traced(
     field: &Field<'_, f64>,
     cells: &[[usize; 3]],
@@ -166,7 +167,7 @@ fn traced(
     (halves, asked, counts.scales.given)
 }
 
-/// Where a curve is after an arc; none beyond its end.
+/// The place after an arc on a half. Returns none beyond its end.
 fn after(half: &Half<NoDirection>, arc: f64) -> Option<DVec3> {
     let mut before = 0.0;
     for piece in &half.pieces {
@@ -179,8 +180,8 @@ fn after(half: &Half<NoDirection>, arc: f64) -> Option<DVec3> {
     None
 }
 
-/// Against its own finest solution a stroke is, all along it, within ten times its tolerance, although the field has kinks at
-/// the faces of cells and jumps where σ changes; and the cost is of fourth order: 100^¼ = 3.2 times the directions for a
+/// A stroke is within ten times its tolerance of its own finest solution, all along it. The field has kinks at the
+/// faces of cells and jumps where σ changes. The cost is of fourth order: 100^¼ = 3.2 times the directions for a
 /// hundredth of the tolerance, once steps are shorter than cells.
 #[test]
 fn errors_follow_the_tolerance_between_voxels() {

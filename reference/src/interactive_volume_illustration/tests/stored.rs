@@ -1,4 +1,5 @@
-//! Stored directions against those that are computed everywhere, and what must not show in them ([HATCH-4], [HATCH-5]).
+//! Stored directions against directions computed at every place, and invariances of the storage ([HATCH-4],
+//! [HATCH-5]).
 
 use super::super::stored::{Between, Storing};
 use super::super::{Family, Hatching, NoDirection, Pyramid, Rule, Scales, SeedRule, Strokes};
@@ -17,8 +18,8 @@ fn raw(grid: &Grid, stored: Option<Storing>) -> Hatching {
     Hatching { rule: Rule::Raw, stored, ..Hatching::new(grid) }
 }
 
-/// The root mean square angle between stored and computed directions of both families, at places on a torus, with voxels of an
-/// edge of 1/`n`.
+/// The root mean square angle between stored and computed directions of both families, at places on a torus, with a
+/// voxel size of 1/`n`.
 fn off_on_torus(n: usize) -> f64 {
     let grid = Grid::with_spacing([40 * n, 40 * n, 24 * n], [1.0 / n as f64; 3]).unwrap();
     let ground = exact("torus", grid, &[("R", 11.0), ("r", 6.0)]);
@@ -41,7 +42,7 @@ fn off_on_torus(n: usize) -> f64 {
     (sum / f64::from(places)).sqrt()
 }
 
-/// Linear interpolation: halving the voxels' edge leaves a quarter of the error, within a tenth.
+/// Linear interpolation: halving the voxel size leaves a quarter of the error, within a tenth.
 #[test]
 fn between_voxels_the_error_is_of_second_order() {
     let off = [1, 2, 4].map(off_on_torus);
@@ -53,8 +54,8 @@ fn between_voxels_the_error_is_of_second_order() {
     assert!(off[0] < 3.0 / 8.0 / 25.0, "{off:?}");
 }
 
-/// Around a cylinder directions turn by 1/R: e eᵀ at an angle ±φ/2 to either side has its dominant eigenvector between them,
-/// at the middle exactly; along it all corners agree.
+/// Directions turn by 1/R around a cylinder. The tensors e eᵀ at angles of ±φ/2 have their dominant eigenvector in
+/// the middle, exactly. Along the cylinder all corners agree.
 #[test]
 fn rulings_of_a_cylinder_are_exact() {
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
@@ -77,8 +78,8 @@ fn torus(voxels: VoxelType) -> Volume {
     sampled("torus", cube(40), voxels, &[("R", 11.0), ("r", 6.0), ("w", 1.5), ("high", 255.0)])
 }
 
-/// Strokes and their counts do not depend on when directions are made, nor on the threads that make them; how many are made
-/// does, and it is the same whatever the threads.
+/// Strokes and their counts do not depend on when, or by how many threads, directions are computed. The number of
+/// computed directions depends on when, but not on the threads.
 #[test]
 fn when_directions_are_made_does_not_show() {
     for (voxels, rule) in [(VoxelType::U8, Rule::Scaled(Default::default())), (VoxelType::F64, Rule::Raw)] {
@@ -114,7 +115,7 @@ fn when_directions_are_made_does_not_show() {
     }
 }
 
-/// The pyramid knows curvatures where the directions of all voxels are made; seeds are the same.
+/// The pyramid knows curvatures if the directions of all voxels are computed. Seeds are the same.
 #[test]
 fn seeds_do_not_depend_on_what_the_pyramid_knows() {
     let volume = torus(VoxelType::U8);
@@ -135,7 +136,7 @@ fn seeds_do_not_depend_on_what_the_pyramid_knows() {
     }
 }
 
-/// A ground whose Hessian is the other's, and whose directions therefore are: but each voxel's own sign is turned at random.
+/// The signs of stored directions, turned at random at each voxel, do not change the strokes.
 #[test]
 fn signs_of_stored_directions_do_not_show() {
     let ground = exact("torus", cube(40), &[("R", 11.0), ("r", 6.0)]);
@@ -154,11 +155,11 @@ fn signs_of_stored_directions_do_not_show() {
         assert_eq!((seed, stroke), (other, turned));
     }
     assert_eq!(one.counts, grown(TENSOR, true).counts);
-    // The paper's corners have a sign again that is theirs.
+    // The corners of the paper's method have a sign of their own again.
     assert_eq!(grown(FLIPPED, false), grown(FLIPPED, true));
 }
 
-/// 2ᵏ times the values: the same bits.
+/// Values times 2ᵏ give the same bits.
 #[test]
 fn powers_of_two_do_not_show() {
     let volume = torus(VoxelType::F64);
@@ -180,7 +181,7 @@ fn powers_of_two_do_not_show() {
     }
 }
 
-/// Of a sphere there is nothing to store, and no stroke; half the corners without a direction are too many.
+/// A sphere stores no direction and has no stroke. Half the corners without a direction are too many.
 #[test]
 fn where_no_voxel_has_a_direction_there_is_none() {
     let volume = sampled("sphere", cube(40), VoxelType::U8, &[("R", 12.3), ("w", 2.0), ("high", 255.0)]);
@@ -194,8 +195,8 @@ fn where_no_voxel_has_a_direction_there_is_none() {
     assert!(grown.counts.scales.missing >= grown.counts.rejected.no_direction);
 }
 
-/// Away from umbilics strokes of stored directions are those of computed ones to the error of interpolation: on a torus of
-/// radii 11 and 6, after an arc of 15, some hundredths of a voxel.
+/// Away from umbilics, strokes of stored and of computed directions agree to the error of interpolation. On a torus
+/// of radii 11 and 6, after an arc of 15, the error is some hundredths of a voxel.
 #[test]
 fn strokes_are_near_those_of_computed_directions() {
     let ground = exact("torus", cube(40), &[("R", 11.0), ("r", 6.0)]);
@@ -218,7 +219,7 @@ fn strokes_are_near_those_of_computed_directions() {
     }
 }
 
-/// Without voxels with a direction around it a place has none, and says so.
+/// A place has no direction if no voxel around it has one, and this is counted.
 #[test]
 fn a_plane_has_no_direction_between_its_voxels() {
     let ground = exact("plane", cube(16), &[("nx", 1.0), ("ny", 2.0), ("nz", 3.0)]);

@@ -2,7 +2,7 @@ use super::*;
 use drypoint_scene::glam::DQuat;
 use std::f64::consts::{PI, TAU};
 
-/// A field by a formula, whose sign jumps from place to place as no tracer must notice.
+/// A field by a formula. Its sign jumps from place to place, which no tracer may notice.
 struct Formula<F>(F);
 
 impl<F: Fn(DVec3) -> DVec3> Lines for Formula<F> {
@@ -33,7 +33,7 @@ fn end<C>(half: &Half<C>) -> DVec3 {
     half.pieces[half.pieces.len() - 1].ends[1]
 }
 
-/// Along x up to 7.3, then aslant; it says which of both it was asked for last, or keeps it to itself.
+/// A field along x up to 7.3, then aslant. It tells or hides which of both it was asked for last.
 struct Bent {
     beyond: bool,
     says: bool,
@@ -52,8 +52,8 @@ impl Lines for Bent {
     }
 }
 
-/// A step of h across a jump of size j errs by hj/3 at the most, as k₁ … k₄ weigh ⅙, ⅓, ⅓, ⅙; it is taken where hj/6 is within
-/// the tolerance. Where k₄ and k₅ agree beyond the jump, nothing else would show it.
+/// A step of h across a jump of size j errs by at most hj/3, since k₁ … k₄ weigh ⅙, ⅓, ⅓, ⅙. The step is accepted if
+/// hj/6 is within the tolerance. If k₄ and k₅ agree beyond the jump, nothing else would show the error.
 #[test]
 fn steps_narrow_down_to_where_the_formula_changes() {
     let end_of = |says: bool, tolerance: f64, first: f64| {
@@ -103,7 +103,7 @@ fn the_error_is_that_of_the_tolerance_and_of_fourth_order() {
     }
 }
 
-/// Between the ends the cubic leaves the circle by h⁴/(384 r³), and as much again for what its ends err.
+/// The cubic leaves the circle between the ends by h⁴/(384 r³), and as much again for the error of its ends.
 #[test]
 fn between_the_steps_it_is_as_exact() {
     let half = trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &control(1e-6, 40.0));
@@ -116,7 +116,7 @@ fn between_the_steps_it_is_as_exact() {
     }
 }
 
-/// The other way round the same curve, mirrored: a helix turned by 180° about x is itself.
+/// The other half of the curve is its mirror image: a helix turned by 180° about x is itself.
 #[test]
 fn both_ways_are_the_same() {
     let along = DVec3::new(0.0, 10.0, 3.0) / 109f64.sqrt();
@@ -127,7 +127,7 @@ fn both_ways_are_the_same() {
     }
 }
 
-/// A circle is joined where it began, and a spiral that misses its beginning by more than is allowed is not.
+/// A circle closes at its beginning. A spiral that misses its beginning by more than the allowed distance does not.
 #[test]
 fn a_ring_closes_and_a_spiral_does_not() {
     let goal = |along| Some(Goal { at: DVec3::X * 20.0, along, within: 0.25, after: 1.0 });
@@ -142,7 +142,7 @@ fn a_ring_closes_and_a_spiral_does_not() {
     assert_eq!(trace(&mut Formula(spiral), DVec3::X * 20.0, along, &closing).end, End::Length);
 }
 
-/// A goal just ahead is there at once, where the curve need not come back, and one just behind is not.
+/// A goal just ahead is reached at once if the curve need not come back. A goal just behind is not.
 #[test]
 fn a_goal_can_be_near() {
     for ahead in [0.3, 0.6, 1.4, 3.0] {
@@ -168,7 +168,7 @@ fn it_ends_at_the_largest_angle() {
     assert!((half.length - 5.0 * PI).abs() < 1e-3, "{}", half.length);
 }
 
-/// The angle is asked between the steps, too: of a circle that goes round, steps of 32° pass a window of 20°.
+/// The angle is tested between the steps, too. On a circle, steps of 32° pass a window of 20°.
 #[test]
 fn no_step_jumps_over_the_largest_angle() {
     for degrees in [150.0f64, 170.0, 179.0, 179.9] {
@@ -198,7 +198,7 @@ fn no_step_turns_by_more_than_sixty_degrees() {
     }
 }
 
-/// Where the field ends the curve ends, the smallest step before it.
+/// The curve ends where the field ends, the smallest step before it.
 #[test]
 fn it_goes_up_to_the_border_of_the_field() {
     let inside = |x: DVec3| if x.x < 7.3 { DVec3::X } else { DVec3::ZERO };
@@ -209,7 +209,7 @@ fn it_goes_up_to_the_border_of_the_field() {
     assert!(half.pieces.iter().all(|piece| piece.tangents[0].x <= 2.0));
 }
 
-/// A kink by less than 60° is gone round in small steps; one by more ends the curve.
+/// A kink of less than 60° is passed in small steps; a larger one ends the curve.
 #[test]
 fn a_kink_ends_it() {
     let kink = |degrees: f64| {
@@ -224,7 +224,7 @@ fn a_kink_ends_it() {
     assert!((end(&turned).x - 5.0).abs() < 2e-3);
 }
 
-/// A curve on the unit sphere along a field that leads off it stays on it, and asks once more for each step.
+/// A curve on the unit sphere stays there although its field leads off it. Each step costs one more evaluation.
 #[test]
 fn a_step_that_comes_off_is_put_back() {
     struct Climbing;
