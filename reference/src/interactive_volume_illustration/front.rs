@@ -137,8 +137,8 @@ impl Strokes<'_, '_> {
             return false;
         }
         let outside = ground.outside();
-        // Signed distance in front, as f − target. The clamp keeps rounding from leading out of the volume along its
-        // border.
+        // ±(f − iso), at least 0 in front of the surface. The clamp keeps rounding from leading out of the volume along
+        // its border.
         let over = |s: f64| {
             let at = Vec3::from_glam((from + (to - from) * s).clamp(lo, hi));
             match outside {

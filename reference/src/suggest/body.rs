@@ -1,42 +1,44 @@
-//! The content of a volume as runs of voxels: what a camera frames and on what a thing stands.
+//! The content of a volume as runs of voxels, which a camera frames and on which an object stands.
 
 use drypoint_scene::tables::Outside;
 use drypoint_scene::volume::{Access, Volume, Voxel};
 use drypoint_scene::with_access;
 use rayon::prelude::*;
 
-/// Connected parts with less than this share of the largest part's solid voxels are not framed: specks, head rests.
+/// Connected parts with less than this share of the largest part's solid voxels are not framed, such as specks and
+/// head rests.
 const PART: f64 = 0.01;
 
-/// Which values are the content's.
+/// The range of values that are content.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Inside {
-    /// The last value that is, on the way outwards.
+    /// The last value of the content, on the way outwards.
     pub value: f64,
-    /// Which values lie outside.
+    /// The side on which values are outside.
     pub outside: Outside,
 }
 
 impl Inside {
-    /// How far inside a value lies, below 0 how far outside: half of it, since the whole can be beyond all numbers.
+    /// Half the depth of a value inside the content, negative outside. It is halved because the whole difference may
+    /// overflow.
     pub(super) fn depth(self, value: f64) -> f64 {
         let above = 0.5 * value - 0.5 * self.value;
         if self.outside == Outside::Low { above } else { -above }
     }
 }
 
-/// Voxels from `first` to `last` along x.
+/// A run of voxels from `first` to `last` along x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Run {
     pub first: usize,
     pub last: usize,
     pub y: usize,
     pub z: usize,
-    /// Voxels all of whose six neighbours belong to the content, and a little for the others.
+    /// Number of voxels all of whose six neighbours are content, and a little for the other voxels.
     solid: f64,
 }
 
-/// The voxels that lie inside, without small parts.
+/// The content's voxels, without small parts.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     dims: [usize; 3],
@@ -44,7 +46,7 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// The content of a volume. Everything, where nothing lies inside.
+    /// Finds the content of a volume. If no value is inside, everything is content.
     pub(super) fn of(volume: &Volume, inside: Inside) -> Self {
         let dims = volume.dims();
         let rows = with_access!(volume, |a| runs(volume, a, inside));
@@ -57,12 +59,12 @@ impl Body {
         Self { dims, runs }
     }
 
-    /// Its voxels.
+    /// The runs of voxels.
     pub(super) fn runs(&self) -> &[Run] {
         &self.runs
     }
 
-    /// Voxels of the content in each slice across an axis.
+    /// Number of the content's voxels in each slice across an axis.
     pub(super) fn slices(&self, axis: usize) -> Vec<f64> {
         let mut slices = vec![0.0; self.dims[axis]];
         for run in &self.runs {
@@ -81,7 +83,7 @@ fn runs<A: Access>(volume: &Volume, a: A, inside: Inside) -> Vec<Vec<Run>> {
     let [nx, ny, nz] = a.dims();
     let (slope, intercept) = (volume.slope(), volume.intercept());
     let shown = |x: usize, y: usize, z: usize| inside.depth(slope * a.at(x, y, z).to_f64() + intercept) >= 0.0;
-    // What lies beyond the box counts as content: a cut is no surface.
+    // Voxels beyond the box count as content: a cut is not a surface.
     let solid = |x: usize, y: usize, z: usize| {
         (y == 0 || shown(x, y - 1, z))
             && (y + 1 == ny || shown(x, y + 1, z))
@@ -103,7 +105,7 @@ fn runs<A: Access>(volume: &Volume, a: A, inside: Inside) -> Vec<Vec<Run>> {
                 let inner =
                     if run.first == 0 { 0 } else { run.first + 1 }..if run.last + 1 == nx { nx } else { run.last };
                 let whole = inner.filter(|&x| solid(x, y, z)).count();
-                // Thin parts have no solid voxel; among themselves their length counts.
+                // Thin parts have no solid voxels. Their length decides among them.
                 run.solid = whole as f64 + 1e-3 * (run.last - run.first + 1) as f64;
             }
             runs
@@ -111,7 +113,8 @@ fn runs<A: Access>(volume: &Volume, a: A, inside: Inside) -> Vec<Vec<Run>> {
         .collect()
 }
 
-/// The runs of connected parts that are not small beside the largest. Voxels that share a corner are connected.
+/// The runs of connected parts that are not small compared with the largest. Voxels that share a corner are
+/// connected.
 fn large_parts(rows: &[Vec<Run>], [_, ny, nz]: [usize; 3]) -> Vec<Run> {
     let all: Vec<Run> = rows.iter().flatten().copied().collect();
     let mut starts = Vec::with_capacity(rows.len() + 1);

@@ -6,25 +6,25 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::volume::Volume;
 
-/// Share of the shorter side of the picture that the content takes.
+/// Share of the picture's shorter side that the content takes.
 const FILL: f64 = 0.86;
 
-/// Where a camera stands and what it looks at.
+/// The position and the field of view of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fit {
     pub eye: DVec3,
     pub target: DVec3,
-    /// World units from top to bottom of the picture, at the target.
+    /// Height of the picture at the target, in world units.
     pub height: f64,
-    /// World units that the content takes across the picture.
+    /// Extent of the content across the picture, in world units.
     pub extent: f64,
 }
 
-/// The nearest perspective camera in a direction from which all content, with what is `seen` around it, projects into the
-/// frame's middle, as [`FILL`] says, and is centred there.
+/// Finds the nearest perspective camera in a direction that frames and centres all content, and the surface `seen`
+/// around it. The content fills the share [`FILL`] of the frame.
 ///
-/// With the content's points at (x, y) across and z along the view, |x − a| ≤ t(d + z) for the half width t of the frame
-/// at depth 1 asks for d ≥ (x − a)/t − z and d ≥ (a − x)/t − z: the best a balances the two maxima.
+/// Let the content's points be at (x, y) across and z along the view, and t the half width of the frame at depth 1.
+/// Then |x − a| ≤ t(d + z) requires d ≥ (x − a)/t − z and d ≥ (a − x)/t − z. The best a balances the two maxima.
 pub(super) fn fit(
     volume: &Volume,
     body: &Body,
@@ -40,14 +40,14 @@ pub(super) fn fit(
     let up = right.cross(forward);
     let [width, height] = size.map(|n| n as f64);
     let tan = math::tan(fov.to_radians() / 2.0);
-    // Both directions to the same share of the shorter side.
+    // Both directions are limited to the same share of the shorter side.
     let t = FILL * tan * (width / height).min(1.0);
     let across = [right / t, -right / t, up / t, -up / t].map(|sideways| sideways - forward);
     let most = reach(volume, body, seen, across);
     let [towards, away] = reach(volume, body, seen, [-forward, forward]);
     let distance = ((most[0] + most[1]) / 2.0).max((most[2] + most[3]) / 2.0);
     let (a, b) = (t * (most[0] - most[1]) / 2.0, t * (most[2] - most[3]) / 2.0);
-    // The eye lies at depth −distance; never inside the content, nor as near as what is seen is thin.
+    // The eye lies at depth −distance. It stays outside the content, with a margin for a thin surface.
     let margin = (towards + away).clamp(0.05 * grid.voxel(), grid.voxel());
     let depth = (-distance).min(-towards - margin);
     let eye = right * a + up * b + forward * depth;

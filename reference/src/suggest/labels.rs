@@ -1,16 +1,16 @@
-//! Telling a volume of labels from a scan or a simulation.
+//! Distinction of label volumes from scans and simulations.
 
 use drypoint_scene::volume::{Access, Volume, Voxel};
 use drypoint_scene::with_access;
 use rayon::prelude::*;
 
-/// Of the neighbours that both have an id, at least this share has the same one.
+/// Least share of neighbouring pairs of ids that are equal.
 const EQUAL: f64 = 0.7;
-/// Of the places in a row where something changes, at most this share passes a value between two others. Ids jump;
-/// what was measured or computed passes what is between.
+/// Largest share of the changes in a row that pass a value between two others. Ids jump; measured and computed values
+/// pass intermediate ones.
 const BETWEEN: f64 = 0.1;
 
-/// Whether the voxels are ids of parts: whole numbers, mostly equal to their neighbours, that jump where they change.
+/// Whether the voxels are ids of parts: integers, mostly equal to their neighbours, that jump where they change.
 pub(super) fn are_ids(volume: &Volume) -> bool {
     if !volume.voxels().voxel_type().is_integer() || volume.range()[1] <= 0.0 {
         return false;
@@ -23,10 +23,11 @@ pub(super) fn are_ids(volume: &Volume) -> bool {
 /// Counts over all rows along all axes.
 #[derive(Clone, Copy, Default)]
 struct Rows {
-    /// Neighbours neither of which is 0, and those that are equal.
+    /// Number of neighbouring pairs without 0, and number of equal ones.
     pairs: u64,
     equal: u64,
-    /// Three in a row of which a neighbour differs from a middle other than 0, and those that rise or fall throughout.
+    /// Number of triples in a row in which a neighbour differs from a middle other than 0, and number of monotonic
+    /// ones.
     changes: u64,
     between: u64,
 }
@@ -60,7 +61,7 @@ fn count<A: Access>(volume: &Volume, a: A) -> Rows {
         out.clear();
         out.extend((0..nx).map(|x| slope * a.at(x, y, z).to_f64() + intercept));
     };
-    // Sums of whole numbers: the order of the parts does not show.
+    // Sums of integers do not depend on the order of the parts.
     (0..nz)
         .into_par_iter()
         .map(|z| {

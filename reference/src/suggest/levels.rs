@@ -1,4 +1,4 @@
-//! What the voxels say about the surface at each value, in one pass over them.
+//! Statistics of the surface at each value, from one pass over the voxels.
 
 use drypoint_scene::math;
 use drypoint_scene::tables::Outside;
@@ -10,17 +10,18 @@ use rayon::prelude::*;
 /// The surface at one value. Lengths and areas are in voxels and their faces, differences in shares of the range.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Level {
-    /// Pairs of face neighbours that the value lies between.
+    /// Number of pairs of face neighbours with the value in between.
     pub area: f64,
-    /// Mean difference of these pairs: how much the values change in one voxel.
+    /// Mean difference of these pairs: the change of the values in one voxel.
     pub step: f64,
-    /// How much of the differences the voxels before and after each pair confirm: 1 at a clean boundary, 0 in noise.
+    /// Share of the differences that the voxels before and after each pair confirm: 1 at a clean boundary, 0 in
+    /// noise.
     pub agreement: f64,
-    /// Share of all voxels that lie inside.
+    /// Share of all voxels that are inside.
     pub inside: f64,
-    /// Share of the voxels on the faces of the box that lie inside: content that the box cuts.
+    /// Share of the voxels on the faces of the box that are inside: content that the box cuts.
     pub cut: f64,
-    /// Area of a surface that could hold the same volume, over this one's; a cube's is 1/6.
+    /// Area of a surface that could enclose the same volume, over this one's area; a cube's is 1/6.
     pub simplicity: f64,
 }
 
@@ -34,21 +35,21 @@ pub(super) struct Levels {
     levels: Vec<Level>,
 }
 
-/// Levels that are told apart.
+/// Number of levels.
 pub(super) const LEVELS: usize = 256;
 
-/// Increments at the bins where pairs begin and end: a pair costs the same however far it reaches.
+/// Increments at the bins where pairs begin and end, so that a pair costs the same for any distance.
 #[derive(Clone)]
 struct Sums {
-    /// Pairs, their differences, and what of these is confirmed.
+    /// Pairs, their differences, and the confirmed part of the differences.
     pairs: Vec<[f64; 3]>,
     voxels: Vec<f64>,
     on_faces: Vec<f64>,
 }
 
 impl Levels {
-    /// Counts the levels of a volume. For `outside` high the values are mirrored, so that what is inside is above.
-    /// None where all voxels have one value.
+    /// Counts the levels of a volume. If `outside` is high, values are mirrored, so that the inside is above. Returns
+    /// none if all voxels have one value.
     pub(super) fn of(volume: &Volume, outside: Outside) -> Option<Self> {
         let [lo, hi] = robust_range(volume);
         let per_half = 1.0 / half(lo, hi);
@@ -65,7 +66,7 @@ impl Levels {
         Some(Self { lo, hi, outside, voxels: volume.grid().len() as f64, levels: levels(&slices) })
     }
 
-    /// Level by level, from the outside inwards.
+    /// All levels, from the outside inwards.
     pub(super) fn all(&self) -> &[Level] {
         &self.levels
     }
@@ -82,18 +83,18 @@ impl Levels {
         if self.outside == Outside::Low { u } else { 1.0 - u }
     }
 
-    /// A share of the range in data values; the largest number, where the range is beyond all numbers.
+    /// Converts a share of the range to a difference of data values. An overflow gives the largest number.
     pub(super) fn difference(&self, share: f64) -> f64 {
         (2.0 * (share * half(self.lo, self.hi))).min(f64::MAX)
     }
 
-    /// The same surfaces seen from the other side: what was outside is inside.
+    /// Returns the surfaces as seen from the other side, with inside and outside exchanged.
     pub(super) fn mirrored(&self) -> Self {
         let outside = match self.outside {
             Outside::Low => Outside::High,
             Outside::High => Outside::Low,
         };
-        // Level b is the surface at the upper end of its bin; the last has nothing beyond it.
+        // Level b is the surface at the upper end of its bin. Nothing lies beyond the last level.
         let other_side = |level: &Level| {
             let inside = 1.0 - level.inside;
             if level.area < 0.5 {
@@ -111,12 +112,12 @@ impl Levels {
     }
 }
 
-/// Half of what lies between two values: the whole can be beyond all numbers.
+/// Half the difference of two values; the whole difference may overflow.
 fn half(from: f64, to: f64) -> f64 {
     0.5 * to - 0.5 * from
 }
 
-/// Area of a surface that could hold so many voxels, over another.
+/// Area of a surface that could enclose so many voxels, over another area.
 fn simplicity(inside: f64, area: f64) -> f64 {
     (math::pow(inside, 2.0 / 3.0) / area).min(1.0 / 6.0)
 }
@@ -125,7 +126,7 @@ fn bin(share: f64) -> usize {
     ((share * LEVELS as f64) as usize).min(LEVELS - 1)
 }
 
-/// The voxels of a slice across z: from the outside as shares of the range, and their bins.
+/// The voxels of a slice across z: shares of the range from the outside, and bins.
 struct Slice {
     shares: Vec<f64>,
     bins: Vec<u16>,
@@ -143,12 +144,12 @@ impl Slice {
     }
 }
 
-/// Slices that one thread takes in a row: each is read once for them, and three more.
+/// Number of consecutive slices for one thread, which reads three more.
 const THICKNESS: usize = 8;
 
 /// The sums of each slice.
 fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> Slice + Sync) -> Vec<Sums> {
-    // Four voxels in a row along an axis, the outer two repeated at the borders.
+    // Four voxels in a row along an axis; the border's voxel replaces those outside.
     let around = |i: usize, n: usize| [i.saturating_sub(1), i, i + 1, i + 2].map(|i| i.min(n - 1));
     let slice = &slice;
     let part = |part: usize| {
@@ -196,7 +197,7 @@ impl Sums {
     #[inline(always)]
     fn voxel(&mut self, bin: u16, place: [(usize, usize); 3]) {
         self.voxels[usize::from(bin)] += 1.0;
-        // A corner lies on three faces. An axis of one voxel has no faces to cut.
+        // A corner lies on three faces. An axis of one voxel has no faces that cut.
         let on_face = |(i, n): (usize, usize)| n > 1 && (i == 0 || i + 1 == n);
         let faces = place.into_iter().filter(|&p| on_face(p)).count();
         if faces > 0 {
@@ -204,7 +205,7 @@ impl Sums {
         }
     }
 
-    /// The pair in the middle of four voxels in a row, of which two are in these bins.
+    /// Adds the middle pair of four voxels in a row. p and q are the pair's bins.
     #[inline(always)]
     fn pair(&mut self, [p, q]: [u16; 2], shares: impl FnOnce() -> [f64; 4]) {
         if p != q {
@@ -222,7 +223,7 @@ impl Sums {
     }
 }
 
-/// Running sums over the bins, slice after slice so that the order of additions is fixed.
+/// Running sums over the bins, slice by slice, so that the order of additions is fixed.
 fn levels(slices: &[Sums]) -> Vec<Level> {
     let total = |column: &dyn Fn(&Sums) -> f64| slices.iter().map(column).sum::<f64>();
     let all = total(&|s| s.voxels.iter().sum());
@@ -238,7 +239,7 @@ fn levels(slices: &[Sums]) -> Vec<Level> {
             on_faces -= total(&|s| s.on_faces[b]);
             let [area, steps, confirmed] = pairs;
             if area < 0.5 {
-                // Sums of differences leave rounding behind; counts are exact.
+                // Sums of differences leave rounding errors; counts are exact.
                 return Level { inside: inside / all, ..Level::default() };
             }
             Level {
@@ -253,8 +254,8 @@ fn levels(slices: &[Sums]) -> Vec<Level> {
         .collect()
 }
 
-/// The volume's range, or the range of nearly all of its voxels where a few far ones would leave all others in the
-/// same levels.
+/// The volume's range, or the range of nearly all voxels if a few outliers would merge all others into the same
+/// levels.
 fn robust_range(volume: &Volume) -> [f64; 2] {
     /// Share of the voxels that may lie beyond either end.
     const BEYOND: f64 = 5e-4;
@@ -273,7 +274,7 @@ fn robust_range(volume: &Volume) -> [f64; 2] {
             break;
         }
     }
-    // Content of a few voxels in nothing is no outlier: what is left would be one value.
+    // A few voxels of content in an empty volume are not outliers: the rest would have one value.
     if first == last && one_value(volume, histogram.edges(first)) {
         return [lo, hi];
     }
@@ -281,7 +282,7 @@ fn robust_range(volume: &Volume) -> [f64; 2] {
     if half(most_lo, most_hi) < half(lo, hi) / 16.0 { [most_lo, most_hi] } else { [lo, hi] }
 }
 
-/// Whether all voxels between two values have the same.
+/// Whether all voxels between two values have the same value.
 fn one_value(volume: &Volume, [lo, hi]: [f64; 2]) -> bool {
     let (slope, intercept) = (volume.slope(), volume.intercept());
     let [nx, ny, nz] = volume.dims();

@@ -1,4 +1,4 @@
-//! The styles and opacities of the surfaces that a first picture shows.
+//! Styles and opacities of the surfaces in a first picture.
 
 use super::boundary::{Boundary, Surface};
 use drypoint_scene::color::srgb_to_linear;
@@ -6,7 +6,7 @@ use drypoint_scene::math;
 use drypoint_scene::tables::{Node, NodeColor, Outside, TransferKind};
 use drypoint_scene::volume::Volume;
 
-/// A style, and its colour for a function without styles.
+/// A style, and its colour for a transfer function without styles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Look {
     style: &'static str,
@@ -20,7 +20,7 @@ const WAX: Look = Look { style: "wax", srgb: [0.91, 0.75, 0.52] };
 const VESSEL: Look = Look { style: "vessel", srgb: [0.76, 0.20, 0.17] };
 const TONE: Look = Look { style: "tone", srgb: [0.75, 0.68, 0.62] };
 
-/// The looks of a picture.
+/// The styles of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Palette {
     hull: Look,
@@ -28,7 +28,8 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// Patients are of skin and bone, thin branches red as vessels are, anything else is of wax under glass.
+    /// Selects the styles: skin and bone for patients, red for thin branches such as vessels, wax under glass for
+    /// anything else.
     pub(super) fn of(volume: &Volume, boundary: &Boundary) -> Self {
         match (volume.anatomy().is_some(), boundary.hull.is_some()) {
             (true, true) => Self { hull: SKIN, main: BONE },
@@ -40,13 +41,14 @@ impl Palette {
     }
 }
 
-/// What a hull hides of what lies behind it, in one voxel where it is densest.
+/// The largest opacity of a hull in one voxel.
 const HULL: f64 = 0.22;
 
-/// Of an opaque surface, in one voxel.
+/// The opacity of the opaque surface in one voxel.
 const SOLID: f64 = 0.95;
 
-/// A hull is a thin layer, transparent on both sides; the main surface is opaque from there on inwards.
+/// Nodes of the transfer function. A hull is a thin layer, transparent on both sides. The main surface is opaque from
+/// its value inwards.
 pub(super) fn nodes(boundary: &Boundary, palette: Palette, kind: TransferKind, outside: Outside) -> Vec<Node> {
     let inwards = if outside == Outside::Low { 1.0 } else { -1.0 };
     let node = |surface: &Surface, steps: f64, look: Look, opacity: f64| {
@@ -74,7 +76,7 @@ pub(super) fn nodes(boundary: &Boundary, palette: Palette, kind: TransferKind, o
     nodes
 }
 
-/// The value from which on a surface is seen: where an opaque one begins, and halfway into a hull's layer.
+/// The value at which a surface becomes visible: the start of the opaque surface, or the middle of a hull's layer.
 pub(super) fn first_seen(boundary: &Boundary, outside: Outside) -> f64 {
     let (surface, steps) = match &boundary.hull {
         Some(hull) => (hull, 0.5 * LAYER),
@@ -84,10 +86,10 @@ pub(super) fn first_seen(boundary: &Boundary, outside: Outside) -> f64 {
     surface.value + outwards * steps * surface.step
 }
 
-/// A value that a person would write: to about a hundredth of a step, by a power of ten.
+/// Rounds a value to about a hundredth of a step, to a power of ten, as a person would write it.
 pub(super) fn short(value: f64, step: f64) -> f64 {
     let digits = (2.0 - math::log2(step) / math::log2(10.0)).ceil();
-    // Through the decimal text, so that no digits of rounding are left. Beyond the whole numbers nothing is short.
+    // The decimal text removes rounding digits. Integers beyond 15 digits cannot be shortened.
     if !(0.0..=15.0).contains(&digits) {
         return if digits < 0.0 { value.round() } else { value };
     }
@@ -97,8 +99,8 @@ pub(super) fn short(value: f64, step: f64) -> f64 {
 /// Half the thickness of a hull's layer, in voxels.
 const LAYER: f64 = 0.45;
 
-/// How far the ramp of an opaque surface reaches outwards and inwards, in voxels: little outwards, where a hull's own
-/// matter may come close to it.
+/// Extent of an opaque surface's ramp outwards and inwards, in voxels. It is small outwards, where a hull's own
+/// matter may come close.
 const RAMP: [f64; 2] = [0.1, 0.25];
 
 /// The surface of all labels, on values from 0 to 1.

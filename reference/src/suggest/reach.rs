@@ -1,20 +1,20 @@
-//! How far content reaches: its surface lies up to a voxel beyond its outermost voxels.
+//! The extent of content: its surface lies up to a voxel beyond its outermost voxels.
 
 use super::body::{Body, Inside};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::Volume;
 
-/// Parts of a cell that the lines across it stand apart. Along a line the field is linear, and its crossing exact.
+/// Number of parts of a cell's edge between two lines. The field is linear along a line, so its crossing is exact.
 const PARTS: usize = 4;
 
-/// The greatest values of linear functions of the position in world space, each given as its gradient, over the
-/// trilinear surface of a volume's content, on the closed box of the field. The surface is that of the values that are
-/// `seen`, where it lies less than a voxel beyond the content.
+/// Returns the greatest values of linear functions over the surface of a volume's content, within the closed box of
+/// the field. The functions of the world position are given by their gradients. The surface is the trilinear surface
+/// of the values `seen`, where it lies less than a voxel beyond the content.
 pub(super) fn reach<const N: usize>(volume: &Volume, body: &Body, seen: Inside, gradients: [DVec3; N]) -> [f64; N] {
     let grid = volume.grid();
-    // In index space, where a function is its value at the origin and its steps along the axes.
+    // In index space a function has one step for each axis.
     let steps = gradients.map(|g| grid.axes().transpose() * g);
-    // At most a voxel from the content's voxels, along every axis.
+    // The surface is at most a voxel from the content's voxels, along every axis.
     let margin = steps.map(|step| step.abs().element_sum());
     let at = |x: usize, y: usize, z: usize| DVec3::new(x as f64, y as f64, z as f64);
     let mut most = [f64::NEG_INFINITY; N];
@@ -25,7 +25,7 @@ pub(super) fn reach<const N: usize>(volume: &Volume, body: &Body, seen: Inside, 
         raise(&mut most, at(run.first, run.y, run.z));
         raise(&mut most, at(run.last, run.y, run.z));
     }
-    // Few voxels can add to what the voxels alone reach: only around them the surface is looked for.
+    // Few voxels can exceed the maxima of the voxels alone. The surface is searched only around these.
     let adds = |most: &[f64; N], p: DVec3| (0..N).any(|k| steps[k].dot(p) + margin[k] > most[k]);
     for run in body.runs() {
         if adds(&most, at(run.first, run.y, run.z)) || adds(&most, at(run.last, run.y, run.z)) {
@@ -43,9 +43,10 @@ pub(super) fn reach<const N: usize>(volume: &Volume, body: &Body, seen: Inside, 
 
 /// The eight cells around a voxel.
 struct Neighbourhood {
-    /// How far inside the voxel and its neighbours lie, x fastest; at the borders of the box the border's own.
+    /// Depths of the voxel and its neighbours, x fastest. Beyond the borders of the box the border's voxels are
+    /// repeated.
     depth: [f64; 27],
-    /// How far the box goes on to either side, along each axis.
+    /// Extent of the box to either side, along each axis.
     room: [[f64; 2]; 3],
 }
 
@@ -62,7 +63,7 @@ impl Neighbourhood {
         Self { depth, room }
     }
 
-    /// The ends of what lies inside on lines through the cells along each axis, as offsets from the voxel.
+    /// Visits the ends of the content on lines through the cells along each axis, as offsets from the voxel.
     fn ends(&self, end: &mut impl FnMut(DVec3)) {
         let parts = PARTS as i32;
         let part = |i: i32| f64::from(i) / f64::from(PARTS as i32);
@@ -92,12 +93,12 @@ impl Neighbourhood {
         }
     }
 
-    /// Whether the box goes on as far.
+    /// Whether the box extends to an offset.
     fn has(&self, axis: usize, offset: f64) -> bool {
         (-self.room[axis][0]..=self.room[axis][1]).contains(&offset)
     }
 
-    /// How far inside a place lies: trilinear between the voxels.
+    /// The depth of a place, trilinear between the voxels.
     fn at(&self, offset: DVec3) -> f64 {
         let weights = offset.to_array().map(|o| [(-o).max(0.0), 1.0 - o.abs(), o.max(0.0)]);
         let weight = |i: usize| weights[0][i % 3] * weights[1][i / 3 % 3] * weights[2][i / 9];

@@ -1,32 +1,33 @@
-//! Which way is up, and from where a thing is looked at.
+//! The upright direction of an object and the direction from which it is viewed.
 
 use super::body::Body;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::{Anatomy, Volume};
 
-/// How a camera is held.
+/// The orientation of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stance {
-    /// The way it looks.
+    /// The viewing direction.
     pub direction: DVec3,
-    /// What is up in the picture.
+    /// The direction that is up in the picture.
     pub up: DVec3,
 }
 
-/// A thing that goes on beyond one face of its box stands on it, if the cut there is this many times any other.
+/// Ratio of cuts by which an object stands on a face of its box: it continues beyond this face this many times more
+/// than beyond any other.
 const FOOT: f64 = 1.5;
-/// Share of the face that such a cut covers at least.
+/// Least share of the face that such a cut covers.
 const SIZE: f64 = 0.02;
-/// A thing that its last slices cut stands on its head, as far as the file is concerned, if it is a bust: it narrows to
-/// this share of its widest slice.
+/// Ratio of the neck to the widest slice up to which an object is a bust. A bust that the last slices cut is upside
+/// down in the file.
 const NECK: f64 = 0.6;
-/// A thing is flat whose shortest extent is this share of its longest.
+/// Ratio of the shortest to the longest extent up to which an object is flat.
 const FLAT: f64 = 0.4;
 
 impl Stance {
-    /// A patient stands upright and is seen from the front, half from the side. Of anything else nothing is said: it
-    /// stands on the face of the box that cuts it, or else the last axis is up, and it is seen over a corner, a flat
-    /// thing from its broad side.
+    /// Chooses the stance. A patient stands upright and is seen from the front, half from the side. Any other object
+    /// stands on the face of the box that cuts it, or else the last axis is up. It is seen over a corner, a flat
+    /// object from its broad side.
     pub(super) fn of(volume: &Volume, body: &Body) -> Self {
         let front = match volume.anatomy() {
             Some(Anatomy::RightAnteriorSuperior) => DVec3::new(-0.7, -1.0, -0.25),
@@ -45,7 +46,7 @@ impl Stance {
         let (up, upwards) = standing(body, &cuts);
         let longest = extent.into_iter().fold(0.0, f64::max);
         let flat = |a: usize| extent[a] < FLAT * longest;
-        // Along y when z is up, along z when y is up: the picture is that of a slice, turned.
+        // The view is along y if z is up and along z if y is up: the picture is that of a slice, turned.
         let (mut along, mut across) = if up == 2 {
             (1, 0)
         } else if up == 1 {
@@ -56,7 +57,8 @@ impl Stance {
         if flat(across) && !flat(along) {
             (along, across) = (across, along);
         }
-        // Away from the side that is cut more; else against y is up, along y.
+        // The view comes from the side that is cut less. If both are equal, it is along −y if z is up, and along y
+        // otherwise.
         let [near, far] = cuts[along];
         let forwards = if near > FOOT * far && near > SIZE {
             false
@@ -76,7 +78,7 @@ impl Stance {
     }
 }
 
-/// The axis that is up, and whether it is up towards its end.
+/// The axis that is up, and whether its end is the upper side.
 fn standing(body: &Body, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
     let faces = (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]);
     let (axis, side) =
@@ -94,7 +96,7 @@ fn standing(body: &Body, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
     if slices[slices.len() - 1] < NECK * widest { (axis, false) } else { (2, true) }
 }
 
-/// Share of each of the box's faces that content covers: first and last along each axis.
+/// Share of each of the box's faces that content covers: first and last face of each axis.
 fn cuts(volume: &Volume, body: &Body) -> [[f64; 2]; 3] {
     let dims = volume.dims();
     [0, 1, 2].map(|axis| {
@@ -124,7 +126,7 @@ mod tests {
 
     const INSIDE: Inside = Inside { value: 0.5, outside: Outside::Low };
 
-    /// A thing in 32³ voxels.
+    /// The stance of an object in 32³ voxels.
     fn stance(inside: impl Fn([f64; 3]) -> bool) -> Stance {
         let v = volume(|p| if inside(p.map(|i| i as f64)) { 1.0 } else { 0.0 });
         Stance::of(&v, &Body::of(&v, INSIDE))

@@ -1,14 +1,14 @@
-//! The blocks of cells in which a field can have a value, by the ranges of its bricks ([RAY-2]).
+//! The blocks of cells in which a field can have a value, from the ranges of its bricks ([RAY-2]).
 
 use drypoint_scene::volume::{BRICK, Bricks};
 
-/// Bricks along the side of a block that is looked at first.
+/// Number of bricks along the side of a block, which is tested first.
 const BRICKS: usize = 4;
 
-/// Cells along its side.
+/// Number of cells along the side of a block.
 const BLOCK: usize = BRICKS * BRICK;
 
-/// One bit a brick and one a block of bricks: whether a value lies in its closed range.
+/// One bit for each brick and one for each block of bricks: whether a value lies in its closed range.
 #[derive(Clone, Debug)]
 pub(super) struct Active {
     bricks: Bits,
@@ -43,7 +43,7 @@ impl Bits {
 }
 
 impl Active {
-    /// The bricks in whose range a value lies.
+    /// Marks the bricks whose range contains a value.
     pub(super) fn new(bricks: &Bricks, value: f64) -> Self {
         let [nx, ny, _] = bricks.dims;
         let mut active =
@@ -57,7 +57,8 @@ impl Active {
         active
     }
 
-    /// The side of the largest block around a cell in which the value cannot be; none where it can be in the cell's brick.
+    /// The side of the largest block around a cell that cannot contain the value. Returns none if the cell's brick
+    /// can contain it.
     #[inline(always)]
     pub(super) fn empty(&self, cell: [usize; 3]) -> Option<usize> {
         if !self.blocks.get(cell.map(|i| i / BLOCK)) {
@@ -69,14 +70,14 @@ impl Active {
         }
     }
 
-    /// The bricks in which the value can be, in their order.
+    /// The bricks that can contain the value, in their order.
     pub(super) fn all(&self) -> Vec<[usize; 3]> {
         let [nx, ny, nz] = self.bricks.dims;
         let at = |i: usize| [i % nx, i / nx % ny, i / (nx * ny)];
         (0..nx * ny * nz).map(at).filter(|&brick| self.bricks.get(brick)).collect()
     }
 
-    /// Bytes in memory.
+    /// Size in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.bricks.words.as_slice()) + size_of_val(self.blocks.words.as_slice())
     }

@@ -8,32 +8,34 @@ use crate::number::Real;
 use drypoint_scene::math;
 use drypoint_scene::volume::{Bricks, Mask};
 
-/// How far apart, in voxels, values are looked at along a line through a kernel that is no cubic there.
+/// Distance of evaluations along a line, in voxels, for kernels that are not cubic there.
 const STEP: f64 = 0.25;
 
-/// Finds roots of f = iso along lines; what is known of a field and a value, without the field.
+/// A finder of roots of f = iso along lines. It holds data about a field and a value, but not the field.
 #[derive(Clone, Debug)]
 pub(crate) struct Roots {
     iso: f64,
-    /// Differences from `iso` are formed times this power of two, and come out below 2.
+    /// The power of two by which differences from `iso` are multiplied; it brings them below 2.
     scale: f64,
     bounds: Box,
     active: Option<Active>,
 }
 
-/// What a cell says of its part of a line.
+/// The result of a search in one cell.
 enum Found {
-    /// The first root in it.
+    /// The first root in the cell.
     Root(f64),
-    /// There is none; whether the value is above where the line leaves the cell.
+    /// The cell has no root. `above` tells whether the value is above `iso` where the line leaves the cell.
     None { above: bool },
 }
 
 impl Roots {
-    /// For a field and a value. With the ranges of the field's bricks, those that leave the value out are passed over.
+    /// A finder for a field and a value. If the ranges of the field's bricks are given, bricks that exclude the value
+    /// are skipped.
     pub(crate) fn new<R: Real>(field: &Field<'_, R>, iso: f64, bricks: Option<&Bricks>) -> Self {
         let volume = field.volume();
-        // Differences of the largest numbers would overflow, and squares of the smallest vanish.
+        // Without the scale, differences of the largest numbers would overflow and squares of the smallest would
+        // underflow.
         let exponent = math::exponent(volume.largest_magnitude().max(iso.abs())).clamp(-1000, 1000);
         Self {
             iso,
@@ -43,28 +45,28 @@ impl Roots {
         }
     }
 
-    /// The value.
+    /// The value of the surface.
     pub(crate) fn iso(&self) -> f64 {
         self.iso
     }
 
-    /// The bricks in which the value can be; none where that is not known.
+    /// The bricks that can contain the value. Returns none if their ranges are unknown.
     pub(super) fn bricks(&self) -> Option<Vec<[usize; 3]>> {
         self.active.as_ref().map(Active::all)
     }
 
-    /// Forgets what is known of bricks: for a sampler that they do not bound.
+    /// Drops the ranges of bricks, for a sampler that they do not bound.
     pub(crate) fn look_everywhere(&mut self) {
         self.active = None;
     }
 
-    /// Bytes in memory.
+    /// Size in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.active.as_ref().map_or(0, Active::bytes)
     }
 
-    /// The smallest t in a closed range at which the line has the value; no root lies in a cell that touches a masked voxel
-    /// ([PREC-2]).
+    /// The smallest t in a closed range at which the line has the value. Cells that touch a masked voxel contain no
+    /// root ([PREC-2]).
     pub(crate) fn first<R: Real, S: Sampler<R>>(
         &self,
         sampler: &S,
@@ -74,8 +76,8 @@ impl Roots {
     ) -> Option<f64> {
         let length = line[1].length();
         let mut walk = Walk::new(&self.bounds, line, range)?;
-        // On which side the cell before was left. The values of two cells on their common face are the same for trilinear
-        // values, and to rounding for the others, so that a root there can be in neither.
+        // The side on which the line left the previous cell. The values of two cells on their common face are equal
+        // for trilinear values, and equal up to rounding for others. So a root there may be missing in both.
         let mut before = None;
         loop {
             let passed = if let Some(side) = self.active.as_ref().and_then(|active| active.empty(walk.cell())) {
@@ -151,7 +153,7 @@ impl Roots {
     }
 }
 
-/// The side on which all corners of a cell lie, above or below, if they do.
+/// The side of `iso` on which all corners of a cell lie, if they lie on one side.
 #[inline(always)]
 fn one_side(corners: &[[f64; 2]; 4]) -> Option<bool> {
     let all = |side: fn(f64) -> bool| corners.iter().flatten().all(|&c| side(c));
@@ -164,10 +166,11 @@ fn one_side(corners: &[[f64; 2]; 4]) -> Option<bool> {
     }
 }
 
-/// The trilinear interpolation of the corners of a cell along the line from one place in it to another.
+/// The trilinear interpolation of a cell's corners along the line between two places in the cell.
 ///
-/// Its coefficients are the polar form's values: each axis has its coordinate at the one place or the other, and those with as
-/// many at the other are averaged over the axes. All are interpolations of the corners themselves.
+/// The coefficients are values of the polar form. Each axis takes its coordinate from one of the two places.
+/// Combinations with equally many coordinates from the second place are averaged over the axes. All values are
+/// interpolations of the corners.
 fn along(corners: &[[f64; 2]; 4], from: [f64; 3], to: [f64; 3]) -> Cubic {
     let at = |x: f64, y: f64, z: f64| {
         let [a, b, c, d] = corners.map(|row| mix(row[0], row[1], x));

@@ -1,19 +1,19 @@
-//! The cells that a line passes through, one after the other, each from face to face.
+//! Traversal of the cells on a line, from face to face.
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 
-/// A line in index space: origin and displacement for one unit of its parameter t.
+/// A line in index space: its origin, and its displacement for one unit of the parameter t.
 pub(super) type Line = [DVec3; 2];
 
 /// The cells of a grid's box ([SPACE-1]).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Box {
-    /// The last cell of each axis.
+    /// The last cell along each axis.
     last: [usize; 3],
-    /// Where the box begins and ends.
+    /// The ends of the box along each axis.
     ends: [[f64; 2]; 3],
-    /// Whether an axis has length 1: its coordinate is ignored.
+    /// Whether an axis has length 1; its coordinate is ignored.
     flat: [bool; 3],
 }
 
@@ -25,27 +25,27 @@ impl Box {
     }
 }
 
-/// A line on its way through the cells of a box.
+/// The state of a line's traversal of the cells of a box.
 ///
-/// A face i of axis a is crossed at t = (i − origin)/along, formed anew for each face, and faces are crossed in the order of
-/// (t, axis). Which cells come, and where each begins and ends, is then a matter of the line alone: cells that are jumped
-/// over change nothing for those after them, and no cell between two faces is lost to rounding.
+/// The line crosses face i of axis a at t = (i − origin)/along, computed anew for each face, in the order of (t,
+/// axis). So the cells and their ranges depend on the line alone. Skipped cells change nothing for later ones, and no
+/// cell between two faces is lost to rounding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk {
     bounds: Box,
     origin: [f64; 3],
     along: [f64; 3],
     inverse: [f64; 3],
-    /// Where the walk is to end.
+    /// The t at which the traversal ends.
     end: f64,
     cell: [usize; 3],
-    /// Where the line enters the cell, and across which axis; none where it begins inside.
+    /// The t at which the line enters the cell, and the axis of that face; none if the line begins inside.
     enters: Crossing,
-    /// The same for where it leaves.
+    /// The t at which the line leaves the cell, and the axis of that face; none if the line ends inside.
     leaves: Crossing,
 }
 
-/// A place on the line, and the axis whose face lies there.
+/// A place on the line, and the axis of the face that lies there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Crossing {
     t: f64,
@@ -53,7 +53,7 @@ struct Crossing {
 }
 
 impl Walk {
-    /// The walk through a box for t in a closed range; none where they have nothing in common.
+    /// The traversal of a box for t in a closed range. Returns none if they have no place in common.
     pub(super) fn new(bounds: &Box, [origin, along]: Line, [start, end]: [f64; 2]) -> Option<Self> {
         let (origin, along) = (origin.to_array(), along.to_array());
         let inverse = along.map(|d| 1.0 / d);
@@ -89,16 +89,16 @@ impl Walk {
         Some(walk)
     }
 
-    /// Where the line crosses a face of an axis that it is not parallel to.
+    /// The t at which the line crosses a face of an axis to which it is not parallel.
     fn crosses(&self, a: usize, face: f64) -> f64 {
         (face - self.origin[a]) * self.inverse[a]
     }
 
-    /// Stands where the line crosses a face, in the cell behind it; the cell of the face's own axis is set before.
+    /// Moves to the crossing of a face, in the cell behind it. The cell along the face's own axis must be set before.
     fn seek(&mut self, enters: Crossing) {
         for a in (0..3).filter(|a| Some(*a) != enters.axis) {
             let last = self.bounds.last[a];
-            // Rounded down, and to 0 below it.
+            // Rounded down; negative numbers become 0.
             let guess = (self.origin[a] + self.along[a] * enters.t) as usize;
             let mut cell = guess.min(last);
             let crossed = |face: usize| {
@@ -126,8 +126,8 @@ impl Walk {
         self.leaves = self.leaves_block(1).0;
     }
 
-    /// Where the line leaves the aligned block of cells of that side that it is in, and the cell behind the face along its
-    /// axis; no cell behind the box's own.
+    /// The crossing at which the line leaves the aligned block of cells with this side, and the next cell along the
+    /// axis of the face. There is no next cell outside the box.
     fn leaves_block(&self, side: usize) -> (Crossing, Option<usize>) {
         let mut first = (Crossing { t: f64::INFINITY, axis: None }, None);
         for a in 0..3 {
@@ -148,17 +148,17 @@ impl Walk {
         first
     }
 
-    /// The cell that the line is in.
+    /// The current cell.
     pub(super) fn cell(&self) -> [usize; 3] {
         self.cell
     }
 
-    /// The t at which the line enters the cell, and leaves it or ends.
+    /// The t at which the line enters the cell, and the t at which it leaves the cell or ends.
     pub(super) fn range(&self) -> [f64; 2] {
         [self.enters.t, self.leaves.t.min(self.end)]
     }
 
-    /// Goes on behind the aligned block of cells of that side; `false` where the line has ended.
+    /// Moves on behind the aligned block of cells with this side. Returns `false` if the line has ended.
     pub(super) fn pass(&mut self, side: usize) -> bool {
         let (leaves, behind) = self.leaves_block(side);
         let (Some(axis), Some(behind)) = (leaves.axis, behind) else { return false };
@@ -170,24 +170,25 @@ impl Walk {
         true
     }
 
-    /// Where in the cell the line enters it; a coordinate on the face that it crosses is 0 or 1 itself, the same face as
-    /// the cell before it has.
+    /// Coordinates within the cell at which the line enters it. On a crossed face the coordinate is exactly 0 or 1,
+    /// so that both cells at the face agree.
     pub(super) fn entry(&self) -> [f64; 3] {
         self.weights(self.enters.t, self.enters.axis, 0.0)
     }
 
-    /// Where in the cell the line leaves it, or ends.
+    /// Coordinates within the cell at which the line leaves it or ends.
     pub(super) fn exit(&self) -> [f64; 3] {
         let axis = if self.leaves.t <= self.end { self.leaves.axis } else { None };
         self.weights(self.leaves.t.min(self.end), axis, 1.0)
     }
 
-    /// Where in the cell the line is at t.
+    /// Coordinates within the cell at t.
     pub(super) fn at(&self, t: f64) -> [f64; 3] {
         self.weights(t, None, 0.0)
     }
 
-    /// `face` is the coordinate along the axis of a face for a line that runs upwards.
+    /// Coordinates within the cell at t. On `axis` the coordinate is that of the crossed face: `face` for a line that
+    /// runs upwards, else 1 − `face`.
     fn weights(&self, t: f64, axis: Option<usize>, face: f64) -> [f64; 3] {
         std::array::from_fn(|a| {
             if self.bounds.flat[a] {
@@ -213,7 +214,7 @@ mod tests {
 
     const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-    /// Cells with where the line enters and leaves them, all of them or those that a jump over blocks does not leave out.
+    /// Cells with the t at which the line enters and leaves them: all, or those that `jumps` does not skip.
     fn cells(walk: Option<Walk>, jumps: impl Fn([usize; 3]) -> Option<usize>) -> Vec<([usize; 3], [u64; 2])> {
         let mut all = Vec::new();
         let Some(mut walk) = walk else { return all };
@@ -253,7 +254,8 @@ mod tests {
     }
 
     proptest! {
-        /// Cells follow each other across one face without a gap, hold the line, and none changes when blocks are jumped.
+        /// Cells follow each other across one face without a gap and contain the line. Skipping blocks changes none
+        /// of them.
         #[test]
         fn cells_follow_each_other(
             dims in prop::array::uniform3(2usize..24),

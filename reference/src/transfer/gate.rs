@@ -1,13 +1,16 @@
-//! Which values a function over two quantities can show, whatever the other one is ([RAY-2], [STF-4]).
+//! Values at which a transfer function over two quantities can be visible, for any value of the other quantity
+//! ([RAY-2], [STF-4]).
 
 use super::piecewise::{NodesError, Piecewise};
 use crate::number::Real;
 use drypoint_scene::tables::Axis;
 use drypoint_scene::transfer::Rows;
 
-/// A function over the value that is above 0 at least wherever the function over two quantities can be. What the other
-/// quantity says is asked only there. It tells the values that rows leave clear exactly: nodes and steps of every row are
-/// its own. Where neither quantity is the value it is 1, or 0 if nothing can be seen at all.
+/// Returns a function over the value that is above 0 at least wherever the function over two quantities can be. The
+/// other quantity is evaluated only there.
+///
+/// The function gives the values that rows leave clear exactly, since nodes and steps of every row are its own. If
+/// neither quantity is the value, the result is 1, or 0 if nothing is visible at all.
 pub fn over_value<R: Real>(at: &[f64], opacity: &[f64], rows: &Rows) -> Result<Piecewise<R>, NodesError> {
     let shows = |span: &[f64]| span.iter().any(|&a| a > 0.0);
     match &rows.over {
@@ -31,8 +34,8 @@ struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// Whether the row shows something at a value, and just below it, as far as nodes tell: between two nodes it does if
-    /// either does. Positions are compared as they are rounded.
+    /// Whether the row is visible at a value, and just below it, as far as nodes tell. Between two nodes it is
+    /// visible if it is at either node. Positions are compared after rounding.
     fn shows<R: Real>(&self, value: R) -> Shows {
         let rounded = |k: usize| R::from_f64(self.at[k]);
         let n = self.at.len();
@@ -49,15 +52,16 @@ impl Line<'_> {
     }
 }
 
-/// What a row shows at a value.
+/// The visibility of a row at a value.
 #[derive(Clone, Copy)]
 struct Shows {
     below: bool,
     here: bool,
 }
 
-/// 1 between two nodes where some row shows something there, with a rise from 0 where none does at the lower one; at a
-/// node 1 if some row shows something at it. Each node stands twice, so that a step stays one.
+/// Returns a function that is 1 between two nodes if some row is visible there. It rises from 0 if no row is visible
+/// at the lower node. At a node it is 1 if some row is visible at it. Each node stands twice, so that a step stays a
+/// step.
 fn gate<R: Real>(lines: &[Line<'_>]) -> Result<Piecewise<R>, NodesError> {
     let mut at: Vec<R> = lines.iter().flat_map(|line| line.at).map(|&a| R::from_f64(a)).collect();
     at.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
@@ -115,8 +119,8 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(400))]
-        /// Wherever some second quantity lets the function show something, the gate is open; and where no row does, at a
-        /// value or on either side of it, it is shut.
+        /// The gate is open wherever the function is visible for some second quantity. It is shut where no row is
+        /// visible, at a value or on either side of it.
         #[test]
         fn open_wherever_something_can_be_seen(
             lines in prop::collection::vec(prop::collection::vec((0..20u8, prop_oneof![Just(0.0), Just(0.0), 0.1..1.0f64]), 1..4), 1..4),

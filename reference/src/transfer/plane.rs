@@ -1,14 +1,14 @@
-//! A transfer function over two quantities ([STF-4]; 4.2): rows of nodes, between which it is bilinear.
+//! A transfer function over two quantities ([STF-4]; 4.2): rows of nodes, with bilinear interpolation between them.
 
 use super::piecewise::{self, NodesError, Place};
 use super::stops::{Coordinate, Stops};
 use crate::number::Real;
 use drypoint_scene::transfer::Rows;
 
-/// Rows of nodes along a first quantity, one above the other along a second.
+/// Rows of nodes along a first quantity, stacked along a second one.
 ///
-/// On a full grid this is the paper's function. A row with nodes of its own is a function over the first quantity, and
-/// between two rows their opacities and looks are interpolated.
+/// A full grid is the paper's function. A row may have nodes of its own: it is a function over the first quantity,
+/// and opacities and styles are interpolated between two rows.
 #[derive(Clone, Debug)]
 pub struct Plane<R> {
     rows: Stops<R>,
@@ -20,15 +20,15 @@ pub struct Plane<R> {
 struct Line<R> {
     stops: Stops<R>,
     opacity: Vec<R>,
-    /// Number of its first node among those of all rows.
+    /// Index of the row's first node among the nodes of all rows.
     first: usize,
 }
 
-/// Where two coordinates fall between the nodes, which are counted through all rows.
+/// The place of two coordinates between the nodes, which are counted through all rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch<R> {
-    /// (i_x, i_y₀) and (i_x, i_y₁): the places in the two rows, with the α_u of each, which may be 0. The same place twice
-    /// where one row holds alone.
+    /// (i_x, i_y₀) and (i_x, i_y₁): the places in the two rows, with the α_u of each, which may be 0. If one row
+    /// holds alone, both places are the same.
     pub rows: [Place<R>; 2],
     /// w_y, the share of the second row, in [0, 1).
     pub w: R,
@@ -37,10 +37,10 @@ pub struct Patch<R> {
 }
 
 impl<R: Real> Plane<R> {
-    /// From the nodes of a function and its rows.
+    /// A function of nodes and rows.
     ///
     /// # Errors
-    /// A row whose nodes make no function, or rows out of order.
+    /// The nodes of a row do not make a function, or rows are out of order.
     pub fn new(at: &[f64], opacity: &[f64], rows: &Rows) -> Result<Self, NodesError> {
         let [first, second] = &rows.over;
         piecewise::check::<R>(&rows.at, &vec![0.0; rows.at.len()])?;
@@ -54,8 +54,8 @@ impl<R: Real> Plane<R> {
         Ok(Self { rows: Stops::new(&rows.at, second.is_id()), lines })
     }
 
-    /// Where two coordinates fall, or nothing where α_u is 0: by itself, or because a label has no row or node there. A
-    /// row without a node at a label has no share in the look, and opacity 0.
+    /// The place of two coordinates. Returns none if α_u is 0, or if a label has no row or node there. A row without
+    /// a node at a label has opacity 0 and does not affect the colour.
     #[inline]
     pub fn locate(&self, x: Coordinate<R>, y: Coordinate<R>) -> Option<Patch<R>> {
         let (row, w) = self.rows.find(y)?;

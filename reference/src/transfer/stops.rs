@@ -1,13 +1,13 @@
-//! Where a coordinate falls between the places of one axis of a function over two quantities ([STF-4]).
+//! The place of a coordinate along one axis of a function over two quantities ([STF-4]).
 
 use crate::number::Real;
 
-/// What an axis measures at a sample.
+/// The coordinate of a sample along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coordinate<R> {
     /// A number.
     Number(R),
-    /// The id of a label, between two of which nothing lies.
+    /// The id of a label. There is nothing between two ids.
     Id(u32),
 }
 
@@ -21,7 +21,7 @@ pub enum Stops<R> {
 }
 
 impl<R: Real> Stops<R> {
-    /// From places as a scene's function has them: for ids whole numbers of 32 bits.
+    /// Converts the positions of a scene's function. For ids they must be 32-bit integers.
     pub fn new(at: &[f64], ids: bool) -> Self {
         if ids {
             Self::Ids(at.iter().map(|&id| id as u32).collect())
@@ -30,9 +30,9 @@ impl<R: Real> Stops<R> {
         }
     }
 
-    /// The stop k and the way w to the next one, as for the nodes of a function over one quantity: the last stop at or
-    /// below the coordinate; 0 before the first; no way beyond the last, and none where w rounds to the whole way: then
-    /// it is the next stop. An id has only its own stop, or none.
+    /// Returns the stop k and the fraction w on the way to the next one, like the nodes of a function over one
+    /// quantity. k is the last stop at or below the coordinate, or 0 before the first. w is 0 beyond the last stop.
+    /// If w rounds to 1, the next stop is returned with w = 0. An id has only its own stop, or none.
     #[inline]
     pub fn find(&self, coordinate: Coordinate<R>) -> Option<(usize, R)> {
         match (self, coordinate) {
@@ -46,7 +46,7 @@ impl<R: Real> Stops<R> {
                 Some(if w < R::ONE { (after - 1, w) } else { (after, R::ZERO) })
             }
             (Self::Ids(ids), Coordinate::Id(id)) => Some((ids.binary_search(&id).ok()?, R::ZERO)),
-            // Axis and stops are made together, so that this cannot be.
+            // Axis and stops have the same kind by construction.
             (Self::Numbers(_), Coordinate::Id(_)) | (Self::Ids(_), Coordinate::Number(_)) => None,
         }
     }

@@ -1,9 +1,9 @@
-//! A function that is read from a table ([STF-3]).
+//! A function that is evaluated from a table ([STF-3]).
 
 use super::Place;
 use crate::number::Real;
 
-/// i at each entry of a table: from a place between entries to one between nodes.
+/// i at each entry of a table. It converts a place between entries to a place between nodes.
 #[derive(Clone, Debug)]
 pub struct Table<R> {
     index: Vec<R>,
@@ -12,14 +12,15 @@ pub struct Table<R> {
 }
 
 impl<R: Real> Table<R> {
-    /// From i at each entry, of a function of N nodes.
+    /// A table of i at each entry, for a function of N nodes.
     pub fn new(index: &[f64], nodes: usize) -> Self {
         let index = index.iter().map(|&i| R::from_f64(i)).collect();
         Self { index, last: R::from_f64(nodes.saturating_sub(1) as f64) }
     }
 
-    /// i between two entries, linearly, as node and fraction. Past a step of the function it is not where the function
-    /// is: styles mix there, and as far as the step reaches over nodes those between it too.
+    /// Interpolates i linearly between two entries and splits it into node and fraction. The result is inexact
+    /// between entries around a step of the function: the styles on both sides mix there, and so do styles of nodes
+    /// inside the step.
     #[inline]
     pub fn between_nodes(&self, entry: &Place<R>) -> Place<R> {
         let i = self.index[entry.node];
@@ -28,7 +29,7 @@ impl<R: Real> Table<R> {
         Place { node, w, alpha_u: entry.alpha_u }
     }
 
-    /// Bytes that it holds beside the entries' opacities.
+    /// Size in bytes, without the entries' opacities.
     pub fn bytes(&self) -> usize {
         size_of_val(self.index.as_slice())
     }
@@ -52,7 +53,7 @@ mod tests {
     }
 
     proptest! {
-        /// Where every node is an entry the table is the function.
+        /// The table equals the function if every node is an entry.
         #[test]
         fn a_table_of_its_own_nodes_is_exact(s in -2.0f64..9.0) {
             let at: Vec<f64> = (0..8).map(f64::from).collect();

@@ -1,22 +1,22 @@
-//! From a voxel's share to its dots: eqs. 2 and 4 ([STIP-5], [STIP-6]).
+//! Numbers and sizes of a voxel's dots, from its share of points: eqs. 2 and 4 ([STIP-5], [STIP-6]).
 
 use drypoint_scene::blue_noise;
 use drypoint_scene::tables::Ink;
 
-/// The dots of a voxel: the first of its list.
+/// The dots of a voxel, a prefix of its list of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Dots {
-    /// How many are drawn whole.
+    /// Number of dots that are drawn completely.
     pub(super) whole: usize,
-    /// The opacity of the next one; 0: it is not drawn.
+    /// Opacity of the next dot; at 0 it is not drawn.
     pub(super) fading: f64,
     /// The dots' diameter over S_max, or over the nib.
     pub(super) size: f64,
 }
 
-/// N_i = N_max·T of eq. 2 as dots of the size S_i = S_max·‖∇V_i‖·T_r·T_d·T_t, both over S_max.
+/// N_i = N_max·T of eq. 2, and the size S_i = S_max·‖∇V_i‖·T_r·T_d·T_t as `size`, over S_max.
 pub(super) fn dots(each: usize, share: f64, size: f64, ink: Ink, cell: [u32; 3]) -> Dots {
-    // A share that is no number, 0·∞ of factors beyond all bounds, draws nothing: `max` gives the other one.
+    // A share of NaN, from 0·∞ of unbounded factors, draws nothing: `max` returns the other operand.
     let n = (each as f64 * share).max(0.0).min(each as f64);
     match ink {
         Ink::Fade => {
@@ -28,16 +28,16 @@ pub(super) fn dots(each: usize, share: f64, size: f64, ink: Ink, cell: [u32; 3])
     }
 }
 
-/// What a pen, which has one size, makes of a share of the voxel's points: as many dots more or fewer as keep the ink's
-/// area, N_i·(S_i/nib)², and the dots' diameter over the nib. What the list cannot hold is made up by larger dots. `ink` is
-/// T·(S_i/S_max)², `per_nib` S_max/nib.
+/// Converts a voxel's share for a pen, which has one size. The number of dots changes so that the ink's area
+/// N_i·(S_i/nib)² stays. Returns the share and the dots' diameter over the nib. If the list has too few points, dots
+/// become larger. `ink` is T·(S_i/S_max)², `per_nib` S_max/nib.
 pub(super) fn with_nib(ink: f64, per_nib: f64) -> (f64, f64) {
     let share = ink * (per_nib * per_nib);
     if share > 1.0 { (1.0, share.sqrt()) } else { (share, 1.0) }
 }
 
-/// How many points of a voxel are candidates for dots that are chosen on the page ([STIP-19]), and how many dots each
-/// stands for: four for each dot that is wanted, as far as the list goes.
+/// Number of a voxel's points that are candidates for dots chosen on the page ([STIP-19]), and the number of dots for
+/// which each stands. There are four candidates for each wanted dot, as far as the list reaches.
 pub(super) fn candidates(each: usize, share: f64, cell: [u32; 3]) -> (usize, f64) {
     let wanted = (each as f64 * share).max(0.0).min(each as f64);
     let many = OVERSAMPLING * wanted;
@@ -48,7 +48,7 @@ pub(super) fn candidates(each: usize, share: f64, cell: [u32; 3]) -> (usize, f64
     }
 }
 
-/// Of the three to five candidates a dot that sample elimination is good with.
+/// Candidates per dot. Sample elimination works well with three to five.
 const OVERSAMPLING: f64 = 4.0;
 
 #[cfg(test)]
@@ -75,7 +75,7 @@ mod tests {
         }
     }
 
-    /// One ulp from an integer the dot is all there or not there, to rounding: no dot flickers.
+    /// One ulp from an integer the dot is either drawn or not, up to rounding: no dot flickers.
     #[test]
     fn next_to_an_integer_nothing_jumps() {
         for each in [1usize, 7, 10_000] {
@@ -93,7 +93,7 @@ mod tests {
         }
     }
 
-    /// Over a tile of the mask the mean count is N_i.
+    /// The mean count over a tile of the mask is N_i.
     #[test]
     fn opaque_counts_have_the_right_mean() {
         for share in [0.0, 0.125, 0.3125, 0.5, 1.0] {
@@ -119,7 +119,7 @@ mod tests {
         }
     }
 
-    /// The dots that candidates stand for are N_i, on the mean over a tile of the mask, whatever the list can hold.
+    /// The mean number of dots for which candidates stand is N_i over a tile of the mask, however short the list is.
     #[test]
     fn candidates_stand_for_all_dots() {
         for share in [0.0, 0.03125, 0.125, 0.25, 0.5, 1.0] {

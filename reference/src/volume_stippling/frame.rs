@@ -1,5 +1,5 @@
-//! A frame: of each voxel's list as many points as the factors say, on the page (section 5, [STIP-5], [STIP-6]); with
-//! `even = "page"` those of four times as many that lie evenly there ([STIP-19]).
+//! A frame: the prefix of each voxel's list that the factors select, on the page (section 5, [STIP-5], [STIP-6]).
+//! With `even = "page"` four times as many candidates are thinned evenly on the page ([STIP-19]).
 
 use super::count::{candidates, dots, with_nib};
 use super::elimination::{Candidate, eliminate};
@@ -18,15 +18,15 @@ use std::sync::Arc;
 
 pub use super::factors::viewing_distance;
 
-/// Voxels that are drawn in one go.
+/// Number of voxels in one unit of parallel work.
 const PART: usize = 2048;
 
-/// What frames have in common.
+/// Data that all frames share.
 #[derive(Clone, Debug)]
 pub struct Frames<'a> {
     stipples: &'a Stipples,
     points: &'a Points,
-    /// For each voxel what no camera changes.
+    /// The camera-independent factors of each voxel.
     still: Vec<Still>,
     light: LightDirection,
     centre: DVec3,
@@ -39,19 +39,19 @@ pub struct Frames<'a> {
     tone: Option<PenTone<'a>>,
 }
 
-/// What a pen prints, and how much ink the points are ([STIP-17]).
+/// The tone curve of a pen, and the ink of the points ([STIP-17]).
 #[derive(Clone, Copy, Debug)]
 pub struct PenTone<'a> {
-    /// What it prints.
+    /// The tone curve.
     pub tone: &'a Tone,
-    /// λa of dots of S_max in a face seen from the front, with T = 1.
+    /// λa of dots of S_max in a face seen from the front, at T = 1.
     pub ink: f64,
-    /// Voxels that lie over each other in it.
+    /// Mean number of overlapping voxels in such a face.
     pub layers: f64,
 }
 
 impl PenTone<'_> {
-    /// The share of the ink that prints a share of the coverage that all of it prints.
+    /// Converts a share of the largest coverage to the share of ink that prints it.
     fn share(&self, share: f64) -> f64 {
         if self.ink <= 0.0 {
             return share;
@@ -61,36 +61,36 @@ impl PenTone<'_> {
     }
 }
 
-/// What frames are made of.
+/// The inputs of frames.
 #[derive(Clone, Debug)]
 pub struct FrameInputs<'a> {
-    /// `[stipples]`.
+    /// The table `[stipples]`.
     pub stipples: &'a Stipples,
-    /// The points, made once.
+    /// The points from the preprocess.
     pub points: &'a Points,
     /// The scene's light.
     pub light: LightDirection,
-    /// The volume's own grid, whose centre and radius eqs. 7 and 8 have.
+    /// The volume's own grid; eqs. 7 and 8 use its centre and radius.
     pub grid: &'a Grid,
     /// The reference camera, the scene's first ([STIP-3]).
     pub reference: &'a View,
-    /// `near` of a perspective camera, in world units.
+    /// The near distance of a perspective camera, in world units.
     pub near: f64,
     /// S_max in mm.
     pub size: f64,
-    /// The width of the pen's nib in mm, where a pen draws, which has one size ([STIP-6]).
+    /// Width of the pen's nib in mm, if a pen draws. A pen has one size ([STIP-6]).
     pub nib: Option<f64>,
-    /// What hides points; none: they are transparent ([STIP-15]).
+    /// The surface that hides points; none if points are transparent ([STIP-15]).
     pub surface: Option<Arc<IsoSurface<'a, 'a>>>,
-    /// What the pen prints, where that was measured ([STIP-17]).
+    /// The pen's tone curve, if it was measured ([STIP-17]).
     pub tone: Option<PenTone<'a>>,
 }
 
-/// The dots of a frame, in the order of the voxels, in parts that keep their memory from frame to frame.
+/// The dots of a frame in the order of the voxels. Its buffers are reused from frame to frame.
 #[derive(Clone, Debug, Default)]
 pub struct Drawn {
     parts: Vec<Part>,
-    /// Of the pen, where one draws.
+    /// Width of the nib, if a pen draws.
     nib: Option<f64>,
 }
 
@@ -111,23 +111,23 @@ impl Drawn {
         self.parts.iter().map(|part| part.dots.len()).sum()
     }
 
-    /// Whether there is none.
+    /// Whether there are no dots.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Dots that are larger than the nib, since their voxel's list has no more ([STIP-6]).
+    /// Number of dots larger than the nib, because the voxel's list is too short ([STIP-6]).
     pub fn larger_than_nib(&self) -> u64 {
         let is_larger = |dot: &&Dot| self.nib.is_some_and(|nib| dot.radius > 0.5 * nib);
         self.dots().filter(is_larger).count() as u64
     }
 
-    /// Points that were looked at and are hidden ([STIP-15]).
+    /// Number of points that were tested and are hidden ([STIP-15]).
     pub fn hidden(&self) -> u64 {
         self.parts.iter().map(|part| part.hidden).sum()
     }
 
-    /// All in one list.
+    /// All dots in one list.
     pub fn to_vec(&self) -> Vec<Dot> {
         let mut all = Vec::with_capacity(self.len());
         self.parts.iter().for_each(|part| all.extend_from_slice(&part.dots));
@@ -136,7 +136,7 @@ impl Drawn {
 }
 
 impl<'a> Frames<'a> {
-    /// Computes what no camera changes.
+    /// Computes the camera-independent factors.
     pub fn new(inputs: FrameInputs<'a>) -> Self {
         let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone } = inputs;
         let centre = grid.centre();
@@ -156,8 +156,8 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// The dots that a camera sees, on a page, or with `even = "page"` the candidates for [`choose_on_page`]; dots whose centre the picture does not hold are left out, and in perspective
-    /// those nearer than `near`.
+    /// Draws the dots that a camera sees on a page; with `even = "page"`, the candidates for [`choose_on_page`]. Dots
+    /// whose centre lies outside the picture are left out, as are dots nearer than `near` in perspective.
     pub fn draw(&self, view: &View, page: &Page, drawn: &mut Drawn) {
         let whole = Whole { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
         let moving = Moving::new(self.stipples, self.light, view, &whole);
@@ -187,7 +187,7 @@ impl<'a> Frames<'a> {
         }
         // Eq. 4, over S_max.
         let size = voxel.magnitude * factors.size;
-        // T = 1 is the whole list, but for the part of a point by which it is too long.
+        // T = 1 draws the whole list, except for the fraction of a point by which it is too long.
         let whole_list = self.still[i].piece * (self.points.full / each as f64);
         let (share, size, unit) = match self.nib {
             None => (factors.count * whole_list, size, self.size),
@@ -229,8 +229,8 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// Of the candidates of one frame those that are drawn, evenly on the page whatever pen draws them ([STIP-19]); a
-/// candidate's opacity says how many dots it stands for.
+/// Selects the dots of one frame from its candidates, evenly on the page across all pens ([STIP-19]). A candidate's
+/// opacity is the number of dots it stands for.
 pub fn choose_on_page(drawn: &mut [Drawn]) {
     let all = || drawn.iter().flat_map(Drawn::dots);
     let candidates: Vec<Candidate> = all().map(|dot| Candidate { at: dot.at, share: dot.opacity }).collect();
@@ -245,15 +245,15 @@ pub fn choose_on_page(drawn: &mut [Drawn]) {
     }
 }
 
-/// From index space to the page.
+/// The map from index space to the page.
 pub(super) struct Place {
-    /// From index to eye space: directions, and the place of index 0.
+    /// The map from index to eye space: the linear part, and the image of index 0.
     to_eye: DMat3,
     origin: DVec3,
     to_world: DMat3,
     world_origin: DVec3,
     perspective: bool,
-    /// mm of one unit of eye space, at depth 1 in perspective.
+    /// Millimetres per unit of eye space, at depth 1 in perspective.
     scale: DVec2,
     /// The picture's middle and half its size, in mm.
     middle: DVec2,
@@ -286,13 +286,13 @@ impl Place {
         self.to_world * index + self.world_origin
     }
 
-    /// Where on the page a place in eye space is, if the picture holds it.
+    /// The place on the page of a place in eye space. Returns none outside the picture.
     fn on_page(&self, at: DVec3, near: f64) -> Option<DVec2> {
         let off = self.off(at, near)?;
         (self.beyond(off) == [0.0; 2]).then(|| self.at(off))
     }
 
-    /// How far from the picture's middle, in mm, whether or not the picture holds it; none for what is nearer than `near` in
+    /// Offset from the picture's middle in mm, inside or outside the picture. Returns none nearer than `near` in
     /// perspective.
     pub(super) fn off(&self, at: DVec3, near: f64) -> Option<DVec2> {
         let flat = DVec2::new(at.x, at.y) * self.scale;
@@ -303,12 +303,12 @@ impl Place {
         }
     }
 
-    /// The place on the page that is so far from the picture's middle.
+    /// The place on the page at an offset from the picture's middle.
     pub(super) fn at(&self, off: DVec2) -> DVec2 {
         self.middle + off
     }
 
-    /// Beyond which sides of the picture that is: −1, 0 or 1 along each axis.
+    /// The side of the picture beyond which an offset lies: −1, 0 or 1 along each axis.
     pub(super) fn beyond(&self, off: DVec2) -> [f64; 2] {
         [(off.x, self.half.x), (off.y, self.half.y)]
             .map(|(off, half)| if off.abs() <= half { 0.0 } else { off.signum() })

@@ -8,10 +8,10 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 use std::collections::BTreeMap;
 
-/// cos 30°, up to which directions at a joint may differ.
+/// cos 30°, for the largest angle of directions at a joint.
 const STRAIGHT: f64 = 0.866_025_403_784_438_6;
 
-/// A segment on the page: of each end the place, the point in the world, and how long half a voxel is there.
+/// One end of a segment on the page: its place, its point in the world, and the length of half a voxel there.
 #[derive(Clone, Copy)]
 struct End {
     at: DVec2,
@@ -19,10 +19,12 @@ struct End {
     reach: f64,
 }
 
-/// Lines of width 2·`radius`, in mm, through segments: two ends closer than half a voxel on the page become one vertex
-/// between them if the line goes straight on, within 30°; each end once, nearest first. Segments of which an end is nearer
-/// than `near` in perspective are left out, and those that lie beyond one side of the picture; what crosses its edge is
-/// whole here, and cut with the page ([`Marks::keep_inside`](drypoint_scene::marks::Marks::keep_inside)).
+/// Joins segments to lines of width 2·`radius`, in mm. Two ends closer than half a voxel on the page become one
+/// vertex between them if the line turns by at most 30°. Each end is joined once, nearest pairs first.
+///
+/// Segments with an end nearer than `near` in perspective are left out, as are those beyond one side of the picture.
+/// Segments that cross the picture's edge stay whole; the page cuts them later
+/// ([`Marks::keep_inside`](drypoint_scene::marks::Marks::keep_inside)).
 pub fn joined(segments: &[Segment], grid: &Grid, view: &View, page: &Page, near: f64, radius: f64) -> Vec<Polyline> {
     let place = Place::new(view, page, grid);
     let half = 0.5 * grid.voxel() / view.pixel * page.picture().x / view.size[0] as f64;
@@ -40,7 +42,7 @@ pub fn joined(segments: &[Segment], grid: &Grid, view: &View, page: &Page, near:
     lines(&ends, &partner, radius)
 }
 
-/// Which end each is joined to. Ends 2i and 2i + 1 are those of a segment.
+/// The end to which each end is joined. Ends 2i and 2i + 1 belong to segment i.
 fn partners(ends: &[End]) -> Vec<Option<usize>> {
     let largest = ends.iter().fold(0.0f64, |reach, end| reach.max(end.reach));
     let cell = |p: DVec2| [(p.x / largest).floor() as i64, (p.y / largest).floor() as i64];
@@ -48,7 +50,7 @@ fn partners(ends: &[End]) -> Vec<Option<usize>> {
     for (i, end) in ends.iter().enumerate() {
         cells.entry(cell(end.at)).or_default().push(i);
     }
-    // Out of the segment, through the end.
+    // The direction out of the segment, through the end.
     let out = |i: usize| (ends[i].at - ends[i ^ 1].at).normalize_or_zero();
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, end) in ends.iter().enumerate() {
@@ -71,7 +73,7 @@ fn partners(ends: &[End]) -> Vec<Option<usize>> {
     partner
 }
 
-/// Follows the joints: first the lines that have an end, then the rings.
+/// Follows the joints: first the lines with ends, then the rings.
 fn lines(ends: &[End], partner: &[Option<usize>], radius: f64) -> Vec<Polyline> {
     let mut is_used = vec![false; ends.len() / 2];
     let mut lines = Vec::new();
@@ -97,7 +99,7 @@ fn lines(ends: &[End], partner: &[Option<usize>], radius: f64) -> Vec<Polyline> 
             }
         }
         if closed {
-            // The joint of the last with the first came twice.
+            // The joint of the last segment with the first came twice.
             vertices.pop();
         }
         lines.push(line(&vertices, closed, radius));
@@ -136,7 +138,7 @@ mod tests {
         line.vertices.iter().map(|v| v.at.x).collect()
     }
 
-    /// A picture of 10 × 10 mm that shows 10 × 10 units: what crosses its edge is there, what lies beyond is not.
+    /// A picture of 10 × 10 mm that shows 10 × 10 units. A segment across its edge is kept; one beyond it is not.
     #[test]
     fn a_segment_across_the_edge_is_cut_there() {
         use drypoint_scene::marks::{Layer, Marks, Pen};

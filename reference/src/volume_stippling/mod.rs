@@ -1,7 +1,7 @@
 //! Volume stippling (Lu, Morris, Ebert, Rheingans, Hansen 2002).
 //!
-//! [`Preprocess`] finds the voxels that get points and makes them, once, from the reference camera; a frame then draws of
-//! each voxel's list as many as the factors say.
+//! [`Preprocess`] finds the voxels that get points and makes the points, once, from the reference camera. A frame
+//! then draws a prefix of each voxel's list, whose length the factors give.
 
 mod area;
 mod count;

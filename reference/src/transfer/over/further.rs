@@ -8,23 +8,23 @@ use crate::transfer::Coordinate;
 use crate::with_sampler;
 use drypoint_scene::volume::{Anatomy, Volume};
 
-/// A further scalar volume, trilinear, whatever its grid. Outside its box, and in cells that touch a voxel without a value
-/// ([PREC-2]), it is the low end of its range: nothing is known there, and what nothing is known of is least.
+/// Another scalar volume, trilinear, on any grid. Outside its box, and in cells that touch a voxel without a value
+/// ([PREC-2]), the result is the low end of its range: the least value stands for an unknown one.
 pub struct Further<'v, R> {
     field: Field<'v, R>,
-    /// None where the volume lies on the data's own grid.
+    /// The map between grids; none if the volume lies on the data's own grid.
     map: Option<OtherGrid>,
     low: R,
 }
 
 impl<'v, R: Real> Further<'v, R> {
-    /// A volume beside the data's volume, in whose world it lies ([SPACE-2]).
+    /// Another volume in the world of the data volume ([SPACE-2]).
     ///
     /// # Errors
-    /// Values that R cannot hold.
+    /// The volume has values that R cannot hold.
     pub fn new(volume: &'v Volume, data: &Volume) -> Result<Self, FieldError> {
         let lies = Anatomy::between(volume.grid(), volume.anatomy(), data.anatomy());
-        // The value alone is read; the others are those that need nothing.
+        // Only values are read. The other settings are those that need no preparation.
         let how = Reconstruction { hessian: HessianEstimator::Central, ..Reconstruction::default() };
         let field = Field::new(volume, how, Rung::Value)?;
         Ok(Self { field, map: OtherGrid::new(data.grid(), &lies), low: R::from_f64(volume.range()[0]) })
@@ -69,7 +69,7 @@ mod tests {
         x.to_f64()
     }
 
-    /// A field that is linear in the world, on a sheared, shifted and coarser grid than the data's.
+    /// A field that is linear in the world, on a sheared, shifted and coarser grid.
     #[test]
     fn a_linear_field_on_another_grid() {
         let data = Grid::with_spacing([20, 20, 20], [1.0, 0.5, 2.0]).unwrap();

@@ -1,11 +1,11 @@
-//! The part that a sample belongs to ([STF-13]).
+//! The label of a sample ([STF-13]).
 
 use super::{Here, Measure};
 use crate::labels::Labels;
 use crate::number::Real;
 use crate::transfer::Coordinate;
 
-/// The id of the part, as the scene looks labels up.
+/// The id of the sample's part, by the scene's lookup of labels.
 pub struct Label<'a>(pub Labels<'a>);
 
 impl<R: Real> Measure<R> for Label<'_> {

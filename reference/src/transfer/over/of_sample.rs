@@ -1,4 +1,4 @@
-//! Quantities that a sample knows by itself: value, gradient magnitude, curvatures.
+//! Quantities of the sample itself: value, gradient magnitude, curvatures.
 
 use super::{Here, Measure};
 use crate::number::Real;
@@ -13,9 +13,9 @@ impl<R: Real> Measure<R> for Value {
     }
 }
 
-/// How strongly the value changes.
+/// The magnitude of the gradient.
 pub enum Magnitude {
-    /// ‖g‖, times the power of two of [SPACE-4], by which the nodes are multiplied too.
+    /// ‖g‖, times the power of two of [SPACE-4]. The nodes are multiplied by the same power.
     Scaled,
     /// |g| of [VAL-2].
     Normalized,

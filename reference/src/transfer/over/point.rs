@@ -6,15 +6,16 @@ use crate::transfer::Coordinate;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 
-/// ‖P − p‖ in world units, at the sample itself.
+/// ‖P − p‖ in world units, at the sample's own place.
 pub struct Distance<R> {
     axes: Mat3<R>,
-    /// From p to voxel (0, 0, 0): subtracted before anything is rounded to R, so that a far origin costs no digits.
+    /// The vector from p to voxel (0, 0, 0). It is subtracted before anything is rounded to R, so that a distant
+    /// origin costs no digits.
     from: Vec3<R>,
 }
 
 impl<R: Real> Distance<R> {
-    /// To a point of the world, from positions in the index space of a grid.
+    /// The distance to a point of the world, from positions in the index space of a grid.
     pub fn new(grid: &Grid, point: DVec3) -> Self {
         Self { axes: Mat3::from_glam(grid.axes()), from: Vec3::from_glam(grid.origin() - point) }
     }

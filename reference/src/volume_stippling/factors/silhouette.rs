@@ -4,10 +4,11 @@ use super::unit;
 use drypoint_scene::math::pow;
 use drypoint_scene::tables::{FactorRange, Silhouette};
 
-/// T_s = V (k_sc + k_ss (1 − |n·E|)^k_se), in [0, 1]. `facing` is n·E; as printed, with ∇V in the bars, it is ‖∇V‖ n·E.
+/// T_s = V (k_sc + k_ss (1 − |n·E|)^k_se), in [0, 1]. `facing` is n·E. As printed, with ∇V between the bars, the term
+/// is ‖∇V‖ n·E.
 pub(super) fn silhouette(t: &Silhouette, range: FactorRange, value: f64, magnitude: f64, facing: f64) -> f64 {
     let within = if t.literal { magnitude * facing } else { facing };
-    // Two unit vectors' product can be above 1 by rounding.
+    // The product of two unit vectors can exceed 1 by rounding.
     let across = (1.0 - within.abs()).max(0.0);
     unit(range, t.sc + t.ss, value * (t.sc + t.ss * pow(across, t.se)))
 }

@@ -1,4 +1,4 @@
-//! A visit of a class: every voxel of it takes its point of a rank.
+//! One visit of a class: every voxel of the class takes its point of a rank.
 
 use super::class::parities;
 use super::groups::{Group, LANES, Row, farthest, lower, settle};
@@ -8,22 +8,22 @@ use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
 use rayon::prelude::*;
 
-/// What a visit of a class is about.
+/// The parameters of a visit.
 pub(super) struct Step<'a> {
     pub(super) sweep: usize,
     pub(super) links: &'a Links,
-    /// The offset of each neighbour, scaled.
+    /// The scaled offset of each neighbour.
     pub(super) around: &'a [[f32; 3]],
-    /// The classes, as bits, whose points of this rank are there to be seen.
+    /// Bits of the classes whose points of this rank are taken already.
     pub(super) earlier: u8,
-    /// The classes whose points of the rank before have not been counted yet.
+    /// Bits of the classes whose points of the previous rank have not been counted yet.
     pub(super) missed: u8,
-    /// Whether points of this rank that are seen stay where they are.
+    /// Whether visible points of this rank are final.
     pub(super) is_last: bool,
 }
 
-/// The points that are taken, by the voxels' places in the order of all: of the rank before, and of this one in the classes
-/// before and after the one at work.
+/// The taken points, indexed by the voxels' places in the order of all: the previous rank, and this rank in the
+/// classes before and after the current one.
 pub(super) struct Seen<'a> {
     pub(super) before: &'a [[f32; 3]],
     pub(super) left: &'a [[f32; 3]],
@@ -32,7 +32,7 @@ pub(super) struct Seen<'a> {
     pub(super) end: usize,
 }
 
-/// Every voxel of a class takes its point of a rank; `chosen` are the draws of the rank.
+/// Lets every voxel of a class take its point of a rank. `chosen` holds the draws of the rank.
 pub(super) fn take(
     sites: &Sites<'_>,
     class: &mut Class,
@@ -55,7 +55,8 @@ pub(super) fn take(
     });
 }
 
-/// The place in the pool of the point that a voxel takes; `id` is its place in the order of all, `number` its class.
+/// Returns the pool index of the point that a voxel takes. `id` is the voxel's place in the order of all, `number`
+/// its class.
 #[inline(always)]
 fn visit(
     site: &mut Site,
@@ -93,13 +94,13 @@ fn visit(
     farthest(pool, rows, near.points())
 }
 
-/// A voxel's own point of the rank before, and of each neighbour that of it and of this one.
+/// The largest number of points near a voxel: its own of the previous rank, and two of each neighbour.
 const MOST: usize = 1 + 2 * 26;
 
-/// Points that come near enough to a voxel to matter to its pool.
+/// Points near enough to a voxel to affect its pool.
 struct Near {
     flat: [f32; 3],
-    /// The square of how far from the centre they can be.
+    /// The largest squared distance from the centre at which a point has an effect.
     limit: f32,
     points: [[f32; 3]; MOST],
     len: usize,
@@ -113,7 +114,7 @@ impl Near {
         near
     }
 
-    /// For further points, with distances as they are now.
+    /// Clears the points, and takes the current distances for the next ones.
     #[inline(always)]
     fn clear(&mut self, site: &Site) {
         let limit = site.farthest.sqrt() + site.reach;
@@ -125,7 +126,7 @@ impl Near {
         &self.points[..self.len]
     }
 
-    /// A point of the voxel that lies at `offset` from the site.
+    /// Adds a point of a voxel that lies at `offset` from the site.
     #[inline(always)]
     fn add(&mut self, point: [f32; 3], offset: [f32; 3]) {
         let p = flattened(self.flat, [point[0] + offset[0], point[1] + offset[1], point[2] + offset[2]]);

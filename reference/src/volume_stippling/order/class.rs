@@ -1,4 +1,4 @@
-//! Classes of voxels without neighbours in their class, by the parities of their places.
+//! Classes of voxels by the parities of their coordinates. No two voxels of a class are neighbours.
 
 use drypoint_scene::philox;
 
@@ -7,12 +7,12 @@ pub(super) fn class_of([x, y, z]: [u32; 3]) -> usize {
     (x & 1 | (y & 1) << 1 | (z & 1) << 2) as usize
 }
 
-/// The axes on which that neighbour's parity is the other, x lowest.
+/// The axes along which neighbour k has the other parity, x lowest.
 pub(super) fn parities(k: usize) -> usize {
     usize::from(k % 3 != 1) | usize::from(k / 3 % 3 != 1) << 1 | usize::from(k / 9 != 1) << 2
 }
 
-/// Each voxel's place when classes of equal parities stand together, and where each class begins.
+/// The place of each voxel when classes are sorted one after the other, and the start of each class.
 pub(super) fn by_class(cells: &[[u32; 3]]) -> (Vec<u32>, [usize; 9]) {
     let mut starts = [0; 9];
     for cell in cells {
@@ -30,9 +30,9 @@ pub(super) fn by_class(cells: &[[u32; 3]]) -> (Vec<u32>, [usize; 9]) {
     (cells.iter().map(&mut place).collect(), starts)
 }
 
-/// The classes in the order of a rank: by random numbers.
+/// The classes in the order of a rank, shuffled by random numbers.
 pub(super) fn class_order(seed: u64, rank: usize) -> [usize; 8] {
-    /// No voxel has this place.
+    /// The place of a missing voxel.
     const NOWHERE: u32 = u32::MAX;
     let key = |class: u32| philox::uniform(seed, [rank as u32, class, NOWHERE], NOWHERE);
     let mut order = [0, 1, 2, 3, 4, 5, 6, 7];

@@ -1,10 +1,12 @@
 //! The first point of every voxel.
 //!
-//! Where less than a point a voxel is drawn in opaque ink, the mask of blue noise says which voxels draw theirs
-//! ([STIP-5]): at a tone t those whose rank u is above 1 − t. In a surface that cuts through the mask, those voxels are no
-//! more even than the cut. So first points are placed with the mask in mind: two of them are seen together from the tone
-//! 1 − min(u, u′) on, at which points are 1/√tone apart, and their distance counts in that measure. Points that are drawn
-//! early keep away from each other farther than from those that join them late, and every tone is even.
+//! If less than one point per voxel is drawn in opaque ink, a mask of blue noise selects the voxels that draw theirs
+//! ([STIP-5]): at a tone t those whose rank u exceeds 1 − t. A surface cuts through the mask, and the cut is not
+//! even.
+//!
+//! So first points are placed with regard to the mask. Two points are visible together from the tone 1 − min(u, u′)
+//! on. Points are 1/√tone apart at a tone, and distances are measured in this unit. Points that are drawn early keep
+//! a larger distance from each other than from those that join later, so every tone is even.
 
 use super::class::class_of;
 use super::groups::{Group, LANES, Lane, REACH as GROUP_REACH, Row, squared_distances, take_largest};
@@ -16,32 +18,32 @@ use drypoint_scene::blue_noise;
 use drypoint_scene::philox;
 use rayon::prelude::*;
 
-/// How often each voxel takes its first point.
+/// Number of times that each voxel takes its first point.
 const SWEEPS: u32 = 4;
 
-/// Voxels that see each other lie at most so far apart on each axis: at the tone 0.1 points are three voxels apart.
+/// The largest distance along each axis of voxels that affect each other. At tone 0.1 points are three voxels apart.
 const REACH: u32 = 2;
 
-/// Voxels along each axis of the neighbourhood.
+/// Number of voxels of the neighbourhood along each axis.
 const SIDE: usize = 2 * REACH as usize + 1;
 
-/// Voxels of one of these classes do not see each other.
+/// Number of classes. Voxels of one class do not affect each other.
 const CLASSES: usize = (REACH as usize + 1).pow(3);
 
-/// Bytes a voxel of what is allocated meanwhile.
+/// Temporary memory in bytes per voxel.
 pub(super) const BYTES_A_VOXEL: usize =
     (SIDE * SIDE * SIDE - 1) * size_of::<Seen>() + size_of::<u32>() + 2 * size_of::<Taken>();
 
-/// A voxel that another one sees.
+/// A voxel that affects another one.
 #[derive(Clone, Copy)]
 struct Seen {
-    /// Its place in the list of voxels.
+    /// Index in the list of voxels.
     voxel: u32,
-    /// Its number in the neighbourhood, x fastest.
+    /// Index in the neighbourhood, x fastest.
     offset: u32,
 }
 
-/// A point that was taken, in voxels from its voxel's centre, the voxel's tone, and the point's place in the pool.
+/// A taken point, in voxels from its voxel's centre; the voxel's tone; the point's index in the pool.
 #[derive(Clone, Copy)]
 struct Taken {
     at: [f32; 3],
@@ -49,24 +51,24 @@ struct Taken {
     slot: u32,
 }
 
-/// A point that comes near a pool.
+/// A point near a pool.
 struct Near {
     at: [f32; 3],
-    /// From which both points are seen.
+    /// The tone from which both points are drawn.
     tone: f32,
-    /// No point of the pool is nearer: the distance squared times the tone.
+    /// Lower bound for all points of the pool: the squared distance times the tone.
     least: f32,
 }
 
-/// Memory to work in.
+/// Buffers for one thread.
 #[derive(Default)]
 struct Work {
     near: Vec<Near>,
     bounds: Vec<Lane>,
 }
 
-/// For each voxel, in the order of the list, the place in its pool of its first point. `ids` are the voxels' places in the
-/// order of the classes.
+/// Returns the pool index of each voxel's first point, in the order of the list. `ids` holds the voxels' places in
+/// the order of the classes.
 pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) -> Vec<usize> {
     let cells = sites.cells;
     let seen = AllSeen::new(sites);
@@ -75,7 +77,7 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
     for (i, cell) in cells.iter().enumerate() {
         members[class(*cell)].push(i);
     }
-    // Nothing is nearer to a point than what is no number: what is not placed yet is not seen.
+    // Points that are not placed yet are NaN, and no comparison with NaN makes them near.
     let not_placed = |&cell: &[u32; 3]| Taken { at: [f32::NAN; 3], tone: (1.0 - blue_noise::at(cell)) as f32, slot: 0 };
     let mut taken: Vec<Taken> = cells.iter().map(not_placed).collect();
     for sweep in 0..SWEEPS {
@@ -102,7 +104,7 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
 }
 
 impl Work {
-    /// What a voxel sees, but for what is nowhere nearest to its pool.
+    /// Collects the taken points around a voxel, without those that are nowhere nearest to its pool.
     #[inline(always)]
     fn gather(&mut self, site: &Site, tone: f32, seen: &[Seen], taken: &[Taken], offsets: &[[f32; 3]]) {
         self.near.clear();
@@ -115,7 +117,7 @@ impl Work {
             let (near, far) = (length - site.reach, length + site.reach);
             let (least, largest) = (if near <= 0.0 { 0.0 } else { near * near * tone }, far * far * tone);
             most = if largest < most { largest } else { most };
-            // Rounding must not leave out what is nearest: a thousandth is far more.
+            // A margin of a thousandth: rounding must not exclude the nearest point.
             if least <= most * 1.001 {
                 self.near.push(Near { at, tone, least });
             }
@@ -124,8 +126,8 @@ impl Work {
     }
 }
 
-/// The place in a pool of the point farthest from what is near, each squared distance times the tone. A group is looked into
-/// only if it can have it, that of the largest bound first.
+/// The pool index of the point farthest from the nearby points, each squared distance times the tone. Groups are
+/// visited in the order of their bounds, and only while a bound exceeds the best point.
 #[inline(always)]
 fn farthest(pool: &[Group], groups: &[Row], Work { near, bounds }: &mut Work) -> usize {
     bounds.clear();
@@ -158,7 +160,7 @@ fn farthest(pool: &[Group], groups: &[Row], Work { near, bounds }: &mut Work) ->
     at
 }
 
-/// What no point of eight groups can be farther from some points than, squared and times the tone.
+/// Upper bounds for the points of eight groups: the squared distance from the nearby points, times the tone.
 #[inline(always)]
 fn bound(row: &Row, near: &[Near]) -> Lane {
     let mut least = [f32::MAX; LANES];
@@ -173,18 +175,18 @@ fn bound(row: &Row, near: &[Near]) -> Lane {
     least
 }
 
-/// Which voxels each voxel sees, in the order of the list, in parts.
+/// The voxels that affect each voxel, in the order of the list, in parts.
 struct AllSeen {
     parts: Vec<PartSeen>,
 }
 
-/// Those of [`PART`] voxels, one after the other, and where they end.
+/// Neighbours of [`PART`] voxels, one voxel after the other, with the end of each.
 struct PartSeen {
     all: Vec<Seen>,
     ends: Vec<u32>,
 }
 
-/// Voxels of a part.
+/// Number of voxels of a part.
 const PART: usize = 4096;
 
 impl AllSeen {
@@ -213,7 +215,7 @@ impl AllSeen {
     }
 }
 
-/// The step from a voxel to another of its neighbourhood.
+/// The step from a voxel to voxel k of its neighbourhood.
 fn step(k: usize) -> [f32; 3] {
     [k % SIDE, k / SIDE % SIDE, k / (SIDE * SIDE)].map(|i| i as f32 - REACH as f32)
 }
@@ -223,9 +225,9 @@ fn class([x, y, z]: [u32; 3]) -> usize {
     (x % side + side * (y % side) + side * side * (z % side)) as usize
 }
 
-/// The classes in the order of a sweep: by random numbers.
+/// The classes in the order of a sweep, shuffled by random numbers.
 fn order(seed: u64, sweep: u32) -> [usize; CLASSES] {
-    /// No voxel has this place.
+    /// The place of a missing voxel.
     const NOWHERE: u32 = u32::MAX;
     let key = |class: usize| philox::uniform(seed, [sweep, class as u32, NOWHERE], NOWHERE - 1);
     let mut order = std::array::from_fn(|i| i);
@@ -261,7 +263,7 @@ mod tests {
         assert_eq!(sorted, std::array::from_fn(|i| i));
     }
 
-    /// What is not looked into does not matter: the point is that of looking at every pair.
+    /// Skipped groups do not matter: the point equals that of a search through all pairs.
     #[test]
     fn bounds_hide_no_point() {
         use super::super::class::by_class;

@@ -1,43 +1,42 @@
-//! Distances of a pool's points to those that are taken, eight side by side, without looking at groups that they cannot
-//! matter to.
+//! Distances from a pool's points to the taken points, eight side by side, skipping groups that cannot matter.
 
-/// Points in work side by side.
+/// Number of points processed side by side.
 pub(super) const LANES: usize = 8;
 
-/// A coordinate or a distance of each.
+/// One number for each of eight points.
 pub(super) type Lane = [f32; LANES];
 
-/// Points of a pool that lie together.
+/// Points of a pool that are close together.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Group {
-    /// x, y and z of each, in voxels from the voxel's centre.
+    /// x, y and z of the points, in voxels from the voxel's centre.
     pub(super) at: [Lane; 3],
-    /// The squared distance of each to what is taken; below 0: it is no longer in the pool.
+    /// The squared distance of each point to the nearest taken one. It is below 0 after the point has left the pool.
     pub(super) far: Lane,
-    /// The draw that made each.
+    /// The draw that made each point.
     pub(super) draws: [u32; LANES],
 }
 
-/// What tells of eight groups from afar whether they matter.
+/// Bounds of eight groups, which decide whether a group must be visited.
 pub(super) type Row = [Lane; 6];
 
-/// Rows of a group's numbers: the middle, no point is farther from it, the largest distance squared to what is taken, and
-/// the distance squared up to which a point can lower one.
+/// Indices into a row: the middle (three), the radius about it, the largest squared distance to a taken point, and
+/// the squared distance within which a new point can lower one.
 pub(super) const FAR: usize = 4;
 pub(super) const REACH: usize = 3;
 pub(super) const LIMIT: usize = 5;
 
-/// Lowers the distances of a pool to those to some points, and gives the largest.
+/// Updates the distances of a pool by further points, and returns the largest.
 #[inline(always)]
 pub(super) fn lower(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) -> f32 {
-    // As many at once as there are bits to say which of them matter.
+    // Chunks of 32 points, one bit for each in a mask.
     for points in points.chunks(32) {
         lower_by(pool, groups, points);
     }
     farthest_of(groups)
 }
 
-/// The largest of all groups' largest distances.
+/// The largest distance in all groups.
 #[inline(always)]
 fn farthest_of(groups: &[Row]) -> f32 {
     let mut most = [-1f32; LANES];
@@ -50,7 +49,7 @@ fn farthest_of(groups: &[Row]) -> f32 {
 #[inline(always)]
 fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
     for row in 0..groups.len() {
-        // For each group the points, as bits, that may be nearer to one of its own than what is taken.
+        // For each group, bits of the points that may be nearer to one of its points than all taken ones.
         let mut near = [0u32; LANES];
         for (i, p) in points.iter().enumerate() {
             let to = squared_distances(&groups[row], p);
@@ -73,7 +72,7 @@ fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
     }
 }
 
-/// What a group's numbers are after its distances have changed.
+/// Updates the bounds of a group after its distances have changed.
 #[inline(always)]
 pub(super) fn settle(far: Lane, groups: &mut [Row], group: usize) {
     let far = largest(far);
@@ -83,8 +82,8 @@ pub(super) fn settle(far: Lane, groups: &mut [Row], group: usize) {
     row[LIMIT][l] = if far < 0.0 { -1.0 } else { limit * limit };
 }
 
-/// The place in a pool of the point farthest from what is taken and from some further points. A group is looked into only
-/// if its farthest could be it, that of the largest distance first.
+/// The pool index of the point farthest from the taken points and some further points. Groups are visited in the
+/// order of their largest distance, and only while it exceeds the best point.
 #[inline(always)]
 pub(super) fn farthest(pool: &[Group], groups: &[Row], points: &[[f32; 3]]) -> usize {
     let far = |group: usize| groups[group / LANES][FAR][group % LANES];
@@ -105,7 +104,7 @@ pub(super) fn farthest(pool: &[Group], groups: &[Row], points: &[[f32; 3]]) -> u
     at
 }
 
-/// Of distances of a group the first of the largest, if it is beyond the best so far.
+/// Updates the best point by the first of a group's largest distances, if that is larger.
 #[inline(always)]
 pub(super) fn take_largest(d: &Lane, group: usize, best: &mut f32, at: &mut usize) {
     let most = largest(*d);
@@ -134,7 +133,7 @@ fn nearer([x, y, z]: &[Lane; 3], d: &mut Lane, p: &[f32; 3]) {
     }
 }
 
-/// The larger of each two, neither of which is NaN.
+/// The larger of each pair; no number is NaN.
 #[inline(always)]
 fn larger(a: Lane, b: Lane) -> Lane {
     let mut larger = a;
@@ -144,7 +143,8 @@ fn larger(a: Lane, b: Lane) -> Lane {
     larger
 }
 
-/// The largest of all, none of which is NaN: halves against halves, which waits less than one after the other.
+/// The largest number; no number is NaN. Halves are compared with halves, which has a shorter dependency chain than a
+/// loop.
 #[inline(always)]
 pub(super) fn largest(d: Lane) -> f32 {
     let larger = |a: f32, b: f32| if a > b { a } else { b };

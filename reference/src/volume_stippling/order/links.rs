@@ -1,15 +1,15 @@
-//! Which voxels lie around one.
+//! Neighbours of voxels.
 
 use super::Sites;
 use drypoint_scene::glam::DVec3;
 use rayon::prelude::*;
 
-/// The number of the neighbour that lies in a direction: one voxel away, rounded.
+/// Index of the neighbour in a direction: one voxel away, rounded.
 pub(super) fn towards(sites: &Sites<'_>, n: DVec3) -> usize {
     let step = sites.axes.inverse() * n * sites.voxel;
     let mut to = step.to_array().map(|x| x.round_ties_even().clamp(-1.0, 1.0));
     if to == [0.0; 3] {
-        // A diagonal of a voxel much longer than wide: the axis that comes nearest.
+        // The step is a short diagonal of a very long voxel: the nearest axis replaces it.
         let a = step.abs();
         let axis = if a.x >= a.y && a.x >= a.z {
             0
@@ -25,13 +25,13 @@ pub(super) fn towards(sites: &Sites<'_>, n: DVec3) -> usize {
 
 /// The neighbours of each voxel, in the order of all.
 pub(super) struct Links {
-    /// For each the place of the neighbour · 32 + its number among the 27.
+    /// For each neighbour: its place · 32 + its index among the 27.
     pub(super) all: Vec<u32>,
-    /// Where those of a voxel begin.
+    /// Start of each voxel's neighbours.
     first: Vec<u32>,
 }
 
-/// The most voxels that links can tell apart.
+/// The largest number of voxels that links can index.
 pub(in crate::volume_stippling) const MOST_VOXELS: usize = 1 << 27;
 
 pub(super) fn id_of(link: u32) -> usize {
@@ -79,9 +79,9 @@ impl Links {
     }
 }
 
-/// Finds voxels of a list in linear order by their place.
+/// Finds voxels of a list in linear order by their coordinates.
 pub(super) struct Rows {
-    /// y, z and the first voxel of each row that has one.
+    /// y, z and the index of the first voxel of each nonempty row.
     rows: Vec<([u32; 2], usize)>,
 }
 
@@ -96,8 +96,8 @@ impl Rows {
         Self { rows }
     }
 
-    /// The voxels of the list that lie at most `reach` from one on each axis, with their numbers in that neighbourhood, x
-    /// fastest; not itself.
+    /// The voxels of the list at most `reach` away along each axis, without the voxel itself, with their indices in
+    /// this neighbourhood, x fastest.
     pub(super) fn around(
         &self,
         cells: &[[u32; 3]],

@@ -1,16 +1,16 @@
 //! Relaxation and order of a volume's points ([STIP-4]).
 //!
-//! Each voxel has a pool of random points, more than it draws. One rank after the other, every voxel takes from its pool
-//! the point farthest from all points that are taken, its own and those of its 26 neighbours: what is taken is spread
+//! Each voxel has a pool of random points, more than it draws. Rank by rank, every voxel takes from its pool the
+//! point farthest from all taken points, its own and those of its 26 neighbours. So the taken points are spread
 //! evenly at every rank, within a voxel and across its faces, and each prefix is a subset of the next.
 //!
-//! The voxels of one of the eight parity classes of 2×2×2 have no neighbour in their class, so that a class is taken at
-//! once, in parallel; the classes' order is hashed for each rank, so that none is always first. Voxels that came early in a
-//! rank could not see the later ones: in the first ranks, where few points fix the spacing, each takes again, now from all
-//! others of the rank (`SWEEPS`).
+//! The voxels of one of the eight parity classes of 2×2×2 have no neighbour in their class, so a class is processed
+//! in parallel. The order of the classes is hashed for each rank, so that none is always first. Voxels that come
+//! early in a rank cannot see the later ones. In the first ranks, where few points fix the spacing, each voxel
+//! therefore takes its point again with all others of the rank in view (`SWEEPS`).
 //!
-//! What is even has to look so in projection. In a voxel that has no neighbour with points before and behind, along its
-//! normal, the face is thin: distances are those in the tangent plane. Elsewhere they are those in space.
+//! Points must look even in projection. If a voxel has no neighbours with points before and behind it along its
+//! normal, the face is thin, and distances are measured in the tangent plane. Otherwise they are measured in space.
 mod choice;
 mod class;
 mod first;
@@ -30,27 +30,27 @@ use rayon::prelude::*;
 pub(super) use links::MOST_VOXELS;
 pub(super) use pool::MOST_EACH;
 
-/// The voxels and how their points lie.
+/// The voxels that get points, and the shape of their slabs.
 pub(super) struct Sites<'a> {
-    /// In ascending linear order.
+    /// Voxels in ascending linear order.
     pub(super) cells: &'a [[u32; 3]],
-    /// n of each.
+    /// The normal n of each voxel.
     pub(super) normals: &'a [DVec3],
-    /// D.
+    /// The grid's axes D.
     pub(super) axes: DMat3,
     /// The smallest spacing.
     pub(super) voxel: f64,
     /// Half the distance of the two planes, in world units.
     pub(super) slab: f64,
-    /// Of each from its centre to the edge, in index space; empty where points stay about centres.
+    /// The displacement from each centre to the edge, in index space; empty if points are not moved.
     pub(super) to_edge: &'a [DVec3],
     pub(super) seed: u64,
-    /// Whether voxels see their neighbours.
+    /// Whether voxels take their neighbours into account.
     pub(super) neighbours: bool,
 }
 
 impl Sites<'_> {
-    /// Where the points of a voxel lie.
+    /// The slab of a voxel's points.
     fn slab_of(&self, i: usize) -> Slab {
         match self.to_edge.get(i) {
             Some(&to_edge) => Slab::on_edge(self.axes, self.normals[i], to_edge),
@@ -59,7 +59,7 @@ impl Sites<'_> {
     }
 }
 
-/// How often each voxel takes its point of a rank after the first.
+/// Number of times that each voxel takes its point of a rank after the first.
 fn sweeps(rank: usize) -> usize {
     match rank {
         1..4 => 3,
@@ -67,7 +67,7 @@ fn sweeps(rank: usize) -> usize {
     }
 }
 
-/// Bytes a voxel of what is allocated to order the points, beside the points.
+/// Temporary memory of ordering in bytes per voxel, without the points.
 pub(super) fn bytes_a_voxel(each: usize) -> u64 {
     (pool_size(each) / LANES * size_of::<Group>()
         + rows_of_groups(pool_size(each)) * size_of::<Row>()
@@ -76,8 +76,8 @@ pub(super) fn bytes_a_voxel(each: usize) -> u64 {
         + size_of::<Site>()) as u64
 }
 
-/// Takes `each` points for every voxel, in the order in which they are drawn, voxel after voxel. `done` hears how many of
-/// the ranks are done.
+/// Takes `each` points for every voxel, in the order in which they are drawn, voxel after voxel. `done` receives the
+/// number of finished ranks.
 pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Sync)) -> Vec<[f32; 3]> {
     let n = sites.cells.len();
     let size = pool_size(each);
@@ -86,7 +86,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     let around: Vec<[f32; 3]> = (0..27).map(|k| scaled(sites, delta(k))).collect();
     let mut classes: Vec<Class> = (0..8).map(|class| Class::new(sites, &links, &ids, &starts, class, size)).collect();
     let mut taken = [vec![[0f32; 3]; n], vec![[0f32; 3]; n]];
-    // Rank after rank, so that a visit writes what lies together.
+    // Sorted by rank, so that a visit writes contiguous memory.
     let mut chosen = vec![0u32; n * each];
     for (i, slot) in first::first_points(sites, &classes, &ids).into_iter().enumerate() {
         let id = ids[i] as usize;
@@ -122,7 +122,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
         }
         done(rank + 1);
     }
-    // From the order of the classes back to that of the voxels.
+    // Back from the order of the classes to that of the voxels.
     let mut points = vec![[0f32; 3]; n * each];
     points.par_chunks_mut(each.max(1)).enumerate().for_each(|(i, points)| {
         let id = ids[i] as usize;
@@ -134,12 +134,12 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     points
 }
 
-/// Classes as bits.
+/// A bit set of classes.
 fn set(classes: &[usize]) -> u8 {
     classes.iter().fold(0, |set, &class| set | 1 << class)
 }
 
-/// From index to world space, in voxels.
+/// Maps an offset from index to world space, in units of the voxel.
 fn scaled(sites: &Sites<'_>, o: [f32; 3]) -> [f32; 3] {
     let p = sites.axes * DVec3::from_array(o.map(f64::from)) / sites.voxel;
     p.to_array().map(|x| x as f32)
@@ -151,7 +151,7 @@ fn flattened(f: [f32; 3], p: [f32; 3]) -> [f32; 3] {
     [p[0] - along * f[0], p[1] - along * f[1], p[2] - along * f[2]]
 }
 
-/// The step from a voxel to its neighbour of number k, x fastest.
+/// The step from a voxel to neighbour k, x fastest.
 fn delta(k: usize) -> [f32; 3] {
     [k % 3, k / 3 % 3, k / 9].map(|i| i as f32 - 1.0)
 }
