@@ -1,9 +1,9 @@
 //! Measures |∇| and κ of a field, by which the seeds of its strokes are chosen ([HATCH-5], [HATCH-6]).
 
-use super::measures::Measure;
+use super::measures::VoxelMeasure;
 use super::pyramid::Pyramid;
 use super::seeds::{SeedRule, Seeds};
-use super::strokes::Strokes;
+use super::strokes::StrokeGrower;
 use crate::field::Field;
 use crate::number::Vec3;
 use crate::ray::quantile_of_norms;
@@ -24,15 +24,15 @@ pub fn gradient_range(field: &Field<'_, f64>, range: GradientRange) -> ([f64; 2]
     }
 }
 
-impl Strokes<'_, '_> {
+impl StrokeGrower<'_, '_> {
     /// Returns |∇| and κ at a voxel. κ is 0 where the voxel has no direction, as on flat and on round surfaces.
-    pub(super) fn measure(&self, voxel: [usize; 3], kind: Kind, [lo, hi]: [f64; 2]) -> Measure {
+    pub(super) fn measure(&self, voxel: [usize; 3], kind: Kind, [lo, hi]: [f64; 2]) -> VoxelMeasure {
         let ground = self.ground();
         let [x, y, z] = voxel.map(|i| i as f64);
         let at = Vec3::new(x, y, z);
         let norm = ground.gradient(at).length();
         let gradient = if hi > lo { ((norm - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
-        Measure { gradient, curvature: self.kappa(voxel, kind) }
+        VoxelMeasure { gradient, curvature: self.kappa(voxel, kind) }
     }
 
     fn kappa(&self, voxel: [usize; 3], kind: Kind) -> f64 {

@@ -5,12 +5,12 @@ use drypoint_scene::volume::{Mask, Volume};
 
 /// Flags for the voxels that have a masked voxel nearby: one bit for each scale.
 #[derive(Debug)]
-pub(super) struct Clear {
+pub(super) struct MaskMargins {
     dims: [usize; 3],
     near: Vec<u8>,
 }
 
-impl Clear {
+impl MaskMargins {
     /// `rooms` holds the margin of each scale: the required distance from masked voxels along each axis, in voxels.
     /// Returns none if no voxel is masked.
     pub(super) fn new<const N: usize>(volume: &Volume, rooms: [[f64; 3]; N]) -> Option<Self> {
@@ -83,7 +83,7 @@ mod tests {
         let grid = Grid::with_spacing(dims, [1.0; 3]).unwrap();
         let volume = Volume::new(grid, Voxels::F64(values), 1.0, 0.0).unwrap();
         let rooms = [[2.0, 1.5, 0.0], [4.0, 0.4, 3.0]];
-        let clear = Clear::new(&volume, rooms).unwrap();
+        let clear = MaskMargins::new(&volume, rooms).unwrap();
         let mask = volume.mask().unwrap();
         let masked: Vec<[f64; 3]> = (0..n)
             .map(|i| [i % nx, i / nx % ny, i / (nx * ny)])
@@ -106,6 +106,6 @@ mod tests {
         }
         assert!(both.iter().all(|&n| n > 200), "{both:?}");
         let whole = Volume::new(volume.grid().clone(), Voxels::F64(vec![0.0; n]), 1.0, 0.0).unwrap();
-        assert!(Clear::new(&whole, rooms).is_none());
+        assert!(MaskMargins::new(&whole, rooms).is_none());
     }
 }

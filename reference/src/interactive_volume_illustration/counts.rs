@@ -16,7 +16,7 @@ pub enum NoDirection {
 
 /// Why a selected cell has no stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rejected {
+pub enum RejectCause {
     /// The straight line along the gradient does not meet the surface within the cell's diagonal, or 60 evaluations
     /// find no crossing.
     NoSurface,
@@ -28,7 +28,7 @@ pub enum Rejected {
 
 /// Why a stroke ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum StrokeEnd {
     /// The stroke has its full length.
     Length,
     /// The direction differs too much from the first one.
@@ -50,7 +50,7 @@ pub enum Stop {
 /// Numbers of ends of strokes, by cause. A stroke has two ends; a closed one counts as one end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)]
-pub struct Stops {
+pub struct StrokeEnds {
     pub length: u64,
     pub angle: u64,
     pub volume: u64,
@@ -61,18 +61,18 @@ pub struct Stops {
     pub closed: u64,
 }
 
-impl Stops {
+impl StrokeEnds {
     /// Counts one end.
-    pub(super) fn count(&mut self, stop: Stop) {
+    pub(super) fn count(&mut self, stop: StrokeEnd) {
         *match stop {
-            Stop::Length => &mut self.length,
-            Stop::Angle => &mut self.angle,
-            Stop::Volume => &mut self.volume,
-            Stop::Direction => &mut self.direction,
-            Stop::Gradient => &mut self.gradient,
-            Stop::Step => &mut self.step,
-            Stop::Turns => &mut self.turns,
-            Stop::Closed => &mut self.closed,
+            StrokeEnd::Length => &mut self.length,
+            StrokeEnd::Angle => &mut self.angle,
+            StrokeEnd::Volume => &mut self.volume,
+            StrokeEnd::Direction => &mut self.direction,
+            StrokeEnd::Gradient => &mut self.gradient,
+            StrokeEnd::Step => &mut self.step,
+            StrokeEnd::Turns => &mut self.turns,
+            StrokeEnd::Closed => &mut self.closed,
         } += 1;
     }
 
@@ -91,7 +91,7 @@ impl Stops {
     }
 }
 
-impl AddAssign for Stops {
+impl AddAssign for StrokeEnds {
     fn add_assign(&mut self, b: Self) {
         self.length += b.length;
         self.angle += b.angle;
@@ -107,29 +107,29 @@ impl AddAssign for Stops {
 /// Numbers of cells without a stroke, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)]
-pub struct Rejections {
+pub struct RejectCounts {
     pub no_surface: u64,
     pub no_direction: u64,
     pub short: u64,
 }
 
-impl Rejections {
+impl RejectCounts {
     /// Number of all cells without a stroke.
     pub fn total(&self) -> u64 {
         self.no_surface + self.no_direction + self.short
     }
 
     /// Counts one cell.
-    pub(super) fn count(&mut self, rejected: Rejected) {
+    pub(super) fn count(&mut self, rejected: RejectCause) {
         *match rejected {
-            Rejected::NoSurface => &mut self.no_surface,
-            Rejected::Direction(_) => &mut self.no_direction,
-            Rejected::Short => &mut self.short,
+            RejectCause::NoSurface => &mut self.no_surface,
+            RejectCause::Direction(_) => &mut self.no_direction,
+            RejectCause::Short => &mut self.short,
         } += 1;
     }
 }
 
-impl AddAssign for Rejections {
+impl AddAssign for RejectCounts {
     fn add_assign(&mut self, b: Self) {
         self.no_surface += b.no_surface;
         self.no_direction += b.no_direction;
@@ -140,7 +140,7 @@ impl AddAssign for Rejections {
 /// Numbers of places at which a direction was asked for, by scale and cause ([HATCH-3]). With `rule = "raw"` the
 /// first scale stands for the field's own Hessian.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Scales {
+pub struct DirectionCounts {
     /// Places that got a direction, by the scale that gave it: σ = 1, 2, 4 voxels.
     pub given: [u64; 3],
     /// Estimates refused because the volume's border is too near, by scale.
@@ -159,14 +159,14 @@ pub struct Scales {
     pub missing: u64,
 }
 
-impl Scales {
+impl DirectionCounts {
     /// Number of principal directions found.
     pub fn directions(&self) -> u64 {
         self.given.iter().sum::<u64>() + self.between
     }
 }
 
-impl AddAssign for Scales {
+impl AddAssign for DirectionCounts {
     fn add_assign(&mut self, b: Self) {
         for i in 0..3 {
             self.given[i] += b.given[i];
@@ -189,11 +189,11 @@ pub struct HatchCounts {
     /// Strokes along the second direction ([HATCH-11]).
     pub cross: u64,
     /// Cells without a stroke.
-    pub rejected: Rejections,
+    pub rejected: RejectCounts,
     /// Ends of all strokes.
-    pub stops: Stops,
+    pub stops: StrokeEnds,
     /// Queries of directions.
-    pub scales: Scales,
+    pub scales: DirectionCounts,
     /// Steps whose end was put back onto the iso-surface.
     pub put_back: u64,
     /// Strokes that lost a part because it dips behind the surface however finely it is divided.

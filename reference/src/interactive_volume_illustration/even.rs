@@ -3,11 +3,11 @@
 //! A page has room for some thousand strokes, but a hundred thousand cells could begin one. So only strokes that may
 //! still begin are grown, in groups, in the order of the cells' random numbers.
 
-use super::counts::{HatchCounts, Rejected};
+use super::counts::{HatchCounts, RejectCause};
 use super::ground::{inside, normal};
-use super::sight::{Pen, Sight};
-use super::spacing::Spread;
-use super::strokes::Strokes;
+use super::sight::{PenState, Sight};
+use super::spacing::LineSpacing;
+use super::strokes::StrokeGrower;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::Polyline;
 use drypoint_scene::philox::uniforms;
@@ -29,16 +29,16 @@ const MOST: f64 = 32.0;
 
 /// The direction that strokes follow in their cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Along {
+pub enum StrokeDirection {
     /// The direction of the table's family.
     First,
     /// The second direction ([HATCH-11]).
-    Across,
+    Second,
 }
 
 /// Strokes that were placed evenly, with statistics.
 #[derive(Clone, Debug, Default)]
-pub struct Even {
+pub struct EvenStrokes {
     /// Lines on the page, in the order in which they took their places.
     pub lines: Vec<Polyline>,
     /// Number of places that the camera sees.
@@ -52,7 +52,7 @@ pub struct Even {
 }
 
 /// A place on the surface that the camera sees.
-struct Candidate {
+struct StrokeCandidate {
     order: f64,
     cell: [usize; 3],
     /// Place in world space, and the value there.
@@ -61,29 +61,30 @@ struct Candidate {
     tone: f64,
 }
 
-impl Strokes<'_, '_> {
+impl StrokeGrower<'_, '_> {
     /// Returns the lines of strokes that begin in cells where the page is still free, and adds them to `spread`.
     /// `tone` maps N to τ, the tone that the lines print.
     pub fn evenly(
         &self,
         sight: &Sight<'_>,
         (cells, seed): (&[[usize; 3]], u64),
-        along: Along,
+        along: StrokeDirection,
         tone: impl Fn(DVec3) -> f64 + Sync,
-        spread: &mut Spread,
-    ) -> Even {
-        let mut candidates: Vec<Candidate> =
+        spread: &mut LineSpacing,
+    ) -> EvenStrokes {
+        let mut candidates: Vec<StrokeCandidate> =
             cells.par_iter().flat_map_iter(|&cell| self.candidates(sight, cell, seed, spread.least(), &tone)).collect();
         candidates.par_sort_by(|a, b| a.order.total_cmp(&b.order).then(a.cell.cmp(&b.cell)));
-        let mut even = Even { seen: candidates.len() as u64, ..Even::default() };
+        let mut even = EvenStrokes { seen: candidates.len() as u64, ..EvenStrokes::default() };
         let mut left = candidates.iter();
         loop {
-            let group: Vec<&Candidate> = left.by_ref().filter(|c| spread.is_open(c.at, c.tone)).take(GROUP).collect();
+            let group: Vec<&StrokeCandidate> =
+                left.by_ref().filter(|c| spread.is_open(c.at, c.tone)).take(GROUP).collect();
             if group.is_empty() {
                 return even;
             }
             // A first test without the hiding surface: it is queried only if there is room for a line.
-            let ink = |_: &Stroke, vertex: &StrokeVertex| Pen {
+            let ink = |_: &Stroke, vertex: &StrokeVertex| PenState {
                 radius: 0.0,
                 opacity: tone(vertex.normal).max(0.0),
                 color: None,
@@ -120,7 +121,7 @@ impl Strokes<'_, '_> {
         seed: u64,
         least: f64,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
-    ) -> Vec<Candidate> {
+    ) -> Vec<StrokeCandidate> {
         let grid = self.ground().grid();
         let middle = grid.to_world(DVec3::from(cell.map(|i| i as f64 + 0.5)));
         let aside = sight.view.right * grid.voxel();
@@ -138,7 +139,7 @@ impl Strokes<'_, '_> {
         (cell, number): ([usize; 3], u32),
         seed: u64,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
-    ) -> Option<Candidate> {
+    ) -> Option<StrokeCandidate> {
         let [order, x, y, z] = uniforms(seed, cell.map(|i| i as u32), 1 + number);
         let place = self.on_surface(cell, [x, y, z]).ok()?;
         let ground = self.ground();
@@ -146,16 +147,16 @@ impl Strokes<'_, '_> {
         let at = sight.place(place.0)?;
         let tone = tone(normal);
         let front = place.0 + normal * (BEFORE * ground.grid().voxel());
-        (tone > 0.0 && sight.sees(front)).then_some(Candidate { order, cell, place, at, tone })
+        (tone > 0.0 && sight.sees(front)).then_some(StrokeCandidate { order, cell, place, at, tone })
     }
 
-    fn stroke_of(&self, candidate: &Candidate, along: Along) -> (Option<Stroke>, HatchCounts) {
+    fn stroke_of(&self, candidate: &StrokeCandidate, along: StrokeDirection) -> (Option<Stroke>, HatchCounts) {
         let mut counts = HatchCounts::default();
-        let &Candidate { cell, place: (world, target), .. } = candidate;
-        let seed = self.seed(cell, world, target, &mut counts).map_err(Rejected::Direction);
+        let &StrokeCandidate { cell, place: (world, target), .. } = candidate;
+        let seed = self.seed(cell, world, target, &mut counts).map_err(RejectCause::Direction);
         let grown = seed.and_then(|seed| match along {
-            Along::First => self.grow(&seed, &mut counts).map(Some),
-            Along::Across => Ok(self.grow_across(&seed, &mut counts)),
+            StrokeDirection::First => self.grow(&seed, &mut counts).map(Some),
+            StrokeDirection::Second => Ok(self.grow_across(&seed, &mut counts)),
         });
         let stroke = grown.unwrap_or_else(|rejected| {
             counts.rejected.count(rejected);

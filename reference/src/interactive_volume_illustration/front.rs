@@ -3,9 +3,9 @@
 
 use super::counts::HatchCounts;
 use super::ground::{inside, normal};
-use super::integrator::{Piece, point, vertices};
+use super::integrator::{CubicSegment, point, vertices};
 use super::placement::Seed;
-use super::strokes::Strokes;
+use super::strokes::StrokeGrower;
 use crate::field::Outside;
 use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;
@@ -24,20 +24,20 @@ const THIRD: f64 = 1.0 / 3.0;
 
 /// A vertex of the polyline: its place on the curve, and its corrected place.
 #[derive(Clone, Copy)]
-struct Vertex {
+struct FrontVertex {
     t: f64,
     world: DVec3,
 }
 
 /// Runs of vertices. The stroke is broken between two runs.
-struct Runs {
-    each: Vec<Vec<Vertex>>,
+struct VertexRuns {
+    each: Vec<Vec<FrontVertex>>,
     /// Buffer for the parameters at which a segment meets faces of cells.
     faces: Vec<f64>,
 }
 
-impl Runs {
-    fn push(&mut self, vertex: Vertex) {
+impl VertexRuns {
+    fn push(&mut self, vertex: FrontVertex) {
         match self.each.last_mut() {
             Some(run) => run.push(vertex),
             None => self.each.push(vec![vertex]),
@@ -49,12 +49,12 @@ impl Runs {
     }
 }
 
-impl Strokes<'_, '_> {
+impl StrokeGrower<'_, '_> {
     /// Returns the stroke of a curve whose seed is the beginning of segment `at_seed`. If the curve is broken, only
     /// the run with the seed remains. Returns none if this run has fewer than two vertices.
     pub(super) fn polyline(
         &self,
-        pieces: &[Piece],
+        pieces: &[CubicSegment],
         at_seed: usize,
         closed: bool,
         seed: &Seed,
@@ -64,10 +64,10 @@ impl Strokes<'_, '_> {
             return None;
         }
         let at = vertices(pieces, self.how().chord);
-        let mut runs = Runs { each: vec![Vec::with_capacity(2 * at.len())], faces: Vec::with_capacity(16) };
-        let mut before: Option<Vertex> = None;
+        let mut runs = VertexRuns { each: vec![Vec::with_capacity(2 * at.len())], faces: Vec::with_capacity(16) };
+        let mut before: Option<FrontVertex> = None;
         for t in at {
-            let next = self.put_back(point(pieces, t), seed.target).map(|world| Vertex { t, world });
+            let next = self.put_back(point(pieces, t), seed.target).map(|world| FrontVertex { t, world });
             match (before, next) {
                 (Some(a), Some(b)) => self.segment(pieces, seed.target, [a, b], HALVINGS, &mut runs),
                 (None, Some(b)) => runs.push(b),
@@ -78,7 +78,8 @@ impl Strokes<'_, '_> {
         let broken = runs.each.len() > 1;
         counts.cut += u64::from(broken);
         let at = at_seed as f64;
-        let holds = |run: &Vec<Vertex>| run.first().is_some_and(|v| v.t <= at) && run.last().is_some_and(|v| v.t >= at);
+        let holds =
+            |run: &Vec<FrontVertex>| run.first().is_some_and(|v| v.t <= at) && run.last().is_some_and(|v| v.t >= at);
         let mut run = runs.each.into_iter().find(holds)?;
         let closed = closed && !broken;
         if closed {
@@ -90,14 +91,21 @@ impl Strokes<'_, '_> {
     }
 
     /// Adds the end of a segment, and the vertices before it that are needed for no part to lie behind the surface.
-    fn segment(&self, pieces: &[Piece], target: f64, [a, b]: [Vertex; 2], halvings: u32, runs: &mut Runs) {
+    fn segment(
+        &self,
+        pieces: &[CubicSegment],
+        target: f64,
+        [a, b]: [FrontVertex; 2],
+        halvings: u32,
+        runs: &mut VertexRuns,
+    ) {
         if self.stays_in_front([a.world, b.world], &mut runs.faces) {
             runs.push(b);
             return;
         }
         let t = 0.5 * (a.t + b.t);
         let middle = (halvings > 0).then(|| self.put_back(point(pieces, t), target)).flatten();
-        match middle.map(|world| Vertex { t, world }) {
+        match middle.map(|world| FrontVertex { t, world }) {
             Some(middle) => {
                 self.segment(pieces, target, [a, middle], halvings - 1, runs);
                 self.segment(pieces, target, [middle, b], halvings - 1, runs);

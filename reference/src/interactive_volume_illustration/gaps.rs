@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 /// Lines with gaps, and the number of cuts.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Gapped {
+pub struct GappedLines {
     /// Lines in their order; the parts of a line in their order along it.
     pub lines: Vec<Polyline>,
     /// Number of cuts of segments.
@@ -20,15 +20,15 @@ pub struct Gapped {
 ///
 /// The gap is measured between centre lines. Each line is cut by all others as they were before cutting. A line never
 /// cuts itself: a line that runs away from the eye would.
-pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, deeper: f64) -> Gapped {
-    let all: Vec<Segment> =
+pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, deeper: f64) -> GappedLines {
+    let all: Vec<PageSegment> =
         lines.iter().chain(others).enumerate().flat_map(|(number, line)| segments(line, number, view)).collect();
-    let grid = Buckets::new(&all, gap);
+    let grid = SegmentRaster::new(&all, gap);
     let each: Vec<(Vec<Polyline>, u64)> = lines
         .par_iter()
         .enumerate()
         .map(|(number, line)| {
-            let own: Vec<Segment> = segments(line, number, view).collect();
+            let own: Vec<PageSegment> = segments(line, number, view).collect();
             let out: Vec<Vec<[f64; 2]>> = own
                 .iter()
                 .map(|segment| {
@@ -41,27 +41,27 @@ pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, de
         })
         .collect();
     let cuts = each.iter().map(|(_, cuts)| cuts).sum();
-    Gapped { lines: each.into_iter().flat_map(|(lines, _)| lines).collect(), cuts }
+    GappedLines { lines: each.into_iter().flat_map(|(lines, _)| lines).collect(), cuts }
 }
 
 /// A straight segment of a line.
-struct Segment {
+struct PageSegment {
     ends: [Vertex; 2],
     depths: [f64; 2],
     line: usize,
 }
 
-fn segments<'a>(line: &'a Polyline, number: usize, view: &'a View) -> impl Iterator<Item = Segment> + 'a {
+fn segments<'a>(line: &'a Polyline, number: usize, view: &'a View) -> impl Iterator<Item = PageSegment> + 'a {
     let again = line.vertices.first().filter(|_| line.closed).map(|first| Vertex { t: 1.0, ..*first });
     let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(again).collect();
     let depth = |vertex: &Vertex| -view.to_eye(vertex.world).z;
     (1..vertices.len()).map(move |i| {
         let ends = [vertices[i - 1], vertices[i]];
-        Segment { depths: [depth(&ends[0]), depth(&ends[1])], ends, line: number }
+        PageSegment { depths: [depth(&ends[0]), depth(&ends[1])], ends, line: number }
     })
 }
 
-impl Segment {
+impl PageSegment {
     fn at(&self, s: f64) -> DVec2 {
         self.ends[0].at.lerp(self.ends[1].at, s)
     }
@@ -153,7 +153,7 @@ fn in_strip(from: f64, slope: f64, [lo, hi]: [f64; 2]) -> Option<[f64; 2]> {
 }
 
 /// Parts of a line that remain when the intervals `out` of each segment are removed.
-fn left(segments: &[Segment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Polyline> {
+fn left(segments: &[PageSegment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Polyline> {
     let mut parts: Vec<Vec<Vertex>> = vec![Vec::new()];
     for (segment, out) in segments.iter().zip(out) {
         let mut out = out.clone();
@@ -191,7 +191,7 @@ fn left(segments: &[Segment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Polyli
 const MOST: f64 = 1024.0;
 
 /// A raster over the page that lists the segments touching each square.
-struct Buckets {
+struct SegmentRaster {
     first: DVec2,
     side: f64,
     dims: [usize; 2],
@@ -200,8 +200,8 @@ struct Buckets {
     numbers: Vec<usize>,
 }
 
-impl Buckets {
-    fn new(segments: &[Segment], gap: f64) -> Self {
+impl SegmentRaster {
+    fn new(segments: &[PageSegment], gap: f64) -> Self {
         let places = || segments.iter().flat_map(|segment| segment.ends.map(|end| end.at));
         let first = places().reduce(DVec2::min).unwrap_or_default();
         let size = places().reduce(DVec2::max).unwrap_or_default() - first;
@@ -225,7 +225,7 @@ impl Buckets {
     }
 
     /// Squares that a segment's bounding rectangle touches, grown by `around`.
-    fn touched(&self, segment: &Segment, around: f64) -> impl Iterator<Item = usize> + use<> {
+    fn touched(&self, segment: &PageSegment, around: f64) -> impl Iterator<Item = usize> + use<> {
         let [a, b] = segment.ends.map(|end| end.at - self.first);
         let square = |at: DVec2, axis: usize| ((at[axis].max(0.0) / self.side) as usize).min(self.dims[axis] - 1);
         let (lo, hi) = (a.min(b) - around, a.max(b) + around);
@@ -234,7 +234,7 @@ impl Buckets {
     }
 
     /// Segments that may be within `gap` of a segment, possibly with repetitions.
-    fn near(&self, segment: &Segment, gap: f64) -> impl Iterator<Item = usize> {
+    fn near(&self, segment: &PageSegment, gap: f64) -> impl Iterator<Item = usize> {
         self.touched(segment, gap)
             .flat_map(|square| &self.numbers[self.starts[square]..self.starts[square + 1]])
             .copied()

@@ -9,7 +9,7 @@ use drypoint_scene::space::Grid;
 
 /// A field that strokes can grow on. Positions are in index space inside the box of [SPACE-1]; derivatives are in
 /// world space, times 2^−e ([SPACE-4]).
-pub trait Ground: Sync {
+pub trait StrokeField: Sync {
     /// The grid of the field.
     fn grid(&self) -> &Grid;
 
@@ -52,7 +52,7 @@ pub trait Ground: Sync {
     }
 }
 
-impl Ground for Field<'_, f64> {
+impl StrokeField for Field<'_, f64> {
     fn grid(&self) -> &Grid {
         self.volume().grid()
     }
@@ -104,12 +104,12 @@ impl Ground for Field<'_, f64> {
 
 /// Converts a place of the world to index space. Returns none outside the volume's box and in cells that touch a
 /// masked voxel.
-pub(super) fn inside(ground: &dyn Ground, world: DVec3) -> Option<Vec3<f64>> {
+pub(super) fn inside(ground: &dyn StrokeField, world: DVec3) -> Option<Vec3<f64>> {
     index_inside(ground, ground.grid().to_index(world))
 }
 
 /// Like [`inside`], but for a place in index space.
-pub(super) fn index_inside(ground: &dyn Ground, index: DVec3) -> Option<Vec3<f64>> {
+pub(super) fn index_inside(ground: &dyn StrokeField, index: DVec3) -> Option<Vec3<f64>> {
     let [lo, hi] = ground.grid().index_box();
     if !(index.cmpge(lo).all() && index.cmple(hi).all()) {
         return None;
@@ -119,7 +119,7 @@ pub(super) fn index_inside(ground: &dyn Ground, index: DVec3) -> Option<Vec3<f64
 }
 
 /// N and ‖g‖, in the value's unit per world unit times 2^−e. Returns none where the gradient is rounding error.
-pub(super) fn normal(ground: &dyn Ground, index: Vec3<f64>) -> Option<(DVec3, f64)> {
+pub(super) fn normal(ground: &dyn StrokeField, index: Vec3<f64>) -> Option<(DVec3, f64)> {
     let gradient = ground.gradient(index);
     outward(gradient, ground.outside(), ground.no_normal_below()).map(|n| (n.to_glam(), gradient.length()))
 }

@@ -10,14 +10,14 @@ use drypoint_scene::math::pow;
 
 /// Diffuse and specular light on a line, each in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Terms {
+pub struct LineLightTerms {
     /// √(1 − (L·T)²)^p.
     pub diffuse: f64,
     /// max(0, √(1 − (L·T)²)·√(1 − (V·T)²) − (L·T)(V·T))^s.
     pub specular: f64,
 }
 
-impl Terms {
+impl LineLightTerms {
     /// The terms for L·T and V·T. L and V point towards the light and the eye; all vectors have length 1. The
     /// exponent p reduces the excess brightness that comes from choosing the brightest normal.
     pub fn new(l_t: f64, v_t: f64, p: f64, s: f64) -> Self {
@@ -29,30 +29,30 @@ impl Terms {
 
 /// Both terms tabulated over (L·T, V·T) in [−1, 1]², with bilinear interpolation: the paper's texture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TermsTable {
+pub struct LineLightTable {
     side: usize,
     /// Nodes in rows of equal V·T.
-    nodes: Vec<Terms>,
+    nodes: Vec<LineLightTerms>,
 }
 
-impl TermsTable {
+impl LineLightTable {
     /// A table with `side` nodes along each side, at least two.
     pub fn new(side: usize, p: f64, s: f64) -> Self {
         let side = side.max(2);
         let at = |i: usize| -1.0 + 2.0 * i as f64 / (side - 1) as f64;
-        let nodes = (0..side * side).map(|i| Terms::new(at(i % side), at(i / side), p, s)).collect();
+        let nodes = (0..side * side).map(|i| LineLightTerms::new(at(i % side), at(i / side), p, s)).collect();
         Self { side, nodes }
     }
 
     /// Interpolates bilinearly at L·T and V·T.
-    pub fn at(&self, l_t: f64, v_t: f64) -> Terms {
+    pub fn at(&self, l_t: f64, v_t: f64) -> LineLightTerms {
         let cell = |x: f64| {
             let x = (0.5 * (x + 1.0)).clamp(0.0, 1.0) * (self.side - 1) as f64;
             let i = (x as usize).min(self.side - 2);
             (i, x - i as f64)
         };
         let ((i, s), (j, t)) = (cell(l_t), cell(v_t));
-        let mix = |a: Terms, b: Terms, s: f64| Terms {
+        let mix = |a: LineLightTerms, b: LineLightTerms, s: f64| LineLightTerms {
             diffuse: a.diffuse + (b.diffuse - a.diffuse) * s,
             specular: a.specular + (b.specular - a.specular) * s,
         };
@@ -79,7 +79,7 @@ pub struct LineLight {
     /// Whether max(0, N·L) multiplies the light, so that a surface lies in its own shadow.
     pub self_shadow: bool,
     /// A table of the same p and s that replaces the exact terms.
-    pub table: Option<TermsTable>,
+    pub table: Option<LineLightTable>,
 }
 
 impl LineLight {
@@ -92,7 +92,7 @@ impl LineLight {
         let (l_t, v_t) = (l.dot(t).clamp(-1.0, 1.0), v.dot(t).clamp(-1.0, 1.0));
         let terms = match &self.table {
             Some(table) => table.at(l_t, v_t),
-            None => Terms::new(l_t, v_t, self.p, self.s),
+            None => LineLightTerms::new(l_t, v_t, self.p, self.s),
         };
         let shadow = if self.self_shadow { n.dot(l).clamp(0.0, 1.0) } else { 1.0 };
         let (diffuse, specular) = (self.diffuse * terms.diffuse, self.specular * terms.specular);
@@ -131,22 +131,25 @@ mod tests {
     #[test]
     fn hand_worked_terms() {
         // The light at right angles to the line and V along it: nothing shines.
-        assert_eq!(Terms::new(0.0, 1.0, P, 20.0), Terms { diffuse: 1.0, specular: 0.0 });
+        assert_eq!(LineLightTerms::new(0.0, 1.0, P, 20.0), LineLightTerms { diffuse: 1.0, specular: 0.0 });
         // Both at right angles: as bright as it gets, whatever p and s.
-        assert_eq!(Terms::new(0.0, 0.0, P, 20.0), Terms { diffuse: 1.0, specular: 1.0 });
+        assert_eq!(LineLightTerms::new(0.0, 0.0, P, 20.0), LineLightTerms { diffuse: 1.0, specular: 1.0 });
         // Along the line no light is caught.
-        assert_eq!(Terms::new(1.0, 0.0, P, 20.0).diffuse, 0.0);
+        assert_eq!(LineLightTerms::new(1.0, 0.0, P, 20.0).diffuse, 0.0);
         // L·T = 0.6, V·T = 0: 0.8^p and 0.8^s; V·T = −0.6: 0.64 + 0.36 = 1; V·T = 0.6: 0.64 − 0.36 = 0.28.
         let near = |a: f64, b: f64| (a - b).abs() < 1e-15;
-        let side = Terms::new(0.6, 0.0, 3.0, 2.0);
+        let side = LineLightTerms::new(0.6, 0.0, 3.0, 2.0);
         assert!(near(side.diffuse, 0.512) && near(side.specular, 0.64), "{side:?}");
-        assert!(near(Terms::new(0.6, -0.6, 3.0, 2.0).specular, 1.0));
-        assert!(near(Terms::new(0.6, 0.6, 3.0, 2.0).specular, 0.0784));
+        assert!(near(LineLightTerms::new(0.6, -0.6, 3.0, 2.0).specular, 1.0));
+        assert!(near(LineLightTerms::new(0.6, 0.6, 3.0, 2.0).specular, 0.0784));
         // 0.8·0.6 − 0.6·0.8: nothing, and beyond it, where the printed power would be of a negative number, nothing either.
-        assert!(Terms::new(0.6, 0.8, 3.0, 2.0).specular < 1e-30);
-        assert_eq!(Terms::new(0.8, 0.8, 3.0, 2.0).specular, 0.0);
+        assert!(LineLightTerms::new(0.6, 0.8, 3.0, 2.0).specular < 1e-30);
+        assert_eq!(LineLightTerms::new(0.8, 0.8, 3.0, 2.0).specular, 0.0);
         // Rounding that leaves [−1, 1] gives no NaN.
-        assert_eq!(Terms::new(1.0 + 1e-15, -1.0 - 1e-15, P, 1.0), Terms { diffuse: 0.0, specular: 1.0 });
+        assert_eq!(
+            LineLightTerms::new(1.0 + 1e-15, -1.0 - 1e-15, P, 1.0),
+            LineLightTerms { diffuse: 0.0, specular: 1.0 }
+        );
     }
 
     /// With a = cos α and b = cos β: √(1−a²)√(1−b²) − ab = −cos(α + β). The value is below 0 where light and eye are
@@ -158,7 +161,7 @@ mod tests {
         for k in 0..2000 {
             let [l, v, t, n] = [0, 1, 2, 3].map(|i| vector(4 * k + i));
             assert_eq!(light.color(l, v, t, n), light.color(l, v, -t, n));
-            let terms = Terms::new(l.dot(t), v.dot(t), P, 20.0);
+            let terms = LineLightTerms::new(l.dot(t), v.dot(t), P, 20.0);
             let sum = l.dot(t).acos() + v.dot(t).acos();
             assert!((terms.specular - (-sum.cos()).max(0.0).powi(20)).abs() < 1e-9);
             assert!((0.0..=1.0).contains(&terms.diffuse) && (0.0..=1.0).contains(&terms.specular));
@@ -179,11 +182,11 @@ mod tests {
                 x * cos + y * sin
             });
             let most = normals.map(|n| n.dot(l)).fold(0.0, f64::max);
-            assert!((Terms::new(l.dot(t), v.dot(t), 1.0, 1.0).diffuse - most).abs() < 1e-7);
+            assert!((LineLightTerms::new(l.dot(t), v.dot(t), 1.0, 1.0).diffuse - most).abs() < 1e-7);
             // V in the plane of L and T is where the highlight is all of V·R.
             let n = (l - t * l.dot(t)).normalize();
             let r = n * (2.0 * n.dot(l)) - l;
-            assert!((Terms::new(l.dot(t), r.dot(t), 1.0, 1.0).specular - 1.0).abs() < 1e-12);
+            assert!((LineLightTerms::new(l.dot(t), r.dot(t), 1.0, 1.0).specular - 1.0).abs() < 1e-12);
         }
     }
 
@@ -212,12 +215,12 @@ mod tests {
 
     /// The largest error of tables at 4n² places, everywhere and where the function is smooth.
     fn errors(side: usize, within: f64) -> [f64; 2] {
-        let table = TermsTable::new(side, P, 20.0);
+        let table = LineLightTable::new(side, P, 20.0);
         let (mut diffuse, mut specular) = (0.0f64, 0.0f64);
         for i in 0..1001 {
             for j in 0..1001 {
                 let at = |i: i32| within * (f64::from(i) / 500.0 - 1.0);
-                let (exact, found) = (Terms::new(at(i), at(j), P, 20.0), table.at(at(i), at(j)));
+                let (exact, found) = (LineLightTerms::new(at(i), at(j), P, 20.0), table.at(at(i), at(j)));
                 diffuse = diffuse.max((exact.diffuse - found.diffuse).abs());
                 specular = specular.max((exact.specular - found.specular).abs());
             }
@@ -241,6 +244,6 @@ mod tests {
         assert!((3.5..4.5).contains(&(whole[0] / finer[0])), "{whole:?} {finer:?}");
         assert!((1.3..2.0).contains(&(whole[1] / finer[1])), "{whole:?} {finer:?}");
         // Exact at its nodes.
-        assert_eq!(TermsTable::new(5, P, 20.0).at(0.5, -1.0), Terms::new(0.5, -1.0, P, 20.0));
+        assert_eq!(LineLightTable::new(5, P, 20.0).at(0.5, -1.0), LineLightTerms::new(0.5, -1.0, P, 20.0));
     }
 }

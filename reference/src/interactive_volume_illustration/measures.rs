@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// |∇| and the curvature at a voxel, both in [0, 1].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Measure {
+pub struct VoxelMeasure {
     /// ‖∇f‖ in its range ([VAL-2]).
     pub gradient: f64,
     /// κ = min(1, |mean curvature| · smallest spacing), or curvedness for it; 0 where there is no direction.
@@ -16,7 +16,7 @@ pub struct Measure {
 
 /// The largest values over the voxels of a block, as bytes rounded up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Largest {
+pub struct LargestMeasure {
     /// The largest |∇|.
     pub gradient: u8,
     /// The largest curvature.
@@ -27,21 +27,20 @@ pub struct Largest {
 pub(super) fn of_blocks(
     blocks: &[[usize; 3]],
     dims: [usize; 3],
-    measure: impl Fn([usize; 3]) -> Measure + Sync,
-) -> (Vec<Largest>, u64) {
-    let asked = Asked::new(blocks, dims);
-    let measured: Vec<Largest> = asked
+    measure: impl Fn([usize; 3]) -> VoxelMeasure + Sync,
+) -> (Vec<LargestMeasure>, u64) {
+    let asked = VoxelSet::new(blocks, dims);
+    let measured: Vec<LargestMeasure> = asked
         .voxels()
         .map(|at| {
-            let Measure { gradient, curvature } =
+            let VoxelMeasure { gradient, curvature } =
                 measure([at % dims[0], at / dims[0] % dims[1], at / (dims[0] * dims[1])]);
-            Largest { gradient: outwards(gradient), curvature: outwards(curvature) }
+            LargestMeasure { gradient: outwards(gradient), curvature: outwards(curvature) }
         })
         .collect();
     let largest = |block: &[usize; 3]| {
-        rows_of(*block, dims).flatten().map(|at| measured[asked.before(at)]).fold(Largest::default(), |a, b| Largest {
-            gradient: a.gradient.max(b.gradient),
-            curvature: a.curvature.max(b.curvature),
+        rows_of(*block, dims).flatten().map(|at| measured[asked.before(at)]).fold(LargestMeasure::default(), |a, b| {
+            LargestMeasure { gradient: a.gradient.max(b.gradient), curvature: a.curvature.max(b.curvature) }
         })
     };
     (blocks.par_iter().map(largest).collect(), measured.len() as u64)
@@ -55,14 +54,14 @@ fn rows_of(block: [usize; 3], dims: [usize; 3]) -> impl Iterator<Item = Range<us
 }
 
 /// A set of voxels of a grid, with ranks.
-struct Asked {
+struct VoxelSet {
     /// One bit for each voxel.
     bits: Vec<u64>,
     /// Number of members before each word of bits.
     before: Vec<usize>,
 }
 
-impl Asked {
+impl VoxelSet {
     fn new(blocks: &[[usize; 3]], dims: [usize; 3]) -> Self {
         let words = dims.iter().product::<usize>().div_ceil(64);
         let bits: Vec<AtomicU64> = (0..words).map(|_| AtomicU64::new(0)).collect();
@@ -119,7 +118,7 @@ mod tests {
             let value = |[x, y, z]: [usize; 3]| ((x * 31 + y * 17 + z * 7) % 256) as f64 / 255.0;
             let (largest, measured) = of_blocks(&some, dims, |at| {
                 asked.lock().unwrap().push(at);
-                Measure { gradient: value(at), curvature: 1.0 - value(at) }
+                VoxelMeasure { gradient: value(at), curvature: 1.0 - value(at) }
             });
             let voxels = |b: &[usize; 3]| {
                 let [x, y, z] = [0, 1, 2].map(|a| 2 * b[a]..(2 * b[a] + 3).min(dims[a]));
@@ -134,7 +133,7 @@ mod tests {
             for (block, largest) in some.iter().zip(largest) {
                 let of =
                     |f: &dyn Fn(f64) -> f64| voxels(block).into_iter().map(|v| outwards(f(value(v)))).max().unwrap();
-                assert_eq!(largest, Largest { gradient: of(&|v| v), curvature: of(&|v| 1.0 - v) });
+                assert_eq!(largest, LargestMeasure { gradient: of(&|v| v), curvature: of(&|v| 1.0 - v) });
             }
         }
     }

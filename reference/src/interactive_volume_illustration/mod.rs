@@ -1,8 +1,8 @@
 //! Interactive volume illustration (Nagy, Schneider and Westermann, Vision, Modeling and Visualization 2002).
 //!
 //! A [`Pyramid`] finds the cells of an iso-surface (3.2). [`Seeds`] selects the cells in which strokes begin (4.1).
-//! [`Strokes`] grows a stroke along a line of curvature from each seed (3, 4.2). [`outlines`] are found anew for each
-//! camera. [`Sight`] projects strokes and outlines onto the page and removes their hidden parts (4.3.2). A [`Spread`]
+//! [`StrokeGrower`] grows a stroke along a line of curvature from each seed (3, 4.2). [`outlines`] are found anew for each
+//! camera. [`Sight`] projects strokes and outlines onto the page and removes their hidden parts (4.3.2). A [`LineSpacing`]
 //! keeps lines apart on the page.
 //!
 //! Section 4.4: [`toon`] selects a tone by the light, [`silhouette`] blackens surfaces that turn away from the eye,
@@ -49,28 +49,28 @@ mod without_iso;
 
 pub use cells::gradient_range;
 pub use cone::NormalCone;
-pub use counts::{HatchCounts, NoDirection, Rejected, Rejections, Scales, Stop, Stops};
+pub use counts::{DirectionCounts, HatchCounts, NoDirection, RejectCause, RejectCounts, StrokeEnd, StrokeEnds};
 pub use dash::{dash_vertices, dashed};
-pub use even::{Along, Even};
-pub use gaps::{Gapped, gapped};
-pub use ground::Ground;
-pub use line_light::{LineLight, Terms, TermsTable};
-pub use measures::{Largest, Measure};
+pub use even::{EvenStrokes, StrokeDirection};
+pub use gaps::{GappedLines, gapped};
+pub use ground::StrokeField;
+pub use line_light::{LineLight, LineLightTable, LineLightTerms};
+pub use measures::{LargestMeasure, VoxelMeasure};
 pub use noise::deviation;
-pub use orientation::{Reference, longest_axis};
-pub use outline::{Outlines, outlines};
-pub use packed::Packed;
+pub use orientation::{ReferenceField, longest_axis};
+pub use outline::{OutlineStrokes, outlines};
+pub use packed::PackedStrokes;
 pub use placement::Seed;
 pub use pyramid::Pyramid;
 pub use seeds::{SeedRule, Seeds};
-pub use sight::{Pen, Seen, Sight};
-pub use silhouette::Silhouette;
-pub use spacing::{Apart, Spread};
-pub use stored::{Between, Storing};
-pub use strokes::{Family, Grown, Hatching, Strokes};
-pub use styled::{Drawn, Place, drawn, grain};
+pub use sight::{PenState, Sight, VisibleLines};
+pub use silhouette::SilhouetteTest;
+pub use spacing::{LineDistance, LineSpacing};
+pub use stored::{DirectionInterpolation, DirectionStorage};
+pub use strokes::{CurvatureFamily, GrownStrokes, HatchParams, StrokeGrower};
+pub use styled::{StrokePoint, StyledStroke, drawn, grain};
 pub use toon::Toon;
-pub use umbilics::{Directions, Rule, Thresholds};
+pub use umbilics::{DirectionEstimator, PrincipalDirections, Thresholds};
 pub use view_opacity::ViewOpacity;
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ const ACROSS: f64 = 1e-6;
 
 /// A reference field.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reference {
+pub enum ReferenceField {
     /// a × (x − c).
     Cylindrical {
         /// The axis a, of any length.
@@ -29,7 +29,7 @@ pub enum Reference {
     },
 }
 
-impl Reference {
+impl ReferenceField {
     /// The field around the longest axis of a grid's box (the first of equals), through the box's centre.
     pub fn cylindrical(grid: &Grid) -> Self {
         Self::Cylindrical { axis: longest_axis(grid), center: grid.centre() }
@@ -67,8 +67,8 @@ mod tests {
     #[test]
     fn around_the_longest_axis() {
         let grid = Grid::with_spacing([11, 21, 6], [1.0, 1.0, 5.0]).unwrap();
-        let around = Reference::cylindrical(&grid);
-        assert_eq!(around, Reference::Cylindrical { axis: DVec3::Z, center: DVec3::new(5.0, 10.0, 12.5) });
+        let around = ReferenceField::cylindrical(&grid);
+        assert_eq!(around, ReferenceField::Cylindrical { axis: DVec3::Z, center: DVec3::new(5.0, 10.0, 12.5) });
         // Anticlockwise about z, in all four quadrants.
         for (x, want) in [(9.0, DVec3::Y), (1.0, DVec3::NEG_Y)] {
             let place = DVec3::new(x, 10.0, 3.0);
@@ -80,7 +80,8 @@ mod tests {
         // Rounding is no component.
         assert_eq!(around.signed(DVec3::new(-1e-9, 0.0, 1.0), place), DVec3::new(-1e-9, 0.0, 1.0));
         assert_eq!(around.signed(DVec3::NEG_X, grid.centre()), DVec3::X);
-        let (axial, radial) = (Reference::Axial { axis: DVec3::X * 7.0 }, Reference::Radial { center: place });
+        let (axial, radial) =
+            (ReferenceField::Axial { axis: DVec3::X * 7.0 }, ReferenceField::Radial { center: place });
         assert_eq!(axial.signed(DVec3::NEG_X, place), DVec3::X);
         assert_eq!(radial.signed(DVec3::X, DVec3::ZERO), DVec3::NEG_X);
     }

@@ -8,10 +8,10 @@
 //! A grid with an axis of one voxel has no cells and no outline.
 
 use super::chain::{Chain, chains};
-use super::level::Level;
-use super::refine::Refine;
+use super::level::IsoDifference;
+use super::refine::CurveRefinement;
 use super::rim::rim;
-use super::tetrahedra::{FACES, Pair, TETRAHEDRA, crossed, is_above, weights};
+use super::tetrahedra::{FACES, TETRAHEDRA, ValuePair, crossed, is_above, weights};
 use super::thin::kept;
 use crate::field::Sampler;
 use crate::field::normal::outward;
@@ -42,7 +42,7 @@ const BACK: f64 = 0.3;
 
 /// The outlines of a surface for one camera, hidden parts included.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outlines {
+pub struct OutlineStrokes {
     /// Strokes in world space. Those where the surface turns away come before those on the box, each group in the
     /// order of their cells.
     pub strokes: Vec<Stroke>,
@@ -53,13 +53,13 @@ pub struct Outlines {
 }
 
 /// Finds the outlines of a surface, whose field is prepared for gradients, for a camera.
-pub fn outlines(surface: &IsoSurface<'_, '_>, view: &View) -> Outlines {
+pub fn outlines(surface: &IsoSurface<'_, '_>, view: &View) -> OutlineStrokes {
     let field = surface.field();
     let volume = field.volume();
-    let search = Search {
+    let search = OutlineSearch {
         grid: volume.grid(),
         mask: volume.mask(),
-        level: Level::new(volume, surface.iso()),
+        level: IsoDifference::new(volume, surface.iso()),
         view,
         outside: field.reconstruction().outside,
         no_normal_below: field.no_normal_below(),
@@ -68,10 +68,10 @@ pub fn outlines(surface: &IsoSurface<'_, '_>, view: &View) -> Outlines {
 }
 
 /// The inputs of a search for outlines, except the field.
-pub(super) struct Search<'a> {
+pub(super) struct OutlineSearch<'a> {
     pub(super) grid: &'a Grid,
     pub(super) mask: Option<&'a Mask>,
-    pub(super) level: Level,
+    pub(super) level: IsoDifference,
     pub(super) view: &'a View,
     pub(super) outside: Outside,
     /// Gradient length that is rounding error ([PREC-3]).
@@ -79,23 +79,24 @@ pub(super) struct Search<'a> {
 }
 
 /// A place on a curve in index space, with the key of the face or edge on which it lies.
-pub(super) type Place = (u64, DVec3);
+pub(super) type CurvePoint = (u64, DVec3);
 
-impl Search<'_> {
-    pub(super) fn outlines<S: Sampler<f64>>(&self, sampler: &S, bricks: &[[usize; 3]]) -> Outlines {
+impl OutlineSearch<'_> {
+    pub(super) fn outlines<S: Sampler<f64>>(&self, sampler: &S, bricks: &[[usize; 3]]) -> OutlineStrokes {
         if self.grid.dims().contains(&1) {
-            return Outlines::default();
+            return OutlineStrokes::default();
         }
         let in_bricks = |brick: &[usize; 3]| self.in_brick(sampler, *brick);
-        let pieces: Vec<[Place; 2]> = bricks.par_iter().flat_map_iter(in_bricks).collect();
+        let pieces: Vec<[CurvePoint; 2]> = bricks.par_iter().flat_map_iter(in_bricks).collect();
         let (chains, found) = joined(pieces);
-        let refine = Refine {
+        let refine = CurveRefinement {
             sampler,
             over: &|value| self.level.over(value),
             q: |at: DVec3| self.facing(at, sampler.gradient(Vec3::from_glam(at))),
             bounds: self.grid.index_box(),
         };
-        let onto_curve = |place: &Place| refine.onto_curve(place.1).filter(|at| self.normal(sampler, *at).is_some());
+        let onto_curve =
+            |place: &CurvePoint| refine.onto_curve(place.1).filter(|at| self.normal(sampler, *at).is_some());
         let moved: Vec<Option<DVec3>> = found.par_iter().map(onto_curve).collect();
         let middle = |at: DVec3| refine.onto_curve(at);
         let (places, lost) = (found.len(), moved.iter().filter(|at| at.is_none()).count());
@@ -106,7 +107,7 @@ impl Search<'_> {
         let (chains, on_box) = joined(rim(self, sampler));
         let at = |key: u64| Some(on_box[on_box.partition_point(|place| place.0 < key)].1);
         strokes.par_extend(chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 3, &at, &|_| None)));
-        Outlines { strokes, places: places as u64, lost: lost as u64 }
+        OutlineStrokes { strokes, places: places as u64, lost: lost as u64 }
     }
 
     /// g·v at a place in index space, v of length 1 towards the eye.
@@ -130,7 +131,7 @@ impl Search<'_> {
     }
 
     /// Segments of curves in the cells of a brick.
-    fn in_brick<S: Sampler<f64>>(&self, sampler: &S, brick: [usize; 3]) -> Vec<[Place; 2]> {
+    fn in_brick<S: Sampler<f64>>(&self, sampler: &S, brick: [usize; 3]) -> Vec<[CurvePoint; 2]> {
         const SIDE: usize = BRICK + 1;
         let first = brick.map(|b| b * BRICK);
         let cells: [usize; 3] = std::array::from_fn(|a| BRICK.min(self.grid.dims()[a] - 1 - first[a]));
@@ -153,7 +154,7 @@ impl Search<'_> {
             if self.mask.is_some_and(|mask| mask.touches_cell(index)) {
                 return;
             }
-            let corners: [Pair; 8] = std::array::from_fn(|steps| {
+            let corners: [ValuePair; 8] = std::array::from_fn(|steps| {
                 let i = local(at(cell, steps));
                 if facing[i].is_nan() {
                     let voxel = at(index, steps);
@@ -170,7 +171,7 @@ impl Search<'_> {
     }
 
     /// Adds the segments in the tetrahedra of a cell, from the functions at its corners.
-    fn in_cell(&self, cell: [usize; 3], corners: &[Pair; 8], pieces: &mut Vec<[Place; 2]>) {
+    fn in_cell(&self, cell: [usize; 3], corners: &[ValuePair; 8], pieces: &mut Vec<[CurvePoint; 2]>) {
         for tetrahedron in TETRAHEDRA {
             let Some(faces) = crossed(tetrahedron.map(|steps| corners[steps])) else { continue };
             pieces.push(faces.map(|face| {
@@ -219,7 +220,7 @@ impl Search<'_> {
     }
 }
 
-impl Search<'_> {
+impl OutlineSearch<'_> {
     /// Adds places to a curve where its segments are too far from `onto_curve`.
     fn bent(
         &self,
@@ -281,9 +282,9 @@ pub(super) fn position(voxel: [usize; 3]) -> DVec3 {
 }
 
 /// Chains of segments, and all places sorted by key.
-fn joined(pieces: Vec<[Place; 2]>) -> (Vec<Chain>, Vec<Place>) {
+fn joined(pieces: Vec<[CurvePoint; 2]>) -> (Vec<Chain>, Vec<CurvePoint>) {
     let chains = chains(pieces.iter().map(|piece| piece.map(|(key, _)| key)).collect());
-    let mut places: Vec<Place> = pieces.into_iter().flatten().collect();
+    let mut places: Vec<CurvePoint> = pieces.into_iter().flatten().collect();
     places.sort_unstable_by_key(|(key, _)| *key);
     // Both tetrahedra at a face give the same place.
     places.dedup_by_key(|(key, _)| *key);

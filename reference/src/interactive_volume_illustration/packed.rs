@@ -13,13 +13,13 @@ const STEPS: f64 = 127.0;
 
 /// Packed strokes, one vertex after the other.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Packed {
+pub struct PackedStrokes {
     vertices: Vec<[u8; BYTES]>,
     /// Index after the last vertex of each stroke.
     ends: Vec<u32>,
 }
 
-impl Packed {
+impl PackedStrokes {
     /// Packs strokes with places in the grid's index space. There the error of 32 bits is at most 2⁻²⁴ of the grid's
     /// side, wherever the grid lies in the world. A closed stroke repeats its first vertex.
     pub fn new<'s>(strokes: impl Iterator<Item = &'s Stroke>, grid: &Grid) -> Self {
@@ -131,7 +131,7 @@ mod tests {
         let stroke =
             |from: u32, n: u32, closed| Stroke { vertices: (from..from + n).map(vertex).collect(), closed, key: 0 };
         let strokes = [stroke(0, 5, false), stroke(5, 3, true), stroke(8, 2, false)];
-        let packed = Packed::new(strokes.iter(), &grid);
+        let packed = PackedStrokes::new(strokes.iter(), &grid);
         assert_eq!((packed.vertices(), packed.bytes()), (11, 11 * 14 + 3 * 4));
         for (i, stroke) in strokes.iter().enumerate() {
             let back: Vec<_> = packed.stroke(i).collect();

@@ -1,10 +1,10 @@
 //! The start of a stroke: from a cell's centre along its gradient to a place just in front of the surface
 //! ([HATCH-7]).
 
-use super::counts::{HatchCounts, NoDirection, Rejected};
-use super::ground::{Ground, inside, normal};
-use super::search::Search;
-use super::strokes::{Family, Hatching, Strokes};
+use super::counts::{HatchCounts, NoDirection, RejectCause};
+use super::ground::{StrokeField, inside, normal};
+use super::search::RootSearch;
+use super::strokes::{CurvatureFamily, HatchParams, StrokeGrower};
 use crate::field::Outside;
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
@@ -34,13 +34,13 @@ pub struct Seed {
     /// Curvatures per world unit, with both directions.
     pub curvature: Curvature<f64>,
     /// The stroke's family: `Max` or `Min`.
-    pub family: Family,
+    pub family: CurvatureFamily,
 }
 
-impl Hatching {
+impl HatchParams {
     /// Returns the value at the distance δ in front of a surface: iso ∓ min(δ‖g‖, 0.1 of the range). `slope` is ‖g‖,
     /// in the value's unit per world unit.
-    fn target(&self, ground: &dyn Ground, iso: f64, slope: f64) -> f64 {
+    fn target(&self, ground: &dyn StrokeField, iso: f64, slope: f64) -> f64 {
         let [lo, hi] = ground.range();
         let by = (self.in_front(ground.grid()) * slope).min(LARGEST_SHARE * (hi - lo));
         match ground.outside() {
@@ -50,14 +50,14 @@ impl Hatching {
     }
 }
 
-impl<'f> Strokes<'f, '_> {
+impl<'f> StrokeGrower<'f, '_> {
     /// Returns the seed of a cell.
     ///
     /// # Errors
     /// The cell's line does not meet the surface, or there is no direction at the crossing.
-    pub fn place(&self, cell: [usize; 3], counts: &mut HatchCounts) -> Result<Seed, Rejected> {
+    pub fn place(&self, cell: [usize; 3], counts: &mut HatchCounts) -> Result<Seed, RejectCause> {
         let (world, target) = self.on_surface(cell, [0.5; 3])?;
-        self.seed(cell, world, target, counts).map_err(Rejected::Direction)
+        self.seed(cell, world, target, counts).map_err(RejectCause::Direction)
     }
 
     /// Follows the gradient's line through a place in a cell to the surface of the strokes. Returns the crossing and
@@ -66,16 +66,16 @@ impl<'f> Strokes<'f, '_> {
     ///
     /// # Errors
     /// The line does not meet the surface, or the place has no gradient.
-    pub(super) fn on_surface(&self, cell: [usize; 3], within: [f64; 3]) -> Result<(DVec3, f64), Rejected> {
+    pub(super) fn on_surface(&self, cell: [usize; 3], within: [f64; 3]) -> Result<(DVec3, f64), RejectCause> {
         let ground = self.ground();
         let grid = ground.grid();
         let dims = grid.dims();
         let along = |a: usize| if dims[a] == 1 { 0.0 } else { cell[a] as f64 + within[a] };
         let index = Vec3::new(along(0), along(1), along(2));
         if ground.masked(cell) {
-            return Err(Rejected::NoSurface);
+            return Err(RejectCause::NoSurface);
         }
-        let (outward, slope) = normal(ground, index).ok_or(Rejected::Direction(NoDirection::Gradient))?;
+        let (outward, slope) = normal(ground, index).ok_or(RejectCause::Direction(NoDirection::Gradient))?;
         let from = grid.to_world(index.to_glam());
         let Some(iso) = self.iso() else { return Ok((from, ground.value(index))) };
         let slope = scale_by_power_of_two(slope, ground.exponent());
@@ -83,7 +83,7 @@ impl<'f> Strokes<'f, '_> {
         // The search reaches as far as the cell's diagonal, in voxels, so that cells with a long spacing are searched
         // as well.
         let reach = 3f64.sqrt() / (grid.inverse_axes() * outward).length();
-        let s = self.meets(from, outward, target, reach, PLACES, EVALUATIONS).ok_or(Rejected::NoSurface)?;
+        let s = self.meets(from, outward, target, reach, PLACES, EVALUATIONS).ok_or(RejectCause::NoSurface)?;
         Ok((from + outward * s, target))
     }
 
@@ -118,7 +118,7 @@ impl<'f> Strokes<'f, '_> {
     ) -> Option<f64> {
         let ground = self.ground();
         let over = |s: f64| Some(ground.value(inside(ground, x + along * s)?) - target);
-        Search { over, tolerance: self.near(target), budget: evaluations }.nearest(reach, places)
+        RootSearch { over, tolerance: self.near(target), budget: evaluations }.nearest(reach, places)
     }
 
     /// Tolerance of |f − target|: the largest of 2⁻⁴⁰ of the range of values, the rounding of a large target, and the

@@ -7,7 +7,7 @@ use drypoint_scene::view::View;
 
 /// A projection from the world to a page.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Onto<'a> {
+pub(super) struct PageProjection<'a> {
     view: &'a View,
     page: &'a Page,
     near: f64,
@@ -16,7 +16,7 @@ pub(super) struct Onto<'a> {
 /// The part of a segment inside the frame. s is the parameter along the segment on the page: 0 and 1 are its ends or,
 /// in perspective, its crossings of the plane at depth `near`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cut {
+pub(super) struct ClippedSegment {
     /// Places on the page for s = 0 and 1, in mm.
     ends: [DVec2; 2],
     /// Parameters along the world segment for s = 0 and 1.
@@ -29,7 +29,7 @@ pub(super) struct Cut {
     pub(super) length: f64,
 }
 
-impl<'a> Onto<'a> {
+impl<'a> PageProjection<'a> {
     /// `near` is the near distance of a perspective camera, in world units.
     pub(super) fn new(view: &'a View, page: &'a Page, near: f64) -> Self {
         Self { view, page, near }
@@ -54,7 +54,7 @@ impl<'a> Onto<'a> {
     }
 
     /// Clips a world segment to the frame, grown by `beyond` mm.
-    pub(super) fn cut(&self, piece: [DVec3; 2], beyond: f64) -> Option<Cut> {
+    pub(super) fn cut(&self, piece: [DVec3; 2], beyond: f64) -> Option<ClippedSegment> {
         let eye = piece.map(|p| self.view.to_eye(p));
         let mut world = [0.0, 1.0];
         let mut depths = [1.0; 2];
@@ -76,11 +76,11 @@ impl<'a> Onto<'a> {
         let margin = self.page.margin - beyond;
         let range = inside(ends, DVec2::splat(margin), self.page.size - margin)?;
         let length = ends[0].distance(ends[1]);
-        (length.is_finite()).then_some(Cut { ends, world, depths, range, length })
+        (length.is_finite()).then_some(ClippedSegment { ends, world, depths, range, length })
     }
 }
 
-impl Cut {
+impl ClippedSegment {
     /// The parameter along the world segment.
     pub(super) fn along_world(&self, s: f64) -> f64 {
         let [from, to] = self.world;
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn a_piece_in_perspective() {
         let (view, page) = (view(Projection::Perspective { fov: 90.0 }), page());
-        let onto = Onto::new(&view, &page, 1.0);
+        let onto = PageProjection::new(&view, &page, 1.0);
         // At depth 10 the frame is 20 wide, 5 mm a unit; at depth 5 it is 10 wide.
         let cut = onto.cut([DVec3::ZERO, DVec3::new(2.0, 1.0, 5.0)], 0.0).unwrap();
         let near = |a: DVec2, x: f64, y: f64| (a - DVec2::new(x, y)).length() < 1e-9;
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn the_frame_cuts() {
         let (view, page) = (view(Projection::Orthographic { height: None }), page());
-        let onto = Onto::new(&view, &page, 1.0);
+        let onto = PageProjection::new(&view, &page, 1.0);
         let middle = onto.place(DVec3::new(0.0, 0.0, 50.0)).unwrap();
         assert!((middle - DVec2::splat(55.0)).length() < 1e-9);
         assert_eq!(onto.place(DVec3::new(f64::NAN, 0.0, 0.0)), None);

@@ -14,9 +14,9 @@ use std::ops::Range;
 pub struct Pyramid {
     /// The least and the largest value of each entry as bytes, rounded outwards. The first level holds blocks, each
     /// further level 2 × 2 × 2 entries of the one below, up to a single entry.
-    ranges: Vec<Level<[u8; 2]>>,
+    ranges: Vec<PyramidLevel<[u8; 2]>>,
     /// The largest κ of each entry as a byte, rounded up. There are as many levels as in `ranges`, or none.
-    curvatures: Vec<Level<u8>>,
+    curvatures: Vec<PyramidLevel<u8>>,
     cells: [usize; 3],
     /// The values of byte 0 and of byte 255.
     range: [f64; 2],
@@ -24,7 +24,7 @@ pub struct Pyramid {
 
 /// One level of the pyramid, x fastest.
 #[derive(Clone, Debug)]
-struct Level<T> {
+struct PyramidLevel<T> {
     dims: [usize; 3],
     entries: Vec<T>,
 }
@@ -39,7 +39,7 @@ pub(super) fn span(block: usize, voxels: usize) -> Range<usize> {
     2 * block..(2 * block + 3).min(voxels)
 }
 
-impl<T: Copy + Send> Level<T> {
+impl<T: Copy + Send> PyramidLevel<T> {
     /// Builds a level of blocks from rows: `row` gets a row's y and z and returns its blocks.
     fn of_rows(dims: [usize; 3], row: impl Fn([usize; 2]) -> Vec<T> + Sync) -> Self {
         let blocks = cells_of(dims).map(|n| n.div_ceil(2));
@@ -97,7 +97,7 @@ impl Pyramid {
                 (0..cells_of(dims)[0].div_ceil(2)).map(of_block).collect()
             })
         };
-        let ranges = Level::of_rows(dims, row).levels(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let ranges = PyramidLevel::of_rows(dims, row).levels(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         Self { ranges, curvatures: Vec::new(), cells: cells_of(dims), range }
     }
 
@@ -110,7 +110,7 @@ impl Pyramid {
             let of_block = |x| outwards(columns[span(x, dims[0])].iter().copied().fold(0.0, f64::max));
             (0..cells_of(dims)[0].div_ceil(2)).map(of_block).collect()
         };
-        Self { curvatures: Level::of_rows(dims, row).levels(u8::max), ..self }
+        Self { curvatures: PyramidLevel::of_rows(dims, row).levels(u8::max), ..self }
     }
 
     /// Number of the grid's cells along each axis.

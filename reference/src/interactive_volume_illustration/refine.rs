@@ -21,7 +21,7 @@ const REACH: f64 = 1.75;
 const STEPS: u32 = 24;
 
 /// Moves places in index space along the shortest way onto f = iso, q = 0.
-pub(super) struct Refine<'s, S, Q> {
+pub(super) struct CurveRefinement<'s, S, Q> {
     pub(super) sampler: &'s S,
     /// Maps a value to f − iso, scaled.
     pub(super) over: &'s (dyn Fn(f64) -> f64 + Sync),
@@ -31,7 +31,7 @@ pub(super) struct Refine<'s, S, Q> {
     pub(super) bounds: [DVec3; 2],
 }
 
-impl<S: Sampler<f64>, Q: Fn(DVec3) -> f64> Refine<'_, S, Q> {
+impl<S: Sampler<f64>, Q: Fn(DVec3) -> f64> CurveRefinement<'_, S, Q> {
     fn both(&self, at: DVec3) -> DVec2 {
         DVec2::new((self.over)(self.sampler.value(Vec3::from_glam(at))), (self.q)(at))
     }

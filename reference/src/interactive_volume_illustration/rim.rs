@@ -1,6 +1,6 @@
 //! The intersection of an iso-surface with the faces of the volume's box ([HATCH-18]).
 
-use super::outline::{Place, Search, position};
+use super::outline::{CurvePoint, OutlineSearch, position};
 use super::tetrahedra::is_above;
 use crate::field::Sampler;
 use crate::number::Vec3;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Returns the segments of f = iso in the faces of the box. Each cell face is split into the two triangles that its
 /// tetrahedra have there. Ends are roots along the triangles' edges. An edge's key is its first voxel and the step to
 /// the other one.
-pub(super) fn rim<S: Sampler<f64>>(search: &Search<'_>, sampler: &S) -> Vec<[Place; 2]> {
+pub(super) fn rim<S: Sampler<f64>>(search: &OutlineSearch<'_>, sampler: &S) -> Vec<[CurvePoint; 2]> {
     let dims = search.grid.dims();
     let side = |i: usize| {
         let (axis, far) = (i / 2, i % 2 == 1);
@@ -39,11 +39,11 @@ pub(super) fn rim<S: Sampler<f64>>(search: &Search<'_>, sampler: &S) -> Vec<[Pla
 
 /// Adds the segment in a triangle. The triangle's corners are given as steps from a voxel.
 fn in_triangle<S: Sampler<f64>>(
-    search: &Search<'_>,
+    search: &OutlineSearch<'_>,
     sampler: &S,
     first: [usize; 3],
     corners: [usize; 3],
-) -> Option<[Place; 2]> {
+) -> Option<[CurvePoint; 2]> {
     let voxel = |steps: usize| -> [usize; 3] { std::array::from_fn(|a| first[a] + (steps >> a & 1)) };
     let over = |at: DVec3| search.level.over(sampler.value(Vec3::from_glam(at)));
     let values = corners.map(|steps| over(position(voxel(steps))));

@@ -1,7 +1,7 @@
 //! The nearest place on a line where the field has a value ([HATCH-7]).
 
 /// A search along a line.
-pub(super) struct Search<F> {
+pub(super) struct RootSearch<F> {
     /// f(s) − target; none outside the field.
     pub over: F,
     /// |f − target| that is accepted as a root.
@@ -13,7 +13,7 @@ pub(super) struct Search<F> {
 /// A place on the line, and f − target there.
 type Known = [f64; 2];
 
-impl<F: Fn(f64) -> Option<f64>> Search<F> {
+impl<F: Fn(f64) -> Option<f64>> RootSearch<F> {
     fn at(&mut self, s: f64) -> Option<f64> {
         self.budget = self.budget.checked_sub(1)?;
         (self.over)(s)
@@ -91,7 +91,7 @@ mod tests {
             asked.set(asked.get() + 1);
             f(s)
         };
-        let root = Search { over, tolerance: 1e-12, budget }.nearest(2.0, 12);
+        let root = RootSearch { over, tolerance: 1e-12, budget }.nearest(2.0, 12);
         (root, asked.get())
     }
 

@@ -1,6 +1,6 @@
 //! Selection of the cells in which strokes begin (4.1; [HATCH-6]).
 
-use super::measures::{Largest, Measure, of_blocks};
+use super::measures::{LargestMeasure, VoxelMeasure, of_blocks};
 use super::pyramid::{Pyramid, is_above};
 use drypoint_scene::philox::uniform;
 use drypoint_scene::volume::Volume;
@@ -22,11 +22,11 @@ pub enum SeedRule {
 
 impl SeedRule {
     /// The probability p of a block.
-    pub fn probability(self, largest: Largest) -> f64 {
+    pub fn probability(self, largest: LargestMeasure) -> f64 {
         match self {
             Self::Dense => 1.0,
             Self::Curvature { min_curvature, min_gradient } => {
-                let Largest { curvature, gradient } = largest;
+                let LargestMeasure { curvature, gradient } = largest;
                 let counts = is_above(curvature, min_curvature) && is_above(gradient, min_gradient);
                 let [kappa, gradient] = [curvature, gradient].map(|b| f64::from(b) / 255.0);
                 if counts { 0.5 * (kappa + gradient) } else { 0.0 }
@@ -61,7 +61,7 @@ impl Seeds {
         volume: &Volume,
         iso: f64,
         rule: SeedRule,
-        measure: impl Fn([usize; 3]) -> Measure + Sync,
+        measure: impl Fn([usize; 3]) -> VoxelMeasure + Sync,
     ) -> Self {
         let counts = |[least, largest]: [f64; 2]| least <= iso && iso <= largest;
         Self::of_blocks(pyramid, volume, (pyramid.blocks(iso, rule.min_curvature()), counts), rule, measure)
@@ -73,7 +73,7 @@ impl Seeds {
         volume: &Volume,
         counts: impl Fn([f64; 2]) -> bool + Sync,
         rule: SeedRule,
-        measure: impl Fn([usize; 3]) -> Measure + Sync,
+        measure: impl Fn([usize; 3]) -> VoxelMeasure + Sync,
     ) -> Self {
         Self::of_blocks(pyramid, volume, (pyramid.blocks_among(&counts, rule.min_curvature()), counts), rule, measure)
     }
@@ -83,15 +83,15 @@ impl Seeds {
         volume: &Volume,
         (blocks, counts): (Vec<[usize; 3]>, impl Fn([f64; 2]) -> bool + Sync),
         rule: SeedRule,
-        measure: impl Fn([usize; 3]) -> Measure + Sync,
+        measure: impl Fn([usize; 3]) -> VoxelMeasure + Sync,
     ) -> Self {
         let has_one = |&block: &[usize; 3]| pyramid.cells_of_block(block).any(|cell| holds(volume, cell, &counts));
         let blocks: Vec<[usize; 3]> = blocks.into_par_iter().filter(has_one).collect();
         let (largest, measured) = match rule {
-            SeedRule::Dense => (vec![Largest::default(); blocks.len()], 0),
+            SeedRule::Dense => (vec![LargestMeasure::default(); blocks.len()], 0),
             SeedRule::Curvature { .. } => of_blocks(&blocks, volume.dims(), measure),
         };
-        let of_block = |(&block, &largest): (&[usize; 3], &Largest)| {
+        let of_block = |(&block, &largest): (&[usize; 3], &LargestMeasure)| {
             let p = rule.probability(largest);
             pyramid.cells_of_block(block).filter(|&cell| holds(volume, cell, &counts)).map(move |cell| (cell, p))
         };
@@ -150,9 +150,9 @@ mod tests {
     }
 
     /// Pseudo-random measures of a voxel, unrelated to its value.
-    fn measure(at: [usize; 3]) -> Measure {
+    fn measure(at: [usize; 3]) -> VoxelMeasure {
         let [a, b, ..] = uniforms(2, at.map(|i| i as u32 / 3), 0);
-        Measure { gradient: a, curvature: if b < 0.3 { 0.0 } else { b * b } }
+        VoxelMeasure { gradient: a, curvature: if b < 0.3 { 0.0 } else { b * b } }
     }
 
     /// All cells by brute force: the block's 27 voxels and the cell's own eight.
@@ -163,7 +163,7 @@ mod tests {
         all.filter(|&cell| holds(volume, cell, |[least, largest]| least <= iso && iso <= largest))
             .map(|cell| {
                 let first = cell.map(|i| i / 2 * 2);
-                let mut largest = Largest::default();
+                let mut largest = LargestMeasure::default();
                 for k in 0..27 {
                     let at = [first[0] + k % 3, first[1] + k / 3 % 3, first[2] + k / 9];
                     if (0..3).all(|axis| at[axis] < dims[axis]) {
@@ -179,16 +179,16 @@ mod tests {
 
     #[test]
     fn p_by_hand() {
-        let p = |gradient, curvature| RULE.probability(Largest { gradient, curvature });
+        let p = |gradient, curvature| RULE.probability(LargestMeasure { gradient, curvature });
         assert_eq!(p(255, 255), 1.0);
         assert_eq!(p(51, 102), 0.5 * (0.2 + 0.4));
         // C₀ = 0.02 is 5.1 bytes, C₁ = 0.05 is 12.75.
         assert_eq!([p(255, 5), p(255, 6), p(12, 255), p(13, 255)].map(|p| p > 0.0), [false, true, false, true]);
         // At the bound itself there is none.
         let at = SeedRule::Curvature { min_curvature: 0.2, min_gradient: 0.2 };
-        assert_eq!(at.probability(Largest { gradient: 51, curvature: 255 }), 0.0);
-        assert_eq!(at.probability(Largest { gradient: 255, curvature: 51 }), 0.0);
-        assert_eq!(SeedRule::Dense.probability(Largest::default()), 1.0);
+        assert_eq!(at.probability(LargestMeasure { gradient: 51, curvature: 255 }), 0.0);
+        assert_eq!(at.probability(LargestMeasure { gradient: 255, curvature: 51 }), 0.0);
+        assert_eq!(SeedRule::Dense.probability(LargestMeasure::default()), 1.0);
     }
 
     #[test]
@@ -215,7 +215,7 @@ mod tests {
         for dims in [[20, 9, 10], [2, 2, 2], [1, 7, 5]] {
             let volume = noise(dims);
             let pyramid = Pyramid::new(&volume);
-            let flat = |at: [usize; 3]| Measure { curvature: if at[0] < 9 { 0.01 } else { 0.5 }, ..measure(at) };
+            let flat = |at: [usize; 3]| VoxelMeasure { curvature: if at[0] < 9 { 0.01 } else { 0.5 }, ..measure(at) };
             let curved = pyramid.clone().with_curvature(dims, |at| flat(at).curvature);
             let counts = |[least, largest]: [f64; 2]| least < 0.06 && largest > 0.05;
             let all = [

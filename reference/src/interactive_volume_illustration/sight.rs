@@ -3,8 +3,8 @@
 //! A straight segment of a stroke is straight on the page. Visibility is tested along it every half pixel, and each
 //! change is narrowed down to a tenth of a pixel.
 
-use super::project::{Cut, Onto};
-use super::styled::Drawn;
+use super::project::{ClippedSegment, PageProjection};
+use super::styled::StyledStroke;
 use crate::surface::IsoSurface;
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
@@ -37,7 +37,7 @@ pub struct Sight<'a> {
 
 /// The pen at one place of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pen {
+pub struct PenState {
     /// Half the width, in mm on the page.
     pub radius: f64,
     /// Opacity in (0, 1].
@@ -48,7 +48,7 @@ pub struct Pen {
 
 /// Strokes as lines on the page.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Seen {
+pub struct VisibleLines {
     /// Lines in the order of the strokes; the parts of a stroke in their order along it.
     pub lines: Vec<Polyline>,
     /// Number of queries of the surface.
@@ -58,7 +58,7 @@ pub struct Seen {
 impl Sight<'_> {
     /// The place on the page of a point of the world. Returns none outside the frame.
     pub fn place(&self, world: DVec3) -> Option<DVec2> {
-        Onto::new(self.view, self.page, self.near).place(world)
+        PageProjection::new(self.view, self.page, self.near).place(world)
     }
 
     /// Whether the surface does not hide a place.
@@ -67,17 +67,18 @@ impl Sight<'_> {
     }
 
     /// Returns the visible parts of strokes inside the frame. `pen` gives the pen at each vertex.
-    pub fn seen(&self, strokes: &[Stroke], pen: impl Fn(&Stroke, &StrokeVertex) -> Pen + Sync) -> Seen {
+    pub fn seen(&self, strokes: &[Stroke], pen: impl Fn(&Stroke, &StrokeVertex) -> PenState + Sync) -> VisibleLines {
         self.each(strokes, |stroke| {
-            let ends = stroke.vertices.iter().map(|vertex| End { vertex: *vertex, pen: pen(stroke, vertex) });
+            let ends = stroke.vertices.iter().map(|vertex| PennedVertex { vertex: *vertex, pen: pen(stroke, vertex) });
             (ends.collect(), stroke.closed)
         })
     }
 
     /// Like [`seen`](Self::seen), but for strokes that carry their pens.
-    pub fn seen_drawn(&self, strokes: &[Drawn]) -> Seen {
-        self.each(strokes, |Drawn { stroke, pens }| {
-            let ends = stroke.vertices.iter().zip(pens).map(|(vertex, pen)| End { vertex: *vertex, pen: *pen });
+    pub fn seen_drawn(&self, strokes: &[StyledStroke]) -> VisibleLines {
+        self.each(strokes, |StyledStroke { stroke, pens }| {
+            let ends =
+                stroke.vertices.iter().zip(pens).map(|(vertex, pen)| PennedVertex { vertex: *vertex, pen: *pen });
             (ends.collect(), stroke.closed)
         })
     }
@@ -91,39 +92,44 @@ impl Sight<'_> {
         lines.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
     }
 
-    fn each<S: Sync>(&self, strokes: &[S], ends: impl Fn(&S) -> (Vec<End>, bool) + Sync) -> Seen {
+    fn each<S: Sync>(&self, strokes: &[S], ends: impl Fn(&S) -> (Vec<PennedVertex>, bool) + Sync) -> VisibleLines {
         let front = self.surface.map_or(1.0, |surface| surface.front(self.view));
         let each = strokes.par_iter().map(|stroke| {
-            let mut walk = Walk { sight: self, onto: Onto::new(self.view, self.page, self.near), front, looks: 0 };
+            let mut walk = VisibilityTrace {
+                sight: self,
+                onto: PageProjection::new(self.view, self.page, self.near),
+                front,
+                looks: 0,
+            };
             let (ends, closed) = ends(stroke);
             let lines = walk.lines(ends, closed);
             (lines, walk.looks)
         });
         let each: Vec<(Vec<Polyline>, u64)> = each.collect();
         let looks = each.iter().map(|(_, looks)| looks).sum();
-        Seen { lines: each.into_iter().flat_map(|(lines, _)| lines).collect(), looks }
+        VisibleLines { lines: each.into_iter().flat_map(|(lines, _)| lines).collect(), looks }
     }
 }
 
 /// The visibility tests along a stroke.
-struct Walk<'a, 's> {
+struct VisibilityTrace<'a, 's> {
     sight: &'a Sight<'s>,
-    onto: Onto<'a>,
+    onto: PageProjection<'a>,
     front: f64,
     looks: u64,
 }
 
 /// A vertex with its pen.
 #[derive(Clone, Copy)]
-struct End {
+struct PennedVertex {
     vertex: StrokeVertex,
-    pen: Pen,
+    pen: PenState,
 }
 
-impl Walk<'_, '_> {
-    fn lines(&mut self, mut ends: Vec<End>, closed: bool) -> Vec<Polyline> {
+impl VisibilityTrace<'_, '_> {
+    fn lines(&mut self, mut ends: Vec<PennedVertex>, closed: bool) -> Vec<Polyline> {
         if let (true, Some(first)) = (closed, ends.first().copied()) {
-            ends.push(End { vertex: StrokeVertex { u: 1.0, ..first.vertex }, ..first });
+            ends.push(PennedVertex { vertex: StrokeVertex { u: 1.0, ..first.vertex }, ..first });
         }
         let mut parts: Vec<Vec<Vertex>> = Vec::new();
         // Whether the last part ends where the next segment begins, and the visibility at that place if it is known.
@@ -167,7 +173,12 @@ impl Walk<'_, '_> {
     }
 
     /// Returns the visible parameter ranges of a segment, and whether its end is visible.
-    fn ranges(&mut self, piece: &[End; 2], cut: &Cut, known: Option<bool>) -> (Vec<[f64; 2]>, bool) {
+    fn ranges(
+        &mut self,
+        piece: &[PennedVertex; 2],
+        cut: &ClippedSegment,
+        known: Option<bool>,
+    ) -> (Vec<[f64; 2]>, bool) {
         let [from, to] = cut.range;
         if self.sight.surface.is_none() {
             return (vec![[from, to]], true);
@@ -197,7 +208,7 @@ impl Walk<'_, '_> {
         (ranges, before)
     }
 
-    fn is_seen(&mut self, piece: &[End; 2], cut: &Cut, s: f64) -> bool {
+    fn is_seen(&mut self, piece: &[PennedVertex; 2], cut: &ClippedSegment, s: f64) -> bool {
         let Some(surface) = self.sight.surface else { return true };
         self.looks += 1;
         let [a, b] = piece.map(|end| end.vertex);
@@ -209,7 +220,7 @@ impl Walk<'_, '_> {
 }
 
 /// The vertex at the parameter s of a segment on the page.
-fn between([a, b]: &[End; 2], cut: &Cut, s: f64) -> Vertex {
+fn between([a, b]: &[PennedVertex; 2], cut: &ClippedSegment, s: f64) -> Vertex {
     let u = cut.along_world(s);
     let mix = |x: f64, y: f64| if u == 1.0 { y } else { x + (y - x) * u };
     Vertex {

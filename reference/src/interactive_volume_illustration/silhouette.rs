@@ -4,11 +4,11 @@ use crate::number::Real;
 
 /// The test (N·V)² + offset > ½.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Silhouette<R> {
+pub struct SilhouetteTest<R> {
     offset: R,
 }
 
-impl<R: Real> Silhouette<R> {
+impl<R: Real> SilhouetteTest<R> {
     /// The test with its offset.
     pub fn new(offset: f64) -> Self {
         Self { offset: R::from_f64(offset) }
@@ -29,9 +29,9 @@ mod tests {
     #[test]
     fn black_up_to_the_root() {
         let black = |offset: f64, x: f64| {
-            let silhouette = Silhouette::<f64>::new(offset);
+            let silhouette = SilhouetteTest::<f64>::new(offset);
             assert_eq!(silhouette.is_black(x), silhouette.is_black(-x));
-            assert_eq!(silhouette.is_black(x), Silhouette::<f32>::new(offset).is_black(x as f32));
+            assert_eq!(silhouette.is_black(x), SilhouetteTest::<f32>::new(offset).is_black(x as f32));
             silhouette.is_black(x)
         };
         assert!(black(0.25, 0.5) && !black(0.25, 0.53125) && black(0.25, 0.0));

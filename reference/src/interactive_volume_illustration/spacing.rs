@@ -18,7 +18,7 @@ const GOES_ON: f64 = 0.88;
 
 /// The wanted distance of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Apart {
+pub enum LineDistance {
     /// The pen's width over the tone, which is a line's opacity. Tones below `least` are not drawn.
     Tone {
         /// The faintest tone.
@@ -28,7 +28,7 @@ pub enum Apart {
     Everywhere(f64),
 }
 
-impl Apart {
+impl LineDistance {
     /// The wanted distance at the tone τ; none if nothing is drawn.
     fn at(self, nib: f64, tone: f64) -> Option<f64> {
         match self {
@@ -47,18 +47,18 @@ impl Apart {
 }
 
 /// A page on which lines keep their distance from each other.
-pub struct Spread {
-    paper: Paper,
+pub struct LineSpacing {
+    paper: NearestPlaces,
     nib: f64,
-    apart: Apart,
+    apart: LineDistance,
     shortest: f64,
 }
 
-impl Spread {
+impl LineSpacing {
     /// An empty page between two corners, for a nib of width `nib`. Parts of lines shorter than `shortest` are left
     /// out. All lengths are in mm.
-    pub fn new(corners: [DVec2; 2], nib: f64, apart: Apart, shortest: f64) -> Self {
-        Self { paper: Paper::new(corners, nib, RENYI * apart.most(nib)), nib, apart, shortest }
+    pub fn new(corners: [DVec2; 2], nib: f64, apart: LineDistance, shortest: f64) -> Self {
+        Self { paper: NearestPlaces::new(corners, nib, RENYI * apart.most(nib)), nib, apart, shortest }
     }
 
     /// The least distance of lines, at tone 1.
@@ -120,7 +120,7 @@ const MOST: f64 = 4096.0;
 const NONE: u32 = u32::MAX;
 
 /// The places of accepted lines, and for each cell of a raster the nearest of them.
-struct Paper {
+struct NearestPlaces {
     first: DVec2,
     /// Side of a cell, and distance of places along a line, in mm.
     cell: f64,
@@ -133,7 +133,7 @@ struct Paper {
     closed: Vec<bool>,
 }
 
-impl Paper {
+impl NearestPlaces {
     fn new([first, last]: [DVec2; 2], nib: f64, reach: f64) -> Self {
         let cell = (0.5 * nib).max((last - first).max_element() / MOST);
         let dims = [last.x - first.x, last.y - first.y].map(|length| (length / cell) as usize + 1);
@@ -252,8 +252,8 @@ mod tests {
     const NIB: f64 = 0.3;
 
     /// Adds all lines at once.
-    fn spread(lines: &[Polyline], apart: Apart, shortest: f64) -> Vec<Polyline> {
-        Spread::new([DVec2::splat(-10.0), DVec2::splat(90.0)], NIB, apart, shortest).add(lines)
+    fn spread(lines: &[Polyline], apart: LineDistance, shortest: f64) -> Vec<Polyline> {
+        LineSpacing::new([DVec2::splat(-10.0), DVec2::splat(90.0)], NIB, apart, shortest).add(lines)
     }
 
     fn line(from: DVec2, to: DVec2, tone: impl Fn(DVec2) -> f64) -> Polyline {
@@ -311,7 +311,7 @@ mod tests {
     fn flat_tones_print_as_they_are_wanted() {
         for tone in [0.1, 0.2, 0.35, 0.5, 0.65, 0.8] {
             let all = lines(12_000, |_| tone);
-            let kept = spread(&all, Apart::Tone { least: 0.05 }, 1.0);
+            let kept = spread(&all, LineDistance::Tone { least: 0.05 }, 1.0);
             let found = ink(&kept, [10.0, 50.0]);
             assert!((found - tone).abs() <= 0.05, "{tone}: {found}");
         }
@@ -320,7 +320,7 @@ mod tests {
     #[test]
     fn a_ramp_prints_as_it_is_wanted() {
         let tone = |at: DVec2| (0.8 * at.x / 60.0).clamp(0.0, 1.0);
-        let kept = spread(&lines(30_000, tone), Apart::Tone { least: 0.05 }, 0.6);
+        let kept = spread(&lines(30_000, tone), LineDistance::Tone { least: 0.05 }, 0.6);
         for k in 1..8 {
             let range = [60.0 / 8.0 * f64::from(k), 60.0 / 8.0 * f64::from(k + 1)];
             let wanted = tone(DVec2::new(0.5 * (range[0] + range[1]), 0.0));
@@ -338,7 +338,7 @@ mod tests {
             let from = DVec2::new(20.0 * x, 20.0 * y);
             line(from, from + 8.0 * DVec2::new(a - 0.5, 1.0 - a), |_| 0.3)
         };
-        let kept = spread(&(0..800).map(slanted).collect::<Vec<_>>(), Apart::Tone { least: 0.05 }, 0.5);
+        let kept = spread(&(0..800).map(slanted).collect::<Vec<_>>(), LineDistance::Tone { least: 0.05 }, 0.5);
         assert!(kept.len() > 20, "{}", kept.len());
         let d = GOES_ON * RENYI * NIB / 0.3;
         let bound = (d * d - NIB * NIB / 16.0).sqrt() - 1e-9;
@@ -359,7 +359,7 @@ mod tests {
 
     #[test]
     fn a_length_is_a_distance_everywhere_and_white_is_white() {
-        let kept = spread(&lines(30_000, |at| if at.x < 30.0 { 0.9 } else { 0.0 }), Apart::Everywhere(1.5), 1.0);
+        let kept = spread(&lines(30_000, |at| if at.x < 30.0 { 0.9 } else { 0.0 }), LineDistance::Everywhere(1.5), 1.0);
         assert!((ink(&kept, [5.0, 25.0]) - NIB / 1.5).abs() < 0.02);
         assert_eq!(ink(&kept, [33.0, 60.0]), 0.0);
         assert!(kept.iter().flat_map(|l| &l.vertices).all(|v| v.opacity == 1.0 && v.radius == NIB / 2.0));
@@ -367,23 +367,23 @@ mod tests {
 
     #[test]
     fn nothing_and_one() {
-        assert!(spread(&[], Apart::Everywhere(1.0), 0.0).is_empty());
+        assert!(spread(&[], LineDistance::Everywhere(1.0), 0.0).is_empty());
         let alone = line(DVec2::ZERO, DVec2::new(5.0, 2.0), |_| 0.5);
-        let kept = spread(std::slice::from_ref(&alone), Apart::Tone { least: 0.05 }, 1.0);
+        let kept = spread(std::slice::from_ref(&alone), LineDistance::Tone { least: 0.05 }, 1.0);
         assert_eq!(kept.len(), 1);
         assert!((kept[0].length() - alone.length()).abs() < 1e-12);
         // A dash that is too short is none, and neither is one without tone.
-        assert!(spread(std::slice::from_ref(&alone), Apart::Everywhere(1.0), 6.0).is_empty());
-        let mut page = Spread::new([DVec2::ZERO, DVec2::splat(9.0)], NIB, Apart::Tone { least: 0.05 }, 1.0);
+        assert!(spread(std::slice::from_ref(&alone), LineDistance::Everywhere(1.0), 6.0).is_empty());
+        let mut page = LineSpacing::new([DVec2::ZERO, DVec2::splat(9.0)], NIB, LineDistance::Tone { least: 0.05 }, 1.0);
         assert!(page.is_open(alone.vertices[3].at, 0.5) && !page.is_open(alone.vertices[3].at, 0.01));
         page.add(std::slice::from_ref(&alone));
         assert!(!page.is_open(alone.vertices[3].at, 0.5) && page.is_open(DVec2::new(1.0, 5.0), 0.5));
         page.close(DVec2::new(1.0, 5.0));
         assert!(!page.is_open(DVec2::new(1.1, 5.0), 0.5) && page.is_open(DVec2::new(1.6, 5.0), 0.5));
         let faint = line(DVec2::ZERO, DVec2::new(5.0, 2.0), |_| 0.04);
-        assert!(spread(&[faint], Apart::Tone { least: 0.05 }, 1.0).is_empty());
+        assert!(spread(&[faint], LineDistance::Tone { least: 0.05 }, 1.0).is_empty());
         let closed = Polyline { closed: true, ..alone };
-        let kept = spread(std::slice::from_ref(&closed), Apart::Everywhere(1.0), 1.0);
+        let kept = spread(std::slice::from_ref(&closed), LineDistance::Everywhere(1.0), 1.0);
         assert!((kept[0].length() - closed.length()).abs() < 1e-12);
     }
 }

@@ -1,13 +1,13 @@
 //! Strokes along the lines of curvature, traced in both directions from their seeds ([HATCH-4], [HATCH-8], [HATCH-9],
 //! [HATCH-11]).
 
-use super::counts::{HatchCounts, NoDirection, Rejected, Scales, Stop};
-use super::ground::{Ground, inside, normal};
-use super::integrator::{Control, End, Goal, Half, Lines, Piece, trace};
-use super::orientation::Reference;
+use super::counts::{DirectionCounts, HatchCounts, NoDirection, RejectCause, StrokeEnd};
+use super::ground::{StrokeField, inside, normal};
+use super::integrator::{Control, CubicSegment, EndCause, Goal, HalfCurve, LineField, trace};
+use super::orientation::ReferenceField;
 use super::placement::Seed;
-use super::stored::{Near, Source, Stored, Storing};
-use super::umbilics::{Directions, Rule};
+use super::stored::{CellCache, DirectionInputs, DirectionStorage, StoredDirections};
+use super::umbilics::{DirectionEstimator, PrincipalDirections};
 use crate::field::Field;
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
@@ -51,7 +51,7 @@ const CLEARANCE: f64 = 0.05;
 
 /// The lines of curvature that strokes follow. The value of the curvature tells the two families apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
+pub enum CurvatureFamily {
     /// The lines of the curvature of larger magnitude at the seed. If the two differ by less than 1 %, those of κ₁.
     Larger,
     /// The lines of κ₁, the larger curvature.
@@ -60,7 +60,7 @@ pub enum Family {
     Min,
 }
 
-impl Family {
+impl CurvatureFamily {
     /// Returns `Max` or `Min` for a stroke that begins at these curvatures.
     pub fn of(self, c: &Curvature<f64>) -> Self {
         match self {
@@ -89,7 +89,7 @@ impl Family {
 
 /// Parameters of growing strokes. Lengths are in world units, angles in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hatching {
+pub struct HatchParams {
     /// Length of a whole stroke, both halves together.
     pub length: f64,
     /// Length of a stroke along the second direction, as a share of `length`.
@@ -105,20 +105,20 @@ pub struct Hatching {
     /// The largest angle to the seed's direction on each half; 180 allows any.
     pub max_angle: f64,
     /// The family of lines.
-    pub family: Family,
+    pub family: CurvatureFamily,
     /// The rule that computes directions.
-    pub rule: Rule,
+    pub rule: DirectionEstimator,
     /// The storage of directions. None computes them at every query.
-    pub stored: Option<Storing>,
+    pub stored: Option<DirectionStorage>,
     /// The reference field for the sense of the strokes.
-    pub reference: Reference,
+    pub reference: ReferenceField,
     /// The random variation of `length`, as a share.
     pub jitter: f64,
     /// Key of the random numbers ([RAY-4]).
     pub seed: u64,
 }
 
-impl Hatching {
+impl HatchParams {
     /// A scene's defaults for a grid.
     pub fn new(grid: &Grid) -> Self {
         let voxel = grid.voxel();
@@ -130,10 +130,10 @@ impl Hatching {
             offset: 0.15 * voxel,
             chord: 0.1 * voxel,
             max_angle: 90.0,
-            family: Family::Larger,
-            rule: Rule::Scaled(Default::default()),
+            family: CurvatureFamily::Larger,
+            rule: DirectionEstimator::Scaled(Default::default()),
             stored: None,
-            reference: Reference::cylindrical(grid),
+            reference: ReferenceField::cylindrical(grid),
             jitter: 0.0,
             seed: 1,
         }
@@ -155,7 +155,7 @@ impl Hatching {
 
 /// Strokes of seeds, in the order of the seeds.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Grown {
+pub struct GrownStrokes {
     /// Strokes along the first direction, each with its seed.
     pub strokes: Vec<(Seed, Stroke)>,
     /// Strokes along the second direction, for the selected seeds.
@@ -165,30 +165,35 @@ pub struct Grown {
 }
 
 /// Grows strokes on a field.
-pub struct Strokes<'f, 'v> {
-    ground: &'f dyn Ground,
-    directions: Directions<'f, 'v>,
-    stored: Option<Stored>,
+pub struct StrokeGrower<'f, 'v> {
+    ground: &'f dyn StrokeField,
+    directions: PrincipalDirections<'f, 'v>,
+    stored: Option<StoredDirections>,
     iso: Option<f64>,
-    how: Hatching,
+    how: HatchParams,
     rounding: f64,
 }
 
-impl<'f, 'v> Strokes<'f, 'v> {
+impl<'f, 'v> StrokeGrower<'f, 'v> {
     /// Strokes on the surface f = iso of a field. If `iso` is none, each stroke stays at the value of its cell's
     /// centre ([HATCH-16]). The field must be prepared for gradients, and for Hessians if the rule is `raw`. Nothing
     /// is computed yet.
-    pub fn new(field: &'f Field<'v, f64>, iso: Option<f64>, how: Hatching) -> Self {
-        Self::with(field, Directions::new(field, how.rule), iso, how)
+    pub fn new(field: &'f Field<'v, f64>, iso: Option<f64>, how: HatchParams) -> Self {
+        Self::with(field, PrincipalDirections::new(field, how.rule), iso, how)
     }
 
     /// Strokes on any ground, with the ground's own Hessians.
-    pub fn on(ground: &'f dyn Ground, iso: Option<f64>, how: Hatching) -> Self {
-        Self::with(ground, Directions::raw(), iso, how)
+    pub fn on(ground: &'f dyn StrokeField, iso: Option<f64>, how: HatchParams) -> Self {
+        Self::with(ground, PrincipalDirections::raw(), iso, how)
     }
 
-    fn with(ground: &'f dyn Ground, directions: Directions<'f, 'v>, iso: Option<f64>, how: Hatching) -> Self {
-        let stored = how.stored.map(|storing| Stored::new(ground, storing.between));
+    fn with(
+        ground: &'f dyn StrokeField,
+        directions: PrincipalDirections<'f, 'v>,
+        iso: Option<f64>,
+        how: HatchParams,
+    ) -> Self {
+        let stored = how.stored.map(|storing| StoredDirections::new(ground, storing.between));
         let grid = ground.grid();
         let farthest = grid.world_corners().map(|corner| corner.abs().max_element()).into_iter().fold(0.0, f64::max);
         let rows = grid.inverse_axes().transpose();
@@ -215,8 +220,8 @@ impl<'f, 'v> Strokes<'f, 'v> {
         self.rounding
     }
 
-    fn source(&self) -> Source<'_, 'f, 'v> {
-        Source { ground: self.ground, directions: &self.directions }
+    fn source(&self) -> DirectionInputs<'_, 'f, 'v> {
+        DirectionInputs { ground: self.ground, directions: &self.directions }
     }
 
     /// Computes the directions of all voxels, with random signs.
@@ -238,13 +243,17 @@ impl<'f, 'v> Strokes<'f, 'v> {
             Some(stored) => stored.voxel(&self.source(), voxel),
             None => {
                 let [x, y, z] = voxel.map(|i| i as f64);
-                self.directions.at(self.ground, Vec3::new(x, y, z), &mut Scales::default()).ok()
+                self.directions.at(self.ground, Vec3::new(x, y, z), &mut DirectionCounts::default()).ok()
             }
         }
     }
 
     /// Curvatures and directions at a place in index space.
-    pub(super) fn curvature(&self, index: Vec3<f64>, counts: &mut Scales) -> Result<Curvature<f64>, NoDirection> {
+    pub(super) fn curvature(
+        &self,
+        index: Vec3<f64>,
+        counts: &mut DirectionCounts,
+    ) -> Result<Curvature<f64>, NoDirection> {
         match &self.stored {
             Some(stored) => stored.curvature(&self.source(), index, counts),
             None => self.directions.at(self.ground, index, counts),
@@ -252,12 +261,12 @@ impl<'f, 'v> Strokes<'f, 'v> {
     }
 
     /// The field on which strokes grow.
-    pub fn ground(&self) -> &'f dyn Ground {
+    pub fn ground(&self) -> &'f dyn StrokeField {
         self.ground
     }
 
     /// The principal directions.
-    pub fn directions(&self) -> &Directions<'f, 'v> {
+    pub fn directions(&self) -> &PrincipalDirections<'f, 'v> {
         &self.directions
     }
 
@@ -267,13 +276,13 @@ impl<'f, 'v> Strokes<'f, 'v> {
     }
 
     /// The parameters of growing.
-    pub fn how(&self) -> &Hatching {
+    pub fn how(&self) -> &HatchParams {
         &self.how
     }
 
     /// Grows the strokes of cells, in parallel and in the order of the cells. If `cross` accepts a seed, a second
     /// stroke follows the other direction ([HATCH-11]).
-    pub fn grow_all(&self, cells: &[[usize; 3]], cross: impl Fn(&Seed) -> bool + Sync) -> Grown {
+    pub fn grow_all(&self, cells: &[[usize; 3]], cross: impl Fn(&Seed) -> bool + Sync) -> GrownStrokes {
         let mut order: Vec<usize> = (0..cells.len()).collect();
         order.sort_by_key(|&i| cells[i].map(|c| c / NEIGHBOURS));
         let some = |order: &[usize]| {
@@ -295,7 +304,7 @@ impl<'f, 'v> Strokes<'f, 'v> {
             (made, counts)
         };
         let all: Vec<_> = order.par_chunks(AT_ONCE).map(some).collect();
-        let mut grown = Grown::default();
+        let mut grown = GrownStrokes::default();
         let mut strokes: Vec<_> = (0..cells.len()).map(|_| None).collect();
         for (made, counts) in all {
             grown.counts += counts;
@@ -316,8 +325,8 @@ impl<'f, 'v> Strokes<'f, 'v> {
     ///
     /// # Errors
     /// The stroke has fewer than two vertices.
-    pub fn grow(&self, seed: &Seed, counts: &mut HatchCounts) -> Result<Stroke, Rejected> {
-        let stroke = self.follow(seed, seed.family, self.how.length, counts).ok_or(Rejected::Short)?;
+    pub fn grow(&self, seed: &Seed, counts: &mut HatchCounts) -> Result<Stroke, RejectCause> {
+        let stroke = self.follow(seed, seed.family, self.how.length, counts).ok_or(RejectCause::Short)?;
         counts.strokes += 1;
         Ok(stroke)
     }
@@ -331,10 +340,10 @@ impl<'f, 'v> Strokes<'f, 'v> {
         Some(stroke)
     }
 
-    fn follow(&self, seed: &Seed, family: Family, length: f64, counts: &mut HatchCounts) -> Option<Stroke> {
+    fn follow(&self, seed: &Seed, family: CurvatureFamily, length: f64, counts: &mut HatchCounts) -> Option<Stroke> {
         let mut counted = *counts;
         let length = length * self.how.scattered(seed.cell);
-        let mut lines = OnSurface::new(self, family, seed.target, &mut counted);
+        let mut lines = CurvatureLines::new(self, family, seed.target, &mut counted);
         let along = self.how.reference.signed(lines.at(seed.world).ok()?, seed.world);
         let scale = lines.scale;
         let voxel = self.ground.grid().voxel();
@@ -353,18 +362,18 @@ impl<'f, 'v> Strokes<'f, 'v> {
         let back_again = goal(seed.world, along, OUT * within);
         let forward = trace(&mut lines, seed.world, along, &Control { goal: back_again, ..control });
         let stop = stop(&forward.end);
-        let (pieces, at_seed, stops) = if stop == Stop::Closed {
+        let (pieces, at_seed, stops) = if stop == StrokeEnd::Closed {
             (forward.pieces, 0, [Some(stop), None])
         } else {
             // The other half may come round to the end of the first half. If that end lies just before the seed, it
             // does so at once.
-            let far = forward.pieces.last().filter(|_| stop == Stop::Length);
+            let far = forward.pieces.last().filter(|_| stop == StrokeEnd::Length);
             let far = far.and_then(|piece| goal(piece.ends[1], -piece.tangents[1].normalize_or_zero(), 0.0));
             lines.scale = scale;
             let back = trace(&mut lines, seed.world, -along, &Control { goal: far, ..control });
             joined(&back, forward, stop)
         };
-        let closed = stops.contains(&Some(Stop::Closed));
+        let closed = stops.contains(&Some(StrokeEnd::Closed));
         let stroke = self.polyline(&pieces, at_seed, closed, seed, &mut counted);
         if stroke.is_some() {
             stops.into_iter().flatten().for_each(|stop| counted.stops.count(stop));
@@ -377,34 +386,34 @@ impl<'f, 'v> Strokes<'f, 'v> {
 /// Joins both halves to one curve from its tail. Returns the curve, the index of the segment that begins at the seed,
 /// and the causes of its ends.
 fn joined(
-    back: &Half<NoDirection>,
-    forward: Half<NoDirection>,
-    stop_forward: Stop,
-) -> (Vec<Piece>, usize, [Option<Stop>; 2]) {
+    back: &HalfCurve<NoDirection>,
+    forward: HalfCurve<NoDirection>,
+    stop_forward: StrokeEnd,
+) -> (Vec<CubicSegment>, usize, [Option<StrokeEnd>; 2]) {
     let stop_back = stop(&back.end);
-    let pieces = back.pieces.iter().rev().map(Piece::reversed).chain(forward.pieces).collect();
+    let pieces = back.pieces.iter().rev().map(CubicSegment::reversed).chain(forward.pieces).collect();
     // Where the halves meet there is one end, not two.
-    let first = (stop_back != Stop::Closed).then_some(stop_forward);
+    let first = (stop_back != StrokeEnd::Closed).then_some(stop_forward);
     (pieces, back.pieces.len(), [first, Some(stop_back)])
 }
 
-fn stop(end: &End<NoDirection>) -> Stop {
+fn stop(end: &EndCause<NoDirection>) -> StrokeEnd {
     match end {
-        End::Length => Stop::Length,
-        End::Angle => Stop::Angle,
-        End::Field(NoDirection::Volume) => Stop::Volume,
-        End::Field(NoDirection::Gradient) => Stop::Gradient,
-        End::Field(NoDirection::Umbilic) => Stop::Direction,
-        End::Turns => Stop::Turns,
-        End::Step => Stop::Step,
-        End::Closed => Stop::Closed,
+        EndCause::Length => StrokeEnd::Length,
+        EndCause::Angle => StrokeEnd::Angle,
+        EndCause::Field(NoDirection::Volume) => StrokeEnd::Volume,
+        EndCause::Field(NoDirection::Gradient) => StrokeEnd::Gradient,
+        EndCause::Field(NoDirection::Umbilic) => StrokeEnd::Direction,
+        EndCause::Turns => StrokeEnd::Turns,
+        EndCause::Step => StrokeEnd::Step,
+        EndCause::Closed => StrokeEnd::Closed,
     }
 }
 
 /// The lines of curvature of one family near the surface f = target.
-pub(super) struct OnSurface<'s, 'f, 'v> {
-    strokes: &'s Strokes<'f, 'v>,
-    family: Family,
+pub(super) struct CurvatureLines<'s, 'f, 'v> {
+    strokes: &'s StrokeGrower<'f, 'v>,
+    family: CurvatureFamily,
     target: f64,
     counts: &'s mut HatchCounts,
     /// Index of the last direction's σ.
@@ -414,23 +423,28 @@ pub(super) struct OnSurface<'s, 'f, 'v> {
     /// Distance from the surface, in world units, at which a step's end is put back.
     drift: f64,
     /// Stored directions read around the last place.
-    near: Near,
+    near: CellCache,
     /// The last place in the world and in index space, and ‖g‖ there.
     last: Option<(DVec3, Vec3<f64>, f64)>,
 }
 
-impl<'s, 'f, 'v> OnSurface<'s, 'f, 'v> {
+impl<'s, 'f, 'v> CurvatureLines<'s, 'f, 'v> {
     /// `family` is `Max` or `Min`.
-    pub(super) fn new(strokes: &'s Strokes<'f, 'v>, family: Family, target: f64, counts: &'s mut HatchCounts) -> Self {
+    pub(super) fn new(
+        strokes: &'s StrokeGrower<'f, 'v>,
+        family: CurvatureFamily,
+        target: f64,
+        counts: &'s mut HatchCounts,
+    ) -> Self {
         let tolerance = strokes.how.tolerance;
         let voxel = strokes.ground.grid().voxel();
         let exact = (tolerance < EXACT_BELOW * voxel).then_some(tolerance);
-        let (near, last) = (Near::default(), None);
+        let (near, last) = (CellCache::default(), None);
         Self { strokes, family, target, counts, scale: 0, exact, drift: DRIFT * voxel, near, last }
     }
 }
 
-impl OnSurface<'_, '_, '_> {
+impl CurvatureLines<'_, '_, '_> {
     /// The principal direction, projected onto the tangent plane of ∇f ([HATCH-9]). `like` is the current direction.
     fn tangent(&mut self, x: DVec3, like: Option<DVec3>) -> Result<DVec3, NoDirection> {
         let (strokes, ground) = (self.strokes, self.strokes.ground);
@@ -453,7 +467,7 @@ impl OnSurface<'_, '_, '_> {
     }
 }
 
-impl Lines for OnSurface<'_, '_, '_> {
+impl LineField for CurvatureLines<'_, '_, '_> {
     type Cause = NoDirection;
 
     fn at(&mut self, x: DVec3) -> Result<DVec3, NoDirection> {
@@ -468,7 +482,7 @@ impl Lines for OnSurface<'_, '_, '_> {
     }
 
     /// The parameter at which a segment leaves its cell. Crossings nearer to an end than the tolerance are ignored.
-    fn kink(&self, piece: &Piece) -> Option<f64> {
+    fn kink(&self, piece: &CubicSegment) -> Option<f64> {
         let grid = self.strokes.ground.grid();
         let near = self.exact? / piece.ends[0].distance(piece.ends[1]);
         let piece = piece.mapped(|x| grid.to_index(x), |t| grid.inverse_axes() * t);

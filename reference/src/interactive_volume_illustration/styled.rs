@@ -1,7 +1,7 @@
 //! Strokes as a pen draws them: vertices are added where its width or colour changes, and parts that are too thin are
 //! removed ([HATCH-12], [HATCH-13]).
 
-use super::sight::Pen;
+use super::sight::PenState;
 use drypoint_scene::color::linear_to_srgb;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::philox::uniform;
@@ -28,7 +28,7 @@ const HALVINGS: u32 = 5;
 
 /// A place on a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct StrokePoint {
     /// Place, normal and u.
     pub vertex: StrokeVertex,
     /// T, of length 1; 0 where the stroke turns back on itself.
@@ -37,11 +37,11 @@ pub struct Place {
 
 /// A stroke, or a part of one, with the pen of each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Drawn {
+pub struct StyledStroke {
     /// The stroke or part.
     pub stroke: Stroke,
     /// One pen for each vertex.
-    pub pens: Vec<Pen>,
+    pub pens: Vec<PenState>,
 }
 
 /// Share of its opacity that a pencil stroke keeps on grainy paper. `along` counts grains along the stroke. Values
@@ -57,9 +57,9 @@ pub fn grain(seed: u64, key: u64, along: f64) -> f64 {
 ///
 /// The pen is linear in the arc length between two vertices. Vertices are added where the width is not linear and
 /// where the colour changes much. A part ends where the stroke becomes too thin.
-pub fn drawn(stroke: &Stroke, least: f64, pen: impl Fn(&Place) -> Pen) -> Vec<Drawn> {
+pub fn drawn(stroke: &Stroke, least: f64, pen: impl Fn(&StrokePoint) -> PenState) -> Vec<StyledStroke> {
     let mut along = places(stroke).into_iter().map(|place| (place, pen(&place)));
-    let mut all: Vec<(Place, Pen)> = along.next().into_iter().collect();
+    let mut all: Vec<(StrokePoint, PenState)> = along.next().into_iter().collect();
     for next in along {
         if let Some(last) = all.last().copied() {
             halve([last, next], HALVINGS, &pen, &mut all);
@@ -70,7 +70,7 @@ pub fn drawn(stroke: &Stroke, least: f64, pen: impl Fn(&Place) -> Pen) -> Vec<Dr
 }
 
 /// The vertices with their tangents. A closed stroke repeats its first vertex at u = 1.
-fn places(stroke: &Stroke) -> Vec<Place> {
+fn places(stroke: &Stroke) -> Vec<StrokePoint> {
     let vertices = &stroke.vertices;
     let n = vertices.len();
     if n == 0 {
@@ -88,24 +88,30 @@ fn places(stroke: &Stroke) -> Vec<Place> {
         };
         (vertices[after].world - vertices[before].world).normalize_or_zero()
     };
-    (0..number).map(|i| Place { vertex: at(i), tangent: tangent(i) }).collect()
+    (0..number).map(|i| StrokePoint { vertex: at(i), tangent: tangent(i) }).collect()
 }
 
 /// Adds the vertices between two places at which the pen changes much.
-fn halve([a, b]: [(Place, Pen); 2], left: u32, pen: &impl Fn(&Place) -> Pen, all: &mut Vec<(Place, Pen)>) {
+fn halve(
+    [a, b]: [(StrokePoint, PenState); 2],
+    left: u32,
+    pen: &impl Fn(&StrokePoint) -> PenState,
+    all: &mut Vec<(StrokePoint, PenState)>,
+) {
     if left == 0 {
         return;
     }
     let middle = between(&a.0, &b.0, 0.5);
     let own = pen(&middle);
-    let smooth = |a: &Pen, b: &Pen| {
-        let channels = |pen: &Pen| pen.color.unwrap_or_default().map(|c| linear_to_srgb(c.max(0.0)));
+    let smooth = |a: &PenState, b: &PenState| {
+        let channels = |pen: &PenState| pen.color.unwrap_or_default().map(|c| linear_to_srgb(c.max(0.0)));
         let (from, to) = (channels(a), channels(b));
         (a.opacity - b.opacity).abs() <= OPACITY && (0..3).all(|i| (from[i] - to[i]).abs() <= CHANNEL)
     };
     // At a corner of the width, the error is at most twice the error in the middle. If the width bends to different
     // sides before and behind the middle, the quarters show it.
-    let bent = |s: f64, own: &Pen| (own.radius - (a.1.radius + (b.1.radius - a.1.radius) * s)).abs() > RADIUS / 2.0;
+    let bent =
+        |s: f64, own: &PenState| (own.radius - (a.1.radius + (b.1.radius - a.1.radius) * s)).abs() > RADIUS / 2.0;
     let is_small = (a.1.radius - b.1.radius).abs() <= SMALL;
     let straight =
         !bent(0.5, &own) && (is_small || [0.25, 0.75].iter().all(|&s| !bent(s, &pen(&between(&a.0, &b.0, s)))));
@@ -118,29 +124,38 @@ fn halve([a, b]: [(Place, Pen); 2], left: u32, pen: &impl Fn(&Place) -> Pen, all
     halve([middle, b], left - 1, pen, all);
 }
 
-fn between(a: &Place, b: &Place, s: f64) -> Place {
+fn between(a: &StrokePoint, b: &StrokePoint, s: f64) -> StrokePoint {
     let vertex = StrokeVertex {
         world: a.vertex.world.lerp(b.vertex.world, s),
         normal: a.vertex.normal.lerp(b.vertex.normal, s).normalize_or(a.vertex.normal),
         u: a.vertex.u + (b.vertex.u - a.vertex.u) * s,
     };
-    Place { vertex, tangent: a.tangent.lerp(b.tangent, s).normalize_or(a.tangent) }
+    StrokePoint { vertex, tangent: a.tangent.lerp(b.tangent, s).normalize_or(a.tangent) }
 }
 
 /// The place between two neighbours at which the width is `least`, with the pen there.
-fn edge([a, b]: [&(Place, Pen); 2], least: f64, pen: &impl Fn(&Place) -> Pen) -> (Place, Pen) {
+fn edge(
+    [a, b]: [&(StrokePoint, PenState); 2],
+    least: f64,
+    pen: &impl Fn(&StrokePoint) -> PenState,
+) -> (StrokePoint, PenState) {
     let s = (a.1.radius - least) / (a.1.radius - b.1.radius);
     let place = between(&a.0, &b.0, s);
     let own = pen(&place);
-    (place, Pen { radius: least, ..own })
+    (place, PenState { radius: least, ..own })
 }
 
 /// Splits a stroke into the parts that are wide enough.
-fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke, pen: &impl Fn(&Place) -> Pen) -> Vec<Drawn> {
-    let is_thick = |at: &(Place, Pen)| at.1.radius >= least;
-    let drawn = |part: Vec<(Place, Pen)>, closed: bool| {
+fn thick(
+    all: &[(StrokePoint, PenState)],
+    least: f64,
+    stroke: &Stroke,
+    pen: &impl Fn(&StrokePoint) -> PenState,
+) -> Vec<StyledStroke> {
+    let is_thick = |at: &(StrokePoint, PenState)| at.1.radius >= least;
+    let drawn = |part: Vec<(StrokePoint, PenState)>, closed: bool| {
         let (vertices, pens) = part.into_iter().map(|(place, pen)| (place.vertex, pen)).unzip();
-        Drawn { stroke: Stroke { vertices, closed, key: stroke.key }, pens }
+        StyledStroke { stroke: Stroke { vertices, closed, key: stroke.key }, pens }
     };
     if stroke.closed && all.iter().all(is_thick) {
         return match all {
@@ -148,8 +163,9 @@ fn thick(all: &[(Place, Pen)], least: f64, stroke: &Stroke, pen: &impl Fn(&Place
             [] => Vec::new(),
         };
     }
-    let mut parts: Vec<Vec<(Place, Pen)>> = Vec::new();
-    let mut part: Vec<(Place, Pen)> = all.first().filter(|first| is_thick(first)).copied().into_iter().collect();
+    let mut parts: Vec<Vec<(StrokePoint, PenState)>> = Vec::new();
+    let mut part: Vec<(StrokePoint, PenState)> =
+        all.first().filter(|first| is_thick(first)).copied().into_iter().collect();
     for pair in all.windows(2) {
         let [from, to] = [&pair[0], &pair[1]];
         if is_thick(from) != is_thick(to) {
@@ -187,8 +203,8 @@ mod tests {
         Stroke { vertices: (0..=10).map(vertex).collect(), closed, key: 7 }
     }
 
-    fn plain(radius: f64) -> Pen {
-        Pen { radius, opacity: 1.0, color: None }
+    fn plain(radius: f64) -> PenState {
+        PenState { radius, opacity: 1.0, color: None }
     }
 
     #[test]
@@ -206,7 +222,8 @@ mod tests {
     /// the part is thinner.
     #[test]
     fn ends_are_where_the_width_is_the_least() {
-        let taper = |place: &Place| plain(0.5 * (place.vertex.u / 0.3).min((1.0 - place.vertex.u) / 0.3).min(1.0));
+        let taper =
+            |place: &StrokePoint| plain(0.5 * (place.vertex.u / 0.3).min((1.0 - place.vertex.u) / 0.3).min(1.0));
         let parts = drawn(&line(false), 0.05, taper);
         let [part] = parts.as_slice() else { panic!("{}", parts.len()) };
         let (first, last) = (part.stroke.vertices[0], part.stroke.vertices[part.stroke.vertices.len() - 1]);
@@ -253,9 +270,9 @@ mod tests {
     /// the way back, too, has two parts, one of them through its seam.
     #[test]
     fn a_thin_stretch_cuts() {
-        let thin = |place: &Place| plain(((place.vertex.world.x - 5.0).abs() * 0.2).min(0.3));
-        let ends = |parts: &[Drawn]| {
-            let x = |part: &Drawn| {
+        let thin = |place: &StrokePoint| plain(((place.vertex.world.x - 5.0).abs() * 0.2).min(0.3));
+        let ends = |parts: &[StyledStroke]| {
+            let x = |part: &StyledStroke| {
                 let vertices = &part.stroke.vertices;
                 [vertices[0].world.x, vertices[vertices.len() - 1].world.x].map(|x| (x * 1e9).round() / 1e9)
             };
@@ -284,9 +301,9 @@ mod tests {
     /// Red goes from 0 to 1 on the way. Neighbours differ by less than two steps, and T is the line's direction.
     #[test]
     fn vertices_come_where_colours_change() {
-        let red = |place: &Place| {
+        let red = |place: &StrokePoint| {
             assert_eq!(place.tangent, DVec3::X);
-            Pen { color: Some([place.vertex.u * place.vertex.u, 0.0, 0.5]), ..plain(0.1) }
+            PenState { color: Some([place.vertex.u * place.vertex.u, 0.0, 0.5]), ..plain(0.1) }
         };
         let parts = drawn(&line(false), 0.0, red);
         let codes: Vec<f64> = parts[0].pens.iter().map(|pen| linear_to_srgb(pen.color.unwrap()[0])).collect();

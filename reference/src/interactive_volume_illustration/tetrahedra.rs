@@ -13,7 +13,7 @@ use drypoint_scene::math::compare_products;
 use std::cmp::Ordering;
 
 /// The values of the two functions at a voxel.
-pub(super) type Pair = [f64; 2];
+pub(super) type ValuePair = [f64; 2];
 
 /// The six tetrahedra, as steps from the cell's first voxel to their other corners: bit a is a step along axis a. All
 /// share the diagonal from 0 to 7. Each corner has one more step than the corner before.
@@ -33,7 +33,7 @@ pub(super) fn is_above(value: f64) -> bool {
 
 /// Whether the determinant of two pairs is above 0. The first pair belongs to the voxel that comes first in the
 /// volume.
-fn turns_left(a: Pair, b: Pair) -> bool {
+fn turns_left(a: ValuePair, b: ValuePair) -> bool {
     let shifted = |x: f64| (x != 0.0).then_some(x > 0.0);
     match compare_products([a[0], b[1]], [a[1], b[0]]) {
         Ordering::Greater => true,
@@ -45,7 +45,7 @@ fn turns_left(a: Pair, b: Pair) -> bool {
 
 /// Returns the two faces of a tetrahedron that contain a common zero. The pairs are those of its corners, in the
 /// order of the voxels.
-pub(super) fn crossed(corners: [Pair; 4]) -> Option<[usize; 2]> {
+pub(super) fn crossed(corners: [ValuePair; 4]) -> Option<[usize; 2]> {
     let mut left = [[false; 4]; 4];
     for [i, j] in EDGES {
         left[i][j] = turns_left(corners[i], corners[j]);
@@ -59,8 +59,8 @@ pub(super) fn crossed(corners: [Pair; 4]) -> Option<[usize; 2]> {
 }
 
 /// Barycentric coordinates of a face's common zero.
-pub(super) fn weights([a, b, c]: [Pair; 3]) -> [f64; 3] {
-    let cross = |p: Pair, q: Pair| (p[0] * q[1] - p[1] * q[0]).abs();
+pub(super) fn weights([a, b, c]: [ValuePair; 3]) -> [f64; 3] {
+    let cross = |p: ValuePair, q: ValuePair| (p[0] * q[1] - p[1] * q[0]).abs();
     let each = [cross(b, c), cross(c, a), cross(a, b)];
     let sum: f64 = each.iter().sum();
     if sum > 0.0 && sum.is_finite() { each.map(|w| w / sum) } else { [1.0 / 3.0; 3] }

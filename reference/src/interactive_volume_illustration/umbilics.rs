@@ -6,11 +6,11 @@
 //! finest scale that meets all conditions is taken. A scale decides nothing where it reaches beyond the volume or
 //! into voxels without a value.
 
-use super::clear::Clear;
-use super::counts::{NoDirection, Scales};
+use super::clear::MaskMargins;
+use super::counts::{DirectionCounts, NoDirection};
 use super::directions;
-use super::ground::Ground;
-use super::stored::Voxels;
+use super::ground::StrokeField;
+use super::stored::VoxelBox;
 use crate::field::curvature::Curvature;
 use crate::field::normal::outward;
 use crate::field::smoothed::{Region, Smoothed};
@@ -59,7 +59,7 @@ impl Default for Thresholds {
 
 /// The rule that computes directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rule {
+pub enum DirectionEstimator {
     /// Gaussian derivatives at the first of σ = 1, 2, 4 voxels that is certain.
     Scaled(Thresholds),
     /// The paper's plain formula on the field's own Hessian.
@@ -68,19 +68,19 @@ pub enum Rule {
 
 /// Principal curvatures and directions of a field.
 #[derive(Debug)]
-pub struct Directions<'f, 'v> {
-    scaled: Option<Scaled<'f, 'v>>,
+pub struct PrincipalDirections<'f, 'v> {
+    scaled: Option<ScaledRule<'f, 'v>>,
 }
 
 #[derive(Debug)]
-struct Scaled<'f, 'v> {
+struct ScaledRule<'f, 'v> {
     thresholds: Thresholds,
     /// Derivatives at σ and 1.5σ, for each scale.
     pairs: [[Smoothed<'f, 'v>; 2]; 3],
     /// The box in index space that is far enough from the border, for each σ.
     inner: [[DVec3; 2]; 3],
     /// Places far enough from masked voxels; computed at the first query of a direction.
-    clear: OnceLock<Option<Clear>>,
+    clear: OnceLock<Option<MaskMargins>>,
     volume: &'v Volume,
     /// The standard deviation of the values, times 2^−e.
     deviation: f64,
@@ -90,13 +90,13 @@ struct Scaled<'f, 'v> {
     no_normal_below: f64,
 }
 
-impl<'f, 'v> Directions<'f, 'v> {
+impl<'f, 'v> PrincipalDirections<'f, 'v> {
     /// Prepares the rule. Nothing is smoothed before the first query of a direction.
-    pub fn new(field: &'f Field<'v, f64>, rule: Rule) -> Self {
+    pub fn new(field: &'f Field<'v, f64>, rule: DirectionEstimator) -> Self {
         match rule {
-            Rule::Raw => Self::raw(),
-            Rule::Scaled(thresholds) => Self {
-                scaled: Some(Scaled {
+            DirectionEstimator::Raw => Self::raw(),
+            DirectionEstimator::Scaled(thresholds) => Self {
+                scaled: Some(ScaledRule {
                     thresholds,
                     pairs: SCALES.map(|s| [s, LARGER * s].map(|sigma| Smoothed::new(field, sigma))),
                     inner: SCALES.map(|sigma| inner(field.volume().grid(), ROOM * sigma)),
@@ -119,7 +119,7 @@ impl<'f, 'v> Directions<'f, 'v> {
     /// Size of the smoothed bricks and the mask's margins in bytes.
     pub fn bytes(&self) -> u64 {
         let Some(scaled) = &self.scaled else { return 0 };
-        let clear = scaled.clear.get().and_then(Option::as_ref).map_or(0, Clear::bytes);
+        let clear = scaled.clear.get().and_then(Option::as_ref).map_or(0, MaskMargins::bytes);
         clear + scaled.pairs.iter().flatten().map(Smoothed::bytes).sum::<u64>()
     }
 
@@ -132,12 +132,12 @@ impl<'f, 'v> Directions<'f, 'v> {
     /// With the rule `raw`, if the ground has no Hessian because its field was prepared for a lower rung.
     pub fn at(
         &self,
-        ground: &dyn Ground,
+        ground: &dyn StrokeField,
         index: Vec3<f64>,
-        counts: &mut Scales,
+        counts: &mut DirectionCounts,
     ) -> Result<Curvature<f64>, NoDirection> {
         match &self.scaled {
-            Some(scaled) => scaled.at(index.to_glam(), Place::Between(index), &Regions::default(), counts),
+            Some(scaled) => scaled.at(index.to_glam(), QueryPoint::Between(index), &SmoothedRegions::default(), counts),
             None => plain(ground, ground.second(index), counts),
         }
     }
@@ -152,36 +152,36 @@ impl<'f, 'v> Directions<'f, 'v> {
     /// Under the same condition as [`at`](Self::at).
     pub fn at_voxel(
         &self,
-        ground: &dyn Ground,
+        ground: &dyn StrokeField,
         voxel: [usize; 3],
-        counts: &mut Scales,
+        counts: &mut DirectionCounts,
     ) -> Result<Curvature<f64>, NoDirection> {
-        self.with_regions(ground, voxel, &Regions::default(), counts)
+        self.with_regions(ground, voxel, &SmoothedRegions::default(), counts)
     }
 
     /// Returns a function that computes the curvatures of the voxels of a box. It owns the samples that are smoothed
     /// for the box.
     pub(super) fn of_voxels(
         &self,
-        ground: &dyn Ground,
-        voxels: Voxels,
+        ground: &dyn StrokeField,
+        voxels: VoxelBox,
     ) -> impl FnMut([usize; 3]) -> Option<Curvature<f64>> {
-        let regions = Regions { voxels: Some(voxels), ..Regions::default() };
-        let mut counts = Scales::default();
+        let regions = SmoothedRegions { voxels: Some(voxels), ..SmoothedRegions::default() };
+        let mut counts = DirectionCounts::default();
         move |voxel| self.with_regions(ground, voxel, &regions, &mut counts).ok()
     }
 
     fn with_regions(
         &self,
-        ground: &dyn Ground,
+        ground: &dyn StrokeField,
         voxel: [usize; 3],
-        regions: &Regions,
-        counts: &mut Scales,
+        regions: &SmoothedRegions,
+        counts: &mut DirectionCounts,
     ) -> Result<Curvature<f64>, NoDirection> {
         match &self.scaled {
             Some(scaled) => {
                 let at = DVec3::from_array(voxel.map(|i| i as f64));
-                scaled.at(at, Place::Voxel(voxel), regions, counts)
+                scaled.at(at, QueryPoint::Voxel(voxel), regions, counts)
             }
             None => plain(ground, ground.second_at_voxel(voxel), counts),
         }
@@ -190,9 +190,9 @@ impl<'f, 'v> Directions<'f, 'v> {
 
 /// The paper's plain formula.
 fn plain(
-    ground: &dyn Ground,
+    ground: &dyn StrokeField,
     (gradient, hessian): (Vec3<f64>, Sym3<f64>),
-    counts: &mut Scales,
+    counts: &mut DirectionCounts,
 ) -> Result<Curvature<f64>, NoDirection> {
     if outward(gradient, ground.outside(), ground.no_normal_below()).is_none() {
         counts.gradient += 1;
@@ -209,15 +209,15 @@ fn plain(
 
 /// The place at which derivatives are computed.
 #[derive(Clone, Copy)]
-enum Place {
+enum QueryPoint {
     Voxel([usize; 3]),
     Between(Vec3<f64>),
 }
 
 /// Smoothed samples of a box of voxels, computed on demand. Without a box, the bricks' samples serve.
 #[derive(Default)]
-struct Regions {
-    voxels: Option<Voxels>,
+struct SmoothedRegions {
+    voxels: Option<VoxelBox>,
     made: [[OnceCell<Region>; 2]; 3],
 }
 
@@ -236,7 +236,7 @@ fn inner(grid: &Grid, room: f64) -> [DVec3; 2] {
 }
 
 /// The reason why a scale is uncertain.
-enum Unsure {
+enum Uncertainty {
     Border,
     Gradient,
     Umbilic,
@@ -244,13 +244,13 @@ enum Unsure {
     Disagree,
 }
 
-impl Scaled<'_, '_> {
+impl ScaledRule<'_, '_> {
     fn at(
         &self,
         at: DVec3,
-        place: Place,
-        regions: &Regions,
-        counts: &mut Scales,
+        place: QueryPoint,
+        regions: &SmoothedRegions,
+        counts: &mut DirectionCounts,
     ) -> Result<Curvature<f64>, NoDirection> {
         let mut flat = true;
         for i in 0..SCALES.len() {
@@ -259,11 +259,11 @@ impl Scaled<'_, '_> {
                     counts.given[i] += 1;
                     return Ok(curvature);
                 }
-                Err(Unsure::Gradient) => continue,
-                Err(Unsure::Border) => counts.border[i] += 1,
-                Err(Unsure::Umbilic) => counts.umbilic[i] += 1,
-                Err(Unsure::Noise) => counts.noise[i] += 1,
-                Err(Unsure::Disagree) => counts.disagree[i] += 1,
+                Err(Uncertainty::Gradient) => continue,
+                Err(Uncertainty::Border) => counts.border[i] += 1,
+                Err(Uncertainty::Umbilic) => counts.umbilic[i] += 1,
+                Err(Uncertainty::Noise) => counts.noise[i] += 1,
+                Err(Uncertainty::Disagree) => counts.disagree[i] += 1,
             }
             flat = false;
         }
@@ -273,32 +273,38 @@ impl Scaled<'_, '_> {
 
     /// Returns the curvatures at one scale, if the border is far enough and all three conditions hold.
     #[inline]
-    fn estimate(&self, i: usize, at: DVec3, place: Place, regions: &Regions) -> Result<Curvature<f64>, Unsure> {
+    fn estimate(
+        &self,
+        i: usize,
+        at: DVec3,
+        place: QueryPoint,
+        regions: &SmoothedRegions,
+    ) -> Result<Curvature<f64>, Uncertainty> {
         let [lo, hi] = self.inner[i];
         if !(at.cmpge(lo).all() && at.cmple(hi).all() && self.is_clear(i, at)) {
-            return Err(Unsure::Border);
+            return Err(Uncertainty::Border);
         }
         let (gradient, hessian) = self.derivatives([i, 0], place, regions)?;
         let Thresholds { gap, noise, .. } = self.thresholds;
-        let shape = Shape::new(gradient, hessian);
+        let shape = ShapeOperator::new(gradient, hessian);
         let difference = shape.difference_squared();
         if difference <= gap * gap * shape.sum_squared() {
-            return Err(Unsure::Umbilic);
+            return Err(Uncertainty::Umbilic);
         }
         let one = &self.pairs[i][0];
         let deviation = match place {
-            Place::Voxel(voxel) => one.noise_in(one.cell_of(voxel), self.deviation),
-            Place::Between(index) => one.noise(index, self.deviation),
+            QueryPoint::Voxel(voxel) => one.noise_in(one.cell_of(voxel), self.deviation),
+            QueryPoint::Between(index) => one.noise(index, self.deviation),
         };
         if difference <= (noise * deviation).powi(2) {
-            return Err(Unsure::Noise);
+            return Err(Uncertainty::Noise);
         }
         let (larger_gradient, larger_hessian) = self.derivatives([i, 1], place, regions)?;
         // For an umbilic the cosine is NaN, and the comparison is false.
-        if shape.cos_double(&Shape::new(larger_gradient, larger_hessian)) > self.cos_double {
+        if shape.cos_double(&ShapeOperator::new(larger_gradient, larger_hessian)) > self.cos_double {
             Ok(directions::principal(gradient, hessian, self.outside))
         } else {
-            Err(Unsure::Disagree)
+            Err(Uncertainty::Disagree)
         }
     }
 
@@ -309,7 +315,10 @@ impl Scaled<'_, '_> {
             return true;
         }
         let rooms = || SCALES.map(|sigma| along_axes(self.volume.grid(), MASK_ROOM * sigma));
-        self.clear.get_or_init(|| Clear::new(self.volume, rooms())).as_ref().is_none_or(|clear| clear.is_clear(i, at))
+        self.clear
+            .get_or_init(|| MaskMargins::new(self.volume, rooms()))
+            .as_ref()
+            .is_none_or(|clear| clear.is_clear(i, at))
     }
 
     /// Gradient and Hessian at one scale.
@@ -317,32 +326,34 @@ impl Scaled<'_, '_> {
     fn derivatives(
         &self,
         [i, larger]: [usize; 2],
-        place: Place,
-        regions: &Regions,
-    ) -> Result<(Vec3<f64>, Sym3<f64>), Unsure> {
+        place: QueryPoint,
+        regions: &SmoothedRegions,
+    ) -> Result<(Vec3<f64>, Sym3<f64>), Uncertainty> {
         let scale = &self.pairs[i][larger];
         let bound = self.no_normal_below;
         match place {
-            Place::Between(index) => Some(scale.derivatives(index)).filter(|(gradient, _)| gradient.length() > bound),
-            Place::Voxel(voxel) => {
+            QueryPoint::Between(index) => {
+                Some(scale.derivatives(index)).filter(|(gradient, _)| gradient.length() > bound)
+            }
+            QueryPoint::Voxel(voxel) => {
                 let region = regions
                     .voxels
                     .map(|voxels| regions.made[i][larger].get_or_init(|| scale.region(voxels.first, voxels.sides())));
                 scale.at_voxel(voxel, bound, region)
             }
         }
-        .ok_or(Unsure::Gradient)
+        .ok_or(Uncertainty::Gradient)
     }
 }
 
 /// The shape operator times ∓‖g‖ for a test without eigenvectors: PHP, P = I − nnᵀ, as a multiple m of P and a
 /// trace-free part D. The conditions of [HATCH-3] need neither the lines nor the length of the gradient.
-struct Shape {
+struct ShapeOperator {
     mean: f64,
     d: Sym3<f64>,
 }
 
-impl Shape {
+impl ShapeOperator {
     #[inline(always)]
     fn new(g: Vec3<f64>, h: Sym3<f64>) -> Self {
         let u = g * (1.0 / g.dot(g));
@@ -406,7 +417,7 @@ mod tests {
             let size = 10f64.powi(i as i32 % 41 - 20);
             let (g, h, other) = (vector(0), hessian(10), hessian(20).scaled(size));
             let turned = (g + vector(30) * 0.5) * size;
-            let shapes = [Shape::new(g, h), Shape::new(turned, other)];
+            let shapes = [ShapeOperator::new(g, h), ShapeOperator::new(turned, other)];
             for outside in [Outside::Low, Outside::High] {
                 let [c, d] = [directions::principal(g, h, outside), directions::principal(turned, other, outside)];
                 for (shape, c, g, h) in [(&shapes[0], &c, g, 1.0), (&shapes[1], &d, turned, size)] {
@@ -425,8 +436,10 @@ mod tests {
         }
         let round = Sym3 { xx: -1.0, yy: -1.0, zz: -1.0, ..Sym3::default() };
         let around = Sym3 { zz: 0.0, ..round };
-        let [umbilic, cylinder] =
-            [Shape::new(Vec3::new(0.0, 0.0, 2.0), round), Shape::new(Vec3::new(-2.0, 0.0, 0.0), around)];
+        let [umbilic, cylinder] = [
+            ShapeOperator::new(Vec3::new(0.0, 0.0, 2.0), round),
+            ShapeOperator::new(Vec3::new(-2.0, 0.0, 0.0), around),
+        ];
         assert_eq!([umbilic.difference_squared(), umbilic.sum_squared()], [0.0, 4.0]);
         assert_eq!([cylinder.difference_squared(), cylinder.sum_squared()], [1.0, 1.0]);
         assert!(cylinder.cos_double(&umbilic).is_nan());

@@ -3,12 +3,12 @@
 use super::ground::inside;
 use super::pyramid::Pyramid;
 use super::seeds::{SeedRule, Seeds};
-use super::strokes::Strokes;
+use super::strokes::StrokeGrower;
 use crate::field::Field;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::tables::Measure as Kind;
 
-impl Strokes<'_, '_> {
+impl StrokeGrower<'_, '_> {
     /// Like [`seeds`](Self::seeds), for the cells in whose closed range of values one counts.
     pub fn seeds_among(
         &self,

@@ -57,8 +57,8 @@ impl Stance {
         if flat(across) && !flat(along) {
             (along, across) = (across, along);
         }
-        // The view comes from the side that is cut less. If both are equal, it is along −y if z is up, and along y
-        // otherwise.
+        // The view comes from the side that is cut less. Between equals it follows the axis if z is up, and runs against
+        // the axis otherwise.
         let [near, far] = cuts[along];
         let forwards = if near > FOOT * far && near > SIZE {
             false

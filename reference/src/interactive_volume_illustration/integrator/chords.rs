@@ -1,6 +1,6 @@
 //! Polylines with the fewest vertices that stay within a distance of a curve ([HATCH-10]).
 
-use super::Piece;
+use super::CubicSegment;
 use drypoint_scene::glam::DVec3;
 
 /// Number of places at which the distance to a chord is taken: on each segment, and on a chord that is shorter than a
@@ -20,7 +20,7 @@ const TRIALS: usize = 24;
 /// Returns the vertices of a polyline as parameters on the curve of these segments: the integer part is the segment's
 /// index, the fraction its parameter. Each chord is as long as possible within the distance `chord` of the curve.
 /// Both ends of the curve are vertices.
-pub fn vertices(pieces: &[Piece], chord: f64) -> Vec<f64> {
+pub fn vertices(pieces: &[CubicSegment], chord: f64) -> Vec<f64> {
     let curve = Curve::new(pieces);
     let end = pieces.len() as f64;
     let mut at = Vec::with_capacity(2 * pieces.len() + 1);
@@ -39,21 +39,21 @@ pub fn vertices(pieces: &[Piece], chord: f64) -> Vec<f64> {
 /// # Panics
 /// If the curve has no piece.
 #[inline]
-pub fn point(pieces: &[Piece], t: f64) -> DVec3 {
+pub fn point(pieces: &[CubicSegment], t: f64) -> DVec3 {
     let i = (t as usize).min(pieces.len() - 1);
     pieces[i].point(t - i as f64)
 }
 
 /// A curve with sampled places.
 struct Curve<'a> {
-    pieces: &'a [Piece],
+    pieces: &'a [CubicSegment],
     /// Places at the quarters of segments, from the first segment's beginning on.
     places: Vec<DVec3>,
 }
 
 impl<'a> Curve<'a> {
-    fn new(pieces: &'a [Piece]) -> Self {
-        let on = |piece: &'a Piece| (0..PLACES).map(|i| piece.point(i as f64 / PLACES as f64));
+    fn new(pieces: &'a [CubicSegment]) -> Self {
+        let on = |piece: &'a CubicSegment| (0..PLACES).map(|i| piece.point(i as f64 / PLACES as f64));
         let mut places = Vec::with_capacity(PLACES * pieces.len());
         pieces.iter().for_each(|piece| places.extend(on(piece)));
         Self { pieces, places }
@@ -96,7 +96,7 @@ impl<'a> Curve<'a> {
     /// The largest distance from a chord, from parabolas through neighbouring places.
     fn error(&self, from: f64, to: f64) -> f64 {
         let chord = Chord::new(point(self.pieces, from), point(self.pieces, to));
-        let mut largest = Largest { before: [from, 0.0], last: [from, 0.0], found: 0.0 };
+        let mut largest = RunningMaximum { before: [from, 0.0], last: [from, 0.0], found: 0.0 };
         if to - from >= 1.0 {
             let first = (from * PLACES as f64) as usize + 1;
             for (i, place) in self.places.iter().enumerate().take((to * PLACES as f64).ceil() as usize).skip(first) {
@@ -136,14 +136,14 @@ impl Chord {
 }
 
 /// The running maximum of distances along a curve. Squared distances come in.
-struct Largest {
+struct RunningMaximum {
     /// The last two places: parameter and squared distance.
     before: [f64; 2],
     last: [f64; 2],
     found: f64,
 }
 
-impl Largest {
+impl RunningMaximum {
     #[inline]
     fn add(&mut self, t: f64, square: f64) {
         let [before, last, next] = [self.before, self.last, [t, square]];
@@ -168,12 +168,12 @@ fn top(before: [f64; 2], last: [f64; 2], next: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Control, Lines, trace};
+    use super::super::{Control, LineField, trace};
     use super::*;
 
     struct Circle;
 
-    impl Lines for Circle {
+    impl LineField for Circle {
         type Cause = ();
         fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
             Ok(DVec3::new(-x.y, x.x, 0.0).normalize())
@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_straight_line_is_one_chord() {
-        let piece = |x: f64| Piece { ends: [DVec3::X * x, DVec3::X * (x + 1.0)], tangents: [DVec3::X; 2] };
+        let piece = |x: f64| CubicSegment { ends: [DVec3::X * x, DVec3::X * (x + 1.0)], tangents: [DVec3::X; 2] };
         assert_eq!(vertices(&[piece(0.0), piece(1.0), piece(2.0)], 1e-9), [0.0, 3.0]);
         assert_eq!(vertices(&[], 0.1), [0.0]);
     }

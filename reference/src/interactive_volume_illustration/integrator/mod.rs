@@ -6,5 +6,5 @@ mod piece;
 mod trace;
 
 pub use chords::{point, vertices};
-pub use piece::Piece;
-pub use trace::{Control, End, Goal, Half, Lines, trace};
+pub use piece::CubicSegment;
+pub use trace::{Control, EndCause, Goal, HalfCurve, LineField, trace};

@@ -13,14 +13,14 @@ const CLEAR: f64 = 1e-9;
 
 /// A cubic Hermite, p(s) for s in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct CubicSegment {
     /// p(0) and p(1).
     pub ends: [DVec3; 2],
     /// p'(0) and p'(1): the directions times the step.
     pub tangents: [DVec3; 2],
 }
 
-impl Piece {
+impl CubicSegment {
     /// p(s) = (1 + 2s)(1 − s)² p₀ + s(1 − s)² p'₀ + s²(3 − 2s) p₁ − s²(1 − s) p'₁.
     #[inline]
     pub fn point(&self, s: f64) -> DVec3 {
@@ -153,15 +153,15 @@ fn bisect([mut lo, mut hi]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
 mod tests {
     use super::*;
 
-    fn piece() -> Piece {
+    fn piece() -> CubicSegment {
         let (a, b) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 1.5, 4.0));
-        Piece { ends: [a, b], tangents: [DVec3::new(0.5, 0.7, 0.1), DVec3::new(1.1, -0.4, 0.9)] }
+        CubicSegment { ends: [a, b], tangents: [DVec3::new(0.5, 0.7, 0.1), DVec3::new(1.1, -0.4, 0.9)] }
     }
 
     /// The Hermite segment of a cubic is this cubic: p(s) = (s³, s², s).
     #[test]
     fn it_is_the_cubic_of_its_ends() {
-        let p = Piece { ends: [DVec3::ZERO, DVec3::ONE], tangents: [DVec3::Z, DVec3::new(3.0, 2.0, 1.0)] };
+        let p = CubicSegment { ends: [DVec3::ZERO, DVec3::ONE], tangents: [DVec3::Z, DVec3::new(3.0, 2.0, 1.0)] };
         for s in [0.0, 0.25, 0.5, 0.8, 1.0] {
             assert!(p.point(s).distance(DVec3::new(s * s * s, s * s, s)) < 1e-15);
             assert!(p.tangent(s).distance(DVec3::new(3.0 * s * s, 2.0 * s, 1.0)) < 1e-15);
@@ -183,8 +183,10 @@ mod tests {
     #[test]
     fn the_largest_angle_is_found_between_the_ends() {
         // Directions (1, 1 − 2s): along (1, 0) the angle is 45° at both ends, and its limit is met at s = (1 − tan)/2.
-        let bent =
-            Piece { ends: [DVec3::ZERO, DVec3::X], tangents: [DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)] };
+        let bent = CubicSegment {
+            ends: [DVec3::ZERO, DVec3::X],
+            tangents: [DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)],
+        };
         let away = DVec3::new(-1.0, 0.0, 0.0);
         assert_eq!(bent.turned(away, -1.0), None);
         for degrees in [136.0f64, 150.0, 170.0, 179.0, 179.99] {
@@ -212,7 +214,7 @@ mod tests {
     #[test]
     fn faces_are_met() {
         let ends = [DVec3::new(1.2, 0.1, 2.0), DVec3::new(2.2, 3.1, 2.0)];
-        let p = Piece { ends, tangents: [DVec3::X, DVec3::new(1.0, 6.0, 0.0)] };
+        let p = CubicSegment { ends, tangents: [DVec3::X, DVec3::new(1.0, 6.0, 0.0)] };
         let first = 0.3f64.sqrt();
         assert!((p.face([0.0, 1.0]).unwrap() - first).abs() < 1e-11);
         assert!((p.face([first + 1e-6, 1.0]).unwrap() - (1.9f64 / 3.0).sqrt()).abs() < 1e-11);

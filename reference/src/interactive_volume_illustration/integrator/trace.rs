@@ -4,7 +4,7 @@
 //! A field of lines has directions without sign: v and −v are the same. So the stages of a step are turned to its
 //! first one, k₁, and the new direction k₅ to k₄. The whole field needs no orientation, and it may have none.
 
-use super::Piece;
+use super::CubicSegment;
 use drypoint_scene::glam::DVec3;
 use std::cell::Cell;
 
@@ -18,7 +18,7 @@ const TRIES_AT_KINK: u32 = 3;
 const PIECES: usize = 16;
 
 /// A field of lines.
-pub trait Lines {
+pub trait LineField {
     /// The reason why a place has no direction.
     type Cause;
 
@@ -44,7 +44,7 @@ pub trait Lines {
     }
 
     /// The parameter inside a segment at which it first meets a kink of the field. The step ends there.
-    fn kink(&self, _piece: &Piece) -> Option<f64> {
+    fn kink(&self, _piece: &CubicSegment) -> Option<f64> {
         None
     }
 
@@ -89,7 +89,7 @@ pub struct Control {
 
 /// The cause of a curve's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End<C> {
+pub enum EndCause<C> {
     /// The curve has its full length.
     Length,
     /// The direction differs too much from the first one.
@@ -106,13 +106,13 @@ pub enum End<C> {
 
 /// One half of a curve, from a place in one direction.
 #[derive(Clone, Debug)]
-pub struct Half<C> {
+pub struct HalfCurve<C> {
     /// Consecutive segments.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<CubicSegment>,
     /// The arc length, the sum of the steps.
     pub length: f64,
     /// The cause of the end.
-    pub end: End<C>,
+    pub end: EndCause<C>,
     /// Number of evaluations of the field.
     pub evaluations: u32,
     /// Number of rejected steps.
@@ -120,7 +120,7 @@ pub struct Half<C> {
 }
 
 /// The reason why a step is rejected.
-enum Fault<C> {
+enum StepFault<C> {
     Field(C),
     Turns,
     /// The error is too large. The value is the factor for the next try.
@@ -128,7 +128,7 @@ enum Fault<C> {
 }
 
 /// The start of a step.
-struct State {
+struct StepStart {
     x: DVec3,
     /// The direction k₁.
     k: DVec3,
@@ -137,20 +137,25 @@ struct State {
 }
 
 /// An accepted step.
-struct Step {
-    piece: Piece,
+struct AcceptedStep {
+    piece: CubicSegment,
     /// The start of the next step, with k₅ as its k₁.
-    to: State,
+    to: StepStart,
     /// Factor for the length of the next step.
     factor: f64,
 }
 
 /// Traces the line from `start`. `along` is the field's direction there, with the wanted sign, and must be the
 /// field's last answer.
-pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Control) -> Half<L::Cause> {
-    let mut half =
-        Half { pieces: Vec::with_capacity(PIECES), length: 0.0, end: End::Length, evaluations: 0, rejected: 0 };
-    let mut at = State { x: start, k: along, formula: field.formula() };
+pub fn trace<L: LineField>(field: &mut L, start: DVec3, along: DVec3, control: &Control) -> HalfCurve<L::Cause> {
+    let mut half = HalfCurve {
+        pieces: Vec::with_capacity(PIECES),
+        length: 0.0,
+        end: EndCause::Length,
+        evaluations: 0,
+        rejected: 0,
+    };
+    let mut at = StepStart { x: start, k: along, formula: field.formula() };
     let mut h = control.first.min(control.max_step);
     // The length of the step without the kink, and the number of times it was shortened.
     let mut kink: Option<(f64, u32)> = None;
@@ -189,16 +194,16 @@ pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Cont
             }
             Err(fault) if step <= control.min_step => {
                 half.end = match fault {
-                    Fault::Field(cause) => End::Field(cause),
-                    Fault::Turns => End::Turns,
-                    Fault::Error(_) => End::Step,
+                    StepFault::Field(cause) => EndCause::Field(cause),
+                    StepFault::Turns => EndCause::Turns,
+                    StepFault::Error(_) => EndCause::Step,
                 };
                 return half;
             }
             Err(fault) => {
                 half.rejected += 1;
                 kink = None;
-                let factor = if let Fault::Error(factor) = fault { factor } else { 0.5 };
+                let factor = if let StepFault::Error(factor) = fault { factor } else { 0.5 };
                 h = (step * factor).max(control.min_step);
             }
         }
@@ -207,22 +212,22 @@ pub fn trace<L: Lines>(field: &mut L, start: DVec3, along: DVec3, control: &Cont
 
 /// One step of the classical RK4. The error estimate comes from the third-order solution that has k₅ in place of k₄.
 /// The factor for the next step is clamp(0.9·(tol/err)^¼, 0.2, 4).
-fn try_step<L: Lines>(
+fn try_step<L: LineField>(
     field: &mut L,
-    from: &State,
+    from: &StepStart,
     h: f64,
     control: &Control,
     evaluations: &mut u32,
-) -> Result<Step, Fault<L::Cause>> {
+) -> Result<AcceptedStep, StepFault<L::Cause>> {
     let (x, k1, tolerance) = (from.x, from.k, control.tolerance);
     let jump = Cell::new(0.0f64);
     let mut stage = |field: &mut L, at: DVec3, like: DVec3| {
         *evaluations += 1;
-        let v = field.at_along(at, like).map_err(Fault::Field)?;
+        let v = field.at_along(at, like).map_err(StepFault::Field)?;
         let v = if v.dot(like) < 0.0 { -v } else { v };
         // The sign of k₅ comes from k₄, and both may have turned away from k₁.
         if v.dot(like) < SMOOTH || v.dot(k1) < SMOOTH {
-            return Err(Fault::Turns);
+            return Err(StepFault::Turns);
         }
         if field.formula() != from.formula {
             jump.set(jump.get().max((v - k1).length()));
@@ -238,24 +243,30 @@ fn try_step<L: Lines>(
     // k₄ and k₅ may agree beyond a jump, so the jump has an estimate of its own. It does not end the smallest step.
     let across = if h > control.min_step { jump.get() * (h / 6.0) } else { 0.0 };
     if across > tolerance && across > error {
-        return Err(Fault::Error((0.9 * (tolerance / across)).clamp(0.2, 0.9)));
+        return Err(StepFault::Error((0.9 * (tolerance / across)).clamp(0.2, 0.9)));
     }
     let factor = if error > 0.0 { (0.9 * (tolerance / error).sqrt().sqrt()).clamp(0.2, 4.0) } else { 4.0 };
     if error > tolerance {
         // A retry is always shorter.
-        return Err(Fault::Error(factor.min(0.9)));
+        return Err(StepFault::Error(factor.min(0.9)));
     }
     if let Some(back) = field.put_back(to) {
         to = back;
         k5 = stage(field, to, k5)?;
     }
-    let next = State { x: to, k: k5, formula: field.formula() };
-    Ok(Step { piece: Piece { ends: [x, to], tangents: [k1 * h, k5 * h] }, to: next, factor })
+    let next = StepStart { x: to, k: k5, formula: field.formula() };
+    Ok(AcceptedStep { piece: CubicSegment { ends: [x, to], tangents: [k1 * h, k5 * h] }, to: next, factor })
 }
 
 /// Tests whether a step is the last one. Returns the part of its segment that counts, its share, and the cause of the
 /// end.
-fn ends<C>(done: &Step, along: DVec3, before: f64, step: f64, control: &Control) -> Option<(Piece, f64, End<C>)> {
+fn ends<C>(
+    done: &AcceptedStep,
+    along: DVec3,
+    before: f64,
+    step: f64,
+    control: &Control,
+) -> Option<(CubicSegment, f64, EndCause<C>)> {
     let piece = &done.piece;
     let any = control.cos_max_angle <= -1.0;
     let turned = if any { None } else { piece.turned(along, control.cos_max_angle) };
@@ -269,10 +280,10 @@ fn ends<C>(done: &Step, along: DVec3, before: f64, step: f64, control: &Control)
             let mut closed = piece.until(s);
             closed.ends[1] = goal.at;
             closed.tangents[1] = goal.along * (s * step);
-            return Some((closed, s, End::Closed));
+            return Some((closed, s, EndCause::Closed));
         }
     }
-    turned.map(|s| (piece.until(s), s, End::Angle))
+    turned.map(|s| (piece.until(s), s, EndCause::Angle))
 }
 
 #[cfg(test)]

@@ -17,15 +17,15 @@ fn view(grid: &Grid, direction: [f64; 3], projection: Projection) -> View {
 const PARALLEL: Projection = Projection::Orthographic { height: None };
 
 /// The outlines of a phantom's own formula on a grid.
-fn exact(phantom: &dyn Phantom, grid: &Grid, iso: f64, view: &View) -> Outlines {
+fn exact(phantom: &dyn Phantom, grid: &Grid, iso: f64, view: &View) -> OutlineStrokes {
     let dims = grid.dims().map(|n| (n - 1).div_ceil(BRICK));
     let mut bricks = Vec::new();
     for_each(dims, |brick| bricks.push(brick));
     let volume = Volume::new(grid.clone(), Voxels::F64(vec![1.0; grid.len()]), 1.0, 0.0).unwrap();
-    let search = Search {
+    let search = OutlineSearch {
         grid,
         mask: None,
-        level: Level::new(&volume, iso),
+        level: IsoDifference::new(&volume, iso),
         view,
         outside: Outside::Low,
         no_normal_below: 1e-9,
@@ -163,7 +163,7 @@ fn bytes(values: Vec<f64>) -> Voxels {
     Voxels::U8(values.into_iter().map(|v| v as u8).collect())
 }
 
-fn found(volume: &Volume, iso: f64, direction: [f64; 3], projection: Projection) -> Outlines {
+fn found(volume: &Volume, iso: f64, direction: [f64; 3], projection: Projection) -> OutlineStrokes {
     let field = Field::new(volume, Reconstruction::default(), Rung::Gradient).unwrap();
     let view = view(volume.grid(), direction, projection);
     outlines(&IsoSurface::new(&field, iso), &view)
@@ -263,5 +263,5 @@ fn noise_on_any_number_of_threads() {
     // A flat volume has no cells.
     let flat =
         Volume::new(Grid::with_spacing([4, 1, 4], [1.0; 3]).unwrap(), Voxels::U8(vec![9; 16]), 1.0, 0.0).unwrap();
-    assert_eq!(found(&flat, 9.0, [0.0, 1.0, 0.0], PARALLEL), Outlines::default());
+    assert_eq!(found(&flat, 9.0, [0.0, 1.0, 0.0], PARALLEL), OutlineStrokes::default());
 }

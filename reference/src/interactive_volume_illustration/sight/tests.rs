@@ -6,7 +6,7 @@ use drypoint_scene::tables::{Camera, Projection};
 use drypoint_scene::volume::{Volume, Voxels};
 use std::f64::consts::{PI, TAU};
 
-const INK: Pen = Pen { radius: 0.1, opacity: 1.0, color: None };
+const INK: PenState = PenState { radius: 0.1, opacity: 1.0, color: None };
 
 fn length(lines: &[Polyline]) -> f64 {
     let of = |line: &Polyline| {
@@ -90,7 +90,7 @@ fn what_nothing_hides() {
     let page = Page::in_pixels([100, 100], 0.0, 100.0);
     let sight = Sight { view: &view, page: &page, near: 0.0, surface: None, offset: 0.15 };
     let stroke = latitude(grid.centre(), 10.0, 0.3);
-    let seen = sight.seen(&[stroke.clone(), Stroke { closed: false, ..stroke.clone() }], |_, vertex| Pen {
+    let seen = sight.seen(&[stroke.clone(), Stroke { closed: false, ..stroke.clone() }], |_, vertex| PenState {
         radius: 0.1 + vertex.u,
         opacity: 0.5,
         color: None,

@@ -32,9 +32,9 @@ const NONE: u64 = !0x7ff8_0000_0000_0000;
 /// first number last.
 #[derive(Debug, Default)]
 #[repr(align(32))]
-struct Slot([AtomicU64; NUMBERS]);
+struct LineSlot([AtomicU64; NUMBERS]);
 
-impl Slot {
+impl LineSlot {
     fn set(&self, made: Option<(Vec3<f64>, f64)>) {
         let first = made.map_or(NONE, |(e, k)| {
             for (to, number) in self.0[1..].iter().zip([e.y, e.z, k]) {
@@ -65,9 +65,9 @@ impl Slot {
 
 /// Both lines of a voxel.
 #[derive(Clone, Copy)]
-struct Pair<'a>([&'a Slot; 2]);
+struct VoxelSlots<'a>([&'a LineSlot; 2]);
 
-impl Pair<'_> {
+impl VoxelSlots<'_> {
     fn set(self, made: Option<Curvature<f64>>) {
         self.0[0].set(made.map(|c| (c.e1, c.k1)));
         self.0[1].set(made.map(|c| (c.e2, c.k2)));
@@ -90,23 +90,23 @@ impl Pair<'_> {
 
 /// The voxels of a grid in blocks. A block is allocated at the first query of one of its voxels.
 #[derive(Debug)]
-pub(super) struct Blocks {
+pub(super) struct DirectionBlocks {
     /// Number of voxels along each axis.
     voxels: [usize; 3],
     /// Number of blocks along each axis.
     dims: [usize; 3],
     /// Blocks with their slots. A block without slots has no direction anywhere.
-    blocks: Vec<OnceLock<Box<[Slot]>>>,
+    blocks: Vec<OnceLock<Box<[LineSlot]>>>,
 }
 
 /// Voxels of a box, x fastest: from `first` up to, but excluding, `end`.
 #[derive(Clone, Copy, Debug)]
-pub(in super::super) struct Voxels {
+pub(in super::super) struct VoxelBox {
     pub(in super::super) first: [usize; 3],
     pub(in super::super) end: [usize; 3],
 }
 
-impl Voxels {
+impl VoxelBox {
     /// Number of voxels along each axis.
     pub(in super::super) fn sides(&self) -> [usize; 3] {
         [0, 1, 2].map(|a| self.end[a] - self.first[a])
@@ -121,22 +121,22 @@ impl Voxels {
 }
 
 /// Slots of a block: all first lines, then all second ones.
-fn slots() -> Box<[Slot]> {
-    (0..2 * VOXELS).map(|_| Slot::default()).collect()
+fn slots() -> Box<[LineSlot]> {
+    (0..2 * VOXELS).map(|_| LineSlot::default()).collect()
 }
 
-impl Blocks {
+impl DirectionBlocks {
     pub(super) fn new(voxels: [usize; 3]) -> Self {
         let dims = voxels.map(|n| n.div_ceil(SIDE));
         Self { voxels, dims, blocks: (0..dims.iter().product()).map(|_| OnceLock::new()).collect() }
     }
 
     #[inline]
-    fn pair(&self, [x, y, z]: [usize; 3]) -> Option<Pair<'_>> {
+    fn pair(&self, [x, y, z]: [usize; 3]) -> Option<VoxelSlots<'_>> {
         let [nx, ny, _] = self.dims;
         let block = self.blocks[(z / SIDE * ny + y / SIDE) * nx + x / SIDE].get_or_init(slots);
         let at = (z % SIDE * SIDE + y % SIDE) * SIDE + x % SIDE;
-        Some(Pair([block.get(at)?, block.get(VOXELS + at)?]))
+        Some(VoxelSlots([block.get(at)?, block.get(VOXELS + at)?]))
     }
 
     /// Both curvatures and directions of a voxel.
@@ -180,18 +180,18 @@ impl Blocks {
 
     /// Computes every voxel, some blocks at once. `start` gets a box and returns the function that computes its
     /// voxels.
-    pub(super) fn fill<M: FnMut([usize; 3]) -> Option<Curvature<f64>>>(&self, start: impl Fn(Voxels) -> M + Sync) {
+    pub(super) fn fill<M: FnMut([usize; 3]) -> Option<Curvature<f64>>>(&self, start: impl Fn(VoxelBox) -> M + Sync) {
         let groups = self.dims.map(|n| n.div_ceil(AT_ONCE));
         (0..groups.iter().product::<usize>()).into_par_iter().for_each(|i| {
             let group = [i % groups[0], i / groups[0] % groups[1], i / (groups[0] * groups[1])];
             let first = group.map(|g| g * AT_ONCE * SIDE);
             let end = [0, 1, 2].map(|a| (first[a] + AT_ONCE * SIDE).min(self.voxels[a]));
-            let mut make = start(Voxels { first, end });
+            let mut make = start(VoxelBox { first, end });
             let mut made = Vec::with_capacity(VOXELS);
-            let blocks = Voxels { first: first.map(|i| i / SIDE), end: end.map(|i| i.div_ceil(SIDE)) };
+            let blocks = VoxelBox { first: first.map(|i| i / SIDE), end: end.map(|i| i.div_ceil(SIDE)) };
             for block in blocks.each() {
                 let first = block.map(|i| i * SIDE);
-                let voxels = Voxels { first, end: [0, 1, 2].map(|a| (first[a] + SIDE).min(self.voxels[a])) };
+                let voxels = VoxelBox { first, end: [0, 1, 2].map(|a| (first[a] + SIDE).min(self.voxels[a])) };
                 made.clear();
                 made.extend(voxels.each().map(&mut make));
                 self.keep(block, voxels, &made);
@@ -200,7 +200,7 @@ impl Blocks {
     }
 
     /// Stores the voxels of a block, in their order.
-    fn keep(&self, block: [usize; 3], voxels: Voxels, made: &[Option<Curvature<f64>>]) {
+    fn keep(&self, block: [usize; 3], voxels: VoxelBox, made: &[Option<Curvature<f64>>]) {
         let [nx, ny, _] = self.dims;
         let place = &self.blocks[(block[2] * ny + block[1]) * nx + block[0]];
         let is_empty = made.iter().all(Option::is_none);
@@ -214,7 +214,7 @@ impl Blocks {
 
     /// Number of voxels with a direction.
     pub(super) fn made(&self) -> u64 {
-        let has = |slot: &&Slot| ![UNKNOWN, NONE].contains(&slot.first());
+        let has = |slot: &&LineSlot| ![UNKNOWN, NONE].contains(&slot.first());
         self.kept().map(|block| block.iter().take(VOXELS).filter(has).count() as u64).sum()
     }
 
@@ -223,7 +223,7 @@ impl Blocks {
         self.kept().map(|block| size_of_val(block) as u64).sum()
     }
 
-    fn kept(&self) -> impl Iterator<Item = &[Slot]> {
+    fn kept(&self) -> impl Iterator<Item = &[LineSlot]> {
         self.blocks.iter().filter_map(OnceLock::get).map(|block| &**block)
     }
 }
@@ -242,8 +242,8 @@ mod tests {
     #[test]
     fn each_voxel_is_made_once_and_is_its_own() {
         let dims = [17, 9, 26];
-        let all = Voxels { first: [0; 3], end: dims };
-        let lazy = Blocks::new(dims);
+        let all = VoxelBox { first: [0; 3], end: dims };
+        let lazy = DirectionBlocks::new(dims);
         let asked = Cell::new(0);
         let make = |voxel| {
             asked.set(asked.get() + 1);
@@ -263,7 +263,7 @@ mod tests {
         }
         assert_eq!(asked.get(), all.each().step_by(5).count());
         assert_eq!(lazy.made(), all.each().step_by(5).filter_map(of).count() as u64);
-        let whole = Blocks::new(dims);
+        let whole = DirectionBlocks::new(dims);
         whole.fill(|_| of);
         assert_eq!(whole.made(), all.each().filter_map(of).count() as u64);
         // 3 × 2 × 4 blocks, of which those at x = 16 and from z = 16 on are empty.

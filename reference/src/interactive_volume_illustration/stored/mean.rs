@@ -18,7 +18,7 @@ const LAST: f64 = 1e-6;
 
 /// A weighted sum of directions; the full weight is 1.
 #[derive(Clone, Debug)]
-pub(super) struct Mean {
+pub(super) struct LineMean {
     weight: f64,
     /// The direction by which signs are chosen. Without it, the tensor e eᵀ is summed.
     like: Option<DVec3>,
@@ -27,7 +27,7 @@ pub(super) struct Mean {
     tensor: [DVec3; 2],
 }
 
-impl Mean {
+impl LineMean {
     pub(super) fn new(like: Option<DVec3>) -> Self {
         Self { weight: 0.0, like, vector: DVec3::ZERO, tensor: [DVec3::ZERO; 2] }
     }
@@ -130,8 +130,8 @@ mod tests {
         DVec3::new(r(0), r(1), r(2)).normalize()
     }
 
-    fn of(parts: &[(DVec3, f64)]) -> Mean {
-        let mut mean = Mean::new(None);
+    fn of(parts: &[(DVec3, f64)]) -> LineMean {
+        let mut mean = LineMean::new(None);
         parts.iter().for_each(|&(e, w)| mean.add(e, w));
         mean
     }
@@ -179,7 +179,7 @@ mod tests {
         // Half is missing, or nearly.
         assert_eq!(of(&[(DVec3::Z, 0.5)]).direction(), None);
         assert!(of(&[(DVec3::Z, 0.51)]).direction().is_some());
-        let mut flipped = Mean::new(Some(DVec3::X));
+        let mut flipped = LineMean::new(Some(DVec3::X));
         flipped.add(at(40.0), 0.5);
         flipped.add(-at(-40.0), 0.5);
         assert!((flipped.direction().unwrap() - DVec3::X).length() < 1e-15);

@@ -6,19 +6,19 @@
 mod blocks;
 mod mean;
 
-use super::ground::Ground;
-use super::umbilics::Directions;
-use super::{Family, NoDirection, Scales};
+use super::ground::StrokeField;
+use super::umbilics::PrincipalDirections;
+use super::{CurvatureFamily, DirectionCounts, NoDirection};
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
-pub(super) use blocks::Voxels;
-use blocks::{Blocks, CORNERS};
+pub(super) use blocks::VoxelBox;
+use blocks::{CORNERS, DirectionBlocks};
 use drypoint_scene::glam::DVec3;
-use mean::Mean;
+use mean::LineMean;
 
 /// Interpolation of stored directions between voxels ([HATCH-4]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Between {
+pub enum DirectionInterpolation {
     /// The dominant eigenvector of the trilinear mean of e eᵀ.
     Tensor,
     /// The trilinear mean of directions, each turned to the current one: the paper's method. At a seed there is no
@@ -28,24 +28,24 @@ pub enum Between {
 
 /// Parameters of the storage of directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Storing {
+pub struct DirectionStorage {
     /// Interpolation between voxels.
-    pub between: Between,
+    pub between: DirectionInterpolation,
     /// Whether the directions of the whole grid are computed before the first query.
     pub all: bool,
 }
 
 /// Directions at the voxels of a ground.
 #[derive(Debug)]
-pub(super) struct Stored {
-    between: Between,
+pub(super) struct StoredDirections {
+    between: DirectionInterpolation,
     dims: [usize; 3],
-    blocks: Blocks,
+    blocks: DirectionBlocks,
 }
 
 /// Cached lines at the corners of the cell in which a stroke was last.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Near {
+pub(super) struct CellCache {
     cell: [usize; 3],
     /// A bit for each corner that was read.
     read: u8,
@@ -55,46 +55,46 @@ pub(super) struct Near {
     corners: [DVec3; 8],
 }
 
-impl Default for Near {
+impl Default for CellCache {
     fn default() -> Self {
         Self::of([usize::MAX; 3])
     }
 }
 
-impl Near {
+impl CellCache {
     fn of(cell: [usize; 3]) -> Self {
         Self { cell, read: 0, has: 0, corners: [DVec3::ZERO; 8] }
     }
 }
 
 /// The inputs from which the directions of voxels are computed.
-pub(super) struct Source<'a, 'f, 'v> {
-    pub(super) ground: &'a dyn Ground,
-    pub(super) directions: &'a Directions<'f, 'v>,
+pub(super) struct DirectionInputs<'a, 'f, 'v> {
+    pub(super) ground: &'a dyn StrokeField,
+    pub(super) directions: &'a PrincipalDirections<'f, 'v>,
 }
 
-impl Source<'_, '_, '_> {
+impl DirectionInputs<'_, '_, '_> {
     fn at(&self, voxel: [usize; 3]) -> Option<Curvature<f64>> {
         // The cause of a missing direction is not stored.
-        self.directions.at_voxel(self.ground, voxel, &mut Scales::default()).ok()
+        self.directions.at_voxel(self.ground, voxel, &mut DirectionCounts::default()).ok()
     }
 }
 
-impl Stored {
+impl StoredDirections {
     /// An empty storage.
-    pub(super) fn new(ground: &dyn Ground, between: Between) -> Self {
+    pub(super) fn new(ground: &dyn StrokeField, between: DirectionInterpolation) -> Self {
         let dims = ground.grid().dims();
-        Self { between, dims, blocks: Blocks::new(dims) }
+        Self { between, dims, blocks: DirectionBlocks::new(dims) }
     }
 
     /// Computes the directions of all voxels, in parallel.
-    pub(super) fn fill(&self, source: &Source<'_, '_, '_>) {
+    pub(super) fn fill(&self, source: &DirectionInputs<'_, '_, '_>) {
         self.blocks.fill(|voxels| source.directions.of_voxels(source.ground, voxels));
     }
 
     /// Like [`fill`](Self::fill), with random signs.
     #[cfg(test)]
-    pub(super) fn turn_signs(&self, source: &Source<'_, '_, '_>) {
+    pub(super) fn turn_signs(&self, source: &DirectionInputs<'_, '_, '_>) {
         let turned = |voxel: [usize; 3], draw: u32, e: Vec3<f64>| {
             let up = drypoint_scene::philox::uniform(1, voxel.map(|i| i as u32), draw) < 0.5;
             if up { e } else { -e }
@@ -114,7 +114,7 @@ impl Stored {
     }
 
     /// Curvatures and directions at a voxel.
-    pub(super) fn voxel(&self, source: &Source<'_, '_, '_>, voxel: [usize; 3]) -> Option<Curvature<f64>> {
+    pub(super) fn voxel(&self, source: &DirectionInputs<'_, '_, '_>, voxel: [usize; 3]) -> Option<Curvature<f64>> {
         self.blocks.get(voxel, || source.at(voxel))
     }
 
@@ -133,27 +133,27 @@ impl Stored {
     /// direction. `near` caches the cell's corners for the caller and the family.
     pub(super) fn line(
         &self,
-        source: &Source<'_, '_, '_>,
+        source: &DirectionInputs<'_, '_, '_>,
         index: Vec3<f64>,
-        family: Family,
+        family: CurvatureFamily,
         like: Option<DVec3>,
-        near: &mut Near,
-        counts: &mut Scales,
+        near: &mut CellCache,
+        counts: &mut DirectionCounts,
     ) -> Result<DVec3, NoDirection> {
-        let like = like.filter(|_| self.between == Between::Flipped);
+        let like = like.filter(|_| self.between == DirectionInterpolation::Flipped);
         let cell = source.ground.cell(index);
         if near.cell != cell {
-            *near = Near::of(cell);
+            *near = CellCache::of(cell);
         }
         let weights = self.weights(cell, index);
         // Corners with weight 0 are not computed.
         let new = weights.iter().enumerate().fold(0, |new, (i, w)| new | u8::from(*w > 0.0) << i) & !near.read;
         if new != 0 {
             near.read |= new;
-            let which = usize::from(family == Family::Min);
+            let which = usize::from(family == CurvatureFamily::Min);
             near.has |= self.blocks.lines(cell, new, which, |voxel| source.at(voxel), &mut near.corners);
         }
-        let mut mean = Mean::new(like);
+        let mut mean = LineMean::new(like);
         mean.add_all(near.has, &near.corners, &weights);
         let found = mean.direction();
         if found.is_some() {
@@ -167,11 +167,11 @@ impl Stored {
     /// Both directions and the means of the curvatures at a place in index space.
     pub(super) fn curvature(
         &self,
-        source: &Source<'_, '_, '_>,
+        source: &DirectionInputs<'_, '_, '_>,
         index: Vec3<f64>,
-        counts: &mut Scales,
+        counts: &mut DirectionCounts,
     ) -> Result<Curvature<f64>, NoDirection> {
-        let mut means = [Mean::new(None), Mean::new(None)];
+        let mut means = [LineMean::new(None), LineMean::new(None)];
         let (mut k1, mut k2) = (0.0, 0.0);
         let cell = source.ground.cell(index);
         let weights = self.weights(cell, index);
@@ -182,7 +182,7 @@ impl Stored {
                 (k1, k2) = (k1 + weight * c.k1, k2 + weight * c.k2);
             }
         }
-        let [Some(e1), Some(e2)] = means.each_ref().map(Mean::direction) else {
+        let [Some(e1), Some(e2)] = means.each_ref().map(LineMean::direction) else {
             counts.missing += 1;
             return Err(NoDirection::Umbilic);
         };

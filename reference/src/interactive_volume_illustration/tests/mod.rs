@@ -5,7 +5,7 @@ mod sampled;
 mod stored;
 mod umbilics;
 
-use super::{Ground, HatchCounts, Seed, Strokes};
+use super::{HatchCounts, Seed, StrokeField, StrokeGrower};
 use crate::field::Outside;
 use crate::number::{Sym3, Vec3};
 use drypoint_scene::glam::{DMat3, DVec3};
@@ -26,7 +26,7 @@ impl<F: Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> Formula<F> {
     }
 }
 
-impl<F: Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> Ground for Formula<F> {
+impl<F: Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> StrokeField for Formula<F> {
     fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -101,7 +101,7 @@ fn sampled(name: &str, grid: Grid, voxels: VoxelType, params: &[(&str, f64)]) ->
 }
 
 /// The seed of the stroke through a place, which stays at the place's own value.
-fn seed_at(strokes: &Strokes<'_, '_>, world: DVec3) -> Seed {
+fn seed_at(strokes: &StrokeGrower<'_, '_>, world: DVec3) -> Seed {
     let target = strokes.ground().value(Vec3::from_glam(strokes.ground().grid().to_index(world)));
     strokes.seed([0; 3], world, target, &mut HatchCounts::default()).unwrap()
 }

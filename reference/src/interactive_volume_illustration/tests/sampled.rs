@@ -1,8 +1,8 @@
 //! Strokes on voxels.
 
-use super::super::integrator::{Control, Half, Lines, trace};
-use super::super::strokes::OnSurface;
-use super::super::{Family, Hatching, NoDirection, Rule, Strokes};
+use super::super::integrator::{Control, HalfCurve, LineField, trace};
+use super::super::strokes::CurvatureLines;
+use super::super::{CurvatureFamily, DirectionEstimator, HatchParams, NoDirection, StrokeGrower};
 use super::*;
 use crate::field::{Field, HessianEstimator, Kernel, Reconstruction, Rung};
 use drypoint_scene::math::scale_by_power_of_two;
@@ -32,7 +32,7 @@ fn assert_in_front(field: &Field<'_, f64>, iso: f64, stroke: &Stroke) {
         };
         for s in 0..64 {
             let index = grid.to_index(a + (b - a) * (f64::from(s) / 64.0));
-            let value = Ground::value(field, Vec3::from_glam(index));
+            let value = StrokeField::value(field, Vec3::from_glam(index));
             assert!(value <= iso + 1e-9, "{value}");
         }
     }
@@ -46,8 +46,8 @@ fn on_a_torus_of_eight_bits() {
         let volume = torus(VoxelType::U8, spacing, dims);
         let (field, iso) = (field(&volume), 127.5);
         let cells = active(&volume, iso);
-        let how = Hatching { length: 15.0, ..Hatching::new(volume.grid()) };
-        let strokes = Strokes::new(&field, Some(iso), how);
+        let how = HatchParams { length: 15.0, ..HatchParams::new(volume.grid()) };
+        let strokes = StrokeGrower::new(&field, Some(iso), how);
         let grown = strokes.grow_all(&cells, |_| false);
         let counts = grown.counts;
         assert_eq!(counts.strokes + counts.rejected.total(), cells.len() as u64);
@@ -85,13 +85,13 @@ fn threads_and_order_do_not_show() {
     let cells: Vec<_> = active(&volume, 127.5).into_iter().step_by(17).collect();
     let grow = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let strokes = Strokes::new(&field, Some(127.5), Hatching::new(volume.grid()));
+        let strokes = StrokeGrower::new(&field, Some(127.5), HatchParams::new(volume.grid()));
         pool.install(|| strokes.grow_all(&cells, |seed| seed.normal.z > 0.5))
     };
     let one = grow(1);
     assert!(!one.cross.is_empty() && one.cross.len() < one.strokes.len());
     assert_eq!(one, grow(3));
-    let strokes = Strokes::new(&field, Some(127.5), Hatching::new(volume.grid()));
+    let strokes = StrokeGrower::new(&field, Some(127.5), HatchParams::new(volume.grid()));
     let backwards: Vec<_> = cells.iter().copied().rev().collect();
     let back = strokes.grow_all(&backwards, |_| false);
     assert!(back.strokes.iter().rev().eq(&one.strokes));
@@ -107,7 +107,7 @@ fn units_do_not_show() {
         let voxels = (0..grid.len()).map(|i| volume.voxels().get(i) * value).collect();
         let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
         let field = field(&volume);
-        Strokes::new(&field, Some(127.5 * value), Hatching::new(volume.grid())).grow_all(&cells, |_| true)
+        StrokeGrower::new(&field, Some(127.5 * value), HatchParams::new(volume.grid())).grow_all(&cells, |_| true)
     };
     let one = grown(1.0, 1.0);
     for k in [-300, -1, 8, 300] {
@@ -134,12 +134,12 @@ fn units_do_not_show() {
 fn traced(
     field: &Field<'_, f64>,
     cells: &[[usize; 3]],
-    rule: Rule,
+    rule: DirectionEstimator,
     tolerance: f64,
-) -> (Vec<Half<NoDirection>>, u64, [u64; 3]) {
+) -> (Vec<HalfCurve<NoDirection>>, u64, [u64; 3]) {
     let voxel = field.volume().grid().voxel();
-    let how = Hatching { tolerance, rule, family: Family::Max, ..Hatching::new(field.volume().grid()) };
-    let strokes = Strokes::new(field, Some(127.5), how);
+    let how = HatchParams { tolerance, rule, family: CurvatureFamily::Max, ..HatchParams::new(field.volume().grid()) };
+    let strokes = StrokeGrower::new(field, Some(127.5), how);
     let mut counts = HatchCounts::default();
     let mut halves = Vec::new();
     let mut asked = 0;
@@ -147,7 +147,7 @@ fn traced(
         let Ok(seed) = strokes.place(cell, &mut counts) else { continue };
         let along = seed.curvature.e1.to_glam();
         for along in [along, -along] {
-            let mut lines = OnSurface::new(&strokes, seed.family, seed.target, &mut counts);
+            let mut lines = CurvatureLines::new(&strokes, seed.family, seed.target, &mut counts);
             let there = lines.at(seed.world).unwrap();
             let along = there * there.dot(along).signum();
             let control = Control {
@@ -168,7 +168,7 @@ fn traced(
 }
 
 /// The place after an arc on a half. Returns none beyond its end.
-fn after(half: &Half<NoDirection>, arc: f64) -> Option<DVec3> {
+fn after(half: &HalfCurve<NoDirection>, arc: f64) -> Option<DVec3> {
     let mut before = 0.0;
     for piece in &half.pieces {
         let step = piece.tangents[0].length();
@@ -187,10 +187,10 @@ fn after(half: &Half<NoDirection>, arc: f64) -> Option<DVec3> {
 fn errors_follow_the_tolerance_between_voxels() {
     let volume = torus(VoxelType::F64, [1.0; 3], [40, 40, 18]);
     let bytes = torus(VoxelType::U8, [1.0; 3], [40, 40, 24]);
-    let scaled = Rule::Scaled(Default::default());
+    let scaled = DirectionEstimator::Scaled(Default::default());
     for (name, volume, kernel, rule) in [
-        ("raw trilinear", &volume, Kernel::Trilinear, Rule::Raw),
-        ("raw bspline", &volume, Kernel::Bspline, Rule::Raw),
+        ("raw trilinear", &volume, Kernel::Trilinear, DirectionEstimator::Raw),
+        ("raw bspline", &volume, Kernel::Bspline, DirectionEstimator::Raw),
         ("scaled f64", &volume, Kernel::Trilinear, scaled),
         ("scaled u8", &bytes, Kernel::Trilinear, scaled),
     ] {

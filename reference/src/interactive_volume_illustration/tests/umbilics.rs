@@ -1,6 +1,6 @@
 //! Places on sampled surfaces with principal directions, and the accuracy of these ([HATCH-3]).
 
-use super::super::{Directions, Pyramid, Rule, Scales, Thresholds, deviation};
+use super::super::{DirectionCounts, DirectionEstimator, PrincipalDirections, Pyramid, Thresholds, deviation};
 use super::*;
 use crate::field::{Field, Outside, Reconstruction, Rung};
 use crate::number::Vec3;
@@ -39,11 +39,11 @@ fn share(volume: &Volume, margin: usize, right: impl Fn(DVec3) -> bool) -> f64 {
 /// Like [`share`], with other constants.
 fn share_by(thresholds: Thresholds, volume: &Volume, margin: usize, right: impl Fn(DVec3) -> bool) -> f64 {
     let field = Field::<f64>::new(volume, Reconstruction::default(), Rung::Gradient).unwrap();
-    let directions = Directions::new(&field, Rule::Scaled(thresholds));
+    let directions = PrincipalDirections::new(&field, DirectionEstimator::Scaled(thresholds));
     let dims = volume.dims();
     let inner = |v: &[usize; 3]| (0..3).all(|a| v[a] >= margin && v[a] + margin < dims[a]);
     let voxels: Vec<_> = iso_voxels(volume, 127.5).into_iter().filter(inner).collect();
-    let mut counts = Scales::default();
+    let mut counts = DirectionCounts::default();
     let mut hits = 0;
     for voxel in &voxels {
         let at = Vec3::new(voxel[0] as f64, voxel[1] as f64, voxel[2] as f64);
@@ -109,11 +109,11 @@ fn cylinders_that_a_mask_cuts_have_their_rulings() {
     let params = [("R", 10.0), ("ax", axis.x), ("ay", axis.y), ("az", axis.z), ("w", 2.0), ("high", 255.0)];
     let volume = cut(&sampled("cylinder", cube(40), VoxelType::F64, &params), DVec3::X);
     let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
-    let directions = Directions::new(&field, Rule::Scaled(measured(&volume)));
+    let directions = PrincipalDirections::new(&field, DirectionEstimator::Scaled(measured(&volume)));
     let (mut all, mut right, mut decided) = (0, 0, [0; 2]);
     for voxel in iso_voxels(&volume, 127.5) {
         let at = Vec3::new(voxel[0] as f64, voxel[1] as f64, voxel[2] as f64);
-        let found = directions.at(&field, at, &mut Scales::default()).ok();
+        let found = directions.at(&field, at, &mut DirectionCounts::default()).ok();
         let off = |e: DVec3| e.cross(axis).length().asin().to_degrees();
         if let Some(off) = found.map(|c| off(c.e2.to_glam())) {
             assert!(off < 2.0, "{voxel:?}: {off}");

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 /// A field by a formula. Its sign jumps from place to place, which no tracer may notice.
 struct Formula<F>(F);
 
-impl<F: Fn(DVec3) -> DVec3> Lines for Formula<F> {
+impl<F: Fn(DVec3) -> DVec3> LineField for Formula<F> {
     type Cause = ();
     fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
         let v = (self.0)(x);
@@ -29,7 +29,7 @@ fn helix(x: DVec3) -> DVec3 {
     DVec3::new(-x.y, x.x, 3.0)
 }
 
-fn end<C>(half: &Half<C>) -> DVec3 {
+fn end<C>(half: &HalfCurve<C>) -> DVec3 {
     half.pieces[half.pieces.len() - 1].ends[1]
 }
 
@@ -41,7 +41,7 @@ struct Bent {
 
 const ASLANT: DVec3 = DVec3::new(0.8, 0.6, 0.0);
 
-impl Lines for Bent {
+impl LineField for Bent {
     type Cause = ();
     fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
         self.beyond = x.x > 7.3;
@@ -59,7 +59,7 @@ fn steps_narrow_down_to_where_the_formula_changes() {
     let end_of = |says: bool, tolerance: f64, first: f64| {
         let control = Control { first, max_step: 2.0, ..control(tolerance, 20.0) };
         let half = trace(&mut Bent { beyond: false, says }, DVec3::ZERO, DVec3::X, &control);
-        assert_eq!((half.end, half.length), (End::Length, 20.0));
+        assert_eq!((half.end, half.length), (EndCause::Length, 20.0));
         end(&half).distance(DVec3::X * 7.3 + ASLANT * 12.7)
     };
     let mut missed = 0;
@@ -92,7 +92,7 @@ fn the_error_is_that_of_the_tolerance_and_of_fourth_order() {
         for ((half, want), measured) in halves.into_iter().zip(&mut measured) {
             let error = end(&half).distance(want);
             assert!(error <= 2.0 * control.tolerance, "{error:e} at {:e}", control.tolerance);
-            assert_eq!((half.end, half.length), (End::Length, 40.0));
+            assert_eq!((half.end, half.length), (EndCause::Length, 40.0));
             assert_eq!(half.evaluations as usize, 4 * half.pieces.len() + 4 * half.rejected as usize);
             measured.push(((half.pieces.len() as f64).ln(), error.ln()));
         }
@@ -133,13 +133,13 @@ fn a_ring_closes_and_a_spiral_does_not() {
     let goal = |along| Some(Goal { at: DVec3::X * 20.0, along, within: 0.25, after: 1.0 });
     let closing = Control { goal: goal(DVec3::Y), ..control(1e-4, 400.0) };
     let ring = trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &closing);
-    assert_eq!((ring.end, end(&ring)), (End::Closed, DVec3::X * 20.0));
+    assert_eq!((ring.end, end(&ring)), (EndCause::Closed, DVec3::X * 20.0));
     // Sixteen steps of 10⁻⁴ at the most, and half as much in the length of the last.
     assert!((ring.length - 40.0 * PI).abs() < 2e-3, "{}", ring.length);
     let spiral = |x: DVec3| circle(x) + x * (0.5 / (20.0 * TAU));
     let along = spiral(DVec3::X * 20.0).normalize();
     let closing = Control { goal: goal(along), ..closing };
-    assert_eq!(trace(&mut Formula(spiral), DVec3::X * 20.0, along, &closing).end, End::Length);
+    assert_eq!(trace(&mut Formula(spiral), DVec3::X * 20.0, along, &closing).end, EndCause::Length);
 }
 
 /// A goal just ahead is reached at once if the curve need not come back. A goal just behind is not.
@@ -153,7 +153,7 @@ fn a_goal_can_be_near() {
             let half =
                 trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &Control { goal, ..control(1e-4, 400.0) });
             let length = if sign > 0.0 { ahead } else { 40.0 * PI - ahead };
-            assert_eq!((half.end, end(&half)), (End::Closed, at));
+            assert_eq!((half.end, end(&half)), (EndCause::Closed, at));
             assert!((half.length - length).abs() < 2e-3, "{ahead} {sign}: {}", half.length);
         }
     }
@@ -163,7 +163,7 @@ fn a_goal_can_be_near() {
 fn it_ends_at_the_largest_angle() {
     let control = Control { cos_max_angle: (PI / 4.0).cos(), ..control(1e-6, 400.0) };
     let half = trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &control);
-    assert_eq!(half.end, End::Angle);
+    assert_eq!(half.end, EndCause::Angle);
     // The cubic's direction errs by h³/(96·√3·r³) or so, some 10⁻⁵ here.
     assert!((half.length - 5.0 * PI).abs() < 1e-3, "{}", half.length);
 }
@@ -177,7 +177,7 @@ fn no_step_jumps_over_the_largest_angle() {
             let goal = Some(Goal { at: DVec3::X * radius, along: DVec3::Y, within: 0.15, after: 0.6 });
             let control = Control { cos_max_angle: angle.cos(), max_step: 2.0, goal, ..control(1e-2, 400.0) };
             let half = trace(&mut Formula(circle), DVec3::X * radius, DVec3::Y, &control);
-            assert_eq!(half.end, End::Angle, "{degrees} {radius}");
+            assert_eq!(half.end, EndCause::Angle, "{degrees} {radius}");
             // An arc of the limit, but for a hundredth, what some steps of 10⁻² turn a direction by.
             assert!((half.length / radius - angle).abs() < 0.05, "{degrees} {radius}: {}", half.length / radius);
         }
@@ -190,7 +190,7 @@ fn no_step_turns_by_more_than_sixty_degrees() {
     for first in [0.5, 1.0, 1.5, 2.0, 3.0] {
         let control = Control { first, ..control(1e9, 40.0) };
         let half = trace(&mut Formula(circle), DVec3::X, DVec3::Y, &control);
-        assert_eq!(half.end, End::Length);
+        assert_eq!(half.end, EndCause::Length);
         for piece in &half.pieces {
             let turn = piece.tangents[0].angle_between(piece.tangents[1]).to_degrees();
             assert!(turn <= 60.0 + 1e-9, "{first}: {turn}");
@@ -204,7 +204,7 @@ fn it_goes_up_to_the_border_of_the_field() {
     let inside = |x: DVec3| if x.x < 7.3 { DVec3::X } else { DVec3::ZERO };
     let control = Control { min_step: 1e-3, max_step: 2.0, ..control(1e-3, 40.0) };
     let half = trace(&mut Formula(inside), DVec3::ZERO, DVec3::X, &control);
-    assert_eq!(half.end, End::Field(()));
+    assert_eq!(half.end, EndCause::Field(()));
     assert!(end(&half).x < 7.3 && end(&half).x > 7.3 - 2e-3, "{}", end(&half));
     assert!(half.pieces.iter().all(|piece| piece.tangents[0].x <= 2.0));
 }
@@ -218,9 +218,9 @@ fn a_kink_ends_it() {
         let control = Control { min_step: 1e-3, ..control(1e-2, 20.0) };
         trace(&mut Formula(field), DVec3::ZERO, DVec3::X, &control)
     };
-    assert_eq!(kink(40.0).end, End::Length);
+    assert_eq!(kink(40.0).end, EndCause::Length);
     let turned = kink(70.0);
-    assert_eq!(turned.end, End::Turns);
+    assert_eq!(turned.end, EndCause::Turns);
     assert!((end(&turned).x - 5.0).abs() < 2e-3);
 }
 
@@ -228,7 +228,7 @@ fn a_kink_ends_it() {
 #[test]
 fn a_step_that_comes_off_is_put_back() {
     struct Climbing;
-    impl Lines for Climbing {
+    impl LineField for Climbing {
         type Cause = ();
         fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
             Ok((circle(x) + x * 0.1).normalize())
