@@ -5,7 +5,7 @@ use drypoint_scene::tables::Ink;
 
 /// The dots of a voxel, a prefix of its list of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Dots {
+pub(super) struct VoxelDots {
     /// Number of dots that are drawn completely.
     pub(super) whole: usize,
     /// Opacity of the next dot; at 0 it is not drawn.
@@ -15,16 +15,16 @@ pub(super) struct Dots {
 }
 
 /// N_i = N_max·T of eq. 2, and the size S_i = S_max·‖∇V_i‖·T_r·T_d·T_t as `size`, over S_max.
-pub(super) fn dots(each: usize, share: f64, size: f64, ink: Ink, cell: [u32; 3]) -> Dots {
+pub(super) fn dots(each: usize, share: f64, size: f64, ink: Ink, cell: [u32; 3]) -> VoxelDots {
     // A share of NaN, from 0·∞ of unbounded factors, draws nothing: `max` returns the other operand.
     let n = (each as f64 * share).max(0.0).min(each as f64);
     match ink {
         Ink::Fade => {
             let whole = n.floor();
             let fading = if (whole as usize) < each { n - whole } else { 0.0 };
-            Dots { whole: whole as usize, fading, size }
+            VoxelDots { whole: whole as usize, fading, size }
         }
-        Ink::Opaque => Dots { whole: ((n + blue_noise::at(cell)) as usize).min(each), fading: 0.0, size },
+        Ink::Opaque => VoxelDots { whole: ((n + blue_noise::at(cell)) as usize).min(each), fading: 0.0, size },
     }
 }
 
@@ -59,16 +59,16 @@ mod tests {
 
     #[test]
     fn the_whole_part_is_drawn_and_the_next_one_fades() {
-        assert_eq!(dots(8, 0.40625, 0.5, Ink::Fade, CELL), Dots { whole: 3, fading: 0.25, size: 0.5 });
-        assert_eq!(dots(8, 1.0, 1.0, Ink::Fade, CELL), Dots { whole: 8, fading: 0.0, size: 1.0 });
-        assert_eq!(dots(8, 0.0, 1.0, Ink::Fade, CELL), Dots { whole: 0, fading: 0.0, size: 1.0 });
+        assert_eq!(dots(8, 0.40625, 0.5, Ink::Fade, CELL), VoxelDots { whole: 3, fading: 0.25, size: 0.5 });
+        assert_eq!(dots(8, 1.0, 1.0, Ink::Fade, CELL), VoxelDots { whole: 8, fading: 0.0, size: 1.0 });
+        assert_eq!(dots(8, 0.0, 1.0, Ink::Fade, CELL), VoxelDots { whole: 0, fading: 0.0, size: 1.0 });
         assert_eq!(dots(8, 1f64.next_up(), 1.0, Ink::Fade, CELL).whole, 8);
     }
 
     #[test]
     fn a_share_that_is_no_number_draws_nothing() {
         for ink in [Ink::Fade, Ink::Opaque] {
-            assert_eq!(dots(8, f64::NAN, 1.0, ink, CELL), Dots { whole: 0, fading: 0.0, size: 1.0 });
+            assert_eq!(dots(8, f64::NAN, 1.0, ink, CELL), VoxelDots { whole: 0, fading: 0.0, size: 1.0 });
             assert_eq!(dots(8, with_nib(f64::NAN, 1.0).0, 1.0, ink, CELL).whole, 0);
             assert_eq!(dots(8, f64::INFINITY, 1.0, ink, CELL).whole, 8);
             assert_eq!(dots(8, -0.5, 1.0, ink, CELL).whole, 0);
@@ -82,7 +82,7 @@ mod tests {
             for k in [1, each.div_ceil(2), each] {
                 let share = k as f64 / each as f64;
                 for share in [share.next_down(), share, share.next_up()] {
-                    let Dots { whole, fading, .. } = dots(each, share, 1.0, Ink::Fade, CELL);
+                    let VoxelDots { whole, fading, .. } = dots(each, share, 1.0, Ink::Fade, CELL);
                     // In units of dots: the product is off by an ulp of it, of which each is half a unit roundoff of k.
                     assert!((whole as f64 + fading - k as f64).abs() <= 4.0 * f64::EPSILON * k as f64, "{each} {k}");
                     assert!(

@@ -22,16 +22,16 @@ const OWN: f64 = 0.55;
 
 /// The voxels that can lie on a curve for some camera: V·LoG(V) < Th_LOG and ‖∇V‖ > Th_grad.
 #[derive(Clone, Debug)]
-pub struct Edges {
+pub struct CurveVoxels {
     grid: Grid,
-    voxels: Vec<Edge>,
+    voxels: Vec<CurveVoxel>,
     /// Whether segments lie on the edge itself, rather than at the voxels' centres.
     is_snapped: bool,
 }
 
 /// A voxel that can lie on a curve.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct CurveVoxel {
     cell: [u32; 3],
     /// n, the outward normal in the world.
     normal: DVec3,
@@ -43,7 +43,7 @@ struct Edge {
 
 /// A segment of a curve, one voxel long.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment {
+pub struct CurveSegment {
     /// The segment's voxel.
     pub cell: [u32; 3],
     /// The outward normal in the world.
@@ -52,7 +52,7 @@ pub struct Segment {
     pub ends: [DVec3; 2],
 }
 
-impl Edges {
+impl CurveVoxels {
     /// Measures the voxels of a volume. `voxels` are those with ‖∇V‖ above Th_grad. `range` holds the values for V =
     /// 0 and 1.
     ///
@@ -80,7 +80,7 @@ impl Edges {
                     let project = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
                     let sign = if outside == Outside::Low { -1.0 } else { 1.0 };
                     let turning = project * h * (sign / length);
-                    Edge { cell: voxel.cell, normal: voxel.normal, turning, to_edge: DVec3::ZERO }
+                    CurveVoxel { cell: voxel.cell, normal: voxel.normal, turning, to_edge: DVec3::ZERO }
                 })
             };
             voxels.par_iter().zip(&logs).filter_map(edge).collect()
@@ -108,9 +108,9 @@ impl Edges {
     }
 
     /// Returns the segments that a camera sees, in the order of the voxels.
-    pub fn segments(&self, curves: &Curves, view: &View) -> Vec<Segment> {
+    pub fn segments(&self, curves: &Curves, view: &View) -> Vec<CurveSegment> {
         let voxel = self.grid.voxel();
-        let segment = |edge: &Edge| {
+        let segment = |edge: &CurveVoxel| {
             let centre = self.grid.to_world(DVec3::from_array(edge.cell.map(f64::from)));
             let (e, distance) = towards_eye(view, centre);
             let facing = edge.normal.dot(e);
@@ -133,7 +133,7 @@ impl Edges {
             let length = along.length();
             (passes && length >= NO_DIRECTION).then(|| {
                 let half = along * (0.5 * voxel / length);
-                Segment { cell: edge.cell, normal: edge.normal, ends: [centre - half, centre + half] }
+                CurveSegment { cell: edge.cell, normal: edge.normal, ends: [centre - half, centre + half] }
             })
         };
         self.voxels.par_iter().filter_map(segment).collect()

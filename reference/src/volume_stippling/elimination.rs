@@ -13,7 +13,7 @@ use std::collections::BinaryHeap;
 
 /// A point that may become a dot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
+pub struct DotCandidate {
     /// Place on the page.
     pub at: DVec2,
     /// Number of dots that the candidate stands for, at most 1. The sum over a region of the page is the number of
@@ -29,7 +29,7 @@ const BETA: f64 = 0.65;
 
 /// Selects as many candidates as their shares add up to, spread as evenly on the page as possible. Returns their
 /// indices in ascending order. The result is deterministic.
-pub fn eliminate(candidates: &[Candidate]) -> Vec<usize> {
+pub fn eliminate(candidates: &[DotCandidate]) -> Vec<usize> {
     let wanted = candidates.iter().map(|c| c.share).sum::<f64>().round_ties_even() as usize;
     if wanted >= candidates.len() {
         return (0..candidates.len()).collect();
@@ -37,7 +37,7 @@ pub fn eliminate(candidates: &[Candidate]) -> Vec<usize> {
     if wanted == 0 {
         return Vec::new();
     }
-    let cells = Cells::new(candidates);
+    let cells = PointCells::new(candidates);
     let radii = cells.radii(candidates);
     let (crowds, first) = crowds(candidates, &cells, &radii, wanted as f64 / candidates.len() as f64);
     let mut weights: Vec<f64> =
@@ -68,13 +68,13 @@ pub fn eliminate(candidates: &[Candidate]) -> Vec<usize> {
 
 /// The weight by which a point crowds another.
 #[derive(Clone, Copy)]
-struct Crowd {
+struct Crowding {
     other: u32,
     weight: f32,
 }
 
 /// For each point the points that crowd it, and the start of its entries. `kept` is the share of points that remain.
-fn crowds(points: &[Candidate], cells: &Cells, radii: &[f64], kept: f64) -> (Vec<Crowd>, Vec<usize>) {
+fn crowds(points: &[DotCandidate], cells: &PointCells, radii: &[f64], kept: f64) -> (Vec<Crowding>, Vec<usize>) {
     // γ of section 3.1 is 3/2.
     let least = BETA * (1.0 - kept * kept.sqrt());
     let part = |part: &[usize]| {
@@ -86,7 +86,7 @@ fn crowds(points: &[Candidate], cells: &Cells, radii: &[f64], kept: f64) -> (Vec
                 let far = (points[j].at.distance(at) / reach).max(least);
                 if j != i && far < 1.0 {
                     let close = (1.0 - far) * (1.0 - far);
-                    crowds.push(Crowd { other: j as u32, weight: (close * close * close * close) as f32 });
+                    crowds.push(Crowding { other: j as u32, weight: (close * close * close * close) as f32 });
                 }
             });
             ends.push(crowds.len());
@@ -94,7 +94,7 @@ fn crowds(points: &[Candidate], cells: &Cells, radii: &[f64], kept: f64) -> (Vec
         (crowds, ends)
     };
     let order: Vec<usize> = (0..points.len()).collect();
-    let parts: Vec<(Vec<Crowd>, Vec<usize>)> = order.par_chunks(4096).map(part).collect();
+    let parts: Vec<(Vec<Crowding>, Vec<usize>)> = order.par_chunks(4096).map(part).collect();
     let (mut crowds, mut first) = (Vec::new(), vec![0]);
     for (of_part, ends) in parts {
         first.extend(ends.into_iter().map(|end| crowds.len() + end));
@@ -104,7 +104,7 @@ fn crowds(points: &[Candidate], cells: &Cells, radii: &[f64], kept: f64) -> (Vec
 }
 
 /// A raster of square cells with the points of each.
-struct Cells {
+struct PointCells {
     /// The lower corner.
     from: DVec2,
     side: f64,
@@ -115,8 +115,8 @@ struct Cells {
     first: Vec<usize>,
 }
 
-impl Cells {
-    fn new(points: &[Candidate]) -> Self {
+impl PointCells {
+    fn new(points: &[DotCandidate]) -> Self {
         let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for point in points {
             (lo, hi) = (lo.min(point.at), hi.max(point.at));
@@ -166,7 +166,7 @@ impl Cells {
     }
 
     /// Radius r at each point, from the density in the smallest square of cells with enough shares.
-    fn radii(&self, points: &[Candidate]) -> Vec<f64> {
+    fn radii(&self, points: &[DotCandidate]) -> Vec<f64> {
         let [width, height] = self.size;
         // A summed-area table with a leading row and column of zeros.
         let mut sums = vec![0.0; (width + 1) * (height + 1)];
@@ -209,10 +209,10 @@ mod tests {
     use super::*;
     use drypoint_scene::philox::uniforms;
 
-    fn random(count: u32, share: impl Fn(DVec2) -> f64) -> Vec<Candidate> {
+    fn random(count: u32, share: impl Fn(DVec2) -> f64) -> Vec<DotCandidate> {
         let at = |i| uniforms(5, [i, 0, 0], 0);
         let at = (0..count).map(at).map(|[x, y, ..]| DVec2::new(100.0 * x, 100.0 * y));
-        at.map(|at| Candidate { at, share: share(at) }).collect()
+        at.map(|at| DotCandidate { at, share: share(at) }).collect()
     }
 
     /// The mean distance to the nearest neighbour, times √density, in a window away from the border.
@@ -244,8 +244,9 @@ mod tests {
         let right = |p: &DVec2| p.x > 50.0;
         // A third of the candidates on the left.
         let candidates = random(24_000, |_| 0.25);
-        let is_there = |(i, c): &(usize, Candidate)| right(&c.at) || i % 3 == 0;
-        let candidates: Vec<Candidate> = candidates.into_iter().enumerate().filter(is_there).map(|(_, c)| c).collect();
+        let is_there = |(i, c): &(usize, DotCandidate)| right(&c.at) || i % 3 == 0;
+        let candidates: Vec<DotCandidate> =
+            candidates.into_iter().enumerate().filter(is_there).map(|(_, c)| c).collect();
         let points: Vec<DVec2> = eliminate(&candidates).into_iter().map(|i| candidates[i].at).collect();
         for is_right in [true, false] {
             let inside =
@@ -260,7 +261,7 @@ mod tests {
 
     #[test]
     fn all_or_none_and_points_that_coincide() {
-        let same = |share, count| vec![Candidate { at: DVec2::ONE, share }; count];
+        let same = |share, count| vec![DotCandidate { at: DVec2::ONE, share }; count];
         assert_eq!(eliminate(&same(1.0, 3)), [0, 1, 2]);
         assert!(eliminate(&same(0.1, 3)).is_empty() && eliminate(&[]).is_empty());
         // Of equals the first goes first.

@@ -2,9 +2,9 @@
 //! With `even = "page"` four times as many candidates are thinned evenly on the page ([STIP-19]).
 
 use super::count::{candidates, dots, with_nib};
-use super::elimination::{Candidate, eliminate};
-use super::factors::{Moving, Still, Whole};
-use super::hidden::Hidden;
+use super::elimination::{DotCandidate, eliminate};
+use super::factors::{CameraFactors, FixedFactors, VolumeExtent};
+use super::hidden::HiddenPoints;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::{DMat3, DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Page};
@@ -27,7 +27,7 @@ pub struct Frames<'a> {
     stipples: &'a Stipples,
     points: &'a Points,
     /// The camera-independent factors of each voxel.
-    still: Vec<Still>,
+    still: Vec<FixedFactors>,
     light: LightDirection,
     centre: DVec3,
     radius: f64,
@@ -88,19 +88,19 @@ pub struct FrameInputs<'a> {
 
 /// The dots of a frame in the order of the voxels. Its buffers are reused from frame to frame.
 #[derive(Clone, Debug, Default)]
-pub struct Drawn {
-    parts: Vec<Part>,
+pub struct FrameDots {
+    parts: Vec<FramePart>,
     /// Width of the nib, if a pen draws.
     nib: Option<f64>,
 }
 
 #[derive(Clone, Debug, Default)]
-struct Part {
+struct FramePart {
     dots: Vec<Dot>,
     hidden: u64,
 }
 
-impl Drawn {
+impl FrameDots {
     /// The dots.
     pub fn dots(&self) -> impl Iterator<Item = &Dot> {
         self.parts.iter().flat_map(|part| &part.dots)
@@ -143,7 +143,7 @@ impl<'a> Frames<'a> {
         Self {
             stipples,
             points,
-            still: points.voxels.par_iter().map(|voxel| Still::new(stipples, voxel, &points.grid)).collect(),
+            still: points.voxels.par_iter().map(|voxel| FixedFactors::new(stipples, voxel, &points.grid)).collect(),
             light,
             centre,
             radius: grid.radius(),
@@ -158,14 +158,15 @@ impl<'a> Frames<'a> {
 
     /// Draws the dots that a camera sees on a page; with `even = "page"`, the candidates for [`choose_on_page`]. Dots
     /// whose centre lies outside the picture are left out, as are dots nearer than `near` in perspective.
-    pub fn draw(&self, view: &View, page: &Page, drawn: &mut Drawn) {
-        let whole = Whole { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
-        let moving = Moving::new(self.stipples, self.light, view, &whole);
-        let place = Place::new(view, page, &self.points.grid);
+    pub fn draw(&self, view: &View, page: &Page, drawn: &mut FrameDots) {
+        let whole =
+            VolumeExtent { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
+        let moving = CameraFactors::new(self.stipples, self.light, view, &whole);
+        let place = IndexToPage::new(view, page, &self.points.grid);
         let surface = self.surface.as_deref();
-        let hidden = surface.map(|surface| Hidden::new(surface, view, self.near, &self.points.grid));
+        let hidden = surface.map(|surface| HiddenPoints::new(surface, view, self.near, &self.points.grid));
         let parts = self.points.voxels.len().div_ceil(PART);
-        drawn.parts.resize_with(parts, Part::default);
+        drawn.parts.resize_with(parts, FramePart::default);
         drawn.nib = self.nib;
         drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
             part.hidden = 0;
@@ -177,7 +178,14 @@ impl<'a> Frames<'a> {
         });
     }
 
-    fn voxel(&self, i: usize, moving: &Moving<'_>, place: &Place, hidden: Option<&Hidden<'_>>, part: &mut Part) {
+    fn voxel(
+        &self,
+        i: usize,
+        moving: &CameraFactors<'_>,
+        place: &IndexToPage,
+        hidden: Option<&HiddenPoints<'_>>,
+        part: &mut FramePart,
+    ) {
         let (voxel, each) = (&self.points.voxels[i], self.points.each);
         let centre = voxel.centre();
         let at = place.eye(centre);
@@ -231,9 +239,9 @@ impl<'a> Frames<'a> {
 
 /// Selects the dots of one frame from its candidates, evenly on the page across all pens ([STIP-19]). A candidate's
 /// opacity is the number of dots it stands for.
-pub fn choose_on_page(drawn: &mut [Drawn]) {
-    let all = || drawn.iter().flat_map(Drawn::dots);
-    let candidates: Vec<Candidate> = all().map(|dot| Candidate { at: dot.at, share: dot.opacity }).collect();
+pub fn choose_on_page(drawn: &mut [FrameDots]) {
+    let all = || drawn.iter().flat_map(FrameDots::dots);
+    let candidates: Vec<DotCandidate> = all().map(|dot| DotCandidate { at: dot.at, share: dot.opacity }).collect();
     let mut is_kept = vec![false; candidates.len()];
     for i in eliminate(&candidates) {
         is_kept[i] = true;
@@ -246,7 +254,7 @@ pub fn choose_on_page(drawn: &mut [Drawn]) {
 }
 
 /// The map from index space to the page.
-pub(super) struct Place {
+pub(super) struct IndexToPage {
     /// The map from index to eye space: the linear part, and the image of index 0.
     to_eye: DMat3,
     origin: DVec3,
@@ -260,7 +268,7 @@ pub(super) struct Place {
     half: DVec2,
 }
 
-impl Place {
+impl IndexToPage {
     pub(super) fn new(view: &View, page: &Page, grid: &Grid) -> Self {
         let rotation = DMat3::from_cols(view.right, view.up, -view.forward).transpose();
         let half = page.picture() / 2.0;

@@ -1,6 +1,6 @@
 //! Points that an opaque iso-surface hides ([STIP-15]). The paper's points are transparent.
 
-use super::curves::Segment;
+use super::curves::CurveSegment;
 use super::ridge::across;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
@@ -17,7 +17,7 @@ const OFFSET: f64 = 0.15;
 
 /// A visibility test of points for one camera.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hidden<'a> {
+pub(super) struct HiddenPoints<'a> {
     surface: &'a IsoSurface<'a, 'a>,
     view: &'a View,
     near: f64,
@@ -27,7 +27,7 @@ pub(super) struct Hidden<'a> {
     offset: f64,
 }
 
-impl<'a> Hidden<'a> {
+impl<'a> HiddenPoints<'a> {
     /// `near` is the near distance of a perspective camera. `of_points` is the grid in which points are made
     /// ([STIP-2]).
     pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64, of_points: &'a Grid) -> Self {
@@ -49,14 +49,14 @@ impl<'a> Hidden<'a> {
 
 /// The segments of curves whose middle the surface does not hide. `of_points` is the grid in which they are made.
 pub fn seen(
-    mut segments: Vec<Segment>,
+    mut segments: Vec<CurveSegment>,
     surface: &IsoSurface<'_, '_>,
     view: &View,
     near: f64,
     of_points: &Grid,
-) -> Vec<Segment> {
-    let hidden = Hidden::new(surface, view, near, of_points);
-    let middle = |segment: &Segment| (segment.ends[0] + segment.ends[1]) / 2.0;
+) -> Vec<CurveSegment> {
+    let hidden = HiddenPoints::new(surface, view, near, of_points);
+    let middle = |segment: &CurveSegment| (segment.ends[0] + segment.ends[1]) / 2.0;
     let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(middle(segment), segment.normal)).collect();
     let mut hides = hides.into_iter();
     segments.retain(|_| hides.next() == Some(false));
@@ -94,7 +94,7 @@ mod tests {
         for projection in [Projection::Orthographic { height: None }, Projection::Perspective { fov: 40.0 }] {
             let camera = Camera { projection, direction, ..Camera::default() };
             let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-            let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+            let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
             // Between slices the surface lies below the sphere by as much as a chord does, more than between cubes.
             let below = (slices * slices - 1) as f64 / (8.0 * radius);
             let limit = -(2.0 * (OFFSET + below) / radius).sqrt();
@@ -135,7 +135,7 @@ mod tests {
             let camera =
                 Camera { projection: Projection::Orthographic { height: None }, direction, ..Camera::default() };
             let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-            let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+            let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
             for i in 0..=40 {
                 // Points of the voxels of the outer flanks lie up to half a voxel beyond their centres.
                 let out = -0.25 + 2.5 * f64::from(i) / 40.0;
@@ -161,7 +161,7 @@ mod tests {
             ..Camera::default()
         };
         let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-        let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+        let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
         assert!(surface.normal(DVec3::new(2.0, 2.0, 10.0)).is_none());
         for side in [1.0, -1.0] {
             let point = DVec3::new(2.0, 2.0, 10.0 + 0.3 * side);

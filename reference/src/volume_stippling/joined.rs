@@ -1,7 +1,7 @@
 //! Segments of curves joined to lines, for pens and vector files ([STIP-13]).
 
-use super::curves::Segment;
-use super::frame::Place;
+use super::curves::CurveSegment;
+use super::frame::IndexToPage;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Page, Polyline, Vertex};
 use drypoint_scene::space::Grid;
@@ -13,7 +13,7 @@ const STRAIGHT: f64 = 0.866_025_403_784_438_6;
 
 /// One end of a segment on the page: its place, its point in the world, and the length of half a voxel there.
 #[derive(Clone, Copy)]
-struct End {
+struct SegmentEnd {
     at: DVec2,
     world: DVec3,
     reach: f64,
@@ -25,25 +25,32 @@ struct End {
 /// Segments with an end nearer than `near` in perspective are left out, as are those beyond one side of the picture.
 /// Segments that cross the picture's edge stay whole; the page cuts them later
 /// ([`Marks::keep_inside`](drypoint_scene::marks::Marks::keep_inside)).
-pub fn joined(segments: &[Segment], grid: &Grid, view: &View, page: &Page, near: f64, radius: f64) -> Vec<Polyline> {
-    let place = Place::new(view, page, grid);
+pub fn joined(
+    segments: &[CurveSegment],
+    grid: &Grid,
+    view: &View,
+    page: &Page,
+    near: f64,
+    radius: f64,
+) -> Vec<Polyline> {
+    let place = IndexToPage::new(view, page, grid);
     let half = 0.5 * grid.voxel() / view.pixel * page.picture().x / view.size[0] as f64;
     let end = |world: DVec3| {
         let eye = view.to_eye(world);
         let reach = if view.perspective { half / -eye.z } else { half };
-        place.off(eye, near).map(|off| (place.beyond(off), End { at: place.at(off), world, reach }))
+        place.off(eye, near).map(|off| (place.beyond(off), SegmentEnd { at: place.at(off), world, reach }))
     };
-    let both = |segment: &Segment| {
+    let both = |segment: &CurveSegment| {
         let [(a, start), (b, last)] = [end(segment.ends[0])?, end(segment.ends[1])?];
         (0..2).all(|axis| a[axis] * b[axis] <= 0.0).then_some([start, last])
     };
-    let ends: Vec<End> = segments.iter().filter_map(both).flatten().collect();
+    let ends: Vec<SegmentEnd> = segments.iter().filter_map(both).flatten().collect();
     let partner = partners(&ends);
     lines(&ends, &partner, radius)
 }
 
 /// The end to which each end is joined. Ends 2i and 2i + 1 belong to segment i.
-fn partners(ends: &[End]) -> Vec<Option<usize>> {
+fn partners(ends: &[SegmentEnd]) -> Vec<Option<usize>> {
     let largest = ends.iter().fold(0.0f64, |reach, end| reach.max(end.reach));
     let cell = |p: DVec2| [(p.x / largest).floor() as i64, (p.y / largest).floor() as i64];
     let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
@@ -74,7 +81,7 @@ fn partners(ends: &[End]) -> Vec<Option<usize>> {
 }
 
 /// Follows the joints: first the lines with ends, then the rings.
-fn lines(ends: &[End], partner: &[Option<usize>], radius: f64) -> Vec<Polyline> {
+fn lines(ends: &[SegmentEnd], partner: &[Option<usize>], radius: f64) -> Vec<Polyline> {
     let mut is_used = vec![false; ends.len() / 2];
     let mut lines = Vec::new();
     let free = (0..ends.len()).filter(|&i| partner[i].is_none());
@@ -129,8 +136,8 @@ fn line(vertices: &[(DVec2, DVec3)], closed: bool, radius: f64) -> Polyline {
 mod tests {
     use super::*;
 
-    fn ends(segments: &[[(f64, f64); 2]]) -> Vec<End> {
-        let end = |&(x, y): &(f64, f64)| End { at: DVec2::new(x, y), world: DVec3::new(x, y, 0.0), reach: 0.5 };
+    fn ends(segments: &[[(f64, f64); 2]]) -> Vec<SegmentEnd> {
+        let end = |&(x, y): &(f64, f64)| SegmentEnd { at: DVec2::new(x, y), world: DVec3::new(x, y, 0.0), reach: 0.5 };
         segments.iter().flatten().map(end).collect()
     }
 
@@ -152,7 +159,7 @@ mod tests {
         };
         let view = View::new(&camera, &grid, [100, 100]).unwrap();
         let page = Page::in_millimetres(DVec2::splat(10.0), 0.0, 254.0);
-        let segment = |ax: f64, ay: f64, bx: f64, by: f64| Segment {
+        let segment = |ax: f64, ay: f64, bx: f64, by: f64| CurveSegment {
             cell: [0; 3],
             normal: DVec3::X,
             ends: [DVec3::new(ax, ay, 0.0), DVec3::new(bx, by, 0.0)],

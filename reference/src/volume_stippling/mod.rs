@@ -20,10 +20,10 @@ mod resolution;
 mod ridge;
 mod slab;
 
-pub use curves::{Edges, Segment, exhaustive};
-pub use elimination::{Candidate, eliminate};
+pub use curves::{CurveSegment, CurveVoxels, exhaustive};
+pub use elimination::{DotCandidate, eliminate};
 pub use error::StippleError;
-pub use frame::{Drawn, FrameInputs, Frames, PenTone, choose_on_page, viewing_distance};
+pub use frame::{FrameDots, FrameInputs, Frames, PenTone, choose_on_page, viewing_distance};
 pub use hidden::seen;
 pub use joined::joined;
-pub use preprocess::{Inputs, Preprocess};
+pub use preprocess::{Preprocess, StippleInputs};

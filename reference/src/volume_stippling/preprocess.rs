@@ -1,7 +1,7 @@
 //! The preprocess of section 4: from a volume to the voxels that get points, and their points ([STIP-1] … [STIP-4]).
 
 use super::area::{box_side, mean_thickness, points_each, projected_area};
-use super::curves::Edges;
+use super::curves::CurveVoxels;
 use super::error::StippleError;
 use super::frame::viewing_distance;
 use super::layers::layers;
@@ -26,7 +26,7 @@ use std::borrow::Cow;
 
 /// The inputs from which points are made.
 #[derive(Clone, Copy, Debug)]
-pub struct Inputs<'a> {
+pub struct StippleInputs<'a> {
     /// The table `[stipples]`.
     pub stipples: &'a Stipples,
     /// The table `[volume]`: ranges, and the side that is outside.
@@ -47,7 +47,7 @@ pub struct Inputs<'a> {
 /// The voxels of a volume that get points, and the number of these points.
 #[derive(Clone, Debug)]
 pub struct Preprocess<'a> {
-    inputs: Inputs<'a>,
+    inputs: StippleInputs<'a>,
     /// The volume at the adjusted resolution ([STIP-2]).
     volume: Cow<'a, Volume>,
     voxels: Vec<PointVoxel>,
@@ -77,8 +77,8 @@ impl<'a> Preprocess<'a> {
     ///
     /// # Errors
     /// The volume makes no field, a length is in the wrong space, or there are too many voxels or points per voxel.
-    pub fn new(inputs: Inputs<'a>) -> Result<Self, StippleError> {
-        let Inputs { stipples, table, volume, view, near, square, tone } = inputs;
+    pub fn new(inputs: StippleInputs<'a>) -> Result<Self, StippleError> {
+        let StippleInputs { stipples, table, volume, view, near, square, tone } = inputs;
         let area = projected_area(volume.grid(), view, near) / (square * square);
         let m = stipples.box_side.map_or_else(|| box_side(area, volume.dims()), |m| m as usize);
         let fine = volume.range();
@@ -87,7 +87,8 @@ impl<'a> Preprocess<'a> {
         let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Length { key: "stipples.slab" })?;
         let field = field_of(&volume, stipples.gradient, table.outside)?;
         let range = table.range.unwrap_or(fine);
-        let Above { voxels, to_edge, layers } = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
+        let BoundaryVoxels { voxels, to_edge, layers } =
+            with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
         // Voxels per pixel of a face seen from the front.
         let density = |layers: f64| {
             let pixel =
@@ -129,8 +130,8 @@ impl<'a> Preprocess<'a> {
     }
 
     /// The voxels above the threshold of other stipples.
-    fn above(&self, stipples: &Stipples) -> Result<Above, StippleError> {
-        let inputs = Inputs { stipples, tone: None, ..self.inputs };
+    fn above(&self, stipples: &Stipples) -> Result<BoundaryVoxels, StippleError> {
+        let inputs = StippleInputs { stipples, tone: None, ..self.inputs };
         let field = field_of(&self.volume, stipples.gradient, self.inputs.table.outside)?;
         Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, self.range())))
     }
@@ -145,14 +146,15 @@ impl<'a> Preprocess<'a> {
     ///
     /// # Errors
     /// Only errors that [`new`](Self::new) has already found.
-    pub fn edges(&self, counts: &mut Counts) -> Result<Option<Edges>, StippleError> {
+    pub fn edges(&self, counts: &mut Counts) -> Result<Option<CurveVoxels>, StippleError> {
         let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
         let threshold = Threshold::Magnitude(curves.grad);
-        let Above { voxels, to_edge, .. } = self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
+        let BoundaryVoxels { voxels, to_edge, .. } =
+            self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
         // ‖∇V‖ is computed again, and LoG once to find its largest value.
         *counts.preprocess.entry("stipple gradients".into()).or_default() += self.gradients;
         counts.preprocess.insert("curve Hessians".into(), self.gradients);
-        let edges = Edges::new(&self.volume, &voxels, curves, self.inputs.table.outside, self.range())?;
+        let edges = CurveVoxels::new(&self.volume, &voxels, curves, self.inputs.table.outside, self.range())?;
         Ok(Some(if to_edge.is_empty() { edges } else { edges.snapped(&voxels, &to_edge) }))
     }
 
@@ -221,7 +223,7 @@ fn estimator(gradient: StippleGradient) -> GradientEstimator {
 }
 
 /// Voxels above the threshold, with measurements.
-struct Above {
+struct BoundaryVoxels {
     /// In linear order.
     voxels: Vec<PointVoxel>,
     /// The displacement from each voxel's centre to the edge, in index space, with `snap` only ([STIP-4]).
@@ -231,7 +233,12 @@ struct Above {
 }
 
 /// Finds the voxels above the threshold. `range` holds the values for V = 0 and 1.
-fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'_>, range: [f64; 2]) -> Above {
+fn above<S: Sampler<f64>>(
+    sampler: &S,
+    field: &Field<'_, f64>,
+    inputs: &StippleInputs<'_>,
+    range: [f64; 2],
+) -> BoundaryVoxels {
     let volume = field.volume();
     let (stipples, dims) = (inputs.stipples, volume.dims());
     let norms = norms(sampler, field.volume(), estimator(stipples.gradient));
@@ -290,7 +297,7 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
     } else {
         1.0
     };
-    Above { voxels, to_edge, layers }
+    BoundaryVoxels { voxels, to_edge, layers }
 }
 
 /// The smoothed value at a step from a voxel in index space, at most one voxel along each axis. It is linear between

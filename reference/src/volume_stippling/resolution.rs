@@ -25,7 +25,7 @@ pub(super) fn boxes(volume: &Volume, m: usize) -> Option<Volume> {
     let mean = |i: usize| {
         let at = [i % small[0], i / small[0] % small[1], i / (small[0] * small[1])];
         let range = |a: usize| at[a] * side[a]..((at[a] + 1) * side[a]).min(dims[a]);
-        let mut mean = Mean::of(volume.voxels());
+        let mut mean = BoxMean::of(volume.voxels());
         for z in range(2) {
             for y in range(1) {
                 for x in range(0).filter(|&x| volume.mask().is_none_or(|mask| !mask.voxel([x, y, z]))) {
@@ -42,7 +42,7 @@ pub(super) fn boxes(volume: &Volume, m: usize) -> Option<Volume> {
 
 /// An accumulator for the mean of stored numbers.
 #[derive(Clone, Copy)]
-enum Mean {
+enum BoxMean {
     /// A sum, for types with so few bits that sums of integers and of equal numbers are exact.
     Sum { sum: f64, count: f64 },
     /// A running mean, for all other types. The mean of equal numbers is exactly this number, so a constant volume
@@ -50,7 +50,7 @@ enum Mean {
     Running { mean: f64, count: f64 },
 }
 
-impl Mean {
+impl BoxMean {
     fn of(voxels: &Voxels) -> Self {
         match voxels {
             Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_) | Voxels::F32(_) => {

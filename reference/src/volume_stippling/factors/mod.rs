@@ -28,7 +28,7 @@ fn unit(range: FactorRange, sum: f64, factor: f64) -> f64 {
 
 /// The camera-independent factors of a voxel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Still {
+pub(super) struct FixedFactors {
     /// T_b.
     boundary: f64,
     /// T_t.
@@ -38,7 +38,7 @@ pub(super) struct Still {
     pub(super) piece: f64,
 }
 
-impl Still {
+impl FixedFactors {
     pub(super) fn new(stipples: &Stipples, voxel: &PointVoxel, grid: &Grid) -> Self {
         let PointVoxel { value, magnitude, .. } = *voxel;
         Self {
@@ -50,7 +50,7 @@ impl Still {
 }
 
 /// The factors of one camera.
-pub(super) struct Moving<'a> {
+pub(super) struct CameraFactors<'a> {
     stipples: &'a Stipples,
     view: &'a View,
     /// L, in world space.
@@ -66,7 +66,7 @@ pub(super) struct Moving<'a> {
 }
 
 /// Properties of the whole volume that a frame uses.
-pub(super) struct Whole {
+pub(super) struct VolumeExtent {
     pub(super) centre: DVec3,
     pub(super) radius: f64,
     /// D₀, the distance of the reference camera.
@@ -83,8 +83,8 @@ pub(super) struct Factors {
     pub(super) size: f64,
 }
 
-impl<'a> Moving<'a> {
-    pub(super) fn new(stipples: &'a Stipples, light: LightDirection, view: &'a View, whole: &Whole) -> Self {
+impl<'a> CameraFactors<'a> {
+    pub(super) fn new(stipples: &'a Stipples, light: LightDirection, view: &'a View, whole: &VolumeExtent) -> Self {
         let lighting = stipples.lighting.filter(|t| t.le != 0.0);
         let distance = || viewing_distance(view, whole.centre, whole.near);
         Self {
@@ -99,7 +99,7 @@ impl<'a> Moving<'a> {
     }
 
     /// The factors of a voxel at eye-space position `at`.
-    pub(super) fn of(&self, still: &Still, voxel: &PointVoxel, at: DVec3) -> Factors {
+    pub(super) fn of(&self, still: &FixedFactors, voxel: &PointVoxel, at: DVec3) -> Factors {
         let s = self.stipples;
         let facing = if self.facing { self.facing(voxel, at) } else { 1.0 };
         let silhouette = |t| silhouette::silhouette(&t, s.factors, voxel.value, voxel.magnitude, facing);

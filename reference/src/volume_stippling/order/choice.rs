@@ -1,17 +1,17 @@
 //! One visit of a class: every voxel of the class takes its point of a rank.
 
 use super::class::parities;
-use super::groups::{Group, LANES, Row, farthest, lower, settle};
-use super::links::{Links, id_of, offset_of};
+use super::groups::{GroupBounds, LANES, PointGroup, farthest, lower, settle};
+use super::links::{NeighbourLinks, id_of, offset_of};
 use super::pool::{Class, Site, point_of, rows_of_groups};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
 use rayon::prelude::*;
 
 /// The parameters of a visit.
-pub(super) struct Step<'a> {
+pub(super) struct Visit<'a> {
     pub(super) sweep: usize,
-    pub(super) links: &'a Links,
+    pub(super) links: &'a NeighbourLinks,
     /// The scaled offset of each neighbour.
     pub(super) around: &'a [[f32; 3]],
     /// Bits of the classes whose points of this rank are taken already.
@@ -24,7 +24,7 @@ pub(super) struct Step<'a> {
 
 /// The taken points, indexed by the voxels' places in the order of all: the previous rank, and this rank in the
 /// classes before and after the current one.
-pub(super) struct Seen<'a> {
+pub(super) struct TakenPoints<'a> {
     pub(super) before: &'a [[f32; 3]],
     pub(super) left: &'a [[f32; 3]],
     pub(super) right: &'a [[f32; 3]],
@@ -39,8 +39,8 @@ pub(super) fn take(
     own: &mut [[f32; 3]],
     chosen: &mut [u32],
     size: usize,
-    seen: &Seen<'_>,
-    step: &Step<'_>,
+    seen: &TakenPoints<'_>,
+    step: &Visit<'_>,
 ) {
     let (start, number) = (class.start, class.number);
     let pools = class.pools.par_chunks_mut(size / LANES).zip(class.rows.par_chunks_mut(rows_of_groups(size)));
@@ -60,15 +60,15 @@ pub(super) fn take(
 #[inline(always)]
 fn visit(
     site: &mut Site,
-    pool: &mut [Group],
-    rows: &mut [Row],
+    pool: &mut [PointGroup],
+    rows: &mut [GroupBounds],
     [id, number]: [usize; 2],
-    seen: &Seen<'_>,
-    step: &Step<'_>,
+    seen: &TakenPoints<'_>,
+    step: &Visit<'_>,
 ) -> usize {
     let neighbours = &step.links.all[site.first as usize..site.end as usize];
     let is_in = |set: u8, link: u32| set >> (number ^ parities(offset_of(link))) & 1 == 1;
-    let mut near = Near::new(site);
+    let mut near = NearbyPoints::new(site);
     if step.sweep == 0 {
         let group = site.slot / LANES;
         pool[group].far[site.slot % LANES] = -1.0;
@@ -98,7 +98,7 @@ fn visit(
 const MOST: usize = 1 + 2 * 26;
 
 /// Points near enough to a voxel to affect its pool.
-struct Near {
+struct NearbyPoints {
     flat: [f32; 3],
     /// The largest squared distance from the centre at which a point has an effect.
     limit: f32,
@@ -106,7 +106,7 @@ struct Near {
     len: usize,
 }
 
-impl Near {
+impl NearbyPoints {
     #[inline(always)]
     fn new(site: &Site) -> Self {
         let mut near = Self { flat: site.flat, limit: 0.0, points: [[0.0; 3]; MOST], len: 0 };

@@ -9,8 +9,10 @@
 //! a larger distance from each other than from those that join later, so every tone is even.
 
 use super::class::class_of;
-use super::groups::{Group, LANES, Lane, REACH as GROUP_REACH, Row, squared_distances, take_largest};
-use super::links::Rows;
+use super::groups::{
+    EightFloats, GroupBounds, LANES, PointGroup, REACH as GROUP_REACH, squared_distances, take_largest,
+};
+use super::links::RowIndex;
 use super::pool::{Class, Site};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
@@ -32,11 +34,11 @@ const CLASSES: usize = (REACH as usize + 1).pow(3);
 
 /// Temporary memory in bytes per voxel.
 pub(super) const BYTES_A_VOXEL: usize =
-    (SIDE * SIDE * SIDE - 1) * size_of::<Seen>() + size_of::<u32>() + 2 * size_of::<Taken>();
+    (SIDE * SIDE * SIDE - 1) * size_of::<NearVoxel>() + size_of::<u32>() + 2 * size_of::<TakenPoint>();
 
 /// A voxel that affects another one.
 #[derive(Clone, Copy)]
-struct Seen {
+struct NearVoxel {
     /// Index in the list of voxels.
     voxel: u32,
     /// Index in the neighbourhood, x fastest.
@@ -45,14 +47,14 @@ struct Seen {
 
 /// A taken point, in voxels from its voxel's centre; the voxel's tone; the point's index in the pool.
 #[derive(Clone, Copy)]
-struct Taken {
+struct TakenPoint {
     at: [f32; 3],
     tone: f32,
     slot: u32,
 }
 
 /// A point near a pool.
-struct Near {
+struct NearPoint {
     at: [f32; 3],
     /// The tone from which both points are drawn.
     tone: f32,
@@ -62,27 +64,28 @@ struct Near {
 
 /// Buffers for one thread.
 #[derive(Default)]
-struct Work {
-    near: Vec<Near>,
-    bounds: Vec<Lane>,
+struct FirstPointBuffers {
+    near: Vec<NearPoint>,
+    bounds: Vec<EightFloats>,
 }
 
 /// Returns the pool index of each voxel's first point, in the order of the list. `ids` holds the voxels' places in
 /// the order of the classes.
 pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) -> Vec<usize> {
     let cells = sites.cells;
-    let seen = AllSeen::new(sites);
+    let seen = NearVoxels::new(sites);
     let offsets: Vec<[f32; 3]> = (0..SIDE.pow(3)).map(|k| scaled(sites, step(k))).collect();
     let mut members = vec![Vec::new(); CLASSES];
     for (i, cell) in cells.iter().enumerate() {
         members[class(*cell)].push(i);
     }
     // Points that are not placed yet are NaN, and no comparison with NaN makes them near.
-    let not_placed = |&cell: &[u32; 3]| Taken { at: [f32::NAN; 3], tone: (1.0 - blue_noise::at(cell)) as f32, slot: 0 };
-    let mut taken: Vec<Taken> = cells.iter().map(not_placed).collect();
+    let not_placed =
+        |&cell: &[u32; 3]| TakenPoint { at: [f32::NAN; 3], tone: (1.0 - blue_noise::at(cell)) as f32, slot: 0 };
+    let mut taken: Vec<TakenPoint> = cells.iter().map(not_placed).collect();
     for sweep in 0..SWEEPS {
         for class in order(sites.seed, sweep) {
-            let take = |work: &mut Work, &i: &usize| {
+            let take = |work: &mut FirstPointBuffers, &i: &usize| {
                 let home = &classes[class_of(cells[i])];
                 let index = ids[i] as usize - home.start;
                 let slot = widely(
@@ -92,9 +95,10 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
                         farthest(home.pool(index), home.rows(index), work)
                     },
                 );
-                Taken { at: scaled(sites, home.point(sites, index, slot)), tone: taken[i].tone, slot: slot as u32 }
+                TakenPoint { at: scaled(sites, home.point(sites, index, slot)), tone: taken[i].tone, slot: slot as u32 }
             };
-            let found: Vec<Taken> = members[class].par_iter().with_min_len(64).map_init(Work::default, take).collect();
+            let found: Vec<TakenPoint> =
+                members[class].par_iter().with_min_len(64).map_init(FirstPointBuffers::default, take).collect();
             for (&i, found) in members[class].iter().zip(found) {
                 taken[i] = found;
             }
@@ -103,10 +107,10 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
     taken.into_iter().map(|taken| taken.slot as usize).collect()
 }
 
-impl Work {
+impl FirstPointBuffers {
     /// Collects the taken points around a voxel, without those that are nowhere nearest to its pool.
     #[inline(always)]
-    fn gather(&mut self, site: &Site, tone: f32, seen: &[Seen], taken: &[Taken], offsets: &[[f32; 3]]) {
+    fn gather(&mut self, site: &Site, tone: f32, seen: &[NearVoxel], taken: &[TakenPoint], offsets: &[[f32; 3]]) {
         self.near.clear();
         let mut most = f32::INFINITY;
         for other in seen {
@@ -119,7 +123,7 @@ impl Work {
             most = if largest < most { largest } else { most };
             // A margin of a thousandth: rounding must not exclude the nearest point.
             if least <= most * 1.001 {
-                self.near.push(Near { at, tone, least });
+                self.near.push(NearPoint { at, tone, least });
             }
         }
         self.near.retain(|near| near.least <= most * 1.001);
@@ -129,7 +133,11 @@ impl Work {
 /// The pool index of the point farthest from the nearby points, each squared distance times the tone. Groups are
 /// visited in the order of their bounds, and only while a bound exceeds the best point.
 #[inline(always)]
-fn farthest(pool: &[Group], groups: &[Row], Work { near, bounds }: &mut Work) -> usize {
+fn farthest(
+    pool: &[PointGroup],
+    groups: &[GroupBounds],
+    FirstPointBuffers { near, bounds }: &mut FirstPointBuffers,
+) -> usize {
     bounds.clear();
     for row in groups {
         bounds.push(bound(row, near));
@@ -148,7 +156,7 @@ fn farthest(pool: &[Group], groups: &[Row], Work { near, bounds }: &mut Work) ->
         }
         let [x, y, z] = &pool[group].at;
         let mut least = pool[group].far;
-        for Near { at: p, tone, .. } in near.iter() {
+        for NearPoint { at: p, tone, .. } in near.iter() {
             for l in 0..LANES {
                 let (dx, dy, dz) = (x[l] - p[0], y[l] - p[1], z[l] - p[2]);
                 let to = (dx * dx + dy * dy + dz * dz) * tone;
@@ -162,9 +170,9 @@ fn farthest(pool: &[Group], groups: &[Row], Work { near, bounds }: &mut Work) ->
 
 /// Upper bounds for the points of eight groups: the squared distance from the nearby points, times the tone.
 #[inline(always)]
-fn bound(row: &Row, near: &[Near]) -> Lane {
+fn bound(row: &GroupBounds, near: &[NearPoint]) -> EightFloats {
     let mut least = [f32::MAX; LANES];
-    for Near { at, tone, .. } in near {
+    for NearPoint { at, tone, .. } in near {
         let to = squared_distances(row, at);
         for l in 0..LANES {
             let far = to[l].sqrt() + row[GROUP_REACH][l];
@@ -176,40 +184,40 @@ fn bound(row: &Row, near: &[Near]) -> Lane {
 }
 
 /// The voxels that affect each voxel, in the order of the list, in parts.
-struct AllSeen {
-    parts: Vec<PartSeen>,
+struct NearVoxels {
+    parts: Vec<NearVoxelsPart>,
 }
 
 /// Neighbours of [`PART`] voxels, one voxel after the other, with the end of each.
-struct PartSeen {
-    all: Vec<Seen>,
+struct NearVoxelsPart {
+    all: Vec<NearVoxel>,
     ends: Vec<u32>,
 }
 
 /// Number of voxels of a part.
 const PART: usize = 4096;
 
-impl AllSeen {
+impl NearVoxels {
     fn new(sites: &Sites<'_>) -> Self {
-        let rows = Rows::new(sites.cells);
+        let rows = RowIndex::new(sites.cells);
         let part = |cells: &[[u32; 3]]| {
             let (mut all, mut ends) = (Vec::new(), Vec::with_capacity(cells.len()));
             for &cell in cells {
                 if sites.neighbours {
                     rows.around(sites.cells, cell, REACH, |voxel, offset| {
-                        all.push(Seen { voxel: voxel as u32, offset: offset as u32 });
+                        all.push(NearVoxel { voxel: voxel as u32, offset: offset as u32 });
                     });
                 }
                 ends.push(all.len() as u32);
             }
-            PartSeen { all, ends }
+            NearVoxelsPart { all, ends }
         };
         Self { parts: sites.cells.par_chunks(PART).map(part).collect() }
     }
 
     #[inline(always)]
-    fn of(&self, i: usize) -> &[Seen] {
-        let (PartSeen { all, ends }, i) = (&self.parts[i / PART], i % PART);
+    fn of(&self, i: usize) -> &[NearVoxel] {
+        let (NearVoxelsPart { all, ends }, i) = (&self.parts[i / PART], i % PART);
         let start = if i == 0 { 0 } else { ends[i - 1] };
         &all[start as usize..ends[i] as usize]
     }
@@ -247,7 +255,7 @@ mod tests {
         assert_eq!(members, [27; CLASSES]);
         let normals = vec![drypoint_scene::glam::DVec3::Z; cells.len()];
         let sites = crate::volume_stippling::order::tests::sites(&cells, &normals, true);
-        let all = AllSeen::new(&sites);
+        let all = NearVoxels::new(&sites);
         for i in 0..cells.len() {
             let seen = all.of(i);
             assert!(seen.iter().all(|other| class(cells[other.voxel as usize]) != class(cells[i])));
@@ -267,27 +275,27 @@ mod tests {
     #[test]
     fn bounds_hide_no_point() {
         use super::super::class::by_class;
-        use super::super::links::Links;
+        use super::super::links::NeighbourLinks;
         use super::super::pool::pool_size;
         let (cells, normals) = ([[3, 4, 5]], [drypoint_scene::glam::DVec3::new(1.0, 2.0, 3.0).normalize()]);
         let sites = super::super::tests::sites(&cells, &normals, true);
         let (ids, starts) = by_class(&cells);
-        let links = Links::new(&sites, &ids);
+        let links = NeighbourLinks::new(&sites, &ids);
         let class = Class::new(&sites, &links, &ids, &starts, 1 + 4, pool_size(25));
         for i in 0..200u32 {
             let point = |k: u32| {
                 let [x, y, z, tone] = philox::uniforms(2, [i, k, 0], 0);
-                Taken { at: [x, y, z].map(|x| 5.0 * x as f32 - 2.5), tone: tone as f32, slot: 0 }
+                TakenPoint { at: [x, y, z].map(|x| 5.0 * x as f32 - 2.5), tone: tone as f32, slot: 0 }
             };
-            let taken: Vec<Taken> = (0..i % 20).map(point).collect();
-            let seen: Vec<Seen> = (0..i % 20).map(|voxel| Seen { voxel, offset: 0 }).collect();
-            let mut work = Work::default();
+            let taken: Vec<TakenPoint> = (0..i % 20).map(point).collect();
+            let seen: Vec<NearVoxel> = (0..i % 20).map(|voxel| NearVoxel { voxel, offset: 0 }).collect();
+            let mut work = FirstPointBuffers::default();
             work.gather(&class.sites[0], 0.0, &seen, &taken, &[[0.0; 3]]);
             let found = farthest(class.pool(0), class.rows(0), &mut work);
             let least = |at: usize| {
                 let group = &class.pool(0)[at / LANES];
                 let squared = |p: [f32; 3]| (0..3).map(|c| group.at[c][at % LANES] - p[c]).map(|x| x * x).sum::<f32>();
-                let scaled = |n: &Taken| squared(flattened(class.sites[0].flat, n.at)) * n.tone;
+                let scaled = |n: &TakenPoint| squared(flattened(class.sites[0].flat, n.at)) * n.tone;
                 taken.iter().map(scaled).fold(group.far[at % LANES], f32::min)
             };
             let most = (0..class.pool(0).len() * LANES).map(least).fold(-1.0, f32::max);

@@ -4,21 +4,21 @@
 pub(super) const LANES: usize = 8;
 
 /// One number for each of eight points.
-pub(super) type Lane = [f32; LANES];
+pub(super) type EightFloats = [f32; LANES];
 
 /// Points of a pool that are close together.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Group {
+pub(super) struct PointGroup {
     /// x, y and z of the points, in voxels from the voxel's centre.
-    pub(super) at: [Lane; 3],
+    pub(super) at: [EightFloats; 3],
     /// The squared distance of each point to the nearest taken one. It is below 0 after the point has left the pool.
-    pub(super) far: Lane,
+    pub(super) far: EightFloats,
     /// The draw that made each point.
     pub(super) draws: [u32; LANES],
 }
 
 /// Bounds of eight groups, which decide whether a group must be visited.
-pub(super) type Row = [Lane; 6];
+pub(super) type GroupBounds = [EightFloats; 6];
 
 /// Indices into a row: the middle (three), the radius about it, the largest squared distance to a taken point, and
 /// the squared distance within which a new point can lower one.
@@ -28,7 +28,7 @@ pub(super) const LIMIT: usize = 5;
 
 /// Updates the distances of a pool by further points, and returns the largest.
 #[inline(always)]
-pub(super) fn lower(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) -> f32 {
+pub(super) fn lower(pool: &mut [PointGroup], groups: &mut [GroupBounds], points: &[[f32; 3]]) -> f32 {
     // Chunks of 32 points, one bit for each in a mask.
     for points in points.chunks(32) {
         lower_by(pool, groups, points);
@@ -38,7 +38,7 @@ pub(super) fn lower(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]])
 
 /// The largest distance in all groups.
 #[inline(always)]
-fn farthest_of(groups: &[Row]) -> f32 {
+fn farthest_of(groups: &[GroupBounds]) -> f32 {
     let mut most = [-1f32; LANES];
     for row in groups {
         most = larger(most, row[FAR]);
@@ -47,7 +47,7 @@ fn farthest_of(groups: &[Row]) -> f32 {
 }
 
 #[inline(always)]
-fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
+fn lower_by(pool: &mut [PointGroup], groups: &mut [GroupBounds], points: &[[f32; 3]]) {
     for row in 0..groups.len() {
         // For each group, bits of the points that may be nearer to one of its points than all taken ones.
         let mut near = [0u32; LANES];
@@ -62,7 +62,7 @@ fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
                 continue;
             }
             let group = row * LANES + l;
-            let Group { at, far, .. } = &mut pool[group];
+            let PointGroup { at, far, .. } = &mut pool[group];
             while left != 0 {
                 nearer(at, far, &points[left.trailing_zeros() as usize]);
                 left &= left - 1;
@@ -74,7 +74,7 @@ fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
 
 /// Updates the bounds of a group after its distances have changed.
 #[inline(always)]
-pub(super) fn settle(far: Lane, groups: &mut [Row], group: usize) {
+pub(super) fn settle(far: EightFloats, groups: &mut [GroupBounds], group: usize) {
     let far = largest(far);
     let (row, l) = (&mut groups[group / LANES], group % LANES);
     row[FAR][l] = far;
@@ -85,7 +85,7 @@ pub(super) fn settle(far: Lane, groups: &mut [Row], group: usize) {
 /// The pool index of the point farthest from the taken points and some further points. Groups are visited in the
 /// order of their largest distance, and only while it exceeds the best point.
 #[inline(always)]
-pub(super) fn farthest(pool: &[Group], groups: &[Row], points: &[[f32; 3]]) -> usize {
+pub(super) fn farthest(pool: &[PointGroup], groups: &[GroupBounds], points: &[[f32; 3]]) -> usize {
     let far = |group: usize| groups[group / LANES][FAR][group % LANES];
     let most = farthest_of(groups);
     let first = (0..pool.len()).find(|&group| far(group) == most).unwrap_or(0);
@@ -106,7 +106,7 @@ pub(super) fn farthest(pool: &[Group], groups: &[Row], points: &[[f32; 3]]) -> u
 
 /// Updates the best point by the first of a group's largest distances, if that is larger.
 #[inline(always)]
-pub(super) fn take_largest(d: &Lane, group: usize, best: &mut f32, at: &mut usize) {
+pub(super) fn take_largest(d: &EightFloats, group: usize, best: &mut f32, at: &mut usize) {
     let most = largest(*d);
     if most > *best {
         let lane = d.iter().position(|&d| d == most).unwrap_or(0);
@@ -115,7 +115,7 @@ pub(super) fn take_largest(d: &Lane, group: usize, best: &mut f32, at: &mut usiz
 }
 
 #[inline(always)]
-pub(super) fn squared_distances(row: &Row, p: &[f32; 3]) -> Lane {
+pub(super) fn squared_distances(row: &GroupBounds, p: &[f32; 3]) -> EightFloats {
     let mut to = [0.0; LANES];
     for l in 0..LANES {
         let (dx, dy, dz) = (row[0][l] - p[0], row[1][l] - p[1], row[2][l] - p[2]);
@@ -125,7 +125,7 @@ pub(super) fn squared_distances(row: &Row, p: &[f32; 3]) -> Lane {
 }
 
 #[inline(always)]
-fn nearer([x, y, z]: &[Lane; 3], d: &mut Lane, p: &[f32; 3]) {
+fn nearer([x, y, z]: &[EightFloats; 3], d: &mut EightFloats, p: &[f32; 3]) {
     for l in 0..LANES {
         let (dx, dy, dz) = (x[l] - p[0], y[l] - p[1], z[l] - p[2]);
         let to = dx * dx + dy * dy + dz * dz;
@@ -135,7 +135,7 @@ fn nearer([x, y, z]: &[Lane; 3], d: &mut Lane, p: &[f32; 3]) {
 
 /// The larger of each pair; no number is NaN.
 #[inline(always)]
-fn larger(a: Lane, b: Lane) -> Lane {
+fn larger(a: EightFloats, b: EightFloats) -> EightFloats {
     let mut larger = a;
     for l in 0..LANES {
         larger[l] = if a[l] > b[l] { a[l] } else { b[l] };
@@ -146,7 +146,7 @@ fn larger(a: Lane, b: Lane) -> Lane {
 /// The largest number; no number is NaN. Halves are compared with halves, which has a shorter dependency chain than a
 /// loop.
 #[inline(always)]
-pub(super) fn largest(d: Lane) -> f32 {
+pub(super) fn largest(d: EightFloats) -> f32 {
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let four = [larger(d[0], d[4]), larger(d[1], d[5]), larger(d[2], d[6]), larger(d[3], d[7])];
     larger(larger(four[0], four[2]), larger(four[1], four[3]))
@@ -155,7 +155,7 @@ pub(super) fn largest(d: Lane) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::super::class::by_class;
-    use super::super::links::Links;
+    use super::super::links::NeighbourLinks;
     use super::super::pool::{Class, pool_size};
     use super::super::tests::sites;
     use super::*;
@@ -167,7 +167,7 @@ mod tests {
         let (cells, normals) = ([[3, 4, 5]], [DVec3::new(1.0, 2.0, 3.0).normalize()]);
         let sites = sites(&cells, &normals, true);
         let (ids, starts) = by_class(&cells);
-        let links = Links::new(&sites, &ids);
+        let links = NeighbourLinks::new(&sites, &ids);
         let size = pool_size(25);
         let mut class = Class::new(&sites, &links, &ids, &starts, 1 + 4, size);
         let all: Vec<[f32; 3]> =

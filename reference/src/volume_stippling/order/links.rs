@@ -24,7 +24,7 @@ pub(super) fn towards(sites: &Sites<'_>, n: DVec3) -> usize {
 }
 
 /// The neighbours of each voxel, in the order of all.
-pub(super) struct Links {
+pub(super) struct NeighbourLinks {
     /// For each neighbour: its place · 32 + its index among the 27.
     pub(super) all: Vec<u32>,
     /// Start of each voxel's neighbours.
@@ -42,14 +42,14 @@ pub(super) fn offset_of(link: u32) -> usize {
     (link & 31) as usize
 }
 
-impl Links {
+impl NeighbourLinks {
     pub(super) fn new(sites: &Sites<'_>, ids: &[u32]) -> Self {
         let cells = sites.cells;
         let mut order = vec![0; cells.len()];
         for (i, &id) in ids.iter().enumerate() {
             order[id as usize] = i;
         }
-        let rows = Rows::new(cells);
+        let rows = RowIndex::new(cells);
         let parts: Vec<(Vec<u32>, Vec<u32>)> = order
             .par_chunks(4096)
             .map(|part| {
@@ -80,12 +80,12 @@ impl Links {
 }
 
 /// Finds voxels of a list in linear order by their coordinates.
-pub(super) struct Rows {
+pub(super) struct RowIndex {
     /// y, z and the index of the first voxel of each nonempty row.
     rows: Vec<([u32; 2], usize)>,
 }
 
-impl Rows {
+impl RowIndex {
     pub(super) fn new(cells: &[[u32; 3]]) -> Self {
         let mut rows: Vec<([u32; 2], usize)> = Vec::new();
         for (i, cell) in cells.iter().enumerate() {
@@ -134,7 +134,7 @@ mod tests {
     fn neighbours_are_found_with_their_offsets() {
         let cells: Vec<[u32; 3]> =
             [[0, 0, 0], [1, 0, 0], [3, 0, 0], [0, 1, 0], [2, 1, 0], [1, 1, 1], [1, 2, 2], [1, 1, 3]].into();
-        let rows = Rows::new(&cells);
+        let rows = RowIndex::new(&cells);
         for (i, &cell) in cells.iter().enumerate() {
             let mut found = Vec::new();
             rows.around(&cells, cell, 1, |j, k| found.push((j, k)));

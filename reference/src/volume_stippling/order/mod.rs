@@ -19,11 +19,11 @@ mod links;
 mod pool;
 
 use super::slab::Slab;
-use choice::{Seen, Step, take};
+use choice::{TakenPoints, Visit, take};
 use class::{by_class, class_of, class_order};
 use drypoint_scene::glam::{DMat3, DVec3};
-use groups::{Group, LANES, Row};
-use links::Links;
+use groups::{GroupBounds, LANES, PointGroup};
+use links::NeighbourLinks;
 use pool::{Class, Site, point_of, pool_size, rows_of_groups};
 use rayon::prelude::*;
 
@@ -69,8 +69,8 @@ fn sweeps(rank: usize) -> usize {
 
 /// Temporary memory of ordering in bytes per voxel, without the points.
 pub(super) fn bytes_a_voxel(each: usize) -> u64 {
-    (pool_size(each) / LANES * size_of::<Group>()
-        + rows_of_groups(pool_size(each)) * size_of::<Row>()
+    (pool_size(each) / LANES * size_of::<PointGroup>()
+        + rows_of_groups(pool_size(each)) * size_of::<GroupBounds>()
         + 26 * size_of::<u32>()
         + first::BYTES_A_VOXEL
         + size_of::<Site>()) as u64
@@ -82,7 +82,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     let n = sites.cells.len();
     let size = pool_size(each);
     let (ids, starts) = by_class(sites.cells);
-    let links = Links::new(sites, &ids);
+    let links = NeighbourLinks::new(sites, &ids);
     let around: Vec<[f32; 3]> = (0..27).map(|k| scaled(sites, delta(k))).collect();
     let mut classes: Vec<Class> = (0..8).map(|class| Class::new(sites, &links, &ids, &starts, class, size)).collect();
     let mut taken = [vec![[0f32; 3]; n], vec![[0f32; 3]; n]];
@@ -111,12 +111,12 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
                     _ => set(&order),
                 };
                 let is_last = sweeps(rank) == 1;
-                let step = Step { sweep, links: &links, around: &around, earlier, missed, is_last };
+                let step = Visit { sweep, links: &links, around: &around, earlier, missed, is_last };
                 let class = &mut classes[class];
                 let (start, end) = (class.start, class.start + class.sites.len());
                 let (left, rest) = now.split_at_mut(start);
                 let (own, right) = rest.split_at_mut(end - start);
-                let seen = Seen { before, left, right, start, end };
+                let seen = TakenPoints { before, left, right, start, end };
                 take(sites, class, own, &mut chosen[rank * n..][start..end], size, &seen, &step);
             }
         }

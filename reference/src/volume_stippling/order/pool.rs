@@ -1,7 +1,7 @@
 //! Pools of random points from which voxels take theirs.
 
-use super::groups::{Group, LANES, REACH, Row, settle};
-use super::links::{Links, offset_of, towards};
+use super::groups::{GroupBounds, LANES, PointGroup, REACH, settle};
+use super::links::{NeighbourLinks, offset_of, towards};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
 use crate::volume_stippling::slab::{Slab, TRIES};
@@ -49,15 +49,15 @@ pub(super) struct Class {
     pub(super) start: usize,
     pub(super) sites: Vec<Site>,
     /// The groups of each site's pool.
-    pub(super) pools: Vec<Group>,
+    pub(super) pools: Vec<PointGroup>,
     /// The rows of each site's groups.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<GroupBounds>,
 }
 
 impl Class {
     pub(super) fn new(
         sites: &Sites<'_>,
-        links: &Links,
+        links: &NeighbourLinks,
         ids: &[u32],
         starts: &[usize; 9],
         class: usize,
@@ -70,7 +70,7 @@ impl Class {
                 members[id as usize - start] = i;
             }
         }
-        let group = Group { at: [[0.0; LANES]; 3], far: [0.0; LANES], draws: [0; LANES] };
+        let group = PointGroup { at: [[0.0; LANES]; 3], far: [0.0; LANES], draws: [0; LANES] };
         let mut pools = vec![group; members.len() * size / LANES];
         let mut rows = vec![[[-1.0; LANES]; 6]; members.len() * rows_of_groups(size)];
         let parts = pools.par_chunks_mut(size / LANES).zip(rows.par_chunks_mut(rows_of_groups(size)));
@@ -90,13 +90,13 @@ impl Class {
     }
 
     /// The pool of a voxel of the class.
-    pub(super) fn pool(&self, index: usize) -> &[Group] {
+    pub(super) fn pool(&self, index: usize) -> &[PointGroup] {
         let groups = self.pools.len() / self.sites.len();
         &self.pools[index * groups..][..groups]
     }
 
     /// Bounds of the groups of a voxel's pool.
-    pub(super) fn rows(&self, index: usize) -> &[Row] {
+    pub(super) fn rows(&self, index: usize) -> &[GroupBounds] {
         let rows = self.rows.len() / self.sites.len();
         &self.rows[index * rows..][..rows]
     }
@@ -120,9 +120,9 @@ impl Site {
         sites: &Sites<'_>,
         i: usize,
         [first, end]: [u32; 2],
-        links: &Links,
+        links: &NeighbourLinks,
         size: usize,
-        points: &mut Vec<Drawn>,
+        points: &mut Vec<PoolPoint>,
     ) -> Self {
         let (cell, n) = (sites.cells[i], sites.normals[i]);
         let slab = sites.slab_of(i);
@@ -145,7 +145,7 @@ impl Site {
                     if is_inside[l] { (draws[l], offsets[l]) } else { next_inside(&slab, sites.seed, cell, draws[l]) };
                 let at = flattened(flat, scaled(sites, o));
                 reach = reach.max(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-                points.push(Drawn { key: 0, draw, at });
+                points.push(PoolPoint { key: 0, draw, at });
             }
         }
         let reach = reach.sqrt();
@@ -158,7 +158,7 @@ impl Site {
     }
 
     /// Fills the pool with the points and computes the bounds of its groups.
-    fn fill(&self, pool: &mut [Group], rows: &mut [Row], points: &[Drawn]) {
+    fn fill(&self, pool: &mut [PointGroup], rows: &mut [GroupBounds], points: &[PoolPoint]) {
         for (number, (group, points)) in pool.iter_mut().zip(points.chunks_exact(LANES)).enumerate() {
             let row = &mut rows[number / LANES];
             let mut reach = 0f32;
@@ -192,7 +192,7 @@ fn next_inside(slab: &Slab, seed: u64, cell: [u32; 3], draw: u32) -> (u32, [f32;
 }
 
 /// A random point of a pool.
-struct Drawn {
+struct PoolPoint {
     /// Key for sorting: the Morton code of the place, then the draw.
     key: u64,
     draw: u32,
