@@ -22,7 +22,7 @@ const NONE: Rgb = [0.0; 3];
 
 /// The source of the dots' colours.
 #[derive(Clone, Copy, Debug)]
-pub struct Colors<'a> {
+pub struct DotColors<'a> {
     /// The function over the volume's values, or over value and label.
     pub function: &'a Function,
     /// The styles that the function names, in their order.
@@ -39,20 +39,20 @@ pub struct Colors<'a> {
 }
 
 /// A row of nodes, as colours over the value.
-struct Line {
+struct ColorRow {
     over_value: Piecewise<f64>,
     table: Option<Table<f64>>,
-    shown: Shown,
+    shown: ColorSource,
     /// The colour of the most opaque node.
     flat: Rgb,
 }
 
-enum Shown {
+enum ColorSource {
     Colors(Vec<Rgb>),
     Styles(StyleIndex),
 }
 
-impl Colors<'_> {
+impl DotColors<'_> {
     /// The colour of each voxel's dots: the function's colour at V, whatever its opacity. A style is evaluated facing
     /// the eye, N = (0, 0, 1), so that a dot keeps its colour while the camera turns.
     ///
@@ -85,7 +85,7 @@ impl Colors<'_> {
         Ok(points.voxels.iter().map(of).collect())
     }
 
-    fn line(&self, nodes: std::ops::Range<usize>, spheres: &Spheres<f64>) -> Result<Line, NodesError> {
+    fn line(&self, nodes: std::ops::Range<usize>, spheres: &Spheres<f64>) -> Result<ColorRow, NodesError> {
         let (at, opacity, _) = self.function.nodes();
         let (at, opacity) = (&at[nodes.clone()], &opacity[nodes.clone()]);
         // Every node counts, even an invisible one: places without opacity would not be found.
@@ -93,24 +93,26 @@ impl Colors<'_> {
         let table = self.function.table().map(|(index, nodes)| Table::new(index, nodes));
         let own = |n: usize| if table.is_some() { 0..n } else { nodes.clone() };
         let shown = match self.function {
-            Function::Regular(all) => Shown::Colors(all.color[own(all.color.len())].to_vec()),
-            Function::Style { nodes: all, .. } => Shown::Styles(StyleIndex::new(&all.color[own(all.color.len())])),
+            Function::Regular(all) => ColorSource::Colors(all.color[own(all.color.len())].to_vec()),
+            Function::Style { nodes: all, .. } => {
+                ColorSource::Styles(StyleIndex::new(&all.color[own(all.color.len())]))
+            }
         };
         let most = (0..at.len()).rev().max_by(|&a, &b| opacity[a].total_cmp(&opacity[b])).map_or(0.0, |i| at[i]);
-        let mut line = Line { over_value, table, shown, flat: NONE };
+        let mut line = ColorRow { over_value, table, shown, flat: NONE };
         line.flat = line.at(most, spheres);
         Ok(line)
     }
 }
 
-impl Line {
+impl ColorRow {
     fn at(&self, value: f64, spheres: &Spheres<f64>) -> Rgb {
         // The function is opaque everywhere, so every value has a place.
         let Some(place) = self.over_value.locate(value) else { return NONE };
         let place = self.table.as_ref().map_or(place, |table| table.between_nodes(&place));
         match &self.shown {
-            Shown::Colors(colors) => place.color(colors),
-            Shown::Styles(index) => {
+            ColorSource::Colors(colors) => place.color(colors),
+            ColorSource::Styles(index) => {
                 let [r, g, b, _] = unpremultiply(spheres.lookup(&index.blend(&place), 0.0, 0.0));
                 [r, g, b]
             }
@@ -223,7 +225,9 @@ mod tests {
     fn of(function: &Function, styles: &[Style], by_label: bool, values: &[f64]) -> Vec<Rgb> {
         let (points, grid) = points(values);
         let range = [50.0, 250.0];
-        Colors { function, styles, mix: Mix::Premultiplied, labels: None, by_label, range }.of(&points, &grid).unwrap()
+        DotColors { function, styles, mix: Mix::Premultiplied, labels: None, by_label, range }
+            .of(&points, &grid)
+            .unwrap()
     }
 
     /// V = ¼, ½ and ¾ of [50, 250] are 100, 150 and 200. Values beyond have the last node's colour.

@@ -4,7 +4,7 @@ use super::{Contour, SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
 use crate::number::lanes::columns;
 use crate::number::{Arithmetic, Vec3, lanes};
-use crate::transfer::lanes::Places;
+use crate::transfer::lanes::NodePlaces;
 use drypoint_scene::shot::Turn;
 use drypoint_scene::tables::{Mix, Transparency};
 use fearless_simd::prelude::*;
@@ -82,7 +82,7 @@ pub(crate) fn push<S: Simd>([x, y]: [f64x8<S>; 2], d: f64x8<S>, tau: f64x8<S>, o
 #[inline(always)]
 pub(crate) fn share<S: Simd>(
     transparency: Transparency,
-    place: &Places<S>,
+    place: &NodePlaces<S>,
     n_dot_v: f64x8<S>,
     tau: f64x8<S>,
     g: f64x8<S>,
@@ -100,7 +100,7 @@ pub(crate) fn share<S: Simd>(
     mask64x8::from_bitmask(alpha_u.simd, between).select(power, alpha_u)
 }
 
-/// The styles of each lane, as [`Blend`](super::Blend); w is that of the [`Places`] that they are made from.
+/// The styles of each lane, as [`Blend`](super::Blend); w is that of the [`NodePlaces`] that they are made from.
 pub(crate) struct Blends {
     /// j₀, or the one style that is shown.
     first: [u32; LANES],
@@ -121,7 +121,7 @@ impl Blends {
 impl StyleIndex {
     /// [`blend`](Self::blend) of the visible lanes; of a function whose last node this is.
     #[inline(always)]
-    pub(crate) fn blends<S: Simd>(&self, place: &Places<S>, last: usize) -> Blends {
+    pub(crate) fn blends<S: Simd>(&self, place: &NodePlaces<S>, last: usize) -> Blends {
         let nodes = place.nodes.each();
         let all = place.w.simd_ge(1.0).to_bitmask();
         let (mut first, mut second, mut differ) = ([0; LANES], [0; LANES], 0);
@@ -144,7 +144,7 @@ impl Spheres<f64> {
     pub(crate) fn lookup_lanes<S: Simd>(
         &self,
         blends: &Blends,
-        place: &Places<S>,
+        place: &NodePlaces<S>,
         x: f64x8<S>,
         y: f64x8<S>,
     ) -> [f64x8<S>; 4] {

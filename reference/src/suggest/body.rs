@@ -11,14 +11,14 @@ const PART: f64 = 0.01;
 
 /// The range of values that are content.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Inside {
+pub(super) struct ContentRange {
     /// The last value of the content, on the way outwards.
     pub value: f64,
     /// The side on which values are outside.
     pub outside: Outside,
 }
 
-impl Inside {
+impl ContentRange {
     /// Half the depth of a value inside the content, negative outside. It is halved because the whole difference may
     /// overflow.
     pub(super) fn depth(self, value: f64) -> f64 {
@@ -29,7 +29,7 @@ impl Inside {
 
 /// A run of voxels from `first` to `last` along x.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Run {
+pub(super) struct VoxelRun {
     pub first: usize,
     pub last: usize,
     pub y: usize,
@@ -40,27 +40,27 @@ pub(super) struct Run {
 
 /// The content's voxels, without small parts.
 #[derive(Clone, Debug)]
-pub(super) struct Body {
+pub(super) struct Content {
     dims: [usize; 3],
-    runs: Vec<Run>,
+    runs: Vec<VoxelRun>,
 }
 
-impl Body {
+impl Content {
     /// Finds the content of a volume. If no value is inside, everything is content.
-    pub(super) fn of(volume: &Volume, inside: Inside) -> Self {
+    pub(super) fn of(volume: &Volume, inside: ContentRange) -> Self {
         let dims = volume.dims();
         let rows = with_access!(volume, |a| runs(volume, a, inside));
         let runs = large_parts(&rows, dims);
         if runs.is_empty() {
             let [nx, ny, nz] = dims;
-            let row = |i: usize| Run { first: 0, last: nx - 1, y: i % ny, z: i / ny, solid: 0.0 };
+            let row = |i: usize| VoxelRun { first: 0, last: nx - 1, y: i % ny, z: i / ny, solid: 0.0 };
             return Self { dims, runs: (0..ny * nz).map(row).collect() };
         }
         Self { dims, runs }
     }
 
     /// The runs of voxels.
-    pub(super) fn runs(&self) -> &[Run] {
+    pub(super) fn runs(&self) -> &[VoxelRun] {
         &self.runs
     }
 
@@ -79,7 +79,7 @@ impl Body {
 }
 
 /// The runs of every row, row after row.
-fn runs<A: Access>(volume: &Volume, a: A, inside: Inside) -> Vec<Vec<Run>> {
+fn runs<A: Access>(volume: &Volume, a: A, inside: ContentRange) -> Vec<Vec<VoxelRun>> {
     let [nx, ny, nz] = a.dims();
     let (slope, intercept) = (volume.slope(), volume.intercept());
     let shown = |x: usize, y: usize, z: usize| inside.depth(slope * a.at(x, y, z).to_f64() + intercept) >= 0.0;
@@ -94,11 +94,11 @@ fn runs<A: Access>(volume: &Volume, a: A, inside: Inside) -> Vec<Vec<Run>> {
         .into_par_iter()
         .map(|row| {
             let (y, z) = (row % ny, row / ny);
-            let mut runs: Vec<Run> = Vec::new();
+            let mut runs: Vec<VoxelRun> = Vec::new();
             for x in (0..nx).filter(|&x| shown(x, y, z)) {
                 match runs.last_mut() {
                     Some(run) if run.last + 1 == x => run.last = x,
-                    _ => runs.push(Run { first: x, last: x, y, z, solid: 0.0 }),
+                    _ => runs.push(VoxelRun { first: x, last: x, y, z, solid: 0.0 }),
                 }
             }
             for run in &mut runs {
@@ -115,8 +115,8 @@ fn runs<A: Access>(volume: &Volume, a: A, inside: Inside) -> Vec<Vec<Run>> {
 
 /// The runs of connected parts that are not small compared with the largest. Voxels that share a corner are
 /// connected.
-fn large_parts(rows: &[Vec<Run>], [_, ny, nz]: [usize; 3]) -> Vec<Run> {
-    let all: Vec<Run> = rows.iter().flatten().copied().collect();
+fn large_parts(rows: &[Vec<VoxelRun>], [_, ny, nz]: [usize; 3]) -> Vec<VoxelRun> {
+    let all: Vec<VoxelRun> = rows.iter().flatten().copied().collect();
     let mut starts = Vec::with_capacity(rows.len() + 1);
     starts.push(0);
     rows.iter().for_each(|row| starts.push(starts[starts.len() - 1] + row.len()));
@@ -163,11 +163,11 @@ mod tests {
     use super::super::tests::volume;
     use super::*;
 
-    fn from(value: f64) -> Inside {
-        Inside { value, outside: Outside::Low }
+    fn from(value: f64) -> ContentRange {
+        ContentRange { value, outside: Outside::Low }
     }
 
-    fn ends(body: &Body) -> [[usize; 3]; 2] {
+    fn ends(body: &Content) -> [[usize; 3]; 2] {
         let (mut lo, mut hi) = ([usize::MAX; 3], [0; 3]);
         for run in body.runs() {
             for (a, [first, last]) in [[run.first, run.last], [run.y; 2], [run.z; 2]].into_iter().enumerate() {
@@ -184,7 +184,7 @@ mod tests {
         let speck = |p: [usize; 3]| p == [2, 2, 2] || p == [2, 2, 3];
         let sheet = |[x, y, _]: [usize; 3]| y == 29 && x > 3;
         let v = volume(|p| if block(p) || branch(p) || speck(p) || sheet(p) { 9.0 } else { 0.0 });
-        let body = Body::of(&v, from(5.0));
+        let body = Content::of(&v, from(5.0));
         assert_eq!(ends(&body), [[8; 3], [29, 19, 19]]);
         let slices = body.slices(0);
         assert_eq!((slices[7], slices[8], slices[19], slices[29], slices[30]), (0.0, 144.0, 144.0, 1.0, 0.0));
@@ -193,21 +193,23 @@ mod tests {
 
     #[test]
     fn lines_alone_are_content() {
-        let body = Body::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), from(0.5));
+        let body = Content::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), from(0.5));
         assert_eq!(ends(&body), [[7, 4, 5], [31, 4, 5]]);
     }
 
     #[test]
     fn what_is_dark_can_be_content() {
         let block = |p: [usize; 3]| p.iter().all(|i| (8..20).contains(i));
-        let body =
-            Body::of(&volume(|p| if block(p) { -4.0 } else { 9.0 }), Inside { value: 5.0, outside: Outside::High });
+        let body = Content::of(
+            &volume(|p| if block(p) { -4.0 } else { 9.0 }),
+            ContentRange { value: 5.0, outside: Outside::High },
+        );
         assert_eq!(ends(&body), [[8; 3], [19; 3]]);
     }
 
     #[test]
     fn nothing_is_everything() {
-        let body = Body::of(&volume(|_| 0.0), from(1.0));
+        let body = Content::of(&volume(|_| 0.0), from(1.0));
         assert_eq!(ends(&body), [[0; 3], [31; 3]]);
     }
 }

@@ -6,7 +6,7 @@ use drypoint_scene::volume::Volume;
 
 /// A surface to show, in data values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Surface {
+pub(super) struct ValueSurface {
     /// The value that separates inside from outside.
     pub value: f64,
     /// The change of the values in one voxel across the surface, at least a few levels.
@@ -15,18 +15,18 @@ pub(super) struct Surface {
 
 /// The surfaces of a first picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Boundary {
+pub(super) struct FirstSurfaces {
     /// The opaque surface: the content's own, or one inside the content.
-    pub main: Surface,
+    pub main: ValueSurface,
     /// A translucent hull, if there is something inside it.
-    pub hull: Option<Surface>,
+    pub hull: Option<ValueSurface>,
     /// Whether the content consists of thin parts: vessels, shells, flames.
     pub thin: bool,
 }
 
 /// A local maximum of the score.
 #[derive(Clone, Copy, Debug)]
-struct Peak {
+struct ScorePeak {
     /// Distance from the outside, as a share of the range.
     share: f64,
     score: f64,
@@ -67,7 +67,7 @@ const EDGE: f64 = 0.5;
 /// Skin against air, and bone, in Hounsfield units.
 const SKIN_AND_BONE: [f64; 2] = [-350.0, 190.0];
 
-impl Boundary {
+impl FirstSurfaces {
     /// Finds the surfaces of a volume with an unknown outside. Low values are outside, unless high values surround a
     /// better surface of low ones.
     pub(super) fn judge(levels: Option<&Levels>, volume: &Volume) -> (Self, Outside) {
@@ -90,14 +90,14 @@ impl Boundary {
             let [value, _] = volume.range();
             // The nodes around the value must be finite numbers, too.
             let step = value.abs().max(1.0).min(2.0 * (f64::MAX - value.abs()));
-            let main = Surface { value, step };
+            let main = ValueSurface { value, step };
             return Self { main, hull: None, thin: false };
         };
         if let Some(known) = skin_and_bone(volume, outside, levels) {
             return known;
         }
         let peaks = peaks(levels);
-        let body = body(&peaks).unwrap_or(Peak { share: 0.5, score: 0.0, level: *levels.at(0.5) });
+        let body = body(&peaks).unwrap_or(ScorePeak { share: 0.5, score: 0.0, level: *levels.at(0.5) });
         let surface = |share| surface(levels, share);
         let thin = body.level.simplicity < THIN;
         if let Some(kernel) = kernel(&peaks, &body) {
@@ -108,36 +108,36 @@ impl Boundary {
     }
 
     /// The surface at which content begins: the hull, or the main surface.
-    pub(super) fn outermost(&self) -> Surface {
+    pub(super) fn outermost(&self) -> ValueSurface {
         self.hull.unwrap_or(self.main)
     }
 }
 
-fn surface(levels: &Levels, share: f64) -> Surface {
+fn surface(levels: &Levels, share: f64) -> ValueSurface {
     let step = levels.at(share).step.max(LEAST_STEP);
     // Content that is cut out of a background of one value has an edge that rises in one voxel, and every value of
     // the rise is an edge. A value well above the bottom is the smoothest, and only below the top is something inside
     // visible.
     let share = share.max(EDGE * step).min(1.0 - EDGE * step);
     let step = step.min(share.min(1.0 - share) / EDGE);
-    Surface { value: levels.value(share), step: levels.difference(step) }
+    ValueSurface { value: levels.value(share), step: levels.difference(step) }
 }
 
 /// Whether the best surface that the box hardly cuts is better than the best one from the other side.
-fn is_surrounded(dark: &[Peak], bright: &[Peak]) -> bool {
-    let best = |peaks: &[Peak]| peaks.iter().map(|peak| peak.score).fold(0.0, f64::max);
+fn is_surrounded(dark: &[ScorePeak], bright: &[ScorePeak]) -> bool {
+    let best = |peaks: &[ScorePeak]| peaks.iter().map(|peak| peak.score).fold(0.0, f64::max);
     body(dark).is_some_and(|body| body.level.cut < FREE) && best(dark) > BETTER * best(bright)
 }
 
 /// The surfaces of a patient's CT, recognized by its scale, on which skin and bone are known.
-fn skin_and_bone(volume: &Volume, outside: Outside, levels: &Levels) -> Option<Boundary> {
+fn skin_and_bone(volume: &Volume, outside: Outside, levels: &Levels) -> Option<FirstSurfaces> {
     let [lo, hi] = volume.range();
     let hounsfield = volume.anatomy().is_some() && lo < -900.0 && hi > 500.0 && outside == Outside::Low;
     let [skin, bone] = SKIN_AND_BONE.map(|value| (value, levels.share(value)));
     // A scan that is cut out of a body has no skin to show, and a wax head has no bone.
     let whole = hounsfield && levels.at(skin.1).cut < BOXED && levels.at(bone.1).inside > SOMETHING;
-    let [hull, main] = [skin, bone].map(|(value, share)| Surface { value, ..surface(levels, share) });
-    whole.then_some(Boundary { main, hull: Some(hull), thin: false })
+    let [hull, main] = [skin, bone].map(|(value, share)| ValueSurface { value, ..surface(levels, share) });
+    whole.then_some(FirstSurfaces { main, hull: Some(hull), thin: false })
 }
 
 /// Area times squared agreement and step. It favours surfaces that enclose much with little area and that the box
@@ -153,7 +153,7 @@ fn strength(level: &Level) -> f64 {
 }
 
 /// Local maxima of the smoothed score, from the outside inwards.
-fn peaks(levels: &Levels) -> Vec<Peak> {
+fn peaks(levels: &Levels) -> Vec<ScorePeak> {
     let scores: Vec<f64> = levels.all().iter().map(score).collect();
     let mean = |b: usize| {
         let near = &scores[b.saturating_sub(3)..(b + 4).min(LEVELS)];
@@ -162,15 +162,15 @@ fn peaks(levels: &Levels) -> Vec<Peak> {
     let smooth: Vec<f64> = (0..LEVELS).map(mean).collect();
     let most = |range: &[f64]| range.iter().copied().fold(0.0, f64::max);
     let strongest = levels.all().iter().map(strength).fold(0.0, f64::max);
-    let all: Vec<Peak> = (0..LEVELS)
+    let all: Vec<ScorePeak> = (0..LEVELS)
         .filter(|&b| {
             let (before, after) = (b.saturating_sub(REACH)..b, b + 1..(b + 1 + REACH).min(LEVELS));
             smooth[b] >= most(&smooth[before]) && smooth[b] > most(&smooth[after])
         })
-        .map(|b| Peak { share: (b as f64 + 1.0) / LEVELS as f64, score: smooth[b], level: levels.all()[b] })
+        .map(|b| ScorePeak { share: (b as f64 + 1.0) / LEVELS as f64, score: smooth[b], level: levels.all()[b] })
         .filter(|peak| peak.level.inside > SOMETHING && strength(&peak.level) > SIGNIFICANT[1] * strongest)
         .collect();
-    let open: Vec<Peak> = all.iter().filter(|peak| peak.level.cut < BOXED).copied().collect();
+    let open: Vec<ScorePeak> = all.iter().filter(|peak| peak.level.cut < BOXED).copied().collect();
     let mut chosen = if open.is_empty() { all } else { open };
     let best = chosen.iter().map(|peak| peak.score).fold(0.0, f64::max);
     chosen.retain(|peak| peak.score >= SIGNIFICANT[0] * best);
@@ -178,14 +178,14 @@ fn peaks(levels: &Levels) -> Vec<Peak> {
 }
 
 /// The outermost surface; of several around nearly the same volume, the best.
-fn body(peaks: &[Peak]) -> Option<Peak> {
+fn body(peaks: &[ScorePeak]) -> Option<ScorePeak> {
     let first = peaks.first()?;
     let of_the_body = peaks.iter().filter(|peak| peak.level.inside >= SAME_BODY * first.level.inside);
     of_the_body.copied().reduce(|best, peak| if peak.score > best.score { peak } else { best })
 }
 
 /// The best surface well inside the body.
-fn kernel(peaks: &[Peak], body: &Peak) -> Option<Peak> {
+fn kernel(peaks: &[ScorePeak], body: &ScorePeak) -> Option<ScorePeak> {
     let [least, most] = KERNEL.map(|share| share * body.level.inside);
     let inside = peaks.iter().filter(|peak| {
         let clear = peak.level.simplicity > CLUTTER && peak.level.agreement > NOISE;
@@ -195,7 +195,7 @@ fn kernel(peaks: &[Peak], body: &Peak) -> Option<Peak> {
 }
 
 /// A lower value of a smooth field whose surface lies well around the body's and is as simple.
-fn hull(levels: &Levels, body: &Peak) -> Option<f64> {
+fn hull(levels: &Levels, body: &ScorePeak) -> Option<f64> {
     if body.level.agreement < SMOOTH {
         return None;
     }
@@ -215,8 +215,8 @@ mod tests {
     use super::*;
     use drypoint_scene::volume::Anatomy;
 
-    fn find(volume: &Volume, outside: Outside) -> Boundary {
-        Boundary::find(Levels::of(volume, outside).as_ref(), volume, outside)
+    fn find(volume: &Volume, outside: Outside) -> FirstSurfaces {
+        FirstSurfaces::find(Levels::of(volume, outside).as_ref(), volume, outside)
     }
 
     fn edge(d: f64) -> f64 {
@@ -243,8 +243,8 @@ mod tests {
         assert!((mirrored.main.value + b.main.value).abs() < 1.0 && mirrored.hull.is_some(), "{mirrored:?}");
     }
 
-    fn judge(volume: &Volume) -> (Boundary, Outside) {
-        Boundary::judge(Levels::of(volume, Outside::Low).as_ref(), volume)
+    fn judge(volume: &Volume) -> (FirstSurfaces, Outside) {
+        FirstSurfaces::judge(Levels::of(volume, Outside::Low).as_ref(), volume)
     }
 
     #[test]
@@ -261,8 +261,9 @@ mod tests {
             let (dark, mirrored) = judge(&volume(|p| 200.0 - field(p)));
             assert_eq!((outside, mirrored), (Outside::Low, Outside::High), "{i}");
             // A level of 256 where a value lies on the border of two.
-            let near =
-                |a: Surface, b: Surface| (a.value + b.value - 200.0).abs() < 1.0 && (a.step - b.step).abs() < 1.0;
+            let near = |a: ValueSurface, b: ValueSurface| {
+                (a.value + b.value - 200.0).abs() < 1.0 && (a.step - b.step).abs() < 1.0
+            };
             assert!(near(bright.main, dark.main), "{i}: {bright:?} {dark:?}");
             assert_eq!((bright.hull.is_some(), bright.thin), (dark.hull.is_some(), dark.thin), "{i}");
         }

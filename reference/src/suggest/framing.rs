@@ -1,6 +1,6 @@
 //! A camera that frames the content of a volume.
 
-use super::body::{Body, Inside};
+use super::body::{Content, ContentRange};
 use super::reach::reach;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
@@ -11,7 +11,7 @@ const FILL: f64 = 0.86;
 
 /// The position and the field of view of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Fit {
+pub(super) struct CameraFit {
     pub eye: DVec3,
     pub target: DVec3,
     /// Height of the picture at the target, in world units.
@@ -27,13 +27,13 @@ pub(super) struct Fit {
 /// Then |x − a| ≤ t(d + z) requires d ≥ (x − a)/t − z and d ≥ (a − x)/t − z. The best a balances the two maxima.
 pub(super) fn fit(
     volume: &Volume,
-    body: &Body,
-    seen: Inside,
+    body: &Content,
+    seen: ContentRange,
     direction: DVec3,
     up: DVec3,
     fov: f64,
     size: [usize; 2],
-) -> Fit {
+) -> CameraFit {
     let grid = volume.grid();
     let forward = direction.normalize();
     let right = forward.cross(up).normalize();
@@ -53,7 +53,7 @@ pub(super) fn fit(
     let eye = right * a + up * b + forward * depth;
     let ahead = (grid.centre() - eye).dot(forward).max(grid.voxel());
     let extent = 2.0 * t * ((away - towards) / 2.0 - depth);
-    Fit { eye, target: eye + forward * ahead, height: 2.0 * tan * ahead, extent }
+    CameraFit { eye, target: eye + forward * ahead, height: 2.0 * tan * ahead, extent }
 }
 
 #[cfg(test)]
@@ -75,8 +75,8 @@ mod tests {
         let volume = Volume::new(grid, Voxels::U8(voxels), 1.0, 0.0).unwrap();
         let direction = DVec3::new(-0.6, 1.0, -0.45);
         // The surface at the content's own value passes through its outermost voxels.
-        let seen = Inside { value: 200.0, outside: Outside::Low };
-        let body = Body::of(&volume, seen);
+        let seen = ContentRange { value: 200.0, outside: Outside::Low };
+        let body = Content::of(&volume, seen);
         for size in [[400, 400], [600, 400], [300, 500]] {
             let fit = fit(&volume, &body, seen, direction, DVec3::Z, 30.0, size);
             let camera = Camera {
@@ -112,8 +112,8 @@ mod tests {
     fn an_empty_volume_is_framed_whole() {
         let volume =
             Volume::new(Grid::with_spacing([4; 3], [1.0; 3]).unwrap(), Voxels::U8(vec![0; 64]), 1.0, 0.0).unwrap();
-        let inside = Inside { value: 10.0, outside: Outside::Low };
-        let body = Body::of(&volume, inside);
+        let inside = ContentRange { value: 10.0, outside: Outside::Low };
+        let body = Content::of(&volume, inside);
         let fit = fit(&volume, &body, inside, DVec3::Y, DVec3::Z, 30.0, [100, 100]);
         assert!(fit.eye.is_finite() && fit.eye.y < 0.0);
     }

@@ -22,7 +22,7 @@ pub(super) fn are_ids(volume: &Volume) -> bool {
 
 /// Counts over all rows along all axes.
 #[derive(Clone, Copy, Default)]
-struct Rows {
+struct NeighbourCounts {
     /// Number of neighbouring pairs without 0, and number of equal ones.
     pairs: u64,
     equal: u64,
@@ -32,7 +32,7 @@ struct Rows {
     between: u64,
 }
 
-impl Rows {
+impl NeighbourCounts {
     fn add(&mut self, [p, q, r]: [f64; 3]) {
         if p != 0.0 && q != 0.0 {
             self.pairs += 1;
@@ -54,7 +54,7 @@ impl Rows {
     }
 }
 
-fn count<A: Access>(volume: &Volume, a: A) -> Rows {
+fn count<A: Access>(volume: &Volume, a: A) -> NeighbourCounts {
     let [nx, ny, nz] = volume.dims();
     let (slope, intercept) = (volume.slope(), volume.intercept());
     let row = |y: usize, z: usize, out: &mut Vec<f64>| {
@@ -65,7 +65,7 @@ fn count<A: Access>(volume: &Volume, a: A) -> Rows {
     (0..nz)
         .into_par_iter()
         .map(|z| {
-            let mut rows = Rows::default();
+            let mut rows = NeighbourCounts::default();
             let [mut here, mut next, mut last] = [const { Vec::new() }; 3];
             for y in 0..ny {
                 row(y, z, &mut here);
@@ -81,7 +81,7 @@ fn count<A: Access>(volume: &Volume, a: A) -> Rows {
             }
             rows
         })
-        .reduce(Rows::default, Rows::plus)
+        .reduce(NeighbourCounts::default, NeighbourCounts::plus)
 }
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ pub(super) const LEVELS: usize = 256;
 
 /// Increments at the bins where pairs begin and end, so that a pair costs the same for any distance.
 #[derive(Clone)]
-struct Sums {
+struct BinSums {
     /// Pairs, their differences, and the confirmed part of the differences.
     pairs: Vec<[f64; 3]>,
     voxels: Vec<f64>,
@@ -62,7 +62,7 @@ impl Levels {
             if outside == Outside::Low { u } else { 1.0 - u }
         };
         let dims = volume.dims();
-        let slices = with_access!(volume, |a| sums(dims, |z| Slice::new(a, z, share)));
+        let slices = with_access!(volume, |a| sums(dims, |z| SliceShares::new(a, z, share)));
         Some(Self { lo, hi, outside, voxels: volume.grid().len() as f64, levels: levels(&slices) })
     }
 
@@ -127,12 +127,12 @@ fn bin(share: f64) -> usize {
 }
 
 /// The voxels of a slice across z: shares of the range from the outside, and bins.
-struct Slice {
+struct SliceShares {
     shares: Vec<f64>,
     bins: Vec<u16>,
 }
 
-impl Slice {
+impl SliceShares {
     fn new<A: Access>(voxels: A, z: usize, share: impl Fn(f64) -> f64) -> Self {
         let [nx, ny, _] = voxels.dims();
         let mut shares = Vec::with_capacity(nx * ny);
@@ -148,7 +148,7 @@ impl Slice {
 const THICKNESS: usize = 8;
 
 /// The sums of each slice.
-fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> Slice + Sync) -> Vec<Sums> {
+fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> SliceShares + Sync) -> Vec<BinSums> {
     // Four voxels in a row along an axis; the border's voxel replaces those outside.
     let around = |i: usize, n: usize| [i.saturating_sub(1), i, i + 1, i + 2].map(|i| i.min(n - 1));
     let slice = &slice;
@@ -160,7 +160,7 @@ fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> Slice + Sync) -> Vec<
                 slices.rotate_left(1);
                 slices[3] = slice((z + 2).min(nz - 1));
             }
-            let mut sums = Sums::default();
+            let mut sums = BinSums::default();
             let here = &slices[1];
             for y in 0..ny {
                 let rows = around(y, ny).map(|y| y * nx);
@@ -187,13 +187,13 @@ fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> Slice + Sync) -> Vec<
     (0..nz.div_ceil(THICKNESS)).into_par_iter().flat_map_iter(part).collect()
 }
 
-impl Default for Sums {
+impl Default for BinSums {
     fn default() -> Self {
         Self { pairs: vec![[0.0; 3]; LEVELS], voxels: vec![0.0; LEVELS], on_faces: vec![0.0; LEVELS] }
     }
 }
 
-impl Sums {
+impl BinSums {
     #[inline(always)]
     fn voxel(&mut self, bin: u16, place: [(usize, usize); 3]) {
         self.voxels[usize::from(bin)] += 1.0;
@@ -224,8 +224,8 @@ impl Sums {
 }
 
 /// Running sums over the bins, slice by slice, so that the order of additions is fixed.
-fn levels(slices: &[Sums]) -> Vec<Level> {
-    let total = |column: &dyn Fn(&Sums) -> f64| slices.iter().map(column).sum::<f64>();
+fn levels(slices: &[BinSums]) -> Vec<Level> {
+    let total = |column: &dyn Fn(&BinSums) -> f64| slices.iter().map(column).sum::<f64>();
     let all = total(&|s| s.voxels.iter().sum());
     let all_on_faces = total(&|s| s.on_faces.iter().sum());
     let (mut inside, mut on_faces) = (all, all_on_faces);

@@ -1,6 +1,6 @@
 //! Styles and opacities of the surfaces in a first picture.
 
-use super::boundary::{Boundary, Surface};
+use super::boundary::{FirstSurfaces, ValueSurface};
 use drypoint_scene::color::srgb_to_linear;
 use drypoint_scene::math;
 use drypoint_scene::tables::{Node, NodeColor, Outside, TransferKind};
@@ -8,29 +8,29 @@ use drypoint_scene::volume::Volume;
 
 /// A style, and its colour for a transfer function without styles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Look {
+struct SurfaceStyle {
     style: &'static str,
     srgb: [f64; 3],
 }
 
-const SKIN: Look = Look { style: "skin", srgb: [0.91, 0.68, 0.55] };
-const BONE: Look = Look { style: "bone", srgb: [0.93, 0.89, 0.80] };
-const GLASS: Look = Look { style: "glass", srgb: [0.22, 0.62, 0.70] };
-const WAX: Look = Look { style: "wax", srgb: [0.91, 0.75, 0.52] };
-const VESSEL: Look = Look { style: "vessel", srgb: [0.76, 0.20, 0.17] };
-const TONE: Look = Look { style: "tone", srgb: [0.75, 0.68, 0.62] };
+const SKIN: SurfaceStyle = SurfaceStyle { style: "skin", srgb: [0.91, 0.68, 0.55] };
+const BONE: SurfaceStyle = SurfaceStyle { style: "bone", srgb: [0.93, 0.89, 0.80] };
+const GLASS: SurfaceStyle = SurfaceStyle { style: "glass", srgb: [0.22, 0.62, 0.70] };
+const WAX: SurfaceStyle = SurfaceStyle { style: "wax", srgb: [0.91, 0.75, 0.52] };
+const VESSEL: SurfaceStyle = SurfaceStyle { style: "vessel", srgb: [0.76, 0.20, 0.17] };
+const TONE: SurfaceStyle = SurfaceStyle { style: "tone", srgb: [0.75, 0.68, 0.62] };
 
 /// The styles of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Palette {
-    hull: Look,
-    main: Look,
+    hull: SurfaceStyle,
+    main: SurfaceStyle,
 }
 
 impl Palette {
     /// Selects the styles: skin and bone for patients, red for thin branches such as vessels, wax under glass for
     /// anything else.
-    pub(super) fn of(volume: &Volume, boundary: &Boundary) -> Self {
+    pub(super) fn of(volume: &Volume, boundary: &FirstSurfaces) -> Self {
         match (volume.anatomy().is_some(), boundary.hull.is_some()) {
             (true, true) => Self { hull: SKIN, main: BONE },
             (false, true) => Self { hull: GLASS, main: WAX },
@@ -49,9 +49,9 @@ const SOLID: f64 = 0.95;
 
 /// Nodes of the transfer function. A hull is a thin layer, transparent on both sides. The main surface is opaque from
 /// its value inwards.
-pub(super) fn nodes(boundary: &Boundary, palette: Palette, kind: TransferKind, outside: Outside) -> Vec<Node> {
+pub(super) fn nodes(boundary: &FirstSurfaces, palette: Palette, kind: TransferKind, outside: Outside) -> Vec<Node> {
     let inwards = if outside == Outside::Low { 1.0 } else { -1.0 };
-    let node = |surface: &Surface, steps: f64, look: Look, opacity: f64| {
+    let node = |surface: &ValueSurface, steps: f64, look: SurfaceStyle, opacity: f64| {
         let color = match kind {
             TransferKind::Style => NodeColor::Style(look.style.into()),
             TransferKind::Regular => NodeColor::Color(look.srgb.map(srgb_to_linear)),
@@ -77,7 +77,7 @@ pub(super) fn nodes(boundary: &Boundary, palette: Palette, kind: TransferKind, o
 }
 
 /// The value at which a surface becomes visible: the start of the opaque surface, or the middle of a hull's layer.
-pub(super) fn first_seen(boundary: &Boundary, outside: Outside) -> f64 {
+pub(super) fn first_seen(boundary: &FirstSurfaces, outside: Outside) -> f64 {
     let (surface, steps) = match &boundary.hull {
         Some(hull) => (hull, 0.5 * LAYER),
         None => (&boundary.main, RAMP[0]),
@@ -115,9 +115,9 @@ mod tests {
 
     #[test]
     fn nodes_ascend_from_transparent_to_opaque() {
-        let hull = Some(Surface { value: 40.0, step: 20.0 });
-        for main in [Surface { value: 100.0, step: 40.0 }, Surface { value: 45.0, step: 40.0 }] {
-            let low = Boundary { main, hull, thin: false };
+        let hull = Some(ValueSurface { value: 40.0, step: 20.0 });
+        for main in [ValueSurface { value: 100.0, step: 40.0 }, ValueSurface { value: 45.0, step: 40.0 }] {
+            let low = FirstSurfaces { main, hull, thin: false };
             let palette = Palette { hull: GLASS, main: WAX };
             let nodes = nodes(&low, palette, TransferKind::Style, Outside::Low);
             assert!(nodes.windows(2).all(|pair| pair[0].at <= pair[1].at), "{nodes:?}");
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn mirrored_values_have_mirrored_nodes() {
-        let main = |value| Boundary { main: Surface { value, step: 4.0 }, hull: None, thin: true };
+        let main = |value| FirstSurfaces { main: ValueSurface { value, step: 4.0 }, hull: None, thin: true };
         let palette = Palette { hull: GLASS, main: WAX };
         let low = nodes(&main(10.0), palette, TransferKind::Regular, Outside::Low);
         let mut high = nodes(&main(-10.0), palette, TransferKind::Regular, Outside::High);

@@ -12,8 +12,8 @@ mod look;
 mod reach;
 mod stance;
 
-use body::{Body, Inside};
-use boundary::Boundary;
+use body::{Content, ContentRange};
+use boundary::FirstSurfaces;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
     Camera, Contours, GradientEstimator, HessianEstimator, Ids, Iso, Kappa, Kernel, Length, Outside, Projection, Scene,
@@ -57,7 +57,7 @@ pub fn fill(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts
 /// to `counts`.
 pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside, counts: &mut Counts) {
     let levels = levels(volume, outside, counts);
-    let boundary = Boundary::find(levels.as_ref(), volume, outside);
+    let boundary = FirstSurfaces::find(levels.as_ref(), volume, outside);
     transfer.unit = Unit::Value;
     transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
 }
@@ -69,7 +69,7 @@ pub fn iso(volume: &Volume, table: &VolumeTable, counts: &mut Counts) -> f64 {
         return 0.5;
     }
     let outside = table.outside;
-    let main = Boundary::find(levels(volume, outside, counts).as_ref(), volume, outside).main;
+    let main = FirstSurfaces::find(levels(volume, outside, counts).as_ref(), volume, outside).main;
     look::short(main.value, main.step)
 }
 
@@ -82,7 +82,7 @@ fn levels(volume: &Volume, outside: Outside, counts: &mut Counts) -> Option<Leve
 }
 
 fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
-    let (boundary, outside) = Boundary::judge(levels(volume, Outside::Low, counts).as_ref(), volume);
+    let (boundary, outside) = FirstSurfaces::judge(levels(volume, Outside::Low, counts).as_ref(), volume);
     scene.volume.outside = outside;
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
@@ -93,7 +93,7 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
         surface.iso = Iso::Value(look::short(outermost.value, outermost.step));
     }
     let [inside, seen] = [boundary.outermost().value, look::first_seen(&boundary, outside)];
-    frame(&mut scene, volume, [inside, seen].map(|value| Inside { value, outside }), size);
+    frame(&mut scene, volume, [inside, seen].map(|value| ContentRange { value, outside }), size);
     scene
 }
 
@@ -104,13 +104,13 @@ fn of_labels(mut scene: Scene, present: &Volume, size: [usize; 2]) -> Scene {
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(look::label_nodes());
     }
-    frame(&mut scene, present, [Inside { value: 0.5, outside: Outside::Low }; 2], size);
+    frame(&mut scene, present, [ContentRange { value: 0.5, outside: Outside::Low }; 2], size);
     scene
 }
 
 /// Sets camera, picture and lines for the content, and for the visible surface around it.
-fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: [usize; 2]) {
-    let body = Body::of(volume, inside);
+fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], size: [usize; 2]) {
+    let body = Content::of(volume, inside);
     let Stance { direction, up } = Stance::of(volume, &body);
     let fit = framing::fit(volume, &body, seen, direction, up, FOV, size);
     scene.picture.size = size;

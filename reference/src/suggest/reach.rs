@@ -1,6 +1,6 @@
 //! The extent of content: its surface lies up to a voxel beyond its outermost voxels.
 
-use super::body::{Body, Inside};
+use super::body::{Content, ContentRange};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::Volume;
 
@@ -10,7 +10,12 @@ const PARTS: usize = 4;
 /// Returns the greatest values of linear functions over the surface of a volume's content, within the closed box of
 /// the field. The functions of the world position are given by their gradients. The surface is the trilinear surface
 /// of the values `seen`, where it lies less than a voxel beyond the content.
-pub(super) fn reach<const N: usize>(volume: &Volume, body: &Body, seen: Inside, gradients: [DVec3; N]) -> [f64; N] {
+pub(super) fn reach<const N: usize>(
+    volume: &Volume,
+    body: &Content,
+    seen: ContentRange,
+    gradients: [DVec3; N],
+) -> [f64; N] {
     let grid = volume.grid();
     // In index space a function has one step for each axis.
     let steps = gradients.map(|g| grid.axes().transpose() * g);
@@ -51,7 +56,7 @@ struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    fn of(volume: &Volume, seen: Inside, voxel: [usize; 3]) -> Self {
+    fn of(volume: &Volume, seen: ContentRange, voxel: [usize; 3]) -> Self {
         let dims = volume.dims();
         let [lo, hi] = volume.grid().index_box().map(|corner| corner.to_array());
         let depth = std::array::from_fn(|i| {
@@ -115,8 +120,8 @@ mod tests {
     use drypoint_scene::volume::Voxels;
 
     fn reached<const N: usize>(volume: &Volume, value: f64, gradients: [DVec3; N]) -> [f64; N] {
-        let inside = Inside { value, outside: Outside::Low };
-        reach(volume, &Body::of(volume, inside), inside, gradients)
+        let inside = ContentRange { value, outside: Outside::Low };
+        reach(volume, &Content::of(volume, inside), inside, gradients)
     }
 
     #[test]

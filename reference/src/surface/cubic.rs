@@ -5,12 +5,12 @@
 /// In this form the value never leaves the range of the coefficients, and the ends are exactly b₀ and b₃. Multiplying
 /// all four by a power of two changes no root.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cubic(pub(super) [f64; 4]);
+pub(super) struct BernsteinCubic(pub(super) [f64; 4]);
 
 /// Number of steps after which a bracket has no number inside: each third step halves it at least.
 const MOST_STEPS: usize = 200;
 
-impl Cubic {
+impl BernsteinCubic {
     /// The value at u by de Casteljau's scheme, whose means stay between their operands.
     fn at(self, u: f64) -> f64 {
         let Self([a, b, c, d]) = self;
@@ -121,10 +121,10 @@ mod tests {
 
     /// The Bernstein coefficients of (u − p)(u − q)(u − r) by blossoming: the mean over all orders of the factors'
     /// values at the ends.
-    fn with_roots([p, q, r]: [f64; 3]) -> Cubic {
+    fn with_roots([p, q, r]: [f64; 3]) -> BernsteinCubic {
         let b1 = (-p * -q * (1.0 - r) - p * (1.0 - q) * -r + (1.0 - p) * -q * -r) / 3.0;
         let b2 = (-p * (1.0 - q) * (1.0 - r) + (1.0 - p) * -q * (1.0 - r) + (1.0 - p) * (1.0 - q) * -r) / 3.0;
-        Cubic([-p * -q * -r, b1, b2, (1.0 - p) * (1.0 - q) * (1.0 - r)])
+        BernsteinCubic([-p * -q * -r, b1, b2, (1.0 - p) * (1.0 - q) * (1.0 - r)])
     }
 
     #[test]
@@ -141,16 +141,16 @@ mod tests {
 
     #[test]
     fn ends_touches_and_plateaus() {
-        assert_eq!(Cubic([0.0, 1.0, 1.0, 1.0]).first_root(), Some(0.0));
-        assert_eq!(Cubic([1.0, 1.0, 1.0, 0.0]).first_root(), Some(1.0));
-        assert_eq!(Cubic([0.0; 4]).first_root(), Some(0.0));
+        assert_eq!(BernsteinCubic([0.0, 1.0, 1.0, 1.0]).first_root(), Some(0.0));
+        assert_eq!(BernsteinCubic([1.0, 1.0, 1.0, 0.0]).first_root(), Some(1.0));
+        assert_eq!(BernsteinCubic([0.0; 4]).first_root(), Some(0.0));
         // (u − ½)²(u + 1) touches 0 at ½, where every step of the scheme is exact.
         assert_eq!(with_roots([0.5, 0.5, -1.0]).first_root(), Some(0.5));
         // Coefficients of both signs, and no root: the polygon crosses 0 and the curve does not.
-        assert_eq!(Cubic([1.0, -0.3, -0.3, 1.0]).first_root(), None);
+        assert_eq!(BernsteinCubic([1.0, -0.3, -0.3, 1.0]).first_root(), None);
         // Linear: the first secant is exact.
-        assert_eq!(Cubic([-1.0, 0.0, 1.0, 2.0]).first_root(), Some(1.0 / 3.0));
-        assert_eq!(Cubic([-1e-300, 0.0, 1e-300, 2e-300]).first_root(), Some(1.0 / 3.0));
+        assert_eq!(BernsteinCubic([-1.0, 0.0, 1.0, 2.0]).first_root(), Some(1.0 / 3.0));
+        assert_eq!(BernsteinCubic([-1e-300, 0.0, 1e-300, 2e-300]).first_root(), Some(1.0 / 3.0));
     }
 
     proptest! {
@@ -158,7 +158,7 @@ mod tests {
         /// changes no bit.
         #[test]
         fn no_root_is_before_the_first(b in prop::array::uniform4(-1.0..1.0f64), k in -900..900i32) {
-            let cubic = Cubic(b);
+            let cubic = BernsteinCubic(b);
             let first = cubic.first_root();
             let n = 4096;
             let places = (0..=n).map(|i| f64::from(i) / f64::from(n));
@@ -174,7 +174,7 @@ mod tests {
             if let Some(root) = first {
                 prop_assert!(cubic.at(root).abs() <= 8.0 * f64::EPSILON, "{}", cubic.at(root));
             }
-            let scaled = Cubic(b.map(|b| drypoint_scene::math::scale_by_power_of_two(b, k)));
+            let scaled = BernsteinCubic(b.map(|b| drypoint_scene::math::scale_by_power_of_two(b, k)));
             prop_assert_eq!(scaled.first_root().map(f64::to_bits), first.map(f64::to_bits));
         }
     }

@@ -19,7 +19,7 @@ mod hidden;
 mod walk;
 
 pub(crate) use cubic::bracketed;
-pub(crate) use first_root::Roots;
+pub(crate) use first_root::RootFinder;
 
 use crate::field::{Field, Sampler};
 use crate::with_sampler;
@@ -46,20 +46,20 @@ use drypoint_scene::volume::BRICK;
 #[derive(Clone, Debug)]
 pub struct IsoSurface<'f, 'v> {
     field: &'f Field<'v, f64>,
-    roots: Roots,
+    roots: RootFinder,
 }
 
 impl<'f, 'v> IsoSurface<'f, 'v> {
     /// The surface of a field. The field must be prepared for gradients if feet are needed. The ranges of the field's
     /// bricks are computed at once, so that lines skip bricks that exclude the value.
     pub fn new(field: &'f Field<'v, f64>, iso: f64) -> Self {
-        Self { field, roots: Roots::new(field, iso, Some(&field.bricks())) }
+        Self { field, roots: RootFinder::new(field, iso, Some(&field.bricks())) }
     }
 
     /// Like [`new`](Self::new), but without the bricks' ranges: every cell on a line is tested. Results are the same
     /// ([RAY-2]).
     pub fn without_skipping(field: &'f Field<'v, f64>, iso: f64) -> Self {
-        Self { field, roots: Roots::new(field, iso, None) }
+        Self { field, roots: RootFinder::new(field, iso, None) }
     }
 
     /// The value of the surface.

@@ -4,11 +4,11 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 
 /// A line in index space: its origin, and its displacement for one unit of the parameter t.
-pub(super) type Line = [DVec3; 2];
+pub(super) type IndexLine = [DVec3; 2];
 
 /// The cells of a grid's box ([SPACE-1]).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Box {
+pub(super) struct CellBox {
     /// The last cell along each axis.
     last: [usize; 3],
     /// The ends of the box along each axis.
@@ -17,7 +17,7 @@ pub(super) struct Box {
     flat: [bool; 3],
 }
 
-impl Box {
+impl CellBox {
     pub(super) fn new(grid: &Grid) -> Self {
         let [lo, hi] = grid.index_box();
         let dims = grid.dims();
@@ -31,8 +31,8 @@ impl Box {
 /// axis). So the cells and their ranges depend on the line alone. Skipped cells change nothing for later ones, and no
 /// cell between two faces is lost to rounding.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Walk {
-    bounds: Box,
+pub(super) struct CellTraversal {
+    bounds: CellBox,
     origin: [f64; 3],
     along: [f64; 3],
     inverse: [f64; 3],
@@ -52,9 +52,9 @@ struct Crossing {
     axis: Option<usize>,
 }
 
-impl Walk {
+impl CellTraversal {
     /// The traversal of a box for t in a closed range. Returns none if they have no place in common.
-    pub(super) fn new(bounds: &Box, [origin, along]: Line, [start, end]: [f64; 2]) -> Option<Self> {
+    pub(super) fn new(bounds: &CellBox, [origin, along]: IndexLine, [start, end]: [f64; 2]) -> Option<Self> {
         let (origin, along) = (origin.to_array(), along.to_array());
         let inverse = along.map(|d| 1.0 / d);
         let none = Crossing { t: f64::NEG_INFINITY, axis: None };
@@ -208,14 +208,14 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn bounds(dims: [usize; 3]) -> Box {
-        Box::new(&Grid::with_spacing(dims, [1.0; 3]).unwrap())
+    fn bounds(dims: [usize; 3]) -> CellBox {
+        CellBox::new(&Grid::with_spacing(dims, [1.0; 3]).unwrap())
     }
 
     const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
     /// Cells with the t at which the line enters and leaves them: all, or those that `jumps` does not skip.
-    fn cells(walk: Option<Walk>, jumps: impl Fn([usize; 3]) -> Option<usize>) -> Vec<([usize; 3], [u64; 2])> {
+    fn cells(walk: Option<CellTraversal>, jumps: impl Fn([usize; 3]) -> Option<usize>) -> Vec<([usize; 3], [u64; 2])> {
         let mut all = Vec::new();
         let Some(mut walk) = walk else { return all };
         loop {
@@ -233,7 +233,10 @@ mod tests {
     fn along_an_axis_on_a_face_and_along_a_diagonal() {
         let line = |o: [f64; 3], d: [f64; 3]| [DVec3::from_array(o), DVec3::from_array(d)];
         let through = |o, d| -> Vec<[usize; 3]> {
-            cells(Walk::new(&bounds([5, 4, 3]), line(o, d), ALL), |_| None).into_iter().map(|(c, _)| c).collect()
+            cells(CellTraversal::new(&bounds([5, 4, 3]), line(o, d), ALL), |_| None)
+                .into_iter()
+                .map(|(c, _)| c)
+                .collect()
         };
         let row: Vec<[usize; 3]> = (0..4).map(|x| [x, 1, 1]).collect();
         assert_eq!(through([-9.0, 1.5, 1.5], [1.0, 0.0, 0.0]), row);
@@ -249,7 +252,7 @@ mod tests {
         assert!(through([0.0, 3.1, 0.0], [1.0, 0.0, 0.0]).is_empty());
         assert!(through([-1.0, 0.0, 0.0], [1.0, 4.0, 0.0]).is_empty());
         // An axis of length 1 is half a voxel to either side.
-        let flat = Walk::new(&bounds([1, 3, 3]), line([0.0, 0.2, 0.2], [1.0, 0.0, 0.0]), ALL).unwrap();
+        let flat = CellTraversal::new(&bounds([1, 3, 3]), line([0.0, 0.2, 0.2], [1.0, 0.0, 0.0]), ALL).unwrap();
         assert_eq!((flat.range(), flat.entry(), flat.exit()), ([-0.5, 0.5], [0.0, 0.2, 0.2], [0.0, 0.2, 0.2]));
     }
 
@@ -269,7 +272,7 @@ mod tests {
             let line = [from - (to - from) * 3.0, (to - from) / scale];
             let bounds = bounds(dims);
             let range = [scale * (2.0 + start), f64::INFINITY];
-            let all = cells(Walk::new(&bounds, line, range), |_| None);
+            let all = cells(CellTraversal::new(&bounds, line, range), |_| None);
             for pair in all.windows(2) {
                 let [(a, in_a), (b, in_b)] = [pair[0], pair[1]];
                 let steps: usize = (0..3).map(|i| a[i].abs_diff(b[i])).sum();
@@ -286,7 +289,7 @@ mod tests {
                 }
             }
             let odd = |c: [usize; 3]| (c[0] / 8 + c[1] / 8 + c[2] / 8) % 2 == 1;
-            let jumped = cells(Walk::new(&bounds, line, range), |c| odd(c).then_some(8));
+            let jumped = cells(CellTraversal::new(&bounds, line, range), |c| odd(c).then_some(8));
             let kept: Vec<_> = all.into_iter().filter(|(c, _)| !odd(*c)).collect();
             prop_assert_eq!(jumped, kept);
         }

@@ -15,28 +15,28 @@ pub fn over_value<R: Real>(at: &[f64], opacity: &[f64], rows: &Rows) -> Result<P
     let shows = |span: &[f64]| span.iter().any(|&a| a > 0.0);
     match &rows.over {
         [Axis::Value, _] => {
-            let lines: Vec<Line> =
-                rows.spans(at.len()).map(|span| Line { at: &at[span.clone()], opacity: &opacity[span] }).collect();
+            let lines: Vec<NodeRow> =
+                rows.spans(at.len()).map(|span| NodeRow { at: &at[span.clone()], opacity: &opacity[span] }).collect();
             gate(&lines)
         }
         [_, Axis::Value] => {
             let seen: Vec<f64> = rows.spans(at.len()).map(|span| f64::from(u8::from(shows(&opacity[span])))).collect();
-            gate(&[Line { at: &rows.at, opacity: &seen }])
+            gate(&[NodeRow { at: &rows.at, opacity: &seen }])
         }
         _ => Piecewise::new(&[0.0], &[f64::from(u8::from(shows(opacity)))]),
     }
 }
 
 /// Nodes of one row over the value.
-struct Line<'a> {
+struct NodeRow<'a> {
     at: &'a [f64],
     opacity: &'a [f64],
 }
 
-impl Line<'_> {
+impl NodeRow<'_> {
     /// Whether the row is visible at a value, and just below it, as far as nodes tell. Between two nodes it is
     /// visible if it is at either node. Positions are compared after rounding.
-    fn shows<R: Real>(&self, value: R) -> Shows {
+    fn shows<R: Real>(&self, value: R) -> RowVisibility {
         let rounded = |k: usize| R::from_f64(self.at[k]);
         let n = self.at.len();
         let visible = |k: usize| self.opacity[k] > 0.0;
@@ -48,13 +48,13 @@ impl Line<'_> {
             k if k == n => visible(n - 1),
             k => visible(k - 1) || visible(k),
         };
-        Shows { below: between(first), here: if after > first { visible(after - 1) } else { between(first) } }
+        RowVisibility { below: between(first), here: if after > first { visible(after - 1) } else { between(first) } }
     }
 }
 
 /// The visibility of a row at a value.
 #[derive(Clone, Copy)]
-struct Shows {
+struct RowVisibility {
     below: bool,
     here: bool,
 }
@@ -62,14 +62,14 @@ struct Shows {
 /// Returns a function that is 1 between two nodes if some row is visible there. It rises from 0 if no row is visible
 /// at the lower node. At a node it is 1 if some row is visible at it. Each node stands twice, so that a step stays a
 /// step.
-fn gate<R: Real>(lines: &[Line<'_>]) -> Result<Piecewise<R>, NodesError> {
+fn gate<R: Real>(lines: &[NodeRow<'_>]) -> Result<Piecewise<R>, NodesError> {
     let mut at: Vec<R> = lines.iter().flat_map(|line| line.at).map(|&a| R::from_f64(a)).collect();
     at.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
     at.dedup();
     let mut nodes = (Vec::new(), Vec::new());
     for value in at {
-        let shows: Vec<Shows> = lines.iter().map(|line| line.shows(value)).collect();
-        let any = |seen: fn(&Shows) -> bool| f64::from(u8::from(shows.iter().any(seen)));
+        let shows: Vec<RowVisibility> = lines.iter().map(|line| line.shows(value)).collect();
+        let any = |seen: fn(&RowVisibility) -> bool| f64::from(u8::from(shows.iter().any(seen)));
         for open in [any(|s| s.below), any(|s| s.here)] {
             nodes.0.push(value.to_f64());
             nodes.1.push(open);

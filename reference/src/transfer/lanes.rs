@@ -1,34 +1,34 @@
 //! A piecewise-linear function at eight values side by side.
 
-use super::piecewise::{PARTS, Piecewise, SEARCH, Segment};
+use super::piecewise::{NodeSegment, PARTS, Piecewise, SEARCH};
 use crate::field::lanes::{LANES, whole};
 use crate::number::Arithmetic;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// Places of values between the nodes of a function, like [`Place`].
+/// Places of values between the nodes of a function, like [`NodePlace`].
 #[derive(Clone, Copy)]
-pub(crate) struct Places<S: Simd> {
+pub(crate) struct NodePlaces<S: Simd> {
     /// Lanes with α_u above 0. Only these have valid numbers below.
     pub(crate) visible: u64,
     /// The opacities α_u.
     pub(crate) alpha_u: f64x8<S>,
     /// The nodes i₀.
-    pub(crate) nodes: Nodes,
+    pub(crate) nodes: LaneNodes,
     /// The fractions i − i₀.
     pub(crate) w: f64x8<S>,
 }
 
 /// The node before each value.
 #[derive(Clone, Copy)]
-pub(crate) enum Nodes {
+pub(crate) enum LaneNodes {
     /// One node for all values.
     One(usize),
     /// A node for each value.
     Each([u32; LANES]),
 }
 
-impl Nodes {
+impl LaneNodes {
     /// The node of each lane.
     #[inline(always)]
     pub(crate) fn each(self) -> [u32; LANES] {
@@ -60,7 +60,7 @@ impl Piecewise<f64> {
 
     /// [`locate`](Self::locate) for the values of the lanes `asked`.
     #[inline(always)]
-    pub(crate) fn locate_lanes<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> Option<Places<S>> {
+    pub(crate) fn locate_lanes<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> Option<NodePlaces<S>> {
         let simd = s.simd;
         let end = f64x8::splat(simd, self.segments[self.last()].at);
         // Indices of parts, from 0 on. Values before the first part and NaN become 0. Lanes that are not asked get an
@@ -85,21 +85,21 @@ impl Piecewise<f64> {
         let (visible, nodes, alpha_u, w) = if code != SEARCH && u64::from(code) * seen == codes {
             // Neighbouring values mostly lie between the same two nodes.
             let node = usize::from(code) - 1;
-            let Segment { at, width, opacity, next_opacity } = self.segments[node];
+            let NodeSegment { at, width, opacity, next_opacity } = self.segments[node];
             let w = (s - at) / width;
             let alpha_u = f64x8::lerp(f64x8::splat(simd, opacity), f64x8::splat(simd, next_opacity), w);
             // Gathers one bit of each byte.
             let seen = seen.wrapping_mul(0x0102_0408_1020_4080) >> 56;
-            ((alpha_u.simd_gt(0.0)).to_bitmask() & seen, Nodes::One(node), alpha_u, w)
+            ((alpha_u.simd_gt(0.0)).to_bitmask() & seen, LaneNodes::One(node), alpha_u, w)
         } else {
             self.between_their_own(s, codes)
         };
-        (visible != 0).then_some(Places { visible, alpha_u, nodes, w })
+        (visible != 0).then_some(NodePlaces { visible, alpha_u, nodes, w })
     }
 
     /// The visible lanes, with the preceding node, α_u and w of each.
     #[inline(always)]
-    fn between_their_own<S: Simd>(&self, s: f64x8<S>, codes: u64) -> (u64, Nodes, f64x8<S>, f64x8<S>) {
+    fn between_their_own<S: Simd>(&self, s: f64x8<S>, codes: u64) -> (u64, LaneNodes, f64x8<S>, f64x8<S>) {
         let simd = s.simd;
         let codes = codes.to_le_bytes();
         let mut nodes = [0; LANES];
@@ -110,7 +110,7 @@ impl Piecewise<f64> {
             let node = usize::from(codes[lane]).wrapping_sub(1);
             if codes[lane] == SEARCH {
                 searched |= 1 << lane;
-            } else if let Some(&Segment { at, width, opacity, next_opacity }) = self.segments.get(node) {
+            } else if let Some(&NodeSegment { at, width, opacity, next_opacity }) = self.segments.get(node) {
                 nodes[lane] = node as u32;
                 (columns[0][lane], columns[1][lane]) = (at, width);
                 (columns[2][lane], columns[3][lane]) = (opacity, next_opacity);
@@ -129,24 +129,24 @@ impl Piecewise<f64> {
                 (nodes[lane], alpha_u[lane], w[lane]) = (place.node as u32, place.alpha_u, place.w);
             }
         }
-        (visible, Nodes::Each(nodes), alpha_u, w)
+        (visible, LaneNodes::Each(nodes), alpha_u, w)
     }
 }
 
-impl<S: Simd> Places<S> {
-    /// [`Place::color`] in the visible lanes.
+impl<S: Simd> NodePlaces<S> {
+    /// [`NodePlace::color`] in the visible lanes.
     #[inline(always)]
     pub(crate) fn color(&self, colors: &[[f64; 3]]) -> [f64x8<S>; 3] {
         let simd = self.w.simd;
         let mut rgb = [self.w; 3];
         match self.nodes {
-            Nodes::One(node) => {
+            LaneNodes::One(node) => {
                 let (a, b) = (colors[node], colors[(node + 1).min(colors.len() - 1)]);
                 for i in 0..3 {
                     rgb[i] = f64x8::lerp(f64x8::splat(simd, a[i]), f64x8::splat(simd, b[i]), self.w);
                 }
             }
-            Nodes::Each(nodes) => {
+            LaneNodes::Each(nodes) => {
                 let mut columns = [[[0.0; LANES]; 2]; 3];
                 for lane in 0..LANES {
                     // w is 0 at the last node. Lanes that are not visible have node 0.

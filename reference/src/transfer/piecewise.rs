@@ -6,13 +6,13 @@ use crate::number::Real;
 /// nodes decide, so the result is exact.
 #[derive(Clone, Debug)]
 pub struct Piecewise<R> {
-    pub(super) segments: Vec<Segment<R>>,
+    pub(super) segments: Vec<NodeSegment<R>>,
     /// The last of the nodes at the first node's value.
     at_first: usize,
     /// Lookup table: the content of each part of the line of values.
-    parts: Box<[Part; PARTS + 2]>,
+    parts: Box<[LookupPart; PARTS + 2]>,
     /// Lookup table for lanes.
-    pub(super) codes: Box<Codes>,
+    pub(super) codes: Box<PartCodes>,
     pub(super) first: R,
     pub(super) parts_per_unit: R,
     /// The closed range that contains every visible value.
@@ -22,7 +22,7 @@ pub struct Piecewise<R> {
 /// The segment from a node to the next one. The last node's segment extends beyond it; its width is 1, a valid
 /// divisor.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Segment<R> {
+pub(super) struct NodeSegment<R> {
     pub(super) at: R,
     pub(super) width: R,
     pub(super) opacity: R,
@@ -32,7 +32,7 @@ pub(super) struct Segment<R> {
 /// The content of one part of the line of values and of its neighbours, so that rounding of a value's part does not
 /// matter. The range of nodes is cut into [`PARTS`] parts. One more part lies before the range and one after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Part {
+enum LookupPart {
     /// Every value in it has α_u = 0.
     Invisible,
     /// Every value in the part lies in the segment that begins at this node. It is not the last node.
@@ -45,7 +45,7 @@ enum Part {
 /// [`SEARCH`] a part that must be searched. Any other byte is one more than the node at which a segment begins.
 ///
 /// One more part, farther away than any rounding, holds values beyond the last node. Further bytes are 0.
-pub(super) type Codes = [u8; (PARTS + 3).next_power_of_two()];
+pub(super) type PartCodes = [u8; (PARTS + 3).next_power_of_two()];
 
 /// Marks parts that must be searched, or whose node exceeds a byte.
 pub(super) const SEARCH: u8 = u8::MAX;
@@ -53,7 +53,7 @@ pub(super) const SEARCH: u8 = u8::MAX;
 /// The place of a value between the nodes: i(s) = node + w. The fraction is separate, because adding the node would
 /// cost bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place<R> {
+pub struct NodePlace<R> {
     /// i₀ = ⌊i⌋.
     pub node: usize,
     /// w = i − i₀, in [0, 1]: a value just below a node can round to 1.
@@ -107,7 +107,7 @@ pub enum NodesError {
 /// Number of parts. Parts with a node in them are rare, and the table takes 8 KiB.
 pub(super) const PARTS: usize = 1024;
 
-impl<R: Real> Place<R> {
+impl<R: Real> NodePlace<R> {
     /// Interpolates the colours of nodes, channel by channel: a + w(b − a).
     #[inline(always)]
     pub(crate) fn color(&self, colors: &[[R; 3]]) -> [R; 3] {
@@ -142,11 +142,11 @@ impl<R: Real> Piecewise<R> {
             let to = segment(edge(2.0).min(last));
             let reached = &opacity[from..=(to + 1).min(end)];
             if reached.iter().all(|&a| a == R::ZERO) {
-                Part::Invisible
+                LookupPart::Invisible
             } else if part > 0 && from == to && edge(-1.0) >= first && to < end {
-                Part::Segment(from as u32)
+                LookupPart::Segment(from as u32)
             } else {
-                Part::Search(from as u32)
+                LookupPart::Search(from as u32)
             }
         };
         // If the range is 0, or so small that this overflows, every value is searched.
@@ -154,21 +154,21 @@ impl<R: Real> Piecewise<R> {
         let (parts, parts_per_unit) = if per_unit.to_f64().is_finite() {
             (Box::new(std::array::from_fn(part)), per_unit)
         } else {
-            (Box::new([Part::Search(0); PARTS + 2]), R::ZERO)
+            (Box::new([LookupPart::Search(0); PARTS + 2]), R::ZERO)
         };
         let mut codes = Box::new([0; (PARTS + 3).next_power_of_two()]);
-        let beyond = if opacity[end] == R::ZERO { Part::Invisible } else { Part::Segment(end as u32) };
+        let beyond = if opacity[end] == R::ZERO { LookupPart::Invisible } else { LookupPart::Segment(end as u32) };
         for (code, part) in codes.iter_mut().zip(parts.iter().chain([&beyond])) {
             *code = match *part {
-                Part::Invisible => 0,
-                Part::Segment(k) if k < u32::from(SEARCH) - 1 => k as u8 + 1,
-                Part::Segment(_) | Part::Search(_) => SEARCH,
+                LookupPart::Invisible => 0,
+                LookupPart::Segment(k) if k < u32::from(SEARCH) - 1 => k as u8 + 1,
+                LookupPart::Segment(_) | LookupPart::Search(_) => SEARCH,
             };
         }
         let segments = (0..=end).map(|k| {
             let next = (k + 1).min(end);
             let width = if k < end { at[next] - at[k] } else { R::ONE };
-            Segment { at: at[k], width, opacity: opacity[k], next_opacity: opacity[next] }
+            NodeSegment { at: at[k], width, opacity: opacity[k], next_opacity: opacity[next] }
         });
         Ok(Self {
             segments: segments.collect(),
@@ -192,28 +192,28 @@ impl<R: Real> Piecewise<R> {
     /// Values beyond the nodes take the end nodes. Of several nodes at one value, the last one holds at the value
     /// itself. NaN counts as before the first node.
     #[inline(always)]
-    pub fn locate(&self, s: R) -> Option<Place<R>> {
+    pub fn locate(&self, s: R) -> Option<NodePlace<R>> {
         // Values before the first node and NaN become 0.
         let part = ((s - self.first) * self.parts_per_unit + R::ONE).to_index();
         match self.parts[part.min(PARTS + 1)] {
-            Part::Invisible => None,
-            Part::Segment(k) => self.between(s, k as usize),
-            Part::Search(k) => self.search(s, k as usize),
+            LookupPart::Invisible => None,
+            LookupPart::Segment(k) => self.between(s, k as usize),
+            LookupPart::Search(k) => self.search(s, k as usize),
         }
     }
 
     /// The place of a value at or after a node and before the next one.
     #[inline(always)]
-    fn between(&self, s: R, node: usize) -> Option<Place<R>> {
+    fn between(&self, s: R, node: usize) -> Option<NodePlace<R>> {
         let segment = &self.segments[node];
         let w = (s - segment.at) / segment.width;
         let alpha_u = R::lerp(segment.opacity, segment.next_opacity, w);
-        (alpha_u > R::ZERO).then_some(Place { node, w, alpha_u })
+        (alpha_u > R::ZERO).then_some(NodePlace { node, w, alpha_u })
     }
 
     /// The place of any value. A value between the nodes must not lie before node k.
     #[inline(never)]
-    fn search(&self, s: R, mut k: usize) -> Option<Place<R>> {
+    fn search(&self, s: R, mut k: usize) -> Option<NodePlace<R>> {
         let last = self.last();
         let node = if s >= self.segments[last].at {
             last
@@ -228,7 +228,7 @@ impl<R: Real> Piecewise<R> {
             0
         };
         let alpha_u = self.segments[node].opacity;
-        (alpha_u > R::ZERO).then_some(Place { node, w: R::ZERO, alpha_u })
+        (alpha_u > R::ZERO).then_some(NodePlace { node, w: R::ZERO, alpha_u })
     }
 }
 
@@ -288,13 +288,13 @@ mod tests {
         // Values below 10 take node 0; the step at 20 belongs to its later node; beyond 40 the last node holds.
         let f = Piecewise::new(&[10.0, 20.0, 20.0, 40.0], &[0.25, 0.25, 1.0, 0.5]).unwrap();
         let at = |s: f64| f.locate(s).unwrap();
-        assert_eq!(at(-5.0), Place { node: 0, w: 0.0, alpha_u: 0.25 });
-        assert_eq!(at(15.0), Place { node: 0, w: 0.5, alpha_u: 0.25 });
-        assert_eq!(at(20.0), Place { node: 2, w: 0.0, alpha_u: 1.0 });
-        assert_eq!(at(30.0), Place { node: 2, w: 0.5, alpha_u: 0.75 });
-        assert_eq!(at(40.0), Place { node: 3, w: 0.0, alpha_u: 0.5 });
-        assert_eq!(at(1e300), Place { node: 3, w: 0.0, alpha_u: 0.5 });
-        assert_eq!(at(f64::NAN), Place { node: 0, w: 0.0, alpha_u: 0.25 });
+        assert_eq!(at(-5.0), NodePlace { node: 0, w: 0.0, alpha_u: 0.25 });
+        assert_eq!(at(15.0), NodePlace { node: 0, w: 0.5, alpha_u: 0.25 });
+        assert_eq!(at(20.0), NodePlace { node: 2, w: 0.0, alpha_u: 1.0 });
+        assert_eq!(at(30.0), NodePlace { node: 2, w: 0.5, alpha_u: 0.75 });
+        assert_eq!(at(40.0), NodePlace { node: 3, w: 0.0, alpha_u: 0.5 });
+        assert_eq!(at(1e300), NodePlace { node: 3, w: 0.0, alpha_u: 0.5 });
+        assert_eq!(at(f64::NAN), NodePlace { node: 0, w: 0.0, alpha_u: 0.25 });
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A transfer function over two quantities ([STF-4]; 4.2): rows of nodes, with bilinear interpolation between them.
 
-use super::piecewise::{self, NodesError, Place};
-use super::stops::{Coordinate, Stops};
+use super::piecewise::{self, NodePlace, NodesError};
+use super::stops::{AxisStops, Coordinate};
 use crate::number::Real;
 use drypoint_scene::transfer::Rows;
 
@@ -11,14 +11,14 @@ use drypoint_scene::transfer::Rows;
 /// and opacities and styles are interpolated between two rows.
 #[derive(Clone, Debug)]
 pub struct Plane<R> {
-    rows: Stops<R>,
-    lines: Vec<Line<R>>,
+    rows: AxisStops<R>,
+    lines: Vec<PlaneRow<R>>,
 }
 
 /// The nodes of one row.
 #[derive(Clone, Debug)]
-struct Line<R> {
-    stops: Stops<R>,
+struct PlaneRow<R> {
+    stops: AxisStops<R>,
     opacity: Vec<R>,
     /// Index of the row's first node among the nodes of all rows.
     first: usize,
@@ -29,7 +29,7 @@ struct Line<R> {
 pub struct Patch<R> {
     /// (i_x, i_y₀) and (i_x, i_y₁): the places in the two rows, with the α_u of each, which may be 0. If one row
     /// holds alone, both places are the same.
-    pub rows: [Place<R>; 2],
+    pub rows: [NodePlace<R>; 2],
     /// w_y, the share of the second row, in [0, 1).
     pub w: R,
     /// α_u, above 0.
@@ -48,10 +48,10 @@ impl<R: Real> Plane<R> {
             let (at, opacity) = (&at[span.clone()], &opacity[span.clone()]);
             piecewise::check::<R>(at, opacity)?;
             let opacity = opacity.iter().map(|&a| R::from_f64(a)).collect();
-            Ok(Line { stops: Stops::new(at, first.is_id()), opacity, first: span.start })
+            Ok(PlaneRow { stops: AxisStops::new(at, first.is_id()), opacity, first: span.start })
         };
         let lines = rows.spans(at.len()).map(line).collect::<Result<_, _>>()?;
-        Ok(Self { rows: Stops::new(&rows.at, second.is_id()), lines })
+        Ok(Self { rows: AxisStops::new(&rows.at, second.is_id()), lines })
     }
 
     /// The place of two coordinates. Returns none if α_u is 0, or if a label has no row or node there. A row without
@@ -61,7 +61,8 @@ impl<R: Real> Plane<R> {
         let (row, w) = self.rows.find(y)?;
         let below = self.lines[row].place(x);
         let above = if w == R::ZERO { None } else { self.lines[row + 1].place(x) };
-        let alone = |place: Place<R>, share: R| Patch { rows: [place; 2], w: R::ZERO, alpha_u: share * place.alpha_u };
+        let alone =
+            |place: NodePlace<R>, share: R| Patch { rows: [place; 2], w: R::ZERO, alpha_u: share * place.alpha_u };
         let patch = match (below, above) {
             (Some(a), Some(b)) => Patch { rows: [a, b], w, alpha_u: R::lerp(a.alpha_u, b.alpha_u, w) },
             (Some(a), None) => alone(a, R::ONE - w),
@@ -72,13 +73,13 @@ impl<R: Real> Plane<R> {
     }
 }
 
-impl<R: Real> Line<R> {
+impl<R: Real> PlaneRow<R> {
     #[inline]
-    fn place(&self, x: Coordinate<R>) -> Option<Place<R>> {
+    fn place(&self, x: Coordinate<R>) -> Option<NodePlace<R>> {
         let (k, w) = self.stops.find(x)?;
         let o = self.opacity[k];
         let alpha_u = if w == R::ZERO { o } else { R::lerp(o, self.opacity[k + 1], w) };
-        Some(Place { node: self.first + k, w, alpha_u })
+        Some(NodePlace { node: self.first + k, w, alpha_u })
     }
 }
 
@@ -99,7 +100,7 @@ mod tests {
         let rows = rows([Axis::Value, Axis::GradientMagnitude], &[0.0, 10.0], &[0, 2]);
         let plane = Plane::<f64>::new(&[0.0, 4.0, 0.0, 4.0], &[0.0, 0.2, 0.4, 0.8], &rows).unwrap();
         let patch = plane.locate(Number(1.0), Number(5.0)).unwrap();
-        let place = |node, alpha_u| Place { node, w: 0.25, alpha_u };
+        let place = |node, alpha_u| NodePlace { node, w: 0.25, alpha_u };
         assert_eq!((patch.rows, patch.w), ([place(0, 0.05), place(2, 0.5)], 0.5));
         assert!((patch.alpha_u - 0.275).abs() < f64::EPSILON);
         // On a row that row alone; beyond the last it holds.

@@ -13,14 +13,14 @@ pub enum Coordinate<R> {
 
 /// The places along an axis at which nodes or rows stand.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Stops<R> {
+pub enum AxisStops<R> {
     /// Numbers in non-decreasing order, at least one.
     Numbers(Vec<R>),
     /// Ids in ascending order.
     Ids(Vec<u32>),
 }
 
-impl<R: Real> Stops<R> {
+impl<R: Real> AxisStops<R> {
     /// Converts the positions of a scene's function. For ids they must be 32-bit integers.
     pub fn new(at: &[f64], ids: bool) -> Self {
         if ids {
@@ -58,19 +58,19 @@ mod tests {
 
     #[test]
     fn numbers_by_hand() {
-        let stops = Stops::<f64>::new(&[10.0, 20.0, 20.0, 40.0], false);
+        let stops = AxisStops::<f64>::new(&[10.0, 20.0, 20.0, 40.0], false);
         let at = |x| stops.find(Coordinate::Number(x)).unwrap();
         assert_eq!([-5.0, 10.0, 15.0, 20.0].map(at), [(0, 0.0), (0, 0.0), (0, 0.5), (2, 0.0)]);
         assert_eq!([35.0, 40.0, 1e300, f64::NAN].map(at), [(2, 0.75), (3, 0.0), (3, 0.0), (0, 0.0)]);
         // A whole way is the next stop.
         assert_eq!(at(20f64.next_down()).0, 0);
-        let far = Stops::<f32>::new(&[-1.0, f64::from(f32::MIN_POSITIVE)], false);
+        let far = AxisStops::<f32>::new(&[-1.0, f64::from(f32::MIN_POSITIVE)], false);
         assert_eq!(far.find(Coordinate::Number(0.0)), Some((1, 0.0)));
     }
 
     #[test]
     fn ids_are_their_own_or_nothing() {
-        let stops = Stops::<f32>::new(&[0.0, 12.0, 4_294_967_295.0], true);
+        let stops = AxisStops::<f32>::new(&[0.0, 12.0, 4_294_967_295.0], true);
         let at = |id| stops.find(Coordinate::Id(id));
         assert_eq!([0, 12, u32::MAX].map(at), [Some((0, 0.0)), Some((1, 0.0)), Some((2, 0.0))]);
         assert_eq!([1, 11, 13, u32::MAX - 1].map(at), [None; 4]);

@@ -1,6 +1,6 @@
 //! A function that is evaluated from a table ([STF-3]).
 
-use super::Place;
+use super::NodePlace;
 use crate::number::Real;
 
 /// i at each entry of a table. It converts a place between entries to a place between nodes.
@@ -22,11 +22,11 @@ impl<R: Real> Table<R> {
     /// between entries around a step of the function: the styles on both sides mix there, and so do styles of nodes
     /// inside the step.
     #[inline]
-    pub fn between_nodes(&self, entry: &Place<R>) -> Place<R> {
+    pub fn between_nodes(&self, entry: &NodePlace<R>) -> NodePlace<R> {
         let i = self.index[entry.node];
         let i = if entry.w == R::ZERO { i } else { R::lerp(i, self.index[entry.node + 1], entry.w).min(self.last) };
         let (node, w) = i.split();
-        Place { node, w, alpha_u: entry.alpha_u }
+        NodePlace { node, w, alpha_u: entry.alpha_u }
     }
 
     /// Size in bytes, without the entries' opacities.
@@ -44,8 +44,8 @@ mod tests {
     #[test]
     fn between_entries_by_hand() {
         let table = Table::<f64>::new(&[0.0, 0.5, 3.0, 3.0], 4);
-        let at = |node, w| table.between_nodes(&Place { node, w, alpha_u: 0.25 });
-        let place = |node, w| Place { node, w, alpha_u: 0.25 };
+        let at = |node, w| table.between_nodes(&NodePlace { node, w, alpha_u: 0.25 });
+        let place = |node, w| NodePlace { node, w, alpha_u: 0.25 };
         assert_eq!(
             [at(0, 0.5), at(1, 0.0), at(1, 0.8), at(3, 0.0)],
             [place(0, 0.25), place(0, 0.5), place(2, 0.5), place(3, 0.0)]

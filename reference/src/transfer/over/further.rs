@@ -1,6 +1,6 @@
 //! The value of a further volume at a sample's place in the world.
 
-use super::{Here, Measure};
+use super::{AxisMeasure, SampleQuantities};
 use crate::field::{Field, FieldError, HessianEstimator, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
 use crate::other_grid::OtherGrid;
@@ -10,14 +10,14 @@ use drypoint_scene::volume::{Anatomy, Volume};
 
 /// Another scalar volume, trilinear, on any grid. Outside its box, and in cells that touch a voxel without a value
 /// ([PREC-2]), the result is the low end of its range: the least value stands for an unknown one.
-pub struct Further<'v, R> {
+pub struct OtherVolume<'v, R> {
     field: Field<'v, R>,
     /// The map between grids; none if the volume lies on the data's own grid.
     map: Option<OtherGrid>,
     low: R,
 }
 
-impl<'v, R: Real> Further<'v, R> {
+impl<'v, R: Real> OtherVolume<'v, R> {
     /// Another volume in the world of the data volume ([SPACE-2]).
     ///
     /// # Errors
@@ -31,8 +31,8 @@ impl<'v, R: Real> Further<'v, R> {
     }
 }
 
-impl<R: Real> Measure<R> for Further<'_, R> {
-    fn at(&self, here: &Here<R>) -> Coordinate<R> {
+impl<R: Real> AxisMeasure<R> for OtherVolume<'_, R> {
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         let position = match &self.map {
             None => Some(here.position),
             Some(map) => map.position(Vec3::from_glam(here.position.to_glam())).map(|p| Vec3::from_glam(p.to_glam())),
@@ -64,8 +64,8 @@ mod tests {
         Volume::new(grid.clone(), Voxels::U8(vec![0; grid.len()]), 1.0, 0.0).unwrap()
     }
 
-    fn at<R: Real>(further: &Further<'_, R>, p: [f64; 3]) -> f64 {
-        let Coordinate::Number(x) = further.at(&Here::at(p)) else { panic!() };
+    fn at<R: Real>(further: &OtherVolume<'_, R>, p: [f64; 3]) -> f64 {
+        let Coordinate::Number(x) = further.at(&SampleQuantities::at(p)) else { panic!() };
         x.to_f64()
     }
 
@@ -80,7 +80,7 @@ mod tests {
             .map(|i| linear(lies.to_world(DVec3::new((i % 4) as f64, (i / 4 % 3) as f64, (i / 12) as f64))))
             .collect();
         let volume = Volume::new(lies.clone(), Voxels::F64(values), 1.0, 0.0).unwrap();
-        let further = Further::<f64>::new(&volume, &self::data(&data)).unwrap();
+        let further = OtherVolume::<f64>::new(&volume, &self::data(&data)).unwrap();
         for p in [[5.0, 5.0, 3.0], [7.5, 6.25, 4.0], [9.0, 4.0, 2.5]] {
             // Coordinates up to 40 in a dozen operations.
             assert!((at(&further, p) - linear(data.to_world(p.into()))).abs() < 1e-13, "{p:?}");
@@ -94,11 +94,11 @@ mod tests {
     fn one_grid_is_read_at_its_own_voxels_up_to_the_border() {
         let grid = Grid::new([3, 2, 1], DMat3::from_diagonal(DVec3::new(0.1, 0.7, 0.3)), DVec3::splat(0.3)).unwrap();
         let volume = Volume::new(grid.clone(), Voxels::U8(vec![1, 2, 3, 4, 5, 9]), 1.0, 0.0).unwrap();
-        let further = Further::<f32>::new(&volume, &data(&grid)).unwrap();
+        let further = OtherVolume::<f32>::new(&volume, &data(&grid)).unwrap();
         assert_eq!(at(&further, [2.0, 1.0, 0.0]), 9.0);
         // A grid that is not the same one, and ends at the same place.
         let other = Grid::new([3, 3, 1], DMat3::from_diagonal(DVec3::new(0.1, 0.35, 0.3)), DVec3::splat(0.3)).unwrap();
-        assert!((at(&Further::<f32>::new(&volume, &data(&other)).unwrap(), [2.0, 2.0, 0.0]) - 9.0).abs() < 1e-4);
+        assert!((at(&OtherVolume::<f32>::new(&volume, &data(&other)).unwrap(), [2.0, 2.0, 0.0]) - 9.0).abs() < 1e-4);
     }
 
     #[test]
@@ -109,7 +109,7 @@ mod tests {
         let left = left.with_anatomy(Some(Anatomy::RightAnteriorSuperior));
         let behind = Grid::new([3, 1, 1], DMat3::IDENTITY, DVec3::new(-2.0, 0.0, 0.0)).unwrap();
         let data = data(&behind).with_anatomy(Some(Anatomy::LeftPosteriorSuperior));
-        let further = Further::<f64>::new(&left, &data).unwrap();
+        let further = OtherVolume::<f64>::new(&left, &data).unwrap();
         assert_eq!([0.0, 0.5, 2.0].map(|x| at(&further, [x, 0.0, 0.0])), [4.0, 3.0, 1.0]);
     }
 
@@ -117,7 +117,7 @@ mod tests {
     fn voxels_without_a_value_count_as_the_lowest() {
         let grid = Grid::with_spacing([4, 1, 1], [1.0; 3]).unwrap();
         let volume = Volume::new(grid.clone(), Voxels::F32(vec![2.0, 5.0, f32::NAN, 7.0]), 1.0, 0.0).unwrap();
-        let further = Further::<f64>::new(&volume, &data(&grid)).unwrap();
+        let further = OtherVolume::<f64>::new(&volume, &data(&grid)).unwrap();
         assert_eq!([0.5, 1.5, 2.5].map(|x| at(&further, [x, 0.0, 0.0])), [3.5, 2.0, 2.0]);
     }
 }

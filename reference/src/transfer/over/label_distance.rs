@@ -1,6 +1,6 @@
 //! The distance to a label: Euclidean, in the world, to the nearest voxel centre with this label ([STF-4]).
 
-use super::{Here, Measure};
+use super::{AxisMeasure, SampleQuantities};
 use crate::field::Place;
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
@@ -65,8 +65,8 @@ impl<R: Real> LabelDistance<R> {
     }
 }
 
-impl<R: Real> Measure<R> for LabelDistance<R> {
-    fn at(&self, here: &Here<R>) -> Coordinate<R> {
+impl<R: Real> AxisMeasure<R> for LabelDistance<R> {
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         Coordinate::Number(self.value(here.place))
     }
 

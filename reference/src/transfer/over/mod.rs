@@ -1,7 +1,7 @@
 //! The quantities that a transfer function can depend on ([STF-4]), measured at samples.
 //!
 //! The list is open. A new quantity is an [`Axis`](drypoint_scene::tables::Axis) of the scene, which declares its
-//! needs, and a [`Measure`] here. Samples evaluate only the quantities that the axes name.
+//! needs, and a [`AxisMeasure`] here. Samples evaluate only the quantities that the axes name.
 
 mod further;
 mod label;
@@ -9,11 +9,11 @@ pub mod label_distance;
 mod of_sample;
 mod point;
 
-pub use further::Further;
-pub use label::Label;
+pub use further::OtherVolume;
+pub use label::SampleLabel;
 pub use label_distance::LabelDistance;
-pub use of_sample::{Differential, Magnitude, Value};
-pub use point::Distance;
+pub use of_sample::{CurvatureMeasure, GradientMagnitude, SampleValue};
+pub use point::PointDistance;
 
 use super::Coordinate;
 use crate::field::Place;
@@ -22,7 +22,7 @@ use crate::number::{Real, Vec3};
 /// The properties of a sample from which its quantities are measured. A property that no axis needs has its neutral
 /// value.
 #[derive(Clone, Copy, Debug)]
-pub struct Here<R> {
+pub struct SampleQuantities<R> {
     /// The position in the data volume's index space.
     pub position: Vec3<R>,
     /// The position as a cell and coordinates in it.
@@ -40,9 +40,9 @@ pub struct Here<R> {
 }
 
 /// One quantity.
-pub trait Measure<R: Real>: Send + Sync {
+pub trait AxisMeasure<R: Real>: Send + Sync {
     /// The quantity at a sample.
-    fn at(&self, here: &Here<R>) -> Coordinate<R>;
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R>;
 
     /// Name and size in bytes of the stored data. Returns none if nothing is stored.
     fn bytes(&self) -> Option<(&'static str, u64)> {
@@ -56,7 +56,7 @@ pub trait Measure<R: Real>: Send + Sync {
 }
 
 #[cfg(test)]
-impl<R: Real> Here<R> {
+impl<R: Real> SampleQuantities<R> {
     /// A sample with a position and neutral values.
     fn at(position: [f64; 3]) -> Self {
         let zero = R::ZERO;

@@ -1,28 +1,28 @@
 //! Quantities of the sample itself: value, gradient magnitude, curvatures.
 
-use super::{Here, Measure};
+use super::{AxisMeasure, SampleQuantities};
 use crate::number::Real;
 use crate::transfer::Coordinate;
 
 /// The value.
-pub struct Value;
+pub struct SampleValue;
 
-impl<R: Real> Measure<R> for Value {
-    fn at(&self, here: &Here<R>) -> Coordinate<R> {
+impl<R: Real> AxisMeasure<R> for SampleValue {
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         Coordinate::Number(here.value)
     }
 }
 
 /// The magnitude of the gradient.
-pub enum Magnitude {
+pub enum GradientMagnitude {
     /// ‖g‖, times the power of two of [SPACE-4]. The nodes are multiplied by the same power.
     Scaled,
     /// |g| of [VAL-2].
     Normalized,
 }
 
-impl<R: Real> Measure<R> for Magnitude {
-    fn at(&self, here: &Here<R>) -> Coordinate<R> {
+impl<R: Real> AxisMeasure<R> for GradientMagnitude {
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         Coordinate::Number(match self {
             Self::Scaled => here.gradient,
             Self::Normalized => here.magnitude,
@@ -31,7 +31,7 @@ impl<R: Real> Measure<R> for Magnitude {
 }
 
 /// A curvature ([CUR-1], [CUR-2]).
-pub enum Differential {
+pub enum CurvatureMeasure {
     /// κ₁.
     K1,
     /// κ₂.
@@ -44,8 +44,8 @@ pub enum Differential {
     AlongView,
 }
 
-impl<R: Real> Measure<R> for Differential {
-    fn at(&self, here: &Here<R>) -> Coordinate<R> {
+impl<R: Real> AxisMeasure<R> for CurvatureMeasure {
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         let [k1, k2] = here.principal;
         Coordinate::Number(match self {
             Self::K1 => k1,
@@ -64,14 +64,14 @@ mod tests {
     /// A saddle by hand: κ₁ = 3, κ₂ = −1, κ_v = 2.
     #[test]
     fn each_curvature_is_its_own() {
-        let here = Here::<f64> { principal: [3.0, -1.0], kappa: 2.0, ..Here::at([0.0; 3]) };
-        let number = |axis: Differential| axis.at(&here);
+        let here = SampleQuantities::<f64> { principal: [3.0, -1.0], kappa: 2.0, ..SampleQuantities::at([0.0; 3]) };
+        let number = |axis: CurvatureMeasure| axis.at(&here);
         for (axis, expected) in [
-            (Differential::K1, 3.0),
-            (Differential::K2, -1.0),
-            (Differential::Mean, 1.0),
-            (Differential::Gaussian, -3.0),
-            (Differential::AlongView, 2.0),
+            (CurvatureMeasure::K1, 3.0),
+            (CurvatureMeasure::K2, -1.0),
+            (CurvatureMeasure::Mean, 1.0),
+            (CurvatureMeasure::Gaussian, -3.0),
+            (CurvatureMeasure::AlongView, 2.0),
         ] {
             assert_eq!(number(axis), Coordinate::Number(expected));
         }
