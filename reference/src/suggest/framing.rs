@@ -1,7 +1,7 @@
 //! A camera that frames the content of a volume.
 
-use super::body::{Content, ContentRange};
-use super::reach::reach;
+use super::content::{Content, ContentRange};
+use super::extent::reach;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::volume::Volume;

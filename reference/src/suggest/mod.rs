@@ -3,17 +3,17 @@
 //! Nothing here comes from a paper. The choices serve a first look. They are written into the scene, where they can
 //! be changed.
 
-mod body;
 mod boundary;
+mod content;
+mod extent;
 mod framing;
 mod labels;
 mod levels;
-mod look;
-mod reach;
 mod stance;
+mod surface_styles;
 
-use body::{Content, ContentRange};
 use boundary::FirstSurfaces;
+use content::{Content, ContentRange};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
     Camera, Contours, GradientEstimator, HessianEstimator, Ids, Iso, Kappa, Kernel, Length, Outside, Projection, Scene,
@@ -21,8 +21,8 @@ use drypoint_scene::tables::{
 };
 use drypoint_scene::volume::Volume;
 use levels::Levels;
-use look::Palette;
 use stance::Stance;
+use surface_styles::Palette;
 
 /// Vertical field of view of a suggested camera, in degrees.
 const FOV: f64 = 30.0;
@@ -59,7 +59,7 @@ pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside,
     let levels = levels(volume, outside, counts);
     let boundary = FirstSurfaces::find(levels.as_ref(), volume, outside);
     transfer.unit = Unit::Value;
-    transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
+    transfer.nodes = Some(surface_styles::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
 }
 
 /// The value of the surface that an automatic transfer function makes opaque. For parts that are shown as one, the
@@ -70,7 +70,7 @@ pub fn iso(volume: &Volume, table: &VolumeTable, counts: &mut Counts) -> f64 {
     }
     let outside = table.outside;
     let main = FirstSurfaces::find(levels(volume, outside, counts).as_ref(), volume, outside).main;
-    look::short(main.value, main.step)
+    surface_styles::short(main.value, main.step)
 }
 
 /// Levels from the differences of each voxel to its neighbours. A constant volume has none.
@@ -85,14 +85,14 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
     let (boundary, outside) = FirstSurfaces::judge(levels(volume, Outside::Low, counts).as_ref(), volume);
     scene.volume.outside = outside;
     if let Some(transfer) = &mut scene.transfer {
-        transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
+        transfer.nodes = Some(surface_styles::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
     }
     if let Some(surface) = scene.surface.as_mut().filter(|surface| surface.iso == Iso::Auto) {
         // Without the outermost surface, content inside it would float.
         let outermost = boundary.outermost();
-        surface.iso = Iso::Value(look::short(outermost.value, outermost.step));
+        surface.iso = Iso::Value(surface_styles::short(outermost.value, outermost.step));
     }
-    let [inside, seen] = [boundary.outermost().value, look::first_seen(&boundary, outside)];
+    let [inside, seen] = [boundary.outermost().value, surface_styles::first_seen(&boundary, outside)];
     frame(&mut scene, volume, [inside, seen].map(|value| ContentRange { value, outside }), size);
     scene
 }
@@ -102,7 +102,7 @@ fn of_labels(mut scene: Scene, present: &Volume, size: [usize; 2]) -> Scene {
     scene.volume.ids = Ids::Mask;
     scene.sampling.kernel = Kernel::BsplineSmooth;
     if let Some(transfer) = &mut scene.transfer {
-        transfer.nodes = Some(look::label_nodes());
+        transfer.nodes = Some(surface_styles::label_nodes());
     }
     frame(&mut scene, present, [ContentRange { value: 0.5, outside: Outside::Low }; 2], size);
     scene

@@ -1,6 +1,6 @@
 //! The upright direction of an object and the direction from which it is viewed.
 
-use super::body::Content;
+use super::content::Content;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::{Anatomy, Volume};
 
@@ -119,7 +119,7 @@ fn extent(volume: &Volume, body: &Content) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::body::ContentRange;
+    use super::super::content::ContentRange;
     use super::super::tests::volume;
     use super::*;
     use drypoint_scene::tables::Outside;

@@ -2,7 +2,7 @@
 
 use super::active::ActiveBricks;
 use super::cubic::{BernsteinCubic, bracketed, mix};
-use super::walk::{CellBox, CellTraversal, IndexLine};
+use super::traversal::{CellBox, CellTraversal, IndexLine};
 use crate::field::{Field, Place, Sampler};
 use crate::number::Real;
 use drypoint_scene::math;

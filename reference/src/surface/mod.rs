@@ -15,8 +15,8 @@ mod active;
 mod cubic;
 mod first_root;
 mod foot;
-mod hidden;
-mod walk;
+mod traversal;
+mod visibility;
 
 pub(crate) use cubic::bracketed;
 pub(crate) use first_root::RootFinder;

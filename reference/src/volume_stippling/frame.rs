@@ -1,7 +1,7 @@
 //! A frame: the prefix of each voxel's list that the factors select, on the page (section 5, [STIP-5], [STIP-6]).
 //! With `even = "page"` four times as many candidates are thinned evenly on the page ([STIP-19]).
 
-use super::count::{candidates, dots, with_nib};
+use super::dot_counts::{candidates, dots, with_nib};
 use super::elimination::{DotCandidate, eliminate};
 use super::factors::{CameraFactors, FixedFactors, VolumeExtent};
 use super::hidden::HiddenPoints;

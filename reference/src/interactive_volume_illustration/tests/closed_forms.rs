@@ -1,7 +1,7 @@
 //! Lines of curvature with formulas of their own, on formulas.
 
-use super::super::integrator::{Control, EndCause, HalfCurve, trace};
 use super::super::strokes::CurvatureLines;
+use super::super::strokes::integrator::{Control, EndCause, HalfCurve, trace};
 use super::super::{CurvatureFamily, DirectionEstimator, HatchCounts, HatchParams, NoDirection, StrokeGrower};
 use super::*;
 use drypoint_scene::philox::uniform;

@@ -1,7 +1,7 @@
 //! Strokes on voxels.
 
-use super::super::integrator::{Control, HalfCurve, LineField, trace};
 use super::super::strokes::CurvatureLines;
+use super::super::strokes::integrator::{Control, HalfCurve, LineField, trace};
 use super::super::{CurvatureFamily, DirectionEstimator, HatchParams, NoDirection, StrokeGrower};
 use super::*;
 use crate::field::{Field, HessianEstimator, Kernel, Reconstruction, Rung};

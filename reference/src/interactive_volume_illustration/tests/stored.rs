@@ -1,7 +1,7 @@
 //! Stored directions against directions computed at every place, and invariances of the storage ([HATCH-4],
 //! [HATCH-5]).
 
-use super::super::stored::{DirectionInterpolation, DirectionStorage};
+use super::super::directions::{DirectionInterpolation, DirectionStorage};
 use super::super::{
     CurvatureFamily, DirectionCounts, DirectionEstimator, HatchParams, NoDirection, Pyramid, SeedRule, StrokeGrower,
 };

@@ -3,17 +3,17 @@
 //! The list is open. A new quantity is an [`Axis`](drypoint_scene::tables::Axis) of the scene, which declares its
 //! needs, and a [`AxisMeasure`] here. Samples evaluate only the quantities that the axes name.
 
-mod further;
 mod label;
 pub mod label_distance;
-mod of_sample;
+mod other_volume;
 mod point;
+mod sample_quantities;
 
-pub use further::OtherVolume;
 pub use label::SampleLabel;
 pub use label_distance::LabelDistance;
-pub use of_sample::{CurvatureMeasure, GradientMagnitude, SampleValue};
+pub use other_volume::OtherVolume;
 pub use point::PointDistance;
+pub use sample_quantities::{CurvatureMeasure, GradientMagnitude, SampleValue};
 
 use super::Coordinate;
 use crate::field::Place;

@@ -155,7 +155,7 @@ pub(super) fn largest(d: EightFloats) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::super::class::by_class;
-    use super::super::links::NeighbourLinks;
+    use super::super::neighbours::NeighbourLinks;
     use super::super::pool::{Class, pool_size};
     use super::super::tests::sites;
     use super::*;

@@ -11,23 +11,23 @@
 //!
 //! Points must look even in projection. If a voxel has no neighbours with points before and behind it along its
 //! normal, the face is thin, and distances are measured in the tangent plane. Otherwise they are measured in space.
-mod choice;
 mod class;
-mod first;
+mod first_points;
 mod groups;
-mod links;
+mod neighbours;
 mod pool;
+mod visit;
 
 use super::slab::Slab;
-use choice::{TakenPoints, Visit, take};
 use class::{by_class, class_of, class_order};
 use drypoint_scene::glam::{DMat3, DVec3};
 use groups::{GroupBounds, LANES, PointGroup};
-use links::NeighbourLinks;
+use neighbours::NeighbourLinks;
 use pool::{Class, Site, point_of, pool_size, rows_of_groups};
 use rayon::prelude::*;
+use visit::{TakenPoints, Visit, take};
 
-pub(super) use links::MOST_VOXELS;
+pub(super) use neighbours::MOST_VOXELS;
 pub(super) use pool::MOST_EACH;
 
 /// The voxels that get points, and the shape of their slabs.
@@ -72,7 +72,7 @@ pub(super) fn bytes_a_voxel(each: usize) -> u64 {
     (pool_size(each) / LANES * size_of::<PointGroup>()
         + rows_of_groups(pool_size(each)) * size_of::<GroupBounds>()
         + 26 * size_of::<u32>()
-        + first::BYTES_A_VOXEL
+        + first_points::BYTES_A_VOXEL
         + size_of::<Site>()) as u64
 }
 
@@ -88,7 +88,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     let mut taken = [vec![[0f32; 3]; n], vec![[0f32; 3]; n]];
     // Sorted by rank, so that a visit writes contiguous memory.
     let mut chosen = vec![0u32; n * each];
-    for (i, slot) in first::first_points(sites, &classes, &ids).into_iter().enumerate() {
+    for (i, slot) in first_points::first_points(sites, &classes, &ids).into_iter().enumerate() {
         let id = ids[i] as usize;
         let class = &mut classes[class_of(sites.cells[i])];
         let index = id - class.start;

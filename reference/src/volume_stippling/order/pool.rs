@@ -1,7 +1,7 @@
 //! Pools of random points from which voxels take theirs.
 
 use super::groups::{GroupBounds, LANES, PointGroup, REACH, settle};
-use super::links::{NeighbourLinks, offset_of, towards};
+use super::neighbours::{NeighbourLinks, offset_of, towards};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
 use crate::volume_stippling::slab::{Slab, TRIES};

@@ -1,11 +1,11 @@
 //! The polyline of a stroke: as few vertices as the curve allows, and no part behind the surface ([HATCH-9],
 //! [HATCH-10]).
 
+use super::super::seeds::Seed;
 use super::counts::HatchCounts;
-use super::ground::{inside, normal};
+use super::growth::StrokeGrower;
 use super::integrator::{CubicSegment, point, vertices};
-use super::placement::Seed;
-use super::strokes::StrokeGrower;
+use super::stroke_field::{inside, normal};
 use crate::field::Outside;
 use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;

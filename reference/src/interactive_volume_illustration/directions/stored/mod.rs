@@ -6,9 +6,9 @@
 mod blocks;
 mod mean;
 
-use super::ground::StrokeField;
+use super::super::strokes::StrokeField;
+use super::super::{CurvatureFamily, DirectionCounts, NoDirection};
 use super::umbilics::PrincipalDirections;
-use super::{CurvatureFamily, DirectionCounts, NoDirection};
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
 pub(super) use blocks::VoxelBox;
@@ -37,7 +37,7 @@ pub struct DirectionStorage {
 
 /// Directions at the voxels of a ground.
 #[derive(Debug)]
-pub(super) struct StoredDirections {
+pub(in super::super) struct StoredDirections {
     between: DirectionInterpolation,
     dims: [usize; 3],
     blocks: DirectionBlocks,
@@ -45,7 +45,7 @@ pub(super) struct StoredDirections {
 
 /// Cached lines at the corners of the cell in which a stroke was last.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CellCache {
+pub(in super::super) struct CellCache {
     cell: [usize; 3],
     /// A bit for each corner that was read.
     read: u8,
@@ -68,9 +68,9 @@ impl CellCache {
 }
 
 /// The inputs from which the directions of voxels are computed.
-pub(super) struct DirectionInputs<'a, 'f, 'v> {
-    pub(super) ground: &'a dyn StrokeField,
-    pub(super) directions: &'a PrincipalDirections<'f, 'v>,
+pub(in super::super) struct DirectionInputs<'a, 'f, 'v> {
+    pub(in super::super) ground: &'a dyn StrokeField,
+    pub(in super::super) directions: &'a PrincipalDirections<'f, 'v>,
 }
 
 impl DirectionInputs<'_, '_, '_> {
@@ -82,19 +82,19 @@ impl DirectionInputs<'_, '_, '_> {
 
 impl StoredDirections {
     /// An empty storage.
-    pub(super) fn new(ground: &dyn StrokeField, between: DirectionInterpolation) -> Self {
+    pub(in super::super) fn new(ground: &dyn StrokeField, between: DirectionInterpolation) -> Self {
         let dims = ground.grid().dims();
         Self { between, dims, blocks: DirectionBlocks::new(dims) }
     }
 
     /// Computes the directions of all voxels, in parallel.
-    pub(super) fn fill(&self, source: &DirectionInputs<'_, '_, '_>) {
+    pub(in super::super) fn fill(&self, source: &DirectionInputs<'_, '_, '_>) {
         self.blocks.fill(|voxels| source.directions.of_voxels(source.ground, voxels));
     }
 
     /// Like [`fill`](Self::fill), with random signs.
     #[cfg(test)]
-    pub(super) fn turn_signs(&self, source: &DirectionInputs<'_, '_, '_>) {
+    pub(in super::super) fn turn_signs(&self, source: &DirectionInputs<'_, '_, '_>) {
         let turned = |voxel: [usize; 3], draw: u32, e: Vec3<f64>| {
             let up = drypoint_scene::philox::uniform(1, voxel.map(|i| i as u32), draw) < 0.5;
             if up { e } else { -e }
@@ -104,17 +104,21 @@ impl StoredDirections {
     }
 
     /// Number of voxels with a stored direction.
-    pub(super) fn made(&self) -> u64 {
+    pub(in super::super) fn made(&self) -> u64 {
         self.blocks.made()
     }
 
     /// Size of the stored directions in bytes.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(in super::super) fn bytes(&self) -> u64 {
         self.blocks.bytes()
     }
 
     /// Curvatures and directions at a voxel.
-    pub(super) fn voxel(&self, source: &DirectionInputs<'_, '_, '_>, voxel: [usize; 3]) -> Option<Curvature<f64>> {
+    pub(in super::super) fn voxel(
+        &self,
+        source: &DirectionInputs<'_, '_, '_>,
+        voxel: [usize; 3],
+    ) -> Option<Curvature<f64>> {
         self.blocks.get(voxel, || source.at(voxel))
     }
 
@@ -131,7 +135,7 @@ impl StoredDirections {
 
     /// The direction of a family at a place in index space, of length 1 and with either sign. `like` is the current
     /// direction. `near` caches the cell's corners for the caller and the family.
-    pub(super) fn line(
+    pub(in super::super) fn line(
         &self,
         source: &DirectionInputs<'_, '_, '_>,
         index: Vec3<f64>,
@@ -165,7 +169,7 @@ impl StoredDirections {
     }
 
     /// Both directions and the means of the curvatures at a place in index space.
-    pub(super) fn curvature(
+    pub(in super::super) fn curvature(
         &self,
         source: &DirectionInputs<'_, '_, '_>,
         index: Vec3<f64>,

@@ -1,10 +1,10 @@
 //! The start of a stroke: from a cell's centre along its gradient to a place just in front of the surface
 //! ([HATCH-7]).
 
-use super::counts::{HatchCounts, NoDirection, RejectCause};
-use super::ground::{StrokeField, inside, normal};
-use super::search::RootSearch;
-use super::strokes::{CurvatureFamily, HatchParams, StrokeGrower};
+use super::super::strokes::{
+    CurvatureFamily, HatchCounts, HatchParams, NoDirection, RejectCause, StrokeField, StrokeGrower, inside, normal,
+};
+use super::root_search::RootSearch;
 use crate::field::Outside;
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
@@ -66,7 +66,7 @@ impl<'f> StrokeGrower<'f, '_> {
     ///
     /// # Errors
     /// The line does not meet the surface, or the place has no gradient.
-    pub(super) fn on_surface(&self, cell: [usize; 3], within: [f64; 3]) -> Result<(DVec3, f64), RejectCause> {
+    pub(in super::super) fn on_surface(&self, cell: [usize; 3], within: [f64; 3]) -> Result<(DVec3, f64), RejectCause> {
         let ground = self.ground();
         let grid = ground.grid();
         let dims = grid.dims();
@@ -91,7 +91,7 @@ impl<'f> StrokeGrower<'f, '_> {
     ///
     /// # Errors
     /// The place has no direction.
-    pub(super) fn seed(
+    pub(in super::super) fn seed(
         &self,
         cell: [usize; 3],
         world: DVec3,
@@ -107,7 +107,7 @@ impl<'f> StrokeGrower<'f, '_> {
 
     /// Finds the place nearest to s = 0, |s| ≤ `reach`, at which the line x + s·along has a value. `along` is a unit
     /// vector of the world. [`Self::near`] is the tolerance.
-    pub(super) fn meets(
+    pub(in super::super) fn meets(
         &self,
         x: DVec3,
         along: DVec3,
@@ -123,7 +123,7 @@ impl<'f> StrokeGrower<'f, '_> {
 
     /// Tolerance of |f − target|: the largest of 2⁻⁴⁰ of the range of values, the rounding of a large target, and the
     /// change of values over the rounding of places far from the world's origin.
-    pub(super) fn near(&self, target: f64) -> f64 {
+    pub(in super::super) fn near(&self, target: f64) -> f64 {
         let [lo, hi] = self.ground().range();
         let places = self.rounding() * (hi - lo);
         scale_by_power_of_two(hi - lo, -40).max(4.0 * f64::EPSILON * target.abs()).max(places)

@@ -1,13 +1,14 @@
 //! Strokes along the lines of curvature, traced in both directions from their seeds ([HATCH-4], [HATCH-8], [HATCH-9],
 //! [HATCH-11]).
 
+use super::super::directions::{
+    CellCache, DirectionEstimator, DirectionInputs, DirectionStorage, PrincipalDirections, ReferenceField,
+    StoredDirections,
+};
+use super::super::seeds::Seed;
 use super::counts::{DirectionCounts, HatchCounts, NoDirection, RejectCause, StrokeEnd};
-use super::ground::{StrokeField, inside, normal};
 use super::integrator::{Control, CubicSegment, EndCause, Goal, HalfCurve, LineField, trace};
-use super::orientation::ReferenceField;
-use super::placement::Seed;
-use super::stored::{CellCache, DirectionInputs, DirectionStorage, StoredDirections};
-use super::umbilics::{DirectionEstimator, PrincipalDirections};
+use super::stroke_field::{StrokeField, inside, normal};
 use crate::field::Field;
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
@@ -148,7 +149,7 @@ impl HatchParams {
     }
 
     /// The effective δ: at least the chords' error plus 0.05 voxel.
-    pub(super) fn in_front(&self, grid: &Grid) -> f64 {
+    pub(in super::super) fn in_front(&self, grid: &Grid) -> f64 {
         self.offset.max(self.chord + CLEARANCE * grid.voxel())
     }
 }
@@ -210,13 +211,13 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
     }
 
     /// Whether the directions of all voxels are computed in advance.
-    pub(super) fn is_prepared(&self) -> bool {
+    pub(in super::super) fn is_prepared(&self) -> bool {
         self.how.stored.is_some_and(|storing| storing.all)
     }
 
     /// The largest change of values over the rounding of a place in the world, as a share of their range: a few units
     /// of rounding in voxels.
-    pub(super) fn rounding(&self) -> f64 {
+    pub(in super::super) fn rounding(&self) -> f64 {
         self.rounding
     }
 
@@ -226,7 +227,7 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
 
     /// Computes the directions of all voxels, with random signs.
     #[cfg(test)]
-    pub(super) fn turn_signs(&self) {
+    pub(in super::super) fn turn_signs(&self) {
         if let Some(stored) = &self.stored {
             stored.turn_signs(&self.source());
         }
@@ -238,7 +239,7 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
     }
 
     /// Curvatures and directions at a voxel.
-    pub(super) fn at_voxel(&self, voxel: [usize; 3]) -> Option<Curvature<f64>> {
+    pub(in super::super) fn at_voxel(&self, voxel: [usize; 3]) -> Option<Curvature<f64>> {
         match &self.stored {
             Some(stored) => stored.voxel(&self.source(), voxel),
             None => {
@@ -249,7 +250,7 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
     }
 
     /// Curvatures and directions at a place in index space.
-    pub(super) fn curvature(
+    pub(in super::super) fn curvature(
         &self,
         index: Vec3<f64>,
         counts: &mut DirectionCounts,
@@ -411,7 +412,7 @@ fn stop(end: &EndCause<NoDirection>) -> StrokeEnd {
 }
 
 /// The lines of curvature of one family near the surface f = target.
-pub(super) struct CurvatureLines<'s, 'f, 'v> {
+pub(in super::super) struct CurvatureLines<'s, 'f, 'v> {
     strokes: &'s StrokeGrower<'f, 'v>,
     family: CurvatureFamily,
     target: f64,
@@ -430,7 +431,7 @@ pub(super) struct CurvatureLines<'s, 'f, 'v> {
 
 impl<'s, 'f, 'v> CurvatureLines<'s, 'f, 'v> {
     /// `family` is `Max` or `Min`.
-    pub(super) fn new(
+    pub(in super::super) fn new(
         strokes: &'s StrokeGrower<'f, 'v>,
         family: CurvatureFamily,
         target: f64,

@@ -2,7 +2,7 @@
 
 use super::class::parities;
 use super::groups::{GroupBounds, LANES, PointGroup, farthest, lower, settle};
-use super::links::{NeighbourLinks, id_of, offset_of};
+use super::neighbours::{NeighbourLinks, id_of, offset_of};
 use super::pool::{Class, Site, point_of, rows_of_groups};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;

@@ -1,7 +1,7 @@
 //! Strokes as a pen draws them: vertices are added where its width or colour changes, and parts that are too thin are
 //! removed ([HATCH-12], [HATCH-13]).
 
-use super::sight::PenState;
+use super::visibility::PenState;
 use drypoint_scene::color::linear_to_srgb;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::philox::uniform;

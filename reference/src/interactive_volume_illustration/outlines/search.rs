@@ -7,12 +7,12 @@
 //!
 //! A grid with an axis of one voxel has no cells and no outline.
 
+use super::box_intersection::rim;
 use super::chain::{Chain, chains};
-use super::level::IsoDifference;
-use super::refine::CurveRefinement;
-use super::rim::rim;
+use super::curve_refinement::CurveRefinement;
+use super::iso_difference::IsoDifference;
+use super::simplification::kept;
 use super::tetrahedra::{FACES, TETRAHEDRA, ValuePair, crossed, is_above, weights};
-use super::thin::kept;
 use crate::field::Sampler;
 use crate::field::normal::outward;
 use crate::number::Vec3;

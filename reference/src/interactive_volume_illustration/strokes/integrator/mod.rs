@@ -2,9 +2,9 @@
 //! ([HATCH-4], [HATCH-8], [HATCH-10]).
 
 mod chords;
-mod piece;
+mod cubic_segment;
 mod trace;
 
 pub use chords::{point, vertices};
-pub use piece::CubicSegment;
+pub use cubic_segment::CubicSegment;
 pub use trace::{Control, EndCause, Goal, HalfCurve, LineField, trace};

@@ -12,7 +12,7 @@ use super::class::class_of;
 use super::groups::{
     EightFloats, GroupBounds, LANES, PointGroup, REACH as GROUP_REACH, squared_distances, take_largest,
 };
-use super::links::RowIndex;
+use super::neighbours::RowIndex;
 use super::pool::{Class, Site};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
@@ -275,7 +275,7 @@ mod tests {
     #[test]
     fn bounds_hide_no_point() {
         use super::super::class::by_class;
-        use super::super::links::NeighbourLinks;
+        use super::super::neighbours::NeighbourLinks;
         use super::super::pool::pool_size;
         let (cells, normals) = ([[3, 4, 5]], [drypoint_scene::glam::DVec3::new(1.0, 2.0, 3.0).normalize()]);
         let sites = super::super::tests::sites(&cells, &normals, true);

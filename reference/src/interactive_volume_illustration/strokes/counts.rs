@@ -63,7 +63,7 @@ pub struct StrokeEnds {
 
 impl StrokeEnds {
     /// Counts one end.
-    pub(super) fn count(&mut self, stop: StrokeEnd) {
+    pub(in super::super) fn count(&mut self, stop: StrokeEnd) {
         *match stop {
             StrokeEnd::Length => &mut self.length,
             StrokeEnd::Angle => &mut self.angle,
@@ -120,7 +120,7 @@ impl RejectCounts {
     }
 
     /// Counts one cell.
-    pub(super) fn count(&mut self, rejected: RejectCause) {
+    pub(in super::super) fn count(&mut self, rejected: RejectCause) {
         *match rejected {
             RejectCause::NoSurface => &mut self.no_surface,
             RejectCause::Direction(_) => &mut self.no_direction,

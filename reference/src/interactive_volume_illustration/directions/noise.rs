@@ -3,7 +3,7 @@
 //! The rule for directions knows the rounding of stored numbers, which is the only error of a phantom. A scanner's
 //! noise is up to fifty times as large, and like rounding it creates directions where there are none.
 
-use super::pyramid::Pyramid;
+use super::super::seeds::Pyramid;
 use crate::field::Outside;
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;

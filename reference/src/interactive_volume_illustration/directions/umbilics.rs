@@ -6,10 +6,9 @@
 //! finest scale that meets all conditions is taken. A scale decides nothing where it reaches beyond the volume or
 //! into voxels without a value.
 
-use super::clear::MaskMargins;
-use super::counts::{DirectionCounts, NoDirection};
-use super::directions;
-use super::ground::StrokeField;
+use super::super::strokes::{DirectionCounts, NoDirection, StrokeField};
+use super::mask_margin::MaskMargins;
+use super::principal::principal;
 use super::stored::VoxelBox;
 use crate::field::curvature::Curvature;
 use crate::field::normal::outward;
@@ -198,7 +197,7 @@ fn plain(
         counts.gradient += 1;
         return Err(NoDirection::Gradient);
     }
-    let c = directions::principal(gradient, hessian, ground.outside());
+    let c = principal(gradient, hessian, ground.outside());
     if c.k1 == c.k2 {
         counts.umbilic[0] += 1;
         return Err(NoDirection::Umbilic);
@@ -302,7 +301,7 @@ impl ScaledRule<'_, '_> {
         let (larger_gradient, larger_hessian) = self.derivatives([i, 1], place, regions)?;
         // For an umbilic the cosine is NaN, and the comparison is false.
         if shape.cos_double(&ShapeOperator::new(larger_gradient, larger_hessian)) > self.cos_double {
-            Ok(directions::principal(gradient, hessian, self.outside))
+            Ok(principal(gradient, hessian, self.outside))
         } else {
             Err(Uncertainty::Disagree)
         }
@@ -419,7 +418,7 @@ mod tests {
             let turned = (g + vector(30) * 0.5) * size;
             let shapes = [ShapeOperator::new(g, h), ShapeOperator::new(turned, other)];
             for outside in [Outside::Low, Outside::High] {
-                let [c, d] = [directions::principal(g, h, outside), directions::principal(turned, other, outside)];
+                let [c, d] = [principal(g, h, outside), principal(turned, other, outside)];
                 for (shape, c, g, h) in [(&shapes[0], &c, g, 1.0), (&shapes[1], &d, turned, size)] {
                     let bound = 32.0 * f64::EPSILON * 3.0 * h;
                     let near = |square: f64, want: f64| (square.sqrt() - want * g.length()).abs() <= bound;

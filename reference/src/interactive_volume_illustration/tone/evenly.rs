@@ -3,11 +3,9 @@
 //! A page has room for some thousand strokes, but a hundred thousand cells could begin one. So only strokes that may
 //! still begin are grown, in groups, in the order of the cells' random numbers.
 
-use super::counts::{HatchCounts, RejectCause};
-use super::ground::{inside, normal};
-use super::sight::{PenState, Sight};
-use super::spacing::LineSpacing;
-use super::strokes::StrokeGrower;
+use super::super::sight::{PenState, Sight};
+use super::super::strokes::{HatchCounts, RejectCause, StrokeGrower, inside, normal};
+use super::line_spacing::LineSpacing;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::Polyline;
 use drypoint_scene::philox::uniforms;

@@ -1,9 +1,9 @@
 //! Measures |∇| and κ of a field, by which the seeds of its strokes are chosen ([HATCH-5], [HATCH-6]).
 
+use super::super::strokes::StrokeGrower;
 use super::measures::VoxelMeasure;
 use super::pyramid::Pyramid;
-use super::seeds::{SeedRule, Seeds};
-use super::strokes::StrokeGrower;
+use super::selection::{SeedRule, Seeds};
 use crate::field::Field;
 use crate::number::Vec3;
 use crate::ray::quantile_of_norms;

@@ -1,6 +1,6 @@
 //! The extent of content: its surface lies up to a voxel beyond its outermost voxels.
 
-use super::body::{Content, ContentRange};
+use super::content::{Content, ContentRange};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::Volume;
 

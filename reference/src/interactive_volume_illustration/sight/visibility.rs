@@ -3,7 +3,7 @@
 //! A straight segment of a stroke is straight on the page. Visibility is tested along it every half pixel, and each
 //! change is narrowed down to a tenth of a pixel.
 
-use super::project::{ClippedSegment, PageProjection};
+use super::projection::{ClippedSegment, PageProjection};
 use super::styled::StyledStroke;
 use crate::surface::IsoSurface;
 use drypoint_scene::color::Rgb;

@@ -104,7 +104,7 @@ impl StrokeField for Field<'_, f64> {
 
 /// Converts a place of the world to index space. Returns none outside the volume's box and in cells that touch a
 /// masked voxel.
-pub(super) fn inside(ground: &dyn StrokeField, world: DVec3) -> Option<Vec3<f64>> {
+pub(in super::super) fn inside(ground: &dyn StrokeField, world: DVec3) -> Option<Vec3<f64>> {
     index_inside(ground, ground.grid().to_index(world))
 }
 
@@ -119,7 +119,7 @@ pub(super) fn index_inside(ground: &dyn StrokeField, index: DVec3) -> Option<Vec
 }
 
 /// N and ‖g‖, in the value's unit per world unit times 2^−e. Returns none where the gradient is rounding error.
-pub(super) fn normal(ground: &dyn StrokeField, index: Vec3<f64>) -> Option<(DVec3, f64)> {
+pub(in super::super) fn normal(ground: &dyn StrokeField, index: Vec3<f64>) -> Option<(DVec3, f64)> {
     let gradient = ground.gradient(index);
     outward(gradient, ground.outside(), ground.no_normal_below()).map(|n| (n.to_glam(), gradient.length()))
 }

@@ -1,9 +1,8 @@
 //! Strokes without an iso-value, at all values that count ([HATCH-16]).
 
-use super::ground::inside;
+use super::super::strokes::{StrokeGrower, inside};
 use super::pyramid::Pyramid;
-use super::seeds::{SeedRule, Seeds};
-use super::strokes::StrokeGrower;
+use super::selection::{SeedRule, Seeds};
 use crate::field::Field;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::tables::Measure as Kind;

@@ -1,6 +1,6 @@
 //! The intersection of an iso-surface with the faces of the volume's box ([HATCH-18]).
 
-use super::outline::{CurvePoint, OutlineSearch, position};
+use super::search::{CurvePoint, OutlineSearch, position};
 use super::tetrahedra::is_above;
 use crate::field::Sampler;
 use crate::number::Vec3;
