@@ -139,6 +139,7 @@ pub fn nearest(colors: &[Rgb], inks: &[Rgb]) -> Vec<usize> {
 /// there are few enough colours, they are returned themselves. Otherwise they are means of a median cut in OKLab,
 /// which halves the widest box until there are enough.
 pub fn palette(colors: &[Rgb], most: usize) -> Vec<Rgb> {
+    // A histogram of the colours as bytes.
     let byte = |c: f64| (linear_to_srgb(c.clamp(0.0, 1.0)) * 255.0).round_ties_even() as u8;
     let mut weights: BTreeMap<[u8; 3], f64> = BTreeMap::new();
     for color in colors {
@@ -154,6 +155,7 @@ pub fn palette(colors: &[Rgb], most: usize) -> Vec<Rgb> {
         let ends = b.iter().fold([f64::MAX, f64::MIN], |[lo, hi], (_, lab, _)| [lo.min(lab[c]), hi.max(lab[c])]);
         ends[1] - ends[0]
     };
+    // Median cut: halves the box with the longest side, by weight along this side.
     while boxes.len() < most {
         let sides = boxes.iter().enumerate().flat_map(|(i, b)| (0..3).map(move |c| (i, c, b)));
         let widest = sides.map(|(i, c, b)| (width(b, c), i, c)).max_by(|a, b| a.0.total_cmp(&b.0));
@@ -173,6 +175,7 @@ pub fn palette(colors: &[Rgb], most: usize) -> Vec<Rgb> {
         boxes[i] = cut;
         boxes.push(second);
     }
+    // The mean of each box in linear light, rounded to bytes.
     let mean = |b: &Vec<([u8; 3], Rgb, f64)>| {
         let all: f64 = b.iter().map(|(.., n)| n).sum();
         let mean = [0, 1, 2].map(|c| b.iter().map(|(bytes, _, n)| light(*bytes)[c] * n).sum::<f64>() / all);

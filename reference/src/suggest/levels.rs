@@ -152,6 +152,8 @@ fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> SliceShares + Sync) -
     // Four voxels in a row along an axis; the border's voxel replaces those outside.
     let around = |i: usize, n: usize| [i.saturating_sub(1), i, i + 1, i + 2].map(|i| i.min(n - 1));
     let slice = &slice;
+    // A thread walks through consecutive slices with a window of four, and adds each voxel and its three forward
+    // pairs.
     let part = |part: usize| {
         let first = part * THICKNESS;
         let mut slices = around(first, nz).map(slice);

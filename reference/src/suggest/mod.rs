@@ -133,6 +133,7 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], 
     if scene.transfer.is_none() {
         return;
     }
+    // Small content gets finer steps, and a reference length that keeps it as opaque.
     let finer = fit.extent / (FINE * volume.grid().voxel());
     if finer < 1.0 {
         // Otherwise such small content would stay translucent.

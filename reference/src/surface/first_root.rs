@@ -109,6 +109,8 @@ impl RootFinder {
         let [enters, leaves] = walk.range();
         match sampler.corners(walk.cell()) {
             Some(corners) => {
+                // Trilinear: f along the line is a cubic. Corners on one side of `iso` exclude a root without
+                // computing it.
                 let over = |c: R| self.over(c);
                 let corners = corners.map(|row| row.map(over));
                 if let Some(above) = one_side(&corners)
@@ -117,6 +119,7 @@ impl RootFinder {
                     return CellSearch::None { above };
                 }
                 let cubic = along(&corners, walk.entry(), walk.exit());
+                // A change of sign between the previous cell and this one is a root on their common face.
                 if before.is_some_and(|above| above != (cubic.0[0] > 0.0)) {
                     return CellSearch::Root(enters);
                 }
@@ -128,6 +131,7 @@ impl RootFinder {
             None => {
                 let value =
                     |w: [f64; 3]| self.over(sampler.value_at(Place { cell: walk.cell(), w: w.map(R::from_f64) }));
+                // Other kernels: equidistant values, and a bracketed root at the first change of sign.
                 let steps = (length * (leaves - enters) / STEP).ceil().max(1.0);
                 let (mut from, mut at_from) = (enters, value(walk.entry()));
                 if at_from == 0.0 || before.is_some_and(|above| above != (at_from > 0.0)) {

@@ -134,6 +134,7 @@ impl<R: Real> Piecewise<R> {
         let (first, last) = (at[0].to_f64(), at[end].to_f64());
         let width = (at[end] - at[0]).to_f64();
         let segment = |v: f64| at.iter().rposition(|a| a.to_f64() <= v).unwrap_or(0);
+        // The content of a part. Its neighbours count as well, since rounding may lead a value to a neighbour.
         let part = |part: usize| {
             // Part 1 begins at the first node.
             let edge = |n: f64| first + width * ((part as f64 - 1.0 + n) / PARTS as f64);
@@ -156,6 +157,7 @@ impl<R: Real> Piecewise<R> {
         } else {
             (Box::new([LookupPart::Search(0); PARTS + 2]), R::ZERO)
         };
+        // The same table in bytes, for lanes, and one more entry for values beyond the last node.
         let mut codes = Box::new([0; (PARTS + 3).next_power_of_two()]);
         let beyond = if opacity[end] == R::ZERO { LookupPart::Invisible } else { LookupPart::Segment(end as u32) };
         for (code, part) in codes.iter_mut().zip(parts.iter().chain([&beyond])) {

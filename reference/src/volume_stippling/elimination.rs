@@ -37,6 +37,7 @@ pub fn eliminate(candidates: &[DotCandidate]) -> Vec<usize> {
     if wanted == 0 {
         return Vec::new();
     }
+    // Local radii from the local density, pairs that crowd each other, and each candidate's total weight.
     let cells = PointCells::new(candidates);
     let radii = cells.radii(candidates);
     let (crowds, first) = crowds(candidates, &cells, &radii, wanted as f64 / candidates.len() as f64);
@@ -48,6 +49,7 @@ pub fn eliminate(candidates: &[DotCandidate]) -> Vec<usize> {
     let mut heap: BinaryHeap<(u64, Reverse<usize>)> = (0..candidates.len()).map(|i| key(i, &weights)).collect();
     let mut is_kept = vec![true; candidates.len()];
     let mut left = candidates.len();
+    // Removes the most crowded candidate and relieves its neighbours, until the wanted number is left.
     while left > wanted
         && let Some((bits, Reverse(i))) = heap.pop()
     {
@@ -180,6 +182,7 @@ impl PointCells {
             }
         }
         let sum = |x: usize, y: usize| sums[y * (width + 1) + x];
+        // The smallest square window around a cell with enough shares gives the density ρ, and r = √(1/(2√3 ρ)).
         let window = |[x, y]: [usize; 2]| {
             for reach in 1.. {
                 let (x0, y0) = (x.saturating_sub(reach), y.saturating_sub(reach));

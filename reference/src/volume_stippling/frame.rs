@@ -197,6 +197,7 @@ impl<'a> Frames<'a> {
         let size = voxel.magnitude * factors.size;
         // T = 1 draws the whole list, except for the fraction of a point by which it is too long.
         let whole_list = self.still[i].piece * (self.points.full / each as f64);
+        // Eq. 2: the share T of the list. A pen has one size, so its ink N_i·S_i² decides the number of dots instead.
         let (share, size, unit) = match self.nib {
             None => (factors.count * whole_list, size, self.size),
             Some(nib) => {
@@ -210,6 +211,7 @@ impl<'a> Frames<'a> {
         if radius <= 0.0 {
             return;
         }
+        // The prefix of the list: dots to draw, or candidates that are thinned on the page later.
         let (opacities, listed) = match self.stipples.even {
             Even::None => {
                 let drawn = dots(each, share, size, self.stipples.ink, voxel.cell);
@@ -221,6 +223,7 @@ impl<'a> Frames<'a> {
             }
         };
         let (whole, opacity, fading) = opacities;
+        // Each point is projected and tested for visibility.
         let list = &self.points.of(i)[..listed];
         for (k, offset) in list.iter().enumerate() {
             let o = DVec3::from_array(offset.map(f64::from));

@@ -79,12 +79,14 @@ impl<'a> Preprocess<'a> {
     /// The volume makes no field, a length is in the wrong space, or there are too many voxels or points per voxel.
     pub fn new(inputs: StippleInputs<'a>) -> Result<Self, StippleError> {
         let StippleInputs { stipples, table, volume, view, near, square, tone } = inputs;
+        // 4.2: the resolution, adjusted to the projected area.
         let area = projected_area(volume.grid(), view, near) / (square * square);
         let m = stipples.box_side.map_or_else(|| box_side(area, volume.dims()), |m| m as usize);
         let fine = volume.range();
         let (volume, m) = boxes(volume, m).map_or((Cow::Borrowed(volume), 1), |boxed| (Cow::Owned(boxed), m));
         // In voxels of the grid in which points are made.
         let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Length { key: "stipples.slab" })?;
+        // 4.1: gradients, and the voxels above the threshold.
         let field = field_of(&volume, stipples.gradient, table.outside)?;
         let range = table.range.unwrap_or(fine);
         let BoundaryVoxels { voxels, to_edge, layers } =
@@ -96,6 +98,7 @@ impl<'a> Preprocess<'a> {
             let grid = volume.grid();
             layers * grid.voxel() / grid.axes().determinant().abs() * pixel * pixel
         };
+        // Eq. 1: points per voxel, or the number that prints the full tone.
         let full = match (stipples.k_max, tone) {
             (PointsPerPixel::Number(k_max), _) => {
                 let thickness = if stipples.thin { mean_thickness(volume.grid(), view, near) } else { 1.0 };
@@ -241,6 +244,7 @@ fn above<S: Sampler<f64>>(
 ) -> BoundaryVoxels {
     let volume = field.volume();
     let (stipples, dims) = (inputs.stipples, volume.dims());
+    // ‖∇V‖ of every voxel, its range and its threshold.
     let norms = norms(sampler, field.volume(), estimator(stipples.gradient));
     let bound = field.no_normal_below();
     let quantile = |q| quantile_above(&norms, bound, q).unwrap_or(0.0);
@@ -257,6 +261,7 @@ fn above<S: Sampler<f64>>(
             Box::new(move |norm| norm > t)
         }
     };
+    // Voxels above the threshold. With `thin` only those on the ridge of ‖∇V‖ are kept.
     let grid = volume.grid();
     let to_step = |normal: DVec3| step(grid, normal, stipples.thin);
     let outward = if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 };
@@ -278,6 +283,7 @@ fn above<S: Sampler<f64>>(
         candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)).collect::<Vec<_>>()
     });
     let mut voxels = rows.collect::<Vec<_>>().concat();
+    // With `snap` points move to the ridge, and V and ‖∇V‖ are taken there.
     let onto_edge = |v: &mut PointVoxel| {
         let cell = v.cell.map(|i| i as usize);
         let top = ridge.top(cell, to_step(v.normal));

@@ -60,6 +60,7 @@ impl Slab {
         let (b, c) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
         let (slope_b, slope_c) = (self.slope[b], self.slope[c]);
         let (mut points, mut is_inside) = ([[0.0; 3]; N], [false; N]);
+        // On an edge the third coordinate is that of the tangent plane, and every draw counts.
         if let Some(to_edge) = self.to_edge {
             for l in 0..N {
                 let (across, up) = (u[l] - 0.5, v[l] - 0.5);

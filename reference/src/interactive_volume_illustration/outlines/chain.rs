@@ -23,6 +23,7 @@ pub(super) fn chains(mut pieces: Vec<[u64; 2]>) -> Vec<Chain> {
     let mut keys: Vec<u64> = pieces.iter().flatten().copied().collect();
     keys.sort_unstable();
     keys.dedup();
+    // Each place gets links to its two neighbours, as long as both ends of a segment are free.
     let mut joined = vec![[NONE; 2]; keys.len()];
     for piece in pieces {
         // `keys` contains every key of a segment.
@@ -32,6 +33,7 @@ pub(super) fn chains(mut pieces: Vec<[u64; 2]>) -> Vec<Chain> {
             (joined[a][i], joined[b][j]) = (b, a);
         }
     }
+    // Open chains start at places with one link. All places left over belong to rings.
     let mut is_used = vec![false; keys.len()];
     let mut chains = Vec::new();
     let ends = (0..keys.len()).filter(|&i| joined[i][1] == NONE && joined[i][0] != NONE);

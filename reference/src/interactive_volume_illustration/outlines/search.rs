@@ -137,11 +137,13 @@ impl OutlineSearch<'_> {
         let cells: [usize; 3] = std::array::from_fn(|a| BRICK.min(self.grid.dims()[a] - 1 - first[a]));
         let local = |[x, y, z]: [usize; 3]| (z * SIDE + y) * SIDE + x;
         let at = |cell: [usize; 3], steps: usize| std::array::from_fn(|a| cell[a] + (steps >> a & 1));
+        // f − iso at all corners of the brick's cells.
         let mut over = [0.0; SIDE * SIDE * SIDE];
         for_each(cells.map(|n| n + 1), |voxel| {
             let index: [usize; 3] = std::array::from_fn(|a| first[a] + voxel[a]);
             over[local(voxel)] = self.level.over(sampler.value(Vec3::from_glam(position(index))));
         });
+        // g·v is computed only at corners of cells in which f − iso changes its sign; NaN marks the others.
         let mut facing = [f64::NAN; SIDE * SIDE * SIDE];
         let mut pieces = Vec::new();
         for_each(cells, |cell| {

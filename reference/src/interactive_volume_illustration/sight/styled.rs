@@ -157,12 +157,14 @@ fn thick(
         let (vertices, pens) = part.into_iter().map(|(place, pen)| (place.vertex, pen)).unzip();
         StyledStroke { stroke: Stroke { vertices, closed, key: stroke.key }, pens }
     };
+    // A closed stroke that is wide everywhere stays closed, without the repeated vertex.
     if stroke.closed && all.iter().all(is_thick) {
         return match all {
             [whole @ .., _] => vec![drawn(whole.to_vec(), true)],
             [] => Vec::new(),
         };
     }
+    // A part begins and ends where the width crosses `least`.
     let mut parts: Vec<Vec<(StrokePoint, PenState)>> = Vec::new();
     let mut part: Vec<(StrokePoint, PenState)> =
         all.first().filter(|first| is_thick(first)).copied().into_iter().collect();

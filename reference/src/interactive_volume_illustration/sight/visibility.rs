@@ -128,6 +128,7 @@ struct PennedVertex {
 
 impl VisibilityTrace<'_, '_> {
     fn lines(&mut self, mut ends: Vec<PennedVertex>, closed: bool) -> Vec<Polyline> {
+        // A closed stroke repeats its first vertex.
         if let (true, Some(first)) = (closed, ends.first().copied()) {
             ends.push(PennedVertex { vertex: StrokeVertex { u: 1.0, ..first.vertex }, ..first });
         }
@@ -142,6 +143,8 @@ impl VisibilityTrace<'_, '_> {
                 (joins, known) = (false, None);
                 continue;
             };
+            // The visible ranges of the segment. The visibility at its start is known if the segment before was not
+            // clipped.
             let (ranges, last) = self.ranges(&piece, &cut, known.filter(|_| cut.range[0] == 0.0));
             known = (cut.range[1] == 1.0).then_some(last);
             let mut ends_seen = false;
@@ -157,6 +160,7 @@ impl VisibilityTrace<'_, '_> {
             }
             joins = ends_seen;
         }
+        // A ring that is visible at its seam: one part is the whole ring, several parts join across the seam.
         let meets = closed && begins_seen && joins;
         if let (true, [whole]) = (meets, parts.as_mut_slice()) {
             whole.pop();

@@ -284,6 +284,7 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
     /// Grows the strokes of cells, in parallel and in the order of the cells. If `cross` accepts a seed, a second
     /// stroke follows the other direction ([HATCH-11]).
     pub fn grow_all(&self, cells: &[[usize; 3]], cross: impl Fn(&Seed) -> bool + Sync) -> GrownStrokes {
+        // Cells are visited box by box for locality; results are put back in the order of the cells.
         let mut order: Vec<usize> = (0..cells.len()).collect();
         order.sort_by_key(|&i| cells[i].map(|c| c / NEIGHBOURS));
         let some = |order: &[usize]| {
@@ -344,6 +345,7 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
     fn follow(&self, seed: &Seed, family: CurvatureFamily, length: f64, counts: &mut HatchCounts) -> Option<Stroke> {
         let mut counted = *counts;
         let length = length * self.how.scattered(seed.cell);
+        // The line field at the seed, and the sense of the stroke by the reference field.
         let mut lines = CurvatureLines::new(self, family, seed.target, &mut counted);
         let along = self.how.reference.signed(lines.at(seed.world).ok()?, seed.world);
         let scale = lines.scale;
@@ -361,6 +363,7 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
         let within = self.how.chord + 5.0 * self.how.tolerance;
         let goal = |at: DVec3, along: DVec3, after: f64| Some(Goal { at, along, within, after });
         let back_again = goal(seed.world, along, OUT * within);
+        // The forward half, which may come back to the seed; otherwise the backward half follows.
         let forward = trace(&mut lines, seed.world, along, &Control { goal: back_again, ..control });
         let stop = stop(&forward.end);
         let (pieces, at_seed, stops) = if stop == StrokeEnd::Closed {

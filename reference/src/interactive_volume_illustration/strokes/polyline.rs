@@ -65,6 +65,7 @@ impl StrokeGrower<'_, '_> {
         }
         let at = vertices(pieces, self.how().chord);
         let mut runs = VertexRuns { each: vec![Vec::with_capacity(2 * at.len())], faces: Vec::with_capacity(16) };
+        // Chord vertices are put back onto the surface. `segment` adds vertices between them, or cuts the run.
         let mut before: Option<FrontVertex> = None;
         for t in at {
             let next = self.put_back(point(pieces, t), seed.target).map(|world| FrontVertex { t, world });
@@ -75,6 +76,7 @@ impl StrokeGrower<'_, '_> {
             }
             before = next;
         }
+        // Of a broken stroke only the run with the seed is kept.
         let broken = runs.each.len() > 1;
         counts.cut += u64::from(broken);
         let at = at_seed as f64;

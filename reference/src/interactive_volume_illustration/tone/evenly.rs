@@ -70,12 +70,15 @@ impl StrokeGrower<'_, '_> {
         tone: impl Fn(DVec3) -> f64 + Sync,
         spread: &mut LineSpacing,
     ) -> EvenStrokes {
+        // Visible places of all cells, in random order.
         let mut candidates: Vec<StrokeCandidate> =
             cells.par_iter().flat_map_iter(|&cell| self.candidates(sight, cell, seed, spread.least(), &tone)).collect();
         candidates.par_sort_by(|a, b| a.order.total_cmp(&b.order).then(a.cell.cmp(&b.cell)));
         let mut even = EvenStrokes { seen: candidates.len() as u64, ..EvenStrokes::default() };
         let mut left = candidates.iter();
         loop {
+            // The next candidates whose place is still free. They are grown in parallel, and only then accepted in
+            // order.
             let group: Vec<&StrokeCandidate> =
                 left.by_ref().filter(|c| spread.is_open(c.at, c.tone)).take(GROUP).collect();
             if group.is_empty() {
@@ -104,6 +107,7 @@ impl StrokeGrower<'_, '_> {
                 }
                 even.counts += counts;
             }
+            // The visible parts of the grown strokes take their places on the page.
             let seen = sight.seen(&strokes, ink);
             even.looks += seen.looks;
             even.lines.extend(spread.add(&seen.lines));

@@ -83,6 +83,7 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
     let not_placed =
         |&cell: &[u32; 3]| TakenPoint { at: [f32::NAN; 3], tone: (1.0 - blue_noise::at(cell)) as f32, slot: 0 };
     let mut taken: Vec<TakenPoint> = cells.iter().map(not_placed).collect();
+    // Voxels of a class do not affect each other, so all of them take their points in parallel.
     for sweep in 0..SWEEPS {
         for class in order(sites.seed, sweep) {
             let take = |work: &mut FirstPointBuffers, &i: &usize| {

@@ -81,6 +81,7 @@ pub(super) fn bytes_a_voxel(each: usize) -> u64 {
 pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Sync)) -> Vec<[f32; 3]> {
     let n = sites.cells.len();
     let size = pool_size(each);
+    // Voxels are sorted by parity class, so that a class is a slice whose voxels can be processed in parallel.
     let (ids, starts) = by_class(sites.cells);
     let links = NeighbourLinks::new(sites, &ids);
     let around: Vec<[f32; 3]> = (0..27).map(|k| scaled(sites, delta(k))).collect();
@@ -88,6 +89,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     let mut taken = [vec![[0f32; 3]; n], vec![[0f32; 3]; n]];
     // Sorted by rank, so that a visit writes contiguous memory.
     let mut chosen = vec![0u32; n * each];
+    // Rank 0.
     for (i, slot) in first_points::first_points(sites, &classes, &ids).into_iter().enumerate() {
         let id = ids[i] as usize;
         let class = &mut classes[class_of(sites.cells[i])];
@@ -97,6 +99,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
         taken[1][id] = scaled(sites, class.point(sites, index, slot));
     }
     done(1);
+    // Further ranks: every class in hashed order, `sweeps` times. `before` holds the points of the previous rank.
     for rank in 1..each {
         let order = class_order(sites.seed, rank);
         let order_before = class_order(sites.seed, rank - 1);
@@ -113,6 +116,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
                 let is_last = sweeps(rank) == 1;
                 let step = Visit { sweep, links: &links, around: &around, earlier, missed, is_last };
                 let class = &mut classes[class];
+                // The class writes its own slice and reads the other classes on both sides of it.
                 let (start, end) = (class.start, class.start + class.sites.len());
                 let (left, rest) = now.split_at_mut(start);
                 let (own, right) = rest.split_at_mut(end - start);

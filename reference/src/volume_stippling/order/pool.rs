@@ -126,6 +126,7 @@ impl Site {
     ) -> Self {
         let (cell, n) = (sites.cells[i], sites.normals[i]);
         let slab = sites.slab_of(i);
+        // A face with neighbours on neither or only one side along n is thin: distances are in the tangent plane.
         let has = |side: f64| {
             let to = towards(sites, n * side);
             links.all[first as usize..end as usize].iter().any(|&link| offset_of(link) == to)
@@ -134,6 +135,7 @@ impl Site {
         let flat = flat.to_array().map(|x| x as f32);
         let mut reach = 0f32;
         points.clear();
+        // Random points inside the slab, eight draws at a time. Draws that miss are repeated one by one.
         for group in 0..(size / LANES) as u32 {
             let mut draws = [0; LANES];
             for (l, draw) in (0..).zip(&mut draws) {
@@ -148,6 +150,7 @@ impl Site {
                 points.push(PoolPoint { key: 0, draw, at });
             }
         }
+        // Sorting by Morton code keeps near points in one group, so that bounds of groups are tight.
         let reach = reach.sqrt();
         let scale = 0.5 / reach.max(f32::MIN_POSITIVE);
         for point in points.iter_mut() {

@@ -69,6 +69,8 @@ fn visit(
     let neighbours = &step.links.all[site.first as usize..site.end as usize];
     let is_in = |set: u8, link: u32| set >> (number ^ parities(offset_of(link))) & 1 == 1;
     let mut near = NearbyPoints::new(site);
+    // The first sweep removes the previous point from the pool, and adds all points of the previous rank to the
+    // distances.
     if step.sweep == 0 {
         let group = site.slot / LANES;
         pool[group].far[site.slot % LANES] = -1.0;
@@ -82,6 +84,7 @@ fn visit(
             near.clear(site);
         }
     }
+    // Points of this rank that neighbours have already taken.
     for &link in neighbours.iter().filter(|&&link| is_in(step.earlier, link)) {
         let id = id_of(link);
         let point = if id < seen.start { seen.left[id] } else { seen.right[id - seen.end] };

@@ -172,6 +172,7 @@ pub fn trace<L: LineField>(field: &mut L, start: DVec3, along: DVec3, control: &
                 if tries < TRIES_AT_KINK
                     && let Some(s) = field.kink(&done.piece)
                 {
+                    // The step is tried again up to the kink, so that no step crosses it.
                     kink = Some((whole, tries + 1));
                     half.rejected += 1;
                     h = s * step;
@@ -192,6 +193,7 @@ pub fn trace<L: LineField>(field: &mut L, start: DVec3, along: DVec3, control: &
                 // A step that was shortened at a kink does not limit the next one.
                 h = (step * done.factor).max(if tries > 0 { whole } else { 0.0 }).min(control.max_step);
             }
+            // The smallest step fails: the curve ends.
             Err(fault) if step <= control.min_step => {
                 half.end = match fault {
                     StepFault::Field(cause) => EndCause::Field(cause),
@@ -234,6 +236,7 @@ fn try_step<L: LineField>(
         }
         Ok(v)
     };
+    // Classical RK4; k₅ is k₁ of the next step. The embedded solution has k₅ for k₄, so they differ by h/6·(k₄ − k₅).
     let k2 = stage(field, x + k1 * (0.5 * h), k1)?;
     let k3 = stage(field, x + k2 * (0.5 * h), k1)?;
     let k4 = stage(field, x + k3 * h, k1)?;
@@ -245,11 +248,13 @@ fn try_step<L: LineField>(
     if across > tolerance && across > error {
         return Err(StepFault::Error((0.9 * (tolerance / across)).clamp(0.2, 0.9)));
     }
+    // The error is of fourth order in h, so the next step has the factor (tol/err)^¼ and a margin.
     let factor = if error > 0.0 { (0.9 * (tolerance / error).sqrt().sqrt()).clamp(0.2, 4.0) } else { 4.0 };
     if error > tolerance {
         // A retry is always shorter.
         return Err(StepFault::Error(factor.min(0.9)));
     }
+    // A step off its surface ends on the surface, with the direction there.
     if let Some(back) = field.put_back(to) {
         to = back;
         k5 = stage(field, to, k5)?;
