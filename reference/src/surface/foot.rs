@@ -12,9 +12,8 @@ impl IsoSurface<'_, '_> {
     /// the world, such as the point's normal. The search reaches `reach` world units to either side; the nearer place
     /// is preferred.
     ///
-    /// A place whose own normal points along the line comes before one whose normal does not, since the latter
-    /// belongs to the other side of a thin wall. Returns none if there is no place. The point and its foot are in
-    /// index space.
+    /// A place whose own normal points along the line comes before one whose normal does not. The latter belongs to
+    /// the other side of a thin wall. Returns none if there is no place. The point and its foot are in index space.
     pub fn foot(&self, point: DVec3, along: DVec3, reach: f64) -> Option<DVec3> {
         let grid = self.field.volume().grid();
         let to_index = grid.inverse_axes() * along;

@@ -33,7 +33,7 @@ pub(super) struct NodeSegment<R> {
 /// matter. The range of nodes is cut into [`PARTS`] parts. One more part lies before the range and one after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum LookupPart {
-    /// Every value in it has α_u = 0.
+    /// No value in the part is visible: α_u = 0.
     Invisible,
     /// Every value in the part lies in the segment that begins at this node. It is not the last node.
     Segment(u32),
@@ -41,8 +41,8 @@ enum LookupPart {
     Search(u32),
 }
 
-/// A byte for each part, so that the bytes of eight values form one word. 0 marks a part without visible values,
-/// [`SEARCH`] a part that must be searched. Any other byte is one more than the node at which a segment begins.
+/// A byte for each part, so that the bytes of eight values form one word. A part without visible values has 0, a part
+/// that must be searched [`SEARCH`]. Any other byte is one more than the node at which a segment begins.
 ///
 /// One more part, farther away than any rounding, holds values beyond the last node. Further bytes are 0.
 pub(super) type PartCodes = [u8; (PARTS + 3).next_power_of_two()];
@@ -65,7 +65,7 @@ pub struct NodePlace<R> {
 /// Errors of nodes that do not make a function.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NodesError {
-    /// There is no node.
+    /// The list of nodes is empty.
     #[error("a transfer function needs at least one node")]
     Empty,
     /// The lists differ in length.
@@ -124,8 +124,8 @@ impl<R: Real> Piecewise<R> {
     /// A function with nodes in non-decreasing order of `at` and opacities in [0, 1].
     ///
     /// # Errors
-    /// There is no node, the lists differ in length, the order is wrong, the range of the positions is not finite, or
-    /// an opacity lies outside [0, 1].
+    /// There is no node, the lists differ in length, or the order is wrong. The range of the positions is not finite,
+    /// or an opacity lies outside [0, 1].
     pub fn new(at: &[f64], opacity: &[f64]) -> Result<Self, NodesError> {
         check::<R>(at, opacity)?;
         let at: Vec<R> = at.iter().map(|&a| R::from_f64(a)).collect();
@@ -245,8 +245,8 @@ fn seen<R: Real>(at: &[R], opacity: &[R]) -> [R; 2] {
     [from, at.get(last + 1).copied().unwrap_or(endless)]
 }
 
-/// Checks that nodes make a function: at least one, an opacity in [0, 1] for each, in non-decreasing order, and
-/// positions whose range is finite in this type.
+/// Checks that nodes make a function. It needs at least one node, an opacity in [0, 1] for each, and positions in
+/// non-decreasing order with a finite range in this type.
 pub(super) fn check<R: Real>(at: &[f64], opacity: &[f64]) -> Result<(), NodesError> {
     let (&lowest, &highest) = at.first().zip(at.last()).ok_or(NodesError::Empty)?;
     if at.len() != opacity.len() {

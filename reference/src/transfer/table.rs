@@ -19,7 +19,7 @@ impl<R: Real> Table<R> {
     }
 
     /// Interpolates i linearly between two entries and splits it into node and fraction. The result is inexact
-    /// between entries around a step of the function: the styles on both sides mix there, and so do styles of nodes
+    /// between entries around a step of the function. The styles on both sides mix there, and so do styles of nodes
     /// inside the step.
     #[inline]
     pub fn between_nodes(&self, entry: &NodePlace<R>) -> NodePlace<R> {

@@ -24,12 +24,12 @@ const ROUNDING: f64 = 1e-6;
 /// Factor of N_max in eq. 1 for thin layers: 1 if voxels are cubes ([STIP-3], [STIP-4]).
 ///
 /// Eq. 1 gives each voxel N_max points. So a face is denser than another if its voxels have smaller pieces of it.
-/// Thin layers are equally dense everywhere: a voxel has N_max·h/t points. h is the smallest voxel and t the
-/// thickness of the layer along n ([`across`]), which is proportional to the number of voxels per unit of area.
+/// Thin layers are equally dense everywhere: a voxel has N_max·h/t points, where h is the smallest voxel. The
+/// thickness t of the layer along n ([`across`]) is proportional to the number of voxels per unit of area.
 ///
 /// The factor is the mean of t/h over the box's faces that the reference camera sees, weighted by area. It restores
-/// the total number of points: seen from the front, a face has as many dots per pixel as eq. 1 gives on average over
-/// the picture of the box. A face that comes into sight has no area at first, so nothing jumps as the camera turns.
+/// the total number of points: a face seen from the front has the mean density of eq. 1 over the picture of the box.
+/// A face that comes into sight has no area at first, so nothing jumps as the camera turns.
 pub(super) fn mean_thickness(grid: &Grid, view: &View, near: f64) -> f64 {
     let corners = eye_corners(grid, view);
     let to_faces = grid.inverse_axes().transpose();
@@ -88,8 +88,8 @@ fn face(dims: [usize; 3]) -> f64 {
     edge * edge
 }
 
-/// m of 4.2, the smallest integer with m²·A_vol/(X·Y·Z)^(2/3) ≥ 25. m is 1 if the volume covers no pixels, and at
-/// most the number of voxels along the longest axis.
+/// m of 4.2, the smallest integer with m²·A_vol/(X·Y·Z)^(2/3) ≥ 25. It is at most the number of voxels along the
+/// longest axis, and 1 if the volume covers no pixels.
 pub(super) fn box_side(area: f64, dims: [usize; 3]) -> usize {
     let each = area / face(dims);
     let longest = dims.into_iter().max().unwrap_or(1);

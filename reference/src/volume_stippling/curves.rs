@@ -16,8 +16,8 @@ use std::borrow::Cow;
 /// ‖n × E‖ below which a segment's direction is undefined.
 const NO_DIRECTION: f64 = 1.0 / (1 << 20) as f64;
 
-/// The largest distance of a snapped segment from its voxel's centre, in voxels along each axis: half a voxel, plus a
-/// margin so that no segment is lost between two voxels.
+/// The largest distance of a snapped segment from its voxel's centre, in voxels along each axis. It is half a voxel,
+/// plus a margin so that no segment is lost between two voxels.
 const OWN: f64 = 0.55;
 
 /// The voxels that can lie on a curve for some camera: V·LoG(V) < Th_LOG and ‖∇V‖ > Th_grad.
@@ -194,9 +194,9 @@ fn towards_eye(view: &View, at: DVec3) -> (DVec3, f64) {
     if distance > 0.0 { (to / distance, distance) } else { (-view.forward, f64::INFINITY) }
 }
 
-/// Reference implementation of the test by exhaustive search. A voxel with ‖∇V‖ > Th_grad is found if its n·E has the
-/// opposite sign of one of its 26 neighbours that pass as well, and the smaller magnitude of the two. `voxels` and
-/// the result are in linear order.
+/// Reference implementation of the test by exhaustive search, over voxels with ‖∇V‖ > Th_grad. A voxel is found if
+/// n·E has the opposite sign at one of its 26 neighbours, and its own |n·E| is the smaller one. `voxels` and the
+/// result are in linear order.
 pub fn exhaustive(grid: &Grid, voxels: &[PointVoxel], curves: &Curves, view: &View) -> Vec<[u32; 3]> {
     let key = |cell: [u32; 3]| (cell[2], cell[1], cell[0]);
     let passing: Vec<(PointVoxel, f64)> = voxels

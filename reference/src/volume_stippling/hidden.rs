@@ -147,7 +147,7 @@ mod tests {
         }
     }
 
-    /// If the surface is a ridge without a gradient, its points lie in front of it along their voxels' normals.
+    /// A surface that is a ridge without a gradient: its points lie in front of it along their voxels' normals.
     #[test]
     fn a_foot_without_a_normal_takes_the_voxels() {
         let grid = Grid::with_spacing([5, 5, 20], [1.0; 3]).unwrap();

@@ -227,7 +227,7 @@ fn estimator(gradient: StippleGradient) -> GradientEstimator {
 
 /// Voxels above the threshold, with measurements.
 struct BoundaryVoxels {
-    /// In linear order.
+    /// The voxels in linear order.
     voxels: Vec<PointVoxel>,
     /// The displacement from each voxel's centre to the edge, in index space, with `snap` only ([STIP-4]).
     to_edge: Vec<DVec3>,

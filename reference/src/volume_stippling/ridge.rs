@@ -1,7 +1,7 @@
 //! Ridges of ‖∇V‖ along the normal: one layer of voxels per face, and points moved onto the edge ([STIP-4], `thin`
 //! and `snap`).
 //!
-//! ‖∇V‖ between voxels is the product of three parabolas through the 3×3×3 voxels around a voxel, which is exact for
+//! Between voxels, ‖∇V‖ is the product of three parabolas through the 3×3×3 voxels around a voxel. This is exact for
 //! quadratics. (Linear interpolation lies below a ridge between voxels and would thicken oblique faces.)
 
 use drypoint_scene::glam::DVec3;
@@ -67,8 +67,8 @@ fn way(grid: &Grid, normal: DVec3) -> DVec3 {
     way
 }
 
-/// Relative difference at which lengths and products of grid steps count as equal, and size in voxels at which a
-/// component of a step counts as 0: headers have numbers in f32.
+/// Relative difference at which lengths and products of grid steps count as equal: headers have numbers in f32. A
+/// component of a step counts as 0 up to this size in voxels.
 const CUBIC: f64 = 1e-6;
 
 /// Whether voxels are cubes, in any orientation.
@@ -151,10 +151,10 @@ impl Norms<'_> {
         is_first && self.at(cell, before).max(self.at(cell, after)) <= own * equal
     }
 
-    /// Position of the largest norm along n, in steps from the voxel's centre, at most one: the top of the Gaussian
-    /// through the norms at −1, 0 and 1 steps. The fit of [STIP-1] blurs every edge, and ‖∇V‖ across a blurred edge
-    /// is nearly a Gaussian. The top of a parabola is biased, which moves whole rows of points if slices are far
-    /// apart.
+    /// Position of the largest norm along n, in steps from the voxel's centre, at most one. It is the top of the
+    /// Gaussian through the norms at −1, 0 and 1 steps. The fit of [STIP-1] blurs every edge, and ‖∇V‖ across a
+    /// blurred edge is nearly a Gaussian. The top of a parabola is biased, which moves whole rows of points if slices
+    /// are far apart.
     ///
     /// On a flank the top is at a step or beyond. Then the top of the parabola or the higher end is used, because the
     /// logarithm of the flank's foot is unbounded. For the same reason a foot below a thousandth of the voxel's own
@@ -379,8 +379,8 @@ mod tests {
     }
 
     /// ‖∇V‖ is known only up to the next voxels, and no step leads beyond them. A step of a thin layer is as long
-    /// along n as the layer is thick, and along the nearest axis long enough for pieces to close up. Other steps are
-    /// along n.
+    /// along n as the layer is thick. Along the nearest axis it is long enough for pieces to close up. Other steps
+    /// are along n.
     #[test]
     fn steps_stay_with_the_next_voxels() {
         for grid in grids() {

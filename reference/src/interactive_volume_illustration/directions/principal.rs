@@ -178,8 +178,8 @@ mod tests {
         assert_eq!((dark.k1, dark.k2, dark.e2.y.abs()), (-0.0, -0.5, 1.0));
     }
 
-    /// The paper's frame jumps where γ → 0, the lines do not: against the eigenvectors in another frame, within
-    /// 16 u ‖H‖/(‖G‖ |κ₁ − κ₂|) on 10⁵ random fields, gaps from 1 to 10⁻¹², γ/‖G‖ from 1 to 10⁻³⁰⁰ ([HATCH-2]).
+    /// The paper's frame jumps where γ → 0; the lines do not. They equal the eigenvectors in another frame within 16
+    /// u ‖H‖/(‖G‖ |κ₁ − κ₂|). 10⁵ random fields have gaps from 1 to 10⁻¹² and γ/‖G‖ from 1 to 10⁻³⁰⁰ ([HATCH-2]).
     #[test]
     fn the_paper_s_frame_and_another_give_the_same_lines() {
         let mut r = Random(1 << 20);

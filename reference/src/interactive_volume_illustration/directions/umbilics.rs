@@ -29,8 +29,8 @@ const SCALES: [f64; 3] = [1.0, 2.0, 4.0];
 const LARGER: f64 = 1.5;
 
 /// The least distance from the border along each axis, in σ. Samples beyond the border are continued by parabolas,
-/// which a smoothed second derivative nearer to it takes for data. On spheres that touch or cross the border, σ gives
-/// a direction to 18 to 90 % of the places within 2σ of it, and to none farther away.
+/// which a smoothed second derivative nearer to it takes for data. On spheres that touch or cross the border, 18 to
+/// 90 % of the places within 2σ of it get a direction by this σ. No place farther away gets one.
 const ROOM: f64 = 2.0;
 
 /// The least distance from voxels without a value, in σ. These have the value of the nearest other voxel, which makes

@@ -121,8 +121,8 @@ impl<'f> StrokeGrower<'f, '_> {
         RootSearch { over, tolerance: self.near(target), budget: evaluations }.nearest(reach, places)
     }
 
-    /// Tolerance of |f − target|: the largest of 2⁻⁴⁰ of the range of values, the rounding of a large target, and the
-    /// change of values over the rounding of places far from the world's origin.
+    /// Tolerance of |f − target|. It is 2⁻⁴⁰ of the range of values, but at least the rounding of a large target. Far
+    /// from the world's origin, it is at least the change of values over the rounding of places.
     pub(in super::super) fn near(&self, target: f64) -> f64 {
         let [lo, hi] = self.ground().range();
         let places = self.rounding() * (hi - lo);

@@ -1,7 +1,8 @@
 //! The pyramid over the volume that finds the cells of an iso-surface (3.2; [HATCH-5]).
 //!
-//! The pyramid is a pointerless octree. An entry of its lowest level, the paper's second, is a *block* of 2 × 2 × 2 cells,
-//! that is of 3 × 3 × 3 voxels. Neighbours share voxels; otherwise no block would hold the cells between them.
+//! The pyramid is a pointerless octree. An entry of its lowest level, the paper's second, is a *block* of 2 × 2 × 2
+//! cells. A block has 3 × 3 × 3 voxels. Neighbours share voxels; otherwise no block would hold the cells between
+//! them.
 
 use crate::field::Columns;
 use drypoint_scene::volume::{Volume, Voxel};

@@ -248,7 +248,8 @@ mod tests {
     }
 
     /// |n − Σp| ≤ 5√Σp(1 − p) for 20 seeds. Also n is binomial among the cells whose p lies in one of ten bins. χ² of
-    /// all bins over 20 seeds, with at most 200 degrees of freedom, exceeds 268 in 10⁻³ of all cases and 282 in 10⁻⁴.
+    /// all bins over 20 seeds has at most 200 degrees of freedom. It exceeds 268 in 10⁻³ of all cases and 282 in
+    /// 10⁻⁴.
     #[test]
     fn as_many_seeds_as_their_probabilities_say() {
         let volume = noise([40, 40, 40]);

@@ -13,8 +13,8 @@ pub(super) struct PageProjection<'a> {
     near: f64,
 }
 
-/// The part of a segment inside the frame. s is the parameter along the segment on the page: 0 and 1 are its ends or,
-/// in perspective, its crossings of the plane at depth `near`.
+/// The part of a segment inside the frame. The parameter s runs along the segment on the page, from 0 to 1 at its
+/// ends. In perspective an end beyond the plane at depth `near` is replaced by the crossing of this plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClippedSegment {
     /// Places on the page for s = 0 and 1, in mm.

@@ -30,8 +30,8 @@ pub struct Sight<'a> {
     pub near: f64,
     /// The surface that hides strokes; none if nothing does.
     pub surface: Option<&'a IsoSurface<'a, 'a>>,
-    /// Offset of visibility tests along a stroke's normal, in world units: δ of [HATCH-7] for strokes on the surface,
-    /// 0 for strokes that already lie in front of it.
+    /// Offset of visibility tests along a stroke's normal, in world units. It is δ of [HATCH-7] for strokes on the
+    /// surface, and 0 for strokes that already lie in front of it.
     pub offset: f64,
 }
 

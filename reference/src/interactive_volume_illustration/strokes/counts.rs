@@ -2,7 +2,7 @@
 
 use std::ops::AddAssign;
 
-/// Why a place has no direction.
+/// The reason why a place has no direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoDirection {
     /// The place lies outside the volume, or in a cell that touches a masked voxel.
@@ -14,7 +14,7 @@ pub enum NoDirection {
     Umbilic,
 }
 
-/// Why a selected cell has no stroke.
+/// The reason why a selected cell has no stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RejectCause {
     /// The straight line along the gradient does not meet the surface within the cell's diagonal, or 60 evaluations
@@ -26,7 +26,7 @@ pub enum RejectCause {
     Short,
 }
 
-/// Why a stroke ends.
+/// The reason why a stroke ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StrokeEnd {
     /// The stroke has its full length.

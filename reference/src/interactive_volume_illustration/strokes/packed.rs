@@ -1,5 +1,5 @@
-//! Strokes in 14 bytes a vertex, in the layout of a graphics card ([HATCH-10]): three numbers of 32 bits for the
-//! place, two of eight bits for the octahedral normal (Meyer et al. 2010).
+//! Strokes in 14 bytes a vertex, in the layout of a graphics card ([HATCH-10]). A place has three numbers of 32 bits,
+//! an octahedral normal two of eight bits (Meyer et al. 2010).
 
 use drypoint_scene::glam::{DVec2, DVec3, Vec3};
 use drypoint_scene::space::Grid;

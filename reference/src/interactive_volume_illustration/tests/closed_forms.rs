@@ -96,8 +96,8 @@ fn ellipsoid() -> Formula<impl Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> {
     Formula { grid, range: [-1.0, 1.0], at }
 }
 
-/// The confocal coordinates of a place, roots of Σ x²/(a² + λ) = 1, in the two gaps between the poles, larger first, and how
-/// fast each changes in space: ‖∇λ‖ = 2/√(Σ x²/(a² + λ)²).
+/// The confocal coordinates of a place, larger first: the roots of Σ x²/(a² + λ) = 1 in the two gaps between the
+/// poles. The second number is the rate of change in space, ‖∇λ‖ = 2/√(Σ x²/(a² + λ)²).
 fn confocal(p: DVec3) -> [[f64; 2]; 2] {
     let (poles, x) = ([196.0, 400.0, 900.0], [p.z * p.z, p.y * p.y, p.x * p.x]);
     let sum = |l: f64, power: i32| (0..3).map(|i| x[i] / (poles[i] + l).powi(power)).sum::<f64>();

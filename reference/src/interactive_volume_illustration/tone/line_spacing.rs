@@ -329,8 +329,8 @@ mod tests {
         }
     }
 
-    /// Parts of different lines come no nearer than 0.88 d, less the spacing of places along a line: half a nib along
-    /// it, √((0.88 d)² − (nib/4)²) across at least.
+    /// Parts of different lines come no nearer than 0.88 d, less the spacing of places along a line. The spacing is
+    /// half a nib, so the distance across is at least √((0.88 d)² − (nib/4)²).
     #[test]
     fn lines_keep_their_distance() {
         let slanted = |k: u32| {

@@ -39,7 +39,7 @@ pub struct SampleQuantities<R> {
     pub kappa: R,
 }
 
-/// One quantity.
+/// A quantity that is measured at samples.
 pub trait AxisMeasure<R: Real>: Send + Sync {
     /// The quantity at a sample.
     fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R>;

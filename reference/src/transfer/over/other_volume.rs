@@ -8,8 +8,8 @@ use crate::transfer::Coordinate;
 use crate::with_sampler;
 use drypoint_scene::volume::{Anatomy, Volume};
 
-/// Another scalar volume, trilinear, on any grid. Outside its box, and in cells that touch a voxel without a value
-/// ([PREC-2]), the result is the low end of its range: the least value stands for an unknown one.
+/// Another scalar volume, trilinear, on any grid. Unknown values are replaced by the low end of its range. They lie
+/// outside its box, and in cells that touch a voxel without a value ([PREC-2]).
 pub struct OtherVolume<'v, R> {
     field: Field<'v, R>,
     /// The map between grids; none if the volume lies on the data's own grid.

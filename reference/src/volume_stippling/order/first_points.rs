@@ -1,8 +1,8 @@
 //! The first point of every voxel.
 //!
 //! If less than one point per voxel is drawn in opaque ink, a mask of blue noise selects the voxels that draw theirs
-//! ([STIP-5]): at a tone t those whose rank u exceeds 1 − t. A surface cuts through the mask, and the cut is not
-//! even.
+//! ([STIP-5]). At a tone t these are the voxels whose rank u exceeds 1 − t. A surface cuts through the mask, and the
+//! cut is not even.
 //!
 //! So first points are placed with regard to the mask. Two points are visible together from the tone 1 − min(u, u′)
 //! on. Points are 1/√tone apart at a tone, and distances are measured in this unit. Points that are drawn early keep

@@ -20,8 +20,8 @@ pub(super) struct PointGroup {
 /// Bounds of eight groups, which decide whether a group must be visited.
 pub(super) type GroupBounds = [EightFloats; 6];
 
-/// Indices into a row: the middle (three), the radius about it, the largest squared distance to a taken point, and
-/// the squared distance within which a new point can lower one.
+/// Indices into a row. A row has the middle (three numbers), the radius about it, and the largest squared distance to
+/// a taken point. The last number is the squared distance within which a new point can lower one.
 pub(super) const FAR: usize = 4;
 pub(super) const REACH: usize = 3;
 pub(super) const LIMIT: usize = 5;

@@ -9,8 +9,8 @@
 //! early in a rank cannot see the later ones. In the first ranks, where few points fix the spacing, each voxel
 //! therefore takes its point again with all others of the rank in view (`SWEEPS`).
 //!
-//! Points must look even in projection. If a voxel has no neighbours with points before and behind it along its
-//! normal, the face is thin, and distances are measured in the tangent plane. Otherwise they are measured in space.
+//! Points must look even in projection. A face is thin at a voxel that lacks a neighbour with points before or behind
+//! it, along its normal. Distances are then measured in the tangent plane, elsewhere in space.
 mod class;
 mod first_points;
 mod groups;

@@ -22,8 +22,8 @@ pub(super) struct Visit<'a> {
     pub(super) is_last: bool,
 }
 
-/// The taken points, indexed by the voxels' places in the order of all: the previous rank, and this rank in the
-/// classes before and after the current one.
+/// The taken points of the previous rank, and of this rank in the classes before and after the current one. Indices
+/// are the voxels' places in the order of all.
 pub(super) struct TakenPoints<'a> {
     pub(super) before: &'a [[f32; 3]],
     pub(super) left: &'a [[f32; 3]],

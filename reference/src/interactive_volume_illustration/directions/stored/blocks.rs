@@ -28,7 +28,7 @@ const UNKNOWN: u64 = 0;
 /// The stored first number of a voxel without a direction: the inverted bits of NaN.
 const NONE: u64 = !0x7ff8_0000_0000_0000;
 
-/// One of a voxel's lines; two of them fill a cache line. All threads that write to it write the same numbers, the
+/// One of a voxel's lines. Two lines fill a cache line. All threads that write to it write the same numbers, the
 /// first number last.
 #[derive(Debug, Default)]
 #[repr(align(32))]

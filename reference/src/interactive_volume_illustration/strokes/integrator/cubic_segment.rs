@@ -71,9 +71,9 @@ impl CubicSegment {
         })
     }
 
-    /// Whether all directions differ from a unit vector by less than an angle, which is at most 90°. p' = (1 − s)²
-    /// p'₀ + 2s(1 − s) m + s² p'₁ is a mean of three vectors; the test checks these. Differences within rounding
-    /// count as too large.
+    /// Whether all directions differ from a unit vector by less than an angle of at most 90°. p' = (1 − s)² p'₀ +
+    /// 2s(1 − s) m + s² p'₁ is a mean of three vectors, and the test checks these. Differences within rounding count
+    /// as too large.
     fn stays_within(&self, along: DVec3, cos: f64) -> bool {
         let ([p, q], [t, u]) = (self.ends, self.tangents);
         let within = |v: DVec3| v.dot(along) > (cos + CLEAR) * v.length();
@@ -210,7 +210,7 @@ mod tests {
         }
     }
 
-    /// p(s) = (1.2 + s, 0.1 + 3s², 2) meets x = 2 at 0.8 and y = 1 at √0.3, and stays on the face z = 2.
+    /// p(s) = (1.2 + s, 0.1 + 3s², 2) meets x = 2 at 0.8 and y = 1 at √0.3. It stays on the face z = 2.
     #[test]
     fn faces_are_met() {
         let ends = [DVec3::new(1.2, 0.1, 2.0), DVec3::new(2.2, 3.1, 2.0)];
