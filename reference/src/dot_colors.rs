@@ -5,8 +5,8 @@
 use crate::labels::Labels;
 use crate::number::Vec3;
 use crate::style_transfer_functions::{Spheres, StyleIndex};
-use crate::transfer::{NodesError, Piecewise, Table};
-use drypoint_scene::color::{linear_to_oklab, linear_to_srgb, srgb_to_linear, unpremultiply};
+use crate::transfer::{IndexTable, NodesError, Piecewise};
+use drypoint_scene::color::{Rgb, linear_to_oklab, linear_to_srgb, srgb_to_linear, unpremultiply};
 use drypoint_scene::points::{PointVoxel, Points};
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
@@ -14,15 +14,12 @@ use drypoint_scene::tables::Mix;
 use drypoint_scene::transfer::Function;
 use std::collections::BTreeMap;
 
-/// Linear red, green and blue.
-pub type Rgb = [f64; 3];
-
 /// The colour of a voxel whose label has no row.
 const NONE: Rgb = [0.0; 3];
 
 /// The source of the dots' colours.
 #[derive(Clone, Copy, Debug)]
-pub struct DotColors<'a> {
+pub struct VoxelColors<'a> {
     /// The function over the volume's values, or over value and label.
     pub function: &'a Function,
     /// The styles that the function names, in their order.
@@ -41,7 +38,7 @@ pub struct DotColors<'a> {
 /// A row of nodes, as colours over the value.
 struct ColorRow {
     over_value: Piecewise<f64>,
-    table: Option<Table<f64>>,
+    table: Option<IndexTable<f64>>,
     shown: ColorSource,
     /// The colour of the most opaque node.
     flat: Rgb,
@@ -52,7 +49,7 @@ enum ColorSource {
     Styles(StyleIndex),
 }
 
-impl DotColors<'_> {
+impl VoxelColors<'_> {
     /// The colour of each voxel's dots: the function's colour at V, whatever its opacity. A style is evaluated facing
     /// the eye, N = (0, 0, 1), so that a dot keeps its colour while the camera turns.
     ///
@@ -90,7 +87,7 @@ impl DotColors<'_> {
         let (at, opacity) = (&at[nodes.clone()], &opacity[nodes.clone()]);
         // Every node counts, even an invisible one: places without opacity would not be found.
         let over_value = Piecewise::new(at, &vec![1.0; at.len()])?;
-        let table = self.function.table().map(|(index, nodes)| Table::new(index, nodes));
+        let table = self.function.table().map(|(index, nodes)| IndexTable::new(index, nodes));
         let own = |n: usize| if table.is_some() { 0..n } else { nodes.clone() };
         let shown = match self.function {
             Function::Regular(all) => ColorSource::Colors(all.color[own(all.color.len())].to_vec()),
@@ -228,7 +225,7 @@ mod tests {
     fn of(function: &Function, styles: &[Style], by_label: bool, values: &[f64]) -> Vec<Rgb> {
         let (points, grid) = points(values);
         let range = [50.0, 250.0];
-        DotColors { function, styles, mix: Mix::Premultiplied, labels: None, by_label, range }
+        VoxelColors { function, styles, mix: Mix::Premultiplied, labels: None, by_label, range }
             .of(&points, &grid)
             .unwrap()
     }

@@ -3,9 +3,9 @@
 use super::Dots;
 use crate::Failure;
 use crate::job::Job;
-use drypoint_reference::dot_colors::{DotColors, Rgb, nearest, palette, split};
+use drypoint_reference::dot_colors::{VoxelColors, nearest, palette, split};
 use drypoint_reference::labels::Labels;
-use drypoint_scene::color::{Rgba, linear_to_oklab, linear_to_srgb};
+use drypoint_scene::color::{Rgb, Rgba, linear_to_oklab, linear_to_srgb};
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::points::Points;
 use drypoint_scene::tables::{DotColor, Mix, Scene, Stipples};
@@ -99,7 +99,7 @@ fn colors(job: &Job, points: &Points) -> Result<Vec<Rgb>, Failure> {
     };
     let grid = volume.grid();
     let labels = job.labels().map(|labels| Labels::new(labels, grid, volume.anatomy(), scene.volume.label_lookup));
-    let colors = DotColors {
+    let colors = VoxelColors {
         function,
         styles: job.styles(),
         mix: scene.transfer.as_ref().map_or(Mix::Premultiplied, |transfer| transfer.mix),

@@ -3,7 +3,7 @@
 use super::sphere_map::mix;
 use super::{MipMap, SphereMap};
 use crate::number::Real;
-use crate::transfer::{NodePlace, Patch};
+use crate::transfer::{NodePatch, NodePlace};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::Mix;
 
@@ -82,7 +82,7 @@ pub struct Blend2<R> {
 impl<R: Real> Blend2<R> {
     /// From the places in two rows: four lookups in ift.
     #[inline]
-    pub fn new(index: &StyleIndex, patch: &Patch<R>) -> Self {
+    pub fn new(index: &StyleIndex, patch: &NodePatch<R>) -> Self {
         Self { rows: patch.rows.each_ref().map(|place| index.blend(place)), w: patch.w }
     }
 

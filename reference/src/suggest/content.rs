@@ -40,12 +40,12 @@ pub(super) struct VoxelRun {
 
 /// The content's voxels, without small parts.
 #[derive(Clone, Debug)]
-pub(super) struct Content {
+pub(super) struct VolumeContent {
     dims: [usize; 3],
     runs: Vec<VoxelRun>,
 }
 
-impl Content {
+impl VolumeContent {
     /// Finds the content of a volume. If no value is inside, everything is content.
     pub(super) fn of(volume: &Volume, inside: ContentRange) -> Self {
         let dims = volume.dims();
@@ -167,7 +167,7 @@ mod tests {
         ContentRange { value, outside: Outside::Low }
     }
 
-    fn ends(body: &Content) -> [[usize; 3]; 2] {
+    fn ends(body: &VolumeContent) -> [[usize; 3]; 2] {
         let (mut lo, mut hi) = ([usize::MAX; 3], [0; 3]);
         for run in body.runs() {
             for (a, [first, last]) in [[run.first, run.last], [run.y; 2], [run.z; 2]].into_iter().enumerate() {
@@ -184,7 +184,7 @@ mod tests {
         let speck = |p: [usize; 3]| p == [2, 2, 2] || p == [2, 2, 3];
         let sheet = |[x, y, _]: [usize; 3]| y == 29 && x > 3;
         let v = volume(|p| if block(p) || branch(p) || speck(p) || sheet(p) { 9.0 } else { 0.0 });
-        let body = Content::of(&v, from(5.0));
+        let body = VolumeContent::of(&v, from(5.0));
         assert_eq!(ends(&body), [[8; 3], [29, 19, 19]]);
         let slices = body.slices(0);
         assert_eq!((slices[7], slices[8], slices[19], slices[29], slices[30]), (0.0, 144.0, 144.0, 1.0, 0.0));
@@ -193,14 +193,14 @@ mod tests {
 
     #[test]
     fn lines_alone_are_content() {
-        let body = Content::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), from(0.5));
+        let body = VolumeContent::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), from(0.5));
         assert_eq!(ends(&body), [[7, 4, 5], [31, 4, 5]]);
     }
 
     #[test]
     fn what_is_dark_can_be_content() {
         let block = |p: [usize; 3]| p.iter().all(|i| (8..20).contains(i));
-        let body = Content::of(
+        let body = VolumeContent::of(
             &volume(|p| if block(p) { -4.0 } else { 9.0 }),
             ContentRange { value: 5.0, outside: Outside::High },
         );
@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn nothing_is_everything() {
-        let body = Content::of(&volume(|_| 0.0), from(1.0));
+        let body = VolumeContent::of(&volume(|_| 0.0), from(1.0));
         assert_eq!(ends(&body), [[0; 3], [31; 3]]);
     }
 }

@@ -1,6 +1,6 @@
 //! The extent of content: its surface lies up to a voxel beyond its outermost voxels.
 
-use super::content::{Content, ContentRange};
+use super::content::{ContentRange, VolumeContent};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::Volume;
 
@@ -12,7 +12,7 @@ const PARTS: usize = 4;
 /// of the values `seen`, where it lies less than a voxel beyond the content.
 pub(super) fn reach<const N: usize>(
     volume: &Volume,
-    body: &Content,
+    body: &VolumeContent,
     seen: ContentRange,
     gradients: [DVec3; N],
 ) -> [f64; N] {
@@ -121,7 +121,7 @@ mod tests {
 
     fn reached<const N: usize>(volume: &Volume, value: f64, gradients: [DVec3; N]) -> [f64; N] {
         let inside = ContentRange { value, outside: Outside::Low };
-        reach(volume, &Content::of(volume, inside), inside, gradients)
+        reach(volume, &VolumeContent::of(volume, inside), inside, gradients)
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod stance;
 mod surface_styles;
 
 use boundary::FirstSurfaces;
-use content::{Content, ContentRange};
+use content::{ContentRange, VolumeContent};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
     Camera, Contours, GradientEstimator, HessianEstimator, Ids, Iso, Kappa, Kernel, Length, Outside, Projection, Scene,
@@ -110,7 +110,7 @@ fn of_labels(mut scene: Scene, present: &Volume, size: [usize; 2]) -> Scene {
 
 /// Sets camera, picture and lines for the content, and for the visible surface around it.
 fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], size: [usize; 2]) {
-    let body = Content::of(volume, inside);
+    let body = VolumeContent::of(volume, inside);
     let Stance { direction, up } = Stance::of(volume, &body);
     let fit = framing::fit(volume, &body, seen, direction, up, FOV, size);
     scene.picture.size = size;

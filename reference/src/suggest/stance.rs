@@ -1,6 +1,6 @@
 //! The upright direction of an object and the direction from which it is viewed.
 
-use super::content::Content;
+use super::content::VolumeContent;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::{Anatomy, Volume};
 
@@ -28,7 +28,7 @@ impl Stance {
     /// Chooses the stance. A patient stands upright and is seen from the front, half from the side. Any other object
     /// stands on the face of the box that cuts it, or else the last axis is up. It is seen over a corner, a flat
     /// object from its broad side.
-    pub(super) fn of(volume: &Volume, body: &Content) -> Self {
+    pub(super) fn of(volume: &Volume, body: &VolumeContent) -> Self {
         let front = match volume.anatomy() {
             Some(Anatomy::RightAnteriorSuperior) => DVec3::new(-0.7, -1.0, -0.25),
             Some(Anatomy::LeftPosteriorSuperior) => DVec3::new(0.7, 1.0, -0.25),
@@ -38,7 +38,7 @@ impl Stance {
         Self { direction: front, up: DVec3::Z }
     }
 
-    fn of_a_thing(volume: &Volume, body: &Content) -> Self {
+    fn of_a_thing(volume: &Volume, body: &VolumeContent) -> Self {
         let grid = volume.grid();
         let axes = [0, 1, 2].map(|a| grid.axes().col(a).normalize());
         let extent = extent(volume, body);
@@ -79,7 +79,7 @@ impl Stance {
 }
 
 /// The axis that is up, and whether its end is the upper side.
-fn standing(body: &Content, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
+fn standing(body: &VolumeContent, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
     let faces = (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]);
     let (axis, side) =
         faces.clone().fold((2, 0), |best, face| if cuts[face.0][face.1] > cuts[best.0][best.1] { face } else { best });
@@ -97,7 +97,7 @@ fn standing(body: &Content, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
 }
 
 /// Share of each of the box's faces that content covers: first and last face of each axis.
-fn cuts(volume: &Volume, body: &Content) -> [[f64; 2]; 3] {
+fn cuts(volume: &Volume, body: &VolumeContent) -> [[f64; 2]; 3] {
     let dims = volume.dims();
     [0, 1, 2].map(|axis| {
         let slices = body.slices(axis);
@@ -107,7 +107,7 @@ fn cuts(volume: &Volume, body: &Content) -> [[f64; 2]; 3] {
 }
 
 /// Lengths of the content along the axes, in world units.
-fn extent(volume: &Volume, body: &Content) -> [f64; 3] {
+fn extent(volume: &Volume, body: &VolumeContent) -> [f64; 3] {
     let spacing = volume.grid().spacing();
     [0, 1, 2].map(|axis| {
         let slices = body.slices(axis);
@@ -129,7 +129,7 @@ mod tests {
     /// The stance of an object in 32³ voxels.
     fn stance(inside: impl Fn([f64; 3]) -> bool) -> Stance {
         let v = volume(|p| if inside(p.map(|i| i as f64)) { 1.0 } else { 0.0 });
-        Stance::of(&v, &Content::of(&v, INSIDE))
+        Stance::of(&v, &VolumeContent::of(&v, INSIDE))
     }
 
     fn ball([x, y, z]: [f64; 3], centre: [f64; 3], r: f64) -> bool {
@@ -181,7 +181,7 @@ mod tests {
             (Anatomy::LeftAnteriorSuperior, -DVec3::Y),
         ] {
             let v = volume(|_| 1.0).with_anatomy(Some(anatomy));
-            let s = Stance::of(&v, &Content::of(&v, INSIDE));
+            let s = Stance::of(&v, &VolumeContent::of(&v, INSIDE));
             assert!(s.up == DVec3::Z && s.direction.normalize().dot(front) > 0.7, "{anatomy:?}");
         }
     }

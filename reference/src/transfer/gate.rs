@@ -81,7 +81,7 @@ fn gate<R: Real>(lines: &[NodeRow<'_>]) -> Result<Piecewise<R>, NodesError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transfer::{Coordinate, Plane};
+    use crate::transfer::{Coordinate, TransferPlane};
     use proptest::prelude::*;
 
     fn rows(over: [Axis<u32>; 2], at: &[f64], first: &[usize]) -> Rows {
@@ -137,7 +137,7 @@ mod tests {
             let over = if swapped { [Axis::K1, Axis::Value] } else { [Axis::Value, Axis::K1] };
             let stands: Vec<f64> = (0..lines.len()).map(|i| 0.1 + 3.0 * i as f64).collect();
             let rows = rows(over, &stands, &first);
-            let (gate, plane) = (over_value::<f32>(&at, &opacity, &rows).unwrap(), Plane::<f32>::new(&at, &opacity, &rows).unwrap());
+            let (gate, plane) = (over_value::<f32>(&at, &opacity, &rows).unwrap(), TransferPlane::<f32>::new(&at, &opacity, &rows).unwrap());
             let nodes = at.iter().chain(&stands).flat_map(|&a| [(a as f32).next_down(), a as f32, (a as f32).next_up()]);
             for value in nodes.chain([extra as f32]) {
                 let others = (0..200).map(|i| Coordinate::Number(i as f32 * 0.1));

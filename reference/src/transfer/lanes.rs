@@ -6,7 +6,7 @@ use crate::number::Arithmetic;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// Places of values between the nodes of a function, like [`NodePlace`].
+/// Places of values between the nodes of a function, like [`NodePlace`](super::NodePlace).
 #[derive(Clone, Copy)]
 pub(crate) struct NodePlaces<S: Simd> {
     /// Lanes with α_u above 0. Only these have valid numbers below.
@@ -134,7 +134,7 @@ impl Piecewise<f64> {
 }
 
 impl<S: Simd> NodePlaces<S> {
-    /// [`NodePlace::color`] in the visible lanes.
+    /// [`NodePlace::color`](super::NodePlace::color) in the visible lanes.
     #[inline(always)]
     pub(crate) fn color(&self, colors: &[[f64; 3]]) -> [f64x8<S>; 3] {
         let simd = self.w.simd;

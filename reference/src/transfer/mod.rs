@@ -9,6 +9,6 @@ mod stops;
 mod table;
 
 pub use piecewise::{NodePlace, NodesError, Piecewise};
-pub use plane::{Patch, Plane};
+pub use plane::{NodePatch, TransferPlane};
 pub use stops::{AxisStops, Coordinate};
-pub use table::Table;
+pub use table::IndexTable;

@@ -5,13 +5,13 @@ use crate::number::Real;
 
 /// i at each entry of a table. It converts a place between entries to a place between nodes.
 #[derive(Clone, Debug)]
-pub struct Table<R> {
+pub struct IndexTable<R> {
     index: Vec<R>,
     /// N − 1, the last node.
     last: R,
 }
 
-impl<R: Real> Table<R> {
+impl<R: Real> IndexTable<R> {
     /// A table of i at each entry, for a function of N nodes.
     pub fn new(index: &[f64], nodes: usize) -> Self {
         let index = index.iter().map(|&i| R::from_f64(i)).collect();
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn between_entries_by_hand() {
-        let table = Table::<f64>::new(&[0.0, 0.5, 3.0, 3.0], 4);
+        let table = IndexTable::<f64>::new(&[0.0, 0.5, 3.0, 3.0], 4);
         let at = |node, w| table.between_nodes(&NodePlace { node, w, alpha_u: 0.25 });
         let place = |node, w| NodePlace { node, w, alpha_u: 0.25 };
         assert_eq!(
@@ -59,7 +59,7 @@ mod tests {
             let at: Vec<f64> = (0..8).map(f64::from).collect();
             let opacity = [0.5, 0.25, 1.0, 0.75, 0.125, 0.5, 1.0, 0.25];
             let function = Piecewise::new(&at, &opacity).unwrap();
-            let table = Table::new(&at, at.len());
+            let table = IndexTable::new(&at, at.len());
             let exact = function.locate(s).unwrap();
             let read = table.between_nodes(&exact);
             prop_assert!((read.node as f64 + read.w - (exact.node as f64 + exact.w)).abs() < 1e-14);

@@ -8,7 +8,7 @@ use crate::transfer::over::{
     AxisMeasure, CurvatureMeasure, GradientMagnitude, LabelDistance, OtherVolume, PointDistance, SampleLabel,
     SampleQuantities, SampleValue,
 };
-use crate::transfer::{Patch, Plane};
+use crate::transfer::{NodePatch, TransferPlane};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::math;
 use drypoint_scene::shot::{Axis, KappaSource, LabelLookup, Object, SampleQuery};
@@ -16,7 +16,7 @@ use drypoint_scene::transfer::Rows;
 
 /// A function over two quantities, with what measures them.
 pub(crate) struct OverTwo<'v, R> {
-    plane: Plane<R>,
+    plane: TransferPlane<R>,
     measures: [Box<dyn AxisMeasure<R> + 'v>; 2],
     /// What the quantities need of a sample, asked before α_u is known.
     pub(crate) first: SampleQuery,
@@ -53,14 +53,14 @@ impl<'v, R: Real> OverTwo<'v, R> {
             at.iter().map(|&a| math::scale_by_power_of_two(a, by)).collect()
         };
         let rows_at = scaled(&rows.over[1], &rows.at);
-        let plane = Plane::new(&scaled(&rows.over[0], at), opacity, &Rows { at: rows_at, ..rows.clone() })?;
+        let plane = TransferPlane::new(&scaled(&rows.over[0], at), opacity, &Rows { at: rows_at, ..rows.clone() })?;
         let (first, rest) = split(object.query, &rows.over);
         Ok(Self { plane, measures, first, rest })
     }
 
     /// Where a sample falls between the nodes; none where it is transparent.
     #[inline]
-    pub(crate) fn locate(&self, here: &SampleQuantities<R>) -> Option<Patch<R>> {
+    pub(crate) fn locate(&self, here: &SampleQuantities<R>) -> Option<NodePatch<R>> {
         let [x, y] = &self.measures;
         self.plane.locate(x.at(here), y.at(here))
     }

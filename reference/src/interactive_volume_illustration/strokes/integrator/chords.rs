@@ -21,7 +21,7 @@ const TRIALS: usize = 24;
 /// index, the fraction its parameter. Each chord is as long as possible within the distance `chord` of the curve.
 /// Both ends of the curve are vertices.
 pub fn vertices(pieces: &[CubicSegment], chord: f64) -> Vec<f64> {
-    let curve = Curve::new(pieces);
+    let curve = SampledCurve::new(pieces);
     let end = pieces.len() as f64;
     let mut at = Vec::with_capacity(2 * pieces.len() + 1);
     at.push(0.0);
@@ -45,13 +45,13 @@ pub fn point(pieces: &[CubicSegment], t: f64) -> DVec3 {
 }
 
 /// A curve with sampled places.
-struct Curve<'a> {
+struct SampledCurve<'a> {
     pieces: &'a [CubicSegment],
     /// Places at the quarters of segments, from the first segment's beginning on.
     places: Vec<DVec3>,
 }
 
-impl<'a> Curve<'a> {
+impl<'a> SampledCurve<'a> {
     fn new(pieces: &'a [CubicSegment]) -> Self {
         let on = |piece: &'a CubicSegment| (0..PLACES).map(|i| piece.point(i as f64 / PLACES as f64));
         let mut places = Vec::with_capacity(PLACES * pieces.len());
