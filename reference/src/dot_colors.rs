@@ -267,7 +267,8 @@ mod tests {
         let many: Vec<Rgb> = (0..256).map(grey).collect();
         let found = palette(&many, 16);
         assert_eq!(found.len(), 16);
-        // A ramp is cut into parts of equal weight or width: no grey is farther from its own than a part is wide.
+        // A ramp is cut into parts of equal weight or width: a grey's distance from its colour is at most the width
+        // of a part.
         let of = nearest(&many, &found);
         let lightness = |c: Rgb| linear_to_oklab(c)[0];
         assert!(many.iter().zip(&of).all(|(c, &i)| (lightness(*c) - lightness(found[i])).abs() < 1.0 / 8.0));

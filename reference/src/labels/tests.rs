@@ -40,7 +40,7 @@ fn nearest_by_hand() {
     assert_eq!(id([0.0, 0.0, 0.0]), 0);
     assert_eq!(id([1.49, 0.51, 0.0]), 11);
     assert_eq!(id([2.0, 1.0, 1.0]), 112);
-    // Of two voxels at equal distance, the lower index holds.
+    // The lower index holds for two voxels at equal distance.
     assert_eq!(id([0.5, 0.5, 0.5]), 0);
     assert_eq!(id([1.5, 0.5f64.next_up(), 0.5]), 11);
 }

@@ -238,7 +238,7 @@ mod tests {
         let b = find(&volume(nested), Outside::Low);
         let hull = b.hull.unwrap();
         assert!(hull.value > 20.0 && hull.value < 80.0 && b.main.value > 110.0 && b.main.value < 190.0, "{b:?}");
-        // The same in mirrored values.
+        // Mirrored values give the same surfaces.
         let mirrored = find(&volume(|p| -nested(p)), Outside::High);
         assert!((mirrored.main.value + b.main.value).abs() < 1.0 && mirrored.hull.is_some(), "{mirrored:?}");
     }
@@ -277,7 +277,7 @@ mod tests {
         // One neighbour differs from the next by 100: half of that below 300.
         let (b, _) = judge(&corner);
         assert!(b.main.value + 0.5 * b.main.step <= 300.0 + 1e-9, "{b:?}");
-        // Nodes are numbers, though a difference of the values is none.
+        // Nodes are finite even if the difference of the values overflows.
         for huge in [volume(|p| if radius(p) < 9.0 { 1.7e308 } else { -1.7e308 }), volume(|_| f64::MAX)] {
             let main = judge(&huge).0.main;
             assert!([-0.1, 0.25].iter().all(|steps| (main.value + steps * main.step).is_finite()), "{main:?}");

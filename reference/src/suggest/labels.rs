@@ -95,7 +95,7 @@ mod tests {
         let parts = |p: [usize; 3]| if radius(p) > 12.0 { 0.0 } else { 1.0 + (p[0] / 11 + 40 * (p[1] / 16)) as f64 };
         assert!(are_ids(&typed(parts, VoxelType::I16)));
         assert!(are_ids(&typed(|p| f64::from(u8::from(radius(p) < 9.0)), VoxelType::U8)));
-        // The same numbers as floating point are no ids.
+        // Floating-point volumes are not labels, even with the same numbers.
         assert!(!are_ids(&typed(parts, VoxelType::F32)));
         // A ball with a soft edge, flat inside; a ramp; noise; one value everywhere.
         assert!(!are_ids(&typed(|p| 255.0 / (1.0 + (radius(p) - 9.0).exp()), VoxelType::U8)));

@@ -324,7 +324,7 @@ mod tests {
         let low = Levels::of(&volume(ball), Outside::Low).unwrap();
         let high = Levels::of(&volume(|p| -ball(p)), Outside::High).unwrap();
         assert_eq!(low.all(), high.all());
-        // From the other side of the same numbers, but for the rounding of shares and of powers.
+        // The same numbers from the other side, up to the rounding of shares and of powers.
         for (a, b) in low.mirrored().all().iter().zip(Levels::of(&volume(ball), Outside::High).unwrap().all()) {
             for (a, b) in [(a.area, b.area), (a.step, b.step), (a.inside, b.inside), (a.cut, b.cut)] {
                 assert!((a - b).abs() < 1e-12, "{a} {b}");
@@ -337,7 +337,7 @@ mod tests {
 
     #[test]
     fn noise_confirms_nothing() {
-        // A ripple whose neighbours have nothing to do with each other.
+        // A ripple whose neighbours are unrelated.
         let ripple = |[x, y, z]: [usize; 3]| (((x * 7919 + y * 104_729 + z * 1_299_709) * 2_654_435_761) >> 7) % 256;
         let noise = Levels::of(&volume(|p| ripple(p) as f64), Outside::Low).unwrap();
         assert!(noise.at(0.5).agreement < 0.2, "{:?}", noise.at(0.5));
@@ -351,7 +351,7 @@ mod tests {
         let levels = Levels::of(&hot, Outside::Low).unwrap();
         assert!(levels.value(1.0) < 1e6, "{}", levels.value(1.0));
         assert!(Levels::of(&volume(|_| 7.0), Outside::Low).is_none());
-        // In nothing, it is what there is to see.
+        // In an empty volume the voxel is the content.
         let alone = volume(|p| if p == [3, 3, 3] { 200.0 } else { 0.0 });
         assert_eq!(Levels::of(&alone, Outside::Low).unwrap().value(1.0), 200.0);
     }

@@ -145,12 +145,12 @@ mod tests {
 
     #[test]
     fn a_bust_stands_on_its_neck() {
-        // A head whose crown is the first slice, and whose neck goes on beyond the last.
+        // A head whose crown is the first slice, and whose neck continues beyond the last.
         let s =
             stance(|p| ball(p, [16.0, 16.0, 12.0], 10.0) || ((p[0] - 16.0).hypot(p[1] - 16.0) < 4.0 && p[2] > 12.0));
         assert_eq!(s.up, -DVec3::Z);
         assert!(s.direction.z > 0.0, "seen from above its crown");
-        // A leg that widens to where it is cut stands on its foot.
+        // A leg that widens to its cut stands on the cut.
         let leg = stance(|p| (p[0] - 16.0).hypot(p[1] - 16.0) < 3.0 + 0.2 * p[2] && p[2] > 2.0);
         assert_eq!(leg.up, DVec3::Z);
     }

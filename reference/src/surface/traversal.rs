@@ -246,12 +246,12 @@ mod tests {
             "a face belongs to the cell behind it, or the last"
         );
         assert_eq!(through([9.0, 1.5, 1.5], [-2.0, 0.0, 0.0]), row.into_iter().rev().collect::<Vec<_>>());
-        // Through the voxels of the diagonal three faces fall together: cells between them have no length.
+        // On a diagonal through voxels three faces coincide: cells between them have length 0.
         let diagonal = through([0.0; 3], [1.0; 3]);
         assert!(diagonal.contains(&[0; 3]) && diagonal.contains(&[1; 3]) && diagonal.len() <= 6, "{diagonal:?}");
         assert!(through([0.0, 3.1, 0.0], [1.0, 0.0, 0.0]).is_empty());
         assert!(through([-1.0, 0.0, 0.0], [1.0, 4.0, 0.0]).is_empty());
-        // An axis of length 1 is half a voxel to either side.
+        // An axis of length 1 extends half a voxel to either side.
         let flat = CellTraversal::new(&bounds([1, 3, 3]), line([0.0, 0.2, 0.2], [1.0, 0.0, 0.0]), ALL).unwrap();
         assert_eq!((flat.range(), flat.entry(), flat.exit()), ([-0.5, 0.5], [0.0, 0.2, 0.2], [0.0, 0.2, 0.2]));
     }

@@ -100,7 +100,7 @@ mod tests {
         let gate = over_value::<f64>(&at, &opacity, &rows).unwrap();
         let values = [-5.0, 20.0, 30f64.next_down(), 30.0, 99.0, 100f64.next_down(), 100.0, 300.0];
         assert_eq!(open(&gate, &values), [true, true, true, false, false, false, true, true]);
-        // A ramp that begins at 10 shows nothing at 10.
+        // A ramp that begins at 10 is invisible at 10.
         let ramp = over_value::<f64>(&[10.0, 20.0], &[0.0, 1.0], &self::rows(rows.over.clone(), &[0.0], &[0])).unwrap();
         assert_eq!(open(&ramp, &[9.0, 10.0, 10f64.next_up(), 20.0]), [false, false, true, true]);
     }
@@ -149,7 +149,7 @@ mod tests {
                 let open = gate.locate(value).is_some();
                 prop_assert!(open || !seen, "{value}");
                 if !swapped && open {
-                    // Some row shows something at the value, or it is within rounding of a place that does.
+                    // Some row is visible at the value or within rounding of it.
                     let near = [value.next_down(), value, value.next_up()];
                     let rows_seen = |v: f32| (0..lines.len()).any(|i| plane.locate(Coordinate::Number(v), Coordinate::Number(stands[i] as f32)).is_some());
                     prop_assert!(near.into_iter().any(rows_seen), "{value}");

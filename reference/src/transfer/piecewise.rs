@@ -157,7 +157,7 @@ impl<R: Real> Piecewise<R> {
         } else {
             (Box::new([LookupPart::Search(0); PARTS + 2]), R::ZERO)
         };
-        // The same table in bytes, for lanes, and one more entry for values beyond the last node.
+        // The table in bytes, for lanes, with one more entry for values beyond the last node.
         let mut codes = Box::new([0; (PARTS + 3).next_power_of_two()]);
         let beyond = if opacity[end] == R::ZERO { LookupPart::Invisible } else { LookupPart::Segment(end as u32) };
         for (code, part) in codes.iter_mut().zip(parts.iter().chain([&beyond])) {

@@ -103,7 +103,7 @@ mod tests {
         let place = |node, alpha_u| NodePlace { node, w: 0.25, alpha_u };
         assert_eq!((patch.rows, patch.w), ([place(0, 0.05), place(2, 0.5)], 0.5));
         assert!((patch.alpha_u - 0.275).abs() < f64::EPSILON);
-        // On a row that row alone; beyond the last it holds.
+        // A place on a row depends on this row alone. The last row holds beyond itself.
         for y in [10.0, 1e9] {
             assert_eq!(plane.locate(Number(1.0), Number(y)).unwrap().rows, [place(2, 0.5); 2]);
         }

@@ -62,7 +62,7 @@ mod tests {
         let at = |x| stops.find(Coordinate::Number(x)).unwrap();
         assert_eq!([-5.0, 10.0, 15.0, 20.0].map(at), [(0, 0.0), (0, 0.0), (0, 0.5), (2, 0.0)]);
         assert_eq!([35.0, 40.0, 1e300, f64::NAN].map(at), [(2, 0.75), (3, 0.0), (3, 0.0), (0, 0.0)]);
-        // A whole way is the next stop.
+        // A w that rounds to 1 becomes the next stop.
         assert_eq!(at(20f64.next_down()).0, 0);
         let far = AxisStops::<f32>::new(&[-1.0, f64::from(f32::MIN_POSITIVE)], false);
         assert_eq!(far.find(Coordinate::Number(0.0)), Some((1, 0.0)));

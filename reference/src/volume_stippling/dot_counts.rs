@@ -83,7 +83,7 @@ mod tests {
                 let share = k as f64 / each as f64;
                 for share in [share.next_down(), share, share.next_up()] {
                     let VoxelDots { whole, fading, .. } = dots(each, share, 1.0, Ink::Fade, CELL);
-                    // In units of dots: the product is off by an ulp of it, of which each is half a unit roundoff of k.
+                    // In units of dots: the product errs by an ulp, which is half a unit roundoff of k.
                     assert!((whole as f64 + fading - k as f64).abs() <= 4.0 * f64::EPSILON * k as f64, "{each} {k}");
                     assert!(
                         fading <= 4.0 * f64::EPSILON * each as f64 || fading >= 1.0 - 4.0 * f64::EPSILON * each as f64
@@ -109,7 +109,8 @@ mod tests {
     fn a_pen_keeps_the_area_of_ink() {
         // Half of the dots at half the size, S_max twice the nib: as many dots of the nib.
         assert_eq!(with_nib(0.5 * 0.25, 2.0), (0.5, 1.0));
-        // At full size four times the area: twice as many nibs as the list has: each has twice the area.
+        // At full size the area is four times as large: twice as many nibs as the list has, so each has twice the
+        // area.
         assert_eq!(with_nib(0.5, 2.0), (1.0, 2f64.sqrt()));
         for (ink, per_nib) in [(0.147, 1.3), (0.729, 3.0), (0.004, 0.5)] {
             let (share, size) = with_nib(ink, per_nib);

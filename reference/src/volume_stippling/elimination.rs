@@ -267,7 +267,7 @@ mod tests {
         let same = |share, count| vec![DotCandidate { at: DVec2::ONE, share }; count];
         assert_eq!(eliminate(&same(1.0, 3)), [0, 1, 2]);
         assert!(eliminate(&same(0.1, 3)).is_empty() && eliminate(&[]).is_empty());
-        // Of equals the first goes first.
+        // Of equal candidates the first is removed first.
         assert_eq!(eliminate(&same(0.5, 4)), [2, 3]);
     }
 }

@@ -113,7 +113,7 @@ mod tests {
                     back += 1;
                 }
             }
-            // Without a foot a point is asked for itself: inside it is hidden, before the sphere it is not.
+            // A point without a foot is tested itself: inside the sphere it is hidden, in front of it it is visible.
             let hides = |along: f64| hidden.hides(centre + direction.normalize() * along, DVec3::X);
             assert!(hides(1.0) && hides(18.0) && !hides(-18.0));
         }

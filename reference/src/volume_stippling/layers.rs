@@ -70,13 +70,13 @@ mod tests {
                 let inside = |cell: &&[u32; 3]| t(**cell).abs() < half && cell.iter().all(|i| (5..35).contains(i));
                 let steps: Vec<_> = cells.iter().filter(inside).map(|&cell| (cell, n)).collect();
                 let found = layers(dims, &norms, is_above, &steps);
-                // Lines along n meet ⌊w⌋ or one more, and each of those counts all.
+                // Lines along n meet ⌊w⌋ voxels or one more, and each of these counts all of them.
                 let (whole, more) = ((2.0 * half).floor(), 2.0 * half - (2.0 * half).floor());
                 let lines = (whole * whole * (1.0 - more) + (whole + 1.0) * (whole + 1.0) * more) / (2.0 * half);
-                // Along an axis all lines are alike, and the count is that of whole planes.
+                // Along an axis all lines are equal, and the count is that of whole planes.
                 let planes = (19.37f64 + half).floor() - (19.37f64 - half).floor();
                 let wanted = if n == DVec3::Z { planes } else { lines };
-                // Linear interpolation cuts the crest off, which is seen where the slab ends within half a voxel of it.
+                // Linear interpolation cuts off the crest, which shows where the slab ends within half a voxel of it.
                 assert!((found - wanted).abs() < 0.1, "{n} {half}: {found}");
             }
         }

@@ -100,12 +100,12 @@ mod tests {
         // The middle of the first box.
         assert_eq!(two.grid().origin(), DVec3::new(10.5, 1.0, 3.0));
         assert!(super::boxes(&volume, 1).is_none());
-        // However long a box is asked for, there are two along each axis, and a gradient between them.
+        // However large a box is, an axis has two boxes and a gradient between them.
         for m in [3, 4, 1 << 20] {
             let two = boxes(&volume, m).unwrap();
             assert_eq!((two.dims(), two.grid().spacing()), ([2, 2, 1], [3.0, 4.0, 7.0]));
         }
-        // None is shorter than it must be: two voxels stay as they are.
+        // An axis is not shortened more than needed: two voxels stay.
         let flat =
             Volume::new(Grid::with_spacing([2, 1, 1], [1.0; 3]).unwrap(), Voxels::U8(vec![3, 9]), 1.0, 0.0).unwrap();
         assert!(super::boxes(&flat, 2).is_none());

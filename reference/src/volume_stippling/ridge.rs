@@ -201,8 +201,8 @@ mod tests {
                 if (t(cell).abs() - 0.5).abs() > 1e-10 {
                     assert_eq!(norms.is_largest(cell, n), t(cell).abs() < 0.5, "{n} {cell:?}: {}", t(cell));
                 }
-                // Between voxels it is a parabola: off by the third derivative, at most 12·20·10⁻¹², over 6, and by rounding,
-                // each over a bend of 4·10⁻⁶.
+                // Between voxels ‖∇V‖ is a parabola. It errs by the third derivative, at most 12·20·10⁻¹², over 6,
+                // and by rounding, each divided by a bend of 4·10⁻⁶.
                 assert!((bells.top(cell, n) - (-t(cell)).clamp(-1.0, 1.0)).abs() < 1e-4, "{n} {cell:?}");
             }
         }
@@ -327,7 +327,7 @@ mod tests {
             let mut last = top(0.0, after);
             for k in 1..=1000 {
                 let next = top(f64::from(k) / 1000.0, after);
-                // The first is at the least foot that counts, where ln has its steepest slope: a tenth of all of it.
+                // The first is at the least foot that counts, where ln is steepest: a tenth of the whole change.
                 assert!(next <= last + 1e-12 && last - next < 0.1, "{after} {k}: {last} {next}");
                 last = next;
             }

@@ -143,7 +143,7 @@ mod tests {
             for a in (0..3).filter(|&a| a != slab.axis) {
                 let least = points.iter().map(|o| off(o)[a]).fold(1.0, f64::min);
                 let most = points.iter().map(|o| off(o)[a]).fold(-1.0, f64::max);
-                // Of 200 draws none in the outer twentieth has odds of 4·10⁻⁵.
+                // The odds that none of 200 draws lies in the outer twentieth are 4·10⁻⁵.
                 assert!((-0.5001..-0.45).contains(&least) && (0.45..0.5001).contains(&most), "{n}: {least} {most}");
             }
         }

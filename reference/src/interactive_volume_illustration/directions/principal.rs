@@ -192,7 +192,7 @@ mod tests {
             let size = 10f64.powi(i % 13 - 6);
             let g = g * size;
             let n = g * (1.0 / g.length());
-            // a·I in the tangent plane, a gap about some direction, and whatever the normal has to do with it.
+            // A multiple of I in the tangent plane, a gap about some direction, and any part along the normal.
             let gap = 10f64.powf(-6.0 * (r.next() + 1.0));
             let along = r.vector();
             let t = n.cross(along) * (1.0 / n.cross(along).length());

@@ -69,7 +69,7 @@ mod tests {
             let chord = left[i].distance(left[(i + 1) % left.len()]);
             assert!(r - (r * r - chord * chord / 4.0).sqrt() <= within * 1.01, "{chord}");
         }
-        // Halving leaves at most twice as many as the longest chords: 2√(2rc) = 0.89.
+        // Halving leaves at most twice as many places as the longest chords do: 2√(2rc) = 0.89.
         assert!((140..=290).contains(&left.len()), "{}", left.len());
     }
 }

@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(p(51, 102), 0.5 * (0.2 + 0.4));
         // C₀ = 0.02 is 5.1 bytes, C₁ = 0.05 is 12.75.
         assert_eq!([p(255, 5), p(255, 6), p(12, 255), p(13, 255)].map(|p| p > 0.0), [false, true, false, true]);
-        // At the bound itself there is none.
+        // At the bound itself the probability is 0.
         let at = SeedRule::Curvature { min_curvature: 0.2, min_gradient: 0.2 };
         assert_eq!(at.probability(LargestMeasure { gradient: 51, curvature: 255 }), 0.0);
         assert_eq!(at.probability(LargestMeasure { gradient: 255, curvature: 51 }), 0.0);
@@ -284,7 +284,7 @@ mod tests {
     fn a_masked_voxel_empties_its_cells() {
         let holed = volume([6, 6, 6], |[x, y, z]| if [x, y, z] == [2, 2, 2] { f64::NAN } else { x as f64 });
         let seeds = Seeds::new(&Pyramid::new(&holed), &holed, 1.5, SeedRule::Dense, measure);
-        // Of 25 cells between x = 1 and 2 the four that touch it.
+        // 21 of 25 cells between x = 1 and 2: four cells touch the masked voxel.
         assert_eq!(seeds.cells.len(), 21);
     }
 }

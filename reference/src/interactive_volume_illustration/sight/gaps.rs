@@ -286,7 +286,7 @@ mod tests {
             assert_eq!(ends(&found.lines), [[0.0, 9.5], [10.5, 20.0], [10.0, 10.0]], "{pieces:?}");
             assert_eq!(found.lines[2], near);
             assert!(found.cuts > 0);
-            // Of what is only there to cut nothing comes back.
+            // Lines in `others` only cut; they are not returned.
             let found = gapped(std::slice::from_ref(&far), &[near], &view, 0.5, 2.0);
             assert_eq!(ends(&found.lines), [[0.0, 9.5], [10.5, 20.0]]);
             let (sin, cos) = 30f64.to_radians().sin_cos();

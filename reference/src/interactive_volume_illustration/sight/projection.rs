@@ -146,7 +146,7 @@ mod tests {
         // Halfway on the page: x/depth = 0.2 at x = 2t, depth = 10 − 5t, so that t = ⅔.
         assert!((cut.along_world(0.5) - 2.0 / 3.0).abs() < 1e-12);
         assert!(cut.is_start(0.0) && cut.is_end(1.0) && cut.range == [0.0, 1.0]);
-        // A piece that goes past the eye ends at depth 1, here three quarters along it.
+        // A segment that passes the eye ends at depth 1, here three quarters along it.
         let cut = onto.cut([DVec3::new(0.0, 0.0, 7.0), DVec3::new(0.8, 0.0, 9.6)], 0.0);
         let cut = cut.unwrap();
         assert!(!cut.is_end(1.0) && (cut.along_world(1.0) - 2.0 / 2.6).abs() < 1e-12);

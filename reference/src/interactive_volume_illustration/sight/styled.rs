@@ -233,7 +233,8 @@ mod tests {
         assert!((first.u - 0.03).abs() < 1e-12 && part.stroke.key == 7);
         assert_eq!((part.pens[0].radius, part.pens[part.pens.len() - 1].radius), (0.05, 0.05));
         assert!(part.pens.iter().all(|pen| pen.radius >= 0.05));
-        // Linear up to u = 0.3 and from 0.7 on, where there are vertices already, so that none is added but the ends.
+        // The width is linear up to u = 0.3 and from 0.7 on. Vertices exist there already, so only the ends are
+        // added.
         assert_eq!(part.pens.len(), 11);
         // Nothing is wide enough.
         assert!(drawn(&line(false), 0.6, taper).is_empty());

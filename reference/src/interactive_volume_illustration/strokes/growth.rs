@@ -396,7 +396,7 @@ fn joined(
 ) -> (Vec<CubicSegment>, usize, [Option<StrokeEnd>; 2]) {
     let stop_back = stop(&back.end);
     let pieces = back.pieces.iter().rev().map(CubicSegment::reversed).chain(forward.pieces).collect();
-    // Where the halves meet there is one end, not two.
+    // The halves meet in one end, which counts once.
     let first = (stop_back != StrokeEnd::Closed).then_some(stop_forward);
     (pieces, back.pieces.len(), [first, Some(stop_back)])
 }

@@ -76,7 +76,7 @@ impl StrokeGrower<'_, '_> {
             }
             before = next;
         }
-        // Of a broken stroke only the run with the seed is kept.
+        // Only the run with the seed is kept.
         let broken = runs.each.len() > 1;
         counts.cut += u64::from(broken);
         let at = at_seed as f64;

@@ -142,7 +142,7 @@ mod tests {
         assert!(near(side.diffuse, 0.512) && near(side.specular, 0.64), "{side:?}");
         assert!(near(LineLightTerms::new(0.6, -0.6, 3.0, 2.0).specular, 1.0));
         assert!(near(LineLightTerms::new(0.6, 0.6, 3.0, 2.0).specular, 0.0784));
-        // 0.8·0.6 − 0.6·0.8: nothing, and beyond it, where the printed power would be of a negative number, nothing either.
+        // 0.8·0.6 − 0.6·0.8 = 0. Beyond it, where the printed power would have a negative base, the term stays 0.
         assert!(LineLightTerms::new(0.6, 0.8, 3.0, 2.0).specular < 1e-30);
         assert_eq!(LineLightTerms::new(0.8, 0.8, 3.0, 2.0).specular, 0.0);
         // Rounding that leaves [−1, 1] gives no NaN.
@@ -183,7 +183,7 @@ mod tests {
             });
             let most = normals.map(|n| n.dot(l)).fold(0.0, f64::max);
             assert!((LineLightTerms::new(l.dot(t), v.dot(t), 1.0, 1.0).diffuse - most).abs() < 1e-7);
-            // V in the plane of L and T is where the highlight is all of V·R.
+            // With V in the plane of L and T, the highlight equals V·R.
             let n = (l - t * l.dot(t)).normalize();
             let r = n * (2.0 * n.dot(l)) - l;
             assert!((LineLightTerms::new(l.dot(t), r.dot(t), 1.0, 1.0).specular - 1.0).abs() < 1e-12);
@@ -195,7 +195,8 @@ mod tests {
         let (z, x) = (DVec3::Z, DVec3::X);
         let mut light = light();
         light.specular = 0.0;
-        // Facing the eye: front alone; away: back alone; at right angles half of each. k_d is 0.7, and L·T = 0.
+        // Facing the eye: front alone. Facing away: back alone. At right angles: half of each. k_d is 0.7, and L·T =
+        // 0.
         assert_eq!(light.color(z, z, x, z), [0.0, 0.0, 0.7, 1.0]);
         assert_eq!(light.color(z, z, x, -z), [0.7, 0.7, 0.0, 1.0]);
         assert_eq!(light.color(z, z, x, DVec3::Y), [0.35, 0.35, 0.35, 1.0]);
@@ -208,7 +209,7 @@ mod tests {
         let [r, g, b, _] = light.color(z, z, x, n);
         assert!((r - 0.5 * 0.7 * 0.25).abs() < 1e-15 && r == g && (b - 0.5 * 0.7 * 0.75).abs() < 1e-15);
         assert_eq!(light.color(z, z, x, -z)[..3], [0.0; 3]);
-        // The higher p, the darker what the light strikes at a slant.
+        // A higher p darkens lines that light strikes at a slant.
         let slanted = |p| LineLight { p, ..self::light() }.color(z, x, DVec3::new(0.6, 0.0, 0.8), x)[2];
         assert!(slanted(1.0) > slanted(2.0) && slanted(2.0) > slanted(P));
     }

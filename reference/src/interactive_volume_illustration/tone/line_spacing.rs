@@ -372,7 +372,7 @@ mod tests {
         let kept = spread(std::slice::from_ref(&alone), LineDistance::Tone { least: 0.05 }, 1.0);
         assert_eq!(kept.len(), 1);
         assert!((kept[0].length() - alone.length()).abs() < 1e-12);
-        // A dash that is too short is none, and neither is one without tone.
+        // A dash that is too short is dropped, and so is one without tone.
         assert!(spread(std::slice::from_ref(&alone), LineDistance::Everywhere(1.0), 6.0).is_empty());
         let mut page = LineSpacing::new([DVec2::ZERO, DVec2::splat(9.0)], NIB, LineDistance::Tone { least: 0.05 }, 1.0);
         assert!(page.is_open(alone.vertices[3].at, 0.5) && !page.is_open(alone.vertices[3].at, 0.01));

@@ -159,7 +159,8 @@ mod tests {
         let labels = Grid::with_spacing([3, 1, 1], [4.0, 1.0, 1.0]).unwrap();
         let data = Grid::new([12, 1, 1], DMat3::IDENTITY, DVec3::new(-1.0, 0.0, 0.0)).unwrap();
         let got = distance(&data, &labels, |i| i == 1).unwrap();
-        // World −1 … 10: its voxel goes from 2, which is half way and belongs to the lower one, to 6, which is its own.
+        // World −1 … 10: the label's voxel reaches from 2, half way, which belongs to the lower voxel, to 6, which is
+        // its own.
         assert_eq!(got.distances, [5.0, 4.0, 3.0, 2.0, 0.0, 0.0, 0.0, 0.0, 3.0, 4.0, 5.0, 6.0]);
         assert!(distance(&data, &labels, |_| false).is_none());
     }

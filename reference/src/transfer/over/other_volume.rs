@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn another_anatomy_is_flipped() {
-        // The data's x runs to the left, the further volume's to the right, from −2 to 0 of the data's.
+        // The data's x runs to the left; the other volume's runs to the right, from −2 to 0 of the data's.
         let grid = Grid::with_spacing([3, 1, 1], [1.0; 3]).unwrap();
         let left = Volume::new(grid.clone(), Voxels::U8(vec![1, 2, 4]), 1.0, 0.0).unwrap();
         let left = left.with_anatomy(Some(Anatomy::RightAnteriorSuperior));

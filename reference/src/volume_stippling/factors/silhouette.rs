@@ -24,7 +24,7 @@ mod tests {
         for facing in [0.5, -0.5] {
             assert!((silhouette(&t, FactorRange::Clamp, 0.8, 0.1, facing) - 0.3).abs() < 1e-16);
         }
-        // As printed: 1 − |0.1·0.5| = 0.95.
+        // The printed form: 1 − |0.1·0.5| = 0.95.
         let literal = Silhouette { literal: true, ..t };
         let want = 0.8 * (0.25 + 0.5 * 0.95 * 0.95);
         assert!((silhouette(&literal, FactorRange::Clamp, 0.8, 0.1, 0.5) - want).abs() < 1e-16);

@@ -155,7 +155,8 @@ mod tests {
             (DMat3::IDENTITY, DVec3::X, 14),
             (DMat3::IDENTITY, DVec3::new(1.0, 2.0, 3.0).normalize(), 13 + 3 + 9),
             (DMat3::IDENTITY, DVec3::NEG_ONE.normalize(), 0),
-            // A voxel along z is four long: one voxel's way along n does not leave it, but it has no other neighbour there.
+            // A voxel is four long along z. One voxel's length along n stays inside it, but it has no other neighbour
+            // there.
             (sheared, DVec3::Z, 22),
         ] {
             let sites = Sites { axes, ..sites(&[], &[], true) };
