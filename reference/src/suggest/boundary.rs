@@ -140,7 +140,7 @@ fn skin_and_bone(volume: &Volume, outside: Outside, levels: &Levels) -> Option<F
     whole.then_some(FirstSurfaces { main, hull: Some(hull), thin: false })
 }
 
-/// Area times squared agreement and step. It favours surfaces that enclose much with little area and that the box
+/// Area times (step · agreement)², weighted. The weights favour surfaces that enclose much with little area and that the box
 /// does not cut.
 fn score(level: &Level) -> f64 {
     let open = 1.0 - level.cut;

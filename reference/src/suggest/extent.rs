@@ -4,7 +4,8 @@ use super::content::{ContentRange, VolumeContent};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::Volume;
 
-/// Number of parts of a cell's edge between two lines. The field is linear along a line, so its crossing is exact.
+/// Number of parts of a cell's edge; lines through the cell are one part apart. The field is linear along a line, so its
+/// crossing is exact.
 const PARTS: usize = 4;
 
 /// Returns the greatest values of linear functions over the surface of a volume's content, within the closed box of

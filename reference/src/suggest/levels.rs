@@ -324,7 +324,7 @@ mod tests {
         let low = Levels::of(&volume(ball), Outside::Low).unwrap();
         let high = Levels::of(&volume(|p| -ball(p)), Outside::High).unwrap();
         assert_eq!(low.all(), high.all());
-        // The same numbers from the other side, up to the rounding of shares and of powers.
+        // Numbers seen from the other side are equal, up to the rounding of shares and of powers.
         for (a, b) in low.mirrored().all().iter().zip(Levels::of(&volume(ball), Outside::High).unwrap().all()) {
             for (a, b) in [(a.area, b.area), (a.step, b.step), (a.inside, b.inside), (a.cut, b.cut)] {
                 assert!((a - b).abs() < 1e-12, "{a} {b}");

@@ -150,7 +150,7 @@ mod tests {
             stance(|p| ball(p, [16.0, 16.0, 12.0], 10.0) || ((p[0] - 16.0).hypot(p[1] - 16.0) < 4.0 && p[2] > 12.0));
         assert_eq!(s.up, -DVec3::Z);
         assert!(s.direction.z > 0.0, "seen from above its crown");
-        // A leg that widens to its cut stands on the cut.
+        // A leg that widens to its cut is not a bust: it stands on its foot, the narrow end.
         let leg = stance(|p| (p[0] - 16.0).hypot(p[1] - 16.0) < 3.0 + 0.2 * p[2] && p[2] > 2.0);
         assert_eq!(leg.up, DVec3::Z);
     }

@@ -9,7 +9,7 @@ pub(super) fn towards(sites: &Sites<'_>, n: DVec3) -> usize {
     let step = sites.axes.inverse() * n * sites.voxel;
     let mut to = step.to_array().map(|x| x.round_ties_even().clamp(-1.0, 1.0));
     if to == [0.0; 3] {
-        // The step is a short diagonal of a very long voxel: the nearest axis replaces it.
+        // Every component rounds to 0, as on a diagonal of a very long voxel: the nearest axis replaces the step.
         let a = step.abs();
         let axis = if a.x >= a.y && a.x >= a.z {
             0
