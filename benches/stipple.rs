@@ -3,7 +3,9 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use drypoint::reference::volume_stippling::{Candidate, Drawn, FrameInputs, Frames, Inputs, Preprocess, eliminate};
+use drypoint::reference::volume_stippling::{
+    DotCandidate, FrameDots, FrameInputs, Frames, Preprocess, StippleInputs, eliminate,
+};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3, IVec3};
 use drypoint::scene::marks::Page;
@@ -91,16 +93,17 @@ fn table() -> VolumeTable {
 }
 
 /// Calls with what makes 25 points a voxel.
-fn with_inputs<T>(volume: &Volume, f: impl FnOnce(Inputs<'_>) -> T) -> T {
+fn with_inputs<T>(volume: &Volume, f: impl FnOnce(StippleInputs<'_>) -> T) -> T {
     let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
     let (mut stipples, table) = (stipples(), table());
     let first = stipples.clone();
-    let inputs = Inputs { stipples: &first, table: &table, volume, view: &view, near: 0.5, square: 0.3, tone: None };
+    let inputs =
+        StippleInputs { stipples: &first, table: &table, volume, view: &view, near: 0.5, square: 0.3, tone: None };
     stipples.k_max = PointsPerPixel::Number(25.0 * 65_536.0 / Preprocess::new(inputs).unwrap().area);
-    f(Inputs { stipples: &stipples, ..inputs })
+    f(StippleInputs { stipples: &stipples, ..inputs })
 }
 
-fn points(inputs: Inputs<'_>) -> Points {
+fn points(inputs: StippleInputs<'_>) -> Points {
     Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
 }
 
@@ -114,9 +117,9 @@ fn preprocess_and_points(bencher: Bencher<'_, '_>, count: f64) {
 fn sample_elimination(bencher: Bencher<'_, '_>, count: u32) {
     let candidate = |i: u32| {
         let [x, y, ..] = philox::uniforms(1, [i, 0, 0], 0);
-        Candidate { at: 150.0 * DVec2::new(x, y), share: 0.25 }
+        DotCandidate { at: 150.0 * DVec2::new(x, y), share: 0.25 }
     };
-    let candidates: Vec<Candidate> = (0..count).map(candidate).collect();
+    let candidates: Vec<DotCandidate> = (0..count).map(candidate).collect();
     bencher.counter(ItemsCount::new(count)).bench_local(|| eliminate(black_box(&candidates)).len());
 }
 
@@ -137,7 +140,7 @@ fn frame_of_two_millions(bencher: Bencher<'_, '_>) {
             surface: None,
             tone: None,
         });
-        let (page, mut drawn) = (Page::in_pixels(inputs.view.size, 0.0, 300.0), Drawn::default());
+        let (page, mut drawn) = (Page::in_pixels(inputs.view.size, 0.0, 300.0), FrameDots::default());
         bencher.bench_local(|| {
             frames.draw(inputs.view, &page, &mut drawn);
             drawn.len()

@@ -7,9 +7,10 @@
 
 use drypoint::reference::field::normal::outward;
 use drypoint::reference::field::{Field, GradientEstimator, Kernel, Reconstruction, Rung, Sampler};
-use drypoint::reference::interactive_volume_illustration::integrator::{Control, Lines, trace};
+use drypoint::reference::interactive_volume_illustration::integrator::{Control, LineField, trace};
 use drypoint::reference::interactive_volume_illustration::{
-    Between, Family, HatchCounts, Hatching, Rule, Scales, Seed, Storing, Strokes,
+    CurvatureFamily, DirectionCounts, DirectionEstimator, DirectionInterpolation, DirectionStorage, HatchCounts,
+    HatchParams, Seed, StrokeGrower,
 };
 use drypoint::reference::number::Vec3;
 use drypoint::reference::with_sampler;
@@ -55,18 +56,19 @@ fn main() -> Result<(), String> {
             };
             let how = Reconstruction { kernel, gradient, ..Reconstruction::default() };
             let field = Field::<f64>::new(&volume, how, Rung::Hessian).map_err(|e| e.to_string())?;
-            for (from, stored) in
-                [("stored", Some(Storing { between: Between::Tensor, all: false })), ("hessian", None)]
-            {
-                let how = Hatching {
+            for (from, stored) in [
+                ("stored", Some(DirectionStorage { between: DirectionInterpolation::Tensor, all: false })),
+                ("hessian", None),
+            ] {
+                let how = HatchParams {
                     length: LENGTH * volume.grid().voxel(),
                     tolerance: TOLERANCE * volume.grid().voxel(),
                     max_angle: 180.0,
-                    rule: Rule::Raw,
+                    rule: DirectionEstimator::Raw,
                     stored,
-                    ..Hatching::new(volume.grid())
+                    ..HatchParams::new(volume.grid())
                 };
-                let strokes = Strokes::new(&field, None, how);
+                let strokes = StrokeGrower::new(&field, None, how);
                 row(&format!("{name}-{from}"), || along_curvature(&strokes, &field, &seeds))?;
             }
         }
@@ -139,7 +141,7 @@ impl Vectors {
     }
 }
 
-impl Lines for &Vectors {
+impl LineField for &Vectors {
     type Cause = ();
     fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
         Vectors::at(self, x).ok_or(())
@@ -168,7 +170,7 @@ fn along_vectors(mut field: &Vectors, seeds: &[DVec3]) -> (Vec<Ends>, [u64; 2]) 
     (strokes.collect(), [asked, vertices])
 }
 
-fn along_curvature(strokes: &Strokes<'_, '_>, field: &Field<'_, f64>, seeds: &[DVec3]) -> (Vec<Ends>, [u64; 2]) {
+fn along_curvature(strokes: &StrokeGrower<'_, '_>, field: &Field<'_, f64>, seeds: &[DVec3]) -> (Vec<Ends>, [u64; 2]) {
     let grid = field.volume().grid();
     let mut counts = HatchCounts::default();
     let mut vertices = 0;
@@ -176,8 +178,8 @@ fn along_curvature(strokes: &Strokes<'_, '_>, field: &Field<'_, f64>, seeds: &[D
         let index = Vec3::from_glam(place);
         let (target, gradient, cell) = with_sampler!(field, |s| (s.value(index), s.gradient(index), s.cell(index)));
         let normal = outward(gradient, field.reconstruction().outside, field.no_normal_below())?.to_glam();
-        let curvature = strokes.directions().at(field, index, &mut Scales::default()).ok()?;
-        let family = Family::Larger.of(&curvature);
+        let curvature = strokes.directions().at(field, index, &mut DirectionCounts::default()).ok()?;
+        let family = CurvatureFamily::Larger.of(&curvature);
         let seed = Seed { cell, world: grid.to_world(place), normal, target, curvature, family };
         let stroke = strokes.grow(&seed, &mut counts).ok()?;
         vertices += stroke.vertices.len() as u64;

@@ -10,7 +10,8 @@ use drypoint::job::Job;
 use drypoint::output::compare::line_distance::{WorldLine, angles, line_distance};
 use drypoint::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use drypoint::reference::interactive_volume_illustration::{
-    Between, Grown, HatchCounts, Hatching, Packed, Pyramid, Rule, Seed, SeedRule, Storing, Strokes, gradient_range,
+    DirectionEstimator, DirectionInterpolation, DirectionStorage, GrownStrokes, HatchCounts, HatchParams,
+    PackedStrokes, Pyramid, Seed, SeedRule, StrokeGrower, gradient_range,
 };
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::space::Grid;
@@ -58,7 +59,11 @@ fn main() -> Result<(), String> {
     for (name, iso) in WHOLE.into_iter().filter(|_| is_wanted("packed")) {
         let volume = load(&folder, name)?;
         let field = field(&volume, HessianEstimator::Gaussian)?;
-        let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), Rule::Scaled(Default::default()), None));
+        let strokes = StrokeGrower::new(
+            &field,
+            Some(iso),
+            hatching(volume.grid(), DirectionEstimator::Scaled(Default::default()), None),
+        );
         packed(name, &strokes.grow_all(&cells(&field, iso), |_| false), volume.grid());
     }
     Ok(())
@@ -86,21 +91,23 @@ fn field(volume: &Volume, hessian: HessianEstimator) -> Result<Field<'_, f64>, S
     Field::new(volume, Reconstruction { hessian, ..Default::default() }, rung).map_err(|e| e.to_string())
 }
 
-fn hatching(grid: &Grid, rule: Rule, stored: Option<Storing>) -> Hatching {
-    Hatching { rule, stored, ..Hatching::new(grid) }
+fn hatching(grid: &Grid, rule: DirectionEstimator, stored: Option<DirectionStorage>) -> HatchParams {
+    HatchParams { rule, stored, ..HatchParams::new(grid) }
 }
 
-const ALL: Option<Storing> = Some(Storing { between: Between::Tensor, all: true });
-const VISITED: Option<Storing> = Some(Storing { between: Between::Tensor, all: false });
-const FLIPPED: Option<Storing> = Some(Storing { between: Between::Flipped, all: false });
+const ALL: Option<DirectionStorage> = Some(DirectionStorage { between: DirectionInterpolation::Tensor, all: true });
+const VISITED: Option<DirectionStorage> =
+    Some(DirectionStorage { between: DirectionInterpolation::Tensor, all: false });
+const FLIPPED: Option<DirectionStorage> =
+    Some(DirectionStorage { between: DirectionInterpolation::Flipped, all: false });
 
-fn preprocessing(which: &str, storing: Option<Storing>, volume: &Volume, iso: f64) -> Result<(), String> {
+fn preprocessing(which: &str, storing: Option<DirectionStorage>, volume: &Volume, iso: f64) -> Result<(), String> {
     let dims = volume.dims();
     println!("| directions of {dims:?}: {which} | seconds | directions | bytes |\n|---|--:|--:|--:|");
-    let scaled = Rule::Scaled(Default::default());
+    let scaled = DirectionEstimator::Scaled(Default::default());
     let cases = [
-        ("raw, central differences", Rule::Raw, HessianEstimator::Central),
-        ("raw, Gaussian", Rule::Raw, HessianEstimator::Gaussian),
+        ("raw, central differences", DirectionEstimator::Raw, HessianEstimator::Central),
+        ("raw, Gaussian", DirectionEstimator::Raw, HessianEstimator::Gaussian),
         ("scaled, the default", scaled, HessianEstimator::Auto),
     ];
     for (name, rule, hessian) in cases {
@@ -109,7 +116,7 @@ fn preprocessing(which: &str, storing: Option<Storing>, volume: &Volume, iso: f6
         for _ in 0..ROUNDS {
             let start = Instant::now();
             let field = field(volume, hessian)?;
-            let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), rule, storing));
+            let strokes = StrokeGrower::new(&field, Some(iso), hatching(volume.grid(), rule, storing));
             strokes.prepare();
             if storing == VISITED {
                 black_box(seeds(&strokes, &field, iso));
@@ -125,7 +132,7 @@ fn preprocessing(which: &str, storing: Option<Storing>, volume: &Volume, iso: f6
 }
 
 /// The cells of the surface that have a seed.
-fn seeds(strokes: &Strokes<'_, '_>, field: &Field<'_, f64>, iso: f64) -> Vec<[usize; 3]> {
+fn seeds(strokes: &StrokeGrower<'_, '_>, field: &Field<'_, f64>, iso: f64) -> Vec<[usize; 3]> {
     let rule = SeedRule::Curvature { min_curvature: 0.02, min_gradient: 0.05 };
     let (range, _) = gradient_range(field, GradientRange::Fixed([0.0, 60.0]));
     let pyramid = Pyramid::new(field.volume());
@@ -146,10 +153,10 @@ fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
         cells.len()
     );
     println!("|---|--:|--:|--:|--:|--:|--:|");
-    let mut grown: Vec<(&str, Grown)> = Vec::new();
-    for (how, rule) in [("scaled", Rule::Scaled(Default::default())), ("raw", Rule::Raw)] {
+    let mut grown: Vec<(&str, GrownStrokes)> = Vec::new();
+    for (how, rule) in [("scaled", DirectionEstimator::Scaled(Default::default())), ("raw", DirectionEstimator::Raw)] {
         for (from, storing) in [("hessian", None), ("stored", VISITED), ("stored, flipped", FLIPPED)] {
-            let strokes = Strokes::new(&field, Some(iso), hatching(volume.grid(), rule, storing));
+            let strokes = StrokeGrower::new(&field, Some(iso), hatching(volume.grid(), rule, storing));
             let once = || {
                 let start = Instant::now();
                 let grown = strokes.grow_all(&cells, |_| false);
@@ -190,7 +197,7 @@ fn strokes(name: &str, volume: &Volume, iso: f64) -> Result<(), String> {
 /// Of the cells that the surface crosses so many as there shall be strokes, all over it.
 fn cells(field: &Field<'_, f64>, iso: f64) -> Vec<[usize; 3]> {
     let volume = field.volume();
-    let strokes = Strokes::new(field, Some(iso), hatching(volume.grid(), Rule::Raw, None));
+    let strokes = StrokeGrower::new(field, Some(iso), hatching(volume.grid(), DirectionEstimator::Raw, None));
     let pyramid = Pyramid::new(volume);
     let seeds = strokes.seeds(&pyramid, field, iso, SeedRule::Dense, (Measure::Mean, [0.0; 2]));
     let all: Vec<[usize; 3]> = seeds.cells.into_iter().map(|(cell, _)| cell).collect();
@@ -200,8 +207,8 @@ fn cells(field: &Field<'_, f64>, iso: f64) -> Vec<[usize; 3]> {
 }
 
 /// What strokes take beside the volume.
-fn packed(name: &str, grown: &Grown, grid: &Grid) {
-    let packed = Packed::new(grown.strokes.iter().map(|(_, stroke)| stroke), grid);
+fn packed(name: &str, grown: &GrownStrokes, grid: &Grid) {
+    let packed = PackedStrokes::new(grown.strokes.iter().map(|(_, stroke)| stroke), grid);
     let (bytes, normals, strokes) = (packed.bytes() as f64, 4.0 * grid.len() as f64, grown.strokes.len() as f64);
     println!(
         "{name}: {strokes} strokes, {} vertices: {bytes} bytes packed, 1/{:.1} of value and normal, 4 B a voxel; {:.1} segments \
@@ -214,7 +221,7 @@ fn packed(name: &str, grown: &Grown, grid: &Grid) {
 }
 
 /// Strokes of the same seeds: how far they are apart, and the angle between them at equal arc lengths from the seed's end.
-fn compared(from: &str, direct: &Grown, other: &Grown, grid: &Grid) {
+fn compared(from: &str, direct: &GrownStrokes, other: &GrownStrokes, grid: &Grid) {
     let voxel = grid.voxel();
     let find = |seed: &Seed| other.strokes.iter().position(|(s, _)| s.cell == seed.cell);
     let step = direct.strokes.len().div_ceil(PAIRS);

@@ -8,7 +8,8 @@ use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::suggest;
 use drypoint_reference::surface::IsoSurface;
 use drypoint_reference::volume_stippling::{
-    Drawn, Edges, FrameInputs, Frames, Inputs, PenTone, Preprocess, StippleError, choose_on_page, joined, seen,
+    CurveVoxels, FrameDots, FrameInputs, Frames, PenTone, Preprocess, StippleError, StippleInputs, choose_on_page,
+    joined, seen,
 };
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
@@ -30,7 +31,7 @@ pub struct Stippling<'a> {
     layers: Vec<PenDots>,
     /// Pen of lines: one of the layers' pens, or one of its own.
     line_pen: Pen,
-    edges: Option<Edges>,
+    edges: Option<CurveVoxels>,
     /// Grid of the voxels of points and edges.
     grid: Grid,
     /// λa of dots of S_max in a face seen from the front, and the number of voxels behind each other in it ([STIP-17]).
@@ -62,7 +63,7 @@ pub struct DotFrames<'a> {
     layers: Vec<Frames<'a>>,
     surface: Option<Arc<IsoSurface<'a, 'a>>>,
     /// Drawn dots of each layer.
-    drawn: Vec<Drawn>,
+    drawn: Vec<FrameDots>,
 }
 
 /// Everything that is known before points are made.
@@ -155,7 +156,7 @@ impl<'a> Stippling<'a> {
             Frames::new(FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone })
         });
         let layers: Vec<_> = layers.collect();
-        let drawn = vec![Drawn::default(); layers.len()];
+        let drawn = vec![FrameDots::default(); layers.len()];
         DotFrames { stippling: self, layers, surface, drawn }
     }
 }
@@ -244,14 +245,14 @@ impl<'a> StippleSetup<'a> {
         pen.tone.as_deref()
     }
 
-    fn inputs(&self) -> Inputs<'_> {
+    fn inputs(&self) -> StippleInputs<'_> {
         let Self { job, scene, stipples, first, near, square, .. } = self;
         let (table, volume) = (&scene.volume, &job.volume);
         // Area of a dot of S_max, in pixels.
         let diameter = self.size * self.page.pixels_per_mm();
         let dot = 0.25 * std::f64::consts::PI * (diameter * diameter);
         let tone = self.tone.as_ref().map(|tone| (tone, dot));
-        Inputs { stipples, table, volume, view: first, near: *near, square: *square, tone }
+        StippleInputs { stipples, table, volume, view: first, near: *near, square: *square, tone }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use drypoint_output::text::{CAP_HEIGHT, WEIGHT, strokes, width};
-use drypoint_reference::volume_stippling::{Candidate, eliminate};
+use drypoint_reference::volume_stippling::{DotCandidate, eliminate};
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Layer, Marks, Page, Pen, Polyline, Vertex};
 use drypoint_scene::memory::{self, NoRoom};
@@ -160,7 +160,7 @@ fn even(side: f64, density: f64, seed: u64, patch: u32) -> Vec<DVec2> {
         (DVec2::new(f64::from(i % cells), f64::from(i / cells)) + DVec2::new(x, y)) * cell - border
     };
     let all = 0..cells * cells;
-    let candidates: Vec<Candidate> = all.map(|i| Candidate { at: at(i), share: 1.0 / OVERSAMPLING }).collect();
+    let candidates: Vec<DotCandidate> = all.map(|i| DotCandidate { at: at(i), share: 1.0 / OVERSAMPLING }).collect();
     let places = eliminate(&candidates).into_iter().map(|i| candidates[i].at);
     places.filter(|p| p.min_element() >= 0.0 && p.max_element() <= side).collect()
 }

@@ -1,12 +1,12 @@
-//! Dots in the colours of a transfer function, a layer for each pen or for each of few colours ([STIP-16]).
+//! Dots in the colours of a transfer function, with a layer for each pen or each of a few colours ([STIP-16]).
 //!
 //! A colour belongs to a voxel, not to a frame: no dot changes its layer while a camera turns.
 
 use crate::labels::Labels;
 use crate::number::Vec3;
 use crate::style_transfer_functions::{Spheres, StyleIndex};
-use crate::transfer::{NodesError, Piecewise, Table};
-use drypoint_scene::color::{linear_to_oklab, linear_to_srgb, srgb_to_linear, unpremultiply};
+use crate::transfer::{IndexTable, NodesError, Piecewise};
+use drypoint_scene::color::{Rgb, linear_to_oklab, linear_to_srgb, srgb_to_linear, unpremultiply};
 use drypoint_scene::points::{PointVoxel, Points};
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
@@ -14,49 +14,47 @@ use drypoint_scene::tables::Mix;
 use drypoint_scene::transfer::Function;
 use std::collections::BTreeMap;
 
-/// Linear red, green and blue.
-pub type Rgb = [f64; 3];
-
-/// Of a voxel whose label has no row.
+/// The colour of a voxel whose label has no row.
 const NONE: Rgb = [0.0; 3];
 
-/// Where dots take their colours from.
+/// The source of the dots' colours.
 #[derive(Clone, Copy, Debug)]
-pub struct Colors<'a> {
+pub struct VoxelColors<'a> {
     /// The function over the volume's values, or over value and label.
     pub function: &'a Function,
-    /// The styles that it names, in their order.
+    /// The styles that the function names, in their order.
     pub styles: &'a [Style],
-    /// How they are mixed ([STF-3]).
+    /// The interpolation of styles ([STF-3]).
     pub mix: Mix,
-    /// The labels, where the function is over them.
+    /// The labels, if the function is over labels.
     pub labels: Option<&'a Labels<'a>>,
-    /// Whether a dot has its label's colour whatever its value: that of the row's most opaque node, the first of equals.
+    /// Whether a dot has its label's colour whatever its value: the colour of the row's most opaque node, the first
+    /// of equals.
     pub by_label: bool,
     /// The values that V = 0 and V = 1 stand for ([STIP-1]).
     pub range: [f64; 2],
 }
 
-/// A line of nodes, as colours over the value.
-struct Line {
+/// A row of nodes, as colours over the value.
+struct ColorRow {
     over_value: Piecewise<f64>,
-    table: Option<Table<f64>>,
-    shown: Shown,
-    /// That of the most opaque node.
+    table: Option<IndexTable<f64>>,
+    shown: ColorSource,
+    /// The colour of the most opaque node.
     flat: Rgb,
 }
 
-enum Shown {
+enum ColorSource {
     Colors(Vec<Rgb>),
     Styles(StyleIndex),
 }
 
-impl Colors<'_> {
-    /// The colour of each voxel's dots: the function's at V, whatever its opacity there. A style is looked up where it
-    /// faces the eye, N = (0, 0, 1), so that a dot keeps its colour while the camera turns.
+impl VoxelColors<'_> {
+    /// The colour of each voxel's dots: the function's colour at V, whatever its opacity. A style is evaluated facing
+    /// the eye, N = (0, 0, 1), so that a dot keeps its colour while the camera turns.
     ///
     /// # Errors
-    /// Nodes that make no function.
+    /// The nodes do not make a function.
     pub fn of(&self, points: &Points, grid: &Grid) -> Result<Vec<Rgb>, NodesError> {
         let (at, _, rows) = self.function.nodes();
         let spheres = Spheres::new(self.styles, self.mix);
@@ -71,7 +69,7 @@ impl Colors<'_> {
         let of = |voxel: &PointVoxel| {
             let line = match (ids, self.labels) {
                 (Some(ids), Some(labels)) => {
-                    // The centre of a part of a box ([STIP-2]) can lie outside.
+                    // The centre of a partial box ([STIP-2]) can lie outside.
                     let at = grid.to_index(points.grid.to_world(voxel.centre())).clamp(first, last);
                     let id = f64::from(labels.id_at(Vec3::<f64>::from_glam(at)));
                     let Some(row) = ids.iter().position(|at| *at == id) else { return NONE };
@@ -84,32 +82,34 @@ impl Colors<'_> {
         Ok(points.voxels.iter().map(of).collect())
     }
 
-    fn line(&self, nodes: std::ops::Range<usize>, spheres: &Spheres<f64>) -> Result<Line, NodesError> {
+    fn line(&self, nodes: std::ops::Range<usize>, spheres: &Spheres<f64>) -> Result<ColorRow, NodesError> {
         let (at, opacity, _) = self.function.nodes();
         let (at, opacity) = (&at[nodes.clone()], &opacity[nodes.clone()]);
-        // Every node counts, also one that nothing is seen of: places without opacity would not be told.
+        // Every node counts, even an invisible one: places without opacity would not be found.
         let over_value = Piecewise::new(at, &vec![1.0; at.len()])?;
-        let table = self.function.table().map(|(index, nodes)| Table::new(index, nodes));
+        let table = self.function.table().map(|(index, nodes)| IndexTable::new(index, nodes));
         let own = |n: usize| if table.is_some() { 0..n } else { nodes.clone() };
         let shown = match self.function {
-            Function::Regular(all) => Shown::Colors(all.color[own(all.color.len())].to_vec()),
-            Function::Style { nodes: all, .. } => Shown::Styles(StyleIndex::new(&all.color[own(all.color.len())])),
+            Function::Regular(all) => ColorSource::Colors(all.color[own(all.color.len())].to_vec()),
+            Function::Style { nodes: all, .. } => {
+                ColorSource::Styles(StyleIndex::new(&all.color[own(all.color.len())]))
+            }
         };
         let most = (0..at.len()).rev().max_by(|&a, &b| opacity[a].total_cmp(&opacity[b])).map_or(0.0, |i| at[i]);
-        let mut line = Line { over_value, table, shown, flat: NONE };
+        let mut line = ColorRow { over_value, table, shown, flat: NONE };
         line.flat = line.at(most, spheres);
         Ok(line)
     }
 }
 
-impl Line {
+impl ColorRow {
     fn at(&self, value: f64, spheres: &Spheres<f64>) -> Rgb {
-        // Opaque everywhere, so that there is a place for every value.
+        // The function is opaque everywhere, so every value has a place.
         let Some(place) = self.over_value.locate(value) else { return NONE };
         let place = self.table.as_ref().map_or(place, |table| table.between_nodes(&place));
         match &self.shown {
-            Shown::Colors(colors) => place.color(colors),
-            Shown::Styles(index) => {
+            ColorSource::Colors(colors) => place.color(colors),
+            ColorSource::Styles(index) => {
                 let [r, g, b, _] = unpremultiply(spheres.lookup(&index.blend(&place), 0.0, 0.0));
                 [r, g, b]
             }
@@ -117,8 +117,8 @@ impl Line {
     }
 }
 
-/// The nearest of `inks` for each colour, in OKLab, where equal distances look equal; the first of equals. There must be
-/// one.
+/// The nearest of `inks` for each colour, in OKLab, where equal distances look equal; the first of equals. `inks`
+/// must not be empty.
 pub fn nearest(colors: &[Rgb], inks: &[Rgb]) -> Vec<usize> {
     let inks: Vec<Rgb> = inks.iter().copied().map(linear_to_oklab).collect();
     let mut known: BTreeMap<[u64; 3], usize> = BTreeMap::new();
@@ -132,10 +132,11 @@ pub fn nearest(colors: &[Rgb], inks: &[Rgb]) -> Vec<usize> {
     colors.iter().map(nearest).collect()
 }
 
-/// At most `most` colours for many, each a byte a channel in sRGB, as vector files have them, from light to dark: the
-/// colours themselves if they are so few, else the means of a median cut in OKLab, which halves the widest box until there
-/// are enough.
+/// At most `most` colours for many, from light to dark, each with one byte per channel in sRGB for vector files. If
+/// there are few enough colours, they are returned themselves. Otherwise they are means of a median cut in OKLab,
+/// which halves the widest box until there are enough.
 pub fn palette(colors: &[Rgb], most: usize) -> Vec<Rgb> {
+    // A histogram of the colours as bytes.
     let byte = |c: f64| (linear_to_srgb(c.clamp(0.0, 1.0)) * 255.0).round_ties_even() as u8;
     let mut weights: BTreeMap<[u8; 3], f64> = BTreeMap::new();
     for color in colors {
@@ -151,6 +152,7 @@ pub fn palette(colors: &[Rgb], most: usize) -> Vec<Rgb> {
         let ends = b.iter().fold([f64::MAX, f64::MIN], |[lo, hi], (_, lab, _)| [lo.min(lab[c]), hi.max(lab[c])]);
         ends[1] - ends[0]
     };
+    // Median cut: halves the box with the longest side, by weight along this side.
     while boxes.len() < most {
         let sides = boxes.iter().enumerate().flat_map(|(i, b)| (0..3).map(move |c| (i, c, b)));
         let widest = sides.map(|(i, c, b)| (width(b, c), i, c)).max_by(|a, b| a.0.total_cmp(&b.0));
@@ -170,6 +172,7 @@ pub fn palette(colors: &[Rgb], most: usize) -> Vec<Rgb> {
         boxes[i] = cut;
         boxes.push(second);
     }
+    // The mean of each box in linear light, rounded to bytes.
     let mean = |b: &Vec<([u8; 3], Rgb, f64)>| {
         let all: f64 = b.iter().map(|(.., n)| n).sum();
         let mean = [0, 1, 2].map(|c| b.iter().map(|(bytes, _, n)| light(*bytes)[c] * n).sum::<f64>() / all);
@@ -181,7 +184,7 @@ pub fn palette(colors: &[Rgb], most: usize) -> Vec<Rgb> {
     palette
 }
 
-/// The points of each layer: those of the voxels that `of` gives to it, in their order.
+/// The points of each layer: the points of its voxels, in their order. `of` holds each voxel's layer.
 pub fn split(points: &Points, of: &[usize], layers: usize) -> Vec<Points> {
     let layer = |l: usize| {
         let own: Vec<usize> = (0..points.voxels.len()).filter(|&i| of[i] == l).collect();
@@ -222,10 +225,12 @@ mod tests {
     fn of(function: &Function, styles: &[Style], by_label: bool, values: &[f64]) -> Vec<Rgb> {
         let (points, grid) = points(values);
         let range = [50.0, 250.0];
-        Colors { function, styles, mix: Mix::Premultiplied, labels: None, by_label, range }.of(&points, &grid).unwrap()
+        VoxelColors { function, styles, mix: Mix::Premultiplied, labels: None, by_label, range }
+            .of(&points, &grid)
+            .unwrap()
     }
 
-    /// V = ¼, ½ and ¾ of [50, 250] are 100, 150 and 200; what lies beyond has the last node's colour.
+    /// V = ¼, ½ and ¾ of [50, 250] are 100, 150 and 200. Values beyond have the last node's colour.
     #[test]
     fn colours_of_a_regular_function_by_hand() {
         let function = Function::Regular(nodes(vec![RED, BLUE]));
@@ -234,7 +239,7 @@ mod tests {
         assert_eq!(of(&function, &[], true, &[0.0]), [BLUE]);
     }
 
-    /// The middle of a picture of an odd side is a texel's centre, whatever stands at its rim.
+    /// The middle of a picture with an odd side is a texel's centre, whatever lies at its border.
     #[test]
     fn a_style_where_it_faces_the_eye() {
         let style = |name: &str, middle: Rgb| {
@@ -262,7 +267,8 @@ mod tests {
         let many: Vec<Rgb> = (0..256).map(grey).collect();
         let found = palette(&many, 16);
         assert_eq!(found.len(), 16);
-        // A ramp is cut into parts of equal weight or width: no grey is farther from its own than a part is wide.
+        // A ramp is cut into parts of equal weight or width: a grey's distance from its colour is at most the width
+        // of a part.
         let of = nearest(&many, &found);
         let lightness = |c: Rgb| linear_to_oklab(c)[0];
         assert!(many.iter().zip(&of).all(|(c, &i)| (lightness(*c) - lightness(found[i])).abs() < 1.0 / 8.0));

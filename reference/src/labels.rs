@@ -1,4 +1,4 @@
-//! Which part a sample belongs to ([STF-13]).
+//! The label of a sample ([STF-13]).
 
 use crate::field::{Cells, Place};
 use crate::number::{Real, Vec3};
@@ -11,17 +11,17 @@ use drypoint_scene::volume::labels::LabelVolume;
 
 /// A label volume at the positions of a data volume.
 ///
-/// Positions are f64 from here on, so that ids do not depend on the number type of the samples.
+/// Positions are converted to f64, so that ids do not depend on the number type of the samples.
 #[derive(Clone, Debug)]
 pub struct Labels<'a> {
     volume: &'a LabelVolume,
     lookup: LabelLookup,
-    /// None where data and labels have one grid.
+    /// The map between grids; none if data and labels have one grid.
     map: Option<OtherGrid>,
     cells: Cells<f64>,
-    /// Voxels of the labels along x, y, z.
+    /// Number of the labels' voxels along x, y, z.
     dims: [usize; 3],
-    /// From a voxel to the next one in linear order; 0 on an axis of length 1.
+    /// Distance of neighbouring voxels in linear order; 0 on an axis of length 1.
     strides: [usize; 3],
 }
 
@@ -49,9 +49,9 @@ impl<'a> Labels<'a> {
 
     /// The id at a position of the data's index space, inside its box; 0 outside the box of the labels.
     ///
-    /// `nearest` takes the nearest voxel in index space, of two at one distance that of the lower index, as [PREC-2]
-    /// does. `smooth` takes the id with the highest sum of trilinear weights among the eight voxels around, of equal
-    /// sums the smallest id.
+    /// `nearest` takes the nearest voxel in index space. Of two at equal distance, the lower index holds, as in
+    /// [PREC-2]. `smooth` takes the id with the highest sum of trilinear weights among the eight voxels around. Of
+    /// equal sums, the smallest id holds.
     #[inline]
     pub fn id_at<R: Real>(&self, p: Vec3<R>) -> u32 {
         let mut p = Vec3::new(p.x.to_f64(), p.y.to_f64(), p.z.to_f64());
@@ -66,14 +66,14 @@ impl<'a> Labels<'a> {
         }
     }
 
-    /// Every id that [`id_at`](Self::id_at) can give in the data's cells from `first` up to, not including, `end`,
-    /// ascending ([RAY-2]); others may be among them.
+    /// All ids that [`id_at`](Self::id_at) can return in the data's cells from `first` up to, but excluding, `end`,
+    /// in ascending order ([RAY-2]). The list may contain further ids.
     pub fn ids_in(&self, first: [usize; 3], end: [usize; 3]) -> Vec<u32> {
         let Some(map) = &self.map else { return self.ids_of(first, end) };
         let [lo, hi] = map.bounds(first, end);
         let [start, stop] = map.reach();
         let mut ids = if lo.cmple(stop).all() && hi.cmpge(start).all() {
-            // Floors: what is clamped to the box is not negative.
+            // The cast takes the floor, since positions clamped to the box are not negative.
             let cell = |p: DVec3| p.clamp(DVec3::ZERO, stop).to_array().map(|x| x as usize);
             self.ids_of(cell(lo), cell(hi).map(|x| x + 1))
         } else {
@@ -121,7 +121,7 @@ impl<'a> Labels<'a> {
         let [dx, dy, dz] = self.strides;
         let ids: [u32; 8] =
             std::array::from_fn(|c| self.volume.id(start + (c & 1) * dx + (c >> 1 & 1) * dy + (c >> 2) * dz));
-        // Inside of a part, which is almost everywhere.
+        // The inside of a part, which is almost everywhere.
         if ids.iter().all(|&id| id == ids[0]) {
             return ids[0];
         }

@@ -4,24 +4,24 @@ use crate::number::{Mat3, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 
-/// Voxels by which two grids may differ and count as one: headers keep places in single precision, and one says in a
-/// matrix what another says in a quaternion. By as much a position may lie outside the box of another grid.
+/// Largest difference, in voxels, of two grids that count as one. Headers keep places in single precision, and one
+/// has a matrix where another has a quaternion. A position may lie outside the box of another grid by as much.
 const SLACK: f64 = 1.0 / 1024.0;
 
-/// `other index = D_o⁻¹ (D · index + origin − origin_o)` as one affine map, and the boxes of both. In f64, so that what is
-/// found there does not depend on the number type of the samples.
+/// The affine map `other index = D_o⁻¹ (D · index + origin − origin_o)` and the boxes of both grids. Numbers are f64,
+/// so that results do not depend on the number type of the samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OtherGrid {
     linear: Mat3<f64>,
     offset: Vec3<f64>,
     data_box: [DVec3; 2],
     own_box: [DVec3; 2],
-    /// The last one, with the slack.
+    /// The other grid's box, with the slack.
     reach: [DVec3; 2],
 }
 
 impl OtherGrid {
-    /// From positions on one grid to those on another; none where they are one, voxel on voxel.
+    /// A map from positions on one grid to positions on another. Returns none if the grids are one, voxel on voxel.
     pub(crate) fn new(data: &Grid, other: &Grid) -> Option<Self> {
         let inverse = other.inverse_axes();
         let own_box = other.index_box();
@@ -40,8 +40,8 @@ impl OtherGrid {
         self.linear.apply(p) + self.offset
     }
 
-    /// The position on the other grid, if it lies in its box; what lies beside it by no more than the slack is moved to
-    /// the border.
+    /// The position on the other grid, if it lies in its box. Positions outside by no more than the slack are moved
+    /// to the border.
     #[inline(always)]
     pub(crate) fn position(&self, p: Vec3<f64>) -> Option<Vec3<f64>> {
         let p = self.apply(p).to_glam();
@@ -54,14 +54,14 @@ impl OtherGrid {
         self.reach
     }
 
-    /// Whether that box holds a position of the other grid.
+    /// Whether that box contains a position of the other grid.
     #[inline(always)]
     pub(crate) fn has(&self, p: DVec3) -> bool {
         let [lo, hi] = self.reach;
         p.cmpge(lo).all() && p.cmple(hi).all()
     }
 
-    /// Whether no corner of the data's box, and so no position in it, is moved by more than the slack.
+    /// Whether the map moves no corner of the data's box, and so no position in it, by more than the slack.
     fn is_identity(&self) -> bool {
         corners(self.data_box).all(|p| (self.apply(Vec3::from_glam(p)).to_glam() - p).abs().max_element() <= SLACK)
     }
@@ -69,7 +69,7 @@ impl OtherGrid {
     /// Bounds of the other grid's positions of a part of the data's cells, with a margin for rounding.
     pub(crate) fn bounds(&self, first: [usize; 3], end: [usize; 3]) -> [DVec3; 2] {
         let number = |i: [usize; 3]| DVec3::from_array(i.map(|i| i as f64));
-        // On an axis of length 1 positions are not those of its one cell.
+        // On an axis of length 1, positions may lie outside its one cell.
         let flat = (self.data_box[0]).cmplt(DVec3::ZERO);
         let lo = DVec3::select(flat, self.data_box[0], number(first));
         let hi = DVec3::select(flat, self.data_box[1], number(end));

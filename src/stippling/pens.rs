@@ -4,9 +4,9 @@ use super::PenDots;
 use crate::Failure;
 use crate::job::{Job, pen_named};
 use drypoint_output::encode::hex;
-use drypoint_reference::dot_colors::{Colors, Rgb, nearest, palette, split};
+use drypoint_reference::dot_colors::{VoxelColors, nearest, palette, split};
 use drypoint_reference::labels::Labels;
-use drypoint_scene::color::{Rgba, linear_to_oklab};
+use drypoint_scene::color::{Rgb, Rgba, linear_to_oklab};
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::points::Points;
 use drypoint_scene::tables::{DotColor, Mix, Scene, Stipples};
@@ -93,7 +93,7 @@ fn colors(job: &Job, points: &Points) -> Result<Vec<Rgb>, Failure> {
     let grid = volume.grid();
     let labels =
         job.labels.as_ref().map(|labels| Labels::new(labels, grid, volume.anatomy(), scene.volume.label_lookup));
-    let colors = Colors {
+    let colors = VoxelColors {
         function,
         styles: &job.styles,
         mix: scene.transfer.as_ref().map_or(Mix::Premultiplied, |transfer| transfer.mix),

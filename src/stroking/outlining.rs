@@ -2,7 +2,7 @@
 
 use super::{StrokeCamera, on_page, pen, value};
 use crate::Failure;
-use drypoint_reference::interactive_volume_illustration::{Pen as Nib, outlines};
+use drypoint_reference::interactive_volume_illustration::{PenState, outlines};
 use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Page, Pen, Polyline};
@@ -47,7 +47,7 @@ impl Outlining {
         *counts.seconds.entry("outlines".into()).or_default() += start.elapsed().as_secs_f64();
 
         let start = Instant::now();
-        let nib = Nib { radius: self.pen.width / 2.0, opacity: 1.0, color: None };
+        let nib = PenState { radius: self.pen.width / 2.0, opacity: 1.0, color: None };
         let seen = frame.sight(OFFSET * voxel).seen(&found.strokes, |_, _| nib);
         let all = seen.lines.len();
         let lines: Vec<Polyline> = seen.lines.into_iter().filter(|line| line.length() >= self.min_length).collect();

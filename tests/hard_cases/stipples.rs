@@ -2,7 +2,7 @@
 
 use crate::common::{ball, volume};
 use crate::stability::{Case, Theme, differing, worst};
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, Preprocess};
+use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, Preprocess, StippleInputs};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
@@ -103,7 +103,7 @@ fn stipples() {
 fn made(volume: &Volume, stipples: &Stipples) -> Points {
     let view = View::new(&Camera::default(), volume.grid(), [200, 200]).unwrap();
     let table = VolumeTable::new(VolumeSource::File { path: "test.nrrd".into(), raw: None });
-    let inputs = Inputs { stipples, table: &table, volume, view: &view, near: 0.5, square: 1.0, tone: None };
+    let inputs = StippleInputs { stipples, table: &table, volume, view: &view, near: 0.5, square: 1.0, tone: None };
     Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
 }
 
@@ -120,7 +120,7 @@ fn drawn(points: &Points, stipples: &Stipples, view: &View) -> Vec<Dot> {
         surface: None,
         tone: None,
     });
-    let mut drawn = Drawn::default();
+    let mut drawn = FrameDots::default();
     frames.draw(view, &Page::in_pixels(view.size, 0.0, 254.0), &mut drawn);
     drawn.to_vec()
 }

@@ -6,7 +6,7 @@ use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::reference::field::{Field, Reconstruction, Rung};
 use drypoint::reference::interactive_volume_illustration::{
-    Family, Ground, Grown, Hatching, Pyramid, Rule, SeedRule, Strokes,
+    CurvatureFamily, DirectionEstimator, GrownStrokes, HatchParams, Pyramid, SeedRule, StrokeField, StrokeGrower,
 };
 use drypoint::reference::number::Vec3;
 use drypoint::scene::counts::Counts;
@@ -138,9 +138,9 @@ fn strokes() {
 
 /// The strokes of every cell of a surface, and the other way in each, with what is wrong with them; those that were grown must
 /// not be none.
-fn grown(volume: &Volume, iso: f64, how: Hatching) -> (Grown, f64) {
+fn grown(volume: &Volume, iso: f64, how: HatchParams) -> (GrownStrokes, f64) {
     let field = Field::<f64>::new(volume, Reconstruction::default(), Rung::Hessian).unwrap();
-    let strokes = Strokes::new(&field, Some(iso), how);
+    let strokes = StrokeGrower::new(&field, Some(iso), how);
     let range = (Measure::Mean, [0.0, 1.0]);
     let cells: Vec<_> = strokes.seeds(&Pyramid::new(volume), &field, iso, SeedRule::Dense, range).draw(1).collect();
     let grown = strokes.grow_all(&cells, |_| true);
@@ -168,7 +168,7 @@ fn faults(field: &Field<'_, f64>, iso: f64, stroke: &Stroke) -> usize {
     let behind = |pair: &[DVec3; 2]| {
         (0..=16).any(|i| {
             let index = grid.to_index(pair[0].lerp(pair[1], f64::from(i) / 16.0)).clamp(lo, hi);
-            Ground::value(field, Vec3::from_glam(index)) > iso + rounding
+            StrokeField::value(field, Vec3::from_glam(index)) > iso + rounding
         })
     };
     let pairs = vertices.windows(2).map(|v| [v[0].world, v[1].world]);
@@ -176,10 +176,10 @@ fn faults(field: &Field<'_, f64>, iso: f64, stroke: &Stroke) -> usize {
 }
 
 /// Every rule and both families.
-fn each(volume: &Volume, iso: f64, change: impl Fn(Hatching) -> Hatching) -> (f64, u64) {
+fn each(volume: &Volume, iso: f64, change: impl Fn(HatchParams) -> HatchParams) -> (f64, u64) {
     let (mut wrong, mut strokes) = (0.0, 0);
-    for rule in [Rule::Raw, Rule::Scaled(Default::default())] {
-        let how = change(Hatching { rule, ..Hatching::new(volume.grid()) });
+    for rule in [DirectionEstimator::Raw, DirectionEstimator::Scaled(Default::default())] {
+        let how = change(HatchParams { rule, ..HatchParams::new(volume.grid()) });
         let (grown, faults) = grown(volume, iso, how);
         wrong += faults;
         strokes += grown.counts.strokes;
@@ -210,7 +210,7 @@ fn plateau() -> f64 {
     let mut wrong = 0.0;
     let mut all = 0;
     for iso in [40.0, 100.0, 120.0] {
-        let (faults, strokes) = each(&volume, iso, |how| Hatching { length: 6.0, ..how });
+        let (faults, strokes) = each(&volume, iso, |how| HatchParams { length: 6.0, ..how });
         wrong += faults;
         all += strokes;
     }
@@ -225,13 +225,13 @@ fn plateau() -> f64 {
 fn sheet() -> f64 {
     let volume = volume([28, 28, 8], |p| 1.0 - ((p.x - 13.4).hypot(p.y - 13.7) - 8.3).abs());
     let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Hessian).unwrap();
-    let how = Hatching { rule: Rule::Raw, ..Hatching::new(volume.grid()) };
+    let how = HatchParams { rule: DirectionEstimator::Raw, ..HatchParams::new(volume.grid()) };
     let (grown, _) = grown(&volume, 0.5, how);
     assert!(grown.strokes.len() > 500, "{}", grown.strokes.len());
     let farther = grown.strokes.iter().filter(|(seed, _)| {
         let centre = DVec3::from_array(seed.cell.map(|i| i as f64 + 0.5));
         let reach = seed.world - centre;
-        let (length, over) = (reach.length(), |p: DVec3| Ground::value(&field, Vec3::from_glam(p)) - seed.target);
+        let (length, over) = (reach.length(), |p: DVec3| StrokeField::value(&field, Vec3::from_glam(p)) - seed.target);
         let along = reach / length;
         let side = over(centre) > 0.0;
         let places = (length * 100.0) as i32 - 1;
@@ -245,8 +245,8 @@ fn sheet() -> f64 {
 fn of_the_other_family(n: usize, iso: f64, at: impl Fn(DVec3) -> (f64, DVec3, DMat3)) -> f64 {
     let volume = volume([n; 3], |p| at(p).0);
     let mut segments = Vec::new();
-    for family in [Family::Max, Family::Min] {
-        let how = Hatching { family, length: 16.0, max_angle: 179.0, ..Hatching::new(volume.grid()) };
+    for family in [CurvatureFamily::Max, CurvatureFamily::Min] {
+        let how = HatchParams { family, length: 16.0, max_angle: 179.0, ..HatchParams::new(volume.grid()) };
         let (grown, wrong) = grown(&volume, iso, how);
         assert!(grown.strokes.len() > 200 && wrong == 0.0, "{} {wrong}", grown.strokes.len());
         for (_, stroke) in &grown.strokes {
@@ -259,7 +259,7 @@ fn of_the_other_family(n: usize, iso: f64, at: impl Fn(DVec3) -> (f64, DVec3, DM
                 // The second derivatives along and across, over −‖g‖: curvatures, if these are the directions.
                 let [kt, ka, both] = [t.dot(h * t), across.dot(h * across), t.dot(h * across)].map(|k| -k / g.length());
                 let difference = kt - ka;
-                let right = if family == Family::Max { difference > 0.0 } else { difference < 0.0 };
+                let right = if family == CurvatureFamily::Max { difference > 0.0 } else { difference < 0.0 };
                 segments.push((difference.hypot(2.0 * both), right));
             }
         }
@@ -322,7 +322,8 @@ fn long_voxels() -> f64 {
 
 fn border() -> f64 {
     let volume = volume([20, 32, 9], |p| ring([p.x, p.y, p.z]) - 4.0);
-    let (grown, mut wrong) = grown(&volume, 0.0, Hatching { rule: Rule::Raw, ..Hatching::new(volume.grid()) });
+    let (grown, mut wrong) =
+        grown(&volume, 0.0, HatchParams { rule: DirectionEstimator::Raw, ..HatchParams::new(volume.grid()) });
     assert!(grown.counts.stops.volume > 100, "{:?}", grown.counts.stops);
     let at_border = grown.strokes.iter().filter(|(seed, _)| seed.cell[0] == 18 || seed.cell[2] == 7).count();
     assert!(at_border > 50, "{at_border}");
@@ -334,7 +335,7 @@ fn far_from_the_origin() -> f64 {
     let at = |origin: DVec3| {
         let grid = Grid::new([32, 32, 20], DMat3::IDENTITY, origin).unwrap();
         let volume = on(grid, |p| ring((p - origin).to_array()) - 4.0);
-        let how = Hatching { rule: Rule::Raw, ..Hatching::new(volume.grid()) };
+        let how = HatchParams { rule: DirectionEstimator::Raw, ..HatchParams::new(volume.grid()) };
         grown(&volume, 0.0, how)
     };
     let (near, mut wrong) = at(DVec3::ZERO);
@@ -359,7 +360,7 @@ fn masked_spheres() -> f64 {
             if p.dot(normal) > 2.2 { f64::NAN } else { radius - p.length() }
         });
         let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
-        let strokes = Strokes::new(&field, Some(0.0), Hatching::new(volume.grid()));
+        let strokes = StrokeGrower::new(&field, Some(0.0), HatchParams::new(volume.grid()));
         let range = (Measure::Mean, [0.0, 1.0]);
         let cells: Vec<_> =
             strokes.seeds(&Pyramid::new(&volume), &field, 0.0, SeedRule::Dense, range).draw(1).collect();
@@ -373,7 +374,7 @@ fn tolerances() -> f64 {
     let volume = volume([32, 32, 20], |p| ring([p.x, p.y, p.z]) - 4.0);
     let mut wrong = 0.0;
     for tolerance in [1e-10, 1e-7, 1e-3, 0.1, 1e3] {
-        let how = Hatching { tolerance, length: 6.0, ..Hatching::new(volume.grid()) };
+        let how = HatchParams { tolerance, length: 6.0, ..HatchParams::new(volume.grid()) };
         let (grown, faults) = grown(&volume, 0.0, how);
         assert!(grown.strokes.len() > 500, "{tolerance:e}: {}", grown.strokes.len());
         wrong += faults;

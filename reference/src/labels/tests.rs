@@ -14,19 +14,19 @@ fn unit(dims: [usize; 3]) -> Grid {
     Grid::with_spacing(dims, [1.0; 3]).unwrap()
 }
 
-/// At positions of the labels' own grid.
+/// Ids at positions of the labels' own grid.
 fn own(volume: &LabelVolume, lookup: LabelLookup) -> impl Fn([f64; 3]) -> u32 {
     let labels = Labels::new(volume, volume.grid(), None, lookup);
     assert!(labels.on_same_grid());
     move |[x, y, z]| labels.id_at(Vec3::new(x, y, z))
 }
 
-/// Ids without pattern, sparse and above 255, as atlases have them.
+/// Ids without a pattern, sparse and above 255, like those of atlases.
 fn scattered([x, y, z]: [usize; 3]) -> u32 {
     [0, 5, 1605, 70_000, 3][(x * 7 + y * 5 + z * 3 + x * y * z) % 5]
 }
 
-/// Positions all over a box, without any that lie evenly between voxels: multiples of the roots of primes.
+/// Positions all over a box, multiples of the roots of primes, so that none lies midway between voxels.
 fn positions([lo, hi]: [DVec3; 2]) -> impl Iterator<Item = Vec3<f64>> {
     let share = |i: usize, root: f64| (i as f64 * root).fract();
     let shares = (1..6000).map(move |i| [2f64, 3.0, 5.0].map(|n| share(i, n.sqrt())));
@@ -40,14 +40,14 @@ fn nearest_by_hand() {
     assert_eq!(id([0.0, 0.0, 0.0]), 0);
     assert_eq!(id([1.49, 0.51, 0.0]), 11);
     assert_eq!(id([2.0, 1.0, 1.0]), 112);
-    // Of two at one distance that with the lower index.
+    // The lower index holds for two voxels at equal distance.
     assert_eq!(id([0.5, 0.5, 0.5]), 0);
     assert_eq!(id([1.5, 0.5f64.next_up(), 0.5]), 11);
 }
 
 #[test]
 fn smooth_by_hand() {
-    // The same along z. At (0.4, 0.4): 7 weighs 0.36, 3 twice 0.24, 9 weighs 0.16.
+    // A constant along z. At (0.4, 0.4): 7 weighs 0.36, 3 twice 0.24, 9 weighs 0.16.
     let volume = on(unit([2, 2, 2]), |[x, y, _]| [[7, 3], [3, 9]][y][x]);
     let id = own(&volume, Smooth);
     assert_eq!(id([0.4, 0.4, 0.3]), 3);
@@ -55,7 +55,7 @@ fn smooth_by_hand() {
     // At (0.25, 0.25): 9/16, 6/16, 1/16.
     assert_eq!(id([0.25, 0.25, 1.0]), 7);
     assert_eq!(id([0.8, 0.9, 0.0]), 9);
-    // Halfway the weights are the same, to the last bit: the smaller id.
+    // Halfway the weights are equal to the last bit: the smaller id holds.
     let wall = |ids: [u32; 2]| own(&on(unit([2, 2, 2]), |[x, ..]| ids[x]), Smooth)([0.5, 0.3, 0.7]);
     assert_eq!([wall([9, 4]), wall([4, 9])], [4, 4]);
     let wall = on(unit([2, 2, 2]), |[x, ..]| [9, 4][x]);
@@ -76,10 +76,10 @@ fn both_are_the_voxels_own_at_their_centres() {
     }
 }
 
-/// The part x + y ≤ c of a grid has, in each cell that its border crosses, one corner inside or one outside. With the
-/// way from that corner along the axes as u and v, the border of `smooth` is (1 − u)(1 − v) = ½: a hyperbola through
-/// (½, 0), (1 − √½, 1 − √½) and (0, ½), whose distance from the plane through its ends is at most (3/2 − √2)/√2 = 0.061.
-/// The steps of `nearest` go ½/√2 = 0.354 to both sides of that plane.
+/// The part x + y ≤ c of a grid has one corner inside or one outside in each cell that its border crosses. Let u and
+/// v be the distances from that corner along the axes. The border of `smooth` is then (1 − u)(1 − v) = ½: a hyperbola
+/// through (½, 0), (1 − √½, 1 − √½) and (0, ½). Its distance from the plane through its ends is at most (3/2 − √2)/√2
+/// = 0.061. The steps of `nearest` reach ½/√2 = 0.354 to both sides of this plane.
 #[test]
 fn a_slanted_border_is_flat_under_smooth_and_a_stair_under_nearest() {
     let volume = on(unit([24, 24, 2]), |[x, y, _]| u32::from(x + y <= 20));
@@ -100,14 +100,14 @@ fn a_slanted_border_is_flat_under_smooth_and_a_stair_under_nearest() {
         offsets.fold(0.0, f64::max)
     };
     let (smooth, nearest) = ((1.5 - 2f64.sqrt()) / 2f64.sqrt(), 0.5 / 2f64.sqrt());
-    // The 200 lines are 0.02 apart along each axis: they miss the tip of a step by that at most.
+    // The 200 lines are 0.02 apart along each axis, so they miss the tip of a step by at most that.
     let [s, n] = [Smooth, Nearest].map(farthest);
     assert!(s <= smooth + 1e-12 && s > smooth - 0.002, "{s}");
     assert!(n <= nearest + 1e-12 && n > nearest - 0.03, "{n}");
 }
 
-/// Where a ray from the centre leaves a sphere of voxels. Under `nearest` it does so evenly over the depth of a voxel,
-/// whose deviation is 1/√12 = 0.289; `smooth` takes two fifths of that away (0.173 … 0.179 at these radii).
+/// The place at which a ray from the centre leaves a sphere of voxels. Under `nearest` it is uniform over the depth
+/// of a voxel, with a deviation of 1/√12 = 0.289. `smooth` reduces this by two fifths (0.173 … 0.179 at these radii).
 #[test]
 fn the_border_of_a_sphere_is_nearer_under_smooth() {
     for radius in [6.0, 10.0, 15.0] {
@@ -136,7 +136,7 @@ fn the_border_of_a_sphere_is_nearer_under_smooth() {
     }
 }
 
-/// The same places on other grids give the same ids, under both lookups.
+/// Equal places on different grids give equal ids, under both lookups.
 #[test]
 fn grids_that_hold_the_same_voxels_give_the_same_ids() {
     let dims = [9, 7, 5];
@@ -181,7 +181,7 @@ fn another_anatomy_is_flipped() {
         let flipped = Labels::new(&volume, &grid, ras, Smooth);
         assert!(flipped.on_same_grid(), "{from:?}");
         assert!(positions(grid.index_box()).all(|p| flipped.id_at(p) == want.id_at(p)), "{from:?}");
-        // Unflipped it lies elsewhere.
+        // Without the flip the labels lie elsewhere.
         let as_it_is = Labels::new(&volume, &grid, None, Smooth);
         assert!(!as_it_is.on_same_grid());
         assert!(positions(grid.index_box()).any(|p| as_it_is.id_at(p) != want.id_at(p)), "{from:?}");
@@ -198,7 +198,7 @@ fn a_coarser_grid_has_the_nearest_of_its_own_voxels() {
         let voxel = [p.x, p.y, p.z].map(|x| (x / 2.0).round() as usize);
         assert_eq!(labels.id_at(p), scattered(voxel), "{p:?}");
     }
-    // Each voxel in the middle of the 2 × 2 × 2 of the data that have its id.
+    // Each voxel lies in the middle of the 2 × 2 × 2 data voxels that have its id.
     let fine = unit([8; 3]);
     let half = Grid::new([4; 3], DMat3::from_diagonal(DVec3::splat(2.0)), DVec3::splat(0.5)).unwrap();
     let half = on(half, scattered);
@@ -222,7 +222,7 @@ fn outside_of_its_box_there_is_no_label() {
     }
 }
 
-/// One file gives the origin in single precision, another in a quaternion's rounding.
+/// One file gives the origin in single precision, another one in a quaternion's rounding.
 #[test]
 fn grids_that_differ_by_rounding_are_one() {
     let grid = |origin: f64, spacing: f64| {
@@ -231,7 +231,8 @@ fn grids_that_differ_by_rounding_are_one() {
     let volume = on(grid(-173.3, 0.7), scattered);
     let labels = Labels::new(&volume, &grid(f64::from(-173.3f32), f64::from(0.7f32)), None, Smooth);
     assert!(labels.on_same_grid());
-    // The same dims a hundredth of a voxel away are another grid, whose first voxels lie outside by that.
+    // A grid of the same dims, a hundredth of a voxel away, is another grid. Its first voxels lie outside by that
+    // much.
     let labels = Labels::new(&volume, &grid(-173.307, 0.7), None, Smooth);
     assert!(!labels.on_same_grid());
     assert_eq!(labels.id_at(Vec3::new(0.0, 1.0, 1.0)), 0);
@@ -271,7 +272,7 @@ fn single_precision_has_the_same_ids() {
     }
 }
 
-/// No position has an id that its cells do not list, and the lists are those of the voxels where the grids are one.
+/// Every id at a position is listed for its cell. If the grids are one, the lists are those of the voxels.
 #[test]
 fn cells_list_all_their_ids() {
     let shear = DMat3::from_cols(DVec3::new(0.8, 0.3, 0.0), DVec3::new(-0.2, 0.9, 0.1), DVec3::new(0.0, 0.2, 1.7));

@@ -12,7 +12,7 @@ use super::sample::{EyeAxes, Lit, OverTwo, PreparedObject, Shader};
 use crate::field::{Field, Sampler};
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
-use crate::transfer::{Piecewise, Table, gate};
+use crate::transfer::{IndexTable, Piecewise, gate};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
@@ -59,7 +59,7 @@ pub(super) fn prepare<'a, R: Real>(
             (gate::over_value(at, opacity, rows)?, Some(over_two))
         }
     };
-    let table = function.table().map(|(index, nodes)| Table::new(index, nodes));
+    let table = function.table().map(|(index, nodes)| IndexTable::new(index, nodes));
     if let Some(table) = &table {
         counts.bytes.insert("table".into(), table.bytes() as u64);
     }

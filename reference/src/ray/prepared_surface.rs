@@ -3,14 +3,14 @@
 use super::sample::Lit;
 use crate::field::Field;
 use crate::number::Real;
-use crate::surface::Roots;
+use crate::surface::RootFinder;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{IsoSurface, SampleQuery};
 use drypoint_scene::volume::Bricks;
 
 /// An iso-surface ready for rays.
 pub(super) struct PreparedSurface<R> {
-    pub(super) roots: Roots,
+    pub(super) roots: RootFinder,
     /// Linear.
     pub(super) rgb: [R; 3],
     pub(super) lit: Lit<R>,
@@ -30,7 +30,7 @@ impl<R: Real> PreparedSurface<R> {
         bricks: Option<&Bricks>,
         counts: &mut Counts,
     ) -> Self {
-        let roots = Roots::new(field, surface.iso, bricks);
+        let roots = RootFinder::new(field, surface.iso, bricks);
         counts.bytes.insert("surface".into(), roots.bytes() as u64);
         Self {
             roots,

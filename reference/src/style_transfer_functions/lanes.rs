@@ -4,12 +4,12 @@ use super::{SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
 use crate::number::Arithmetic;
 use crate::number::lanes::columns;
-use crate::transfer::lanes::Places;
+use crate::transfer::lanes::NodePlaces;
 use drypoint_scene::tables::Mix;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
 
-/// The styles of each lane, as [`Blend`](super::Blend); w is that of the [`Places`] that they are made from.
+/// The styles of each lane, as [`Blend`](super::Blend); w is that of the [`NodePlaces`] that they are made from.
 pub(crate) struct Blends {
     /// j₀, or the one style that is shown.
     first: [u32; LANES],
@@ -30,7 +30,7 @@ impl Blends {
 impl StyleIndex {
     /// [`blend`](Self::blend) of the visible lanes; of a function whose last node this is.
     #[inline(always)]
-    pub(crate) fn blends<S: Simd>(&self, place: &Places<S>, last: usize) -> Blends {
+    pub(crate) fn blends<S: Simd>(&self, place: &NodePlaces<S>, last: usize) -> Blends {
         let nodes = place.nodes.each();
         let all = place.w.simd_ge(1.0).to_bitmask();
         let (mut first, mut second, mut differ) = ([0; LANES], [0; LANES], 0);
@@ -53,7 +53,7 @@ impl Spheres<f64> {
     pub(crate) fn lookup_lanes<S: Simd>(
         &self,
         blends: &Blends,
-        place: &Places<S>,
+        place: &NodePlaces<S>,
         x: f64x8<S>,
         y: f64x8<S>,
     ) -> [f64x8<S>; 4] {

@@ -3,7 +3,7 @@
 use super::sphere_map::mix;
 use super::{MipMap, SphereMap};
 use crate::number::Real;
-use crate::transfer::{Patch, Place};
+use crate::transfer::{NodePatch, NodePlace};
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::Mix;
 
@@ -36,8 +36,8 @@ impl StyleIndex {
 
     /// From (i, α_u) = tft(s), i = i₀ + w, to j₀ = ift(i₀) and j₁ = ift(i₀ + 1) (4.1, steps 2 and 3).
     #[inline]
-    pub fn blend<R: Real>(&self, place: &Place<R>) -> Blend<R> {
-        let &Place { node, w, alpha_u } = place;
+    pub fn blend<R: Real>(&self, place: &NodePlace<R>) -> Blend<R> {
+        let &NodePlace { node, w, alpha_u } = place;
         if w == R::ZERO {
             let j = self.style(node);
             return Blend { j0: j, j1: j, w, alpha_u };
@@ -82,7 +82,7 @@ pub struct Blend2<R> {
 impl<R: Real> Blend2<R> {
     /// From the places in two rows: four lookups in ift.
     #[inline]
-    pub fn new(index: &StyleIndex, patch: &Patch<R>) -> Self {
+    pub fn new(index: &StyleIndex, patch: &NodePatch<R>) -> Self {
         Self { rows: patch.rows.each_ref().map(|place| index.blend(place)), w: patch.w }
     }
 

@@ -1,4 +1,4 @@
-//! Which surfaces of a volume a first picture shows.
+//! Selection of the surfaces in a volume's first picture.
 
 use super::levels::{LEVELS, Level, Levels};
 use drypoint_scene::tables::Outside;
@@ -6,70 +6,70 @@ use drypoint_scene::volume::Volume;
 
 /// A surface to show, in data values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Surface {
+pub(super) struct ValueSurface {
     /// The value that separates inside from outside.
     pub value: f64,
-    /// How much the values change in one voxel across it, at least a few levels.
+    /// The change of the values in one voxel across the surface, at least a few levels.
     pub step: f64,
 }
 
-/// What a first picture shows.
+/// The surfaces of a first picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Boundary {
-    /// The opaque surface: the content's own, or what lies in it.
-    pub main: Surface,
-    /// A hull to be seen through, if there is something in it.
-    pub hull: Option<Surface>,
-    /// Whether the content is made of thin parts: vessels, shells, flames.
+pub(super) struct FirstSurfaces {
+    /// The opaque surface: the content's own, or one inside the content.
+    pub main: ValueSurface,
+    /// A translucent hull, if there is something inside it.
+    pub hull: Option<ValueSurface>,
+    /// Whether the content consists of thin parts: vessels, shells, flames.
     pub thin: bool,
 }
 
 /// A local maximum of the score.
 #[derive(Clone, Copy, Debug)]
-struct Peak {
-    /// From the outside, as a share of the range.
+struct ScorePeak {
+    /// Distance from the outside, as a share of the range.
     share: f64,
     score: f64,
     level: Level,
 }
 
-/// Levels to either side that a maximum stands above.
+/// Number of levels to either side above which a maximum stands.
 const REACH: usize = 6;
-/// Surfaces with a score or a strength below these shares of the best are not looked at.
+/// Least score and strength of a surface, as shares of the best ones.
 const SIGNIFICANT: [f64; 2] = [0.15, 0.1];
-/// Content fills at least this share of the voxels.
+/// Least share of the voxels that content fills.
 const SOMETHING: f64 = 1e-3;
-/// A surface that the box cuts off over more than this share of its faces is a view of the box.
+/// Share of the box's faces above which a cut surface is a view of the box.
 const BOXED: f64 = 0.5;
-/// A surface is free of the box that cuts it off over less than this share of its faces.
+/// Share of the box's faces below which a surface counts as not cut by the box.
 const FREE: f64 = 0.1;
-/// Dark content is taken for content if its surface has this many times the score of any bright one.
+/// Dark content is accepted if its surface has this many times the score of every bright one.
 const BETTER: f64 = 2.0;
-/// Two surfaces around volumes in at least this ratio are of one body.
+/// Least ratio of the volumes inside two surfaces that belong to one body.
 const SAME_BODY: f64 = 0.6;
 /// A kernel's share of its hull's volume.
 const KERNEL: [f64; 2] = [0.05, 0.5];
-/// Simplicity below which a kernel is clutter, and a body made of thin parts.
+/// Simplicity below which a kernel is clutter, and a body consists of thin parts.
 const CLUTTER: f64 = 1.0 / 70.0;
 const THIN: f64 = 1.0 / 35.0;
 /// Agreement below which a kernel is noise.
 const NOISE: f64 = 0.3;
-/// A field of which a lower value is worth showing around its main surface agrees with itself.
+/// Least agreement of a field for which a lower value is worth showing around its main surface.
 const SMOOTH: f64 = 0.94;
-/// The hull that such a field gets holds this many times the volume.
+/// Volume of such a field's hull, as a multiple of the main surface's.
 const HULL: f64 = 2.2;
-/// And at most this share of the box, whose walls would cut it.
+/// Largest share of the box that the hull fills. The walls of the box would cut a larger one.
 const ROOM: f64 = 0.3;
-/// A step of fewer levels is taken for this many: a ramp across one or two values of an integer shows the rounding.
+/// Least step, as a share of the range. A ramp across one or two integers would show the rounding.
 const LEAST_STEP: f64 = 0.03;
-/// A surface lies at least this share of its step above what is outside, and below what is innermost.
+/// Least distance of a surface from the outermost and the innermost value, as a share of its step.
 const EDGE: f64 = 0.5;
 /// Skin against air, and bone, in Hounsfield units.
 const SKIN_AND_BONE: [f64; 2] = [-350.0, 190.0];
 
-impl Boundary {
-    /// The surfaces of a volume of which it is not known which values lie outside: low ones, unless high ones surround
-    /// a better surface of low ones.
+impl FirstSurfaces {
+    /// Finds the surfaces of a volume with an unknown outside. Low values are outside, unless high values surround a
+    /// better surface of low ones.
     pub(super) fn judge(levels: Option<&Levels>, volume: &Volume) -> (Self, Outside) {
         let dark = levels.map(Levels::mirrored).filter(|mirrored| {
             let known = levels.is_some_and(|levels| skin_and_bone(volume, Outside::Low, levels).is_some());
@@ -81,23 +81,23 @@ impl Boundary {
         }
     }
 
-    /// The surfaces with the greatest product of area, squared sharpness and simplicity: sharp against noise, simple
-    /// against clutter, and little cut by the box. Of several the outermost is the content's, and one inside it with a
-    /// part of its volume is the kernel that is shown through it.
+    /// Finds the surfaces with the greatest product of area, squared sharpness and simplicity. Sharpness excludes
+    /// noise, simplicity excludes clutter, and the box must not cut much of the surface. The outermost one is the
+    /// content's. One inside it, with a part of its volume, is the kernel that shows through it.
     pub(super) fn find(levels: Option<&Levels>, volume: &Volume, outside: Outside) -> Self {
         let Some(levels) = levels else {
             // A constant volume: everything is content.
             let [value, _] = volume.range();
-            // Its nodes are numbers too.
+            // The nodes around the value must be finite numbers, too.
             let step = value.abs().max(1.0).min(2.0 * (f64::MAX - value.abs()));
-            let main = Surface { value, step };
+            let main = ValueSurface { value, step };
             return Self { main, hull: None, thin: false };
         };
         if let Some(known) = skin_and_bone(volume, outside, levels) {
             return known;
         }
         let peaks = peaks(levels);
-        let body = body(&peaks).unwrap_or(Peak { share: 0.5, score: 0.0, level: *levels.at(0.5) });
+        let body = body(&peaks).unwrap_or(ScorePeak { share: 0.5, score: 0.0, level: *levels.at(0.5) });
         let surface = |share| surface(levels, share);
         let thin = body.level.simplicity < THIN;
         if let Some(kernel) = kernel(&peaks, &body) {
@@ -107,40 +107,41 @@ impl Boundary {
         Self { main: surface(body.share), hull, thin }
     }
 
-    /// Where content begins: at the hull, or at the main surface.
-    pub(super) fn outermost(&self) -> Surface {
+    /// The surface at which content begins: the hull, or the main surface.
+    pub(super) fn outermost(&self) -> ValueSurface {
         self.hull.unwrap_or(self.main)
     }
 }
 
-fn surface(levels: &Levels, share: f64) -> Surface {
+fn surface(levels: &Levels, share: f64) -> ValueSurface {
     let step = levels.at(share).step.max(LEAST_STEP);
-    // Where content is cut out of nothing, its edge rises in one voxel and every value of it is an edge: one well above
-    // the bottom is the smoothest. And there is something inside it to see only below the top.
+    // Content that is cut out of a background of one value has an edge that rises in one voxel, and every value of
+    // the rise is an edge. A value well above the bottom is the smoothest, and only below the top is something inside
+    // visible.
     let share = share.max(EDGE * step).min(1.0 - EDGE * step);
     let step = step.min(share.min(1.0 - share) / EDGE);
-    Surface { value: levels.value(share), step: levels.difference(step) }
+    ValueSurface { value: levels.value(share), step: levels.difference(step) }
 }
 
-/// Whether the best surface that the box hardly cuts is better than the best from the other side.
-fn is_surrounded(dark: &[Peak], bright: &[Peak]) -> bool {
-    let best = |peaks: &[Peak]| peaks.iter().map(|peak| peak.score).fold(0.0, f64::max);
+/// Whether the best surface that the box hardly cuts is better than the best one from the other side.
+fn is_surrounded(dark: &[ScorePeak], bright: &[ScorePeak]) -> bool {
+    let best = |peaks: &[ScorePeak]| peaks.iter().map(|peak| peak.score).fold(0.0, f64::max);
     body(dark).is_some_and(|body| body.level.cut < FREE) && best(dark) > BETTER * best(bright)
 }
 
-/// A patient's CT is recognized by its scale, on which skin and bone are known.
-fn skin_and_bone(volume: &Volume, outside: Outside, levels: &Levels) -> Option<Boundary> {
+/// The surfaces of a patient's CT, recognized by its scale, on which skin and bone are known.
+fn skin_and_bone(volume: &Volume, outside: Outside, levels: &Levels) -> Option<FirstSurfaces> {
     let [lo, hi] = volume.range();
     let hounsfield = volume.anatomy().is_some() && lo < -900.0 && hi > 500.0 && outside == Outside::Low;
     let [skin, bone] = SKIN_AND_BONE.map(|value| (value, levels.share(value)));
-    // Cut out of a body, a scan has no skin to show; a head of wax has no bone.
+    // A scan that is cut out of a body has no skin to show, and a wax head has no bone.
     let whole = hounsfield && levels.at(skin.1).cut < BOXED && levels.at(bone.1).inside > SOMETHING;
-    let [hull, main] = [skin, bone].map(|(value, share)| Surface { value, ..surface(levels, share) });
-    whole.then_some(Boundary { main, hull: Some(hull), thin: false })
+    let [hull, main] = [skin, bone].map(|(value, share)| ValueSurface { value, ..surface(levels, share) });
+    whole.then_some(FirstSurfaces { main, hull: Some(hull), thin: false })
 }
 
-/// Area times squared confirmed difference, favouring surfaces that hold much with little area and that the box does
-/// not cut.
+/// Area times (step · agreement)², weighted. The weights favour surfaces that enclose much with little area and that the box
+/// does not cut.
 fn score(level: &Level) -> f64 {
     let open = 1.0 - level.cut;
     strength(level) * level.simplicity * level.simplicity.sqrt() * (open * open) * (open * open)
@@ -152,7 +153,7 @@ fn strength(level: &Level) -> f64 {
 }
 
 /// Local maxima of the smoothed score, from the outside inwards.
-fn peaks(levels: &Levels) -> Vec<Peak> {
+fn peaks(levels: &Levels) -> Vec<ScorePeak> {
     let scores: Vec<f64> = levels.all().iter().map(score).collect();
     let mean = |b: usize| {
         let near = &scores[b.saturating_sub(3)..(b + 4).min(LEVELS)];
@@ -161,30 +162,30 @@ fn peaks(levels: &Levels) -> Vec<Peak> {
     let smooth: Vec<f64> = (0..LEVELS).map(mean).collect();
     let most = |range: &[f64]| range.iter().copied().fold(0.0, f64::max);
     let strongest = levels.all().iter().map(strength).fold(0.0, f64::max);
-    let all: Vec<Peak> = (0..LEVELS)
+    let all: Vec<ScorePeak> = (0..LEVELS)
         .filter(|&b| {
             let (before, after) = (b.saturating_sub(REACH)..b, b + 1..(b + 1 + REACH).min(LEVELS));
             smooth[b] >= most(&smooth[before]) && smooth[b] > most(&smooth[after])
         })
-        .map(|b| Peak { share: (b as f64 + 1.0) / LEVELS as f64, score: smooth[b], level: levels.all()[b] })
+        .map(|b| ScorePeak { share: (b as f64 + 1.0) / LEVELS as f64, score: smooth[b], level: levels.all()[b] })
         .filter(|peak| peak.level.inside > SOMETHING && strength(&peak.level) > SIGNIFICANT[1] * strongest)
         .collect();
-    let open: Vec<Peak> = all.iter().filter(|peak| peak.level.cut < BOXED).copied().collect();
+    let open: Vec<ScorePeak> = all.iter().filter(|peak| peak.level.cut < BOXED).copied().collect();
     let mut chosen = if open.is_empty() { all } else { open };
     let best = chosen.iter().map(|peak| peak.score).fold(0.0, f64::max);
     chosen.retain(|peak| peak.score >= SIGNIFICANT[0] * best);
     chosen
 }
 
-/// The outermost surface; of those around nearly the same volume the best.
-fn body(peaks: &[Peak]) -> Option<Peak> {
+/// The outermost surface; of several around nearly the same volume, the best.
+fn body(peaks: &[ScorePeak]) -> Option<ScorePeak> {
     let first = peaks.first()?;
     let of_the_body = peaks.iter().filter(|peak| peak.level.inside >= SAME_BODY * first.level.inside);
     of_the_body.copied().reduce(|best, peak| if peak.score > best.score { peak } else { best })
 }
 
 /// The best surface well inside the body.
-fn kernel(peaks: &[Peak], body: &Peak) -> Option<Peak> {
+fn kernel(peaks: &[ScorePeak], body: &ScorePeak) -> Option<ScorePeak> {
     let [least, most] = KERNEL.map(|share| share * body.level.inside);
     let inside = peaks.iter().filter(|peak| {
         let clear = peak.level.simplicity > CLUTTER && peak.level.agreement > NOISE;
@@ -194,7 +195,7 @@ fn kernel(peaks: &[Peak], body: &Peak) -> Option<Peak> {
 }
 
 /// A lower value of a smooth field whose surface lies well around the body's and is as simple.
-fn hull(levels: &Levels, body: &Peak) -> Option<f64> {
+fn hull(levels: &Levels, body: &ScorePeak) -> Option<f64> {
     if body.level.agreement < SMOOTH {
         return None;
     }
@@ -214,8 +215,8 @@ mod tests {
     use super::*;
     use drypoint_scene::volume::Anatomy;
 
-    fn find(volume: &Volume, outside: Outside) -> Boundary {
-        Boundary::find(Levels::of(volume, outside).as_ref(), volume, outside)
+    fn find(volume: &Volume, outside: Outside) -> FirstSurfaces {
+        FirstSurfaces::find(Levels::of(volume, outside).as_ref(), volume, outside)
     }
 
     fn edge(d: f64) -> f64 {
@@ -237,13 +238,13 @@ mod tests {
         let b = find(&volume(nested), Outside::Low);
         let hull = b.hull.unwrap();
         assert!(hull.value > 20.0 && hull.value < 80.0 && b.main.value > 110.0 && b.main.value < 190.0, "{b:?}");
-        // The same in mirrored values.
+        // Mirrored values give the same surfaces.
         let mirrored = find(&volume(|p| -nested(p)), Outside::High);
         assert!((mirrored.main.value + b.main.value).abs() < 1.0 && mirrored.hull.is_some(), "{mirrored:?}");
     }
 
-    fn judge(volume: &Volume) -> (Boundary, Outside) {
-        Boundary::judge(Levels::of(volume, Outside::Low).as_ref(), volume)
+    fn judge(volume: &Volume) -> (FirstSurfaces, Outside) {
+        FirstSurfaces::judge(Levels::of(volume, Outside::Low).as_ref(), volume)
     }
 
     #[test]
@@ -260,8 +261,9 @@ mod tests {
             let (dark, mirrored) = judge(&volume(|p| 200.0 - field(p)));
             assert_eq!((outside, mirrored), (Outside::Low, Outside::High), "{i}");
             // A level of 256 where a value lies on the border of two.
-            let near =
-                |a: Surface, b: Surface| (a.value + b.value - 200.0).abs() < 1.0 && (a.step - b.step).abs() < 1.0;
+            let near = |a: ValueSurface, b: ValueSurface| {
+                (a.value + b.value - 200.0).abs() < 1.0 && (a.step - b.step).abs() < 1.0
+            };
             assert!(near(bright.main, dark.main), "{i}: {bright:?} {dark:?}");
             assert_eq!((bright.hull.is_some(), bright.thin), (dark.hull.is_some(), dark.thin), "{i}");
         }
@@ -275,7 +277,7 @@ mod tests {
         // One neighbour differs from the next by 100: half of that below 300.
         let (b, _) = judge(&corner);
         assert!(b.main.value + 0.5 * b.main.step <= 300.0 + 1e-9, "{b:?}");
-        // Nodes are numbers, though a difference of the values is none.
+        // Nodes are finite even if the difference of the values overflows.
         for huge in [volume(|p| if radius(p) < 9.0 { 1.7e308 } else { -1.7e308 }), volume(|_| f64::MAX)] {
             let main = judge(&huge).0.main;
             assert!([-0.1, 0.25].iter().all(|steps| (main.value + steps * main.step).is_finite()), "{main:?}");

@@ -1,59 +1,59 @@
 //! A camera that frames the content of a volume.
 
-use super::body::{Body, Inside};
-use super::reach::reach;
+use super::content::{ContentRange, VolumeContent};
+use super::extent::reach;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::volume::Volume;
 
-/// Share of the shorter side of the picture that the content takes.
+/// Share of the picture's shorter side that the content takes.
 const FILL: f64 = 0.86;
 
-/// Where a camera stands and what it looks at.
+/// The position and the field of view of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Fit {
+pub(super) struct CameraFit {
     pub eye: DVec3,
     pub target: DVec3,
-    /// World units from top to bottom of the picture, at the target.
+    /// Height of the picture at the target, in world units.
     pub height: f64,
-    /// World units that the content takes across the picture.
+    /// Extent of the content across the picture, in world units.
     pub extent: f64,
 }
 
-/// The nearest perspective camera in a direction from which all content, with what is `seen` around it, projects into the
-/// frame's middle, as [`FILL`] says, and is centred there.
+/// Finds the nearest perspective camera in a direction that frames and centres all content, and the surface `seen`
+/// around it. The content fills the share [`FILL`] of the frame.
 ///
-/// With the content's points at (x, y) across and z along the view, |x − a| ≤ t(d + z) for the half width t of the frame
-/// at depth 1 asks for d ≥ (x − a)/t − z and d ≥ (a − x)/t − z: the best a balances the two maxima.
+/// Let the content's points be at (x, y) across and z along the view, and t the half width of the frame at depth 1.
+/// Then |x − a| ≤ t(d + z) requires d ≥ (x − a)/t − z and d ≥ (a − x)/t − z. The best a balances the two maxima.
 pub(super) fn fit(
     volume: &Volume,
-    body: &Body,
-    seen: Inside,
+    body: &VolumeContent,
+    seen: ContentRange,
     direction: DVec3,
     up: DVec3,
     fov: f64,
     size: [usize; 2],
-) -> Fit {
+) -> CameraFit {
     let grid = volume.grid();
     let forward = direction.normalize();
     let right = forward.cross(up).normalize();
     let up = right.cross(forward);
     let [width, height] = size.map(|n| n as f64);
     let tan = math::tan(fov.to_radians() / 2.0);
-    // Both directions to the same share of the shorter side.
+    // Both directions are limited to the same share of the shorter side.
     let t = FILL * tan * (width / height).min(1.0);
     let across = [right / t, -right / t, up / t, -up / t].map(|sideways| sideways - forward);
     let most = reach(volume, body, seen, across);
     let [towards, away] = reach(volume, body, seen, [-forward, forward]);
     let distance = ((most[0] + most[1]) / 2.0).max((most[2] + most[3]) / 2.0);
     let (a, b) = (t * (most[0] - most[1]) / 2.0, t * (most[2] - most[3]) / 2.0);
-    // The eye lies at depth −distance; never inside the content, nor as near as what is seen is thin.
+    // The eye lies at depth −distance. It stays outside the content, with a margin for a thin surface.
     let margin = (towards + away).clamp(0.05 * grid.voxel(), grid.voxel());
     let depth = (-distance).min(-towards - margin);
     let eye = right * a + up * b + forward * depth;
     let ahead = (grid.centre() - eye).dot(forward).max(grid.voxel());
     let extent = 2.0 * t * ((away - towards) / 2.0 - depth);
-    Fit { eye, target: eye + forward * ahead, height: 2.0 * tan * ahead, extent }
+    CameraFit { eye, target: eye + forward * ahead, height: 2.0 * tan * ahead, extent }
 }
 
 #[cfg(test)]
@@ -75,8 +75,8 @@ mod tests {
         let volume = Volume::new(grid, Voxels::U8(voxels), 1.0, 0.0).unwrap();
         let direction = DVec3::new(-0.6, 1.0, -0.45);
         // The surface at the content's own value passes through its outermost voxels.
-        let seen = Inside { value: 200.0, outside: Outside::Low };
-        let body = Body::of(&volume, seen);
+        let seen = ContentRange { value: 200.0, outside: Outside::Low };
+        let body = VolumeContent::of(&volume, seen);
         for size in [[400, 400], [600, 400], [300, 500]] {
             let fit = fit(&volume, &body, seen, direction, DVec3::Z, 30.0, size);
             let camera = Camera {
@@ -112,8 +112,8 @@ mod tests {
     fn an_empty_volume_is_framed_whole() {
         let volume =
             Volume::new(Grid::with_spacing([4; 3], [1.0; 3]).unwrap(), Voxels::U8(vec![0; 64]), 1.0, 0.0).unwrap();
-        let inside = Inside { value: 10.0, outside: Outside::Low };
-        let body = Body::of(&volume, inside);
+        let inside = ContentRange { value: 10.0, outside: Outside::Low };
+        let body = VolumeContent::of(&volume, inside);
         let fit = fit(&volume, &body, inside, DVec3::Y, DVec3::Z, 30.0, [100, 100]);
         assert!(fit.eye.is_finite() && fit.eye.y < 0.0);
     }

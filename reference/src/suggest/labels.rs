@@ -1,16 +1,16 @@
-//! Telling a volume of labels from a scan or a simulation.
+//! Distinction of label volumes from scans and simulations.
 
 use drypoint_scene::volume::{Access, Volume, Voxel};
 use drypoint_scene::with_access;
 use rayon::prelude::*;
 
-/// Of the neighbours that both have an id, at least this share has the same one.
+/// Least share of neighbouring pairs of ids that are equal.
 const EQUAL: f64 = 0.7;
-/// Of the places in a row where something changes, at most this share passes a value between two others. Ids jump;
-/// what was measured or computed passes what is between.
+/// Largest share of the changes in a row that pass a value between two others. Ids jump; measured and computed values
+/// pass intermediate ones.
 const BETWEEN: f64 = 0.1;
 
-/// Whether the voxels are ids of parts: whole numbers, mostly equal to their neighbours, that jump where they change.
+/// Whether the voxels are ids of parts: integers, mostly equal to their neighbours, that jump where they change.
 pub(super) fn are_ids(volume: &Volume) -> bool {
     if !volume.voxels().voxel_type().is_integer() || volume.range()[1] <= 0.0 {
         return false;
@@ -22,16 +22,17 @@ pub(super) fn are_ids(volume: &Volume) -> bool {
 
 /// Counts over all rows along all axes.
 #[derive(Clone, Copy, Default)]
-struct Rows {
-    /// Neighbours neither of which is 0, and those that are equal.
+struct NeighbourCounts {
+    /// Number of neighbouring pairs without 0, and number of equal ones.
     pairs: u64,
     equal: u64,
-    /// Three in a row of which a neighbour differs from a middle other than 0, and those that rise or fall throughout.
+    /// Number of triples in a row in which a neighbour differs from a middle other than 0, and number of monotonic
+    /// ones.
     changes: u64,
     between: u64,
 }
 
-impl Rows {
+impl NeighbourCounts {
     fn add(&mut self, [p, q, r]: [f64; 3]) {
         if p != 0.0 && q != 0.0 {
             self.pairs += 1;
@@ -53,18 +54,18 @@ impl Rows {
     }
 }
 
-fn count<A: Access>(volume: &Volume, a: A) -> Rows {
+fn count<A: Access>(volume: &Volume, a: A) -> NeighbourCounts {
     let [nx, ny, nz] = volume.dims();
     let (slope, intercept) = (volume.slope(), volume.intercept());
     let row = |y: usize, z: usize, out: &mut Vec<f64>| {
         out.clear();
         out.extend((0..nx).map(|x| slope * a.at(x, y, z).to_f64() + intercept));
     };
-    // Sums of whole numbers: the order of the parts does not show.
+    // Sums of integers do not depend on the order of the parts.
     (0..nz)
         .into_par_iter()
         .map(|z| {
-            let mut rows = Rows::default();
+            let mut rows = NeighbourCounts::default();
             let [mut here, mut next, mut last] = [const { Vec::new() }; 3];
             for y in 0..ny {
                 row(y, z, &mut here);
@@ -80,7 +81,7 @@ fn count<A: Access>(volume: &Volume, a: A) -> Rows {
             }
             rows
         })
-        .reduce(Rows::default, Rows::plus)
+        .reduce(NeighbourCounts::default, NeighbourCounts::plus)
 }
 
 #[cfg(test)]
@@ -94,7 +95,7 @@ mod tests {
         let parts = |p: [usize; 3]| if radius(p) > 12.0 { 0.0 } else { 1.0 + (p[0] / 11 + 40 * (p[1] / 16)) as f64 };
         assert!(are_ids(&typed(parts, VoxelType::I16)));
         assert!(are_ids(&typed(|p| f64::from(u8::from(radius(p) < 9.0)), VoxelType::U8)));
-        // The same numbers as floating point are no ids.
+        // Floating-point volumes are not labels, even with the same numbers.
         assert!(!are_ids(&typed(parts, VoxelType::F32)));
         // A ball with a soft edge, flat inside; a ramp; noise; one value everywhere.
         assert!(!are_ids(&typed(|p| 255.0 / (1.0 + (radius(p) - 9.0).exp()), VoxelType::U8)));

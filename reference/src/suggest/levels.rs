@@ -1,4 +1,4 @@
-//! What the voxels say about the surface at each value, in one pass over them.
+//! Statistics of the surface at each value, from one pass over the voxels.
 
 use drypoint_scene::math;
 use drypoint_scene::tables::Outside;
@@ -10,17 +10,18 @@ use rayon::prelude::*;
 /// The surface at one value. Lengths and areas are in voxels and their faces, differences in shares of the range.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Level {
-    /// Pairs of face neighbours that the value lies between.
+    /// Number of pairs of face neighbours with the value in between.
     pub area: f64,
-    /// Mean difference of these pairs: how much the values change in one voxel.
+    /// Mean difference of these pairs: the change of the values in one voxel.
     pub step: f64,
-    /// How much of the differences the voxels before and after each pair confirm: 1 at a clean boundary, 0 in noise.
+    /// Share of the differences that the voxels before and after each pair confirm: 1 at a clean boundary, 0 in
+    /// noise.
     pub agreement: f64,
-    /// Share of all voxels that lie inside.
+    /// Share of all voxels that are inside.
     pub inside: f64,
-    /// Share of the voxels on the faces of the box that lie inside: content that the box cuts.
+    /// Share of the voxels on the faces of the box that are inside: content that the box cuts.
     pub cut: f64,
-    /// Area of a surface that could hold the same volume, over this one's; a cube's is 1/6.
+    /// Area of a surface that could enclose the same volume, over this one's area; a cube's is 1/6.
     pub simplicity: f64,
 }
 
@@ -34,21 +35,21 @@ pub(super) struct Levels {
     levels: Vec<Level>,
 }
 
-/// Levels that are told apart.
+/// Number of levels.
 pub(super) const LEVELS: usize = 256;
 
-/// Increments at the bins where pairs begin and end: a pair costs the same however far it reaches.
+/// Increments at the bins where pairs begin and end, so that a pair costs the same for any distance.
 #[derive(Clone)]
-struct Sums {
-    /// Pairs, their differences, and what of these is confirmed.
+struct BinSums {
+    /// Pairs, their differences, and the confirmed part of the differences.
     pairs: Vec<[f64; 3]>,
     voxels: Vec<f64>,
     on_faces: Vec<f64>,
 }
 
 impl Levels {
-    /// Counts the levels of a volume. For `outside` high the values are mirrored, so that what is inside is above.
-    /// None where all voxels have one value.
+    /// Counts the levels of a volume. If `outside` is high, values are mirrored, so that the inside is above. Returns
+    /// none if all voxels have one value.
     pub(super) fn of(volume: &Volume, outside: Outside) -> Option<Self> {
         let [lo, hi] = robust_range(volume);
         let per_half = 1.0 / half(lo, hi);
@@ -61,11 +62,11 @@ impl Levels {
             if outside == Outside::Low { u } else { 1.0 - u }
         };
         let dims = volume.dims();
-        let slices = with_access!(volume, |a| sums(dims, |z| Slice::new(a, z, share)));
+        let slices = with_access!(volume, |a| sums(dims, |z| SliceShares::new(a, z, share)));
         Some(Self { lo, hi, outside, voxels: volume.grid().len() as f64, levels: levels(&slices) })
     }
 
-    /// Level by level, from the outside inwards.
+    /// All levels, from the outside inwards.
     pub(super) fn all(&self) -> &[Level] {
         &self.levels
     }
@@ -82,18 +83,18 @@ impl Levels {
         if self.outside == Outside::Low { u } else { 1.0 - u }
     }
 
-    /// A share of the range in data values; the largest number, where the range is beyond all numbers.
+    /// Converts a share of the range to a difference of data values. An overflow gives the largest number.
     pub(super) fn difference(&self, share: f64) -> f64 {
         (2.0 * (share * half(self.lo, self.hi))).min(f64::MAX)
     }
 
-    /// The same surfaces seen from the other side: what was outside is inside.
+    /// Returns the surfaces as seen from the other side, with inside and outside exchanged.
     pub(super) fn mirrored(&self) -> Self {
         let outside = match self.outside {
             Outside::Low => Outside::High,
             Outside::High => Outside::Low,
         };
-        // Level b is the surface at the upper end of its bin; the last has nothing beyond it.
+        // Level b is the surface at the upper end of its bin. Nothing lies beyond the last level.
         let other_side = |level: &Level| {
             let inside = 1.0 - level.inside;
             if level.area < 0.5 {
@@ -111,12 +112,12 @@ impl Levels {
     }
 }
 
-/// Half of what lies between two values: the whole can be beyond all numbers.
+/// Half the difference of two values; the whole difference may overflow.
 fn half(from: f64, to: f64) -> f64 {
     0.5 * to - 0.5 * from
 }
 
-/// Area of a surface that could hold so many voxels, over another.
+/// Area of a surface that could enclose so many voxels, over another area.
 fn simplicity(inside: f64, area: f64) -> f64 {
     (math::pow(inside, 2.0 / 3.0) / area).min(1.0 / 6.0)
 }
@@ -125,13 +126,13 @@ fn bin(share: f64) -> usize {
     ((share * LEVELS as f64) as usize).min(LEVELS - 1)
 }
 
-/// The voxels of a slice across z: from the outside as shares of the range, and their bins.
-struct Slice {
+/// The voxels of a slice across z: shares of the range from the outside, and bins.
+struct SliceShares {
     shares: Vec<f64>,
     bins: Vec<u16>,
 }
 
-impl Slice {
+impl SliceShares {
     fn new<A: Access>(voxels: A, z: usize, share: impl Fn(f64) -> f64) -> Self {
         let [nx, ny, _] = voxels.dims();
         let mut shares = Vec::with_capacity(nx * ny);
@@ -143,14 +144,16 @@ impl Slice {
     }
 }
 
-/// Slices that one thread takes in a row: each is read once for them, and three more.
+/// Number of consecutive slices for one thread, which reads three more.
 const THICKNESS: usize = 8;
 
 /// The sums of each slice.
-fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> Slice + Sync) -> Vec<Sums> {
-    // Four voxels in a row along an axis, the outer two repeated at the borders.
+fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> SliceShares + Sync) -> Vec<BinSums> {
+    // Four voxels in a row along an axis; the border's voxel replaces those outside.
     let around = |i: usize, n: usize| [i.saturating_sub(1), i, i + 1, i + 2].map(|i| i.min(n - 1));
     let slice = &slice;
+    // A thread walks through consecutive slices with a window of four, and adds each voxel and its three forward
+    // pairs.
     let part = |part: usize| {
         let first = part * THICKNESS;
         let mut slices = around(first, nz).map(slice);
@@ -159,7 +162,7 @@ fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> Slice + Sync) -> Vec<
                 slices.rotate_left(1);
                 slices[3] = slice((z + 2).min(nz - 1));
             }
-            let mut sums = Sums::default();
+            let mut sums = BinSums::default();
             let here = &slices[1];
             for y in 0..ny {
                 let rows = around(y, ny).map(|y| y * nx);
@@ -186,17 +189,17 @@ fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> Slice + Sync) -> Vec<
     (0..nz.div_ceil(THICKNESS)).into_par_iter().flat_map_iter(part).collect()
 }
 
-impl Default for Sums {
+impl Default for BinSums {
     fn default() -> Self {
         Self { pairs: vec![[0.0; 3]; LEVELS], voxels: vec![0.0; LEVELS], on_faces: vec![0.0; LEVELS] }
     }
 }
 
-impl Sums {
+impl BinSums {
     #[inline(always)]
     fn voxel(&mut self, bin: u16, place: [(usize, usize); 3]) {
         self.voxels[usize::from(bin)] += 1.0;
-        // A corner lies on three faces. An axis of one voxel has no faces to cut.
+        // A corner lies on three faces. An axis of one voxel has no faces that cut.
         let on_face = |(i, n): (usize, usize)| n > 1 && (i == 0 || i + 1 == n);
         let faces = place.into_iter().filter(|&p| on_face(p)).count();
         if faces > 0 {
@@ -204,7 +207,7 @@ impl Sums {
         }
     }
 
-    /// The pair in the middle of four voxels in a row, of which two are in these bins.
+    /// Adds the middle pair of four voxels in a row. p and q are the pair's bins.
     #[inline(always)]
     fn pair(&mut self, [p, q]: [u16; 2], shares: impl FnOnce() -> [f64; 4]) {
         if p != q {
@@ -222,9 +225,9 @@ impl Sums {
     }
 }
 
-/// Running sums over the bins, slice after slice so that the order of additions is fixed.
-fn levels(slices: &[Sums]) -> Vec<Level> {
-    let total = |column: &dyn Fn(&Sums) -> f64| slices.iter().map(column).sum::<f64>();
+/// Running sums over the bins, slice by slice, so that the order of additions is fixed.
+fn levels(slices: &[BinSums]) -> Vec<Level> {
+    let total = |column: &dyn Fn(&BinSums) -> f64| slices.iter().map(column).sum::<f64>();
     let all = total(&|s| s.voxels.iter().sum());
     let all_on_faces = total(&|s| s.on_faces.iter().sum());
     let (mut inside, mut on_faces) = (all, all_on_faces);
@@ -238,7 +241,7 @@ fn levels(slices: &[Sums]) -> Vec<Level> {
             on_faces -= total(&|s| s.on_faces[b]);
             let [area, steps, confirmed] = pairs;
             if area < 0.5 {
-                // Sums of differences leave rounding behind; counts are exact.
+                // Sums of differences leave rounding errors; counts are exact.
                 return Level { inside: inside / all, ..Level::default() };
             }
             Level {
@@ -253,8 +256,8 @@ fn levels(slices: &[Sums]) -> Vec<Level> {
         .collect()
 }
 
-/// The volume's range, or the range of nearly all of its voxels where a few far ones would leave all others in the
-/// same levels.
+/// The volume's range, or the range of nearly all voxels if a few outliers would merge all others into the same
+/// levels.
 fn robust_range(volume: &Volume) -> [f64; 2] {
     /// Share of the voxels that may lie beyond either end.
     const BEYOND: f64 = 5e-4;
@@ -273,7 +276,7 @@ fn robust_range(volume: &Volume) -> [f64; 2] {
             break;
         }
     }
-    // Content of a few voxels in nothing is no outlier: what is left would be one value.
+    // A few voxels of content in an empty volume are not outliers: the rest would have one value.
     if first == last && one_value(volume, histogram.edges(first)) {
         return [lo, hi];
     }
@@ -281,7 +284,7 @@ fn robust_range(volume: &Volume) -> [f64; 2] {
     if half(most_lo, most_hi) < half(lo, hi) / 16.0 { [most_lo, most_hi] } else { [lo, hi] }
 }
 
-/// Whether all voxels between two values have the same.
+/// Whether all voxels between two values have the same value.
 fn one_value(volume: &Volume, [lo, hi]: [f64; 2]) -> bool {
     let (slope, intercept) = (volume.slope(), volume.intercept());
     let [nx, ny, nz] = volume.dims();
@@ -321,7 +324,7 @@ mod tests {
         let low = Levels::of(&volume(ball), Outside::Low).unwrap();
         let high = Levels::of(&volume(|p| -ball(p)), Outside::High).unwrap();
         assert_eq!(low.all(), high.all());
-        // From the other side of the same numbers, but for the rounding of shares and of powers.
+        // Numbers seen from the other side are equal, up to the rounding of shares and of powers.
         for (a, b) in low.mirrored().all().iter().zip(Levels::of(&volume(ball), Outside::High).unwrap().all()) {
             for (a, b) in [(a.area, b.area), (a.step, b.step), (a.inside, b.inside), (a.cut, b.cut)] {
                 assert!((a - b).abs() < 1e-12, "{a} {b}");
@@ -334,7 +337,7 @@ mod tests {
 
     #[test]
     fn noise_confirms_nothing() {
-        // A ripple whose neighbours have nothing to do with each other.
+        // A ripple whose neighbours are unrelated.
         let ripple = |[x, y, z]: [usize; 3]| (((x * 7919 + y * 104_729 + z * 1_299_709) * 2_654_435_761) >> 7) % 256;
         let noise = Levels::of(&volume(|p| ripple(p) as f64), Outside::Low).unwrap();
         assert!(noise.at(0.5).agreement < 0.2, "{:?}", noise.at(0.5));
@@ -348,7 +351,7 @@ mod tests {
         let levels = Levels::of(&hot, Outside::Low).unwrap();
         assert!(levels.value(1.0) < 1e6, "{}", levels.value(1.0));
         assert!(Levels::of(&volume(|_| 7.0), Outside::Low).is_none());
-        // In nothing, it is what there is to see.
+        // In an empty volume the voxel is the content.
         let alone = volume(|p| if p == [3, 3, 3] { 200.0 } else { 0.0 });
         assert_eq!(Levels::of(&alone, Outside::Low).unwrap().value(1.0), 200.0);
     }

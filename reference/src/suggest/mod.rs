@@ -1,19 +1,19 @@
-//! A picture for a volume of which nothing is said: which values to show, from where, in which style.
+//! A first picture for a volume without a description: values, viewpoint and style.
 //!
-//! Nothing here is a paper's. The choices are meant for a first look and stand in the scene that they make, so that they
-//! can be changed.
+//! Nothing here comes from a paper. The choices serve a first look. They are written into the scene, where they can
+//! be changed.
 
-mod body;
 mod boundary;
+mod content;
+mod extent;
 mod framing;
 mod labels;
 mod levels;
-mod look;
-mod reach;
 mod stance;
+mod surface_styles;
 
-use body::{Body, Inside};
-use boundary::Boundary;
+use boundary::FirstSurfaces;
+use content::{ContentRange, VolumeContent};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::tables::{
     Camera, Contours, GradientEstimator, HessianEstimator, Ids, Iso, Kappa, Kernel, Length, Outside, Projection, Scene,
@@ -21,29 +21,30 @@ use drypoint_scene::tables::{
 };
 use drypoint_scene::volume::Volume;
 use levels::Levels;
-use look::Palette;
 use stance::Stance;
+use surface_styles::Palette;
 
 /// Vertical field of view of a suggested camera, in degrees.
 const FOV: f64 = 30.0;
 
-/// Thickness of contours as a share of the picture's height: 2½ of 512 pixels.
+/// Thickness of contours as a share of the picture's height: 2½ pixels of 512.
 const LINE: f64 = 0.005;
 
-/// Content of fewer voxels across is sampled as finely, and as opaque, as if it had this many.
+/// Least width of content in voxels, for sampling: smaller content is sampled as finely, and is as opaque, as content
+/// of this width.
 const FINE: f64 = 8.0;
 
-/// Voxels of which a smoothed copy in f64 is worth its memory: a quarter of a GiB.
+/// Largest number of voxels of which a smoothed copy in f64 is worth its memory, a quarter of a GiB.
 const SMOOTHED: usize = 1 << 25;
 
-/// A scene for a bare volume: an opaque surface in a translucent hull, or alone, with contours, framed by a camera. A
-/// volume of labels is shown as the surface of all of them. Voxels that were looked at go to `counts`.
+/// Makes a scene for a bare volume: an opaque surface, alone or in a translucent hull, with contours, framed by a
+/// camera. A label volume is shown as the surface of all labels. The number of voxels read goes to `counts`.
 pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     fill(Scene::for_volume(source), volume, size, counts)
 }
 
-/// The same into a scene that has its tables: a function gets nodes and contours, an iso-surface the value of the outermost
-/// boundary; with neither there is the camera alone. Voxels that were looked at go to `counts`.
+/// Fills a scene that has tables of its own. A transfer function gets nodes and contours, an iso-surface the value of
+/// the outermost boundary. A scene with neither gets the camera alone. The number of voxels read goes to `counts`.
 pub fn fill(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     if labels::are_ids(volume) {
         of_labels(scene, &volume.present(), size)
@@ -52,27 +53,27 @@ pub fn fill(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts
     }
 }
 
-/// Gives a transfer function without nodes those of the volume's strongest boundaries. Voxels that were looked at go to
-/// `counts`.
+/// Gives a transfer function without nodes those of the volume's strongest boundaries. The number of voxels read goes
+/// to `counts`.
 pub fn fill_function(transfer: &mut Transfer, volume: &Volume, outside: Outside, counts: &mut Counts) {
     let levels = levels(volume, outside, counts);
-    let boundary = Boundary::find(levels.as_ref(), volume, outside);
+    let boundary = FirstSurfaces::find(levels.as_ref(), volume, outside);
     transfer.unit = Unit::Value;
-    transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
+    transfer.nodes = Some(surface_styles::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
 }
 
-/// The value of the surface that an automatic transfer function makes opaque; that of parts shown as one lies halfway.
-/// Voxels that were looked at go to `counts`.
+/// The value of the surface that an automatic transfer function makes opaque. For parts that are shown as one, the
+/// value lies halfway. The number of voxels read goes to `counts`.
 pub fn iso(volume: &Volume, table: &VolumeTable, counts: &mut Counts) -> f64 {
     if table.ids == Ids::Mask {
         return 0.5;
     }
     let outside = table.outside;
-    let main = Boundary::find(levels(volume, outside, counts).as_ref(), volume, outside).main;
-    look::short(main.value, main.step)
+    let main = FirstSurfaces::find(levels(volume, outside, counts).as_ref(), volume, outside).main;
+    surface_styles::short(main.value, main.step)
 }
 
-/// Levels by the differences of each voxel to its neighbours; a constant volume has none to look at.
+/// Levels from the differences of each voxel to its neighbours. A constant volume has none.
 fn levels(volume: &Volume, outside: Outside, counts: &mut Counts) -> Option<Levels> {
     let levels = Levels::of(volume, outside);
     let voxels = levels.as_ref().map_or(0, |_| volume.grid().len() as u64);
@@ -81,35 +82,35 @@ fn levels(volume: &Volume, outside: Outside, counts: &mut Counts) -> Option<Leve
 }
 
 fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
-    let (boundary, outside) = Boundary::judge(levels(volume, Outside::Low, counts).as_ref(), volume);
+    let (boundary, outside) = FirstSurfaces::judge(levels(volume, Outside::Low, counts).as_ref(), volume);
     scene.volume.outside = outside;
     if let Some(transfer) = &mut scene.transfer {
-        transfer.nodes = Some(look::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
+        transfer.nodes = Some(surface_styles::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
     }
     if let Some(surface) = scene.surface.as_mut().filter(|surface| surface.iso == Iso::Auto) {
-        // What is inside would hang in the air without it.
+        // Without the outermost surface, content inside it would float.
         let outermost = boundary.outermost();
-        surface.iso = Iso::Value(look::short(outermost.value, outermost.step));
+        surface.iso = Iso::Value(surface_styles::short(outermost.value, outermost.step));
     }
-    let [inside, seen] = [boundary.outermost().value, look::first_seen(&boundary, outside)];
-    frame(&mut scene, volume, [inside, seen].map(|value| Inside { value, outside }), size);
+    let [inside, seen] = [boundary.outermost().value, surface_styles::first_seen(&boundary, outside)];
+    frame(&mut scene, volume, [inside, seen].map(|value| ContentRange { value, outside }), size);
     scene
 }
 
-/// The step from 0 to 1 between voxels is rounded off by a smoothing kernel, or every voxel would show.
+/// A scene of labels. A smoothing kernel rounds the step from 0 to 1 between voxels, or every voxel would show.
 fn of_labels(mut scene: Scene, present: &Volume, size: [usize; 2]) -> Scene {
     scene.volume.ids = Ids::Mask;
     scene.sampling.kernel = Kernel::BsplineSmooth;
     if let Some(transfer) = &mut scene.transfer {
-        transfer.nodes = Some(look::label_nodes());
+        transfer.nodes = Some(surface_styles::label_nodes());
     }
-    frame(&mut scene, present, [Inside { value: 0.5, outside: Outside::Low }; 2], size);
+    frame(&mut scene, present, [ContentRange { value: 0.5, outside: Outside::Low }; 2], size);
     scene
 }
 
-/// Camera, picture and lines for the content, and for what is seen around it.
-fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: [usize; 2]) {
-    let body = Body::of(volume, inside);
+/// Sets camera, picture and lines for the content, and for the visible surface around it.
+fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], size: [usize; 2]) {
+    let body = VolumeContent::of(volume, inside);
     let Stance { direction, up } = Stance::of(volume, &body);
     let fit = framing::fit(volume, &body, seen, direction, up, FOV, size);
     scene.picture.size = size;
@@ -120,21 +121,22 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: 
         up,
         ..Camera::default()
     };
-    // Slices leave terraces on what is scanned, and noise leaves grain: normals over 3³ voxels, and curvatures of a
-    // smoothed grid, draw neither.
+    // Scans have terraces from slices, and noise has grain. Normals over 3³ voxels and curvatures of a smoothed grid
+    // show neither.
     if scene.transfer.is_some() || scene.surface.is_some() {
         scene.sampling.gradient = GradientEstimator::Sobel;
     }
     if scene.surface.is_some() {
-        // Steps between tones are as hard as the rim.
+        // Steps between tones are as hard as the silhouette.
         scene.picture.samples = 2;
     }
     if scene.transfer.is_none() {
         return;
     }
+    // Small content gets finer steps, and a reference length that keeps it as opaque.
     let finer = fit.extent / (FINE * volume.grid().voxel());
     if finer < 1.0 {
-        // Or else so little matter would stay translucent.
+        // Otherwise such small content would stay translucent.
         scene.sampling.step = Length::Voxels(three_digits(0.5 * finer));
         scene.sampling.reference_length = Length::Voxels(three_digits(finer));
     }
@@ -151,7 +153,8 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [Inside; 2], size: 
     });
 }
 
-/// A length that a person would write. The scale is a power of ten by multiplication and division alone.
+/// Rounds a length to three digits, as a person would write it. Multiplication and division alone make the power of
+/// ten.
 fn three_digits(length: f64) -> f64 {
     let mut scale = 1.0;
     while length / scale >= 1000.0 {
@@ -160,7 +163,7 @@ fn three_digits(length: f64) -> f64 {
     while length / scale < 100.0 && scale > 1e-300 {
         scale /= 10.0;
     }
-    // Once more through the decimal text, so that no digits of rounding are left.
+    // The decimal text removes rounding digits.
     let rounded = (length / scale).round() * scale;
     format!("{rounded:.3e}").parse().unwrap_or(rounded)
 }
@@ -234,7 +237,7 @@ mod tests {
         assert!((lines(1.0) / lines(0.013) - 1.0).abs() < 0.01);
     }
 
-    /// What is not drawn is not thought of; the camera is the same.
+    /// Parts that are not drawn get no suggestions; the camera is the same.
     #[test]
     fn a_stage_is_the_camera_alone() {
         let ball = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);

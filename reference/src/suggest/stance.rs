@@ -1,33 +1,34 @@
-//! Which way is up, and from where a thing is looked at.
+//! The upright direction of an object and the direction from which it is viewed.
 
-use super::body::Body;
+use super::content::VolumeContent;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::{Anatomy, Volume};
 
-/// How a camera is held.
+/// The orientation of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stance {
-    /// The way it looks.
+    /// The viewing direction.
     pub direction: DVec3,
-    /// What is up in the picture.
+    /// The direction that is up in the picture.
     pub up: DVec3,
 }
 
-/// A thing that goes on beyond one face of its box stands on it, if the cut there is this many times any other.
+/// Ratio of cuts by which an object stands on a face of its box: it continues beyond this face this many times more
+/// than beyond any other.
 const FOOT: f64 = 1.5;
-/// Share of the face that such a cut covers at least.
+/// Least share of the face that such a cut covers.
 const SIZE: f64 = 0.02;
-/// A thing that its last slices cut stands on its head, as far as the file is concerned, if it is a bust: it narrows to
-/// this share of its widest slice.
+/// Ratio of the neck to the widest slice up to which an object is a bust. A bust that the last slices cut is upside
+/// down in the file.
 const NECK: f64 = 0.6;
-/// A thing is flat whose shortest extent is this share of its longest.
+/// Ratio of the shortest to the longest extent up to which an object is flat.
 const FLAT: f64 = 0.4;
 
 impl Stance {
-    /// A patient stands upright and is seen from the front, half from the side. Of anything else nothing is said: it
-    /// stands on the face of the box that cuts it, or else the last axis is up, and it is seen over a corner, a flat
-    /// thing from its broad side.
-    pub(super) fn of(volume: &Volume, body: &Body) -> Self {
+    /// Chooses the stance. A patient stands upright and is seen from the front, half from the side. Any other object
+    /// stands on the face of the box that cuts it, or else the last axis is up. It is seen over a corner, a flat
+    /// object from its broad side.
+    pub(super) fn of(volume: &Volume, body: &VolumeContent) -> Self {
         let front = match volume.anatomy() {
             Some(Anatomy::RightAnteriorSuperior) => DVec3::new(-0.7, -1.0, -0.25),
             Some(Anatomy::LeftPosteriorSuperior) => DVec3::new(0.7, 1.0, -0.25),
@@ -37,7 +38,7 @@ impl Stance {
         Self { direction: front, up: DVec3::Z }
     }
 
-    fn of_a_thing(volume: &Volume, body: &Body) -> Self {
+    fn of_a_thing(volume: &Volume, body: &VolumeContent) -> Self {
         let grid = volume.grid();
         let axes = [0, 1, 2].map(|a| grid.axes().col(a).normalize());
         let extent = extent(volume, body);
@@ -45,7 +46,7 @@ impl Stance {
         let (up, upwards) = standing(body, &cuts);
         let longest = extent.into_iter().fold(0.0, f64::max);
         let flat = |a: usize| extent[a] < FLAT * longest;
-        // Along y when z is up, along z when y is up: the picture is that of a slice, turned.
+        // The view is along y if z is up and along z if y is up: the picture is that of a slice, turned.
         let (mut along, mut across) = if up == 2 {
             (1, 0)
         } else if up == 1 {
@@ -56,7 +57,8 @@ impl Stance {
         if flat(across) && !flat(along) {
             (along, across) = (across, along);
         }
-        // Away from the side that is cut more; else against y is up, along y.
+        // The view comes from the side that is cut less. Between equals it follows the axis if z is up, and runs against
+        // the axis otherwise.
         let [near, far] = cuts[along];
         let forwards = if near > FOOT * far && near > SIZE {
             false
@@ -76,8 +78,8 @@ impl Stance {
     }
 }
 
-/// The axis that is up, and whether it is up towards its end.
-fn standing(body: &Body, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
+/// The axis that is up, and whether its end is the upper side.
+fn standing(body: &VolumeContent, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
     let faces = (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]);
     let (axis, side) =
         faces.clone().fold((2, 0), |best, face| if cuts[face.0][face.1] > cuts[best.0][best.1] { face } else { best });
@@ -94,8 +96,8 @@ fn standing(body: &Body, cuts: &[[f64; 2]; 3]) -> (usize, bool) {
     if slices[slices.len() - 1] < NECK * widest { (axis, false) } else { (2, true) }
 }
 
-/// Share of each of the box's faces that content covers: first and last along each axis.
-fn cuts(volume: &Volume, body: &Body) -> [[f64; 2]; 3] {
+/// Share of each of the box's faces that content covers: first and last face of each axis.
+fn cuts(volume: &Volume, body: &VolumeContent) -> [[f64; 2]; 3] {
     let dims = volume.dims();
     [0, 1, 2].map(|axis| {
         let slices = body.slices(axis);
@@ -105,7 +107,7 @@ fn cuts(volume: &Volume, body: &Body) -> [[f64; 2]; 3] {
 }
 
 /// Lengths of the content along the axes, in world units.
-fn extent(volume: &Volume, body: &Body) -> [f64; 3] {
+fn extent(volume: &Volume, body: &VolumeContent) -> [f64; 3] {
     let spacing = volume.grid().spacing();
     [0, 1, 2].map(|axis| {
         let slices = body.slices(axis);
@@ -117,17 +119,17 @@ fn extent(volume: &Volume, body: &Body) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::body::Inside;
+    use super::super::content::ContentRange;
     use super::super::tests::volume;
     use super::*;
     use drypoint_scene::tables::Outside;
 
-    const INSIDE: Inside = Inside { value: 0.5, outside: Outside::Low };
+    const INSIDE: ContentRange = ContentRange { value: 0.5, outside: Outside::Low };
 
-    /// A thing in 32³ voxels.
+    /// The stance of an object in 32³ voxels.
     fn stance(inside: impl Fn([f64; 3]) -> bool) -> Stance {
         let v = volume(|p| if inside(p.map(|i| i as f64)) { 1.0 } else { 0.0 });
-        Stance::of(&v, &Body::of(&v, INSIDE))
+        Stance::of(&v, &VolumeContent::of(&v, INSIDE))
     }
 
     fn ball([x, y, z]: [f64; 3], centre: [f64; 3], r: f64) -> bool {
@@ -143,12 +145,12 @@ mod tests {
 
     #[test]
     fn a_bust_stands_on_its_neck() {
-        // A head whose crown is the first slice, and whose neck goes on beyond the last.
+        // A head whose crown is the first slice, and whose neck continues beyond the last.
         let s =
             stance(|p| ball(p, [16.0, 16.0, 12.0], 10.0) || ((p[0] - 16.0).hypot(p[1] - 16.0) < 4.0 && p[2] > 12.0));
         assert_eq!(s.up, -DVec3::Z);
         assert!(s.direction.z > 0.0, "seen from above its crown");
-        // A leg that widens to where it is cut stands on its foot.
+        // A leg that widens to its cut is not a bust: it stands on its foot, the narrow end.
         let leg = stance(|p| (p[0] - 16.0).hypot(p[1] - 16.0) < 3.0 + 0.2 * p[2] && p[2] > 2.0);
         assert_eq!(leg.up, DVec3::Z);
     }
@@ -179,7 +181,7 @@ mod tests {
             (Anatomy::LeftAnteriorSuperior, -DVec3::Y),
         ] {
             let v = volume(|_| 1.0).with_anatomy(Some(anatomy));
-            let s = Stance::of(&v, &Body::of(&v, INSIDE));
+            let s = Stance::of(&v, &VolumeContent::of(&v, INSIDE));
             assert!(s.up == DVec3::Z && s.direction.normalize().dot(front) > 0.7, "{anatomy:?}");
         }
     }

@@ -1,27 +1,27 @@
-//! The blocks of cells in which a field can have a value, by the ranges of its bricks ([RAY-2]).
+//! The blocks of cells in which a field can have a value, from the ranges of its bricks ([RAY-2]).
 
 use drypoint_scene::volume::{BRICK, Bricks};
 
-/// Bricks along the side of a block that is looked at first.
+/// Number of bricks along the side of a block, which is tested first.
 const BRICKS: usize = 4;
 
-/// Cells along its side.
+/// Number of cells along the side of a block.
 const BLOCK: usize = BRICKS * BRICK;
 
-/// One bit a brick and one a block of bricks: whether a value lies in its closed range.
+/// One bit for each brick and one for each block of bricks: whether a value lies in its closed range.
 #[derive(Clone, Debug)]
-pub(super) struct Active {
-    bricks: Bits,
-    blocks: Bits,
+pub(super) struct ActiveBricks {
+    bricks: BitArray,
+    blocks: BitArray,
 }
 
 #[derive(Clone, Debug)]
-struct Bits {
+struct BitArray {
     dims: [usize; 3],
     words: Vec<u64>,
 }
 
-impl Bits {
+impl BitArray {
     fn new(dims: [usize; 3]) -> Self {
         Self { dims, words: vec![0; (dims[0] * dims[1] * dims[2]).div_ceil(64)] }
     }
@@ -42,12 +42,12 @@ impl Bits {
     }
 }
 
-impl Active {
-    /// The bricks in whose range a value lies.
+impl ActiveBricks {
+    /// Marks the bricks whose range contains a value.
     pub(super) fn new(bricks: &Bricks, value: f64) -> Self {
         let [nx, ny, _] = bricks.dims;
         let mut active =
-            Self { bricks: Bits::new(bricks.dims), blocks: Bits::new(bricks.dims.map(|n| n.div_ceil(BRICKS))) };
+            Self { bricks: BitArray::new(bricks.dims), blocks: BitArray::new(bricks.dims.map(|n| n.div_ceil(BRICKS))) };
         let ranges = bricks.ranges.iter().enumerate();
         for (i, _) in ranges.filter(|(_, [lo, hi])| *lo <= value && value <= *hi) {
             let at = [i % nx, i / nx % ny, i / (nx * ny)];
@@ -57,7 +57,8 @@ impl Active {
         active
     }
 
-    /// The side of the largest block around a cell in which the value cannot be; none where it can be in the cell's brick.
+    /// The side of the largest block around a cell that cannot contain the value. Returns none if the cell's brick
+    /// can contain it.
     #[inline(always)]
     pub(super) fn empty(&self, cell: [usize; 3]) -> Option<usize> {
         if !self.blocks.get(cell.map(|i| i / BLOCK)) {
@@ -69,14 +70,14 @@ impl Active {
         }
     }
 
-    /// The bricks in which the value can be, in their order.
+    /// The bricks that can contain the value, in their order.
     pub(super) fn all(&self) -> Vec<[usize; 3]> {
         let [nx, ny, nz] = self.bricks.dims;
         let at = |i: usize| [i % nx, i / nx % ny, i / (nx * ny)];
         (0..nx * ny * nz).map(at).filter(|&brick| self.bricks.get(brick)).collect()
     }
 
-    /// Bytes in memory.
+    /// Size in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.bricks.words.as_slice()) + size_of_val(self.blocks.words.as_slice())
     }
@@ -91,7 +92,7 @@ mod tests {
         // 40 × 8 × 8 cells: 10 bricks a row, 3 blocks. One brick holds the value, at the closed end of its range.
         let mut bricks = Bricks::new([41, 9, 9], |row| row.cells().map(|_| [0.0, 1.0]).collect());
         bricks.ranges[5] = [2.0, 3.0];
-        let active = Active::new(&bricks, 2.0);
+        let active = ActiveBricks::new(&bricks, 2.0);
         assert_eq!(active.empty([20, 3, 0]), None);
         assert_eq!(active.empty([23, 0, 3]), None);
         assert_eq!(active.empty([24, 0, 0]), Some(BRICK), "the brick beside it, in the same block");

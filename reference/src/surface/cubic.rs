@@ -2,16 +2,16 @@
 
 /// A cubic b₀(1−u)³ + 3b₁u(1−u)² + 3b₂u²(1−u) + b₃u³ on [0, 1].
 ///
-/// In this form it is never outside the range of its coefficients, its ends are b₀ and b₃ themselves, and multiplying all
-/// four by a power of two changes no root.
+/// In this form the value never leaves the range of the coefficients, and the ends are exactly b₀ and b₃. Multiplying
+/// all four by a power of two changes no root.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cubic(pub(super) [f64; 4]);
+pub(super) struct BernsteinCubic(pub(super) [f64; 4]);
 
-/// Steps after which a bracket has no number inside: each third one halves it at least.
+/// Number of steps after which a bracket has no number inside: each third step halves it at least.
 const MOST_STEPS: usize = 200;
 
-impl Cubic {
-    /// The value at u by de Casteljau's scheme, whose means stay between what they are of.
+impl BernsteinCubic {
+    /// The value at u by de Casteljau's scheme, whose means stay between their operands.
     fn at(self, u: f64) -> f64 {
         let Self([a, b, c, d]) = self;
         let (ab, bc, cd) = (mix(a, b, u), mix(b, c, u), mix(c, d, u));
@@ -20,9 +20,9 @@ impl Cubic {
 
     /// The smallest u in [0, 1] with the value 0.
     ///
-    /// Between its extrema a cubic is monotonic, and has a root if its ends have different signs. One that touches 0 and
-    /// turns back has its root at the extremum if the value computed there is 0 or beyond; whether it is, is rounding's to
-    /// say.
+    /// A cubic is monotonic between its extrema, and has a root there if the ends have different signs. A cubic that
+    /// touches 0 and turns back has its root at the extremum, if the computed value there is 0 or beyond. Rounding
+    /// decides this case.
     pub(super) fn first_root(self) -> Option<f64> {
         let Self(b) = self;
         if b[0] == 0.0 {
@@ -46,10 +46,11 @@ impl Cubic {
         None
     }
 
-    /// Where the derivative is 0 in (0, 1), in ascending order.
+    /// Zeros of the derivative in (0, 1), in ascending order.
     fn extrema(self) -> [Option<f64>; 2] {
         let Self([a, b, c, d]) = self;
-        // A third of the derivative, by its own coefficients; over the largest, so that no square leaves the numbers.
+        // Bernstein coefficients of a third of the derivative, divided by the largest, so that squares neither
+        // overflow nor underflow.
         let d = [b - a, c - b, d - c];
         let largest = d.into_iter().fold(0.0, |m: f64, d| m.max(d.abs()));
         if largest == 0.0 {
@@ -61,7 +62,8 @@ impl Cubic {
         if discriminant < 0.0 {
             return [None; 2];
         }
-        // The two of the same sign are added, so that no digits cancel; the other root is by the product of both.
+        // Numbers of the same sign are added, so that no digits cancel. The product of both roots gives the other
+        // root.
         let root = discriminant.sqrt();
         let q = if half < 0.0 { root - half } else { -root - half };
         let inside = |u: f64| (u > 0.0 && u < 1.0).then_some(u);
@@ -69,19 +71,20 @@ impl Cubic {
         if u > v { [v, u] } else { [u, v] }
     }
 
-    /// The root in a part where the cubic is monotonic and whose ends, with their values, differ in sign.
+    /// The root in a part where the cubic is monotonic. The ends are given with their values, which differ in sign.
     fn between(self, from: [f64; 2], to: [f64; 2]) -> f64 {
         bracketed(|u| self.at(u), from, to)
     }
 }
 
-/// A root of a continuous function between two places whose values differ in sign, each given with its value: where a value
-/// is 0, or else the first of the two neighbouring numbers between which the sign changes.
+/// A root of a continuous function between two places whose values differ in sign. Each place is given with its
+/// value. The result is a place with the value 0, or the first of two neighbouring numbers between which the sign
+/// changes.
 ///
-/// Secants first, with the bisection of every third step so that no shape of the function makes them slow.
+/// Secant steps, with a bisection at every third step, so that no shape of the function slows the search down.
 pub(crate) fn bracketed(f: impl Fn(f64) -> f64, [mut lo, mut at_lo]: [f64; 2], [mut hi, mut at_hi]: [f64; 2]) -> f64 {
     let below = at_lo < 0.0;
-    // The values that secants go through: the end that stays counts half, or it would stay for ever (Illinois).
+    // The values for the secant: an end that stays gets half its value, or it would stay forever (Illinois).
     let (mut left, mut right) = (at_lo, at_hi);
     for step in 0..MOST_STEPS {
         let middle = lo + 0.5 * (hi - lo);
@@ -116,11 +119,12 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The Bernstein coefficients of (u − p)(u − q)(u − r), by blossoming: the mean over all orders of the factors' ends.
-    fn with_roots([p, q, r]: [f64; 3]) -> Cubic {
+    /// The Bernstein coefficients of (u − p)(u − q)(u − r) by blossoming: the mean over all orders of the factors'
+    /// values at the ends.
+    fn with_roots([p, q, r]: [f64; 3]) -> BernsteinCubic {
         let b1 = (-p * -q * (1.0 - r) - p * (1.0 - q) * -r + (1.0 - p) * -q * -r) / 3.0;
         let b2 = (-p * (1.0 - q) * (1.0 - r) + (1.0 - p) * -q * (1.0 - r) + (1.0 - p) * (1.0 - q) * -r) / 3.0;
-        Cubic([-p * -q * -r, b1, b2, (1.0 - p) * (1.0 - q) * (1.0 - r)])
+        BernsteinCubic([-p * -q * -r, b1, b2, (1.0 - p) * (1.0 - q) * (1.0 - r)])
     }
 
     #[test]
@@ -137,23 +141,24 @@ mod tests {
 
     #[test]
     fn ends_touches_and_plateaus() {
-        assert_eq!(Cubic([0.0, 1.0, 1.0, 1.0]).first_root(), Some(0.0));
-        assert_eq!(Cubic([1.0, 1.0, 1.0, 0.0]).first_root(), Some(1.0));
-        assert_eq!(Cubic([0.0; 4]).first_root(), Some(0.0));
+        assert_eq!(BernsteinCubic([0.0, 1.0, 1.0, 1.0]).first_root(), Some(0.0));
+        assert_eq!(BernsteinCubic([1.0, 1.0, 1.0, 0.0]).first_root(), Some(1.0));
+        assert_eq!(BernsteinCubic([0.0; 4]).first_root(), Some(0.0));
         // (u − ½)²(u + 1) touches 0 at ½, where every step of the scheme is exact.
         assert_eq!(with_roots([0.5, 0.5, -1.0]).first_root(), Some(0.5));
         // Coefficients of both signs, and no root: the polygon crosses 0 and the curve does not.
-        assert_eq!(Cubic([1.0, -0.3, -0.3, 1.0]).first_root(), None);
+        assert_eq!(BernsteinCubic([1.0, -0.3, -0.3, 1.0]).first_root(), None);
         // Linear: the first secant is exact.
-        assert_eq!(Cubic([-1.0, 0.0, 1.0, 2.0]).first_root(), Some(1.0 / 3.0));
-        assert_eq!(Cubic([-1e-300, 0.0, 1e-300, 2e-300]).first_root(), Some(1.0 / 3.0));
+        assert_eq!(BernsteinCubic([-1.0, 0.0, 1.0, 2.0]).first_root(), Some(1.0 / 3.0));
+        assert_eq!(BernsteinCubic([-1e-300, 0.0, 1e-300, 2e-300]).first_root(), Some(1.0 / 3.0));
     }
 
     proptest! {
-        /// Against the signs at 4096 places: the first change, to the last bit of the values; and scaling moves no bit.
+        /// Compares with the signs at 4096 places: the first change of sign, to the last bit of the values. Scaling
+        /// changes no bit.
         #[test]
         fn no_root_is_before_the_first(b in prop::array::uniform4(-1.0..1.0f64), k in -900..900i32) {
-            let cubic = Cubic(b);
+            let cubic = BernsteinCubic(b);
             let first = cubic.first_root();
             let n = 4096;
             let places = (0..=n).map(|i| f64::from(i) / f64::from(n));
@@ -169,7 +174,7 @@ mod tests {
             if let Some(root) = first {
                 prop_assert!(cubic.at(root).abs() <= 8.0 * f64::EPSILON, "{}", cubic.at(root));
             }
-            let scaled = Cubic(b.map(|b| drypoint_scene::math::scale_by_power_of_two(b, k)));
+            let scaled = BernsteinCubic(b.map(|b| drypoint_scene::math::scale_by_power_of_two(b, k)));
             prop_assert_eq!(scaled.first_root().map(f64::to_bits), first.map(f64::to_bits));
         }
     }

@@ -1,81 +1,83 @@
 //! The first place on a line where a field has a value.
 
-use super::active::Active;
-use super::cubic::{Cubic, bracketed, mix};
-use super::walk::{Box, Line, Walk};
+use super::active::ActiveBricks;
+use super::cubic::{BernsteinCubic, bracketed, mix};
+use super::traversal::{CellBox, CellTraversal, IndexLine};
 use crate::field::{Field, Place, Sampler};
 use crate::number::Real;
 use drypoint_scene::math;
 use drypoint_scene::volume::{Bricks, Mask};
 
-/// How far apart, in voxels, values are looked at along a line through a kernel that is no cubic there.
+/// Distance of evaluations along a line, in voxels, for kernels that are not cubic there.
 const STEP: f64 = 0.25;
 
-/// Finds roots of f = iso along lines; what is known of a field and a value, without the field.
+/// A finder of roots of f = iso along lines. It holds data about a field and a value, but not the field.
 #[derive(Clone, Debug)]
-pub(crate) struct Roots {
+pub(crate) struct RootFinder {
     iso: f64,
-    /// Differences from `iso` are formed times this power of two, and come out below 2.
+    /// The power of two by which differences from `iso` are multiplied; it brings them below 2.
     scale: f64,
-    bounds: Box,
-    active: Option<Active>,
+    bounds: CellBox,
+    active: Option<ActiveBricks>,
 }
 
-/// What a cell says of its part of a line.
-enum Found {
-    /// The first root in it.
+/// The result of a search in one cell.
+enum CellSearch {
+    /// The first root in the cell.
     Root(f64),
-    /// There is none; whether the value is above where the line leaves the cell.
+    /// The cell has no root. `above` tells whether the value is above `iso` where the line leaves the cell.
     None { above: bool },
 }
 
-impl Roots {
-    /// For a field and a value. With the ranges of the field's bricks, those that leave the value out are passed over.
+impl RootFinder {
+    /// A finder for a field and a value. If the ranges of the field's bricks are given, bricks that exclude the value
+    /// are skipped.
     pub(crate) fn new<R: Real>(field: &Field<'_, R>, iso: f64, bricks: Option<&Bricks>) -> Self {
         let volume = field.volume();
-        // Differences of the largest numbers would overflow, and squares of the smallest vanish.
+        // Without the scale, differences of the largest numbers would overflow and squares of the smallest would
+        // underflow.
         let exponent = math::exponent(volume.largest_magnitude().max(iso.abs())).clamp(-1000, 1000);
         Self {
             iso,
             scale: math::scale_by_power_of_two(1.0, -exponent),
-            bounds: Box::new(volume.grid()),
-            active: bricks.map(|bricks| Active::new(bricks, iso)),
+            bounds: CellBox::new(volume.grid()),
+            active: bricks.map(|bricks| ActiveBricks::new(bricks, iso)),
         }
     }
 
-    /// The value.
+    /// The value of the surface.
     pub(crate) fn iso(&self) -> f64 {
         self.iso
     }
 
-    /// The bricks in which the value can be; none where that is not known.
+    /// The bricks that can contain the value. Returns none if their ranges are unknown.
     pub(super) fn bricks(&self) -> Option<Vec<[usize; 3]>> {
-        self.active.as_ref().map(Active::all)
+        self.active.as_ref().map(ActiveBricks::all)
     }
 
-    /// Forgets what is known of bricks: for a sampler that they do not bound.
+    /// Drops the ranges of bricks, for a sampler that they do not bound.
     pub(crate) fn look_everywhere(&mut self) {
         self.active = None;
     }
 
-    /// Bytes in memory.
+    /// Size in bytes.
     pub(crate) fn bytes(&self) -> usize {
-        self.active.as_ref().map_or(0, Active::bytes)
+        self.active.as_ref().map_or(0, ActiveBricks::bytes)
     }
 
-    /// The smallest t in a closed range at which the line has the value; no root lies in a cell that touches a masked voxel
-    /// ([PREC-2]).
+    /// The smallest t in a closed range at which the line has the value. Cells that touch a masked voxel contain no
+    /// root ([PREC-2]).
     pub(crate) fn first<R: Real, S: Sampler<R>>(
         &self,
         sampler: &S,
         mask: Option<&Mask>,
-        line: Line,
+        line: IndexLine,
         range: [f64; 2],
     ) -> Option<f64> {
         let length = line[1].length();
-        let mut walk = Walk::new(&self.bounds, line, range)?;
-        // On which side the cell before was left. The values of two cells on their common face are the same for trilinear
-        // values, and to rounding for the others, so that a root there can be in neither.
+        let mut walk = CellTraversal::new(&self.bounds, line, range)?;
+        // The side on which the line left the previous cell. The values of two cells on their common face are equal
+        // for trilinear values, and equal up to rounding for others. So a root there may be missing in both.
         let mut before = None;
         loop {
             let passed = if let Some(side) = self.active.as_ref().and_then(|active| active.empty(walk.cell())) {
@@ -86,8 +88,8 @@ impl Roots {
                 1
             } else {
                 match self.in_cell(sampler, &walk, length, before) {
-                    Found::Root(t) => return Some(t),
-                    Found::None { above } => before = Some(above),
+                    CellSearch::Root(t) => return Some(t),
+                    CellSearch::None { above } => before = Some(above),
                 }
                 1
             };
@@ -97,33 +99,43 @@ impl Roots {
         }
     }
 
-    fn in_cell<R: Real, S: Sampler<R>>(&self, sampler: &S, walk: &Walk, length: f64, before: Option<bool>) -> Found {
+    fn in_cell<R: Real, S: Sampler<R>>(
+        &self,
+        sampler: &S,
+        walk: &CellTraversal,
+        length: f64,
+        before: Option<bool>,
+    ) -> CellSearch {
         let [enters, leaves] = walk.range();
         match sampler.corners(walk.cell()) {
             Some(corners) => {
+                // Trilinear: f along the line is a cubic. Corners on one side of `iso` exclude a root without
+                // computing it.
                 let over = |c: R| self.over(c);
                 let corners = corners.map(|row| row.map(over));
                 if let Some(above) = one_side(&corners)
                     && before.is_none_or(|b| b == above)
                 {
-                    return Found::None { above };
+                    return CellSearch::None { above };
                 }
                 let cubic = along(&corners, walk.entry(), walk.exit());
+                // A change of sign between the previous cell and this one is a root on their common face.
                 if before.is_some_and(|above| above != (cubic.0[0] > 0.0)) {
-                    return Found::Root(enters);
+                    return CellSearch::Root(enters);
                 }
                 match cubic.first_root() {
-                    Some(u) => Found::Root(enters + u * (leaves - enters)),
-                    None => Found::None { above: cubic.0[3] > 0.0 },
+                    Some(u) => CellSearch::Root(enters + u * (leaves - enters)),
+                    None => CellSearch::None { above: cubic.0[3] > 0.0 },
                 }
             }
             None => {
                 let value =
                     |w: [f64; 3]| self.over(sampler.value_at(Place { cell: walk.cell(), w: w.map(R::from_f64) }));
+                // Other kernels: equidistant values, and a bracketed root at the first change of sign.
                 let steps = (length * (leaves - enters) / STEP).ceil().max(1.0);
                 let (mut from, mut at_from) = (enters, value(walk.entry()));
                 if at_from == 0.0 || before.is_some_and(|above| above != (at_from > 0.0)) {
-                    return Found::Root(enters);
+                    return CellSearch::Root(enters);
                 }
                 let mut step = 0.0;
                 while step < steps {
@@ -132,14 +144,14 @@ impl Roots {
                     let to = if last { leaves } else { enters + (leaves - enters) * (step / steps) };
                     let at_to = value(if last { walk.exit() } else { walk.at(to) });
                     if at_to == 0.0 {
-                        return Found::Root(to);
+                        return CellSearch::Root(to);
                     }
                     if (at_to > 0.0) != (at_from > 0.0) {
-                        return Found::Root(bracketed(|t| value(walk.at(t)), [from, at_from], [to, at_to]));
+                        return CellSearch::Root(bracketed(|t| value(walk.at(t)), [from, at_from], [to, at_to]));
                     }
                     (from, at_from) = (to, at_to);
                 }
-                Found::None { above: at_from > 0.0 }
+                CellSearch::None { above: at_from > 0.0 }
             }
         }
     }
@@ -151,7 +163,7 @@ impl Roots {
     }
 }
 
-/// The side on which all corners of a cell lie, above or below, if they do.
+/// The side of `iso` on which all corners of a cell lie, if they lie on one side.
 #[inline(always)]
 fn one_side(corners: &[[f64; 2]; 4]) -> Option<bool> {
     let all = |side: fn(f64) -> bool| corners.iter().flatten().all(|&c| side(c));
@@ -164,11 +176,12 @@ fn one_side(corners: &[[f64; 2]; 4]) -> Option<bool> {
     }
 }
 
-/// The trilinear interpolation of the corners of a cell along the line from one place in it to another.
+/// The trilinear interpolation of a cell's corners along the line between two places in the cell.
 ///
-/// Its coefficients are the polar form's values: each axis has its coordinate at the one place or the other, and those with as
-/// many at the other are averaged over the axes. All are interpolations of the corners themselves.
-fn along(corners: &[[f64; 2]; 4], from: [f64; 3], to: [f64; 3]) -> Cubic {
+/// The coefficients are values of the polar form. Each axis takes its coordinate from one of the two places.
+/// Combinations with equally many coordinates from the second place are averaged over the axes. All values are
+/// interpolations of the corners.
+fn along(corners: &[[f64; 2]; 4], from: [f64; 3], to: [f64; 3]) -> BernsteinCubic {
     let at = |x: f64, y: f64, z: f64| {
         let [a, b, c, d] = corners.map(|row| mix(row[0], row[1], x));
         mix(mix(a, b, y), mix(c, d, y), z)
@@ -176,5 +189,5 @@ fn along(corners: &[[f64; 2]; 4], from: [f64; 3], to: [f64; 3]) -> Cubic {
     let ([x0, y0, z0], [x1, y1, z1]) = (from, to);
     let one = at(x1, y0, z0) + at(x0, y1, z0) + at(x0, y0, z1);
     let two = at(x0, y1, z1) + at(x1, y0, z1) + at(x1, y1, z0);
-    Cubic([at(x0, y0, z0), one / 3.0, two / 3.0, at(x1, y1, z1)])
+    BernsteinCubic([at(x0, y0, z0), one / 3.0, two / 3.0, at(x1, y1, z1)])
 }

@@ -1,23 +1,25 @@
-//! Iso-surfaces where rays and lines meet them: the first root of f = iso, what it hides, and the foot of a point on it
+//! Intersections of rays and lines with iso-surfaces: the first root of f = iso, visibility, and the foot of a point
 //! (Nagy et al. 2002, 4.3.2; [HATCH-7], [HATCH-14], [STIP-15]).
 //!
-//! Along a line the trilinear interpolation of a cell is a cubic, of which the first root is found; for other
-//! kernels values are looked at every quarter of a voxel, and a change of sign is narrowed down to neighbouring numbers: a
-//! pair of roots closer than that is missed. A root is a place where f − iso is 0 or changes its sign. So a plateau at the
-//! value begins where the line enters it, a volume that is iso everywhere is met at its face, and a field that touches the
-//! value has a root if its extremum, as computed, is at the value or beyond.
+//! The trilinear interpolation of a cell is a cubic along a line, whose first root is found. Other kernels are
+//! evaluated every quarter of a voxel, and a change of sign is narrowed down to neighbouring numbers. A pair of roots
+//! closer than that is missed.
 //!
-//! Cells that touch a masked voxel hold no surface ([PREC-2]).
+//! A root is a place where f − iso is 0 or changes its sign. So a plateau at the value begins where the line enters
+//! it. A volume that equals iso everywhere is met at its face. A field that touches the value has a root if its
+//! extremum, as computed, is at the value or beyond.
+//!
+//! Cells that touch a masked voxel contain no surface ([PREC-2]).
 
 mod active;
 mod cubic;
 mod first_root;
 mod foot;
-mod hidden;
-mod walk;
+mod traversal;
+mod visibility;
 
 pub(crate) use cubic::bracketed;
-pub(crate) use first_root::Roots;
+pub(crate) use first_root::RootFinder;
 
 use crate::field::{Field, Sampler};
 use crate::with_sampler;
@@ -44,27 +46,28 @@ use drypoint_scene::volume::BRICK;
 #[derive(Clone, Debug)]
 pub struct IsoSurface<'f, 'v> {
     field: &'f Field<'v, f64>,
-    roots: Roots,
+    roots: RootFinder,
 }
 
 impl<'f, 'v> IsoSurface<'f, 'v> {
-    /// The surface of a field, prepared for gradients if feet are to be asked for. The ranges of the field's bricks are
-    /// looked at once, so that lines pass over those that leave the value out.
+    /// The surface of a field. The field must be prepared for gradients if feet are needed. The ranges of the field's
+    /// bricks are computed at once, so that lines skip bricks that exclude the value.
     pub fn new(field: &'f Field<'v, f64>, iso: f64) -> Self {
-        Self { field, roots: Roots::new(field, iso, Some(&field.bricks())) }
+        Self { field, roots: RootFinder::new(field, iso, Some(&field.bricks())) }
     }
 
-    /// The same without the ranges: every cell on a line is looked at. It shows nowhere ([RAY-2]).
+    /// Like [`new`](Self::new), but without the bricks' ranges: every cell on a line is tested. Results are the same
+    /// ([RAY-2]).
     pub fn without_skipping(field: &'f Field<'v, f64>, iso: f64) -> Self {
-        Self { field, roots: Roots::new(field, iso, None) }
+        Self { field, roots: RootFinder::new(field, iso, None) }
     }
 
-    /// The value.
+    /// The value of the surface.
     pub fn iso(&self) -> f64 {
         self.roots.iso()
     }
 
-    /// The field.
+    /// The field of the surface.
     pub fn field(&self) -> &'f Field<'v, f64> {
         self.field
     }
@@ -77,7 +80,7 @@ impl<'f, 'v> IsoSurface<'f, 'v> {
         })
     }
 
-    /// Bytes that it holds beside the field.
+    /// Size in bytes, without the field.
     pub fn bytes(&self) -> usize {
         self.roots.bytes()
     }
@@ -89,13 +92,13 @@ impl<'f, 'v> IsoSurface<'f, 'v> {
         self.first_root_in_index(grid.to_index(origin), grid.inverse_axes() * direction, range)
     }
 
-    /// The same in index space.
+    /// Like [`first_root`](Self::first_root), but in index space.
     pub fn first_root_in_index(&self, origin: DVec3, direction: DVec3, range: [f64; 2]) -> Option<f64> {
         let mask = self.field.volume().mask();
         with_sampler!(self.field, |sampler| self.roots.first(sampler, mask, [origin, direction], range))
     }
 
-    /// The value at a place in index space; none outside the volume's box.
+    /// The value at a place in index space. Returns none outside the volume's box.
     fn value(&self, index: DVec3) -> Option<f64> {
         let at = crate::number::Vec3::from_glam(index);
         self.holds(index).then(|| with_sampler!(self.field, |sampler| sampler.value(at)))

@@ -1,4 +1,4 @@
-//! Roots against closed forms and against the interpolation itself, asked everywhere.
+//! Roots against closed forms, and against a dense search on the interpolation.
 
 use super::*;
 use crate::field::{GradientEstimator, Kernel, Reconstruction, Rung};
@@ -27,7 +27,7 @@ fn cubic_grid(n: usize) -> Grid {
     Grid::with_spacing([n; 3], [1.0; 3]).unwrap()
 }
 
-/// Spacings 1 : 1 : 4, and one that leans.
+/// A grid with spacings 1 : 1 : 4, and a sheared one.
 fn odd_grids(n: usize) -> [Grid; 2] {
     let sheared = DMat3::from_cols(DVec3::new(1.0, 0.1, 0.0), DVec3::new(-0.3, 1.2, 0.2), DVec3::new(0.1, 0.4, 0.9));
     let origin = DVec3::new(3.0, -5.0, 2.0);
@@ -53,7 +53,8 @@ impl Random {
     }
 }
 
-/// Lines through a grid in index space: at random, along axes and diagonals, on faces and edges of cells, through voxels.
+/// Lines through a grid in index space: random ones, along axes and diagonals, on faces and edges of cells, and
+/// through voxels.
 fn lines(r: &mut Random, n: usize) -> Vec<[DVec3; 2]> {
     let far = (n - 1) as f64;
     let mut lines = Vec::new();
@@ -71,7 +72,8 @@ fn lines(r: &mut Random, n: usize) -> Vec<[DVec3; 2]> {
     lines
 }
 
-/// The first sign change of the interpolation at steps of `step` along a line inside the box, narrowed down by bisection.
+/// The first change of sign of the interpolation at steps of `step` along a line inside the box, refined by
+/// bisection.
 fn brute_force(field: &Field<'_, f64>, iso: f64, [o, d]: [DVec3; 2], step: f64) -> Option<f64> {
     let [lo, hi] = field.volume().grid().index_box();
     let over = |t: f64| {
@@ -97,8 +99,8 @@ fn brute_force(field: &Field<'_, f64>, iso: f64, [o, d]: [DVec3; 2], step: f64) 
     None
 }
 
-/// A plane n·x = c is linear along every line: its root is (c − n·o)/(n·d). Lengths are below 300 and the plane is met at
-/// no less than a tenth of its steepest, which rounding is multiplied by.
+/// A plane n·x = c is linear along every line: its root is (c − n·o)/(n·d). Lengths are below 300. The slope is at
+/// least a tenth of the steepest one, which multiplies rounding by ten.
 #[test]
 fn planes_are_met_where_they_are() {
     let mut r = Random(0);
@@ -129,8 +131,8 @@ fn planes_are_met_where_they_are() {
     }
 }
 
-/// Noise has up to three roots in a cell and thousands of surfaces: the first is the interpolation's own first change of
-/// sign, also on faces, on edges and through voxels, for every kernel; and passing over bricks changes no bit.
+/// Noise has up to three roots in a cell and thousands of surfaces. The first root is the interpolation's first
+/// change of sign, even on faces, on edges and through voxels, for every kernel. Skipping bricks changes no bit.
 #[test]
 fn the_first_root_is_that_of_the_interpolation() {
     let mut r = Random(1000);
@@ -139,7 +141,7 @@ fn the_first_root_is_that_of_the_interpolation() {
         let mut noise = Random(5000);
         let rough = sampled(grid.clone(), |_| noise.next());
         let centre = grid.centre();
-        // Smooth, for the kernels that are only looked at every quarter of a voxel.
+        // A smooth volume, for the kernels that are evaluated every quarter of a voxel only.
         let smooth = sampled(grid, |p| (p - centre).length());
         for kernel in KERNELS {
             let trilinear = kernel == Kernel::Trilinear;
@@ -151,13 +153,13 @@ fn the_first_root_is_that_of_the_interpolation() {
                 let got = with.first_root_in_index(o, d, [0.0, 140.0]);
                 let all = without.first_root_in_index(o, d, [0.0, 140.0]);
                 assert_eq!(got.map(f64::to_bits), all.map(f64::to_bits), "{kernel:?} {line:?}");
-                // Every tenth line is enough for a search that looks everywhere.
+                // Every tenth line suffices for the dense search.
                 if trilinear && r.next() > 0.1 {
                     continue;
                 }
                 match (got, brute_force(&field, iso, line, step)) {
-                    // A value moves by 4 ε, a root by that over the slope; where the search met a pair of roots that it
-                    // stepped over, ours comes earlier and is a root all the same.
+                    // A value errs by 4 ε, a root by that over the slope. If the search stepped over a pair of roots,
+                    // ours comes earlier and is a root all the same.
                     (Some(got), Some(brute)) if (got - brute).abs() <= 1e-12 * 140.0 => {}
                     (Some(got), brute) => {
                         let [lo, hi] = field.volume().grid().index_box();
@@ -173,7 +175,7 @@ fn the_first_root_is_that_of_the_interpolation() {
     }
 }
 
-/// One cell with f = (x − ¼)(x − ½)(x − ¾) along its diagonal: trilinear from the polar form of that cubic.
+/// One cell with f = (x − ¼)(x − ½)(x − ¾) along its diagonal, trilinear from the polar form of this cubic.
 #[test]
 fn of_three_roots_in_a_cell_the_first() {
     let [a, b, c] = [0.25, 0.5, 0.75];
@@ -225,7 +227,7 @@ fn a_value_that_is_stored_a_plateau_a_constant_and_a_value_beyond() {
     for kernel in KERNELS {
         let field = field(&constant, kernel);
         let from = DVec3::new(-1.0, 1.0, 2.5);
-        // The prefilter rounds, so that what it gives may be on one side of 7 by its last places.
+        // The prefilter rounds, so its result may lie on one side of 7 by the last digits.
         if matches!(kernel, Kernel::Trilinear | Kernel::CatmullRom) {
             assert_eq!(IsoSurface::new(&field, 7.0).first_root(from, DVec3::X, ANYWHERE), Some(1.0), "{kernel:?}");
         }
@@ -254,7 +256,8 @@ fn values_times_a_power_of_two_move_no_bit() {
     }
 }
 
-/// A wall of NaN before a ball: no surface in the cells that touch it, all of it behind them.
+/// A wall of NaN in front of a ball: the cells that touch it contain no surface, and the cells behind it are
+/// unchanged.
 #[test]
 fn masked_cells_hold_no_surface() {
     let centre = DVec3::splat(7.5);
@@ -264,10 +267,10 @@ fn masked_cells_hold_no_surface() {
     let (holed, whole) = (field(&holed, Kernel::Trilinear), field(&whole, Kernel::Trilinear));
     let [masked, open] = [&holed, &whole].map(|field| IsoSurface::new(field, 0.0));
     let first = |s: &IsoSurface<'_, '_>, y: f64| s.first_root(DVec3::new(-1.0, y, 7.3), DVec3::X, ANYWHERE);
-    // The ball begins at x = 2.5, in a masked cell: the ray sees its back, as through a hole.
+    // The ball begins at x = 2.5, in a masked cell. The ray sees its back, as through a hole.
     let x = first(&masked, 7.4).unwrap() - 1.0;
     assert!((x - 12.5).abs() < 0.1, "{x}");
-    // Away from the wall nothing changes.
+    // Nothing changes away from the wall.
     assert_eq!(first(&masked, 12.0), first(&open, 12.0));
     assert!(first(&open, 12.0).is_some());
     assert!(first(&open, 7.4).unwrap() - 1.0 < 2.6);
@@ -280,7 +283,7 @@ fn ranges_clip_and_an_eye_inside_sees_the_other_side() {
     let field = field(&volume, Kernel::Trilinear);
     let surface = IsoSurface::new(&field, 0.0);
     let d = DVec3::new(0.48, -0.6, 0.64);
-    // Trilinear interpolation of a distance is off by at most κ/8·3 of a voxel's square in it.
+    // Trilinear interpolation of a distance errs by at most κ/8·3 of the squared voxel size.
     let near = |root: Option<f64>, t: f64| (root.unwrap() - t).abs() < 3.0 / 8.0 / 6.0 * 1.1;
     assert!(near(surface.first_root(centre - d * 20.0, d, ANYWHERE), 14.0));
     assert!(near(surface.first_root(centre, d, [0.0, 20.0]), 6.0));
@@ -291,8 +294,8 @@ fn ranges_clip_and_an_eye_inside_sees_the_other_side() {
     assert_eq!(surface.first_root(centre, DVec3::ZERO, [0.0, 9.0]), None);
 }
 
-/// HATCH-14's closed form for a point at δ outside a sphere: hidden where n·E < −√(1 − (R/(R + δ))²), seen everywhere else.
-/// A foot moved by a distance in world units along its normal.
+/// HATCH-14's closed form for a point at δ outside a sphere: hidden where n·E < −√(1 − (R/(R + δ))²), visible
+/// elsewhere. This function moves a foot by a distance in world units along its normal.
 fn in_front(surface: &IsoSurface, foot: DVec3, distance: f64) -> DVec3 {
     let to_index = surface.field().volume().grid().inverse_axes();
     foot + to_index * (surface.normal(foot).unwrap() * distance)
@@ -320,7 +323,7 @@ fn a_sphere_hides_its_back() {
         let n = r.vector(-1.0, 1.0).normalize();
         let start = centre + n * (radius + 2.4 * (r.next() - 0.5));
         let foot = surface.foot(start, surface.normal(start).unwrap(), 1.5).unwrap();
-        // The gradient of the interpolation is off the radius by a few degrees of a voxel at most.
+        // The gradient of the interpolation differs from the radius by a few degrees at most.
         assert!(((foot - centre).length() - radius).abs() < 0.05, "{foot}");
         let point = in_front(&surface, foot, delta * surface.front(&view));
         let faces = -(foot - centre).normalize().dot(view.forward);
@@ -334,11 +337,11 @@ fn a_sphere_hides_its_back() {
         }
     }
     assert!(front > 1000 && back > 1000);
-    // No foot farther away than that, nor outside, and no normal there.
+    // No foot is farther than `reach` or outside, and there is no normal outside.
     assert_eq!(surface.foot(centre + DVec3::X * 8.0, DVec3::X, 1.5), None);
     assert_eq!(surface.foot(DVec3::splat(-1.0), DVec3::X, 99.0), None);
     assert_eq!(surface.normal(DVec3::splat(-1.0)), None);
-    // From inside, in front is inwards, and nothing of the sphere is hidden.
+    // For an eye inside, the front is inwards, and nothing of the sphere is hidden.
     let inside =
         View::new(&camera(Projection::Perspective { fov: 60.0 }, centre + DVec3::X), volume.grid(), [64, 64]).unwrap();
     assert_eq!((surface.front(&view), surface.front(&inside)), (1.0, -1.0));

@@ -1,39 +1,42 @@
-//! Which values a function over two quantities can show, whatever the other one is ([RAY-2], [STF-4]).
+//! Values at which a transfer function over two quantities can be visible, for any value of the other quantity
+//! ([RAY-2], [STF-4]).
 
 use super::piecewise::{NodesError, Piecewise};
 use crate::number::Real;
 use drypoint_scene::tables::Axis;
 use drypoint_scene::transfer::Rows;
 
-/// A function over the value that is above 0 at least wherever the function over two quantities can be. What the other
-/// quantity says is asked only there. It tells the values that rows leave clear exactly: nodes and steps of every row are
-/// its own. Where neither quantity is the value it is 1, or 0 if nothing can be seen at all.
+/// Returns a function over the value that is above 0 at least wherever the function over two quantities can be. The
+/// other quantity is evaluated only there.
+///
+/// The function gives the values that rows leave clear exactly, since nodes and steps of every row are its own. If
+/// neither quantity is the value, the result is 1, or 0 if nothing is visible at all.
 pub fn over_value<R: Real>(at: &[f64], opacity: &[f64], rows: &Rows) -> Result<Piecewise<R>, NodesError> {
     let shows = |span: &[f64]| span.iter().any(|&a| a > 0.0);
     match &rows.over {
         [Axis::Value, _] => {
-            let lines: Vec<Line> =
-                rows.spans(at.len()).map(|span| Line { at: &at[span.clone()], opacity: &opacity[span] }).collect();
+            let lines: Vec<NodeRow> =
+                rows.spans(at.len()).map(|span| NodeRow { at: &at[span.clone()], opacity: &opacity[span] }).collect();
             gate(&lines)
         }
         [_, Axis::Value] => {
             let seen: Vec<f64> = rows.spans(at.len()).map(|span| f64::from(u8::from(shows(&opacity[span])))).collect();
-            gate(&[Line { at: &rows.at, opacity: &seen }])
+            gate(&[NodeRow { at: &rows.at, opacity: &seen }])
         }
         _ => Piecewise::new(&[0.0], &[f64::from(u8::from(shows(opacity)))]),
     }
 }
 
 /// Nodes of one row over the value.
-struct Line<'a> {
+struct NodeRow<'a> {
     at: &'a [f64],
     opacity: &'a [f64],
 }
 
-impl Line<'_> {
-    /// Whether the row shows something at a value, and just below it, as far as nodes tell: between two nodes it does if
-    /// either does. Positions are compared as they are rounded.
-    fn shows<R: Real>(&self, value: R) -> Shows {
+impl NodeRow<'_> {
+    /// Whether the row is visible at a value, and just below it, as far as nodes tell. Between two nodes it is
+    /// visible if it is at either node. Positions are compared after rounding.
+    fn shows<R: Real>(&self, value: R) -> RowVisibility {
         let rounded = |k: usize| R::from_f64(self.at[k]);
         let n = self.at.len();
         let visible = |k: usize| self.opacity[k] > 0.0;
@@ -45,27 +48,28 @@ impl Line<'_> {
             k if k == n => visible(n - 1),
             k => visible(k - 1) || visible(k),
         };
-        Shows { below: between(first), here: if after > first { visible(after - 1) } else { between(first) } }
+        RowVisibility { below: between(first), here: if after > first { visible(after - 1) } else { between(first) } }
     }
 }
 
-/// What a row shows at a value.
+/// The visibility of a row at a value.
 #[derive(Clone, Copy)]
-struct Shows {
+struct RowVisibility {
     below: bool,
     here: bool,
 }
 
-/// 1 between two nodes where some row shows something there, with a rise from 0 where none does at the lower one; at a
-/// node 1 if some row shows something at it. Each node stands twice, so that a step stays one.
-fn gate<R: Real>(lines: &[Line<'_>]) -> Result<Piecewise<R>, NodesError> {
+/// Returns a function that is 1 between two nodes if some row is visible there. It rises from 0 if no row is visible
+/// at the lower node. At a node it is 1 if some row is visible at it. Each node stands twice, so that a step stays a
+/// step.
+fn gate<R: Real>(lines: &[NodeRow<'_>]) -> Result<Piecewise<R>, NodesError> {
     let mut at: Vec<R> = lines.iter().flat_map(|line| line.at).map(|&a| R::from_f64(a)).collect();
     at.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
     at.dedup();
     let mut nodes = (Vec::new(), Vec::new());
     for value in at {
-        let shows: Vec<Shows> = lines.iter().map(|line| line.shows(value)).collect();
-        let any = |seen: fn(&Shows) -> bool| f64::from(u8::from(shows.iter().any(seen)));
+        let shows: Vec<RowVisibility> = lines.iter().map(|line| line.shows(value)).collect();
+        let any = |seen: fn(&RowVisibility) -> bool| f64::from(u8::from(shows.iter().any(seen)));
         for open in [any(|s| s.below), any(|s| s.here)] {
             nodes.0.push(value.to_f64());
             nodes.1.push(open);
@@ -77,7 +81,7 @@ fn gate<R: Real>(lines: &[Line<'_>]) -> Result<Piecewise<R>, NodesError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transfer::{Coordinate, Plane};
+    use crate::transfer::{Coordinate, TransferPlane};
     use proptest::prelude::*;
 
     fn rows(over: [Axis<u32>; 2], at: &[f64], first: &[usize]) -> Rows {
@@ -96,7 +100,7 @@ mod tests {
         let gate = over_value::<f64>(&at, &opacity, &rows).unwrap();
         let values = [-5.0, 20.0, 30f64.next_down(), 30.0, 99.0, 100f64.next_down(), 100.0, 300.0];
         assert_eq!(open(&gate, &values), [true, true, true, false, false, false, true, true]);
-        // A ramp that begins at 10 shows nothing at 10.
+        // A ramp that begins at 10 is invisible at 10.
         let ramp = over_value::<f64>(&[10.0, 20.0], &[0.0, 1.0], &self::rows(rows.over.clone(), &[0.0], &[0])).unwrap();
         assert_eq!(open(&ramp, &[9.0, 10.0, 10f64.next_up(), 20.0]), [false, false, true, true]);
     }
@@ -115,8 +119,8 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(400))]
-        /// Wherever some second quantity lets the function show something, the gate is open; and where no row does, at a
-        /// value or on either side of it, it is shut.
+        /// The gate is open wherever the function is visible for some second quantity. It is shut where no row is
+        /// visible, at a value or on either side of it.
         #[test]
         fn open_wherever_something_can_be_seen(
             lines in prop::collection::vec(prop::collection::vec((0..20u8, prop_oneof![Just(0.0), Just(0.0), 0.1..1.0f64]), 1..4), 1..4),
@@ -133,7 +137,7 @@ mod tests {
             let over = if swapped { [Axis::K1, Axis::Value] } else { [Axis::Value, Axis::K1] };
             let stands: Vec<f64> = (0..lines.len()).map(|i| 0.1 + 3.0 * i as f64).collect();
             let rows = rows(over, &stands, &first);
-            let (gate, plane) = (over_value::<f32>(&at, &opacity, &rows).unwrap(), Plane::<f32>::new(&at, &opacity, &rows).unwrap());
+            let (gate, plane) = (over_value::<f32>(&at, &opacity, &rows).unwrap(), TransferPlane::<f32>::new(&at, &opacity, &rows).unwrap());
             let nodes = at.iter().chain(&stands).flat_map(|&a| [(a as f32).next_down(), a as f32, (a as f32).next_up()]);
             for value in nodes.chain([extra as f32]) {
                 let others = (0..200).map(|i| Coordinate::Number(i as f32 * 0.1));
@@ -145,7 +149,7 @@ mod tests {
                 let open = gate.locate(value).is_some();
                 prop_assert!(open || !seen, "{value}");
                 if !swapped && open {
-                    // Some row shows something at the value, or it is within rounding of a place that does.
+                    // Some row is visible at the value or within rounding of it.
                     let near = [value.next_down(), value, value.next_up()];
                     let rows_seen = |v: f32| (0..lines.len()).any(|i| plane.locate(Coordinate::Number(v), Coordinate::Number(stands[i] as f32)).is_some());
                     prop_assert!(near.into_iter().any(rows_seen), "{value}");

@@ -1,35 +1,35 @@
 //! A piecewise-linear function at eight values side by side.
 
-use super::piecewise::{PARTS, Piecewise, SEARCH, Segment};
+use super::piecewise::{NodeSegment, PARTS, Piecewise, SEARCH};
 use crate::field::lanes::{LANES, whole};
 use crate::number::Arithmetic;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// Where values fall between the nodes of a function, as [`Place`].
+/// Places of values between the nodes of a function, like [`NodePlace`](super::NodePlace).
 #[derive(Clone, Copy)]
-pub(crate) struct Places<S: Simd> {
-    /// Lanes whose α_u is above 0. What follows is theirs.
+pub(crate) struct NodePlaces<S: Simd> {
+    /// Lanes with α_u above 0. Only these have valid numbers below.
     pub(crate) visible: u64,
-    /// α_u.
+    /// The opacities α_u.
     pub(crate) alpha_u: f64x8<S>,
-    /// i₀.
-    pub(crate) nodes: Nodes,
-    /// i − i₀.
+    /// The nodes i₀.
+    pub(crate) nodes: LaneNodes,
+    /// The fractions i − i₀.
     pub(crate) w: f64x8<S>,
 }
 
 /// The node before each value.
 #[derive(Clone, Copy)]
-pub(crate) enum Nodes {
-    /// One for all.
+pub(crate) enum LaneNodes {
+    /// One node for all values.
     One(usize),
-    /// Each its own.
+    /// A node for each value.
     Each([u32; LANES]),
 }
 
-impl Nodes {
-    /// That of each lane.
+impl LaneNodes {
+    /// The node of each lane.
     #[inline(always)]
     pub(crate) fn each(self) -> [u32; LANES] {
         match self {
@@ -50,7 +50,8 @@ fn nonzero(bytes: u64) -> u64 {
 }
 
 impl Piecewise<f64> {
-    /// Whether some value of the lanes `asked` may be seen; where not, none is. Around what is seen most values are not.
+    /// Whether some value of the lanes `asked` may be visible. If not, all are invisible; around a visible region
+    /// most values are.
     #[inline(always)]
     pub(crate) fn may_show<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> bool {
         let [from, to] = self.seen;
@@ -59,16 +60,17 @@ impl Piecewise<f64> {
 
     /// [`locate`](Self::locate) for the values of the lanes `asked`.
     #[inline(always)]
-    pub(crate) fn locate_lanes<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> Option<Places<S>> {
+    pub(crate) fn locate_lanes<S: Simd>(&self, s: f64x8<S>, asked: mask64x8<S>) -> Option<NodePlaces<S>> {
         let simd = s.simd;
         let end = f64x8::splat(simd, self.segments[self.last()].at);
-        // As whole numbers from 0 on: what lies before, or is not a number, becomes 0; what is not asked for, beyond all.
+        // Indices of parts, from 0 on. Values before the first part and NaN become 0. Lanes that are not asked get an
+        // index beyond all parts.
         let part = (s - self.first) * self.parts_per_unit + 1.0;
         let part = part.simd_gt(0.0).select(part, f64x8::splat(simd, 0.0));
         let last = (PARTS + 2) as f64;
         let part = part.simd_lt(last).select(part, f64x8::splat(simd, last)).floor();
         let parts = whole(asked.select(part, f64x8::splat(simd, last + 1.0)));
-        // Without a branch for each lane, which nothing predicts.
+        // Without a branch for each lane, which would be unpredictable.
         let mut codes = 0;
         for (lane, part) in parts.into_iter().enumerate() {
             codes |= u64::from(self.codes[part % self.codes.len()]) << (8 * lane);
@@ -77,38 +79,38 @@ impl Piecewise<f64> {
             return None;
         }
         let seen = nonzero(codes);
-        // What lies beyond the last node takes its place; searches do not mind.
+        // Values beyond the last node take its place. This does not affect searches.
         let s = s.simd_gt(end).select(end, s);
         let code = (codes >> (codes.trailing_zeros() & !7)) as u8;
         let (visible, nodes, alpha_u, w) = if code != SEARCH && u64::from(code) * seen == codes {
-            // Neighbours mostly lie between the same two nodes.
+            // Neighbouring values mostly lie between the same two nodes.
             let node = usize::from(code) - 1;
-            let Segment { at, width, opacity, next_opacity } = self.segments[node];
+            let NodeSegment { at, width, opacity, next_opacity } = self.segments[node];
             let w = (s - at) / width;
             let alpha_u = f64x8::lerp(f64x8::splat(simd, opacity), f64x8::splat(simd, next_opacity), w);
-            // The bytes' ones, side by side.
+            // Gathers one bit of each byte.
             let seen = seen.wrapping_mul(0x0102_0408_1020_4080) >> 56;
-            ((alpha_u.simd_gt(0.0)).to_bitmask() & seen, Nodes::One(node), alpha_u, w)
+            ((alpha_u.simd_gt(0.0)).to_bitmask() & seen, LaneNodes::One(node), alpha_u, w)
         } else {
             self.between_their_own(s, codes)
         };
-        (visible != 0).then_some(Places { visible, alpha_u, nodes, w })
+        (visible != 0).then_some(NodePlaces { visible, alpha_u, nodes, w })
     }
 
-    /// The lanes that are visible, with the node before, α_u and w of each.
+    /// The visible lanes, with the preceding node, α_u and w of each.
     #[inline(always)]
-    fn between_their_own<S: Simd>(&self, s: f64x8<S>, codes: u64) -> (u64, Nodes, f64x8<S>, f64x8<S>) {
+    fn between_their_own<S: Simd>(&self, s: f64x8<S>, codes: u64) -> (u64, LaneNodes, f64x8<S>, f64x8<S>) {
         let simd = s.simd;
         let codes = codes.to_le_bytes();
         let mut nodes = [0; LANES];
         let mut columns = [[0.0; LANES]; 4];
         let mut searched = 0u64;
         for lane in 0..LANES {
-            // Without one the columns' zeros make an α_u that is not above 0.
+            // Lanes without a node read the columns' zeros, and α_u is not above 0.
             let node = usize::from(codes[lane]).wrapping_sub(1);
             if codes[lane] == SEARCH {
                 searched |= 1 << lane;
-            } else if let Some(&Segment { at, width, opacity, next_opacity }) = self.segments.get(node) {
+            } else if let Some(&NodeSegment { at, width, opacity, next_opacity }) = self.segments.get(node) {
                 nodes[lane] = node as u32;
                 (columns[0][lane], columns[1][lane]) = (at, width);
                 (columns[2][lane], columns[3][lane]) = (opacity, next_opacity);
@@ -127,27 +129,27 @@ impl Piecewise<f64> {
                 (nodes[lane], alpha_u[lane], w[lane]) = (place.node as u32, place.alpha_u, place.w);
             }
         }
-        (visible, Nodes::Each(nodes), alpha_u, w)
+        (visible, LaneNodes::Each(nodes), alpha_u, w)
     }
 }
 
-impl<S: Simd> Places<S> {
-    /// [`Place::color`] in the visible lanes.
+impl<S: Simd> NodePlaces<S> {
+    /// [`NodePlace::color`](super::NodePlace::color) in the visible lanes.
     #[inline(always)]
     pub(crate) fn color(&self, colors: &[[f64; 3]]) -> [f64x8<S>; 3] {
         let simd = self.w.simd;
         let mut rgb = [self.w; 3];
         match self.nodes {
-            Nodes::One(node) => {
+            LaneNodes::One(node) => {
                 let (a, b) = (colors[node], colors[(node + 1).min(colors.len() - 1)]);
                 for i in 0..3 {
                     rgb[i] = f64x8::lerp(f64x8::splat(simd, a[i]), f64x8::splat(simd, b[i]), self.w);
                 }
             }
-            Nodes::Each(nodes) => {
+            LaneNodes::Each(nodes) => {
                 let mut columns = [[[0.0; LANES]; 2]; 3];
                 for lane in 0..LANES {
-                    // At the last node w is 0; lanes that are not visible have node 0.
+                    // w is 0 at the last node. Lanes that are not visible have node 0.
                     let node = nodes[lane] as usize;
                     let (a, b) = (colors[node], colors[(node + 1).min(colors.len() - 1)]);
                     for i in 0..3 {

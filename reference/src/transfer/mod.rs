@@ -8,7 +8,7 @@ mod plane;
 mod stops;
 mod table;
 
-pub use piecewise::{NodesError, Piecewise, Place};
-pub use plane::{Patch, Plane};
-pub use stops::{Coordinate, Stops};
-pub use table::Table;
+pub use piecewise::{NodePlace, NodesError, Piecewise};
+pub use plane::{NodePatch, TransferPlane};
+pub use stops::{AxisStops, Coordinate};
+pub use table::IndexTable;

@@ -2,69 +2,70 @@
 
 use crate::number::Real;
 
-/// Nodes of a transfer function, ready to be asked at every sample. What is prepared only proposes: the nodes decide, so
-/// the result is exact.
+/// Nodes of a transfer function, prepared for evaluation at every sample. The lookup table only proposes a node; the
+/// nodes decide, so the result is exact.
 #[derive(Clone, Debug)]
 pub struct Piecewise<R> {
-    pub(super) segments: Vec<Segment<R>>,
+    pub(super) segments: Vec<NodeSegment<R>>,
     /// The last of the nodes at the first node's value.
     at_first: usize,
-    /// What is known beforehand of each part of the line of values.
-    parts: Box<[Part; PARTS + 2]>,
-    /// The same for lanes.
-    pub(super) codes: Box<Codes>,
+    /// Lookup table: the content of each part of the line of values.
+    parts: Box<[LookupPart; PARTS + 2]>,
+    /// Lookup table for lanes.
+    pub(super) codes: Box<PartCodes>,
     pub(super) first: R,
     pub(super) parts_per_unit: R,
-    /// Every value that can be seen lies from the first to the second, these two with it.
+    /// The closed range that contains every visible value.
     pub(super) seen: [R; 2],
 }
 
-/// From a node to the next one. The last node's holds beyond it; its width is 1, so that it can be divided by.
+/// The segment from a node to the next one. The last node's segment extends beyond it; its width is 1, a valid
+/// divisor.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Segment<R> {
+pub(super) struct NodeSegment<R> {
     pub(super) at: R,
     pub(super) width: R,
     pub(super) opacity: R,
     pub(super) next_opacity: R,
 }
 
-/// One part of the line of values, with its neighbours, so that no rounding of a value's part matters. The range of nodes is
-/// cut into [`PARTS`]; one more part lies before and one after it.
+/// The content of one part of the line of values and of its neighbours, so that rounding of a value's part does not
+/// matter. The range of nodes is cut into [`PARTS`] parts. One more part lies before the range and one after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Part {
-    /// Every value in it has α_u = 0.
+enum LookupPart {
+    /// No value in the part is visible: α_u = 0.
     Invisible,
-    /// Every value in it lies in the segment that begins at this node, which is not the last.
+    /// Every value in the part lies in the segment that begins at this node. It is not the last node.
     Segment(u32),
-    /// A node or an end of the range lies in it; where values lie between nodes, this one or a later one is the one
-    /// before them.
+    /// The part contains a node or an end of the range. The node before a value in it is this one or a later one.
     Search(u32),
 }
 
-/// A byte for each part, so that those of eight values are one word: 0 where nothing is seen, one more than the node that a
-/// segment begins at, or [`SEARCH`]. One more part, farther away than any rounding, holds what lies beyond the last node;
-/// beyond the parts there are zeros.
-pub(super) type Codes = [u8; (PARTS + 3).next_power_of_two()];
+/// A byte for each part, so that the bytes of eight values form one word. A part without visible values has 0, a part
+/// that must be searched [`SEARCH`]. Any other byte is one more than the node at which a segment begins.
+///
+/// One more part, farther away than any rounding, holds values beyond the last node. Further bytes are 0.
+pub(super) type PartCodes = [u8; (PARTS + 3).next_power_of_two()];
 
-/// What has to be searched for, or is beyond what a byte can say.
+/// Marks parts that must be searched, or whose node exceeds a byte.
 pub(super) const SEARCH: u8 = u8::MAX;
 
-/// Where a value falls between the nodes: i(s) = node + w. The fraction is not added to the node, which would cost it
-/// bits.
+/// The place of a value between the nodes: i(s) = node + w. The fraction is separate, because adding the node would
+/// cost bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place<R> {
+pub struct NodePlace<R> {
     /// i₀ = ⌊i⌋.
     pub node: usize,
-    /// w = i − i₀, in [0, 1]: a value just below a node can round to the whole way.
+    /// w = i − i₀, in [0, 1]: a value just below a node can round to 1.
     pub w: R,
-    /// α_u, above 0; in a row of a function over two quantities it may be 0.
+    /// α_u, above 0. In a row of a function over two quantities it may be 0.
     pub alpha_u: R,
 }
 
-/// Nodes that make no function.
+/// Errors of nodes that do not make a function.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NodesError {
-    /// There is none.
+    /// The list of nodes is empty.
     #[error("a transfer function needs at least one node")]
     Empty,
     /// The lists differ in length.
@@ -75,14 +76,14 @@ pub enum NodesError {
         /// Number of opacities.
         opacity: usize,
     },
-    /// A node stands before its predecessor.
+    /// A node lies before its predecessor.
     #[error("node {node} at {at} stands after a node at {before}; nodes stand in non-decreasing order")]
     Order {
-        /// Which node, from 0.
+        /// Index of the node, from 0.
         node: usize,
         /// Its position.
         at: f64,
-        /// Its predecessor's.
+        /// The predecessor's position.
         before: f64,
     },
     /// A position, or the distance from the first to the last, is not a finite number of this type.
@@ -90,24 +91,24 @@ pub enum NodesError {
     Range {
         /// The first position.
         first: f64,
-        /// The last one, or the one at fault.
+        /// The last position, or the faulty one.
         last: f64,
     },
-    /// An opacity outside [0, 1].
+    /// An opacity lies outside [0, 1].
     #[error("node {node} has opacity {opacity}, which is not between 0 and 1")]
     Opacity {
-        /// Which node, from 0.
+        /// Index of the node, from 0.
         node: usize,
         /// Its opacity.
         opacity: f64,
     },
 }
 
-/// Enough that parts with a node in them are rare; 8 KiB.
+/// Number of parts. Parts with a node in them are rare, and the table takes 8 KiB.
 pub(super) const PARTS: usize = 1024;
 
-impl<R: Real> Place<R> {
-    /// Between the colours of nodes, channel by channel: a + w(b − a).
+impl<R: Real> NodePlace<R> {
+    /// Interpolates the colours of nodes, channel by channel: a + w(b − a).
     #[inline(always)]
     pub(crate) fn color(&self, colors: &[[R; 3]]) -> [R; 3] {
         let a = colors[self.node];
@@ -120,11 +121,11 @@ impl<R: Real> Place<R> {
 }
 
 impl<R: Real> Piecewise<R> {
-    /// From nodes in non-decreasing order of `at`, with opacities in [0, 1].
+    /// A function with nodes in non-decreasing order of `at` and opacities in [0, 1].
     ///
     /// # Errors
-    /// No node, lists of different length, a wrong order, positions whose range is not finite, an opacity outside
-    /// [0, 1].
+    /// There is no node, the lists differ in length, or the order is wrong. The range of the positions is not finite,
+    /// or an opacity lies outside [0, 1].
     pub fn new(at: &[f64], opacity: &[f64]) -> Result<Self, NodesError> {
         check::<R>(at, opacity)?;
         let at: Vec<R> = at.iter().map(|&a| R::from_f64(a)).collect();
@@ -133,41 +134,43 @@ impl<R: Real> Piecewise<R> {
         let (first, last) = (at[0].to_f64(), at[end].to_f64());
         let width = (at[end] - at[0]).to_f64();
         let segment = |v: f64| at.iter().rposition(|a| a.to_f64() <= v).unwrap_or(0);
+        // The content of a part. Its neighbours count as well, since rounding may lead a value to a neighbour.
         let part = |part: usize| {
             // Part 1 begins at the first node.
             let edge = |n: f64| first + width * ((part as f64 - 1.0 + n) / PARTS as f64);
-            // Part 0 is all that lies before, however close its edges are to the first node.
+            // Part 0 holds all values before the range, however close its edges are to the first node.
             let from = if part == 0 { 0 } else { segment(edge(-1.0)) };
             let to = segment(edge(2.0).min(last));
             let reached = &opacity[from..=(to + 1).min(end)];
             if reached.iter().all(|&a| a == R::ZERO) {
-                Part::Invisible
+                LookupPart::Invisible
             } else if part > 0 && from == to && edge(-1.0) >= first && to < end {
-                Part::Segment(from as u32)
+                LookupPart::Segment(from as u32)
             } else {
-                Part::Search(from as u32)
+                LookupPart::Search(from as u32)
             }
         };
-        // A range of 0, or so small that this overflows, is searched for every value.
+        // If the range is 0, or so small that this overflows, every value is searched.
         let per_unit = R::from_f64(PARTS as f64 / width);
         let (parts, parts_per_unit) = if per_unit.to_f64().is_finite() {
             (Box::new(std::array::from_fn(part)), per_unit)
         } else {
-            (Box::new([Part::Search(0); PARTS + 2]), R::ZERO)
+            (Box::new([LookupPart::Search(0); PARTS + 2]), R::ZERO)
         };
+        // The table in bytes, for lanes, with one more entry for values beyond the last node.
         let mut codes = Box::new([0; (PARTS + 3).next_power_of_two()]);
-        let beyond = if opacity[end] == R::ZERO { Part::Invisible } else { Part::Segment(end as u32) };
+        let beyond = if opacity[end] == R::ZERO { LookupPart::Invisible } else { LookupPart::Segment(end as u32) };
         for (code, part) in codes.iter_mut().zip(parts.iter().chain([&beyond])) {
             *code = match *part {
-                Part::Invisible => 0,
-                Part::Segment(k) if k < u32::from(SEARCH) - 1 => k as u8 + 1,
-                Part::Segment(_) | Part::Search(_) => SEARCH,
+                LookupPart::Invisible => 0,
+                LookupPart::Segment(k) if k < u32::from(SEARCH) - 1 => k as u8 + 1,
+                LookupPart::Segment(_) | LookupPart::Search(_) => SEARCH,
             };
         }
         let segments = (0..=end).map(|k| {
             let next = (k + 1).min(end);
             let width = if k < end { at[next] - at[k] } else { R::ONE };
-            Segment { at: at[k], width, opacity: opacity[k], next_opacity: opacity[next] }
+            NodeSegment { at: at[k], width, opacity: opacity[k], next_opacity: opacity[next] }
         });
         Ok(Self {
             segments: segments.collect(),
@@ -186,33 +189,33 @@ impl<R: Real> Piecewise<R> {
         self.segments.len() - 1
     }
 
-    /// Where a value falls, or nothing where its α_u is 0.
+    /// The place of a value. Returns none if its α_u is 0.
     ///
-    /// Values beyond the nodes take the end nodes; of nodes at one value the last one holds at the value itself. What
-    /// is not a number counts as before the first node.
+    /// Values beyond the nodes take the end nodes. Of several nodes at one value, the last one holds at the value
+    /// itself. NaN counts as before the first node.
     #[inline(always)]
-    pub fn locate(&self, s: R) -> Option<Place<R>> {
-        // What is before the first node, or not a number, becomes 0.
+    pub fn locate(&self, s: R) -> Option<NodePlace<R>> {
+        // Values before the first node and NaN become 0.
         let part = ((s - self.first) * self.parts_per_unit + R::ONE).to_index();
         match self.parts[part.min(PARTS + 1)] {
-            Part::Invisible => None,
-            Part::Segment(k) => self.between(s, k as usize),
-            Part::Search(k) => self.search(s, k as usize),
+            LookupPart::Invisible => None,
+            LookupPart::Segment(k) => self.between(s, k as usize),
+            LookupPart::Search(k) => self.search(s, k as usize),
         }
     }
 
-    /// The place of a value from a node on and before the next one.
+    /// The place of a value at or after a node and before the next one.
     #[inline(always)]
-    fn between(&self, s: R, node: usize) -> Option<Place<R>> {
+    fn between(&self, s: R, node: usize) -> Option<NodePlace<R>> {
         let segment = &self.segments[node];
         let w = (s - segment.at) / segment.width;
         let alpha_u = R::lerp(segment.opacity, segment.next_opacity, w);
-        (alpha_u > R::ZERO).then_some(Place { node, w, alpha_u })
+        (alpha_u > R::ZERO).then_some(NodePlace { node, w, alpha_u })
     }
 
-    /// The place of any value; one between the nodes is not before this one.
+    /// The place of any value. A value between the nodes must not lie before node k.
     #[inline(never)]
-    fn search(&self, s: R, mut k: usize) -> Option<Place<R>> {
+    fn search(&self, s: R, mut k: usize) -> Option<NodePlace<R>> {
         let last = self.last();
         let node = if s >= self.segments[last].at {
             last
@@ -227,12 +230,12 @@ impl<R: Real> Piecewise<R> {
             0
         };
         let alpha_u = self.segments[node].opacity;
-        (alpha_u > R::ZERO).then_some(Place { node, w: R::ZERO, alpha_u })
+        (alpha_u > R::ZERO).then_some(NodePlace { node, w: R::ZERO, alpha_u })
     }
 }
 
-/// The range outside which nothing is seen: from the node before the first that is seen to the one after the last; without
-/// end where that is the end node.
+/// The range outside which no value is visible: from the node before the first visible one to the node after the
+/// last. At an end node the range is unbounded.
 fn seen<R: Real>(at: &[R], opacity: &[R]) -> [R; 2] {
     let endless = R::from_f64(f64::INFINITY);
     let is_seen = |&a: &R| a > R::ZERO;
@@ -242,8 +245,8 @@ fn seen<R: Real>(at: &[R], opacity: &[R]) -> [R; 2] {
     [from, at.get(last + 1).copied().unwrap_or(endless)]
 }
 
-/// Whether nodes make a function: at least one, an opacity in [0, 1] for each, in non-decreasing order, and positions
-/// whose range is finite in this type.
+/// Checks that nodes make a function. It needs at least one node, an opacity in [0, 1] for each, and positions in
+/// non-decreasing order with a finite range in this type.
 pub(super) fn check<R: Real>(at: &[f64], opacity: &[f64]) -> Result<(), NodesError> {
     let (&lowest, &highest) = at.first().zip(at.last()).ok_or(NodesError::Empty)?;
     if at.len() != opacity.len() {
@@ -276,7 +279,7 @@ mod tests {
         Piecewise::new(at, &vec![1.0; at.len()]).unwrap()
     }
 
-    /// Node and fraction of values of a function that is visible everywhere.
+    /// Nodes and fractions of values for a function that is visible everywhere.
     fn find<const N: usize>(at: &[f64], values: [f64; N]) -> [(usize, f64); N] {
         let f = opaque(at);
         values.map(|s| f.locate(s).map(|p| (p.node, p.w)).unwrap())
@@ -287,13 +290,13 @@ mod tests {
         // Values below 10 take node 0; the step at 20 belongs to its later node; beyond 40 the last node holds.
         let f = Piecewise::new(&[10.0, 20.0, 20.0, 40.0], &[0.25, 0.25, 1.0, 0.5]).unwrap();
         let at = |s: f64| f.locate(s).unwrap();
-        assert_eq!(at(-5.0), Place { node: 0, w: 0.0, alpha_u: 0.25 });
-        assert_eq!(at(15.0), Place { node: 0, w: 0.5, alpha_u: 0.25 });
-        assert_eq!(at(20.0), Place { node: 2, w: 0.0, alpha_u: 1.0 });
-        assert_eq!(at(30.0), Place { node: 2, w: 0.5, alpha_u: 0.75 });
-        assert_eq!(at(40.0), Place { node: 3, w: 0.0, alpha_u: 0.5 });
-        assert_eq!(at(1e300), Place { node: 3, w: 0.0, alpha_u: 0.5 });
-        assert_eq!(at(f64::NAN), Place { node: 0, w: 0.0, alpha_u: 0.25 });
+        assert_eq!(at(-5.0), NodePlace { node: 0, w: 0.0, alpha_u: 0.25 });
+        assert_eq!(at(15.0), NodePlace { node: 0, w: 0.5, alpha_u: 0.25 });
+        assert_eq!(at(20.0), NodePlace { node: 2, w: 0.0, alpha_u: 1.0 });
+        assert_eq!(at(30.0), NodePlace { node: 2, w: 0.5, alpha_u: 0.75 });
+        assert_eq!(at(40.0), NodePlace { node: 3, w: 0.0, alpha_u: 0.5 });
+        assert_eq!(at(1e300), NodePlace { node: 3, w: 0.0, alpha_u: 0.5 });
+        assert_eq!(at(f64::NAN), NodePlace { node: 0, w: 0.0, alpha_u: 0.25 });
     }
 
     #[test]
@@ -347,7 +350,7 @@ mod tests {
         assert!(with(&[f64::NAN, 0.0]).is_err());
     }
 
-    /// Nodes on the edges of parts and values beside them, whose part comes out as the neighbour.
+    /// Nodes on the edges of parts, and values beside them, whose part comes out as the neighbour.
     #[test]
     fn the_part_next_to_a_value_s_own_will_do() {
         let mut mistaken = 0;
@@ -393,8 +396,8 @@ mod tests {
             }
         }
 
-        /// Nodes a few last places apart: the edges of parts fall together with the first node, before which the first
-        /// opacity holds all the same, and in lanes as alone.
+        /// Nodes a few ulps apart. The edges of parts coincide with the first node. Before it the first opacity still
+        /// holds, in lanes as well.
         #[test]
         fn nodes_a_few_last_places_apart(
             mut at in prop::collection::vec(0..3000u64, 1..5),
@@ -417,7 +420,8 @@ mod tests {
             }
         }
 
-        /// By looking at every node; clusters put many nodes into one part, scaling moves the range to its ends.
+        /// Compares with a linear search. Clusters put many nodes into one part, and scaling moves the range to its
+        /// ends.
         #[test]
         fn the_parts_find_what_a_search_finds(
             mut at in prop::collection::vec(prop_oneof![-1e3..1e3f64, 0.0..1e-6f64, Just(0.0), Just(7.0)], 1..40),

@@ -1,34 +1,35 @@
-//! A function that is read from a table ([STF-3]).
+//! A function that is evaluated from a table ([STF-3]).
 
-use super::Place;
+use super::NodePlace;
 use crate::number::Real;
 
-/// i at each entry of a table: from a place between entries to one between nodes.
+/// i at each entry of a table. It converts a place between entries to a place between nodes.
 #[derive(Clone, Debug)]
-pub struct Table<R> {
+pub struct IndexTable<R> {
     index: Vec<R>,
     /// N − 1, the last node.
     last: R,
 }
 
-impl<R: Real> Table<R> {
-    /// From i at each entry, of a function of N nodes.
+impl<R: Real> IndexTable<R> {
+    /// A table of i at each entry, for a function of N nodes.
     pub fn new(index: &[f64], nodes: usize) -> Self {
         let index = index.iter().map(|&i| R::from_f64(i)).collect();
         Self { index, last: R::from_f64(nodes.saturating_sub(1) as f64) }
     }
 
-    /// i between two entries, linearly, as node and fraction. Past a step of the function it is not where the function
-    /// is: styles mix there, and as far as the step reaches over nodes those between it too.
+    /// Interpolates i linearly between two entries and splits it into node and fraction. The result is inexact
+    /// between entries around a step of the function. The styles on both sides mix there, and so do styles of nodes
+    /// inside the step.
     #[inline]
-    pub fn between_nodes(&self, entry: &Place<R>) -> Place<R> {
+    pub fn between_nodes(&self, entry: &NodePlace<R>) -> NodePlace<R> {
         let i = self.index[entry.node];
         let i = if entry.w == R::ZERO { i } else { R::lerp(i, self.index[entry.node + 1], entry.w).min(self.last) };
         let (node, w) = i.split();
-        Place { node, w, alpha_u: entry.alpha_u }
+        NodePlace { node, w, alpha_u: entry.alpha_u }
     }
 
-    /// Bytes that it holds beside the entries' opacities.
+    /// Size in bytes, without the entries' opacities.
     pub fn bytes(&self) -> usize {
         size_of_val(self.index.as_slice())
     }
@@ -42,9 +43,9 @@ mod tests {
 
     #[test]
     fn between_entries_by_hand() {
-        let table = Table::<f64>::new(&[0.0, 0.5, 3.0, 3.0], 4);
-        let at = |node, w| table.between_nodes(&Place { node, w, alpha_u: 0.25 });
-        let place = |node, w| Place { node, w, alpha_u: 0.25 };
+        let table = IndexTable::<f64>::new(&[0.0, 0.5, 3.0, 3.0], 4);
+        let at = |node, w| table.between_nodes(&NodePlace { node, w, alpha_u: 0.25 });
+        let place = |node, w| NodePlace { node, w, alpha_u: 0.25 };
         assert_eq!(
             [at(0, 0.5), at(1, 0.0), at(1, 0.8), at(3, 0.0)],
             [place(0, 0.25), place(0, 0.5), place(2, 0.5), place(3, 0.0)]
@@ -52,13 +53,13 @@ mod tests {
     }
 
     proptest! {
-        /// Where every node is an entry the table is the function.
+        /// The table equals the function if every node is an entry.
         #[test]
         fn a_table_of_its_own_nodes_is_exact(s in -2.0f64..9.0) {
             let at: Vec<f64> = (0..8).map(f64::from).collect();
             let opacity = [0.5, 0.25, 1.0, 0.75, 0.125, 0.5, 1.0, 0.25];
             let function = Piecewise::new(&at, &opacity).unwrap();
-            let table = Table::new(&at, at.len());
+            let table = IndexTable::new(&at, at.len());
             let exact = function.locate(s).unwrap();
             let read = table.between_nodes(&exact);
             prop_assert!((read.node as f64 + read.w - (exact.node as f64 + exact.w)).abs() < 1e-14);

@@ -1,4 +1,5 @@
-//! A_vol, the area that the volume's box covers in the picture, and what eq. 1 makes of it ([STIP-2], [STIP-3]).
+//! A_vol, the area of the volume's box in the picture, and the number of points that eq. 1 derives from it ([STIP-2],
+//! [STIP-3]).
 
 use super::ridge::across;
 use drypoint_scene::glam::{DVec2, DVec3};
@@ -6,28 +7,29 @@ use drypoint_scene::math;
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 
-/// Pixels that a voxel's projection has at least, after the adjustment of 4.2: 5×5.
+/// The least number of pixels of a voxel's projection after the adjustment of 4.2: 5×5.
 const SMALLEST_PROJECTION: f64 = 25.0;
 
-/// A_vol in pixels: the convex hull of the box's projected corners.
+/// A_vol in pixels: the area of the convex hull of the box's projected corners.
 ///
-/// Of a box that reaches behind `near`, an eye depth in perspective, what lies before it counts, and of that what the
-/// picture shows: near the eye a projection has no bound.
+/// If the box reaches behind `near`, an eye depth in perspective, only the part before it counts, clipped to the
+/// picture. Near the eye a projection has no bound.
 pub(super) fn projected_area(grid: &Grid, view: &View, near: f64) -> f64 {
     shown(&eye_corners(grid, view), &[0, 1, 2, 3, 4, 5, 6, 7], view, near)
 }
 
-/// Thickness of layers over the smallest voxel that counts as 1: headers have numbers in f32.
+/// Relative difference of a layer's thickness from the smallest voxel that counts as 0: headers have numbers in f32.
 const ROUNDING: f64 = 1e-6;
 
-/// What N_max of eq. 1 is multiplied by for thin layers: 1 where voxels are cubes ([STIP-3], [STIP-4]).
+/// Factor of N_max in eq. 1 for thin layers: 1 if voxels are cubes ([STIP-3], [STIP-4]).
 ///
-/// Eq. 1 gives each voxel N_max points, so that of two faces the one whose voxels have the smaller pieces of it is denser.
-/// Thin layers are as dense everywhere: a voxel has N_max·h/t, h the smallest voxel and t the thickness of the layer along
-/// n ([`across`]), which goes as the number of voxels a unit of area. The mean of t/h, over what the reference camera shows
-/// of the box's faces and by its area, gives back in total what that takes: seen from the front, a face has as many dots a
-/// pixel as eq. 1 gives on the mean over the picture of the box. A face that comes into sight has no area at first, so
-/// nothing jumps as the camera turns.
+/// Eq. 1 gives each voxel N_max points. So a face is denser than another if its voxels have smaller pieces of it.
+/// Thin layers are equally dense everywhere: a voxel has N_max·h/t points, where h is the smallest voxel. The
+/// thickness t of the layer along n ([`across`]) is proportional to the number of voxels per unit of area.
+///
+/// The factor is the mean of t/h over the box's faces that the reference camera sees, weighted by area. It restores
+/// the total number of points: a face seen from the front has the mean density of eq. 1 over the picture of the box.
+/// A face that comes into sight has no area at first, so nothing jumps as the camera turns.
 pub(super) fn mean_thickness(grid: &Grid, view: &View, near: f64) -> f64 {
     let corners = eye_corners(grid, view);
     let to_faces = grid.inverse_axes().transpose();
@@ -42,19 +44,19 @@ pub(super) fn mean_thickness(grid: &Grid, view: &View, near: f64) -> f64 {
         (is_seen, shown(&corners, &face, view, near), if longer > ROUNDING { longer } else { 0.0 })
     });
     let faces: Vec<(bool, f64, f64)> = faces.collect();
-    // From inside all faces are seen.
+    // An eye inside the box sees all faces.
     let is_inside = faces.iter().all(|face| !face.0);
     let seen = faces.iter().filter(|face| face.0 || is_inside);
     let (area, longer) = seen.fold((0.0, 0.0), |(sum, more), &(_, area, longer)| (sum + area, more + area * longer));
     if area > 0.0 { 1.0 + longer / area } else { 1.0 }
 }
 
-/// The corners of the box in eye space; a corner's bit is set where it is at the far end of an axis.
+/// The corners of the box in eye space. Bit a of a corner's index is set at the far end of axis a.
 fn eye_corners(grid: &Grid, view: &View) -> [DVec3; 8] {
     grid.world_corners().map(|corner| view.to_eye(corner))
 }
 
-/// The area in pixels of a part of the box, the convex hull of some of its corners.
+/// The visible area in pixels of the convex hull of some corners of the box.
 fn shown(corners: &[DVec3; 8], part: &[usize], view: &View, near: f64) -> f64 {
     let all = part.iter().map(|&i| corners[i]);
     if !view.perspective {
@@ -64,7 +66,8 @@ fn shown(corners: &[DVec3; 8], part: &[usize], view: &View, near: f64) -> f64 {
     if corners.iter().all(|p| -p.z >= near) {
         return hull_area(all.map(project).collect());
     }
-    // The corners before the plane, and where edges cross it. Corner i and i with one bit more share an edge.
+    // Corners before the plane, and crossings of edges with the plane. Two corners whose indices differ in one bit
+    // share an edge.
     let mut points: Vec<DVec2> = all.filter(|p| -p.z >= near).map(project).collect();
     let edges = part.iter().flat_map(|&i| [1, 2, 4].map(|bit| (i, i | bit)));
     for (a, b) in edges.filter(|(i, j)| i != j && part.contains(j)) {
@@ -79,21 +82,21 @@ fn shown(corners: &[DVec3; 8], part: &[usize], view: &View, near: f64) -> f64 {
     area(&clipped(hull(points), half))
 }
 
-/// Voxels to the power of ⅔: (X·Y·Z)^(2/3).
+/// (X·Y·Z)^(2/3), the number of voxels in a face of a cube of equal volume.
 fn face(dims: [usize; 3]) -> f64 {
     let edge = dims.into_iter().fold(1.0, |product, n| product * math::cbrt(n as f64));
     edge * edge
 }
 
-/// m of 4.2, the smallest whole number with m²·A_vol/(X·Y·Z)^(2/3) ≥ 25. A volume that covers nothing is left as it is, and
-/// no box has more voxels along its side than the longest axis of the volume.
+/// m of 4.2, the smallest integer with m²·A_vol/(X·Y·Z)^(2/3) ≥ 25. It is at most the number of voxels along the
+/// longest axis, and 1 if the volume covers no pixels.
 pub(super) fn box_side(area: f64, dims: [usize; 3]) -> usize {
     let each = area / face(dims);
     let longest = dims.into_iter().max().unwrap_or(1);
     if each <= 0.0 || each.is_nan() {
         return 1;
     }
-    // Whole numbers of at least 1, so that `as` takes the floor.
+    // The value is at least 1, so `as` takes the floor.
     let mut m = ((SMALLEST_PROJECTION / each).sqrt() as usize).clamp(1, longest);
     while m < longest && ((m * m) as f64) * each < SMALLEST_PROJECTION {
         m += 1;
@@ -103,7 +106,7 @@ pub(super) fn box_side(area: f64, dims: [usize; 3]) -> usize {
 
 /// Eq. 1: N_max = max(1, ⌊k_max·A_vol/(X·Y·Z)^(2/3) + ½⌋), with the dims after the adjustment.
 pub(super) fn points_each(k_max: f64, area: f64, dims: [usize; 3]) -> usize {
-    // `as` saturates: what is too much for memory is refused before anything is allocated.
+    // `as` saturates. A number of points that exceeds memory is refused before any allocation.
     ((k_max * area / face(dims) + 0.5) as usize).max(1)
 }
 
@@ -179,7 +182,7 @@ mod tests {
         assert!((projected_area(&grid(), &view(DVec3::ONE), 0.5) - want).abs() < 1e-9);
     }
 
-    /// From the middle the whole picture is covered; from just before a face, the face.
+    /// An eye in the middle covers the whole picture; an eye just before a face covers the face.
     #[test]
     fn an_eye_in_the_volume_sees_the_picture_full() {
         let view = |eye| {

@@ -13,54 +13,54 @@ use drypoint_scene::volume::{Volume, Voxels};
 use rayon::prelude::*;
 use std::borrow::Cow;
 
-/// ‖n × E‖ below which a segment has no direction.
+/// ‖n × E‖ below which a segment's direction is undefined.
 const NO_DIRECTION: f64 = 1.0 / (1 << 20) as f64;
 
-/// How far from its voxel's centre, in voxels along each axis, a snapped piece may lie: half a voxel, and a little so that
-/// none is lost between two.
+/// The largest distance of a snapped segment from its voxel's centre, in voxels along each axis. It is half a voxel,
+/// plus a margin so that no segment is lost between two voxels.
 const OWN: f64 = 0.55;
 
-/// The voxels that can lie on a curve, whatever the camera: V·LoG(V) < Th_LOG and ‖∇V‖ > Th_grad.
+/// The voxels that can lie on a curve for some camera: V·LoG(V) < Th_LOG and ‖∇V‖ > Th_grad.
 #[derive(Clone, Debug)]
-pub struct Edges {
+pub struct CurveVoxels {
     grid: Grid,
-    voxels: Vec<Edge>,
-    /// Whether segments lie where the curve is, rather than through the voxels' centres.
+    voxels: Vec<CurveVoxel>,
+    /// Whether segments lie on the edge itself, rather than at the voxels' centres.
     is_snapped: bool,
 }
 
-/// One of them.
+/// A voxel that can lie on a curve.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct CurveVoxel {
     cell: [u32; 3],
-    /// n, outward, in the world.
+    /// n, the outward normal in the world.
     normal: DVec3,
-    /// ∂n/∂x in the world: how the normal turns from place to place.
+    /// ∂n/∂x in the world, the derivative of the normal by position.
     turning: DMat3,
-    /// From the voxel's centre to the edge, along n.
+    /// The vector from the voxel's centre to the edge, along n.
     to_edge: DVec3,
 }
 
-/// A piece of a curve, one voxel long.
+/// A segment of a curve, one voxel long.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment {
-    /// Its voxel.
+pub struct CurveSegment {
+    /// The segment's voxel.
     pub cell: [u32; 3],
-    /// n there, outward, in the world.
+    /// The outward normal in the world.
     pub normal: DVec3,
-    /// Its ends in the world.
+    /// The segment's ends in the world.
     pub ends: [DVec3; 2],
 }
 
-impl Edges {
-    /// Measures the voxels of a volume, of which `voxels` are those with ‖∇V‖ above Th_grad; `range` is what V = 0 and 1
-    /// stand for.
+impl CurveVoxels {
+    /// Measures the voxels of a volume. `voxels` are those with ‖∇V‖ above Th_grad. `range` holds the values for V =
+    /// 0 and 1.
     ///
-    /// LoG is the trace of the Hessian of V, a grid in [0, 1], smoothed by a Gaussian of σ = 1 voxel, over its largest
-    /// magnitude in the volume. The turning of the normal is that of the smoothed values themselves.
+    /// LoG is the trace of the Hessian of V, a grid in [0, 1] smoothed by a Gaussian of σ = 1 voxel. It is divided by
+    /// its largest magnitude in the volume. The derivative of the normal is that of the smoothed values.
     ///
     /// # Errors
-    /// No field of that volume.
+    /// The volume does not make a field.
     pub fn new(
         volume: &Volume,
         voxels: &[PointVoxel],
@@ -80,7 +80,7 @@ impl Edges {
                     let project = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
                     let sign = if outside == Outside::Low { -1.0 } else { 1.0 };
                     let turning = project * h * (sign / length);
-                    Edge { cell: voxel.cell, normal: voxel.normal, turning, to_edge: DVec3::ZERO }
+                    CurveVoxel { cell: voxel.cell, normal: voxel.normal, turning, to_edge: DVec3::ZERO }
                 })
             };
             voxels.par_iter().zip(&logs).filter_map(edge).collect()
@@ -88,10 +88,10 @@ impl Edges {
         Ok(Self { grid: volume.grid().clone(), voxels, is_snapped: false })
     }
 
-    /// The same with segments where the curve is: on the edge of ‖∇V‖, as far along n as the ways of `to_edge` lead from the
-    /// centres of `voxels`, and there where n·E is 0. The voxels are those that [`new`](Self::new) had.
+    /// Moves the segments onto the curve. Along n the edge of ‖∇V‖ is at the displacements `to_edge` from the centres
+    /// of `voxels`; on it n·E is 0. `voxels` must equal those given to [`new`](Self::new).
     pub(super) fn snapped(mut self, voxels: &[PointVoxel], to_edge: &[DVec3]) -> Self {
-        // Both in linear order.
+        // Both lists are in linear order.
         let mut all = voxels.iter().zip(to_edge);
         for edge in &mut self.voxels {
             if let Some((PointVoxel { normal, .. }, way)) = all.find(|(voxel, _)| voxel.cell == edge.cell) {
@@ -102,19 +102,19 @@ impl Edges {
         self
     }
 
-    /// Where the voxels lie.
+    /// The grid of the voxels.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The segments that a camera sees, in the order of the voxels.
-    pub fn segments(&self, curves: &Curves, view: &View) -> Vec<Segment> {
+    /// Returns the segments that a camera sees, in the order of the voxels.
+    pub fn segments(&self, curves: &Curves, view: &View) -> Vec<CurveSegment> {
         let voxel = self.grid.voxel();
-        let segment = |edge: &Edge| {
+        let segment = |edge: &CurveVoxel| {
             let centre = self.grid.to_world(DVec3::from_array(edge.cell.map(f64::from)));
             let (e, distance) = towards_eye(view, centre);
             let facing = edge.normal.dot(e);
-            // E turns too as the eye is near: ∂E/∂x = −(I − EEᵀ)/distance.
+            // E changes with the position as well if the eye is near: ∂E/∂x = −(I − EEᵀ)/distance.
             let turning = edge.turning.transpose() * e - (edge.normal - e * facing) / distance;
             let mut passes = match curves.test {
                 CurvesTest::Literal => facing < curves.eye,
@@ -122,7 +122,8 @@ impl Edges {
             };
             let mut centre = centre;
             if self.is_snapped && curves.test == CurvesTest::TwoSided {
-                // A step of Newton in the tangent plane leads to n·E = 0; a voxel has the piece that lies in it.
+                // A Newton step in the tangent plane leads to n·E = 0. A voxel keeps its segment if the result lies
+                // inside it.
                 let within = turning - edge.normal * edge.normal.dot(turning);
                 let to_curve = within * (-facing / within.length_squared());
                 passes &= (self.grid.inverse_axes() * to_curve).abs().max_element() <= OWN;
@@ -132,7 +133,7 @@ impl Edges {
             let length = along.length();
             (passes && length >= NO_DIRECTION).then(|| {
                 let half = along * (0.5 * voxel / length);
-                Segment { cell: edge.cell, normal: edge.normal, ends: [centre - half, centre + half] }
+                CurveSegment { cell: edge.cell, normal: edge.normal, ends: [centre - half, centre + half] }
             })
         };
         self.voxels.par_iter().filter_map(segment).collect()
@@ -153,7 +154,7 @@ fn at<S: Sampler<f64>>(sampler: &S, cell: [u32; 3]) -> (DVec3, DMat3) {
     (g.to_glam(), DMat3::from_cols_array_2d(&rows))
 }
 
-/// LoG at voxels, over its largest magnitude in the volume; 0 where a field has no second derivatives.
+/// LoG at voxels, over its largest magnitude in the volume. Returns 0 where the field has no second derivatives.
 fn laplacians(volume: &Volume, voxels: &[PointVoxel]) -> Result<Vec<f64>, StippleError> {
     let field = smoothed(volume, Outside::Low)?;
     let [nx, ny, _] = volume.dims();
@@ -170,7 +171,7 @@ fn laplacians(volume: &Volume, voxels: &[PointVoxel]) -> Result<Vec<f64>, Stippl
     }))
 }
 
-/// The volume with its values brought into a range, which V has from 0 to 1: what lies beyond has no Laplacian.
+/// Clamps the volume's values to a range, for V from 0 to 1. Values beyond it then have no Laplacian.
 fn within(volume: &Volume, [lo, hi]: [f64; 2]) -> Cow<'_, Volume> {
     let [least, most] = volume.range();
     if lo <= least && most <= hi {
@@ -179,11 +180,11 @@ fn within(volume: &Volume, [lo, hi]: [f64; 2]) -> Cow<'_, Volume> {
     let [nx, ny, _] = volume.dims();
     let value = |i: usize| volume.value([i % nx, i / nx % ny, i / (nx * ny)]).max(lo).min(hi);
     let values = (0..volume.grid().len()).into_par_iter().map(value).collect();
-    // Finite numbers on a grid that is one make a volume.
+    // Finite values on a valid grid make a volume.
     Volume::new(volume.grid().clone(), Voxels::F64(values), 1.0, 0.0).map_or(Cow::Borrowed(volume), Cow::Owned)
 }
 
-/// E, the unit vector towards the eye, and how far it is; without end in an orthographic view.
+/// E, the unit vector towards the eye, and the eye's distance, infinite in an orthographic view.
 fn towards_eye(view: &View, at: DVec3) -> (DVec3, f64) {
     if !view.perspective {
         return (-view.forward, f64::INFINITY);
@@ -193,9 +194,9 @@ fn towards_eye(view: &View, at: DVec3) -> (DVec3, f64) {
     if distance > 0.0 { (to / distance, distance) } else { (-view.forward, f64::INFINITY) }
 }
 
-/// The exhaustive search that the test stands for: voxels with ‖∇V‖ > Th_grad whose n·E has the other sign than at one of
-/// the 26 neighbours that pass too, and whose |n·E| is the smaller of the two. `voxels` in linear order; the cells are
-/// given in it.
+/// Reference implementation of the test by exhaustive search, over voxels with ‖∇V‖ > Th_grad. A voxel is found if
+/// n·E has the opposite sign at one of its 26 neighbours, and its own |n·E| is the smaller one. `voxels` and the
+/// result are in linear order.
 pub fn exhaustive(grid: &Grid, voxels: &[PointVoxel], curves: &Curves, view: &View) -> Vec<[u32; 3]> {
     let key = |cell: [u32; 3]| (cell[2], cell[1], cell[0]);
     let passing: Vec<(PointVoxel, f64)> = voxels

@@ -1,10 +1,10 @@
 //! Dots chosen on the page: weighted sample elimination to a local density ([STIP-19]).
 //!
-//! C. Yuksel, *Sample Elimination for Generating Poisson Disk Sample Sets*, Computer Graphics Forum 34(2), 2015: of too
-//! many points the one that is most crowded by the others goes, one after the other, until as many are left as are wanted.
-//! A dot of the density ρ has the room of a disc of the radius r = √(1/(2√3 ρ)), the closest packing; two crowd each other
-//! by (1 − d/2r)⁸, r the smaller of theirs. What the density is at a place is summed up on a grid over the page from what
-//! each candidate stands for, so that faces that lie over each other count together.
+//! C. Yuksel, *Sample Elimination for Generating Poisson Disk Sample Sets*, Computer Graphics Forum 34(2), 2015: the
+//! point most crowded by the others is removed, again and again, until the wanted number is left. A dot at the
+//! density ρ occupies a disc of radius r = √(1/(2√3 ρ)), the closest packing. Two dots at distance d crowd each other
+//! by (1 − d/2r)⁸, where r is the smaller radius. A grid over the page sums the density from the shares of all
+//! candidates, so that faces in front of each other count together.
 
 use drypoint_scene::glam::DVec2;
 use rayon::prelude::*;
@@ -13,22 +13,23 @@ use std::collections::BinaryHeap;
 
 /// A point that may become a dot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
-    /// On the page.
+pub struct DotCandidate {
+    /// Place on the page.
     pub at: DVec2,
-    /// How many dots are wanted for it, at most 1: the sum over a part of the page is the number of dots there.
+    /// Number of dots that the candidate stands for, at most 1. The sum over a region of the page is the number of
+    /// dots there.
     pub share: f64,
 }
 
-/// Dots in the window in which the density at a place is measured.
+/// Number of dots in the window for measuring the local density.
 const WINDOW: f64 = 8.0;
 
-/// β of section 3.1: how close two points have to be before they count as even closer.
+/// β of section 3.1: distances below a share of 2r count as this share.
 const BETA: f64 = 0.65;
 
-/// Chooses of all candidates as many as their shares add up to, spread as evenly on the page as can be, each where it is.
-/// The places of those that are kept in the list, in ascending order. The same candidates give the same dots.
-pub fn eliminate(candidates: &[Candidate]) -> Vec<usize> {
+/// Selects as many candidates as their shares add up to, spread as evenly on the page as possible. Returns their
+/// indices in ascending order. The result is deterministic.
+pub fn eliminate(candidates: &[DotCandidate]) -> Vec<usize> {
     let wanted = candidates.iter().map(|c| c.share).sum::<f64>().round_ties_even() as usize;
     if wanted >= candidates.len() {
         return (0..candidates.len()).collect();
@@ -36,17 +37,19 @@ pub fn eliminate(candidates: &[Candidate]) -> Vec<usize> {
     if wanted == 0 {
         return Vec::new();
     }
-    let cells = Cells::new(candidates);
+    // Local radii from the local density, pairs that crowd each other, and each candidate's total weight.
+    let cells = PointCells::new(candidates);
     let radii = cells.radii(candidates);
     let (crowds, first) = crowds(candidates, &cells, &radii, wanted as f64 / candidates.len() as f64);
     let mut weights: Vec<f64> =
         first.windows(2).map(|w| crowds[w[0]..w[1]].iter().map(|c| f64::from(c.weight)).sum()).collect();
-    // The most crowded first, of equals the first in the list. Numbers of at least 0 are in the order of their bits.
-    // Weights only fall, so that one which is out of date is found when it comes up.
+    // The most crowded candidate comes first; among equals, the first of the list. Bit patterns of non-negative
+    // floats are ordered like the floats. Weights only decrease, so an outdated entry is detected when it comes up.
     let key = |i: usize, weights: &[f64]| (weights[i].to_bits(), Reverse(i));
     let mut heap: BinaryHeap<(u64, Reverse<usize>)> = (0..candidates.len()).map(|i| key(i, &weights)).collect();
     let mut is_kept = vec![true; candidates.len()];
     let mut left = candidates.len();
+    // Removes the most crowded candidate and relieves its neighbours, until the wanted number is left.
     while left > wanted
         && let Some((bits, Reverse(i))) = heap.pop()
     {
@@ -58,22 +61,22 @@ pub fn eliminate(candidates: &[Candidate]) -> Vec<usize> {
         left -= 1;
         for crowd in &crowds[first[i]..first[i + 1]] {
             let other = crowd.other as usize;
-            // Rounding may leave a little less than nothing.
+            // Rounding may leave a value slightly below 0.
             weights[other] = (weights[other] - f64::from(crowd.weight)).max(0.0);
         }
     }
     (0..candidates.len()).filter(|&i| is_kept[i]).collect()
 }
 
-/// How much another point crowds one.
+/// The weight by which a point crowds another.
 #[derive(Clone, Copy)]
-struct Crowd {
+struct Crowding {
     other: u32,
     weight: f32,
 }
 
-/// For each point those that crowd it, and where they begin. `kept` is the share of points that will be left.
-fn crowds(points: &[Candidate], cells: &Cells, radii: &[f64], kept: f64) -> (Vec<Crowd>, Vec<usize>) {
+/// For each point the points that crowd it, and the start of its entries. `kept` is the share of points that remain.
+fn crowds(points: &[DotCandidate], cells: &PointCells, radii: &[f64], kept: f64) -> (Vec<Crowding>, Vec<usize>) {
     // γ of section 3.1 is 3/2.
     let least = BETA * (1.0 - kept * kept.sqrt());
     let part = |part: &[usize]| {
@@ -85,7 +88,7 @@ fn crowds(points: &[Candidate], cells: &Cells, radii: &[f64], kept: f64) -> (Vec
                 let far = (points[j].at.distance(at) / reach).max(least);
                 if j != i && far < 1.0 {
                     let close = (1.0 - far) * (1.0 - far);
-                    crowds.push(Crowd { other: j as u32, weight: (close * close * close * close) as f32 });
+                    crowds.push(Crowding { other: j as u32, weight: (close * close * close * close) as f32 });
                 }
             });
             ends.push(crowds.len());
@@ -93,7 +96,7 @@ fn crowds(points: &[Candidate], cells: &Cells, radii: &[f64], kept: f64) -> (Vec
         (crowds, ends)
     };
     let order: Vec<usize> = (0..points.len()).collect();
-    let parts: Vec<(Vec<Crowd>, Vec<usize>)> = order.par_chunks(4096).map(part).collect();
+    let parts: Vec<(Vec<Crowding>, Vec<usize>)> = order.par_chunks(4096).map(part).collect();
     let (mut crowds, mut first) = (Vec::new(), vec![0]);
     for (of_part, ends) in parts {
         first.extend(ends.into_iter().map(|end| crowds.len() + end));
@@ -102,26 +105,26 @@ fn crowds(points: &[Candidate], cells: &Cells, radii: &[f64], kept: f64) -> (Vec
     (crowds, first)
 }
 
-/// The points in square cells over the page.
-struct Cells {
+/// A raster of square cells with the points of each.
+struct PointCells {
     /// The lower corner.
     from: DVec2,
     side: f64,
-    /// Cells across and down.
+    /// Number of cells across and down.
     size: [usize; 2],
-    /// The points of cell after cell, x fastest, and where each cell's begin.
+    /// The points cell by cell, x fastest, and the start of each cell's entries.
     points: Vec<u32>,
     first: Vec<usize>,
 }
 
-impl Cells {
-    fn new(points: &[Candidate]) -> Self {
+impl PointCells {
+    fn new(points: &[DotCandidate]) -> Self {
         let (mut lo, mut hi) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for point in points {
             (lo, hi) = (lo.min(point.at), hi.max(point.at));
         }
         let extent = (hi - lo).max(DVec2::splat(f64::MIN_POSITIVE));
-        // A few points a cell, if they were everywhere.
+        // A cell has a few points if these cover the page evenly.
         let side = (2.0 * extent.x * extent.y / points.len() as f64).sqrt().max(extent.max_element() / 4096.0);
         let size = (extent / side).to_array().map(|n| n as usize + 1);
         let mut cells = Self { from: lo, side, size, points: vec![0; points.len()], first: Vec::new() };
@@ -153,7 +156,7 @@ impl Cells {
         y * self.size[0] + x
     }
 
-    /// Points in the cells within a distance, and some beyond.
+    /// Visits the points in all cells within a distance, so some points are farther away.
     fn around(&self, at: DVec2, distance: f64, mut found: impl FnMut(usize)) {
         let ([x0, y0], [x1, y1]) = (self.cell(at - distance), self.cell(at + distance));
         for y in y0..=y1 {
@@ -164,10 +167,10 @@ impl Cells {
         }
     }
 
-    /// For each point r of the density around it: that of the smallest square of cells which has enough shares.
-    fn radii(&self, points: &[Candidate]) -> Vec<f64> {
+    /// Radius r at each point, from the density in the smallest square of cells with enough shares.
+    fn radii(&self, points: &[DotCandidate]) -> Vec<f64> {
         let [width, height] = self.size;
-        // Sums over all cells to the left and above, a row and a column of zeros first.
+        // A summed-area table with a leading row and column of zeros.
         let mut sums = vec![0.0; (width + 1) * (height + 1)];
         for y in 0..height {
             let mut row = 0.0;
@@ -179,6 +182,7 @@ impl Cells {
             }
         }
         let sum = |x: usize, y: usize| sums[y * (width + 1) + x];
+        // The smallest square window around a cell with enough shares gives the density ρ, and r = √(1/(2√3 ρ)).
         let window = |[x, y]: [usize; 2]| {
             for reach in 1.. {
                 let (x0, y0) = (x.saturating_sub(reach), y.saturating_sub(reach));
@@ -208,13 +212,13 @@ mod tests {
     use super::*;
     use drypoint_scene::philox::uniforms;
 
-    fn random(count: u32, share: impl Fn(DVec2) -> f64) -> Vec<Candidate> {
+    fn random(count: u32, share: impl Fn(DVec2) -> f64) -> Vec<DotCandidate> {
         let at = |i| uniforms(5, [i, 0, 0], 0);
         let at = (0..count).map(at).map(|[x, y, ..]| DVec2::new(100.0 * x, 100.0 * y));
-        at.map(|at| Candidate { at, share: share(at) }).collect()
+        at.map(|at| DotCandidate { at, share: share(at) }).collect()
     }
 
-    /// Mean distance to the nearest other one, times √density, in a window away from the border.
+    /// The mean distance to the nearest neighbour, times √density, in a window away from the border.
     fn nearest(points: &[DVec2], inside: impl Fn(&DVec2) -> bool, density: f64) -> f64 {
         let chosen: Vec<&DVec2> = points.iter().filter(|p| inside(p)).collect();
         let near = |p: &DVec2| {
@@ -223,8 +227,8 @@ mod tests {
         chosen.iter().map(|p| near(p)).sum::<f64>() / chosen.len() as f64 * density.sqrt()
     }
 
-    /// Yuksel's own figure: of white noise, four to five times as many as are wanted, a relative radius of 0.7 to 0.75, of
-    /// the largest possible, is left; the nearest neighbours' mean distance lies above that.
+    /// Yuksel's own figure: from white noise with four to five times the wanted points, the relative radius is 0.7 to
+    /// 0.75 of the largest possible one. The nearest neighbours' mean distance is larger.
     #[test]
     fn white_noise_becomes_even() {
         let candidates = random(12_000, |_| 0.2);
@@ -237,14 +241,15 @@ mod tests {
         assert!(found > 0.8, "{found}");
     }
 
-    /// Where three times as many are wanted there are three times as many, and both parts are even.
+    /// A region with three times the shares has three times the dots, and both regions are even.
     #[test]
     fn the_local_density_is_what_the_shares_ask_for() {
         let right = |p: &DVec2| p.x > 50.0;
         // A third of the candidates on the left.
         let candidates = random(24_000, |_| 0.25);
-        let is_there = |(i, c): &(usize, Candidate)| right(&c.at) || i % 3 == 0;
-        let candidates: Vec<Candidate> = candidates.into_iter().enumerate().filter(is_there).map(|(_, c)| c).collect();
+        let is_there = |(i, c): &(usize, DotCandidate)| right(&c.at) || i % 3 == 0;
+        let candidates: Vec<DotCandidate> =
+            candidates.into_iter().enumerate().filter(is_there).map(|(_, c)| c).collect();
         let points: Vec<DVec2> = eliminate(&candidates).into_iter().map(|i| candidates[i].at).collect();
         for is_right in [true, false] {
             let inside =
@@ -259,10 +264,10 @@ mod tests {
 
     #[test]
     fn all_or_none_and_points_that_coincide() {
-        let same = |share, count| vec![Candidate { at: DVec2::ONE, share }; count];
+        let same = |share, count| vec![DotCandidate { at: DVec2::ONE, share }; count];
         assert_eq!(eliminate(&same(1.0, 3)), [0, 1, 2]);
         assert!(eliminate(&same(0.1, 3)).is_empty() && eliminate(&[]).is_empty());
-        // Of equals the first goes first.
+        // Of equal candidates the first is removed first.
         assert_eq!(eliminate(&same(0.5, 4)), [2, 3]);
     }
 }

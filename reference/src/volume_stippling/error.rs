@@ -1,20 +1,21 @@
-//! Stipples that cannot be.
+//! Errors of stippling.
 
 use crate::field::FieldError;
 
-/// What stands in the way of stippling a volume.
+/// The reason why a volume cannot be stippled.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StippleError {
-    /// No field of that volume.
+    /// The volume does not make a field.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// `stipples.slab` or `camera.near` on the page, or `stipples.size` in the world; a scene file cannot say either.
+    /// A length is in the wrong space: `stipples.slab` or `camera.near` on the page, or `stipples.size` in the world.
+    /// A scene file cannot cause this error.
     #[error("{key} is no length of its space")]
     Length {
         /// The key.
         key: &'static str,
     },
-    /// More voxels than can be told apart while the points are put in order.
+    /// The volume has more voxels than the ordering of points can index.
     #[error("{voxels} voxels are above the threshold, and at most {most} can have points")]
     TooMany {
         /// Voxels above the threshold.

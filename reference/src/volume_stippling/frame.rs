@@ -1,10 +1,10 @@
-//! A frame: of each voxel's list as many points as the factors say, on the page (section 5, [STIP-5], [STIP-6]); with
-//! `even = "page"` those of four times as many that lie evenly there ([STIP-19]).
+//! A frame: the prefix of each voxel's list that the factors select, on the page (section 5, [STIP-5], [STIP-6]).
+//! With `even = "page"` four times as many candidates are thinned evenly on the page ([STIP-19]).
 
-use super::count::{candidates, dots, with_nib};
-use super::elimination::{Candidate, eliminate};
-use super::factors::{Moving, Still, Whole};
-use super::hidden::Hidden;
+use super::dot_counts::{candidates, dots, with_nib};
+use super::elimination::{DotCandidate, eliminate};
+use super::factors::{CameraFactors, FixedFactors, VolumeExtent};
+use super::hidden::HiddenPoints;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::{DMat3, DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Page};
@@ -18,16 +18,16 @@ use std::sync::Arc;
 
 pub use super::factors::viewing_distance;
 
-/// Voxels that are drawn in one go.
+/// Number of voxels in one unit of parallel work.
 const PART: usize = 2048;
 
-/// What frames have in common.
+/// Data that all frames share.
 #[derive(Clone, Debug)]
 pub struct Frames<'a> {
     stipples: &'a Stipples,
     points: &'a Points,
-    /// For each voxel what no camera changes.
-    still: Vec<Still>,
+    /// The camera-independent factors of each voxel.
+    still: Vec<FixedFactors>,
     light: LightDirection,
     centre: DVec3,
     radius: f64,
@@ -39,19 +39,19 @@ pub struct Frames<'a> {
     tone: Option<PenTone<'a>>,
 }
 
-/// What a pen prints, and how much ink the points are ([STIP-17]).
+/// The tone curve of a pen, and the ink of the points ([STIP-17]).
 #[derive(Clone, Copy, Debug)]
 pub struct PenTone<'a> {
-    /// What it prints.
+    /// The tone curve.
     pub tone: &'a Tone,
-    /// λa of dots of S_max in a face seen from the front, with T = 1.
+    /// λa of dots of S_max in a face seen from the front, at T = 1.
     pub ink: f64,
-    /// Voxels that lie over each other in it.
+    /// Mean number of overlapping voxels in such a face.
     pub layers: f64,
 }
 
 impl PenTone<'_> {
-    /// The share of the ink that prints a share of the coverage that all of it prints.
+    /// Converts a share of the largest coverage to the share of ink that prints it.
     fn share(&self, share: f64) -> f64 {
         if self.ink <= 0.0 {
             return share;
@@ -61,46 +61,46 @@ impl PenTone<'_> {
     }
 }
 
-/// What frames are made of.
+/// The inputs of frames.
 #[derive(Clone, Debug)]
 pub struct FrameInputs<'a> {
-    /// `[stipples]`.
+    /// The table `[stipples]`.
     pub stipples: &'a Stipples,
-    /// The points, made once.
+    /// The points from the preprocess.
     pub points: &'a Points,
     /// The scene's light.
     pub light: LightDirection,
-    /// The volume's own grid, whose centre and radius eqs. 7 and 8 have.
+    /// The volume's own grid; eqs. 7 and 8 use its centre and radius.
     pub grid: &'a Grid,
     /// The reference camera, the scene's first ([STIP-3]).
     pub reference: &'a View,
-    /// `near` of a perspective camera, in world units.
+    /// The near distance of a perspective camera, in world units.
     pub near: f64,
     /// S_max in mm.
     pub size: f64,
-    /// The width of the pen's nib in mm, where a pen draws, which has one size ([STIP-6]).
+    /// Width of the pen's nib in mm, if a pen draws. A pen has one size ([STIP-6]).
     pub nib: Option<f64>,
-    /// What hides points; none: they are transparent ([STIP-15]).
+    /// The surface that hides points; none if points are transparent ([STIP-15]).
     pub surface: Option<Arc<IsoSurface<'a, 'a>>>,
-    /// What the pen prints, where that was measured ([STIP-17]).
+    /// The pen's tone curve, if it was measured ([STIP-17]).
     pub tone: Option<PenTone<'a>>,
 }
 
-/// The dots of a frame, in the order of the voxels, in parts that keep their memory from frame to frame.
+/// The dots of a frame in the order of the voxels. Its buffers are reused from frame to frame.
 #[derive(Clone, Debug, Default)]
-pub struct Drawn {
-    parts: Vec<Part>,
-    /// Of the pen, where one draws.
+pub struct FrameDots {
+    parts: Vec<FramePart>,
+    /// Width of the nib, if a pen draws.
     nib: Option<f64>,
 }
 
 #[derive(Clone, Debug, Default)]
-struct Part {
+struct FramePart {
     dots: Vec<Dot>,
     hidden: u64,
 }
 
-impl Drawn {
+impl FrameDots {
     /// The dots.
     pub fn dots(&self) -> impl Iterator<Item = &Dot> {
         self.parts.iter().flat_map(|part| &part.dots)
@@ -111,23 +111,23 @@ impl Drawn {
         self.parts.iter().map(|part| part.dots.len()).sum()
     }
 
-    /// Whether there is none.
+    /// Whether there are no dots.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Dots that are larger than the nib, since their voxel's list has no more ([STIP-6]).
+    /// Number of dots larger than the nib, because the voxel's list is too short ([STIP-6]).
     pub fn larger_than_nib(&self) -> u64 {
         let is_larger = |dot: &&Dot| self.nib.is_some_and(|nib| dot.radius > 0.5 * nib);
         self.dots().filter(is_larger).count() as u64
     }
 
-    /// Points that were looked at and are hidden ([STIP-15]).
+    /// Number of points that were tested and are hidden ([STIP-15]).
     pub fn hidden(&self) -> u64 {
         self.parts.iter().map(|part| part.hidden).sum()
     }
 
-    /// All in one list.
+    /// All dots in one list.
     pub fn to_vec(&self) -> Vec<Dot> {
         let mut all = Vec::with_capacity(self.len());
         self.parts.iter().for_each(|part| all.extend_from_slice(&part.dots));
@@ -136,14 +136,14 @@ impl Drawn {
 }
 
 impl<'a> Frames<'a> {
-    /// Computes what no camera changes.
+    /// Computes the camera-independent factors.
     pub fn new(inputs: FrameInputs<'a>) -> Self {
         let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone } = inputs;
         let centre = grid.centre();
         Self {
             stipples,
             points,
-            still: points.voxels.par_iter().map(|voxel| Still::new(stipples, voxel, &points.grid)).collect(),
+            still: points.voxels.par_iter().map(|voxel| FixedFactors::new(stipples, voxel, &points.grid)).collect(),
             light,
             centre,
             radius: grid.radius(),
@@ -156,16 +156,17 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// The dots that a camera sees, on a page, or with `even = "page"` the candidates for [`choose_on_page`]; dots whose centre the picture does not hold are left out, and in perspective
-    /// those nearer than `near`.
-    pub fn draw(&self, view: &View, page: &Page, drawn: &mut Drawn) {
-        let whole = Whole { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
-        let moving = Moving::new(self.stipples, self.light, view, &whole);
-        let place = Place::new(view, page, &self.points.grid);
+    /// Draws the dots that a camera sees on a page; with `even = "page"`, the candidates for [`choose_on_page`]. Dots
+    /// whose centre lies outside the picture are left out, as are dots nearer than `near` in perspective.
+    pub fn draw(&self, view: &View, page: &Page, drawn: &mut FrameDots) {
+        let whole =
+            VolumeExtent { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
+        let moving = CameraFactors::new(self.stipples, self.light, view, &whole);
+        let place = IndexToPage::new(view, page, &self.points.grid);
         let surface = self.surface.as_deref();
-        let hidden = surface.map(|surface| Hidden::new(surface, view, self.near, &self.points.grid));
+        let hidden = surface.map(|surface| HiddenPoints::new(surface, view, self.near, &self.points.grid));
         let parts = self.points.voxels.len().div_ceil(PART);
-        drawn.parts.resize_with(parts, Part::default);
+        drawn.parts.resize_with(parts, FramePart::default);
         drawn.nib = self.nib;
         drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
             part.hidden = 0;
@@ -177,7 +178,14 @@ impl<'a> Frames<'a> {
         });
     }
 
-    fn voxel(&self, i: usize, moving: &Moving<'_>, place: &Place, hidden: Option<&Hidden<'_>>, part: &mut Part) {
+    fn voxel(
+        &self,
+        i: usize,
+        moving: &CameraFactors<'_>,
+        place: &IndexToPage,
+        hidden: Option<&HiddenPoints<'_>>,
+        part: &mut FramePart,
+    ) {
         let (voxel, each) = (&self.points.voxels[i], self.points.each);
         let centre = voxel.centre();
         let at = place.eye(centre);
@@ -187,8 +195,9 @@ impl<'a> Frames<'a> {
         }
         // Eq. 4, over S_max.
         let size = voxel.magnitude * factors.size;
-        // T = 1 is the whole list, but for the part of a point by which it is too long.
+        // T = 1 draws the whole list, except for the fraction of a point by which it is too long.
         let whole_list = self.still[i].piece * (self.points.full / each as f64);
+        // Eq. 2: the share T of the list. A pen has one size, so its ink N_i·S_i² decides the number of dots instead.
         let (share, size, unit) = match self.nib {
             None => (factors.count * whole_list, size, self.size),
             Some(nib) => {
@@ -202,6 +211,7 @@ impl<'a> Frames<'a> {
         if radius <= 0.0 {
             return;
         }
+        // The prefix of the list: dots to draw, or candidates that are thinned on the page later.
         let (opacities, listed) = match self.stipples.even {
             Even::None => {
                 let drawn = dots(each, share, size, self.stipples.ink, voxel.cell);
@@ -213,6 +223,7 @@ impl<'a> Frames<'a> {
             }
         };
         let (whole, opacity, fading) = opacities;
+        // Each point is projected and tested for visibility.
         let list = &self.points.of(i)[..listed];
         for (k, offset) in list.iter().enumerate() {
             let o = DVec3::from_array(offset.map(f64::from));
@@ -229,11 +240,11 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// Of the candidates of one frame those that are drawn, evenly on the page whatever pen draws them ([STIP-19]); a
-/// candidate's opacity says how many dots it stands for.
-pub fn choose_on_page(drawn: &mut [Drawn]) {
-    let all = || drawn.iter().flat_map(Drawn::dots);
-    let candidates: Vec<Candidate> = all().map(|dot| Candidate { at: dot.at, share: dot.opacity }).collect();
+/// Selects the dots of one frame from its candidates, evenly on the page across all pens ([STIP-19]). A candidate's
+/// opacity is the number of dots it stands for.
+pub fn choose_on_page(drawn: &mut [FrameDots]) {
+    let all = || drawn.iter().flat_map(FrameDots::dots);
+    let candidates: Vec<DotCandidate> = all().map(|dot| DotCandidate { at: dot.at, share: dot.opacity }).collect();
     let mut is_kept = vec![false; candidates.len()];
     for i in eliminate(&candidates) {
         is_kept[i] = true;
@@ -245,22 +256,22 @@ pub fn choose_on_page(drawn: &mut [Drawn]) {
     }
 }
 
-/// From index space to the page.
-pub(super) struct Place {
-    /// From index to eye space: directions, and the place of index 0.
+/// The map from index space to the page.
+pub(super) struct IndexToPage {
+    /// The map from index to eye space: the linear part, and the image of index 0.
     to_eye: DMat3,
     origin: DVec3,
     to_world: DMat3,
     world_origin: DVec3,
     perspective: bool,
-    /// mm of one unit of eye space, at depth 1 in perspective.
+    /// Millimetres per unit of eye space, at depth 1 in perspective.
     scale: DVec2,
     /// The picture's middle and half its size, in mm.
     middle: DVec2,
     half: DVec2,
 }
 
-impl Place {
+impl IndexToPage {
     pub(super) fn new(view: &View, page: &Page, grid: &Grid) -> Self {
         let rotation = DMat3::from_cols(view.right, view.up, -view.forward).transpose();
         let half = page.picture() / 2.0;
@@ -286,13 +297,13 @@ impl Place {
         self.to_world * index + self.world_origin
     }
 
-    /// Where on the page a place in eye space is, if the picture holds it.
+    /// The place on the page of a place in eye space. Returns none outside the picture.
     fn on_page(&self, at: DVec3, near: f64) -> Option<DVec2> {
         let off = self.off(at, near)?;
         (self.beyond(off) == [0.0; 2]).then(|| self.at(off))
     }
 
-    /// How far from the picture's middle, in mm, whether or not the picture holds it; none for what is nearer than `near` in
+    /// Offset from the picture's middle in mm, inside or outside the picture. Returns none nearer than `near` in
     /// perspective.
     pub(super) fn off(&self, at: DVec3, near: f64) -> Option<DVec2> {
         let flat = DVec2::new(at.x, at.y) * self.scale;
@@ -303,12 +314,12 @@ impl Place {
         }
     }
 
-    /// The place on the page that is so far from the picture's middle.
+    /// The place on the page at an offset from the picture's middle.
     pub(super) fn at(&self, off: DVec2) -> DVec2 {
         self.middle + off
     }
 
-    /// Beyond which sides of the picture that is: −1, 0 or 1 along each axis.
+    /// The side of the picture beyond which an offset lies: −1, 0 or 1 along each axis.
     pub(super) fn beyond(&self, off: DVec2) -> [f64; 2] {
         [(off.x, self.half.x), (off.y, self.half.y)]
             .map(|(off, half)| if off.abs() <= half { 0.0 } else { off.signum() })

@@ -1,6 +1,6 @@
 //! Points that an opaque iso-surface hides ([STIP-15]). The paper's points are transparent.
 
-use super::curves::Segment;
+use super::curves::CurveSegment;
 use super::ridge::across;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
@@ -8,35 +8,37 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 use rayon::prelude::*;
 
-/// How far from a point its foot on the surface may be, along the gradient of its voxel, in voxels that points are made in:
-/// where slices are far apart, in as much as such a voxel reaches along it.
+/// The largest distance of a point from its foot on the surface, along the gradient of its voxel. The unit is the
+/// extent of such a voxel along the gradient, which accounts for distant slices.
 const REACH: f64 = 1.5;
 
-/// δ of [HATCH-7]: how far before the surface it is asked for, in voxels of the volume.
+/// δ of [HATCH-7]: the distance of the visibility test in front of the surface, in voxels of the volume.
 const OFFSET: f64 = 0.15;
 
-/// What hides points from one camera.
+/// A visibility test of points for one camera.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hidden<'a> {
+pub(super) struct HiddenPoints<'a> {
     surface: &'a IsoSurface<'a, 'a>,
     view: &'a View,
     near: f64,
-    /// That points are made in ([STIP-2]).
+    /// The grid in which points are made ([STIP-2]).
     of_points: &'a Grid,
-    /// In world units, with the sign of the side that the eye is on.
+    /// Offset in world units, signed towards the side of the eye.
     offset: f64,
 }
 
-impl<'a> Hidden<'a> {
-    /// `near` is that of a perspective camera and `of_points` the grid that points are made in ([STIP-2]).
+impl<'a> HiddenPoints<'a> {
+    /// `near` is the near distance of a perspective camera. `of_points` is the grid in which points are made
+    /// ([STIP-2]).
     pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64, of_points: &'a Grid) -> Self {
         let voxel = surface.field().volume().grid().voxel();
         Self { surface, view, near, of_points, offset: OFFSET * voxel * surface.front(view) }
     }
 
-    /// Whether the surface hides a point of the world, of a voxel with that normal. A point near the surface is taken for one
-    /// that lies on it: it is asked for at its foot, δ in front; else a point's own distance would hide it behind the surface
-    /// that it stands for.
+    /// Whether the surface hides a point of the world. `normal` is the normal of its voxel.
+    ///
+    /// A point near the surface is tested at its foot, moved by δ in front. Otherwise its own distance would hide it
+    /// behind the surface that it represents.
     pub(super) fn hides(&self, point: DVec3, normal: DVec3) -> bool {
         let grid = self.surface.field().volume().grid();
         let foot = self.surface.foot(grid.to_index(point), normal, REACH * across(self.of_points, normal));
@@ -45,16 +47,16 @@ impl<'a> Hidden<'a> {
     }
 }
 
-/// The segments of curves whose middle the surface does not hide. `of_points` is the grid that they are made in.
+/// The segments of curves whose middle the surface does not hide. `of_points` is the grid in which they are made.
 pub fn seen(
-    mut segments: Vec<Segment>,
+    mut segments: Vec<CurveSegment>,
     surface: &IsoSurface<'_, '_>,
     view: &View,
     near: f64,
     of_points: &Grid,
-) -> Vec<Segment> {
-    let hidden = Hidden::new(surface, view, near, of_points);
-    let middle = |segment: &Segment| (segment.ends[0] + segment.ends[1]) / 2.0;
+) -> Vec<CurveSegment> {
+    let hidden = HiddenPoints::new(surface, view, near, of_points);
+    let middle = |segment: &CurveSegment| (segment.ends[0] + segment.ends[1]) / 2.0;
     let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(middle(segment), segment.normal)).collect();
     let mut hides = hides.into_iter();
     segments.retain(|_| hides.next() == Some(false));
@@ -70,8 +72,8 @@ mod tests {
     use drypoint_scene::tables::{Camera, Projection};
     use drypoint_scene::volume::{Volume, Voxels};
 
-    /// [STIP-15]'s oracle: of points within 1.5 voxels of a sphere all with n·E > 0 are seen and none with
-    /// n·E < −√(2δ/R), E towards the eye; with slices 2 apart as many of those 1.5 times as far as a voxel reaches.
+    /// [STIP-15]'s oracle. All points within 1.5 voxels of a sphere with n·E > 0 are visible, and none with n·E <
+    /// −√(2δ/R). E points towards the eye. With slices 2 apart the distance is 1.5 times a voxel's extent.
     #[test]
     fn a_sphere_shows_its_front() {
         shows_its_front(1);
@@ -92,7 +94,7 @@ mod tests {
         for projection in [Projection::Orthographic { height: None }, Projection::Perspective { fov: 40.0 }] {
             let camera = Camera { projection, direction, ..Camera::default() };
             let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-            let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+            let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
             // Between slices the surface lies below the sphere by as much as a chord does, more than between cubes.
             let below = (slices * slices - 1) as f64 / (8.0 * radius);
             let limit = -(2.0 * (OFFSET + below) / radius).sqrt();
@@ -111,15 +113,15 @@ mod tests {
                     back += 1;
                 }
             }
-            // Without a foot a point is asked for itself: inside it is hidden, before the sphere it is not.
+            // A point without a foot is tested itself: inside the sphere it is hidden, in front of it it is visible.
             let hides = |along: f64| hidden.hides(centre + direction.normalize() * along, DVec3::X);
             assert!(hides(1.0) && hides(18.0) && !hides(-18.0));
         }
         assert!(front > 2500 && back > 2500, "{front} {back}");
     }
 
-    /// A flat wall with the surface on both its sides, 1.18 voxels from its middle: of points of voxels that face the eye all
-    /// are seen, of those that face away none, though the other side may be nearer to a point.
+    /// A flat wall with the surface on both sides, 1.18 voxels from its middle. All points of voxels that face the
+    /// eye are visible; none of the others are, although the other side may be nearer to a point.
     #[test]
     fn a_thin_wall_shows_one_side() {
         let (middle, iso) = (9.8, 0.5);
@@ -133,7 +135,7 @@ mod tests {
             let camera =
                 Camera { projection: Projection::Orthographic { height: None }, direction, ..Camera::default() };
             let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-            let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+            let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
             for i in 0..=40 {
                 // Points of the voxels of the outer flanks lie up to half a voxel beyond their centres.
                 let out = -0.25 + 2.5 * f64::from(i) / 40.0;
@@ -145,7 +147,7 @@ mod tests {
         }
     }
 
-    /// Where the surface is a ridge without a gradient, its points lie in front of it by their voxels' normals.
+    /// A surface that is a ridge without a gradient: its points lie in front of it along their voxels' normals.
     #[test]
     fn a_foot_without_a_normal_takes_the_voxels() {
         let grid = Grid::with_spacing([5, 5, 20], [1.0; 3]).unwrap();
@@ -159,7 +161,7 @@ mod tests {
             ..Camera::default()
         };
         let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-        let hidden = Hidden::new(&surface, &view, 0.5, volume.grid());
+        let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
         assert!(surface.normal(DVec3::new(2.0, 2.0, 10.0)).is_none());
         for side in [1.0, -1.0] {
             let point = DVec3::new(2.0, 2.0, 10.0 + 0.3 * side);

@@ -1,14 +1,15 @@
-//! How many voxels of a face print onto one place ([STIP-17]).
+//! Number of voxels of a face that print onto one place ([STIP-17]).
 
 use drypoint_scene::glam::DVec3;
 use rayon::prelude::*;
 
-/// How far along the normal voxels are counted, to either side.
+/// Number of counted steps along the normal, to either side.
 const REACH: i32 = 3;
 
-/// The mean number of steps of one voxel along ±n, its own among them, at which ‖∇V‖ is above the threshold. `steps` has
-/// for each voxel its place and the step along n, in index space; between voxels ‖∇V‖ is linear, and beyond the border there
-/// is none. 1 where there are no voxels.
+/// Returns the mean number of steps along ±n at which ‖∇V‖ exceeds the threshold, the voxel itself included. A step
+/// is one voxel long. `steps` holds each voxel's place and its step along n, in index space.
+///
+/// ‖∇V‖ is linear between voxels and 0 beyond the border. Without voxels the result is 1.
 pub(super) fn layers(
     dims: [usize; 3],
     norms: &[f64],
@@ -20,12 +21,12 @@ pub(super) fn layers(
         let at = |k: i32| norm_at(dims, norms, own + *step * f64::from(k));
         (-REACH..=REACH).filter(|&k| at(k).is_some_and(&is_above)).count()
     };
-    // Sums of whole numbers do not depend on their order.
+    // Sums of integers do not depend on their order.
     let sum: usize = steps.par_iter().map(count).sum();
     if steps.is_empty() { 1.0 } else { sum as f64 / steps.len() as f64 }
 }
 
-/// ‖∇V‖ at a place in index space; what is not valid counts as 0.
+/// ‖∇V‖ at a place in index space. Invalid values count as 0.
 fn norm_at(dims: [usize; 3], norms: &[f64], p: DVec3) -> Option<f64> {
     let (mut cell, mut weight) = ([0; 3], [0.0; 3]);
     for a in 0..3 {
@@ -55,7 +56,7 @@ fn norm_at(dims: [usize; 3], norms: &[f64], p: DVec3) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A slab of ‖∇V‖ falling linearly from its middle plane: as many steps as it is wide, at any orientation.
+    /// A slab whose ‖∇V‖ falls linearly from its middle plane: the count equals its width, at any orientation.
     #[test]
     fn a_slab_has_as_many_layers_as_it_is_wide() {
         let dims = [40; 3];
@@ -69,13 +70,13 @@ mod tests {
                 let inside = |cell: &&[u32; 3]| t(**cell).abs() < half && cell.iter().all(|i| (5..35).contains(i));
                 let steps: Vec<_> = cells.iter().filter(inside).map(|&cell| (cell, n)).collect();
                 let found = layers(dims, &norms, is_above, &steps);
-                // Lines along n meet ⌊w⌋ or one more, and each of those counts all.
+                // Lines along n meet ⌊w⌋ voxels or one more, and each of these counts all of them.
                 let (whole, more) = ((2.0 * half).floor(), 2.0 * half - (2.0 * half).floor());
                 let lines = (whole * whole * (1.0 - more) + (whole + 1.0) * (whole + 1.0) * more) / (2.0 * half);
-                // Along an axis all lines are alike, and the count is that of whole planes.
+                // Along an axis all lines are equal, and the count is that of whole planes.
                 let planes = (19.37f64 + half).floor() - (19.37f64 - half).floor();
                 let wanted = if n == DVec3::Z { planes } else { lines };
-                // Linear interpolation cuts the crest off, which is seen where the slab ends within half a voxel of it.
+                // Linear interpolation cuts off the crest, which shows where the slab ends within half a voxel of it.
                 assert!((found - wanted).abs() < 0.1, "{n} {half}: {found}");
             }
         }

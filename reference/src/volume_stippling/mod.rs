@@ -1,17 +1,17 @@
 //! Volume stippling (Lu, Morris, Ebert, Rheingans, Hansen 2002).
 //!
-//! [`Preprocess`] finds the voxels that get points and makes them, once, from the reference camera; a frame then draws of
-//! each voxel's list as many as the factors say.
+//! [`Preprocess`] finds the voxels that get points and makes the points, once, from the reference camera. A frame
+//! then draws a prefix of each voxel's list, whose length the factors give.
 
 mod area;
-mod count;
+mod curve_lines;
 mod curves;
+mod dot_counts;
 mod elimination;
 mod error;
 mod factors;
 mod frame;
 mod hidden;
-mod joined;
 mod layers;
 mod norms;
 mod order;
@@ -20,10 +20,10 @@ mod resolution;
 mod ridge;
 mod slab;
 
-pub use curves::{Edges, Segment, exhaustive};
-pub use elimination::{Candidate, eliminate};
+pub use curve_lines::joined;
+pub use curves::{CurveSegment, CurveVoxels, exhaustive};
+pub use elimination::{DotCandidate, eliminate};
 pub use error::StippleError;
-pub use frame::{Drawn, FrameInputs, Frames, PenTone, choose_on_page, viewing_distance};
+pub use frame::{FrameDots, FrameInputs, Frames, PenTone, choose_on_page, viewing_distance};
 pub use hidden::seen;
-pub use joined::joined;
-pub use preprocess::{Inputs, Preprocess};
+pub use preprocess::{Preprocess, StippleInputs};

@@ -1,4 +1,4 @@
-//! ‖g‖ at every voxel, and what |g| = 1 stands for, by the estimator that stippling uses ([STIP-1], [VAL-2]).
+//! ‖g‖ at every voxel and the length that counts as |g| = 1, by the estimator of stippling ([STIP-1], [VAL-2]).
 
 use crate::field::{GradientEstimator, Sampler};
 use crate::ray::touches_mask;
@@ -6,7 +6,7 @@ use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::quantile::quantile;
 use rayon::prelude::*;
 
-/// In place of ‖g‖ where the voxels that it is made of are not all valid.
+/// Replaces ‖g‖ where not all contributing voxels are valid.
 pub(super) const INVALID: f64 = -1.0;
 
 /// ‖g‖ of each voxel, x fastest, times the power of two of [SPACE-4].
@@ -25,7 +25,7 @@ pub(super) fn norms<S: Sampler<f64>>(sampler: &S, volume: &Volume, estimator: Gr
     norms
 }
 
-/// The quantile q of the norms that exceed a bound, which is not negative; none where none does.
+/// The quantile q of the norms above a non-negative bound. Returns none if there are none.
 pub(super) fn quantile_above(norms: &[f64], bound: f64, q: f64) -> Option<f64> {
     let chunks: Vec<&[f64]> = norms.chunks(1 << 16).collect();
     let above = |(): &mut (), i: usize, numbers: &mut Vec<f64>| {

@@ -1,7 +1,7 @@
 //! The preprocess of section 4: from a volume to the voxels that get points, and their points ([STIP-1] … [STIP-4]).
 
 use super::area::{box_side, mean_thickness, points_each, projected_area};
-use super::curves::Edges;
+use super::curves::CurveVoxels;
 use super::error::StippleError;
 use super::frame::viewing_distance;
 use super::layers::layers;
@@ -24,51 +24,51 @@ use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
 use std::borrow::Cow;
 
-/// What points are made from.
+/// The inputs from which points are made.
 #[derive(Clone, Copy, Debug)]
-pub struct Inputs<'a> {
-    /// `[stipples]`.
+pub struct StippleInputs<'a> {
+    /// The table `[stipples]`.
     pub stipples: &'a Stipples,
-    /// `[volume]`: ranges, and which side is outside.
+    /// The table `[volume]`: ranges, and the side that is outside.
     pub table: &'a VolumeTable,
     /// The data.
     pub volume: &'a Volume,
     /// The reference camera, the scene's first ([STIP-3]).
     pub view: &'a View,
-    /// `near` of a perspective camera, in world units.
+    /// The near distance of a perspective camera, in world units.
     pub near: f64,
-    /// What A_vol is measured in, in pixels: the side of a square, 1 or S_max ([STIP-3]).
+    /// The unit of A_vol: the side of a square in pixels, 1 or S_max ([STIP-3]).
     pub square: f64,
-    /// What a pen prints, or discs of S_max, and the area of S_max in pixels, where tone is asked for ([STIP-17]): by
-    /// `k_max = "auto"`, or by a pen that was measured.
+    /// The tone curve of a pen, or of discs of S_max, and the area of S_max in pixels. It is given if tone is needed:
+    /// with `k_max = "auto"` or a measured pen ([STIP-17]).
     pub tone: Option<(&'a Tone, f64)>,
 }
 
-/// The voxels of a volume that get points, and how many.
+/// The voxels of a volume that get points, and the number of these points.
 #[derive(Clone, Debug)]
 pub struct Preprocess<'a> {
-    inputs: Inputs<'a>,
-    /// At the adjusted resolution ([STIP-2]).
+    inputs: StippleInputs<'a>,
+    /// The volume at the adjusted resolution ([STIP-2]).
     volume: Cow<'a, Volume>,
     voxels: Vec<PointVoxel>,
-    /// From the centre of each to the edge, in index space; empty where points stay.
+    /// The displacement from each voxel's centre to the edge, in index space; empty if points are not moved.
     to_edge: Vec<DVec3>,
     slab: f64,
     /// A_vol ([STIP-3]).
     pub area: f64,
     /// m ([STIP-2]).
     pub box_side: usize,
-    /// Points of each voxel: the whole number from `full` on.
+    /// Number of points of each voxel: `full`, rounded up.
     pub each: usize,
-    /// How many of them T = 1 stands for, in a voxel that has the largest piece of a face: N_max of eq. 1, times the mean
-    /// thickness of thin layers ([STIP-3], [STIP-4]), or with `k_max = "auto"` what prints the full tone ([STIP-17]).
+    /// Number of points drawn at T = 1 in a voxel that has the largest piece of a face. This is N_max of eq. 1 times
+    /// the mean thickness of thin layers ([STIP-3], [STIP-4]). With `k_max = "auto"` it is the number that prints the
+    /// full tone ([STIP-17]).
     pub full: f64,
-    /// λa of dots of S_max on the page, where a face is seen from the front with T = 1; 0 where tone is not asked for
-    /// ([STIP-17]).
+    /// λa of dots of S_max on the page, in a face seen from the front at T = 1; 0 if tone is not needed ([STIP-17]).
     pub ink: f64,
-    /// How many voxels with points lie over each other in a face, on the mean; 1 where tone is not asked for.
+    /// Mean number of voxels with points that overlap in a face; 1 if tone is not needed.
     pub layers: f64,
-    /// Voxels whose gradient was measured.
+    /// Number of voxels whose gradient was measured.
     pub gradients: u64,
 }
 
@@ -76,35 +76,39 @@ impl<'a> Preprocess<'a> {
     /// Finds the voxels above the threshold. A constant volume has none.
     ///
     /// # Errors
-    /// No such field, a length of the wrong space, or too many voxels or points of one.
-    pub fn new(inputs: Inputs<'a>) -> Result<Self, StippleError> {
-        let Inputs { stipples, table, volume, view, near, square, tone } = inputs;
+    /// The volume makes no field, a length is in the wrong space, or there are too many voxels or points per voxel.
+    pub fn new(inputs: StippleInputs<'a>) -> Result<Self, StippleError> {
+        let StippleInputs { stipples, table, volume, view, near, square, tone } = inputs;
+        // 4.2: the resolution, adjusted to the projected area.
         let area = projected_area(volume.grid(), view, near) / (square * square);
         let m = stipples.box_side.map_or_else(|| box_side(area, volume.dims()), |m| m as usize);
         let fine = volume.range();
         let (volume, m) = boxes(volume, m).map_or((Cow::Borrowed(volume), 1), |boxed| (Cow::Owned(boxed), m));
-        // In the voxels that points are made in.
+        // In voxels of the grid in which points are made.
         let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Length { key: "stipples.slab" })?;
+        // 4.1: gradients, and the voxels above the threshold.
         let field = field_of(&volume, stipples.gradient, table.outside)?;
         let range = table.range.unwrap_or(fine);
-        let Above { voxels, to_edge, layers } = with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
-        // Voxels of a face that is seen from the front, a pixel.
+        let BoundaryVoxels { voxels, to_edge, layers } =
+            with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
+        // Voxels per pixel of a face seen from the front.
         let density = |layers: f64| {
             let pixel =
                 view.pixel * if view.perspective { viewing_distance(view, volume.grid().centre(), near) } else { 1.0 };
             let grid = volume.grid();
             layers * grid.voxel() / grid.axes().determinant().abs() * pixel * pixel
         };
+        // Eq. 1: points per voxel, or the number that prints the full tone.
         let full = match (stipples.k_max, tone) {
             (PointsPerPixel::Number(k_max), _) => {
                 let thickness = if stipples.thin { mean_thickness(volume.grid(), view, near) } else { 1.0 };
                 points_each(k_max, area, volume.dims()) as f64 * thickness
             }
             (PointsPerPixel::Auto, Some((tone, dot))) => tone.ink_of_layers(FULL, layers) / (density(layers) * dot),
-            // Dots of no size print nothing, however many.
+            // Dots of size 0 print nothing, however many there are.
             (PointsPerPixel::Auto, None) => 1.0,
         };
-        // `as` saturates: what is too much for memory is refused before anything is allocated.
+        // `as` saturates. A number that exceeds memory is refused before any allocation.
         let each = (full.ceil() as usize).max(1);
         let ink = tone.map_or(0.0, |(_, dot)| full * density(layers) * dot);
         if voxels.len() > order::MOST_VOXELS {
@@ -117,11 +121,11 @@ impl<'a> Preprocess<'a> {
         Ok(Self { inputs, volume, voxels, to_edge, slab, area, box_side: m, each, full, ink, layers, gradients })
     }
 
-    /// The voxels above a ‖∇V‖, whatever the threshold of points, at the adjusted resolution: those that curves are made of
-    /// ([STIP-13]).
+    /// The voxels whose ‖∇V‖ exceeds `magnitude`, at the adjusted resolution, regardless of the threshold of points.
+    /// Curves are made of these ([STIP-13]).
     ///
     /// # Errors
-    /// None that [`new`](Self::new) has not found.
+    /// Only errors that [`new`](Self::new) has already found.
     pub fn voxels_above(&self, magnitude: f64) -> Result<Vec<PointVoxel>, StippleError> {
         let threshold = Threshold::Magnitude(magnitude);
         let stipples = Stipples { threshold, thin: false, snap: Snap::None, ..self.inputs.stipples.clone() };
@@ -129,30 +133,31 @@ impl<'a> Preprocess<'a> {
     }
 
     /// The voxels above the threshold of other stipples.
-    fn above(&self, stipples: &Stipples) -> Result<Above, StippleError> {
-        let inputs = Inputs { stipples, tone: None, ..self.inputs };
+    fn above(&self, stipples: &Stipples) -> Result<BoundaryVoxels, StippleError> {
+        let inputs = StippleInputs { stipples, tone: None, ..self.inputs };
         let field = field_of(&self.volume, stipples.gradient, self.inputs.table.outside)?;
         Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, self.range())))
     }
 
-    /// What V = 0 and 1 stand for ([VAL-1]).
+    /// Values for V = 0 and 1 ([VAL-1]).
     fn range(&self) -> [f64; 2] {
         self.inputs.table.range.unwrap_or(self.inputs.volume.range())
     }
 
-    /// What curves are found in, whatever the camera; none where the scene has none. With `thin` and `snap` they are the same
-    /// voxels as those of points, and their segments lie on the edge.
+    /// The camera-independent candidates for curves. Returns none if the scene has no curves. With `thin` and `snap`
+    /// they are the voxels of the points, and their segments lie on the edge.
     ///
     /// # Errors
-    /// None that [`new`](Self::new) has not found.
-    pub fn edges(&self, counts: &mut Counts) -> Result<Option<Edges>, StippleError> {
+    /// Only errors that [`new`](Self::new) has already found.
+    pub fn edges(&self, counts: &mut Counts) -> Result<Option<CurveVoxels>, StippleError> {
         let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
         let threshold = Threshold::Magnitude(curves.grad);
-        let Above { voxels, to_edge, .. } = self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
-        // ‖∇V‖ anew, and LoG, of which the largest is looked for.
+        let BoundaryVoxels { voxels, to_edge, .. } =
+            self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
+        // ‖∇V‖ is computed again, and LoG once to find its largest value.
         *counts.preprocess.entry("stipple gradients".into()).or_default() += self.gradients;
         counts.preprocess.insert("curve Hessians".into(), self.gradients);
-        let edges = Edges::new(&self.volume, &voxels, curves, self.inputs.table.outside, self.range())?;
+        let edges = CurveVoxels::new(&self.volume, &voxels, curves, self.inputs.table.outside, self.range())?;
         Ok(Some(if to_edge.is_empty() { edges } else { edges.snapped(&voxels, &to_edge) }))
     }
 
@@ -161,25 +166,26 @@ impl<'a> Preprocess<'a> {
         (self.voxels.len() as u64).saturating_mul(self.each as u64)
     }
 
-    /// Whether there will be no point.
+    /// Whether there are no points.
     pub fn is_empty(&self) -> bool {
         self.voxels.is_empty()
     }
 
-    /// Bytes that [`points`](Self::points) allocates: those that stay and those of the order ([PLAN-2]).
+    /// Size in bytes of the allocations of [`points`](Self::points): the result and the temporary data of ordering
+    /// ([PLAN-2]).
     pub fn bytes(&self) -> u64 {
         let each = self.each as u64;
-        // A point, the draw that made it, and what its voxel knows.
+        // A point, the draw that made it, and its share of the voxel's data.
         let kept = each.saturating_mul(12 + 4).saturating_add(size_of::<PointVoxel>() as u64);
         let way = if self.to_edge.is_empty() { 0 } else { size_of::<DVec3>() as u64 };
         let each = kept.saturating_add(way).saturating_add(order::bytes_a_voxel(self.each));
         (self.voxels.len() as u64).saturating_mul(each)
     }
 
-    /// Makes the points. `done` hears how many of the `each` ranks are done.
+    /// Makes the points. `done` receives the number of finished ranks, out of `each`.
     ///
     /// # Errors
-    /// None that [`new`](Self::new) has not found.
+    /// Only errors that [`new`](Self::new) has already found.
     pub fn points(&self, counts: &mut Counts, done: &(dyn Fn(usize) + Sync)) -> Result<Points, StippleError> {
         let stipples = self.inputs.stipples;
         let grid = self.volume.grid();
@@ -195,7 +201,7 @@ impl<'a> Preprocess<'a> {
             seed: stipples.seed,
             neighbours: stipples.order == StippleOrder::Neighbours,
         };
-        // Their number is bounded by memory, which a volume without a boundary does not take.
+        // Memory bounds `each`, except for a volume without a boundary, which needs none.
         let offsets = if cells.is_empty() { Vec::new() } else { order::points(&sites, self.each, done) };
         let (each, full) = (self.each, self.full);
         let points = Points { grid: grid.clone(), each, full, voxels: self.voxels.clone(), offsets };
@@ -219,20 +225,26 @@ fn estimator(gradient: StippleGradient) -> GradientEstimator {
     }
 }
 
-/// The voxels above the threshold.
-struct Above {
-    /// In linear order.
+/// Voxels above the threshold, with measurements.
+struct BoundaryVoxels {
+    /// The voxels in linear order.
     voxels: Vec<PointVoxel>,
-    /// With `snap` from each voxel's centre to the edge, in index space ([STIP-4]).
+    /// The displacement from each voxel's centre to the edge, in index space, with `snap` only ([STIP-4]).
     to_edge: Vec<DVec3>,
-    /// How many of them lie over each other, where tone is asked for ([STIP-17]).
+    /// Mean number of overlapping voxels, if tone is needed ([STIP-17]).
     layers: f64,
 }
 
-/// Finds the voxels above the threshold; `range` is what V = 0 and 1 stand for.
-fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'_>, range: [f64; 2]) -> Above {
+/// Finds the voxels above the threshold. `range` holds the values for V = 0 and 1.
+fn above<S: Sampler<f64>>(
+    sampler: &S,
+    field: &Field<'_, f64>,
+    inputs: &StippleInputs<'_>,
+    range: [f64; 2],
+) -> BoundaryVoxels {
     let volume = field.volume();
     let (stipples, dims) = (inputs.stipples, volume.dims());
+    // ‖∇V‖ of every voxel, its range and its threshold.
     let norms = norms(sampler, field.volume(), estimator(stipples.gradient));
     let bound = field.no_normal_below();
     let quantile = |q| quantile_above(&norms, bound, q).unwrap_or(0.0);
@@ -249,6 +261,7 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
             Box::new(move |norm| norm > t)
         }
     };
+    // Voxels above the threshold. With `thin` only those on the ridge of ‖∇V‖ are kept.
     let grid = volume.grid();
     let to_step = |normal: DVec3| step(grid, normal, stipples.thin);
     let outward = if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 };
@@ -270,18 +283,19 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
         candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)).collect::<Vec<_>>()
     });
     let mut voxels = rows.collect::<Vec<_>>().concat();
+    // With `snap` points move to the ridge, and V and ‖∇V‖ are taken there.
     let onto_edge = |v: &mut PointVoxel| {
         let cell = v.cell.map(|i| i as usize);
         let top = ridge.top(cell, to_step(v.normal));
         let way = to_edge(grid, v.normal, stipples.thin) * top;
-        // What a point stands for is where it is: how far a voxel's centre is from the edge would show as terraces.
+        // V is taken at the moved point. V at the voxel's centre would show the distance from the edge as terraces.
         v.value = normalized(smoothed_at(field, cell, way), range);
         v.magnitude = magnitude(ridge.at(cell, way));
         way
     };
     let snaps = stipples.snap == Snap::Edge;
     let to_edge = if snaps { voxels.par_iter_mut().map(onto_edge).collect() } else { Vec::new() };
-    // A thin face has one layer, whose voxels draw as many points as they have of it.
+    // A thin face has one layer. Its voxels draw points in proportion to their pieces of the face.
     let layers = if inputs.tone.is_some() && !stipples.thin {
         let to_step = grid.inverse_axes() * grid.voxel();
         let steps: Vec<([u32; 3], DVec3)> = voxels.iter().map(|v| (v.cell, to_step * v.normal)).collect();
@@ -289,11 +303,11 @@ fn above<S: Sampler<f64>>(sampler: &S, field: &Field<'_, f64>, inputs: &Inputs<'
     } else {
         1.0
     };
-    Above { voxels, to_edge, layers }
+    BoundaryVoxels { voxels, to_edge, layers }
 }
 
-/// The smoothed value a step from a voxel in index space, at most one along each axis: linear between the voxels' own, which
-/// go on beyond the border.
+/// The smoothed value at a step from a voxel in index space, at most one voxel along each axis. It is linear between
+/// voxels and constant beyond the border.
 fn smoothed_at(field: &Field<'_, f64>, cell: [usize; 3], step: DVec3) -> f64 {
     let (step, dims) = (step.to_array(), field.volume().dims());
     let next = |a: usize| {
@@ -307,9 +321,10 @@ fn smoothed_at(field: &Field<'_, f64>, cell: [usize; 3], step: DVec3) -> f64 {
     along(2, along(1, x[0], x[1]), along(1, x[2], x[3]))
 }
 
-/// V in [0, 1] ([VAL-1]); at a border the fit can leave the range of the values. In a range without length V is 1 above it.
+/// V, clamped to [0, 1] ([VAL-1]): at a border the fit can leave the range of the values. If the range has length 0,
+/// V is 1 above it.
 fn normalized(value: f64, [lo, hi]: [f64; 2]) -> f64 {
-    // Halved, so that the difference of two finite numbers cannot overflow.
+    // Half values, so that the difference of two finite numbers cannot overflow.
     let t = (value * 0.5 - lo * 0.5) / (hi * 0.5 - lo * 0.5);
     if t.is_nan() { 0.0 } else { t.clamp(0.0, 1.0) }
 }

@@ -1,16 +1,17 @@
-//! Boxes of m³ voxels in place of voxels whose projection would be too small for a pattern (4.2, [STIP-2]).
+//! Boxes of m³ voxels that replace voxels whose projection is too small for a pattern (4.2, [STIP-2]).
 
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::{Volume, Voxels};
 use rayon::prelude::*;
 
-/// The means of boxes of m³ voxels, on their own grid; a box at the end is that of the voxels it has, and may reach beyond the
-/// last of them. Voxels that are not valid do not count, and a box of none but those is not valid. An axis has two boxes at
-/// least, however many voxels a box should have, since there is no gradient along one box; an axis of one or two voxels stays
-/// as it is.
+/// Means over boxes of m³ voxels, on a grid of their own.
 ///
-/// None where there is nothing to do, or where the boxes make no volume: m = 1, or no valid voxel.
+/// A box at the end averages the voxels that it has, and may reach beyond the last of them. Invalid voxels do not
+/// count, and a box of invalid voxels is invalid. An axis has at least two boxes, since one box has no gradient; an
+/// axis of one or two voxels is not changed.
+///
+/// Returns none if m = 1 or if no voxel is valid.
 pub(super) fn boxes(volume: &Volume, m: usize) -> Option<Volume> {
     let dims = volume.dims();
     let side = dims.map(|n| m.min(n.div_ceil(2)));
@@ -24,7 +25,7 @@ pub(super) fn boxes(volume: &Volume, m: usize) -> Option<Volume> {
     let mean = |i: usize| {
         let at = [i % small[0], i / small[0] % small[1], i / (small[0] * small[1])];
         let range = |a: usize| at[a] * side[a]..((at[a] + 1) * side[a]).min(dims[a]);
-        let mut mean = Mean::of(volume.voxels());
+        let mut mean = BoxMean::of(volume.voxels());
         for z in range(2) {
             for y in range(1) {
                 for x in range(0).filter(|&x| volume.mask().is_none_or(|mask| !mask.voxel([x, y, z]))) {
@@ -32,23 +33,24 @@ pub(super) fn boxes(volume: &Volume, m: usize) -> Option<Volume> {
                 }
             }
         }
-        // Of none it is NaN, which makes the box invalid.
+        // The mean of no values is NaN, which makes the box invalid.
         mean.get()
     };
     let means = (0..boxes.len()).into_par_iter().map(mean).collect();
     Volume::new(boxes, Voxels::F64(means), volume.slope(), volume.intercept()).ok()
 }
 
-/// The mean of stored numbers.
+/// An accumulator for the mean of stored numbers.
 #[derive(Clone, Copy)]
-enum Mean {
-    /// Of types of so few bits that sums of integers, and of equal numbers, are exact.
+enum BoxMean {
+    /// A sum, for types with so few bits that sums of integers and of equal numbers are exact.
     Sum { sum: f64, count: f64 },
-    /// Of all others: of equal numbers it is that number, whatever their count, so that a constant stays one; nothing overflows.
+    /// A running mean, for all other types. The mean of equal numbers is exactly this number, so a constant volume
+    /// stays constant. Nothing overflows.
     Running { mean: f64, count: f64 },
 }
 
-impl Mean {
+impl BoxMean {
     fn of(voxels: &Voxels) -> Self {
         match voxels {
             Voxels::U8(_) | Voxels::I8(_) | Voxels::U16(_) | Voxels::I16(_) | Voxels::F32(_) => {
@@ -98,18 +100,18 @@ mod tests {
         // The middle of the first box.
         assert_eq!(two.grid().origin(), DVec3::new(10.5, 1.0, 3.0));
         assert!(super::boxes(&volume, 1).is_none());
-        // However long a box is asked for, there are two along each axis, and a gradient between them.
+        // However large a box is, an axis has two boxes and a gradient between them.
         for m in [3, 4, 1 << 20] {
             let two = boxes(&volume, m).unwrap();
             assert_eq!((two.dims(), two.grid().spacing()), ([2, 2, 1], [3.0, 4.0, 7.0]));
         }
-        // None is shorter than it must be: two voxels stay as they are.
+        // An axis is not shortened more than needed: two voxels stay.
         let flat =
             Volume::new(Grid::with_spacing([2, 1, 1], [1.0; 3]).unwrap(), Voxels::U8(vec![3, 9]), 1.0, 0.0).unwrap();
         assert!(super::boxes(&flat, 2).is_none());
     }
 
-    /// Boxes of a constant are that constant, whole ones and partial ones, and those of the largest numbers are finite.
+    /// Boxes of a constant have this constant, both whole and partial boxes. Boxes of the largest numbers are finite.
     #[test]
     fn means_of_equal_numbers_are_that_number() {
         for number in [0.1, 1000.1, -1e-9, f64::MAX, -f64::MAX] {

@@ -1,53 +1,57 @@
-//! Where ‖∇V‖ is largest along the normal: one layer of voxels a face, and points onto the edge ([STIP-4], `thin` and
-//! `snap`).
+//! Ridges of ‖∇V‖ along the normal: one layer of voxels per face, and points moved onto the edge ([STIP-4], `thin`
+//! and `snap`).
 //!
-//! Between voxels ‖∇V‖ is the product of three parabolas through the 3×3×3 voxels around one, which is right for
-//! quadratics. (Linear interpolation lies below a ridge between voxels, which would make oblique faces thicker.)
+//! Between voxels, ‖∇V‖ is the product of three parabolas through the 3×3×3 voxels around a voxel. This is exact for
+//! quadratics. (Linear interpolation lies below a ridge between voxels and would thicken oblique faces.)
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::space::Grid;
 
-/// Dᵀn, how far each step of the grid leads along a normal, in world units; 0 along an axis of one voxel, where there is no
+/// Dᵀn, the length of each grid step along a normal, in world units; 0 along an axis of one voxel, which has no
 /// neighbour.
 fn steps(grid: &Grid, normal: DVec3) -> DVec3 {
     grid.axes().transpose() * normal * DVec3::from_array(grid.dims().map(|n| f64::from(u8::from(n > 1))))
 }
 
-/// How far a voxel reaches along a normal, in world units: at least the smallest voxel, and as far as the largest step of the
-/// grid leads along n. Voxels whose centres lie within half of it of a plane are a layer without holes, also where slices
-/// are far apart.
+/// Thickness of a one-voxel layer along the normal n, in world units: the largest grid step projected on n, but at
+/// least the smallest voxel. Voxels whose centres lie within half this thickness of a plane form a layer without
+/// holes, even if slices are far apart.
 ///
-/// On a sheared grid the next voxels may not lead as far along n as the smallest one is long: it is then as far as Dᵀn itself
-/// does in index space, one voxel along its longest component, which is more than any one step.
+/// On a sheared grid the projected steps may be shorter than the smallest voxel. Then the thickness follows the step
+/// Dᵀn in index space, scaled to one voxel along its longest component. It is longer than any single step.
 pub(super) fn across(grid: &Grid, normal: DVec3) -> f64 {
     let steps = steps(grid, normal);
     let longest = steps.abs().max_element();
     if longest > 0.0 { grid.voxel().min(steps.length_squared() / longest).max(longest) } else { grid.voxel() }
 }
 
-/// The axis of the grid nearest to a normal, whose steps lead farthest along it; the first of equals. `steps` is Dᵀn.
+/// The grid axis nearest to a normal: the axis with the longest step along the normal, the first of equals. `steps`
+/// is Dᵀn.
 ///
-/// Pieces of a face are those of columns along it, and points go to the edge along it: both of them have to take the same.
+/// Pieces of a face belong to columns along this axis, and points move to the edge along this axis. Both must use the
+/// same axis.
 pub(super) fn nearest_axis(steps: DVec3) -> usize {
     let lengths = steps.abs();
     (1..3).fold(0, |nearest, a| if lengths[a] > lengths[nearest] { a } else { nearest })
 }
 
-/// As far along n as [`across`] says, in index space; less far where that would lead beyond the next voxels.
+/// The step along n of length [`across`], in index space, shortened if it would lead beyond the next voxels.
 fn straight(grid: &Grid, normal: DVec3) -> DVec3 {
     let step = grid.inverse_axes() * normal * across(grid, normal);
     step / step.abs().max_element().max(1.0)
 }
 
-/// From a voxel of a layer as far along n as [`across`] says, in index space, and to no place beyond the next voxels: the way
-/// that its points go.
+/// Displacement of a thin layer's points, in index space: it advances along n by [`across`] and stays within the next
+/// voxels.
 ///
-/// Along n itself they would leave gaps. The layer is [`across`] thick; a voxel that leaves it on one side is followed on the
-/// other one by its neighbour along the axis nearest to n, and where the layer's thickness along the way is that one step,
-/// the piece of the one begins where that of the other ends: rows of pieces close up. So the way is one voxel along that
-/// axis, and what is left of the thickness along the others, as they lead along n: on a grid of cubes n and the axis, over
-/// 1 + n·axis.
+/// A displacement along n itself would leave gaps. The layer is [`across`] thick. Where a voxel leaves the layer on
+/// one side, its neighbour along the nearest axis enters on the other side. If the thickness along the displacement
+/// is exactly that one step, the piece of the first voxel ends where the piece of the second begins, and rows of
+/// pieces close up.
+///
+/// So the displacement is one voxel along the nearest axis; the other axes add the rest of the thickness in
+/// proportion to their steps along n. On a grid of cubes it is (n + axis)/(1 + n·axis).
 fn way(grid: &Grid, normal: DVec3) -> DVec3 {
     let steps = steps(grid, normal);
     let a = nearest_axis(steps);
@@ -56,18 +60,18 @@ fn way(grid: &Grid, normal: DVec3) -> DVec3 {
     }
     let mut others = steps;
     others[a] = 0.0;
-    // At most that of Dᵀn: near an axis what is left is rounding, and so are the others.
+    // At most the factor of Dᵀn: near an axis, both the rest and the other steps are rounding.
     let left = (across(grid, normal) - steps[a].abs()) / others.length_squared();
     let mut way = others * left.min(1.0 / steps[a].abs());
     way[a] = steps[a].signum();
     way
 }
 
-/// Lengths and products of a grid's steps that differ by so much of them or less are equal, and components of a step in voxels
-/// of that size are 0: headers have numbers in f32.
+/// Relative difference at which lengths and products of grid steps count as equal: headers have numbers in f32. A
+/// component of a step counts as 0 up to this size in voxels.
 const CUBIC: f64 = 1e-6;
 
-/// Whether voxels are cubes, however they stand in the world.
+/// Whether voxels are cubes, in any orientation.
 fn has_cubes(grid: &Grid) -> bool {
     let products = (grid.axes().transpose() * grid.axes()).to_cols_array_2d();
     let (square, dims) = (grid.voxel() * grid.voxel(), grid.dims());
@@ -75,25 +79,26 @@ fn has_cubes(grid: &Grid) -> bool {
     (0..3).filter(|&a| dims[a] > 1).all(|a| (0..3).all(|b| is(products[a][b], if a == b { square } else { 0.0 })))
 }
 
-/// From a voxel as far along n as [`across`] says, in index space and to no place beyond the next voxels: the way that its
-/// points go, along n where all layers of a face have points, else so that pieces of one layer close up.
+/// Displacement of a voxel's points, in index space: it advances along n by [`across`] and stays within the next
+/// voxels. It is along n if all layers of a face have points. For thin layers, pieces of one layer close up.
 pub(super) fn to_edge(grid: &Grid, normal: DVec3, thin: bool) -> DVec3 {
     if thin { way(grid, normal) } else { straight(grid, normal) }
 }
 
-/// Where ‖∇V‖ is compared with a voxel's own, in index space: as far along n as the voxel's points may go.
+/// Step to the places at which ‖∇V‖ is compared with a voxel's own, in index space. It is as long along n as the
+/// displacement of the voxel's points.
 ///
-/// On a grid of cubes that is along n. Where slices are far apart n leads several voxels along them before it has come one
-/// slice on, and a thin layer is left alone by what those voxels have: it is followed the way that its points go.
+/// On a grid of cubes the step is along n. If slices are far apart, n passes several voxels of a slice before it
+/// reaches the next slice, and these would suppress a thin layer. So the step is then the points' displacement.
 pub(super) fn step(grid: &Grid, normal: DVec3, thin: bool) -> DVec3 {
     to_edge(grid, normal, thin && !has_cubes(grid))
 }
 
-/// Norms that differ by so much of themselves or less are equal: they are sums of 27 products, and between two slices of a
-/// segmentation the same numbers in another order.
+/// Relative difference at which norms count as equal. Norms are sums of 27 products, and between two slices of a
+/// segmentation the same numbers are added in another order.
 const EQUAL: f64 = 1e-13;
 
-/// What of a voxel's own norm is at least at the foot of a Gaussian on either side of it.
+/// Lower bound of a norm at the foot of a Gaussian, as a share of the voxel's own norm.
 const FOOT: f64 = 1.0 / 1024.0;
 
 /// Norms of the voxels of a grid, x fastest.
@@ -104,8 +109,8 @@ pub(super) struct Norms<'a> {
 }
 
 impl Norms<'_> {
-    /// At a place `s` from a voxel, in index space, |s| ≤ 1 on each axis. Beyond the border the last voxels go on; a norm
-    /// that is not valid counts as 0.
+    /// The norm at the displacement `s` from a voxel, in index space, |s| ≤ 1 on each axis. The last voxels extend
+    /// beyond the border. Invalid norms count as 0.
     pub(super) fn at(&self, cell: [usize; 3], s: DVec3) -> f64 {
         let weights = s.to_array().map(|s| [0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)]);
         let index = |a: usize, k: usize| (cell[a] + k).saturating_sub(1).min(self.dims[a] - 1);
@@ -121,7 +126,7 @@ impl Norms<'_> {
         sum
     }
 
-    /// Whether a place `s` from a voxel lies beyond the border. Along an axis of one voxel there is none.
+    /// Whether the displacement `s` from a voxel leads beyond the border. An axis of one voxel has no border.
     fn is_beyond(&self, cell: [usize; 3], s: DVec3) -> bool {
         let is_out = |a: usize| (cell[a] == 0 && s[a] < -CUBIC) || (cell[a] + 1 == self.dims[a] && s[a] > CUBIC);
         (0..3).any(|a| self.dims[a] > 1 && is_out(a))
@@ -131,11 +136,12 @@ impl Norms<'_> {
         self.all[(cell[2] * self.dims[1] + cell[1]) * self.dims[0] + cell[0]]
     }
 
-    /// Whether a voxel's norm is the largest along ±n within one voxel, which is a [`step`]. Of equals the side of the lower
-    /// linear index is kept, and rounding does not tell them apart: a face between two slices would have a layer in both.
-    /// Beyond the border there is no voxel to be kept instead.
+    /// Whether a voxel's norm is the largest along ±n within one voxel, which is a [`step`]. Of equal norms, the side
+    /// of the lower linear index is kept. Differences within rounding count as equal, since a face between two slices
+    /// would otherwise have a layer in both. Beyond the border there is no voxel to keep instead.
     pub(super) fn is_largest(&self, cell: [usize; 3], step: DVec3) -> bool {
-        // Which of the two comes first in linear order; a component that rounding left, or an axis of one voxel, does not say.
+        // The first significant component tells which of the two comes first in linear order. Components within
+        // rounding and axes of one voxel are skipped.
         let says = |&a: &usize| self.dims[a] > 1 && step[a].abs() > CUBIC;
         let first = [2, 1, 0].into_iter().find(says).map_or(1.0, |a| step[a].signum());
         let own = self.own(cell);
@@ -145,14 +151,14 @@ impl Norms<'_> {
         is_first && self.at(cell, before).max(self.at(cell, after)) <= own * equal
     }
 
-    /// Where along n the norm is largest, in steps from the voxel's centre, at most one: the top of the Gaussian through the
-    /// centre and one step to either side. The fit of [STIP-1] blurs every edge, and ‖∇V‖ across a blurred edge is nearly a
-    /// Gaussian; the top of a parabola leans towards the voxel's centre or away from it, which moves whole rows of points
-    /// where slices are far apart.
+    /// Position of the largest norm along n, in steps from the voxel's centre, at most one. It is the top of the
+    /// Gaussian through the norms at −1, 0 and 1 steps. The fit of [STIP-1] blurs every edge, and ‖∇V‖ across a
+    /// blurred edge is nearly a Gaussian. The top of a parabola is biased, which moves whole rows of points if slices
+    /// are far apart.
     ///
-    /// Where the voxel is on a flank, and the top at a step or beyond, it is that of the parabola, or the higher end: the
-    /// logarithm of the flank's foot may be anything. A foot below a thousandth of the voxel's own is none, and counts as
-    /// that: between 0 and what rounding leaves the logarithm has no bound.
+    /// On a flank the top is at a step or beyond. Then the top of the parabola or the higher end is used, because the
+    /// logarithm of the flank's foot is unbounded. For the same reason a foot below a thousandth of the voxel's own
+    /// norm counts as this share.
     pub(super) fn top(&self, cell: [usize; 3], step: DVec3) -> f64 {
         let own = self.own(cell);
         let [before, after] = [-step, step].map(|step| self.at(cell, step).max(own * FOOT));
@@ -178,8 +184,8 @@ mod tests {
     use drypoint_scene::glam::{self, DMat3};
     use drypoint_scene::philox;
 
-    /// A ridge of ‖∇V‖ along an oblique plane, a parabola across: the voxels that stay have their centres within half a
-    /// voxel of it, as many as the plane has area. Of a Gaussian the top is where it is.
+    /// A ridge of ‖∇V‖ along an oblique plane, a parabola across it. The remaining voxels have their centres within
+    /// half a voxel of the plane, and their number equals the plane's area. The top of a Gaussian is found exactly.
     #[test]
     fn a_wide_ridge_keeps_one_layer_and_shows_its_top() {
         let dims = [24, 24, 24];
@@ -195,14 +201,14 @@ mod tests {
                 if (t(cell).abs() - 0.5).abs() > 1e-10 {
                     assert_eq!(norms.is_largest(cell, n), t(cell).abs() < 0.5, "{n} {cell:?}: {}", t(cell));
                 }
-                // Between voxels it is a parabola: off by the third derivative, at most 12·20·10⁻¹², over 6, and by rounding,
-                // each over a bend of 4·10⁻⁶.
+                // Between voxels ‖∇V‖ is a parabola. It errs by the third derivative, at most 12·20·10⁻¹², over 6,
+                // and by rounding, each divided by a bend of 4·10⁻⁶.
                 assert!((bells.top(cell, n) - (-t(cell)).clamp(-1.0, 1.0)).abs() < 1e-4, "{n} {cell:?}");
             }
         }
     }
 
-    /// However narrow a Gaussian and wherever between two voxels, on a line of voxels its top is exact.
+    /// The top of a Gaussian on a line of voxels is exact, however narrow it is and wherever it lies.
     #[test]
     fn the_top_of_a_gaussian_is_where_it_is() {
         for width in [0.4, 0.8, 2.0] {
@@ -215,8 +221,8 @@ mod tests {
         }
     }
 
-    /// Slices 4 apart: wherever between them a face across them lies, each column has one voxel, and of oblique faces no
-    /// column is without.
+    /// Slices 4 apart: a face across the columns has one voxel in each, wherever it lies between slices. Oblique
+    /// faces leave no column empty.
     #[test]
     fn far_slices_leave_no_holes() {
         let grid = Grid::with_spacing([12, 12, 12], [1.0, 1.0, 4.0]).unwrap();
@@ -258,7 +264,7 @@ mod tests {
         assert_eq!(norms.top([0, 0, 0], DVec3::X), 1.0);
     }
 
-    /// Two voxels beside a face midway between them, and one layer, whatever rounding makes of their norms and of the step.
+    /// A face midway between two voxels has one layer, whatever rounding does to their norms and to the step.
     #[test]
     fn rounding_does_not_tell_equals_apart() {
         let noise = [0.0, 1e-16, -3e-16];
@@ -279,7 +285,8 @@ mod tests {
         }
     }
 
-    /// Nor does what a header's f32 numbers leave of a direction: a step of two equals has one layer, in a single slice too.
+    /// Tiny components of a direction, left by a header's f32 numbers, do not matter: a step between two equals has one
+    /// layer, even in a single slice.
     #[test]
     fn components_of_a_turned_header_are_no_directions() {
         let row = [0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 0.0];
@@ -299,7 +306,8 @@ mod tests {
         }
     }
 
-    /// A voxel on a flank is led up, whatever lies at its foot, and nothing jumps where it becomes the top.
+    /// A voxel on a flank is moved uphill, whatever lies at the flank's foot, and nothing jumps where the voxel
+    /// becomes the top.
     #[test]
     fn a_flank_leads_to_its_top() {
         let top = |all: [f64; 3]| Norms { dims: [3, 1, 1], all: &all }.top([1, 0, 0], DVec3::X);
@@ -310,7 +318,7 @@ mod tests {
         assert!((top([0.1, 1.0, 1.0 - 1e-9]) - 0.5).abs() < 1e-8 && (top([0.1, 1.0, 1.0 + 1e-9]) - 0.5).abs() < 1e-8);
     }
 
-    /// Between ever smaller feet nothing jumps: the logarithm of 0 has no say.
+    /// Ever smaller feet cause no jump: the logarithm of 0 has no influence.
     #[test]
     fn a_foot_that_fades_moves_nothing_far() {
         let top =
@@ -319,7 +327,7 @@ mod tests {
             let mut last = top(0.0, after);
             for k in 1..=1000 {
                 let next = top(f64::from(k) / 1000.0, after);
-                // The first is at the least foot that counts, where ln has its steepest slope: a tenth of all of it.
+                // The first is at the least foot that counts, where ln is steepest: a tenth of the whole change.
                 assert!(next <= last + 1e-12 && last - next < 0.1, "{after} {k}: {last} {next}");
                 last = next;
             }
@@ -327,7 +335,7 @@ mod tests {
         assert_eq!([top(0.0, 0.0), top(1.0, 1.0), top(0.0, 1.0)], [0.0, 0.0, 0.5]);
     }
 
-    /// A face at the border has a layer, whichever border it is: what goes on beyond it is no voxel.
+    /// A face at any border has a layer: the continuation beyond the border is not a voxel.
     #[test]
     fn faces_at_the_border_have_one_layer() {
         for row in [[1.0, 1.0, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 1.0, 0.0]] {
@@ -348,7 +356,7 @@ mod tests {
         }
     }
 
-    /// Grids with right angles and without: cubes, however they stand, slices far apart, the tilt of a gantry, and rhombs.
+    /// Grids with and without right angles: cubes in any orientation, distant slices, a tilted gantry, and rhombs.
     fn grids() -> Vec<Grid> {
         let turn = DMat3::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -0.7);
         let tilted = |degrees: f64, [x, y, z]: [f64; 3]| {
@@ -370,8 +378,9 @@ mod tests {
         (0..1000).map(random).chain(DVec3::AXES)
     }
 
-    /// ‖∇V‖ is known at the next voxels alone, and no step leads beyond them; of thin layers one leads as far along n as a
-    /// layer is thick, and so much along the nearest axis that pieces close up; of others along n.
+    /// ‖∇V‖ is known only up to the next voxels, and no step leads beyond them. A step of a thin layer is as long
+    /// along n as the layer is thick. Along the nearest axis it is long enough for pieces to close up. Other steps
+    /// are along n.
     #[test]
     fn steps_stay_with_the_next_voxels() {
         for grid in grids() {
@@ -395,8 +404,8 @@ mod tests {
         }
     }
 
-    /// Near the normals of the grid's planes a way turns as the normal does, and what rounding leaves of a component, or
-    /// nothing, leads nowhere.
+    /// Near the normals of the grid's planes a displacement turns as the normal does. Components of 0 or within
+    /// rounding have no influence.
     #[test]
     fn the_way_does_not_jump_near_an_axis() {
         for grid in grids() {
@@ -414,7 +423,7 @@ mod tests {
         }
     }
 
-    /// Cubes are compared along n itself, also where they stand askew and their header has seven digits.
+    /// Cubes are compared along n itself, even if they are rotated and their header has seven digits.
     #[test]
     fn turned_cubes_are_cubes() {
         for (i, grid) in grids().into_iter().enumerate() {
@@ -424,7 +433,7 @@ mod tests {
         }
     }
 
-    /// On no grid a layer has a hole: of voxels in a column along the nearest axis one is kept wherever the face lies.
+    /// Layers have no holes on any grid: a column along the nearest axis keeps a voxel wherever the face lies.
     #[test]
     fn no_grid_has_holes() {
         for grid in grids() {

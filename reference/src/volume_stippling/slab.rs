@@ -1,53 +1,54 @@
-//! Random points of a voxel: between two planes parallel to its tangent plane (4.3), or with `snap` on the edge ([STIP-4]).
+//! Random points of a voxel: between two planes parallel to its tangent plane (4.3), or on the edge with `snap`
+//! ([STIP-4]).
 
 use super::ridge::nearest_axis;
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::philox;
 
-/// The part of a voxel, [−½, ½]³ about its centre in index space, within a distance h of the tangent plane through the
-/// centre: |n·(D o)| ≤ h. It always has the centre.
+/// The part of a voxel, [−½, ½]³ about its centre in index space, within a distance h of the tangent plane through
+/// the centre: |n·(D o)| ≤ h. It always contains the centre.
 ///
-/// On an edge it is the whole piece of the tangent plane that the voxel's column has, along the axis nearest to n, moved onto
-/// the edge: pieces of voxels side by side meet without gap, also where the plane leaves the voxel.
+/// On an edge it is the piece of the tangent plane inside the voxel's column along the axis nearest to n, moved onto
+/// the edge. Pieces of adjacent voxels meet without a gap, even where the plane leaves the voxel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
-    /// The axis along which the planes lie closest.
+    /// The axis along which the planes are closest.
     axis: usize,
-    /// Dᵀn over its component along `axis`.
+    /// Dᵀn divided by its component along `axis`.
     slope: DVec3,
     /// Half the planes' distance along `axis`, in voxels.
     half: f64,
-    /// From the plane through the centre to the edge, in index space.
+    /// The displacement from the plane through the centre to the edge, in index space.
     to_edge: Option<DVec3>,
 }
 
-/// Draws that are tried for a point: fewer than half of them miss, so that as many in a row are out of the question.
+/// Number of draws for a point. Fewer than half of the draws miss, so a row of as many misses does not occur.
 pub(super) const TRIES: u32 = 64;
 
 impl Slab {
-    /// Between planes at the distance `h`, in world units, on both sides of the centre; `n` of length 1.
+    /// The slab between planes at the distance `h`, in world units, on both sides of the centre. `n` has length 1.
     pub(super) fn new(axes: DMat3, n: DVec3, h: f64) -> Self {
         let m = axes.transpose() * n;
         let axis = nearest_axis(m);
         Self { axis, slope: m / m[axis], half: h / m[axis].abs(), to_edge: None }
     }
 
-    /// The piece of an edge that lies `to_edge` from the voxel's centre, in index space; `n` of length 1.
+    /// The piece of an edge at the displacement `to_edge` from the voxel's centre, in index space. `n` has length 1.
     pub(super) fn on_edge(axes: DMat3, n: DVec3, to_edge: DVec3) -> Self {
         Self { to_edge: Some(to_edge), ..Self::new(axes, n, 0.0) }
     }
 
-    /// The point of one draw, uniform in the slab; none if it falls outside.
+    /// The point of one draw, uniform in the slab. Returns none if the draw falls outside.
     #[inline]
     pub(super) fn point(&self, seed: u64, cell: [u32; 3], draw: u32) -> Option<[f32; 3]> {
         let ([o], [is_inside]) = self.points(seed, cell, [draw]);
         is_inside.then_some(o)
     }
 
-    /// The points of several draws side by side, and which of them count.
+    /// The points of several draws side by side, and flags of those inside the slab.
     ///
-    /// Two coordinates are uniform over the voxel's face, the third over the slab's width there, or over the voxel's where
-    /// that is smaller; what then lies outside the other of the two is rejected.
+    /// Two coordinates are uniform over the voxel's face. The third is uniform over the slab's width at that place,
+    /// or over the voxel's if that is smaller. Points outside the other of the two are rejected.
     #[inline(always)]
     pub(super) fn points<const N: usize>(
         &self,
@@ -59,6 +60,7 @@ impl Slab {
         let (b, c) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
         let (slope_b, slope_c) = (self.slope[b], self.slope[c]);
         let (mut points, mut is_inside) = ([[0.0; 3]; N], [false; N]);
+        // On an edge the third coordinate is that of the tangent plane, and every draw counts.
         if let Some(to_edge) = self.to_edge {
             for l in 0..N {
                 let (across, up) = (u[l] - 0.5, v[l] - 0.5);
@@ -69,7 +71,7 @@ impl Slab {
             return (points, [true; N]);
         }
         for l in 0..N {
-            // In f32, as they are stored: rounded to nearest they stay inside.
+            // Computed in f32, as stored: rounded to nearest, points stay inside.
             let (across, up) = ((u[l] - 0.5) as f32, (v[l] - 0.5) as f32);
             let plane = -(slope_b * f64::from(across) + slope_c * f64::from(up));
             let along;
@@ -101,8 +103,8 @@ mod tests {
         DVec3::new(r * t.cos(), r * t.sin(), z).normalize()
     }
 
-    /// In the voxel and in the slab, for planes that coincide and planes that leave the voxel; f32 rounds each of three
-    /// numbers of at most ½ by at most 2⁻²⁶.
+    /// Points lie in the voxel and in the slab, for coincident planes and for planes that leave the voxel. f32 rounds
+    /// each of three numbers of at most ½ by at most 2⁻²⁶.
     #[test]
     fn points_lie_in_the_voxel_and_between_the_planes() {
         let sheared =
@@ -125,8 +127,8 @@ mod tests {
         }
     }
 
-    /// On the edge's plane, in the voxel's column but for the way to it, whatever the plane's slope: three numbers of at most
-    /// 2½ in f32.
+    /// Points lie on the edge's plane, and in the voxel's column apart from the displacement, whatever the plane's
+    /// slope. Three numbers of at most 2½ are rounded to f32.
     #[test]
     fn points_on_an_edge_are_all_of_its_piece() {
         let axes = DMat3::from_diagonal(DVec3::new(1.0, 1.5, 4.0));
@@ -141,14 +143,14 @@ mod tests {
             for a in (0..3).filter(|&a| a != slab.axis) {
                 let least = points.iter().map(|o| off(o)[a]).fold(1.0, f64::min);
                 let most = points.iter().map(|o| off(o)[a]).fold(-1.0, f64::max);
-                // Of 200 draws none in the outer twentieth has odds of 4·10⁻⁵.
+                // The odds that none of 200 draws lies in the outer twentieth are 4·10⁻⁵.
                 assert!((-0.5001..-0.45).contains(&least) && (0.45..0.5001).contains(&most), "{n}: {least} {most}");
             }
         }
     }
 
-    /// Where two or three axes are as near to the normal, points go to the edge along the axis whose columns have the
-    /// pieces: else pieces of neighbours would not meet.
+    /// If two or three axes are equally near to the normal, points move along the axis whose columns have the pieces.
+    /// Otherwise pieces of neighbours would not meet.
     #[test]
     fn of_axes_as_near_pieces_and_the_way_to_them_take_the_same() {
         for spacing in [[1.0; 3], [1.0, 1.0, 4.0], [2.0, 1.0, 0.5]] {
@@ -163,7 +165,7 @@ mod tests {
         }
     }
 
-    /// Uniform: the mean of o·o over the slab against a fine regular grid of the same voxel.
+    /// The mean of o·o over the slab equals that of a fine regular grid of the same voxel.
     #[test]
     fn points_are_uniform_in_the_slab() {
         let n = DVec3::new(1.0, 2.0, 3.0).normalize();

@@ -78,7 +78,7 @@ impl GrownHatching<'_> {
                 let made = (*stroke, length, ink);
                 room::drawn(stroke, least, |place| self.pen(sight, made, place, (light, depths), tone))
             };
-            let drawn: Vec<room::Drawn> = strokes.par_iter().flat_map_iter(draw).collect();
+            let drawn: Vec<room::StyledStroke> = strokes.par_iter().flat_map_iter(draw).collect();
             let mut seen = sight.seen_drawn(&drawn);
             if by_depth {
                 sight.far_to_near(&mut seen.lines);
@@ -94,10 +94,10 @@ impl GrownHatching<'_> {
         &self,
         sight: &room::Sight<'_>,
         (stroke, length, (widest, one_width)): (&Stroke, f64, (f64, bool)),
-        room::Place { vertex, tangent }: &room::Place,
+        room::StrokePoint { vertex, tangent }: &room::StrokePoint,
         (light, depths): (DVec3, Depths),
         tone: &impl Fn(DVec3) -> f64,
-    ) -> room::Pen {
+    ) -> room::PenState {
         let HatchingSetup { table, lighting, .. } = self.hatching;
         let width = if one_width {
             widest
@@ -120,7 +120,7 @@ impl GrownHatching<'_> {
         if let Some(shown) = &self.hatching.seen {
             opacity *= self.strokes.value(vertex.world).map_or(0.0, |value| shown.opacity(value));
         }
-        room::Pen { radius: width / 2.0, opacity, color }
+        room::PenState { radius: width / 2.0, opacity, color }
     }
 
     /// Returns the random factor of a stroke's width, 1 ± jitter.
@@ -144,7 +144,7 @@ impl GrownHatching<'_> {
     fn evenly(
         &self,
         sight: &room::Sight<'_>,
-        apart: room::Apart,
+        apart: room::LineDistance,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
     ) -> [Vec<Polyline>; 2] {
@@ -164,15 +164,15 @@ impl GrownHatching<'_> {
         let mut even_lines = |along, pen: &Pen, tone: &(dyn Fn(DVec3) -> f64 + Sync)| {
             let margin = DVec2::splat(sight.page.margin);
             let corners = [margin, sight.page.size - margin];
-            let mut spread = room::Spread::new(corners, pen.width, apart, SHORTEST * pen.width);
+            let mut spread = room::LineSpacing::new(corners, pen.width, apart, SHORTEST * pen.width);
             let even = self.strokes.evenly(sight, (&self.cells, table.seed), along, tone, &mut spread);
             add(counts, &even.counts);
             *counts.preprocess.entry("looks for what hides".into()).or_default() += even.looks + even.seen;
             *counts.preprocess.entry("strokes tried".into()).or_default() += even.tried;
             even.lines
         };
-        let lines = even_lines(room::Along::First, pen, &first);
-        let across = if crossed { even_lines(room::Along::Across, cross_pen, &second) } else { Vec::new() };
+        let lines = even_lines(room::StrokeDirection::First, pen, &first);
+        let across = if crossed { even_lines(room::StrokeDirection::Second, cross_pen, &second) } else { Vec::new() };
         count_kept(counts, &self.strokes);
         [lines, across]
     }

@@ -4,7 +4,7 @@ use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
 
 /// Counts the directions that strokes have stored.
-pub(super) fn count_kept(counts: &mut Counts, strokes: &room::Strokes<'_, '_>) {
+pub(super) fn count_kept(counts: &mut Counts, strokes: &room::StrokeGrower<'_, '_>) {
     let [made, bytes] = strokes.stored();
     counts.preprocess.insert("stored directions".into(), made);
     counts.bytes.insert("stored directions".into(), bytes);

@@ -16,7 +16,7 @@ const LEAST_CHORD: f64 = 1e-4;
 const LEAST_STEP: f64 = 1e-6;
 
 /// Converts the table to world units.
-pub(super) fn growth_settings(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::Hatching, Failure> {
+pub(super) fn growth_settings(scene: &Scene, table: &Table, grid: &Grid) -> Result<room::HatchParams, Failure> {
     let length = |length, key: &str| in_world(scene, length, &format!("hatching.{key}"), grid);
     let directions = &table.directions;
     // Lengths so small that strokes would not end are refused.
@@ -35,7 +35,7 @@ pub(super) fn growth_settings(scene: &Scene, table: &Table, grid: &Grid) -> Resu
     }
     let axis = directions.axis.unwrap_or_else(|| room::longest_axis(grid));
     let center = directions.center.unwrap_or_else(|| grid.centre());
-    Ok(room::Hatching {
+    Ok(room::HatchParams {
         length: length(table.length, "length")?,
         cross_length: table.cross_length,
         jitter: table.stroke.jitter,
@@ -46,30 +46,30 @@ pub(super) fn growth_settings(scene: &Scene, table: &Table, grid: &Grid) -> Resu
         chord,
         max_angle: table.max_angle,
         family: match table.family {
-            Family::Larger => room::Family::Larger,
-            Family::Max => room::Family::Max,
-            Family::Min => room::Family::Min,
+            Family::Larger => room::CurvatureFamily::Larger,
+            Family::Max => room::CurvatureFamily::Max,
+            Family::Min => room::CurvatureFamily::Min,
         },
         rule: match directions.rule {
-            DirectionRule::Raw => room::Rule::Raw,
-            DirectionRule::Scaled => room::Rule::Scaled(room::Thresholds {
+            DirectionRule::Raw => room::DirectionEstimator::Raw,
+            DirectionRule::Scaled => room::DirectionEstimator::Scaled(room::Thresholds {
                 gap: directions.gap,
                 noise: directions.noise,
                 deviation: directions.deviation.unwrap_or(0.0),
                 agree: directions.agree,
             }),
         },
-        stored: (directions.from == DirectionSource::Stored).then_some(room::Storing {
+        stored: (directions.from == DirectionSource::Stored).then_some(room::DirectionStorage {
             between: match directions.interpolate {
-                Interpolate::Tensor => room::Between::Tensor,
-                Interpolate::Flipped => room::Between::Flipped,
+                Interpolate::Tensor => room::DirectionInterpolation::Tensor,
+                Interpolate::Flipped => room::DirectionInterpolation::Flipped,
             },
             all: directions.grid == StoredAt::All,
         }),
         reference: match directions.reference {
-            Reference::Cylindrical => room::Reference::Cylindrical { axis, center },
-            Reference::Axial => room::Reference::Axial { axis },
-            Reference::Radial => room::Reference::Radial { center },
+            Reference::Cylindrical => room::ReferenceField::Cylindrical { axis, center },
+            Reference::Axial => room::ReferenceField::Axial { axis },
+            Reference::Radial => room::ReferenceField::Radial { center },
         },
     })
 }
@@ -84,6 +84,6 @@ pub(super) fn line_light(table: &LineLighting) -> room::LineLight {
         front: table.front,
         back: table.back,
         self_shadow: table.self_shadow,
-        table: table.table.map(|side| room::TermsTable::new(side, table.p, table.s)),
+        table: table.table.map(|side| room::LineLightTable::new(side, table.p, table.s)),
     }
 }

@@ -53,8 +53,8 @@ pub(super) struct HatchingSetup<'a> {
     cross_pen: Pen,
     /// Least width, in mm.
     min_width: f64,
-    spacing: Option<room::Apart>,
-    how: room::Hatching,
+    spacing: Option<room::LineDistance>,
+    how: room::HatchParams,
     gradient_range: GradientRange,
     lighting: Option<room::LineLight>,
     /// Gap in mm, and the least distance in front of what cuts, in world units.
@@ -71,7 +71,7 @@ pub(super) struct HatchingSetup<'a> {
 /// Grown strokes of hatching.
 pub(super) struct GrownHatching<'a> {
     hatching: &'a HatchingSetup<'a>,
-    pub(super) strokes: room::Strokes<'a, 'a>,
+    pub(super) strokes: room::StrokeGrower<'a, 'a>,
     pub(super) cells: Vec<[usize; 3]>,
     /// Strokes of all cells, if they fall as their seeds do.
     grown: Option<GrownStrokes>,
@@ -94,8 +94,10 @@ impl<'a> HatchingSetup<'a> {
     ) -> Result<Self, Failure> {
         let spacing = match table.spacing {
             Spacing::Random => None,
-            Spacing::Tone => Some(room::Apart::Tone { least: LEAST }),
-            Spacing::Length(length) => Some(room::Apart::Everywhere(on_page(scene, page, length, "hatching.spacing")?)),
+            Spacing::Tone => Some(room::LineDistance::Tone { least: LEAST }),
+            Spacing::Length(length) => {
+                Some(room::LineDistance::Everywhere(on_page(scene, page, length, "hatching.spacing")?))
+            }
         };
         // Pens: crossing strokes have their own, or the pen of the first direction.
         let ink = (table.width, table.color);
@@ -240,23 +242,23 @@ impl<'a> HatchingSetup<'a> {
         &self,
         field: &'f Field<'v, f64>,
         counts: &mut Counts,
-    ) -> (room::Pyramid, room::Strokes<'f, 'v>) {
+    ) -> (room::Pyramid, room::StrokeGrower<'f, 'v>) {
         let pyramid = room::Pyramid::new(field.volume());
         counts.bytes.insert("pyramid".into(), pyramid.bytes());
         counts.preprocess.insert("pyramid".into(), pyramid.entries());
         let mut how = self.how;
-        if let (room::Rule::Scaled(thresholds), None, Some(iso)) =
+        if let (room::DirectionEstimator::Scaled(thresholds), None, Some(iso)) =
             (&mut how.rule, self.table.directions.deviation, self.iso)
         {
             thresholds.deviation = room::deviation(field.volume(), &pyramid, iso, field.reconstruction().outside);
         }
-        (pyramid, room::Strokes::new(field, self.iso, how))
+        (pyramid, room::StrokeGrower::new(field, self.iso, how))
     }
 
     fn seeds_of(
         &self,
         pyramid: &room::Pyramid,
-        strokes: &room::Strokes<'_, '_>,
+        strokes: &room::StrokeGrower<'_, '_>,
         field: &Field<'_, f64>,
         counts: &mut Counts,
     ) -> room::Seeds {

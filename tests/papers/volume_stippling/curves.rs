@@ -2,7 +2,7 @@
 
 use super::{orthographic, table};
 use crate::common;
-use drypoint::reference::volume_stippling::{Edges, Inputs, Preprocess, Segment, exhaustive, joined};
+use drypoint::reference::volume_stippling::{CurveSegment, CurveVoxels, Preprocess, StippleInputs, exhaustive, joined};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::data_folders;
 use drypoint::scene::glam::DVec3;
@@ -32,7 +32,7 @@ fn voxels(volume: &Volume, view: &View, curves: &Curves) -> Vec<PointVoxel> {
     let (stipples, table) = (Stipples::default(), table());
     // Pixels enough for the resolution to stay as it is.
     let square = 0.05;
-    let inputs = Inputs { stipples: &stipples, table: &table, volume, view, near: 0.5, square, tone: None };
+    let inputs = StippleInputs { stipples: &stipples, table: &table, volume, view, near: 0.5, square, tone: None };
     Preprocess::new(inputs).unwrap().voxels_above(curves.grad).unwrap()
 }
 
@@ -44,7 +44,7 @@ fn the_test_finds_what_the_exhaustive_search_finds() {
         let volume = ball(radius);
         for view in [orthographic(&volume, 8.0), perspective(&volume)] {
             let voxels = voxels(&volume, &view, &curves);
-            let edges = Edges::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
+            let edges = CurveVoxels::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
             let jaccard = index(&edges, &voxels, &curves, &view);
             println!("r = {radius}, perspective {}: {jaccard:.3}", view.perspective);
             assert!(jaccard >= 0.85, "r = {radius}, perspective {}: {jaccard}", view.perspective);
@@ -83,7 +83,7 @@ fn snapped_pieces_lie_where_the_circle_is() {
                 let stipples = Stipples { snap: Snap::Edge, thin, curves: Some(curves), ..Stipples::default() };
                 let (table, square) = (table(), 0.05);
                 let (stipples, table, volume, view) = (&stipples, &table, &volume, &view);
-                let inputs = Inputs { stipples, table, volume, view, near: 0.5, square, tone: None };
+                let inputs = StippleInputs { stipples, table, volume, view, near: 0.5, square, tone: None };
                 Preprocess::new(inputs).unwrap().edges(&mut Counts::default()).unwrap().unwrap()
             };
             let all = voxels(&volume, &view, &curves);
@@ -99,8 +99,8 @@ fn snapped_pieces_lie_where_the_circle_is() {
                 sure += usize::from(far < -slack);
                 wrong += usize::from(far.abs() > slack && (far < 0.0) != found.contains(&voxel.cell));
             }
-            let middle = |piece: &Segment| (piece.ends[0] + piece.ends[1]) / 2.0;
-            let off = |piece: &Segment| {
+            let middle = |piece: &CurveSegment| (piece.ends[0] + piece.ends[1]) / 2.0;
+            let off = |piece: &CurveSegment| {
                 let at = on_circle(&view, centre, middle(piece));
                 (at.normalize() * radius).distance(middle(piece) - centre)
             };
@@ -115,7 +115,7 @@ fn snapped_pieces_lie_where_the_circle_is() {
 }
 
 /// Jaccard's index of the voxels that a test finds and those of the exhaustive search.
-fn index(edges: &Edges, voxels: &[PointVoxel], curves: &Curves, view: &View) -> f64 {
+fn index(edges: &CurveVoxels, voxels: &[PointVoxel], curves: &Curves, view: &View) -> f64 {
     let tested: BTreeSet<_> = edges.segments(curves, view).iter().map(|segment| segment.cell).collect();
     let twin: BTreeSet<_> = exhaustive(edges.grid(), voxels, curves, view).into_iter().collect();
     tested.intersection(&twin).count() as f64 / tested.union(&twin).count() as f64
@@ -136,7 +136,7 @@ fn on_real_volumes_the_literal_test_is_farther_off() {
         let literal = Curves { test: CurvesTest::Literal, eye: 0.2, ..two_sided };
         let voxels = voxels(&volume, &view, &two_sided);
         let [found, printed] = [two_sided, literal].map(|curves| {
-            let edges = Edges::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
+            let edges = CurveVoxels::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
             index(&edges, &voxels, &curves, &view)
         });
         println!("{name}: two-sided {found:.3}, literal {printed:.3}");
@@ -151,7 +151,7 @@ fn the_literal_test_keeps_a_half() {
     let view = orthographic(&volume, 8.0);
     let curves = Curves { test: CurvesTest::Literal, log: 2.0, ..Curves::default() };
     let voxels = voxels(&volume, &view, &curves);
-    let edges = Edges::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
+    let edges = CurveVoxels::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
     let share = edges.segments(&curves, &view).len() as f64 / voxels.len() as f64;
     assert!((share - 0.5).abs() < 0.02, "{share}");
 }
@@ -208,7 +208,7 @@ fn the_laplacian_is_that_of_v() {
             // n·E is below 2 everywhere: the Laplacian alone decides.
             let curves = Curves { test: CurvesTest::Literal, eye: 2.0, grad: 0.1, log, ..Curves::default() };
             let stipples = Stipples { curves: Some(curves), ..Stipples::default() };
-            let inputs = Inputs {
+            let inputs = StippleInputs {
                 stipples: &stipples,
                 table: &table,
                 volume: &volume,
@@ -247,7 +247,7 @@ fn segments_lie_across_the_view_and_a_voxel_long() {
     let volume = ball(12.0);
     let (view, curves) = (perspective(&volume), Curves::default());
     let voxels = voxels(&volume, &view, &curves);
-    let edges = Edges::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
+    let edges = CurveVoxels::new(&volume, &voxels, &curves, Outside::Low, volume.range()).unwrap();
     let segments = edges.segments(&curves, &view);
     assert!(!segments.is_empty());
     for segment in &segments {

@@ -2,7 +2,7 @@
 
 use super::{Preprocessed, drawn_from, flat, orthographic, points_of};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, Frames, choose_on_page};
+use drypoint::reference::volume_stippling::{FrameDots, Frames, choose_on_page};
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Page};
 use drypoint::scene::tables::{Even, Stipples, Threshold};
@@ -31,7 +31,7 @@ fn draw(made: &Preprocessed, volume: &Volume, tone: f64, even: Even) -> (Vec<Dot
     let stipples = flat(stipples, &made.points, volume.grid(), &view, tone);
     let frames = Frames::new(drawn_from(&stipples, &made.points, volume.grid(), &view, 0.05));
     let page = Page::in_pixels(view.size, 0.0, 254.0);
-    let mut drawn = Drawn::default();
+    let mut drawn = FrameDots::default();
     frames.draw(&view, &page, &mut drawn);
     if even == Even::Page {
         choose_on_page(std::slice::from_mut(&mut drawn));

@@ -3,7 +3,7 @@
 
 use super::{drawn_from, made_from, table};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, Frames, Inputs, Preprocess};
+use drypoint::reference::volume_stippling::{FrameDots, Frames, Preprocess, StippleInputs};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::Page;
@@ -36,8 +36,10 @@ fn faces(spacing: [f64; 3], direction: DVec3, k_max: PointsPerPixel, tone: Optio
         let at = grid.centre() + 0.3 * spacing[axis] * n;
         let volume = common::on(grid.clone(), |p| 1.0 / (1.0 + exp((p - at).dot(n) / (0.6 * spacing[axis]))));
         let unthinned = Stipples { thin: false, ..stipples.clone() };
-        eq_1 = Preprocess::new(Inputs { tone, ..made_from(&unthinned, &table, &volume, &view) }).unwrap().each as f64;
-        let preprocess = Preprocess::new(Inputs { tone, ..made_from(&stipples, &table, &volume, &view) }).unwrap();
+        eq_1 = Preprocess::new(StippleInputs { tone, ..made_from(&unthinned, &table, &volume, &view) }).unwrap().each
+            as f64;
+        let preprocess =
+            Preprocess::new(StippleInputs { tone, ..made_from(&stipples, &table, &volume, &view) }).unwrap();
         assert_eq!(preprocess.box_side, 1);
         let mut points = preprocess.points(&mut Counts::default(), &|_| {}).unwrap();
         let voxels = DIMS.iter().product::<usize>() / DIMS[axis];
@@ -49,7 +51,7 @@ fn faces(spacing: [f64; 3], direction: DVec3, k_max: PointsPerPixel, tone: Optio
         points.offsets = inner.iter().flat_map(|&i| points.of(i).to_vec()).collect();
         points.voxels = inner.iter().map(|&i| points.voxels[i]).collect();
         let frames = Frames::new(drawn_from(&stipples, &points, &grid, &view, 1.0));
-        let mut drawn = Drawn::default();
+        let mut drawn = FrameDots::default();
         frames.draw(&view, &Page::in_pixels(view.size, 0.0, 254.0), &mut drawn);
         // The last dot of a voxel is as opaque as its part of a dot, so that nothing is left to chance.
         drawn.dots().map(|dot| dot.opacity).sum::<f64>() / (inner.len() as f64 * cell(spacing, axis))

@@ -2,7 +2,7 @@
 
 use super::{drawn_from, made_from, orthographic, table};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Preprocess, viewing_distance};
+use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, Preprocess, viewing_distance};
 use drypoint::scene::blue_noise;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3};
@@ -40,7 +40,7 @@ impl Shown {
     fn draw(&self, stipples: &Stipples, view: &View, nib: Option<f64>) -> Vec<Dot> {
         let inputs = drawn_from(stipples, &self.points, self.volume.grid(), &self.reference, SIZE);
         let frames = Frames::new(FrameInputs { nib, ..inputs });
-        let mut drawn = Drawn::default();
+        let mut drawn = FrameDots::default();
         frames.draw(view, &page(view), &mut drawn);
         drawn.to_vec()
     }

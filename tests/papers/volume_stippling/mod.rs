@@ -12,7 +12,7 @@ mod spectrum;
 mod tone;
 
 use crate::common;
-use drypoint::reference::volume_stippling::{FrameInputs, Inputs, Preprocess, viewing_distance};
+use drypoint::reference::volume_stippling::{FrameInputs, Preprocess, StippleInputs, viewing_distance};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::points::Points;
@@ -64,8 +64,13 @@ fn orthographic(volume: &Volume, pixels_a_unit: f64) -> View {
 }
 
 /// What points are made from, A_vol in pixels.
-fn made_from<'a>(stipples: &'a Stipples, table: &'a VolumeTable, volume: &'a Volume, view: &'a View) -> Inputs<'a> {
-    Inputs { stipples, table, volume, view, near: 0.5, square: 1.0, tone: None }
+fn made_from<'a>(
+    stipples: &'a Stipples,
+    table: &'a VolumeTable,
+    volume: &'a Volume,
+    view: &'a View,
+) -> StippleInputs<'a> {
+    StippleInputs { stipples, table, volume, view, near: 0.5, square: 1.0, tone: None }
 }
 
 /// What frames are drawn from, dots `size` mm wide that nothing hides and no pen draws.

@@ -2,7 +2,7 @@
 
 use super::{orthographic, points_of, table, wide};
 use crate::common;
-use drypoint::reference::volume_stippling::{Inputs, Preprocess};
+use drypoint::reference::volume_stippling::{Preprocess, StippleInputs};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::points::Points;
@@ -12,7 +12,7 @@ use drypoint::scene::volume::Volume;
 
 fn made(volume: &Volume, stipples: &Stipples, view: &View) -> Points {
     let table = table();
-    let inputs = Inputs { stipples, table: &table, volume, view, near: 0.5, square: 1.0, tone: None };
+    let inputs = StippleInputs { stipples, table: &table, volume, view, near: 0.5, square: 1.0, tone: None };
     Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
 }
 
@@ -111,7 +111,7 @@ fn small_voxels_become_boxes() {
     let made = |pixels, box_side| {
         let view = orthographic(&volume, pixels);
         let stipples = Stipples { box_side, ..Stipples::default() };
-        let inputs = Inputs {
+        let inputs = StippleInputs {
             stipples: &stipples,
             table: &table,
             volume: &volume,

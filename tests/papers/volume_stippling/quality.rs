@@ -4,7 +4,7 @@
 use super::spectrum::Spectrum;
 use super::{Preprocessed, drawn_from, flat, points_of};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, Frames};
+use drypoint::reference::volume_stippling::{FrameDots, Frames};
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::Page;
 use drypoint::scene::math::ln;
@@ -162,7 +162,7 @@ fn opaque(points: &Points, centre: DVec3, n: DVec3, tone: f64) -> Vec<DVec2> {
     let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
     let stipples = flat(Stipples::default(), points, volume.grid(), &view, tone);
     let frames = Frames::new(drawn_from(&stipples, points, volume.grid(), &view, 1.0));
-    let mut drawn = Drawn::default();
+    let mut drawn = FrameDots::default();
     frames.draw(&view, &Page::in_pixels(view.size, 0.0, 254.0), &mut drawn);
     on_plane(drawn.dots().map(|dot| dot.world), centre, n)
 }

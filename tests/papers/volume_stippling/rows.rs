@@ -3,7 +3,7 @@
 
 use super::{drawn_from, flat, made_from, table};
 use crate::common;
-use drypoint::reference::volume_stippling::{Drawn, Frames, Preprocess};
+use drypoint::reference::volume_stippling::{FrameDots, Frames, Preprocess};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::Page;
@@ -57,7 +57,7 @@ fn sphere(slices: f64, soft: f64) -> Sphere {
     let points = made(&stipples).1;
     let stipples = flat(stipples, &points, volume.grid(), &view, EACH);
     let frames = Frames::new(drawn_from(&stipples, &points, volume.grid(), &view, 1.0));
-    let mut drawn = Drawn::default();
+    let mut drawn = FrameDots::default();
     frames.draw(&view, &Page::in_pixels(view.size, 0.0, 254.0), &mut drawn);
     let dots = drawn.dots().map(|dot| (dot.world - centre).normalize()).collect();
     Sphere { dots, middle: centre.z / slices, cells: points.voxels.iter().map(|voxel| voxel.cell).collect() }

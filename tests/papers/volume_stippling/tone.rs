@@ -3,7 +3,7 @@
 use super::{drawn_from, made_from, table};
 use crate::common;
 use drypoint::output::paint::{PageWindow, blank, paint};
-use drypoint::reference::volume_stippling::{Drawn, FrameInputs, Frames, Inputs, PenTone, Preprocess};
+use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, PenTone, Preprocess, StippleInputs};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Layer, Marks, Page, Pen};
@@ -122,7 +122,7 @@ fn face(n: DVec3, width: f64, thin: bool, with: With) -> f64 {
         ..Stipples::default()
     };
     let table = table();
-    let inputs = Inputs { tone: Some((&tone, dot)), ..made_from(&stipples, &table, &volume, &view) };
+    let inputs = StippleInputs { tone: Some((&tone, dot)), ..made_from(&stipples, &table, &volume, &view) };
     let preprocess = Preprocess::new(inputs).unwrap();
     let mut points = preprocess.points(&mut Counts::default(), &|_| {}).unwrap();
     if with != With::Discs {
@@ -134,7 +134,7 @@ fn face(n: DVec3, width: f64, thin: bool, with: With) -> f64 {
         tone: (with == With::Table).then_some(PenTone { tone: &tone, ink: preprocess.ink, layers: preprocess.layers }),
         ..drawn_from(&stipples, &points, volume.grid(), &view, size)
     });
-    let mut drawn = Drawn::default();
+    let mut drawn = FrameDots::default();
     frames.draw(&view, &page, &mut drawn);
     // The ink of dots of ‖∇V‖ below 1 is less: all are as large as the largest here, so that their number is what is seen.
     let dots = drawn.dots().map(|d| Dot { radius: 0.5 * size, ..*d }).collect();

@@ -3,11 +3,11 @@
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint_reference::field::Outside;
 use drypoint_reference::interactive_volume_illustration::directions::principal;
-use drypoint_reference::interactive_volume_illustration::integrator::{Control, Half, Lines, trace};
+use drypoint_reference::interactive_volume_illustration::integrator::{Control, HalfCurve, LineField, trace};
 use drypoint_reference::number::{Sym3, Vec3};
 
 /// How far a traced half is from the formula.
-type Distance = dyn Fn(&Half<()>) -> f64;
+type Distance = dyn Fn(&HalfCurve<()>) -> f64;
 
 /// A field of lines with a curve of it, and the error of what was traced of that.
 pub(super) struct Curve {
@@ -20,7 +20,7 @@ pub(super) struct Curve {
 
 struct Formula<'a>(&'a dyn Fn(DVec3) -> DVec3);
 
-impl Lines for Formula<'_> {
+impl LineField for Formula<'_> {
     type Cause = ();
 
     fn at(&mut self, x: DVec3) -> Result<DVec3, ()> {
@@ -67,12 +67,12 @@ impl Curve {
     }
 }
 
-fn end(half: &Half<()>) -> DVec3 {
+fn end(half: &HalfCurve<()>) -> DVec3 {
     half.pieces.last().map_or(DVec3::NAN, |piece| piece.ends[1])
 }
 
 /// The largest of a number over the ends of all steps.
-fn largest(half: &Half<()>, off: impl Fn(DVec3) -> f64) -> f64 {
+fn largest(half: &HalfCurve<()>, off: impl Fn(DVec3) -> f64) -> f64 {
     half.pieces.iter().map(|piece| off(piece.ends[1])).fold(0.0, f64::max)
 }
 
@@ -128,7 +128,7 @@ fn torus() -> Curve {
         (gradient, (across + (flat - across) * ((rho - ring) / rho) + z) * -2.0)
     };
     let start = DVec3::new(ring + tube * 0.6, 0.0, tube * 0.8);
-    let closed = move |half: &Half<()>| end(half).distance(start);
+    let closed = move |half: &HalfCurve<()>| end(half).distance(start);
     Curve {
         name: "torus, R = 12, r = 8: a meridian",
         field: Box::new(curvature(jet, true)),

@@ -1,21 +1,21 @@
 //! Lines of curvature with formulas of their own, on formulas.
 
-use super::super::integrator::{Control, End, Half, trace};
-use super::super::strokes::OnSurface;
-use super::super::{Family, HatchCounts, Hatching, NoDirection, Rule, Strokes};
+use super::super::strokes::CurvatureLines;
+use super::super::strokes::integrator::{Control, EndCause, HalfCurve, trace};
+use super::super::{CurvatureFamily, DirectionEstimator, HatchCounts, HatchParams, NoDirection, StrokeGrower};
 use super::*;
 use drypoint_scene::philox::uniform;
 use std::f64::consts::{PI, TAU};
 
-fn hatching(grid: &Grid, family: Family) -> Hatching {
-    Hatching { family, rule: Rule::Raw, max_angle: 180.0, ..Hatching::new(grid) }
+fn hatching(grid: &Grid, family: CurvatureFamily) -> HatchParams {
+    HatchParams { family, rule: DirectionEstimator::Raw, max_angle: 180.0, ..HatchParams::new(grid) }
 }
 
-/// One way from a place, as the strokes go it.
-fn half(strokes: &Strokes<'_, '_>, seed: &Seed, control: Control) -> Half<NoDirection> {
+/// One half of a curve, as strokes trace it.
+fn half(strokes: &StrokeGrower<'_, '_>, seed: &Seed, control: Control) -> HalfCurve<NoDirection> {
     let mut counts = HatchCounts::default();
-    let along = if seed.family == Family::Max { seed.curvature.e1 } else { seed.curvature.e2 };
-    let mut lines = OnSurface::new(strokes, seed.family, seed.target, &mut counts);
+    let along = if seed.family == CurvatureFamily::Max { seed.curvature.e1 } else { seed.curvature.e2 };
+    let mut lines = CurvatureLines::new(strokes, seed.family, seed.target, &mut counts);
     trace(&mut lines, seed.world, along.to_glam(), &control)
 }
 
@@ -23,14 +23,15 @@ fn control(tolerance: f64, length: f64) -> Control {
     Control { tolerance, first: 1.0, min_step: 1e-9, max_step: 1e9, length, cos_max_angle: -1.0, goal: None }
 }
 
-/// Torus with R = 1.5 r: a meridian is a circle of radius r. It crosses the two circles where the mean curvature is 0, and the
-/// curvature of larger magnitude is the other one beyond, without a kink, and is back at its seed after 2πr.
+/// A torus with R = 1.5 r: a meridian is a circle of radius r. It crosses the two circles on which the mean curvature
+/// is 0. Beyond them the other curvature has the larger magnitude, but the meridian has no kink. It is back at its
+/// seed after 2πr.
 #[test]
 fn a_meridian_of_a_torus_comes_back() {
     let (ring, tube) = (12.0, 8.0);
     let ground = exact("torus", cube(48), &[("R", ring), ("r", tube)]);
     let centre = ground.grid.centre();
-    let strokes = Strokes::on(&ground, Some(0.0), hatching(&ground.grid, Family::Max));
+    let strokes = StrokeGrower::on(&ground, Some(0.0), hatching(&ground.grid, CurvatureFamily::Max));
     for i in 0..12 {
         let (phi, theta) = (0.3 + f64::from(i), 0.2 + 0.7 * f64::from(i));
         let (ex, ez) = (DVec3::new(phi.cos(), phi.sin(), 0.0), DVec3::Z);
@@ -39,7 +40,7 @@ fn a_meridian_of_a_torus_comes_back() {
         for power in 1..=10 {
             let tolerance = 10f64.powi(-power);
             let half = half(&strokes, &seed, control(tolerance, TAU * tube));
-            assert_eq!(half.end, End::Length);
+            assert_eq!(half.end, EndCause::Length);
             let last = half.pieces[half.pieces.len() - 1].ends[1];
             assert!(last.distance(world) <= 5.0 * tolerance, "{:e} at {tolerance:e}", last.distance(world));
             for piece in &half.pieces {
@@ -48,15 +49,15 @@ fn a_meridian_of_a_torus_comes_back() {
                 assert!(turn <= 1.1 * h / tube, "{turn} in {h}");
             }
         }
-        // As a stroke: joined, whichever half comes round.
+        // The stroke is closed, whichever half comes round.
         for length in [1.2, 2.5] {
-            let how = Hatching { length: length * TAU * tube, ..hatching(&ground.grid, Family::Max) };
-            let strokes = Strokes::on(&ground, Some(1.0), how);
+            let how = HatchParams { length: length * TAU * tube, ..hatching(&ground.grid, CurvatureFamily::Max) };
+            let strokes = StrokeGrower::on(&ground, Some(1.0), how);
             let mut counts = HatchCounts::default();
             let stroke = strokes.grow(&seed, &mut counts).unwrap();
             assert!(stroke.closed && counts.stops.closed == 1 && counts.cut == 0);
             assert!(stroke.vertices.iter().all(|v| ((v.world - centre).dot(ex.cross(ez))).abs() < 0.02));
-            // Chords of a circle that leave it by 0.1 at most; c in 2πr more than once round is one vertex.
+            // Chords of a circle leave it by at most 0.1. The overlap c adds at most one vertex.
             let fewest = (PI / f64::acos(1.0 - 0.1 / tube)).ceil();
             let n = stroke.vertices.len() as f64;
             assert!(n >= fewest && n <= 1.3 * fewest + 1.0, "{n} {fewest}");
@@ -70,7 +71,7 @@ fn a_ruling_of_a_cylinder_is_straight() {
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
     let ground = exact("cylinder", cube(64), &[("R", 14.0), ("ax", axis.x), ("ay", axis.y), ("az", axis.z)]);
     let centre = ground.grid.centre();
-    let strokes = Strokes::on(&ground, Some(0.0), hatching(&ground.grid, Family::Min));
+    let strokes = StrokeGrower::on(&ground, Some(0.0), hatching(&ground.grid, CurvatureFamily::Min));
     let out = axis.any_orthonormal_vector();
     let seed = seed_at(&strokes, centre + out * 14.0);
     let half = half(&strokes, &seed, Control { max_step: 1.0, ..control(1e-8, 20.0) });
@@ -78,13 +79,13 @@ fn a_ruling_of_a_cylinder_is_straight() {
     for piece in &half.pieces {
         let away = piece.ends[1] - seed.world;
         let off = (away - axis * away.dot(axis)).length();
-        // A direction is off by some u, a place by u of itself each step.
+        // A direction is off by a few u, a place by u of itself at each step.
         assert!(off <= 16.0 * f64::EPSILON / 2.0 * 64.0 * steps, "{off:e}");
     }
-    assert!(seed.curvature.k2.abs() < 1e-14 && half.end == End::Length);
+    assert!(seed.curvature.k2.abs() < 1e-14 && half.end == EndCause::Length);
 }
 
-/// 1 − x²/a² − y²/b² − z²/c², half axes 30, 20, 14.
+/// The ellipsoid 1 − x²/a² − y²/b² − z²/c² with the half axes 30, 20, 14.
 fn ellipsoid() -> Formula<impl Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> {
     let grid = cube(64);
     let (c, w) = (grid.centre(), DVec3::new(1.0 / 900.0, 1.0 / 400.0, 1.0 / 196.0));
@@ -95,13 +96,13 @@ fn ellipsoid() -> Formula<impl Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> {
     Formula { grid, range: [-1.0, 1.0], at }
 }
 
-/// The confocal coordinates of a place, roots of Σ x²/(a² + λ) = 1, in the two gaps between the poles, larger first, and how
-/// fast each changes in space: ‖∇λ‖ = 2/√(Σ x²/(a² + λ)²).
+/// The confocal coordinates of a place, larger first: the roots of Σ x²/(a² + λ) = 1 in the two gaps between the
+/// poles. The second number is the rate of change in space, ‖∇λ‖ = 2/√(Σ x²/(a² + λ)²).
 fn confocal(p: DVec3) -> [[f64; 2]; 2] {
     let (poles, x) = ([196.0, 400.0, 900.0], [p.z * p.z, p.y * p.y, p.x * p.x]);
     let sum = |l: f64, power: i32| (0..3).map(|i| x[i] / (poles[i] + l).powi(power)).sum::<f64>();
     [0, 1].map(|gap: usize| {
-        // From +∞ at the left pole down to −∞ at the right one.
+        // The function falls from +∞ at the left pole to −∞ at the right one.
         let (mut lo, mut hi) = (-poles[gap + 1], -poles[gap]);
         for _ in 0..100 {
             let middle = 0.5 * (lo + hi);
@@ -111,14 +112,14 @@ fn confocal(p: DVec3) -> [[f64; 2]; 2] {
     })
 }
 
-/// Two tolerances after an arc of two radii, as a circle and a helix may have ([HATCH-8]), are one for each radius: what a line
-/// may err by after an arc, in tolerances, where its curvature radius is `radius` at the least.
+/// The allowed error of a line after an arc, in tolerances. `radius` is its least radius of curvature. A circle and a
+/// helix may err by two tolerances after an arc of two radii ([HATCH-8]), so there is one tolerance per radius.
 fn tolerances(arc: f64, radius: f64) -> f64 {
     1.0 + arc / radius
 }
 
-/// Along a line of curvature of a triaxial ellipsoid one of the confocal coordinates does not change: no more than an error of
-/// the line makes of it where it changes fastest. Normal curvatures are 30/14² at the most.
+/// One of the confocal coordinates is constant along a line of curvature of a triaxial ellipsoid. Its deviation is at
+/// most the line's error times the largest rate of change. Normal curvatures are at most 30/14².
 #[test]
 fn a_confocal_coordinate_is_constant_on_an_ellipsoid() {
     let ground = ellipsoid();
@@ -128,14 +129,14 @@ fn a_confocal_coordinate_is_constant_on_an_ellipsoid() {
         let r = |a: u32| 2.0 * uniform(2, [i, a, 0], 0) - 1.0;
         let d = DVec3::new(r(0), r(1), r(2)).normalize();
         let world = centre + d * DVec3::new(30.0, 20.0, 14.0);
-        for (family, kept) in [(Family::Max, 1), (Family::Min, 0)] {
-            let strokes = Strokes::on(&ground, Some(0.0), hatching(&ground.grid, family));
+        for (family, kept) in [(CurvatureFamily::Max, 1), (CurvatureFamily::Min, 0)] {
+            let strokes = StrokeGrower::on(&ground, Some(0.0), hatching(&ground.grid, family));
             let seed = seed_at(&strokes, world);
             let [start, speed] = confocal(world - centre)[kept];
             for (power, worst) in (1..).zip(&mut worst) {
                 let tolerance = 10f64.powi(-power);
                 let half = half(&strokes, &seed, control(tolerance, 40.0));
-                assert_eq!(half.end, End::Length);
+                assert_eq!(half.end, EndCause::Length);
                 let mut fastest = speed;
                 for piece in &half.pieces {
                     let [at, speed] = confocal(piece.ends[1] - centre)[kept];
@@ -170,7 +171,7 @@ fn lines_of_curvature_of_a_cyclide_are_circles() {
     let mut worst: [f64; 10] = [0.0; 10];
     for i in 0..12 {
         let (u, v) = (0.4 + f64::from(i), 1.1 + 0.8 * f64::from(i));
-        // Its parametrization (Berger, Geometry II), of which the lines of curvature are the parameter lines.
+        // A parametrization (Berger, Geometry II) whose parameter lines are the lines of curvature.
         let place = |u: f64, v: f64| {
             let below = a - c * u.cos() * v.cos();
             let x = d * (c - a * u.cos() * v.cos()) + b2 * u.cos();
@@ -179,11 +180,11 @@ fn lines_of_curvature_of_a_cyclide_are_circles() {
         };
         let world = place(u, v);
         let circles = [[0.0, 2.0, 4.0].map(|t| place(u + t, v)), [0.0, 2.0, 4.0].map(|t| place(u, v + t))];
-        for family in [Family::Max, Family::Min] {
-            let strokes = Strokes::on(&ground, Some(0.0), hatching(&ground.grid, family));
+        for family in [CurvatureFamily::Max, CurvatureFamily::Min] {
+            let strokes = StrokeGrower::on(&ground, Some(0.0), hatching(&ground.grid, family));
             let seed = seed_at(&strokes, world);
-            // The parameter line that begins in the stroke's direction.
-            let e = if family == Family::Max { seed.curvature.e1 } else { seed.curvature.e2 }.to_glam();
+            // The parameter line in the stroke's initial direction.
+            let e = if family == CurvatureFamily::Max { seed.curvature.e1 } else { seed.curvature.e2 }.to_glam();
             let along = [place(u + 1e-3, v) - world, place(u, v + 1e-3) - world].map(|d| d.normalize().dot(e).abs());
             let [p, q, r] = circles[usize::from(along[1] > along[0])];
             let n = (q - p).cross(r - p);
@@ -196,7 +197,7 @@ fn lines_of_curvature_of_a_cyclide_are_circles() {
             for (power, worst) in (1..).zip(&mut worst) {
                 let tolerance = 10f64.powi(-power);
                 let half = half(&strokes, &seed, control(tolerance, 20.0));
-                assert_eq!(half.end, End::Length);
+                assert_eq!(half.end, EndCause::Length);
                 let off = half.pieces.iter().map(|piece| residual(piece.ends[1])).fold(0.0, f64::max);
                 *worst = worst.max(off / (tolerances(20.0, middle.distance(p)) * tolerance));
             }
@@ -205,32 +206,39 @@ fn lines_of_curvature_of_a_cyclide_are_circles() {
     assert!(worst.iter().all(|worst| *worst <= 1.0), "{worst:?}");
 }
 
-/// At an umbilic of the ellipsoid lines turn: strokes that come to one end within two of their smallest steps, and say so.
+/// Lines turn at an umbilic of the ellipsoid. Strokes that arrive there end within two of their smallest steps and
+/// report it.
 #[test]
 fn strokes_end_at_umbilics() {
     let ground = ellipsoid();
     let centre = ground.grid.centre();
     // x² = a²(a² − b²)/(a² − c²), z² = c²(b² − c²)/(a² − c²), y = 0.
     let umbilic = DVec3::new((900.0f64 * 500.0 / 704.0).sqrt(), 0.0, (196.0f64 * 204.0 / 704.0).sqrt());
-    let strokes = Strokes::on(&ground, Some(0.0), hatching(&ground.grid, Family::Larger));
+    let strokes = StrokeGrower::on(&ground, Some(0.0), hatching(&ground.grid, CurvatureFamily::Larger));
     let seed = strokes.seed([0; 3], centre + umbilic, 0.0, &mut HatchCounts::default());
-    // Rounding of the place leaves a difference; exactly there is none.
+    // Rounding of the place leaves a difference of curvatures; exactly at the umbilic there is none.
     if let Ok(seed) = seed {
         assert!((seed.curvature.k1 - seed.curvature.k2).abs() < 1e-7);
     }
-    // The line through it, y = 0, from both sides.
-    for (step, family) in [(-0.3f64, Family::Max), (-0.3, Family::Min), (0.3, Family::Max), (0.3, Family::Min)] {
+    // The line y = 0 through the umbilic, from both sides.
+    for (step, family) in [
+        (-0.3f64, CurvatureFamily::Max),
+        (-0.3, CurvatureFamily::Min),
+        (0.3, CurvatureFamily::Max),
+        (0.3, CurvatureFamily::Min),
+    ] {
         let angle = (umbilic.z / 14.0).atan2(umbilic.x / 30.0) + step;
         let world = centre + DVec3::new(30.0 * angle.cos(), 0.0, 14.0 * angle.sin());
-        let strokes = Strokes::on(&ground, Some(0.5), Hatching { length: 200.0, ..hatching(&ground.grid, family) });
+        let strokes =
+            StrokeGrower::on(&ground, Some(0.5), HatchParams { length: 200.0, ..hatching(&ground.grid, family) });
         let mut counts = HatchCounts::default();
         let stroke = strokes.grow(&seed_at(&strokes, world), &mut counts).unwrap();
         let ends = [stroke.vertices[0].world, stroke.vertices[stroke.vertices.len() - 1].world].map(|x| {
             let p = (x - centre).abs();
             p.distance(umbilic)
         });
-        // One family crosses the line through the umbilic there and comes round; the other runs along it.
-        if (step < 0.0) == (family == Family::Min) {
+        // One family crosses this line and comes round; the other runs along it.
+        if (step < 0.0) == (family == CurvatureFamily::Min) {
             assert!(stroke.closed && counts.stops.closed == 1);
         } else {
             assert!(
@@ -242,7 +250,7 @@ fn strokes_end_at_umbilics() {
     }
 }
 
-/// At the apex of a cone there is no gradient.
+/// The apex of a cone has no gradient.
 #[test]
 fn no_direction_at_an_apex() {
     let grid = cube(32);
@@ -253,7 +261,7 @@ fn no_direction_at_an_apex() {
         ((p * p).dot(w), 2.0 * p * w, DMat3::from_diagonal(2.0 * w))
     };
     let ground = Formula { grid, range: [-100.0, 100.0], at };
-    let strokes = Strokes::on(&ground, Some(0.0), hatching(&ground.grid, Family::Max));
+    let strokes = StrokeGrower::on(&ground, Some(0.0), hatching(&ground.grid, CurvatureFamily::Max));
     let mut counts = HatchCounts::default();
     assert_eq!(strokes.seed([0; 3], centre, 0.0, &mut counts), Err(NoDirection::Gradient));
 }

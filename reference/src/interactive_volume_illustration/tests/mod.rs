@@ -5,7 +5,7 @@ mod sampled;
 mod stored;
 mod umbilics;
 
-use super::{Ground, HatchCounts, Seed, Strokes};
+use super::{HatchCounts, Seed, StrokeField, StrokeGrower};
 use crate::field::Outside;
 use crate::number::{Sym3, Vec3};
 use drypoint_scene::glam::{DMat3, DVec3};
@@ -26,7 +26,7 @@ impl<F: Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> Formula<F> {
     }
 }
 
-impl<F: Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> Ground for Formula<F> {
+impl<F: Fn(DVec3) -> (f64, DVec3, DMat3) + Sync> StrokeField for Formula<F> {
     fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -76,7 +76,7 @@ fn cube(n: usize) -> Grid {
     Grid::with_spacing([n; 3], [1.0; 3]).unwrap()
 }
 
-/// A phantom itself, without voxels.
+/// A phantom's formula, without voxels.
 fn exact(
     name: &str,
     grid: Grid,
@@ -101,12 +101,12 @@ fn sampled(name: &str, grid: Grid, voxels: VoxelType, params: &[(&str, f64)]) ->
 }
 
 /// The seed of the stroke through a place, which stays at the place's own value.
-fn seed_at(strokes: &Strokes<'_, '_>, world: DVec3) -> Seed {
+fn seed_at(strokes: &StrokeGrower<'_, '_>, world: DVec3) -> Seed {
     let target = strokes.ground().value(Vec3::from_glam(strokes.ground().grid().to_index(world)));
     strokes.seed([0; 3], world, target, &mut HatchCounts::default()).unwrap()
 }
 
-/// Cells whose corners' values lie on both sides of a value.
+/// Cells whose corners have values on both sides of a value.
 fn active(volume: &Volume, iso: f64) -> Vec<[usize; 3]> {
     let [nx, ny, nz] = volume.dims();
     let cells = (0..nz - 1).flat_map(|z| (0..ny - 1).flat_map(move |y| (0..nx - 1).map(move |x| [x, y, z])));

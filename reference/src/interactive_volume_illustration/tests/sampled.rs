@@ -1,8 +1,8 @@
 //! Strokes on voxels.
 
-use super::super::integrator::{Control, Half, Lines, trace};
-use super::super::strokes::OnSurface;
-use super::super::{Family, Hatching, NoDirection, Rule, Strokes};
+use super::super::strokes::CurvatureLines;
+use super::super::strokes::integrator::{Control, HalfCurve, LineField, trace};
+use super::super::{CurvatureFamily, DirectionEstimator, HatchParams, NoDirection, StrokeGrower};
 use super::*;
 use crate::field::{Field, HessianEstimator, Kernel, Reconstruction, Rung};
 use drypoint_scene::math::scale_by_power_of_two;
@@ -18,7 +18,7 @@ fn torus(voxels: VoxelType, spacing: [f64; 3], dims: [usize; 3]) -> Volume {
     sampled("torus", grid, voxels, &[("R", 11.0), ("r", 6.0), ("w", 1.5), ("high", 255.0)])
 }
 
-/// 64 places along every segment in front of the surface, as the trilinear values have it.
+/// Tests 64 places along every segment: they lie in front of the trilinear surface.
 fn assert_in_front(field: &Field<'_, f64>, iso: f64, stroke: &Stroke) {
     let grid = field.volume().grid();
     let places: Vec<DVec3> = stroke.vertices.iter().map(|v| v.world).collect();
@@ -32,22 +32,22 @@ fn assert_in_front(field: &Field<'_, f64>, iso: f64, stroke: &Stroke) {
         };
         for s in 0..64 {
             let index = grid.to_index(a + (b - a) * (f64::from(s) / 64.0));
-            let value = Ground::value(field, Vec3::from_glam(index));
+            let value = StrokeField::value(field, Vec3::from_glam(index));
             assert!(value <= iso + 1e-9, "{value}");
         }
     }
 }
 
-/// Seeds and rejections are the cells; strokes lie in front, run from 0 to 1 in u, within their length, and on the torus: so
-/// far outside of it as δ and a chord say.
+/// Seeds and rejections add up to the cells. Strokes lie in front, u runs from 0 to 1, and lengths are within the
+/// limit. On the torus, strokes lie outside by δ and a chord's error.
 #[test]
 fn on_a_torus_of_eight_bits() {
     for (spacing, dims) in [([1.0; 3], [40, 40, 18]), ([1.0, 0.5, 2.0], [40, 80, 9])] {
         let volume = torus(VoxelType::U8, spacing, dims);
         let (field, iso) = (field(&volume), 127.5);
         let cells = active(&volume, iso);
-        let how = Hatching { length: 15.0, ..Hatching::new(volume.grid()) };
-        let strokes = Strokes::new(&field, Some(iso), how);
+        let how = HatchParams { length: 15.0, ..HatchParams::new(volume.grid()) };
+        let strokes = StrokeGrower::new(&field, Some(iso), how);
         let grown = strokes.grow_all(&cells, |_| false);
         let counts = grown.counts;
         assert_eq!(counts.strokes + counts.rejected.total(), cells.len() as u64);
@@ -60,7 +60,8 @@ fn on_a_torus_of_eight_bits() {
             assert!(seed.target < iso);
             assert_in_front(&field, iso, stroke);
             let length: f64 = stroke.vertices.windows(2).map(|v| v[0].world.distance(v[1].world)).sum();
-            // Vertices are put onto the surface, across the tangent planes of the estimated gradients: cos 11° at the most.
+            // Vertices are moved onto the surface, across the tangent planes of estimated gradients; the angle is at
+            // most 11°.
             assert!(length <= how.length * 1.02, "{length}");
             assert_eq!(stroke.vertices[0].u, 0.0);
             assert!(stroke.vertices.windows(2).all(|v| v[0].u < v[1].u));
@@ -71,12 +72,12 @@ fn on_a_torus_of_eight_bits() {
                 worst = worst.max(off.abs());
             }
         }
-        // δ, c, and half of the spacing that the surface lies between.
+        // δ, c, and half of the spacing between whose voxels the surface lies.
         assert!(worst <= 0.15 + 0.1 + 0.5 * spacing[2], "{worst}");
     }
 }
 
-/// The same strokes whatever the threads, and whatever was grown before.
+/// Strokes do not depend on the number of threads, nor on what was grown before.
 #[test]
 fn threads_and_order_do_not_show() {
     let volume = torus(VoxelType::U8, [1.0; 3], [40, 40, 18]);
@@ -84,19 +85,19 @@ fn threads_and_order_do_not_show() {
     let cells: Vec<_> = active(&volume, 127.5).into_iter().step_by(17).collect();
     let grow = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let strokes = Strokes::new(&field, Some(127.5), Hatching::new(volume.grid()));
+        let strokes = StrokeGrower::new(&field, Some(127.5), HatchParams::new(volume.grid()));
         pool.install(|| strokes.grow_all(&cells, |seed| seed.normal.z > 0.5))
     };
     let one = grow(1);
     assert!(!one.cross.is_empty() && one.cross.len() < one.strokes.len());
     assert_eq!(one, grow(3));
-    let strokes = Strokes::new(&field, Some(127.5), Hatching::new(volume.grid()));
+    let strokes = StrokeGrower::new(&field, Some(127.5), HatchParams::new(volume.grid()));
     let backwards: Vec<_> = cells.iter().copied().rev().collect();
     let back = strokes.grow_all(&backwards, |_| false);
     assert!(back.strokes.iter().rev().eq(&one.strokes));
 }
 
-/// Values times 2ᵏ: the same bits. The world times 10^±6 with all lengths: the same strokes.
+/// Values times 2ᵏ give the same bits. The world times 10^±6, with all lengths, gives the same strokes.
 #[test]
 fn units_do_not_show() {
     let volume = torus(VoxelType::F64, [1.0, 0.5, 2.0], [40, 80, 9]);
@@ -106,7 +107,7 @@ fn units_do_not_show() {
         let voxels = (0..grid.len()).map(|i| volume.voxels().get(i) * value).collect();
         let volume = Volume::new(grid, Voxels::F64(voxels), 1.0, 0.0).unwrap();
         let field = field(&volume);
-        Strokes::new(&field, Some(127.5 * value), Hatching::new(volume.grid())).grow_all(&cells, |_| true)
+        StrokeGrower::new(&field, Some(127.5 * value), HatchParams::new(volume.grid())).grow_all(&cells, |_| true)
     };
     let one = grown(1.0, 1.0);
     for k in [-300, -1, 8, 300] {
@@ -129,16 +130,16 @@ fn units_do_not_show() {
     }
 }
 
-/// Both ways from the seeds of cells, with the directions that were asked for and those of each σ.
+/// Both halves from the seeds of cells, with the number of directions, in all and for each σ.
 fn traced(
     field: &Field<'_, f64>,
     cells: &[[usize; 3]],
-    rule: Rule,
+    rule: DirectionEstimator,
     tolerance: f64,
-) -> (Vec<Half<NoDirection>>, u64, [u64; 3]) {
+) -> (Vec<HalfCurve<NoDirection>>, u64, [u64; 3]) {
     let voxel = field.volume().grid().voxel();
-    let how = Hatching { tolerance, rule, family: Family::Max, ..Hatching::new(field.volume().grid()) };
-    let strokes = Strokes::new(field, Some(127.5), how);
+    let how = HatchParams { tolerance, rule, family: CurvatureFamily::Max, ..HatchParams::new(field.volume().grid()) };
+    let strokes = StrokeGrower::new(field, Some(127.5), how);
     let mut counts = HatchCounts::default();
     let mut halves = Vec::new();
     let mut asked = 0;
@@ -146,7 +147,7 @@ fn traced(
         let Ok(seed) = strokes.place(cell, &mut counts) else { continue };
         let along = seed.curvature.e1.to_glam();
         for along in [along, -along] {
-            let mut lines = OnSurface::new(&strokes, seed.family, seed.target, &mut counts);
+            let mut lines = CurvatureLines::new(&strokes, seed.family, seed.target, &mut counts);
             let there = lines.at(seed.world).unwrap();
             let along = there * there.dot(along).signum();
             let control = Control {
@@ -166,8 +167,8 @@ fn traced(
     (halves, asked, counts.scales.given)
 }
 
-/// Where a curve is after an arc; none beyond its end.
-fn after(half: &Half<NoDirection>, arc: f64) -> Option<DVec3> {
+/// The place after an arc on a half. Returns none beyond its end.
+fn after(half: &HalfCurve<NoDirection>, arc: f64) -> Option<DVec3> {
     let mut before = 0.0;
     for piece in &half.pieces {
         let step = piece.tangents[0].length();
@@ -179,17 +180,17 @@ fn after(half: &Half<NoDirection>, arc: f64) -> Option<DVec3> {
     None
 }
 
-/// Against its own finest solution a stroke is, all along it, within ten times its tolerance, although the field has kinks at
-/// the faces of cells and jumps where σ changes; and the cost is of fourth order: 100^¼ = 3.2 times the directions for a
+/// A stroke is within ten times its tolerance of its own finest solution, all along it. The field has kinks at the
+/// faces of cells and jumps where σ changes. The cost is of fourth order: 100^¼ = 3.2 times the directions for a
 /// hundredth of the tolerance, once steps are shorter than cells.
 #[test]
 fn errors_follow_the_tolerance_between_voxels() {
     let volume = torus(VoxelType::F64, [1.0; 3], [40, 40, 18]);
     let bytes = torus(VoxelType::U8, [1.0; 3], [40, 40, 24]);
-    let scaled = Rule::Scaled(Default::default());
+    let scaled = DirectionEstimator::Scaled(Default::default());
     for (name, volume, kernel, rule) in [
-        ("raw trilinear", &volume, Kernel::Trilinear, Rule::Raw),
-        ("raw bspline", &volume, Kernel::Bspline, Rule::Raw),
+        ("raw trilinear", &volume, Kernel::Trilinear, DirectionEstimator::Raw),
+        ("raw bspline", &volume, Kernel::Bspline, DirectionEstimator::Raw),
         ("scaled f64", &volume, Kernel::Trilinear, scaled),
         ("scaled u8", &bytes, Kernel::Trilinear, scaled),
     ] {

@@ -1,7 +1,10 @@
-//! Stored directions against those that are computed everywhere, and what must not show in them ([HATCH-4], [HATCH-5]).
+//! Stored directions against directions computed at every place, and invariances of the storage ([HATCH-4],
+//! [HATCH-5]).
 
-use super::super::stored::{Between, Storing};
-use super::super::{Family, Hatching, NoDirection, Pyramid, Rule, Scales, SeedRule, Strokes};
+use super::super::directions::{DirectionInterpolation, DirectionStorage};
+use super::super::{
+    CurvatureFamily, DirectionCounts, DirectionEstimator, HatchParams, NoDirection, Pyramid, SeedRule, StrokeGrower,
+};
 use super::*;
 use crate::field::{Field, Reconstruction, Rung};
 use drypoint_scene::math::scale_by_power_of_two;
@@ -9,20 +12,21 @@ use drypoint_scene::philox::uniform;
 use drypoint_scene::tables::Measure;
 use drypoint_scene::volume::Voxels;
 
-const TENSOR: Option<Storing> = Some(Storing { between: Between::Tensor, all: false });
-const FLIPPED: Option<Storing> = Some(Storing { between: Between::Flipped, all: false });
-const ALL: Option<Storing> = Some(Storing { between: Between::Tensor, all: true });
+const TENSOR: Option<DirectionStorage> = Some(DirectionStorage { between: DirectionInterpolation::Tensor, all: false });
+const FLIPPED: Option<DirectionStorage> =
+    Some(DirectionStorage { between: DirectionInterpolation::Flipped, all: false });
+const ALL: Option<DirectionStorage> = Some(DirectionStorage { between: DirectionInterpolation::Tensor, all: true });
 
-fn raw(grid: &Grid, stored: Option<Storing>) -> Hatching {
-    Hatching { rule: Rule::Raw, stored, ..Hatching::new(grid) }
+fn raw(grid: &Grid, stored: Option<DirectionStorage>) -> HatchParams {
+    HatchParams { rule: DirectionEstimator::Raw, stored, ..HatchParams::new(grid) }
 }
 
-/// The root mean square angle between stored and computed directions of both families, at places on a torus, with voxels of an
-/// edge of 1/`n`.
+/// The root mean square angle between stored and computed directions of both families, at places on a torus, with a
+/// voxel size of 1/`n`.
 fn off_on_torus(n: usize) -> f64 {
     let grid = Grid::with_spacing([40 * n, 40 * n, 24 * n], [1.0 / n as f64; 3]).unwrap();
     let ground = exact("torus", grid, &[("R", 11.0), ("r", 6.0)]);
-    let [direct, stored] = [None, TENSOR].map(|stored| Strokes::on(&ground, Some(0.0), raw(&ground.grid, stored)));
+    let [direct, stored] = [None, TENSOR].map(|stored| StrokeGrower::on(&ground, Some(0.0), raw(&ground.grid, stored)));
     let centre = ground.grid.centre();
     let (mut sum, mut places) = (0.0, 0);
     for i in 0..300u32 {
@@ -30,7 +34,7 @@ fn off_on_torus(n: usize) -> f64 {
         let ring = 11.0 + 6.0 * v.cos();
         let world = centre + DVec3::new(ring * u.cos(), ring * u.sin(), 6.0 * v.sin());
         let index = Vec3::from_glam(ground.grid.to_index(world));
-        let mut counts = Scales::default();
+        let mut counts = DirectionCounts::default();
         let [a, b] = [&direct, &stored].map(|s| s.curvature(index, &mut counts).unwrap());
         assert_eq!((counts.given[0], counts.between, counts.missing), (1, 1, 0));
         for (e, f) in [(a.e1, b.e1), (a.e2, b.e2)] {
@@ -41,7 +45,7 @@ fn off_on_torus(n: usize) -> f64 {
     (sum / f64::from(places)).sqrt()
 }
 
-/// Linear interpolation: halving the voxels' edge leaves a quarter of the error, within a tenth.
+/// Linear interpolation: halving the voxel size leaves a quarter of the error, within a tenth.
 #[test]
 fn between_voxels_the_error_is_of_second_order() {
     let off = [1, 2, 4].map(off_on_torus);
@@ -53,8 +57,8 @@ fn between_voxels_the_error_is_of_second_order() {
     assert!(off[0] < 3.0 / 8.0 / 25.0, "{off:?}");
 }
 
-/// Around a cylinder directions turn by 1/R: e eᵀ at an angle ±φ/2 to either side has its dominant eigenvector between them,
-/// at the middle exactly; along it all corners agree.
+/// Directions turn by 1/R around a cylinder. The tensors e eᵀ at angles of ±φ/2 have their dominant eigenvector in
+/// the middle, exactly. Along the cylinder all corners agree.
 #[test]
 fn rulings_of_a_cylinder_are_exact() {
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
@@ -62,11 +66,11 @@ fn rulings_of_a_cylinder_are_exact() {
     let centre = ground.grid.centre();
     let out = axis.any_orthonormal_vector();
     for storing in [TENSOR, FLIPPED] {
-        let strokes = Strokes::on(&ground, Some(0.0), raw(&ground.grid, storing));
+        let strokes = StrokeGrower::on(&ground, Some(0.0), raw(&ground.grid, storing));
         for i in 0..200u32 {
             let turn = drypoint_scene::glam::DQuat::from_axis_angle(axis, f64::from(i));
             let index = Vec3::from_glam(ground.grid.to_index(centre + turn * out * 14.0 + axis * f64::from(i % 7)));
-            let c = strokes.curvature(index, &mut Scales::default()).unwrap();
+            let c = strokes.curvature(index, &mut DirectionCounts::default()).unwrap();
             assert!(c.e2.to_glam().cross(axis).length() <= 64.0 * f64::EPSILON);
             assert!(c.k2.abs() <= 1e-15 && (c.k1 * 14.0 - 1.0).abs() < 0.01, "{c:?}");
         }
@@ -77,18 +81,20 @@ fn torus(voxels: VoxelType) -> Volume {
     sampled("torus", cube(40), voxels, &[("R", 11.0), ("r", 6.0), ("w", 1.5), ("high", 255.0)])
 }
 
-/// Strokes and their counts do not depend on when directions are made, nor on the threads that make them; how many are made
-/// does, and it is the same whatever the threads.
+/// Strokes and their counts do not depend on when, or by how many threads, directions are computed. The number of
+/// computed directions depends on when, but not on the threads.
 #[test]
 fn when_directions_are_made_does_not_show() {
-    for (voxels, rule) in [(VoxelType::U8, Rule::Scaled(Default::default())), (VoxelType::F64, Rule::Raw)] {
+    for (voxels, rule) in
+        [(VoxelType::U8, DirectionEstimator::Scaled(Default::default())), (VoxelType::F64, DirectionEstimator::Raw)]
+    {
         let volume = torus(voxels);
         let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Hessian).unwrap();
         let cells: Vec<_> = active(&volume, 127.5).into_iter().step_by(13).collect();
-        let grow = |threads: usize, stored: Option<Storing>| {
+        let grow = |threads: usize, stored: Option<DirectionStorage>| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let how = Hatching { rule, stored, length: 15.0, ..Hatching::new(volume.grid()) };
-            let strokes = Strokes::new(&field, Some(127.5), how);
+            let how = HatchParams { rule, stored, length: 15.0, ..HatchParams::new(volume.grid()) };
+            let strokes = StrokeGrower::new(&field, Some(127.5), how);
             let grown = pool.install(|| {
                 strokes.prepare();
                 strokes.grow_all(&cells, |_| true)
@@ -114,7 +120,7 @@ fn when_directions_are_made_does_not_show() {
     }
 }
 
-/// The pyramid knows curvatures where the directions of all voxels are made; seeds are the same.
+/// The pyramid knows curvatures if the directions of all voxels are computed. Seeds are the same.
 #[test]
 fn seeds_do_not_depend_on_what_the_pyramid_knows() {
     let volume = torus(VoxelType::U8);
@@ -122,7 +128,8 @@ fn seeds_do_not_depend_on_what_the_pyramid_knows() {
     let rule = SeedRule::Curvature { min_curvature: 0.1, min_gradient: 0.0 };
     for kind in [Measure::Mean, Measure::Curvedness] {
         let [(visited, plain), (all, known)] = [TENSOR, ALL].map(|stored| {
-            let strokes = Strokes::new(&field, Some(127.5), Hatching { stored, ..Hatching::new(volume.grid()) });
+            let strokes =
+                StrokeGrower::new(&field, Some(127.5), HatchParams { stored, ..HatchParams::new(volume.grid()) });
             strokes.prepare();
             let pyramid = strokes.with_curvature(Pyramid::new(&volume), kind);
             let seeds = strokes.seeds(&pyramid, &field, 127.5, rule, (kind, [0.0, 100.0]));
@@ -135,12 +142,12 @@ fn seeds_do_not_depend_on_what_the_pyramid_knows() {
     }
 }
 
-/// A ground whose Hessian is the other's, and whose directions therefore are: but each voxel's own sign is turned at random.
+/// The signs of stored directions, turned at random at each voxel, do not change the strokes.
 #[test]
 fn signs_of_stored_directions_do_not_show() {
     let ground = exact("torus", cube(40), &[("R", 11.0), ("r", 6.0)]);
-    let grown = |storing: Option<Storing>, signs: bool| {
-        let strokes = Strokes::on(&ground, Some(0.0), Hatching { length: 15.0, ..raw(&ground.grid, storing) });
+    let grown = |storing: Option<DirectionStorage>, signs: bool| {
+        let strokes = StrokeGrower::on(&ground, Some(0.0), HatchParams { length: 15.0, ..raw(&ground.grid, storing) });
         if signs {
             strokes.turn_signs();
         }
@@ -154,25 +161,25 @@ fn signs_of_stored_directions_do_not_show() {
         assert_eq!((seed, stroke), (other, turned));
     }
     assert_eq!(one.counts, grown(TENSOR, true).counts);
-    // The paper's corners have a sign again that is theirs.
+    // The corners of the paper's method have a sign of their own again.
     assert_eq!(grown(FLIPPED, false), grown(FLIPPED, true));
 }
 
-/// 2ᵏ times the values: the same bits.
+/// Values times 2ᵏ give the same bits.
 #[test]
 fn powers_of_two_do_not_show() {
     let volume = torus(VoxelType::F64);
     let cells: Vec<_> = active(&volume, 127.5).into_iter().step_by(41).collect();
-    let grown = |factor: f64, rule: Rule| {
+    let grown = |factor: f64, rule: DirectionEstimator| {
         let voxels = (0..volume.grid().len()).map(|i| volume.voxels().get(i) * factor).collect();
         let volume = Volume::new(volume.grid().clone(), Voxels::F64(voxels), 1.0, 0.0).unwrap();
         let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Hessian).unwrap();
-        let how = Hatching { rule, stored: TENSOR, ..Hatching::new(volume.grid()) };
-        let grown = Strokes::new(&field, Some(127.5 * factor), how).grow_all(&cells, |_| true);
+        let how = HatchParams { rule, stored: TENSOR, ..HatchParams::new(volume.grid()) };
+        let grown = StrokeGrower::new(&field, Some(127.5 * factor), how).grow_all(&cells, |_| true);
         let strokes: Vec<_> = grown.strokes.into_iter().chain(grown.cross).map(|(_, stroke)| stroke).collect();
         (strokes, grown.counts)
     };
-    for rule in [Rule::Raw, Rule::Scaled(Default::default())] {
+    for rule in [DirectionEstimator::Raw, DirectionEstimator::Scaled(Default::default())] {
         let one = grown(1.0, rule);
         for k in [-300, -1, 300] {
             assert_eq!(grown(scale_by_power_of_two(1.0, k), rule), one);
@@ -180,13 +187,13 @@ fn powers_of_two_do_not_show() {
     }
 }
 
-/// Of a sphere there is nothing to store, and no stroke; half the corners without a direction are too many.
+/// A sphere stores no direction and has no stroke. Half the corners without a direction are too many.
 #[test]
 fn where_no_voxel_has_a_direction_there_is_none() {
     let volume = sampled("sphere", cube(40), VoxelType::U8, &[("R", 12.3), ("w", 2.0), ("high", 255.0)]);
     let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
-    let how = Hatching { stored: TENSOR, ..Hatching::new(volume.grid()) };
-    let strokes = Strokes::new(&field, Some(127.5), how);
+    let how = HatchParams { stored: TENSOR, ..HatchParams::new(volume.grid()) };
+    let strokes = StrokeGrower::new(&field, Some(127.5), how);
     let cells: Vec<_> = active(&volume, 127.5).into_iter().step_by(11).collect();
     let grown = strokes.grow_all(&cells, |_| false);
     assert!(grown.strokes.len() * 50 <= cells.len());
@@ -194,8 +201,8 @@ fn where_no_voxel_has_a_direction_there_is_none() {
     assert!(grown.counts.scales.missing >= grown.counts.rejected.no_direction);
 }
 
-/// Away from umbilics strokes of stored directions are those of computed ones to the error of interpolation: on a torus of
-/// radii 11 and 6, after an arc of 15, some hundredths of a voxel.
+/// Away from umbilics, strokes of stored and of computed directions agree to the error of interpolation. On a torus
+/// of radii 11 and 6, after an arc of 15, the error is some hundredths of a voxel.
 #[test]
 fn strokes_are_near_those_of_computed_directions() {
     let ground = exact("torus", cube(40), &[("R", 11.0), ("r", 6.0)]);
@@ -206,8 +213,13 @@ fn strokes_are_near_those_of_computed_directions() {
             let ring = 11.0 + 6.0 * v.cos();
             let world = centre + DVec3::new(ring * u.cos(), ring * u.sin(), 6.0 * v.sin());
             let ends = [None, storing].map(|stored| {
-                let how = Hatching { length: 15.0, family: Family::Max, tolerance: 1e-4, ..raw(&ground.grid, stored) };
-                let strokes = Strokes::on(&ground, Some(0.5), how);
+                let how = HatchParams {
+                    length: 15.0,
+                    family: CurvatureFamily::Max,
+                    tolerance: 1e-4,
+                    ..raw(&ground.grid, stored)
+                };
+                let strokes = StrokeGrower::on(&ground, Some(0.5), how);
                 let stroke = strokes.grow(&seed_at(&strokes, world), &mut HatchCounts::default()).unwrap();
                 [stroke.vertices[0].world, stroke.vertices[stroke.vertices.len() - 1].world]
             });
@@ -218,12 +230,12 @@ fn strokes_are_near_those_of_computed_directions() {
     }
 }
 
-/// Without voxels with a direction around it a place has none, and says so.
+/// A place has no direction if no voxel around it has one, and this is counted.
 #[test]
 fn a_plane_has_no_direction_between_its_voxels() {
     let ground = exact("plane", cube(16), &[("nx", 1.0), ("ny", 2.0), ("nz", 3.0)]);
-    let strokes = Strokes::on(&ground, Some(0.0), raw(&ground.grid, TENSOR));
-    let mut counts = Scales::default();
+    let strokes = StrokeGrower::on(&ground, Some(0.0), raw(&ground.grid, TENSOR));
+    let mut counts = DirectionCounts::default();
     let index = Vec3::new(7.3, 7.1, 7.9);
     assert_eq!(strokes.curvature(index, &mut counts), Err(NoDirection::Umbilic));
     assert_eq!((counts.missing, counts.between, strokes.stored()[0]), (1, 0, 0));

@@ -1,6 +1,6 @@
-//! Where sampled surfaces have directions, and how good they are ([HATCH-3]).
+//! Places on sampled surfaces with principal directions, and the accuracy of these ([HATCH-3]).
 
-use super::super::{Directions, Pyramid, Rule, Scales, Thresholds, deviation};
+use super::super::{DirectionCounts, DirectionEstimator, PrincipalDirections, Pyramid, Thresholds, deviation};
 use super::*;
 use crate::field::{Field, Outside, Reconstruction, Rung};
 use crate::number::Vec3;
@@ -25,25 +25,25 @@ fn iso_voxels(volume: &Volume, iso: f64) -> Vec<[usize; 3]> {
     all.filter(crosses).collect()
 }
 
-/// The constants with the noise of the values as it is measured on the surface, which is how scenes have them.
+/// The rule's constants, with the noise of the values as measured on the surface. Scenes use these.
 fn measured(volume: &Volume) -> Thresholds {
     let deviation = deviation(volume, &Pyramid::new(volume), 127.5, Outside::Low);
     Thresholds { deviation, ..Thresholds::default() }
 }
 
-/// The share of the iso-voxels so many voxels from the border with a direction that `right` accepts.
+/// The share of the iso-voxels at least `margin` voxels from the border with a direction that `right` accepts.
 fn share(volume: &Volume, margin: usize, right: impl Fn(DVec3) -> bool) -> f64 {
     share_by(measured(volume), volume, margin, right)
 }
 
-/// The same with other constants.
+/// Like [`share`], with other constants.
 fn share_by(thresholds: Thresholds, volume: &Volume, margin: usize, right: impl Fn(DVec3) -> bool) -> f64 {
     let field = Field::<f64>::new(volume, Reconstruction::default(), Rung::Gradient).unwrap();
-    let directions = Directions::new(&field, Rule::Scaled(thresholds));
+    let directions = PrincipalDirections::new(&field, DirectionEstimator::Scaled(thresholds));
     let dims = volume.dims();
     let inner = |v: &[usize; 3]| (0..3).all(|a| v[a] >= margin && v[a] + margin < dims[a]);
     let voxels: Vec<_> = iso_voxels(volume, 127.5).into_iter().filter(inner).collect();
-    let mut counts = Scales::default();
+    let mut counts = DirectionCounts::default();
     let mut hits = 0;
     for voxel in &voxels {
         let at = Vec3::new(voxel[0] as f64, voxel[1] as f64, voxel[2] as f64);
@@ -54,18 +54,18 @@ fn share_by(thresholds: Thresholds, volume: &Volume, margin: usize, right: impl 
     hits as f64 / voxels.len() as f64
 }
 
-/// Voxels from the border at which every scale has its say: 2σ of the largest.
+/// Distance from the border, in voxels, at which every scale decides: 2σ of the largest.
 const DECIDED: usize = 8;
 
 /// Widths of the logistic edges, in voxels.
 const EDGES: [f64; 3] = [1.0, 2.0, 4.0];
 
-/// Up to the border, that lies far from the sphere, near it, touches it or cuts it.
+/// Spheres have no directions up to the border, which lies far away, is near, touches the sphere or cuts it.
 #[test]
 fn spheres_have_none() {
     for voxels in [VoxelType::F64, VoxelType::U8] {
         for (radius, edge) in [10.3, 14.3, 30.3].into_iter().flat_map(|r| EDGES.map(|e| (r, e))) {
-            // A large one is tried at two distances: its 10⁴ voxels take their time.
+            // A large sphere is tested at two distances only, since its 10⁴ voxels take long.
             let rooms: &[f64] = if radius > 20.0 { &[3.2, 12.7] } else { &[-4.0, -0.5, 0.5, 1.7, 3.2, 5.2, 8.2, 12.7] };
             for room in rooms {
                 let n = (2.0 * (radius + room) + 1.0).round() as usize;
@@ -77,7 +77,7 @@ fn spheres_have_none() {
     }
 }
 
-/// The same volume without the values beyond a plane.
+/// The volume with the values beyond a plane masked out.
 fn cut(volume: &Volume, normal: DVec3) -> Volume {
     let grid = volume.grid();
     let [nx, ny, nz] = volume.dims();
@@ -89,7 +89,7 @@ fn cut(volume: &Volume, normal: DVec3) -> Volume {
     Volume::new(grid.clone(), Voxels::F64(values.collect()), 1.0, 0.0).unwrap()
 }
 
-/// Nor where voxels without a value cut a sphere, which are filled with their neighbours' values.
+/// Spheres have no directions where masked voxels cut them, although these are filled with their neighbours' values.
 #[test]
 fn spheres_that_a_mask_cuts_have_none() {
     for (radius, edge) in [10.3f64, 14.3].into_iter().flat_map(|r| EDGES.map(|e| (r, e))) {
@@ -102,18 +102,18 @@ fn spheres_that_a_mask_cuts_have_none() {
     }
 }
 
-/// A cylinder loses three voxels along the mask, where σ = 1 decides, and where it has rulings they are right.
+/// A cylinder loses three voxels along the mask if σ = 1 decides. Its remaining rulings are correct.
 #[test]
 fn cylinders_that_a_mask_cuts_have_their_rulings() {
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
     let params = [("R", 10.0), ("ax", axis.x), ("ay", axis.y), ("az", axis.z), ("w", 2.0), ("high", 255.0)];
     let volume = cut(&sampled("cylinder", cube(40), VoxelType::F64, &params), DVec3::X);
     let field = Field::<f64>::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
-    let directions = Directions::new(&field, Rule::Scaled(measured(&volume)));
+    let directions = PrincipalDirections::new(&field, DirectionEstimator::Scaled(measured(&volume)));
     let (mut all, mut right, mut decided) = (0, 0, [0; 2]);
     for voxel in iso_voxels(&volume, 127.5) {
         let at = Vec3::new(voxel[0] as f64, voxel[1] as f64, voxel[2] as f64);
-        let found = directions.at(&field, at, &mut Scales::default()).ok();
+        let found = directions.at(&field, at, &mut DirectionCounts::default()).ok();
         let off = |e: DVec3| e.cross(axis).length().asin().to_degrees();
         if let Some(off) = found.map(|c| off(c.e2.to_glam())) {
             assert!(off < 2.0, "{voxel:?}: {off}");
@@ -139,7 +139,7 @@ fn oblique_planes_of_eight_bits_have_none() {
     }
 }
 
-/// The room of the scale that decides, 2σ, is all that a cylinder loses at the border: two voxels where σ = 1 does.
+/// A cylinder loses only 2σ at the border for the σ that decides: two voxels for σ = 1.
 #[test]
 fn cylinders_have_their_rulings_up_to_the_border() {
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
@@ -152,8 +152,9 @@ fn cylinders_have_their_rulings_up_to_the_border() {
     }
 }
 
-/// Within 1°, with eight bits 5°. At an edge of 1 voxel, 2°: there the third derivatives that central differences leave out
-/// turn the gradient by F‴/(6F′), some 0.08, times the tangent part of (n₀³, n₁³, n₂³), and the tangent plane with it.
+/// Rulings are within 1°, or 5° with eight bits. For an edge width of 1 voxel the bound is 2°. Central differences
+/// leave out third derivatives there. These turn the gradient by F‴/(6F′), some 0.08, times the tangential part of
+/// (n₀³, n₁³, n₂³), and the tangent plane with it.
 #[test]
 fn oblique_cylinders_have_their_rulings() {
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();
@@ -173,19 +174,19 @@ fn oblique_cylinders_have_their_rulings() {
     }
 }
 
-/// A volume with the noise of a scanner, of a standard deviation of 8, as bytes: twenty-eight times their rounding.
+/// A volume with a scanner's noise of standard deviation 8, stored as bytes: twenty-eight times their rounding.
 fn noisy(phantom: &Volume) -> Volume {
     let [nx, ny, _] = phantom.dims();
     let voxels = (0..phantom.grid().len()).map(|i| {
         let [a, b, ..] = uniforms(11, [i as u32, 0, 0], 0);
         let normal = (-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos();
-        // Far from both ends, so that nothing is cut off.
+        // The values are far from both ends, so that none is clipped.
         (64.0 + 0.5 * phantom.value([i % nx, i / nx % ny, i / nx / ny]) + 4.0 * normal).round() as u8
     });
     Volume::new(phantom.grid().clone(), Voxels::U8(voxels.collect()), 2.0, -128.0).unwrap()
 }
 
-/// Where the rule knows rounding alone, noise draws on spheres.
+/// A rule that knows rounding alone gives directions on noisy spheres; with the measured noise there are none.
 #[test]
 fn noise_makes_no_directions_where_it_is_measured() {
     for radius in [14.3_f64, 30.3] {
@@ -198,8 +199,8 @@ fn noise_makes_no_directions_where_it_is_measured() {
     }
 }
 
-/// On a noisy cylinder directions are those of a larger scale: three quarters of the surface have one at least, and it is
-/// right.
+/// On a noisy cylinder a larger scale gives the directions. At least three quarters of the surface have one, and it
+/// is correct.
 #[test]
 fn noise_leaves_what_is_sure() {
     let axis = DVec3::new(0.3, -0.5, 0.8).normalize();

@@ -14,7 +14,7 @@ use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need};
 use crate::ray::sample::{Evaluator, OverTwo, Previous, Sample, SampleAttributes};
 use crate::transfer;
-use crate::transfer::over::Here;
+use crate::transfer::over::SampleQuantities;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
 
@@ -249,7 +249,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     fn visit<N: Need>(
         &mut self,
         sample: Sample<R>,
-        place: &transfer::Place<R>,
+        place: &transfer::NodePlace<R>,
         front: &mut Front<R>,
         hook: &mut Option<Hook<'_>>,
         counts: &mut Counts,
@@ -282,7 +282,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let object = &self.prepared.object;
         let attributes = self.evaluator.evaluate(sample, over_two.first, SampleAttributes::neutral(), counts);
         let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
-        let here = Here {
+        let here = SampleQuantities {
             position: self.evaluator.ray.position(sample.k),
             place: sample.at,
             value: sample.s,

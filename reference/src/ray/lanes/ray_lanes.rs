@@ -63,7 +63,7 @@ pub(super) struct LaneSamples<S: Simd> {
     /// k.
     pub(super) k: f64,
     /// Between which nodes their values lie; its lanes are the ones that count.
-    pub(super) place: transfer::lanes::Places<S>,
+    pub(super) place: transfer::lanes::NodePlaces<S>,
     /// The lanes of `place` as a mask.
     pub(super) seen: mask64x8<S>,
 }

@@ -17,7 +17,7 @@ use crate::ray::opacity::{Correction, correct};
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::Styled;
 use crate::transfer;
-use crate::transfer::lanes::Nodes;
+use crate::transfer::lanes::LaneNodes;
 use drypoint_scene::counts::Counts;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
@@ -43,7 +43,7 @@ pub(super) struct Batch<S: Simd> {
     pub(super) rays: [u8; LANES],
     pub(super) k: f64x8<S>,
     pub(super) at: Places<S>,
-    pub(super) place: transfer::lanes::Places<S>,
+    pub(super) place: transfer::lanes::NodePlaces<S>,
 }
 
 impl SampleQueue {
@@ -53,7 +53,7 @@ impl SampleQueue {
 
     /// Takes the visible samples of one plane of the packet at a place.
     #[inline(always)]
-    fn push<S: Simd>(&mut self, packet: usize, k: f64, at: Places<S>, place: &transfer::lanes::Places<S>) {
+    fn push<S: Simd>(&mut self, packet: usize, k: f64, at: Places<S>, place: &transfer::lanes::NodePlaces<S>) {
         let [x, y, z, wx, wy, wz] = at.to_columns();
         let columns: [[f64; LANES]; NUMBERS] = [[k; LANES], x, y, z, wx, wy, wz, place.alpha_u.into(), place.w.into()];
         let nodes = place.nodes.each();
@@ -96,7 +96,7 @@ impl SampleQueue {
             rays,
             k,
             at: Places::from_columns([x, y, z, wx, wy, wz]),
-            place: transfer::lanes::Places { visible: asked, alpha_u, nodes: Nodes::Each(nodes), w },
+            place: transfer::lanes::NodePlaces { visible: asked, alpha_u, nodes: LaneNodes::Each(nodes), w },
         }
     }
 }

@@ -1,6 +1,6 @@
 //! How a colour is lit, at a sample or on an iso-surface: by Blinn–Phong or in tones, and black on silhouettes.
 
-use crate::interactive_volume_illustration::{Silhouette, Toon};
+use crate::interactive_volume_illustration::{SilhouetteTest, Toon};
 use crate::number::{Real, Vec3};
 use crate::shading::Phong;
 use drypoint_scene::shot::{Illumination, Lighting};
@@ -8,7 +8,7 @@ use drypoint_scene::shot::{Illumination, Lighting};
 /// The light of a colour.
 pub(crate) struct Lit<R> {
     model: Model<R>,
-    silhouette: Option<Silhouette<R>>,
+    silhouette: Option<SilhouetteTest<R>>,
 }
 
 /// How light is reflected.
@@ -29,7 +29,7 @@ impl<R: Real> Lit<R> {
             Lighting::Phong(phong) => Model::Phong(Phong::new(phong)),
             Lighting::Toon(toon) => Model::Toon(Toon::new(toon)),
         };
-        Self { model, silhouette: lit.silhouette.map(Silhouette::new) }
+        Self { model, silhouette: lit.silhouette.map(SilhouetteTest::new) }
     }
 
     /// Ĥ of Blinn–Phong; 0 where nothing reads it.

@@ -4,7 +4,7 @@ use super::need::Needs;
 use super::{OverTwo, Shader};
 use crate::field::Field;
 use crate::number::{Arithmetic, Real, Vec3};
-use crate::transfer::{Piecewise, Table};
+use crate::transfer::{IndexTable, Piecewise};
 use drypoint_scene::shot::{NormalDirection, Outside, SampleQuery, Turn};
 use drypoint_scene::volume::Volume;
 
@@ -17,7 +17,7 @@ pub(crate) struct PreparedObject<'v, R> {
     /// α_u over the value; with two quantities, the values at which it can be above 0.
     pub(crate) function: Piecewise<R>,
     /// From entries to nodes, where the function is read from a table.
-    pub(crate) table: Option<Table<R>>,
+    pub(crate) table: Option<IndexTable<R>>,
     /// The function itself where it is over two quantities.
     pub(crate) over_two: Option<OverTwo<'v, R>>,
     pub(crate) shader: Shader<R>,

@@ -4,8 +4,11 @@ use crate::field::Field;
 use crate::labels::Labels;
 use crate::number::Real;
 use crate::ray::inputs::{Inputs, RenderError};
-use crate::transfer::over::{Differential, Distance, Further, Here, Label, LabelDistance, Magnitude, Measure, Value};
-use crate::transfer::{Patch, Plane};
+use crate::transfer::over::{
+    AxisMeasure, CurvatureMeasure, GradientMagnitude, LabelDistance, OtherVolume, PointDistance, SampleLabel,
+    SampleQuantities, SampleValue,
+};
+use crate::transfer::{NodePatch, TransferPlane};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::math;
 use drypoint_scene::shot::{Axis, KappaSource, LabelLookup, Object, SampleQuery};
@@ -13,8 +16,8 @@ use drypoint_scene::transfer::Rows;
 
 /// A function over two quantities, with what measures them.
 pub(crate) struct OverTwo<'v, R> {
-    plane: Plane<R>,
-    measures: [Box<dyn Measure<R> + 'v>; 2],
+    plane: TransferPlane<R>,
+    measures: [Box<dyn AxisMeasure<R> + 'v>; 2],
     /// The query of the two quantities, before α_u is known.
     pub(crate) first: SampleQuery,
     /// The rest of the query of a visible sample.
@@ -50,14 +53,14 @@ impl<'v, R: Real> OverTwo<'v, R> {
             at.iter().map(|&a| math::scale_by_power_of_two(a, by)).collect()
         };
         let rows_at = scaled(&rows.over[1], &rows.at);
-        let plane = Plane::new(&scaled(&rows.over[0], at), opacity, &Rows { at: rows_at, ..rows.clone() })?;
+        let plane = TransferPlane::new(&scaled(&rows.over[0], at), opacity, &Rows { at: rows_at, ..rows.clone() })?;
         let (first, rest) = split(object.query, &rows.over);
         Ok(Self { plane, measures, first, rest })
     }
 
     /// The place of a sample between the nodes; none where it is transparent.
     #[inline]
-    pub(crate) fn locate(&self, here: &Here<R>) -> Option<Patch<R>> {
+    pub(crate) fn locate(&self, here: &SampleQuantities<R>) -> Option<NodePatch<R>> {
         let [x, y] = &self.measures;
         self.plane.locate(x.at(here), y.at(here))
     }
@@ -70,25 +73,25 @@ fn measure<'v, R: Real>(
     normalized: bool,
     inputs: &Inputs<'v>,
     label_lookup: LabelLookup,
-) -> Result<Box<dyn Measure<R> + 'v>, RenderError> {
+) -> Result<Box<dyn AxisMeasure<R> + 'v>, RenderError> {
     let data = inputs.volume;
     Ok(match axis {
-        Axis::Value => Box::new(Value),
-        Axis::GradientMagnitude if normalized => Box::new(Magnitude::Normalized),
-        Axis::GradientMagnitude => Box::new(Magnitude::Scaled),
-        Axis::K1 => Box::new(Differential::K1),
-        Axis::K2 => Box::new(Differential::K2),
-        Axis::Mean => Box::new(Differential::Mean),
-        Axis::Gaussian => Box::new(Differential::Gaussian),
-        Axis::AlongView => Box::new(Differential::AlongView),
-        Axis::Distance(point) => Box::new(Distance::new(data.grid(), *point)),
+        Axis::Value => Box::new(SampleValue),
+        Axis::GradientMagnitude if normalized => Box::new(GradientMagnitude::Normalized),
+        Axis::GradientMagnitude => Box::new(GradientMagnitude::Scaled),
+        Axis::K1 => Box::new(CurvatureMeasure::K1),
+        Axis::K2 => Box::new(CurvatureMeasure::K2),
+        Axis::Mean => Box::new(CurvatureMeasure::Mean),
+        Axis::Gaussian => Box::new(CurvatureMeasure::Gaussian),
+        Axis::AlongView => Box::new(CurvatureMeasure::AlongView),
+        Axis::Distance(point) => Box::new(PointDistance::new(data.grid(), *point)),
         Axis::Volume(_) => {
             let volume = inputs.further[which].ok_or(RenderError::NoFurtherVolume)?;
-            Box::new(Further::new(volume, data)?)
+            Box::new(OtherVolume::new(volume, data)?)
         }
         Axis::Label => {
             let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
-            Box::new(Label(Labels::new(labels, data.grid(), data.anatomy(), label_lookup)))
+            Box::new(SampleLabel(Labels::new(labels, data.grid(), data.anatomy(), label_lookup)))
         }
         Axis::DistanceToLabel(id) => {
             let labels = inputs.labels.ok_or(RenderError::NoLabels)?;

@@ -7,7 +7,7 @@ use crate::ray::inputs::RenderError;
 use crate::ray::opacity::Correction;
 use crate::shading::Phong;
 use crate::style_transfer_functions::{Blend2, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
-use crate::transfer::{Patch, Place};
+use crate::transfer::{NodePatch, NodePlace};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{Illumination, Lighting, Material, Shot, SphereFrame, StyleParams, Transparency};
 use drypoint_scene::style::Style;
@@ -224,7 +224,7 @@ pub(crate) trait Between<R: Real> {
     ) -> [R; 4];
 }
 
-impl<R: Real> Between<R> for Place<R> {
+impl<R: Real> Between<R> for NodePlace<R> {
     #[inline(always)]
     fn alpha_u(&self) -> R {
         self.alpha_u
@@ -253,7 +253,7 @@ impl<R: Real> Between<R> for Place<R> {
     }
 }
 
-impl<R: Real> Between<R> for Patch<R> {
+impl<R: Real> Between<R> for NodePatch<R> {
     #[inline]
     fn alpha_u(&self) -> R {
         self.alpha_u

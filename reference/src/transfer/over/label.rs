@@ -1,15 +1,15 @@
-//! The part that a sample belongs to ([STF-13]).
+//! The label of a sample ([STF-13]).
 
-use super::{Here, Measure};
+use super::{AxisMeasure, SampleQuantities};
 use crate::labels::Labels;
 use crate::number::Real;
 use crate::transfer::Coordinate;
 
-/// The id of the part, as the scene looks labels up.
-pub struct Label<'a>(pub Labels<'a>);
+/// The id of the sample's part, by the scene's lookup of labels.
+pub struct SampleLabel<'a>(pub Labels<'a>);
 
-impl<R: Real> Measure<R> for Label<'_> {
-    fn at(&self, here: &Here<R>) -> Coordinate<R> {
+impl<R: Real> AxisMeasure<R> for SampleLabel<'_> {
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         Coordinate::Id(self.0.id_at(here.position))
     }
 }

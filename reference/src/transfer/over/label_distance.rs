@@ -1,6 +1,6 @@
-//! The distance to a label: Euclidean, in the world, to the nearest voxel centre that has it ([STF-4]).
+//! The distance to a label: Euclidean, in the world, to the nearest voxel centre with this label ([STF-4]).
 
-use super::{Here, Measure};
+use super::{AxisMeasure, SampleQuantities};
 use crate::field::Place;
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
@@ -13,17 +13,18 @@ use drypoint_scene::volume::labels::LabelVolume;
 use rayon::prelude::*;
 use rstar::RTree;
 
-/// The distance of every voxel of the data to the nearest voxel centre with a label, 0 at those that lie in a voxel with
-/// it; trilinear between them.
+/// The distance of every voxel of the data to the nearest voxel centre with a label, trilinear between voxels. It is
+/// 0 at voxels that lie in a voxel with the label.
 ///
-/// A search for each voxel is exact on every grid; a transform axis by axis would be so only on orthogonal ones.
+/// A search for each voxel is exact on every grid. A transform axis by axis would be exact only on orthogonal grids.
 pub struct LabelDistance<R> {
     dims: [usize; 3],
     distances: Vec<R>,
 }
 
 impl<R: Real> LabelDistance<R> {
-    /// On the grid of a data volume, to the voxels of a label volume beside it that have an id. None where no voxel has.
+    /// Computes the distances on the grid of a data volume, to the voxels of a label volume that have an id. Returns
+    /// none if no voxel has the id.
     pub fn new(data: &Volume, volume: &LabelVolume, id: u32) -> Option<Self> {
         let (data, world) = (data.grid(), data.anatomy());
         let labels = Labels::new(volume, data, world, LabelLookup::Nearest);
@@ -64,8 +65,8 @@ impl<R: Real> LabelDistance<R> {
     }
 }
 
-impl<R: Real> Measure<R> for LabelDistance<R> {
-    fn at(&self, here: &Here<R>) -> Coordinate<R> {
+impl<R: Real> AxisMeasure<R> for LabelDistance<R> {
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         Coordinate::Number(self.value(here.place))
     }
 
@@ -78,7 +79,8 @@ impl<R: Real> Measure<R> for LabelDistance<R> {
     }
 }
 
-/// D·index of the voxels with the label; with `surface` only of those that have a neighbour without it, or none at all.
+/// D·index of the voxels with the label. With `surface`, only voxels with a neighbour that lacks the label or is
+/// missing.
 fn centres(grid: &Grid, has: &(impl Fn(usize) -> bool + Sync), surface: bool) -> Vec<[f64; 3]> {
     let [nx, ny, nz] = grid.dims();
     let around = |i: usize, n: usize| (i > 0 && i + 1 < n).then(|| i - 1..=i + 1);
@@ -91,11 +93,12 @@ fn centres(grid: &Grid, has: &(impl Fn(usize) -> bool + Sync), surface: bool) ->
     kept.map(|voxel| (grid.axes() * DVec3::from_array(voxel.map(|i| i as f64))).to_array()).collect()
 }
 
-/// Whether the columns of D are a Minkowski-reduced basis: then the Voronoi neighbours of a voxel are among its 26
-/// (Nguyen and Stehlé, *Low-dimensional lattice basis reduction revisited*, ACM TALG 5(4), 2009).
+/// Whether the columns of D are a Minkowski-reduced basis. Then the Voronoi neighbours of a voxel are among its 26
+/// neighbours (Nguyen and Stehlé, *Low-dimensional lattice basis reduction revisited*, ACM TALG 5(4), 2009).
 ///
-/// The way from the nearest voxel of a label to another one leaves the first's Voronoi cell through a neighbour that is as
-/// near or nearer, so that a voxel all of whose Voronoi neighbours have the label is never the only nearest one.
+/// The straight way from the nearest voxel of a label to another place leaves the voxel's Voronoi cell through a
+/// neighbour that is as near or nearer. So a voxel is never the only nearest one if all of its Voronoi neighbours
+/// have the label.
 fn is_reduced(axes: DMat3) -> bool {
     let mut b = [axes.x_axis, axes.y_axis, axes.z_axis];
     b.sort_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
@@ -111,7 +114,7 @@ mod tests {
     use drypoint_scene::volume::Voxels;
     use proptest::prelude::*;
 
-    /// The distances of every voxel of a grid to those of another one that have the label 1.
+    /// The distances from every voxel of a grid to the voxels of another grid with the label 1.
     fn distance(data: &Grid, labels: &Grid, has: impl Fn(usize) -> bool) -> Option<LabelDistance<f64>> {
         let on = |grid: &Grid, voxels| Volume::new(grid.clone(), Voxels::U8(voxels), 1.0, 0.0).unwrap();
         let ids = on(labels, (0..labels.len()).map(|i| u8::from(has(i))).collect());
@@ -124,7 +127,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(300))]
-        /// Against looking at every voxel, on grids of every shear and spacing.
+        /// Compares with a search through all voxels, on grids of every shear and spacing.
         #[test]
         fn the_nearest_of_all_voxels(
             dims in prop::array::uniform3(1..7usize),
@@ -156,7 +159,8 @@ mod tests {
         let labels = Grid::with_spacing([3, 1, 1], [4.0, 1.0, 1.0]).unwrap();
         let data = Grid::new([12, 1, 1], DMat3::IDENTITY, DVec3::new(-1.0, 0.0, 0.0)).unwrap();
         let got = distance(&data, &labels, |i| i == 1).unwrap();
-        // World −1 … 10: its voxel goes from 2, which is half way and belongs to the lower one, to 6, which is its own.
+        // World −1 … 10: the label's voxel reaches from 2, half way, which belongs to the lower voxel, to 6, which is
+        // its own.
         assert_eq!(got.distances, [5.0, 4.0, 3.0, 2.0, 0.0, 0.0, 0.0, 0.0, 3.0, 4.0, 5.0, 6.0]);
         assert!(distance(&data, &labels, |_| false).is_none());
     }

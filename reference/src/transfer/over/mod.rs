@@ -1,32 +1,33 @@
-//! The quantities that a transfer function can be over ([STF-4]), asked at samples.
+//! The quantities that a transfer function can depend on ([STF-4]), measured at samples.
 //!
-//! The list is open. A quantity of one's own is an [`Axis`](drypoint_scene::tables::Axis) of the scene, which says what it needs of a sample, and a
-//! [`Measure`] here. What is asked of a sample is only what its axes name.
+//! The list is open. A new quantity is an [`Axis`](drypoint_scene::tables::Axis) of the scene, which declares its
+//! needs, and a [`AxisMeasure`] here. Samples evaluate only the quantities that the axes name.
 
-mod further;
 mod label;
 pub mod label_distance;
-mod of_sample;
+mod other_volume;
 mod point;
+mod sample_quantities;
 
-pub use further::Further;
-pub use label::Label;
+pub use label::SampleLabel;
 pub use label_distance::LabelDistance;
-pub use of_sample::{Differential, Magnitude, Value};
-pub use point::Distance;
+pub use other_volume::OtherVolume;
+pub use point::PointDistance;
+pub use sample_quantities::{CurvatureMeasure, GradientMagnitude, SampleValue};
 
 use super::Coordinate;
 use crate::field::Place;
 use crate::number::{Real, Vec3};
 
-/// What is known of a sample when its quantities are measured. What no axis needs has its neutral value.
+/// The properties of a sample from which its quantities are measured. A property that no axis needs has its neutral
+/// value.
 #[derive(Clone, Copy, Debug)]
-pub struct Here<R> {
+pub struct SampleQuantities<R> {
     /// The position in the data volume's index space.
     pub position: Vec3<R>,
-    /// The same as its cell and where in it.
+    /// The position as a cell and coordinates in it.
     pub place: Place<R>,
-    /// The value.
+    /// The sample's value.
     pub value: R,
     /// ‖g‖ in world space, times the power of two of [SPACE-4]; 0 without a normal ([PREC-3]).
     pub gradient: R,
@@ -38,25 +39,25 @@ pub struct Here<R> {
     pub kappa: R,
 }
 
-/// One quantity.
-pub trait Measure<R: Real>: Send + Sync {
+/// A quantity that is measured at samples.
+pub trait AxisMeasure<R: Real>: Send + Sync {
     /// The quantity at a sample.
-    fn at(&self, here: &Here<R>) -> Coordinate<R>;
+    fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R>;
 
-    /// Bytes of what it holds, under a name; none where it holds nothing.
+    /// Name and size in bytes of the stored data. Returns none if nothing is stored.
     fn bytes(&self) -> Option<(&'static str, u64)> {
         None
     }
 
-    /// Voxels that were evaluated for it before the rays, under a name.
+    /// Name and number of the voxels evaluated before the rays.
     fn preprocess(&self) -> Option<(&'static str, u64)> {
         None
     }
 }
 
 #[cfg(test)]
-impl<R: Real> Here<R> {
-    /// A position of which nothing more is known.
+impl<R: Real> SampleQuantities<R> {
+    /// A sample with a position and neutral values.
     fn at(position: [f64; 3]) -> Self {
         let zero = R::ZERO;
         let place = Place { cell: [0; 3], w: [zero; 3] };

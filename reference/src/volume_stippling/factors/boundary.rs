@@ -34,7 +34,7 @@ mod tests {
         assert_eq!([at(1.0), at(0.0)], [1.0, 0.0]);
         // 2⁻¹⁰⁰⁰.
         assert!((0.0..1e-300).contains(&at(0.5)));
-        // With exponent 0 the gradient does not count, not even where there is none.
+        // With exponent 0 the gradient has no influence, even if it is 0.
         let flat = Boundary { ge: 0.0, ..t };
         assert_eq!(boundary(&flat, FactorRange::Clamp, 1.0, 0.0), 1.0);
     }

@@ -3,8 +3,8 @@
 use drypoint_scene::math::pow;
 use drypoint_scene::tables::Distance;
 
-/// T_d = ½(1 + sign(k)·sign(z)·|z/a|^|k|), k = k_de, in [0, 1]. `z` is the depth from the volume's centre towards the eye
-/// over the radius of its bounding sphere; k = 0 is off, not a mask of one half.
+/// T_d = ½(1 + sign(k)·sign(z)·|z/a|^|k|), k = k_de, in [0, 1]. `z` is the depth from the volume's centre towards the
+/// eye over the radius of its bounding sphere. k = 0 turns the factor off; the formula would give one half.
 pub(super) fn distance(t: &Distance, z: f64) -> f64 {
     if t.de == 0.0 {
         return 1.0;

@@ -1,4 +1,4 @@
-//! Eq. 9: what has a small gradient becomes transparent ([STIP-11]).
+//! Eq. 9: parts with a small gradient become transparent ([STIP-11]).
 
 use drypoint_scene::math::pow;
 use drypoint_scene::tables::Interior;

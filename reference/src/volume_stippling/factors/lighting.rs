@@ -3,14 +3,15 @@
 use drypoint_scene::math::pow;
 use drypoint_scene::tables::Lighting;
 
-/// T_l = 1 − max(0, L·n)^k_le for what faces the eye, 0 for what faces away; k = 0 is off. `lit` is L·n, `facing` n·E.
+/// T_l = 1 − max(0, L·n)^k_le on surfaces that face the eye, 0 on others. k = 0 turns the factor off. `lit` is L·n,
+/// `facing` n·E.
 pub(super) fn lighting(t: &Lighting, lit: f64, facing: f64) -> f64 {
     if t.le == 0.0 {
         1.0
     } else if facing < 0.0 {
         0.0
     } else {
-        // Two unit vectors' product can be above 1 by rounding.
+        // The product of two unit vectors can exceed 1 by rounding.
         1.0 - pow(lit.clamp(0.0, 1.0), t.le)
     }
 }

@@ -1,5 +1,5 @@
-//! The factors of eq. 3 ([STIP-5] … [STIP-12]), one file each. One that the scene has no table for is 1, and nothing of it
-//! is computed.
+//! The factors of eq. 3 ([STIP-5] … [STIP-12]), one file each. A factor without a table in the scene is 1 and costs
+//! nothing.
 
 mod boundary;
 mod distance;
@@ -17,7 +17,8 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{FactorRange, LightDirection, Stipples};
 use drypoint_scene::view::View;
 
-/// A factor in [0, 1] ([STIP-5]): clamped, or divided by its largest value, which is `sum` for V = 1, if that is above 1.
+/// Brings a factor into [0, 1] ([STIP-5]): clamped, or divided by its largest value if that exceeds 1. The largest
+/// value is `sum`, at V = 1.
 fn unit(range: FactorRange, sum: f64, factor: f64) -> f64 {
     match range {
         FactorRange::Normalize if sum > 1.0 => factor / sum,
@@ -25,19 +26,19 @@ fn unit(range: FactorRange, sum: f64, factor: f64) -> f64 {
     }
 }
 
-/// What of a voxel's factors no camera changes.
+/// The camera-independent factors of a voxel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Still {
+pub(super) struct FixedFactors {
     /// T_b.
     boundary: f64,
     /// T_t.
     interior: f64,
-    /// How much of a face the voxel stands for, over that of the largest: 1 but for thin layers on grids whose voxels are not
-    /// cubes ([STIP-4]).
+    /// The voxel's piece of a face, relative to the largest piece: 1 except for thin layers on grids whose voxels are
+    /// not cubes ([STIP-4]).
     pub(super) piece: f64,
 }
 
-impl Still {
+impl FixedFactors {
     pub(super) fn new(stipples: &Stipples, voxel: &PointVoxel, grid: &Grid) -> Self {
         let PointVoxel { value, magnitude, .. } = *voxel;
         Self {
@@ -48,11 +49,11 @@ impl Still {
     }
 }
 
-/// What a camera makes of the factors.
-pub(super) struct Moving<'a> {
+/// The factors of one camera.
+pub(super) struct CameraFactors<'a> {
     stipples: &'a Stipples,
     view: &'a View,
-    /// L, in the world.
+    /// L, in world space.
     light: DVec3,
     /// T_r.
     resolution: f64,
@@ -60,30 +61,30 @@ pub(super) struct Moving<'a> {
     depth: f64,
     /// a.
     radius: f64,
-    /// Whether a factor reads n·E.
+    /// Whether a factor uses n·E.
     facing: bool,
 }
 
-/// What a frame knows of the volume.
-pub(super) struct Whole {
+/// Properties of the whole volume that a frame uses.
+pub(super) struct VolumeExtent {
     pub(super) centre: DVec3,
     pub(super) radius: f64,
-    /// D₀ of the reference camera.
+    /// D₀, the distance of the reference camera.
     pub(super) reference: f64,
     pub(super) near: f64,
 }
 
-/// T of eq. 3 and the part of it that eq. 4 has.
+/// T of eq. 3, and its factors that enter eq. 4.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factors {
-    /// T: the share of the points.
+    /// T, the share of the points.
     pub(super) count: f64,
-    /// T_r·T_d·T_t: the share of the size that is not ‖∇V‖'s.
+    /// T_r·T_d·T_t, the share of the size apart from ‖∇V‖.
     pub(super) size: f64,
 }
 
-impl<'a> Moving<'a> {
-    pub(super) fn new(stipples: &'a Stipples, light: LightDirection, view: &'a View, whole: &Whole) -> Self {
+impl<'a> CameraFactors<'a> {
+    pub(super) fn new(stipples: &'a Stipples, light: LightDirection, view: &'a View, whole: &VolumeExtent) -> Self {
         let lighting = stipples.lighting.filter(|t| t.le != 0.0);
         let distance = || viewing_distance(view, whole.centre, whole.near);
         Self {
@@ -98,7 +99,7 @@ impl<'a> Moving<'a> {
     }
 
     /// The factors of a voxel at eye-space position `at`.
-    pub(super) fn of(&self, still: &Still, voxel: &PointVoxel, at: DVec3) -> Factors {
+    pub(super) fn of(&self, still: &FixedFactors, voxel: &PointVoxel, at: DVec3) -> Factors {
         let s = self.stipples;
         let facing = if self.facing { self.facing(voxel, at) } else { 1.0 };
         let silhouette = |t| silhouette::silhouette(&t, s.factors, voxel.value, voxel.magnitude, facing);

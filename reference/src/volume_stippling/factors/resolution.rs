@@ -1,7 +1,7 @@
-//! Eq. 7: fewer and smaller points where the volume is farther away than at first ([STIP-9]).
+//! Eq. 7: fewer and smaller points if the volume is farther away than at first ([STIP-9]).
 //!
-//! The printed fraction has the distance now above and the first below, which makes more points of a volume that is
-//! farther away: the contrary of what the text says and Fig. 4 shows. Here it is the other way up.
+//! The printed fraction has the current distance in the numerator, which makes more points of a volume that is
+//! farther away. The text and Fig. 4 show the contrary. So the fraction is inverted here.
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::pow;
@@ -13,8 +13,8 @@ pub(super) fn resolution(t: &Resolution, reference: f64, now: f64) -> f64 {
     if t.re == 0.0 { 1.0 } else { pow(t.reference.unwrap_or(reference) / now, t.re).min(1.0) }
 }
 
-/// D: the eye depth of the volume's centre, which counts as `near` where it is less; of an orthographic view, which has no
-/// distance, the world's length from the picture's bottom to its top.
+/// D, the eye depth of the volume's centre, at least `near`. An orthographic view has no distance; D is then the
+/// height of the picture in world units.
 pub fn viewing_distance(view: &View, centre: DVec3, near: f64) -> f64 {
     if view.perspective { (-view.to_eye(centre).z).max(near) } else { view.pixel * view.size[1] as f64 }
 }

@@ -4,10 +4,11 @@ use super::unit;
 use drypoint_scene::math::pow;
 use drypoint_scene::tables::{FactorRange, Silhouette};
 
-/// T_s = V (k_sc + k_ss (1 − |n·E|)^k_se), in [0, 1]. `facing` is n·E; as printed, with ∇V in the bars, it is ‖∇V‖ n·E.
+/// T_s = V (k_sc + k_ss (1 − |n·E|)^k_se), in [0, 1]. `facing` is n·E. As printed, with ∇V between the bars, the term
+/// is ‖∇V‖ n·E.
 pub(super) fn silhouette(t: &Silhouette, range: FactorRange, value: f64, magnitude: f64, facing: f64) -> f64 {
     let within = if t.literal { magnitude * facing } else { facing };
-    // Two unit vectors' product can be above 1 by rounding.
+    // The product of two unit vectors can exceed 1 by rounding.
     let across = (1.0 - within.abs()).max(0.0);
     unit(range, t.sc + t.ss, value * (t.sc + t.ss * pow(across, t.se)))
 }
@@ -23,7 +24,7 @@ mod tests {
         for facing in [0.5, -0.5] {
             assert!((silhouette(&t, FactorRange::Clamp, 0.8, 0.1, facing) - 0.3).abs() < 1e-16);
         }
-        // As printed: 1 − |0.1·0.5| = 0.95.
+        // The printed form: 1 − |0.1·0.5| = 0.95.
         let literal = Silhouette { literal: true, ..t };
         let want = 0.8 * (0.25 + 0.5 * 0.95 * 0.95);
         assert!((silhouette(&literal, FactorRange::Clamp, 0.8, 0.1, 0.5) - want).abs() < 1e-16);

@@ -1,4 +1,4 @@
-//! Classes of voxels without neighbours in their class, by the parities of their places.
+//! Classes of voxels by the parities of their coordinates. No two voxels of a class are neighbours.
 
 use drypoint_scene::philox;
 
@@ -7,12 +7,12 @@ pub(super) fn class_of([x, y, z]: [u32; 3]) -> usize {
     (x & 1 | (y & 1) << 1 | (z & 1) << 2) as usize
 }
 
-/// The axes on which that neighbour's parity is the other, x lowest.
+/// The axes along which neighbour k has the other parity, x lowest.
 pub(super) fn parities(k: usize) -> usize {
     usize::from(k % 3 != 1) | usize::from(k / 3 % 3 != 1) << 1 | usize::from(k / 9 != 1) << 2
 }
 
-/// Each voxel's place when classes of equal parities stand together, and where each class begins.
+/// The place of each voxel when classes are sorted one after the other, and the start of each class.
 pub(super) fn by_class(cells: &[[u32; 3]]) -> (Vec<u32>, [usize; 9]) {
     let mut starts = [0; 9];
     for cell in cells {
@@ -36,9 +36,9 @@ pub(super) const OF_RANKS: u32 = u32::MAX;
 /// The draw of the orders of the sweeps that find the first points.
 pub(super) const OF_SWEEPS: u32 = u32::MAX - 1;
 
-/// N classes in the order of a round: by random numbers of a draw.
+/// N classes in the order of a round, shuffled by random numbers of a draw.
 pub(super) fn class_order<const N: usize>(seed: u64, round: u32, draw: u32) -> [usize; N] {
-    /// No voxel has this place.
+    /// The place of a missing voxel.
     const NOWHERE: u32 = u32::MAX;
     let key = |class: usize| philox::uniform(seed, [round, class as u32, NOWHERE], draw);
     let mut order = std::array::from_fn(|i| i);

@@ -1,45 +1,44 @@
-//! Distances of a pool's points to those that are taken, eight side by side, without looking at groups that they cannot
-//! matter to.
+//! Distances from a pool's points to the taken points, eight side by side, skipping groups that cannot matter.
 
-/// Points in work side by side.
+/// Number of points processed side by side.
 pub(super) const LANES: usize = 8;
 
-/// A coordinate or a distance of each.
-pub(super) type Lane = [f32; LANES];
+/// One number for each of eight points.
+pub(super) type EightFloats = [f32; LANES];
 
-/// Points of a pool that lie together.
+/// Points of a pool that are close together.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Group {
-    /// x, y and z of each, in voxels from the voxel's centre.
-    pub(super) at: [Lane; 3],
-    /// The squared distance of each to what is taken; below 0: it is no longer in the pool.
-    pub(super) far: Lane,
-    /// The draw that made each.
+pub(super) struct PointGroup {
+    /// x, y and z of the points, in voxels from the voxel's centre.
+    pub(super) at: [EightFloats; 3],
+    /// The squared distance of each point to the nearest taken one. It is below 0 after the point has left the pool.
+    pub(super) far: EightFloats,
+    /// The draw that made each point.
     pub(super) draws: [u32; LANES],
 }
 
-/// What tells of eight groups from afar whether they matter.
-pub(super) type Row = [Lane; 6];
+/// Bounds of eight groups, which decide whether a group must be visited.
+pub(super) type GroupBounds = [EightFloats; 6];
 
-/// Rows of a group's numbers: the middle, no point is farther from it, the largest distance squared to what is taken, and
-/// the distance squared up to which a point can lower one.
+/// Indices into a row. A row has the middle (three numbers), the radius about it, and the largest squared distance to
+/// a taken point. The last number is the squared distance within which a new point can lower one.
 pub(super) const FAR: usize = 4;
 pub(super) const REACH: usize = 3;
 pub(super) const LIMIT: usize = 5;
 
-/// Lowers the distances of a pool to those to some points, and gives the largest.
+/// Updates the distances of a pool by further points, and returns the largest.
 #[inline(always)]
-pub(super) fn lower(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) -> f32 {
-    // As many at once as there are bits to say which of them matter.
+pub(super) fn lower(pool: &mut [PointGroup], groups: &mut [GroupBounds], points: &[[f32; 3]]) -> f32 {
+    // Chunks of 32 points, one bit for each in a mask.
     for points in points.chunks(32) {
         lower_by(pool, groups, points);
     }
     farthest_of(groups)
 }
 
-/// The largest of all groups' largest distances.
+/// The largest distance in all groups.
 #[inline(always)]
-fn farthest_of(groups: &[Row]) -> f32 {
+fn farthest_of(groups: &[GroupBounds]) -> f32 {
     let mut most = [-1f32; LANES];
     for row in groups {
         most = larger(most, row[FAR]);
@@ -48,9 +47,9 @@ fn farthest_of(groups: &[Row]) -> f32 {
 }
 
 #[inline(always)]
-fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
+fn lower_by(pool: &mut [PointGroup], groups: &mut [GroupBounds], points: &[[f32; 3]]) {
     for row in 0..groups.len() {
-        // For each group the points, as bits, that may be nearer to one of its own than what is taken.
+        // For each group, bits of the points that may be nearer to one of its points than all taken ones.
         let mut near = [0u32; LANES];
         for (i, p) in points.iter().enumerate() {
             let to = squared_distances(&groups[row], p);
@@ -63,7 +62,7 @@ fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
                 continue;
             }
             let group = row * LANES + l;
-            let Group { at, far, .. } = &mut pool[group];
+            let PointGroup { at, far, .. } = &mut pool[group];
             while left != 0 {
                 nearer(at, far, &points[left.trailing_zeros() as usize]);
                 left &= left - 1;
@@ -73,9 +72,9 @@ fn lower_by(pool: &mut [Group], groups: &mut [Row], points: &[[f32; 3]]) {
     }
 }
 
-/// What a group's numbers are after its distances have changed.
+/// Updates the bounds of a group after its distances have changed.
 #[inline(always)]
-pub(super) fn settle(far: Lane, groups: &mut [Row], group: usize) {
+pub(super) fn settle(far: EightFloats, groups: &mut [GroupBounds], group: usize) {
     let far = largest(far);
     let (row, l) = (&mut groups[group / LANES], group % LANES);
     row[FAR][l] = far;
@@ -83,10 +82,10 @@ pub(super) fn settle(far: Lane, groups: &mut [Row], group: usize) {
     row[LIMIT][l] = if far < 0.0 { -1.0 } else { limit * limit };
 }
 
-/// The place in a pool of the point farthest from what is taken and from some further points. A group is looked into only
-/// if its farthest could be it, that of the largest distance first.
+/// The pool index of the point farthest from the taken points and some further points. Groups are visited in the
+/// order of their largest distance, and only while it exceeds the best point.
 #[inline(always)]
-pub(super) fn farthest(pool: &[Group], groups: &[Row], points: &[[f32; 3]]) -> usize {
+pub(super) fn farthest(pool: &[PointGroup], groups: &[GroupBounds], points: &[[f32; 3]]) -> usize {
     let far = |group: usize| groups[group / LANES][FAR][group % LANES];
     let most = farthest_of(groups);
     let first = (0..pool.len()).find(|&group| far(group) == most).unwrap_or(0);
@@ -105,9 +104,9 @@ pub(super) fn farthest(pool: &[Group], groups: &[Row], points: &[[f32; 3]]) -> u
     at
 }
 
-/// Of distances of a group the first of the largest, if it is beyond the best so far.
+/// Updates the best point by the first of a group's largest distances, if that is larger.
 #[inline(always)]
-pub(super) fn take_largest(d: &Lane, group: usize, best: &mut f32, at: &mut usize) {
+pub(super) fn take_largest(d: &EightFloats, group: usize, best: &mut f32, at: &mut usize) {
     let most = largest(*d);
     if most > *best {
         let lane = d.iter().position(|&d| d == most).unwrap_or(0);
@@ -116,7 +115,7 @@ pub(super) fn take_largest(d: &Lane, group: usize, best: &mut f32, at: &mut usiz
 }
 
 #[inline(always)]
-pub(super) fn squared_distances(row: &Row, p: &[f32; 3]) -> Lane {
+pub(super) fn squared_distances(row: &GroupBounds, p: &[f32; 3]) -> EightFloats {
     let mut to = [0.0; LANES];
     for l in 0..LANES {
         let (dx, dy, dz) = (row[0][l] - p[0], row[1][l] - p[1], row[2][l] - p[2]);
@@ -126,7 +125,7 @@ pub(super) fn squared_distances(row: &Row, p: &[f32; 3]) -> Lane {
 }
 
 #[inline(always)]
-fn nearer([x, y, z]: &[Lane; 3], d: &mut Lane, p: &[f32; 3]) {
+fn nearer([x, y, z]: &[EightFloats; 3], d: &mut EightFloats, p: &[f32; 3]) {
     for l in 0..LANES {
         let (dx, dy, dz) = (x[l] - p[0], y[l] - p[1], z[l] - p[2]);
         let to = dx * dx + dy * dy + dz * dz;
@@ -134,9 +133,9 @@ fn nearer([x, y, z]: &[Lane; 3], d: &mut Lane, p: &[f32; 3]) {
     }
 }
 
-/// The larger of each two, neither of which is NaN.
+/// The larger of each pair; no number is NaN.
 #[inline(always)]
-fn larger(a: Lane, b: Lane) -> Lane {
+fn larger(a: EightFloats, b: EightFloats) -> EightFloats {
     let mut larger = a;
     for l in 0..LANES {
         larger[l] = if a[l] > b[l] { a[l] } else { b[l] };
@@ -144,9 +143,10 @@ fn larger(a: Lane, b: Lane) -> Lane {
     larger
 }
 
-/// The largest of all, none of which is NaN: halves against halves, which waits less than one after the other.
+/// The largest number; no number is NaN. Halves are compared with halves, which has a shorter dependency chain than a
+/// loop.
 #[inline(always)]
-pub(super) fn largest(d: Lane) -> f32 {
+pub(super) fn largest(d: EightFloats) -> f32 {
     let larger = |a: f32, b: f32| if a > b { a } else { b };
     let four = [larger(d[0], d[4]), larger(d[1], d[5]), larger(d[2], d[6]), larger(d[3], d[7])];
     larger(larger(four[0], four[2]), larger(four[1], four[3]))
@@ -155,7 +155,7 @@ pub(super) fn largest(d: Lane) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::super::class::by_class;
-    use super::super::links::Links;
+    use super::super::neighbours::NeighbourLinks;
     use super::super::pool::{Class, pool_size};
     use super::super::tests::sites;
     use super::*;
@@ -167,7 +167,7 @@ mod tests {
         let (cells, normals) = ([[3, 4, 5]], [DVec3::new(1.0, 2.0, 3.0).normalize()]);
         let sites = sites(&cells, &normals, true);
         let (ids, starts) = by_class(&cells);
-        let links = Links::new(&sites, &ids);
+        let links = NeighbourLinks::new(&sites, &ids);
         let size = pool_size(25);
         let mut class = Class::new(&sites, &links, &ids, &starts, 1 + 4, size);
         let all: Vec<[f32; 3]> =

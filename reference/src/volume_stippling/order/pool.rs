@@ -1,42 +1,42 @@
-//! The pools of random points that voxels take theirs from.
+//! Pools of random points from which voxels take theirs.
 
-use super::groups::{Group, LANES, REACH, Row, settle};
-use super::links::{Links, offset_of, towards};
+use super::groups::{GroupBounds, LANES, PointGroup, REACH, settle};
+use super::neighbours::{NeighbourLinks, offset_of, towards};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
 use crate::volume_stippling::slab::{Slab, TRIES};
 use drypoint_scene::glam::DVec3;
 use rayon::prelude::*;
 
-/// Points in the pool of a voxel that draws `each`.
+/// Pool size of a voxel that draws `each` points.
 pub(super) fn pool_size(each: usize) -> usize {
     (each + (5 * each).min(each.max(400))).next_multiple_of(LANES)
 }
 
-/// The most points of a voxel: a draw of the pool's last point has to have a number below [`CENTRE`].
+/// The largest number of points of a voxel. The draw of the pool's last point must have a number below [`CENTRE`].
 pub(in crate::volume_stippling) const MOST_EACH: usize = (CENTRE / TRIES / 2) as usize - LANES;
 
-/// In place of a draw: the centre of the voxel.
+/// Replaces a draw: the centre of the voxel.
 const CENTRE: u32 = u32::MAX;
 
-/// Where a draw lies, from the voxel's centre in index space.
+/// The point of a draw, as an offset from the voxel's centre in index space.
 pub(super) fn point_of(slab: &Slab, seed: u64, cell: [u32; 3], draw: u32) -> [f32; 3] {
     slab.point(seed, cell, draw).unwrap_or([0.0; 3])
 }
 
-/// A voxel at work.
+/// The current state of a voxel.
 pub(super) struct Site {
     pub(super) cell: [u32; 3],
     pub(super) slab: Slab,
-    /// n, scaled so that x − (n·x) n has lost its part along the normal; zero where distances are those in space.
+    /// n, scaled so that x − (n·x) n has no part along the normal; zero if distances are measured in space.
     pub(super) flat: [f32; 3],
-    /// No point of the pool is farther from the centre.
+    /// The largest distance of the pool's points from the centre.
     pub(super) reach: f32,
-    /// The largest distance squared that a point of the pool can have to those taken.
+    /// Upper bound of the squared distance from a point of the pool to the taken points.
     pub(super) farthest: f32,
-    /// Of the point that it took last, in its pool.
+    /// Pool index of the point taken last.
     pub(super) slot: usize,
-    /// Where its neighbours stand in the list of all.
+    /// Start of its neighbours in the list of all.
     pub(super) first: u32,
     pub(super) end: u32,
 }
@@ -45,19 +45,19 @@ pub(super) struct Site {
 pub(super) struct Class {
     /// The parities of x, y and z, x lowest.
     pub(super) number: usize,
-    /// Of the first in the order of all.
+    /// Place of the first voxel in the order of all.
     pub(super) start: usize,
     pub(super) sites: Vec<Site>,
     /// The groups of each site's pool.
-    pub(super) pools: Vec<Group>,
+    pub(super) pools: Vec<PointGroup>,
     /// The rows of each site's groups.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<GroupBounds>,
 }
 
 impl Class {
     pub(super) fn new(
         sites: &Sites<'_>,
-        links: &Links,
+        links: &NeighbourLinks,
         ids: &[u32],
         starts: &[usize; 9],
         class: usize,
@@ -70,7 +70,7 @@ impl Class {
                 members[id as usize - start] = i;
             }
         }
-        let group = Group { at: [[0.0; LANES]; 3], far: [0.0; LANES], draws: [0; LANES] };
+        let group = PointGroup { at: [[0.0; LANES]; 3], far: [0.0; LANES], draws: [0; LANES] };
         let mut pools = vec![group; members.len() * size / LANES];
         let mut rows = vec![[[-1.0; LANES]; 6]; members.len() * rows_of_groups(size)];
         let parts = pools.par_chunks_mut(size / LANES).zip(rows.par_chunks_mut(rows_of_groups(size)));
@@ -90,13 +90,13 @@ impl Class {
     }
 
     /// The pool of a voxel of the class.
-    pub(super) fn pool(&self, index: usize) -> &[Group] {
+    pub(super) fn pool(&self, index: usize) -> &[PointGroup] {
         let groups = self.pools.len() / self.sites.len();
         &self.pools[index * groups..][..groups]
     }
 
-    /// What is known of the groups of that pool.
-    pub(super) fn rows(&self, index: usize) -> &[Row] {
+    /// Bounds of the groups of a voxel's pool.
+    pub(super) fn rows(&self, index: usize) -> &[GroupBounds] {
         let rows = self.rows.len() / self.sites.len();
         &self.rows[index * rows..][..rows]
     }
@@ -106,7 +106,7 @@ impl Class {
         self.pool(index)[slot / LANES].draws[slot % LANES]
     }
 
-    /// Where a point of a pool lies, from the voxel's centre in index space.
+    /// A point of a pool, as an offset from the voxel's centre in index space.
     pub(super) fn point(&self, sites: &Sites<'_>, index: usize, slot: usize) -> [f32; 3] {
         let site = &self.sites[index];
         point_of(&site.slab, sites.seed, site.cell, self.draw(index, slot))
@@ -114,18 +114,19 @@ impl Class {
 }
 
 impl Site {
-    /// The voxel, and in `points` those of its pool, `size` of them: what lies together stands together.
+    /// A voxel, with `size` points of its pool in `points`, sorted so that near points are close in memory.
     #[inline(always)]
     fn new(
         sites: &Sites<'_>,
         i: usize,
         [first, end]: [u32; 2],
-        links: &Links,
+        links: &NeighbourLinks,
         size: usize,
-        points: &mut Vec<Drawn>,
+        points: &mut Vec<PoolPoint>,
     ) -> Self {
         let (cell, n) = (sites.cells[i], sites.normals[i]);
         let slab = sites.slab_of(i);
+        // A face with neighbours on neither or only one side along n is thin: distances are in the tangent plane.
         let has = |side: f64| {
             let to = towards(sites, n * side);
             links.all[first as usize..end as usize].iter().any(|&link| offset_of(link) == to)
@@ -134,6 +135,7 @@ impl Site {
         let flat = flat.to_array().map(|x| x as f32);
         let mut reach = 0f32;
         points.clear();
+        // Random points inside the slab, eight draws at a time. Draws that miss are repeated one by one.
         for group in 0..(size / LANES) as u32 {
             let mut draws = [0; LANES];
             for (l, draw) in (0..).zip(&mut draws) {
@@ -145,9 +147,10 @@ impl Site {
                     if is_inside[l] { (draws[l], offsets[l]) } else { next_inside(&slab, sites.seed, cell, draws[l]) };
                 let at = flattened(flat, scaled(sites, o));
                 reach = reach.max(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-                points.push(Drawn { key: 0, draw, at });
+                points.push(PoolPoint { key: 0, draw, at });
             }
         }
+        // Sorting by Morton code keeps near points in one group, so that bounds of groups are tight.
         let reach = reach.sqrt();
         let scale = 0.5 / reach.max(f32::MIN_POSITIVE);
         for point in points.iter_mut() {
@@ -157,8 +160,8 @@ impl Site {
         Self { cell, slab, flat, reach, farthest: f32::MAX, slot: 0, first, end }
     }
 
-    /// Puts the points into the pool, and what is known of its groups.
-    fn fill(&self, pool: &mut [Group], rows: &mut [Row], points: &[Drawn]) {
+    /// Fills the pool with the points and computes the bounds of its groups.
+    fn fill(&self, pool: &mut [PointGroup], rows: &mut [GroupBounds], points: &[PoolPoint]) {
         for (number, (group, points)) in pool.iter_mut().zip(points.chunks_exact(LANES)).enumerate() {
             let row = &mut rows[number / LANES];
             let mut reach = 0f32;
@@ -170,19 +173,21 @@ impl Site {
             }
             for (l, point) in points.iter().enumerate() {
                 group.draws[l] = point.draw;
-                // Before anything is taken the first draw counts as the farthest: a random one, wherever it stands here.
+                // Before any point is taken the first draw counts as the farthest: a random point, wherever sorting
+                // puts it.
                 group.far[l] = f32::MAX / (1.0 + point.draw as f32);
                 let off: f32 = (0..3).map(|c| point.at[c] - row[c][number % LANES]).map(|x| x * x).sum();
                 reach = reach.max(off);
             }
-            // Rounding of the middle and of distances must not hide a point: a thousandth is far more than both.
+            // A margin of a thousandth, far more than the rounding of middle and distances, which must not exclude a
+            // point.
             row[REACH][number % LANES] = reach.sqrt() * 1.001 + f32::MIN_POSITIVE;
             settle(group.far, rows, number);
         }
     }
 }
 
-/// The first draw after one that falls inside, and its point.
+/// The next draw that falls inside, and its point.
 #[cold]
 fn next_inside(slab: &Slab, seed: u64, cell: [u32; 3], draw: u32) -> (u32, [f32; 3]) {
     let found = (draw + 1..draw + TRIES).find_map(|draw| slab.point(seed, cell, draw).map(|o| (draw, o)));
@@ -190,20 +195,20 @@ fn next_inside(slab: &Slab, seed: u64, cell: [u32; 3], draw: u32) -> (u32, [f32;
 }
 
 /// A random point of a pool.
-struct Drawn {
-    /// Its place along a curve that keeps together what lies together, then the draw.
+struct PoolPoint {
+    /// Key for sorting: the Morton code of the place, then the draw.
     key: u64,
     draw: u32,
     at: [f32; 3],
 }
 
-/// Bits of three numbers from 0 to 1, ten of each, in turn: Morton's order.
+/// Morton code: the bits of three numbers from 0 to 1, ten bits each, interleaved.
 #[inline(always)]
 fn morton(at: [f32; 3]) -> u32 {
     let spread = |x: f32| {
         // `as` clamps at 0.
         let x = ((x * 1024.0) as i32).clamp(0, 1023) as u32;
-        // Halves apart, again and again, until two places are free after each bit.
+        // Spreads the bits, halving the groups until two places are free after each bit.
         let x = (x | x << 16) & 0x0300_00ff;
         let x = (x | x << 8) & 0x0300_f00f;
         let x = (x | x << 4) & 0x030c_30c3;
