@@ -163,8 +163,8 @@ fn along_vectors(mut field: &Vectors, seeds: &[DVec3]) -> (Vec<Ends>, [u64; 2]) 
         let along = field.at(seed)?;
         let halves = [along, -along].map(|along| trace(&mut field, seed, along, &control));
         asked += 1 + halves.iter().map(|half| u64::from(half.evaluations)).sum::<u64>();
-        vertices += 1 + halves.iter().map(|half| half.pieces.len() as u64).sum::<u64>();
-        let [a, b] = halves.map(|half| half.pieces.last().map_or(seed, |piece| piece.ends[1]));
+        vertices += 1 + halves.iter().map(|half| half.segments.len() as u64).sum::<u64>();
+        let [a, b] = halves.map(|half| half.segments.last().map_or(seed, |segment| segment.ends[1]));
         Some([seed, a, b])
     });
     (strokes.collect(), [asked, vertices])

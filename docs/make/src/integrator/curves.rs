@@ -63,17 +63,17 @@ impl Curve {
         let mut lines = Formula(&self.field);
         let along = (self.field)(self.start).normalize();
         let half = trace(&mut lines, self.start, along, &control);
-        Traced { error: (self.error)(&half), steps: half.pieces.len() }
+        Traced { error: (self.error)(&half), steps: half.segments.len() }
     }
 }
 
 fn end(half: &HalfCurve<()>) -> DVec3 {
-    half.pieces.last().map_or(DVec3::NAN, |piece| piece.ends[1])
+    half.segments.last().map_or(DVec3::NAN, |segment| segment.ends[1])
 }
 
 /// The largest of a number over the ends of all steps.
 fn largest(half: &HalfCurve<()>, off: impl Fn(DVec3) -> f64) -> f64 {
-    half.pieces.iter().map(|piece| off(piece.ends[1])).fold(0.0, f64::max)
+    half.segments.iter().map(|segment| off(segment.ends[1])).fold(0.0, f64::max)
 }
 
 /// The principal directions of a formula's surfaces, bright inside: the first of the largest κ.

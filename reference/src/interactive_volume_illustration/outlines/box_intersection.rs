@@ -18,7 +18,7 @@ pub(super) fn rim<S: Sampler<f64>>(search: &OutlineSearch<'_>, sampler: &S) -> V
         let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
         let rows = (0..dims[v] - 1).into_par_iter();
         rows.flat_map_iter(move |row| {
-            let mut pieces = Vec::new();
+            let mut segments = Vec::new();
             for column in 0..dims[u] - 1 {
                 let mut first = [0; 3];
                 (first[u], first[v], first[axis]) = (column, row, if far { dims[axis] - 1 } else { 0 });
@@ -28,10 +28,10 @@ pub(super) fn rim<S: Sampler<f64>>(search: &OutlineSearch<'_>, sampler: &S) -> V
                     continue;
                 }
                 for middle in [1 << u, 1 << v] {
-                    pieces.extend(in_triangle(search, sampler, first, [0, middle, 1 << u | 1 << v]));
+                    segments.extend(in_triangle(search, sampler, first, [0, middle, 1 << u | 1 << v]));
                 }
             }
-            pieces
+            segments
         })
     };
     (0..6).into_par_iter().flat_map(side).collect()

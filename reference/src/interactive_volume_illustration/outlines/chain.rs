@@ -17,17 +17,17 @@ const NONE: usize = usize::MAX;
 /// Open chains come before closed ones, each group in the order of the smallest possible first key. A closed chain
 /// starts at its smallest key and continues to the smaller of the two neighbours. So the result does not depend on
 /// the order of the segments.
-pub(super) fn chains(mut pieces: Vec<[u64; 2]>) -> Vec<Chain> {
-    pieces.iter_mut().for_each(|piece| piece.sort_unstable());
-    pieces.sort_unstable();
-    let mut keys: Vec<u64> = pieces.iter().flatten().copied().collect();
+pub(super) fn chains(mut segments: Vec<[u64; 2]>) -> Vec<Chain> {
+    segments.iter_mut().for_each(|segment| segment.sort_unstable());
+    segments.sort_unstable();
+    let mut keys: Vec<u64> = segments.iter().flatten().copied().collect();
     keys.sort_unstable();
     keys.dedup();
     // Each place gets links to its two neighbours, as long as both ends of a segment are free.
     let mut joined = vec![[NONE; 2]; keys.len()];
-    for piece in pieces {
+    for segment in segments {
         // `keys` contains every key of a segment.
-        let [a, b] = piece.map(|key| keys.partition_point(|&k| k < key));
+        let [a, b] = segment.map(|key| keys.partition_point(|&k| k < key));
         let free = |i: usize| joined[i].iter().position(|&n| n == NONE);
         if let (Some(i), Some(j)) = (free(a), free(b)) {
             (joined[a][i], joined[b][j]) = (b, a);
@@ -72,18 +72,18 @@ mod tests {
 
     #[test]
     fn open_and_closed_whatever_the_order() {
-        let mut pieces = vec![[7, 3], [3, 9], [9, 7], [20, 4], [4, 11], [11, 30]];
+        let mut segments = vec![[7, 3], [3, 9], [9, 7], [20, 4], [4, 11], [11, 30]];
         let expected = [chain(&[20, 4, 11, 30], false), chain(&[3, 7, 9], true)];
-        for _ in 0..pieces.len() {
-            pieces.rotate_left(1);
-            pieces.iter_mut().for_each(|piece| piece.reverse());
-            assert_eq!(chains(pieces.clone()), expected);
+        for _ in 0..segments.len() {
+            segments.rotate_left(1);
+            segments.iter_mut().for_each(|segment| segment.reverse());
+            assert_eq!(chains(segments.clone()), expected);
         }
         assert_eq!(chains(Vec::new()), []);
     }
 
     #[test]
-    fn a_third_piece_is_left_out() {
+    fn a_third_segment_is_left_out() {
         assert_eq!(chains(vec![[1, 2], [1, 3], [1, 4]]), [chain(&[2, 1, 3], false)]);
     }
 }

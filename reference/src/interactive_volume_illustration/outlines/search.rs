@@ -87,8 +87,8 @@ impl OutlineSearch<'_> {
             return OutlineStrokes::default();
         }
         let in_bricks = |brick: &[usize; 3]| self.in_brick(sampler, *brick);
-        let pieces: Vec<[CurvePoint; 2]> = bricks.par_iter().flat_map_iter(in_bricks).collect();
-        let (chains, found) = joined(pieces);
+        let segments: Vec<[CurvePoint; 2]> = bricks.par_iter().flat_map_iter(in_bricks).collect();
+        let (chains, found) = joined(segments);
         let refine = CurveRefinement {
             sampler,
             over: &|value| self.level.over(value),
@@ -145,7 +145,7 @@ impl OutlineSearch<'_> {
         });
         // g·v is computed only at corners of cells in which f − iso changes its sign; NaN marks the others.
         let mut facing = [f64::NAN; SIDE * SIDE * SIDE];
-        let mut pieces = Vec::new();
+        let mut segments = Vec::new();
         for_each(cells, |cell| {
             let corner = |steps: usize| over[local(at(cell, steps))];
             let above = is_above(corner(0));
@@ -166,17 +166,17 @@ impl OutlineSearch<'_> {
             });
             let turns = is_above(corners[0][1]);
             if corners.iter().any(|corner| is_above(corner[1]) != turns) {
-                self.in_cell(index, &corners, &mut pieces);
+                self.in_cell(index, &corners, &mut segments);
             }
         });
-        pieces
+        segments
     }
 
     /// Adds the segments in the tetrahedra of a cell, from the functions at its corners.
-    fn in_cell(&self, cell: [usize; 3], corners: &[ValuePair; 8], pieces: &mut Vec<[CurvePoint; 2]>) {
+    fn in_cell(&self, cell: [usize; 3], corners: &[ValuePair; 8], segments: &mut Vec<[CurvePoint; 2]>) {
         for tetrahedron in TETRAHEDRA {
             let Some(faces) = crossed(tetrahedron.map(|steps| corners[steps])) else { continue };
-            pieces.push(faces.map(|face| {
+            segments.push(faces.map(|face| {
                 let [a, b, c] = FACES[face].map(|k| tetrahedron[k]);
                 let w = weights([a, b, c].map(|steps| corners[steps]));
                 let from: [usize; 3] = std::array::from_fn(|axis| cell[axis] + (a >> axis & 1));
@@ -284,9 +284,9 @@ pub(super) fn position(voxel: [usize; 3]) -> DVec3 {
 }
 
 /// Chains of segments, and all places sorted by key.
-fn joined(pieces: Vec<[CurvePoint; 2]>) -> (Vec<Chain>, Vec<CurvePoint>) {
-    let chains = chains(pieces.iter().map(|piece| piece.map(|(key, _)| key)).collect());
-    let mut places: Vec<CurvePoint> = pieces.into_iter().flatten().collect();
+fn joined(segments: Vec<[CurvePoint; 2]>) -> (Vec<Chain>, Vec<CurvePoint>) {
+    let chains = chains(segments.iter().map(|segment| segment.map(|(key, _)| key)).collect());
+    let mut places: Vec<CurvePoint> = segments.into_iter().flatten().collect();
     places.sort_unstable_by_key(|(key, _)| *key);
     // Both tetrahedra at a face give the same place.
     places.dedup_by_key(|(key, _)| *key);

@@ -22,7 +22,7 @@ pub(super) fn kept(places: &[DVec3], closed: bool, within: f64) -> Vec<bool> {
         (is_kept[a], is_kept[b % n]) = (true, true);
         let mut most = (within, None);
         for i in a + 1..b {
-            let d = from_piece(at(i), [at(a), at(b)]);
+            let d = from_segment(at(i), [at(a), at(b)]);
             if d > most.0 {
                 most = (d, Some(i));
             }
@@ -35,7 +35,7 @@ pub(super) fn kept(places: &[DVec3], closed: bool, within: f64) -> Vec<bool> {
 }
 
 /// Distance of a place from a segment.
-fn from_piece(p: DVec3, [a, b]: [DVec3; 2]) -> f64 {
+fn from_segment(p: DVec3, [a, b]: [DVec3; 2]) -> f64 {
     let (along, from) = (b - a, p - a);
     let length = along.length_squared();
     let t = if length > 0.0 { (from.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };

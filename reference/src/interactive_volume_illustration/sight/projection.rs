@@ -54,8 +54,8 @@ impl<'a> PageProjection<'a> {
     }
 
     /// Clips a world segment to the frame, grown by `beyond` mm.
-    pub(super) fn cut(&self, piece: [DVec3; 2], beyond: f64) -> Option<ClippedSegment> {
-        let eye = piece.map(|p| self.view.to_eye(p));
+    pub(super) fn cut(&self, segment: [DVec3; 2], beyond: f64) -> Option<ClippedSegment> {
+        let eye = segment.map(|p| self.view.to_eye(p));
         let mut world = [0.0, 1.0];
         let mut depths = [1.0; 2];
         if self.view.perspective {

@@ -137,25 +137,25 @@ impl VisibilityTrace<'_, '_> {
         let (mut joins, mut known) = (false, None);
         let mut begins_seen = false;
         for (i, pair) in ends.windows(2).enumerate() {
-            let piece = [pair[0], pair[1]];
-            let cut = self.onto.cut([piece[0].vertex.world, piece[1].vertex.world], piece[0].pen.radius);
+            let segment = [pair[0], pair[1]];
+            let cut = self.onto.cut([segment[0].vertex.world, segment[1].vertex.world], segment[0].pen.radius);
             let Some(cut) = cut else {
                 (joins, known) = (false, None);
                 continue;
             };
             // The visible ranges of the segment. The visibility at its start is known if the segment before was not
             // clipped.
-            let (ranges, last) = self.ranges(&piece, &cut, known.filter(|_| cut.range[0] == 0.0));
+            let (ranges, last) = self.ranges(&segment, &cut, known.filter(|_| cut.range[0] == 0.0));
             known = (cut.range[1] == 1.0).then_some(last);
             let mut ends_seen = false;
             for [from, to] in ranges {
                 let at_start = cut.is_start(from);
                 begins_seen |= i == 0 && at_start;
                 ends_seen = cut.is_end(to);
-                let end = between(&piece, &cut, to);
+                let end = between(&segment, &cut, to);
                 match parts.last_mut() {
                     Some(part) if joins && at_start => part.push(end),
-                    _ => parts.push(vec![between(&piece, &cut, from), end]),
+                    _ => parts.push(vec![between(&segment, &cut, from), end]),
                 }
             }
             joins = ends_seen;
@@ -179,7 +179,7 @@ impl VisibilityTrace<'_, '_> {
     /// Returns the visible parameter ranges of a segment, and whether its end is visible.
     fn ranges(
         &mut self,
-        piece: &[PennedVertex; 2],
+        segment: &[PennedVertex; 2],
         cut: &ClippedSegment,
         known: Option<bool>,
     ) -> (Vec<[f64; 2]>, bool) {
@@ -187,18 +187,18 @@ impl VisibilityTrace<'_, '_> {
         if self.sight.surface.is_none() {
             return (vec![[from, to]], true);
         }
-        let mut before = known.unwrap_or_else(|| self.is_seen(piece, cut, from));
+        let mut before = known.unwrap_or_else(|| self.is_seen(segment, cut, from));
         let pixels = cut.length * self.sight.page.pixels_per_mm();
         let steps = (pixels * (to - from) / APART).ceil().max(1.0) as u32;
         let (mut ranges, mut start, mut last) = (Vec::new(), before.then_some(from), from);
         for step in 1..=steps {
             let at = if step == steps { to } else { from + (to - from) * f64::from(step) / f64::from(steps) };
-            let now = self.is_seen(piece, cut, at);
+            let now = self.is_seen(segment, cut, at);
             if now != before {
                 let (mut lo, mut hi) = (last, at);
                 while (hi - lo) * pixels > CHANGE {
                     let middle = 0.5 * (lo + hi);
-                    if self.is_seen(piece, cut, middle) == before { lo = middle } else { hi = middle }
+                    if self.is_seen(segment, cut, middle) == before { lo = middle } else { hi = middle }
                 }
                 let change = 0.5 * (lo + hi);
                 match start.take() {
@@ -212,10 +212,10 @@ impl VisibilityTrace<'_, '_> {
         (ranges, before)
     }
 
-    fn is_seen(&mut self, piece: &[PennedVertex; 2], cut: &ClippedSegment, s: f64) -> bool {
+    fn is_seen(&mut self, segment: &[PennedVertex; 2], cut: &ClippedSegment, s: f64) -> bool {
         let Some(surface) = self.sight.surface else { return true };
         self.looks += 1;
-        let [a, b] = piece.map(|end| end.vertex);
+        let [a, b] = segment.map(|end| end.vertex);
         let u = cut.along_world(s);
         let normal = a.normal.lerp(b.normal, u).normalize_or_zero();
         let at: DVec3 = a.world.lerp(b.world, u) + normal * (self.sight.offset * self.front);

@@ -366,19 +366,19 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
         // The forward half, which may come back to the seed; otherwise the backward half follows.
         let forward = trace(&mut lines, seed.world, along, &Control { goal: back_again, ..control });
         let stop = stop(&forward.end);
-        let (pieces, at_seed, stops) = if stop == StrokeEnd::Closed {
-            (forward.pieces, 0, [Some(stop), None])
+        let (segments, at_seed, stops) = if stop == StrokeEnd::Closed {
+            (forward.segments, 0, [Some(stop), None])
         } else {
             // The other half may come round to the end of the first half. If that end lies just before the seed, it
             // does so at once.
-            let far = forward.pieces.last().filter(|_| stop == StrokeEnd::Length);
-            let far = far.and_then(|piece| goal(piece.ends[1], -piece.tangents[1].normalize_or_zero(), 0.0));
+            let far = forward.segments.last().filter(|_| stop == StrokeEnd::Length);
+            let far = far.and_then(|segment| goal(segment.ends[1], -segment.tangents[1].normalize_or_zero(), 0.0));
             lines.scale = scale;
             let back = trace(&mut lines, seed.world, -along, &Control { goal: far, ..control });
             joined(&back, forward, stop)
         };
         let closed = stops.contains(&Some(StrokeEnd::Closed));
-        let stroke = self.polyline(&pieces, at_seed, closed, seed, &mut counted);
+        let stroke = self.polyline(&segments, at_seed, closed, seed, &mut counted);
         if stroke.is_some() {
             stops.into_iter().flatten().for_each(|stop| counted.stops.count(stop));
         }
@@ -395,10 +395,10 @@ fn joined(
     stop_forward: StrokeEnd,
 ) -> (Vec<CubicSegment>, usize, [Option<StrokeEnd>; 2]) {
     let stop_back = stop(&back.end);
-    let pieces = back.pieces.iter().rev().map(CubicSegment::reversed).chain(forward.pieces).collect();
+    let segments = back.segments.iter().rev().map(CubicSegment::reversed).chain(forward.segments).collect();
     // The halves meet in one end, which counts once.
     let first = (stop_back != StrokeEnd::Closed).then_some(stop_forward);
-    (pieces, back.pieces.len(), [first, Some(stop_back)])
+    (segments, back.segments.len(), [first, Some(stop_back)])
 }
 
 fn stop(end: &EndCause<NoDirection>) -> StrokeEnd {
@@ -486,11 +486,11 @@ impl LineField for CurvatureLines<'_, '_, '_> {
     }
 
     /// The parameter at which a segment leaves its cell. Crossings nearer to an end than the tolerance are ignored.
-    fn kink(&self, piece: &CubicSegment) -> Option<f64> {
+    fn kink(&self, segment: &CubicSegment) -> Option<f64> {
         let grid = self.strokes.ground.grid();
-        let near = self.exact? / piece.ends[0].distance(piece.ends[1]);
-        let piece = piece.mapped(|x| grid.to_index(x), |t| grid.inverse_axes() * t);
-        piece.face([near, 1.0 - near])
+        let near = self.exact? / segment.ends[0].distance(segment.ends[1]);
+        let segment = segment.mapped(|x| grid.to_index(x), |t| grid.inverse_axes() * t);
+        segment.face([near, 1.0 - near])
     }
 
     fn put_back(&mut self, x: DVec3) -> Option<DVec3> {

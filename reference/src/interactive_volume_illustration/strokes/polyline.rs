@@ -54,23 +54,23 @@ impl StrokeGrower<'_, '_> {
     /// the run with the seed remains. Returns none if this run has fewer than two vertices.
     pub(super) fn polyline(
         &self,
-        pieces: &[CubicSegment],
+        segments: &[CubicSegment],
         at_seed: usize,
         closed: bool,
         seed: &Seed,
         counts: &mut HatchCounts,
     ) -> Option<Stroke> {
-        if pieces.is_empty() {
+        if segments.is_empty() {
             return None;
         }
-        let at = vertices(pieces, self.how().chord);
+        let at = vertices(segments, self.how().chord);
         let mut runs = VertexRuns { each: vec![Vec::with_capacity(2 * at.len())], faces: Vec::with_capacity(16) };
         // Chord vertices are put back onto the surface. `segment` adds vertices between them, or cuts the run.
         let mut before: Option<FrontVertex> = None;
         for t in at {
-            let next = self.put_back(point(pieces, t), seed.target).map(|world| FrontVertex { t, world });
+            let next = self.put_back(point(segments, t), seed.target).map(|world| FrontVertex { t, world });
             match (before, next) {
-                (Some(a), Some(b)) => self.segment(pieces, seed.target, [a, b], HALVINGS, &mut runs),
+                (Some(a), Some(b)) => self.segment(segments, seed.target, [a, b], HALVINGS, &mut runs),
                 (None, Some(b)) => runs.push(b),
                 (_, None) => runs.cut(),
             }
@@ -95,7 +95,7 @@ impl StrokeGrower<'_, '_> {
     /// Adds the end of a segment, and the vertices before it that are needed for no part to lie behind the surface.
     fn segment(
         &self,
-        pieces: &[CubicSegment],
+        segments: &[CubicSegment],
         target: f64,
         [a, b]: [FrontVertex; 2],
         halvings: u32,
@@ -106,11 +106,11 @@ impl StrokeGrower<'_, '_> {
             return;
         }
         let t = 0.5 * (a.t + b.t);
-        let middle = (halvings > 0).then(|| self.put_back(point(pieces, t), target)).flatten();
+        let middle = (halvings > 0).then(|| self.put_back(point(segments, t), target)).flatten();
         match middle.map(|world| FrontVertex { t, world }) {
             Some(middle) => {
-                self.segment(pieces, target, [a, middle], halvings - 1, runs);
-                self.segment(pieces, target, [middle, b], halvings - 1, runs);
+                self.segment(segments, target, [a, middle], halvings - 1, runs);
+                self.segment(segments, target, [middle, b], halvings - 1, runs);
             }
             None => {
                 runs.cut();

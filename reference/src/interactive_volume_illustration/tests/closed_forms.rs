@@ -41,11 +41,11 @@ fn a_meridian_of_a_torus_comes_back() {
             let tolerance = 10f64.powi(-power);
             let half = half(&strokes, &seed, control(tolerance, TAU * tube));
             assert_eq!(half.end, EndCause::Length);
-            let last = half.pieces[half.pieces.len() - 1].ends[1];
+            let last = half.segments[half.segments.len() - 1].ends[1];
             assert!(last.distance(world) <= 5.0 * tolerance, "{:e} at {tolerance:e}", last.distance(world));
-            for piece in &half.pieces {
-                let turn = piece.tangents[0].angle_between(piece.tangents[1]);
-                let h = piece.tangents[0].length();
+            for segment in &half.segments {
+                let turn = segment.tangents[0].angle_between(segment.tangents[1]);
+                let h = segment.tangents[0].length();
                 assert!(turn <= 1.1 * h / tube, "{turn} in {h}");
             }
         }
@@ -75,9 +75,9 @@ fn a_ruling_of_a_cylinder_is_straight() {
     let out = axis.any_orthonormal_vector();
     let seed = seed_at(&strokes, centre + out * 14.0);
     let half = half(&strokes, &seed, Control { max_step: 1.0, ..control(1e-8, 20.0) });
-    let steps = half.pieces.len() as f64;
-    for piece in &half.pieces {
-        let away = piece.ends[1] - seed.world;
+    let steps = half.segments.len() as f64;
+    for segment in &half.segments {
+        let away = segment.ends[1] - seed.world;
         let off = (away - axis * away.dot(axis)).length();
         // A direction is off by a few u, a place by u of itself at each step.
         assert!(off <= 16.0 * f64::EPSILON / 2.0 * 64.0 * steps, "{off:e}");
@@ -138,8 +138,8 @@ fn a_confocal_coordinate_is_constant_on_an_ellipsoid() {
                 let half = half(&strokes, &seed, control(tolerance, 40.0));
                 assert_eq!(half.end, EndCause::Length);
                 let mut fastest = speed;
-                for piece in &half.pieces {
-                    let [at, speed] = confocal(piece.ends[1] - centre)[kept];
+                for segment in &half.segments {
+                    let [at, speed] = confocal(segment.ends[1] - centre)[kept];
                     fastest = fastest.max(speed);
                     *worst = worst.max((at - start).abs() / (fastest * tolerance));
                 }
@@ -198,7 +198,7 @@ fn lines_of_curvature_of_a_cyclide_are_circles() {
                 let tolerance = 10f64.powi(-power);
                 let half = half(&strokes, &seed, control(tolerance, 20.0));
                 assert_eq!(half.end, EndCause::Length);
-                let off = half.pieces.iter().map(|piece| residual(piece.ends[1])).fold(0.0, f64::max);
+                let off = half.segments.iter().map(|segment| residual(segment.ends[1])).fold(0.0, f64::max);
                 *worst = worst.max(off / (tolerances(20.0, middle.distance(p)) * tolerance));
             }
         }

@@ -170,10 +170,10 @@ fn traced(
 /// The place after an arc on a half. Returns none beyond its end.
 fn after(half: &HalfCurve<NoDirection>, arc: f64) -> Option<DVec3> {
     let mut before = 0.0;
-    for piece in &half.pieces {
-        let step = piece.tangents[0].length();
+    for segment in &half.segments {
+        let step = segment.tangents[0].length();
         if arc <= before + step {
-            return Some(piece.point((arc - before) / step));
+            return Some(segment.point((arc - before) / step));
         }
         before += step;
     }

@@ -38,8 +38,8 @@ fn places(strokes: &[Stroke]) -> Vec<DVec3> {
     let of = |stroke: &Stroke| {
         let at: Vec<DVec3> = stroke.vertices.iter().map(|v| v.world).collect();
         let n = at.len();
-        let pieces = if stroke.closed { n } else { n - 1 };
-        (0..pieces).flat_map(|i| [at[i], (at[i] + at[(i + 1) % n]) / 2.0]).collect::<Vec<_>>()
+        let segments = if stroke.closed { n } else { n - 1 };
+        (0..segments).flat_map(|i| [at[i], (at[i] + at[(i + 1) % n]) / 2.0]).collect::<Vec<_>>()
     };
     strokes.iter().flat_map(of).collect()
 }

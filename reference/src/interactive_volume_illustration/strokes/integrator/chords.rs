@@ -20,10 +20,10 @@ const TRIALS: usize = 24;
 /// Returns the vertices of a polyline as parameters on the curve of these segments: the integer part is the segment's
 /// index, the fraction its parameter. Each chord is as long as possible within the distance `chord` of the curve.
 /// Both ends of the curve are vertices.
-pub fn vertices(pieces: &[CubicSegment], chord: f64) -> Vec<f64> {
-    let curve = SampledCurve::new(pieces);
-    let end = pieces.len() as f64;
-    let mut at = Vec::with_capacity(2 * pieces.len() + 1);
+pub fn vertices(segments: &[CubicSegment], chord: f64) -> Vec<f64> {
+    let curve = SampledCurve::new(segments);
+    let end = segments.len() as f64;
+    let mut at = Vec::with_capacity(2 * segments.len() + 1);
     at.push(0.0);
     let (mut from, mut long) = (0.0, 1.0);
     while from < end {
@@ -39,30 +39,30 @@ pub fn vertices(pieces: &[CubicSegment], chord: f64) -> Vec<f64> {
 /// # Panics
 /// If the curve has no piece.
 #[inline]
-pub fn point(pieces: &[CubicSegment], t: f64) -> DVec3 {
-    let i = (t as usize).min(pieces.len() - 1);
-    pieces[i].point(t - i as f64)
+pub fn point(segments: &[CubicSegment], t: f64) -> DVec3 {
+    let i = (t as usize).min(segments.len() - 1);
+    segments[i].point(t - i as f64)
 }
 
 /// A curve with sampled places.
 struct SampledCurve<'a> {
-    pieces: &'a [CubicSegment],
+    segments: &'a [CubicSegment],
     /// Places at the quarters of segments, from the first segment's beginning on.
     places: Vec<DVec3>,
 }
 
 impl<'a> SampledCurve<'a> {
-    fn new(pieces: &'a [CubicSegment]) -> Self {
-        let on = |piece: &'a CubicSegment| (0..PLACES).map(|i| piece.point(i as f64 / PLACES as f64));
-        let mut places = Vec::with_capacity(PLACES * pieces.len());
-        pieces.iter().for_each(|piece| places.extend(on(piece)));
-        Self { pieces, places }
+    fn new(segments: &'a [CubicSegment]) -> Self {
+        let on = |segment: &'a CubicSegment| (0..PLACES).map(|i| segment.point(i as f64 / PLACES as f64));
+        let mut places = Vec::with_capacity(PLACES * segments.len());
+        segments.iter().for_each(|segment| places.extend(on(segment)));
+        Self { segments, places }
     }
 
     /// Returns the end of the longest chord from a place. The first trial is as long as the chord before. Longer ones
     /// follow until one is too long, then trials between the two.
     fn chord_end(&self, from: f64, long: f64, chord: f64) -> f64 {
-        let end = self.pieces.len() as f64;
+        let end = self.segments.len() as f64;
         let (enough, aim) = (ENOUGH.sqrt(), (0.5 * (1.0 + ENOUGH)).sqrt());
         // Ends of chords that are good and bad, with √(distance/allowed distance), which is nearly linear in the
         // length.
@@ -95,7 +95,7 @@ impl<'a> SampledCurve<'a> {
 
     /// The largest distance from a chord, from parabolas through neighbouring places.
     fn error(&self, from: f64, to: f64) -> f64 {
-        let chord = Chord::new(point(self.pieces, from), point(self.pieces, to));
+        let chord = Chord::new(point(self.segments, from), point(self.segments, to));
         let mut largest = RunningMaximum { before: [from, 0.0], last: [from, 0.0], found: 0.0 };
         if to - from >= 1.0 {
             let first = (from * PLACES as f64) as usize + 1;
@@ -105,7 +105,7 @@ impl<'a> SampledCurve<'a> {
         } else {
             let step = (to - from) / PLACES as f64;
             for t in (1..PLACES).map(|i| from + step * i as f64) {
-                largest.add(t, chord.square_distance(point(self.pieces, t)));
+                largest.add(t, chord.square_distance(point(self.segments, t)));
             }
         }
         largest.add(to, 0.0);
@@ -196,11 +196,11 @@ mod tests {
                 goal: None,
             };
             let half = trace(&mut Circle, DVec3::X * r, DVec3::Y, &control);
-            let at = vertices(&half.pieces, 0.1);
+            let at = vertices(&half.segments, 0.1);
             let chords = at.len() - 1;
             assert!(chords >= fewest && chords as f64 <= 1.3 * fewest as f64, "{r}: {chords}");
             for pair in at.windows(2) {
-                let middle = (point(&half.pieces, pair[0]) + point(&half.pieces, pair[1])) / 2.0;
+                let middle = (point(&half.segments, pair[0]) + point(&half.segments, pair[1])) / 2.0;
                 assert!(r - middle.length() <= 0.1 + 1e-4);
             }
         }
@@ -219,8 +219,8 @@ mod tests {
 
     #[test]
     fn a_straight_line_is_one_chord() {
-        let piece = |x: f64| CubicSegment { ends: [DVec3::X * x, DVec3::X * (x + 1.0)], tangents: [DVec3::X; 2] };
-        assert_eq!(vertices(&[piece(0.0), piece(1.0), piece(2.0)], 1e-9), [0.0, 3.0]);
+        let segment = |x: f64| CubicSegment { ends: [DVec3::X * x, DVec3::X * (x + 1.0)], tangents: [DVec3::X; 2] };
+        assert_eq!(vertices(&[segment(0.0), segment(1.0), segment(2.0)], 1e-9), [0.0, 3.0]);
         assert_eq!(vertices(&[], 0.1), [0.0]);
     }
 }

@@ -153,7 +153,7 @@ fn bisect([mut lo, mut hi]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
 mod tests {
     use super::*;
 
-    fn piece() -> CubicSegment {
+    fn segment() -> CubicSegment {
         let (a, b) = (DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 1.5, 4.0));
         CubicSegment { ends: [a, b], tangents: [DVec3::new(0.5, 0.7, 0.1), DVec3::new(1.1, -0.4, 0.9)] }
     }
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_part_and_the_way_back_are_the_same_curve() {
-        let (whole, part, back) = (piece(), piece().until(0.3), piece().reversed());
+        let (whole, part, back) = (segment(), segment().until(0.3), segment().reversed());
         for s in [0.0, 0.2, 0.7, 1.0] {
             assert!(part.point(s).distance(whole.point(0.3 * s)) < 1e-15);
             assert!(back.point(1.0 - s).distance(whole.point(s)) < 1e-15);
@@ -197,7 +197,7 @@ mod tests {
         }
         assert_eq!(bent.turned(DVec3::X, 46f64.to_radians().cos()), None);
         // On any piece as a search in small steps has it.
-        let p = piece();
+        let p = segment();
         for along in [DVec3::X, DVec3::Y, DVec3::NEG_ONE.normalize(), -p.tangent(0.37).normalize()] {
             let cosine = |s: f64| p.tangent(s).normalize().dot(along);
             for cos in [0.9, 0.0, -0.7, -0.98, -0.999_999] {
@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn the_nearest_point_is_found() {
-        let p = piece();
+        let p = segment();
         for s in [0.0, 0.13, 0.5, 0.77, 1.0] {
             let off = p.tangent(s).normalize().any_orthonormal_vector() * 0.05;
             let (found, distance) = p.nearest(p.point(s) + off);

@@ -15,7 +15,7 @@ const SMOOTH: f64 = 0.5;
 const TRIES_AT_KINK: u32 = 3;
 
 /// Initial capacity for segments.
-const PIECES: usize = 16;
+const CAPACITY: usize = 16;
 
 /// A field of lines.
 pub trait LineField {
@@ -44,7 +44,7 @@ pub trait LineField {
     }
 
     /// The parameter inside a segment at which it first meets a kink of the field. The step ends there.
-    fn kink(&self, _piece: &CubicSegment) -> Option<f64> {
+    fn kink(&self, _segment: &CubicSegment) -> Option<f64> {
         None
     }
 
@@ -108,7 +108,7 @@ pub enum EndCause<C> {
 #[derive(Clone, Debug)]
 pub struct HalfCurve<C> {
     /// Consecutive segments.
-    pub pieces: Vec<CubicSegment>,
+    pub segments: Vec<CubicSegment>,
     /// The arc length, the sum of the steps.
     pub length: f64,
     /// The cause of the end.
@@ -138,7 +138,7 @@ struct StepStart {
 
 /// An accepted step.
 struct AcceptedStep {
-    piece: CubicSegment,
+    segment: CubicSegment,
     /// The start of the next step, with k₅ as its k₁.
     to: StepStart,
     /// Factor for the length of the next step.
@@ -149,7 +149,7 @@ struct AcceptedStep {
 /// field's last answer.
 pub fn trace<L: LineField>(field: &mut L, start: DVec3, along: DVec3, control: &Control) -> HalfCurve<L::Cause> {
     let mut half = HalfCurve {
-        pieces: Vec::with_capacity(PIECES),
+        segments: Vec::with_capacity(CAPACITY),
         length: 0.0,
         end: EndCause::Length,
         evaluations: 0,
@@ -170,7 +170,7 @@ pub fn trace<L: LineField>(field: &mut L, start: DVec3, along: DVec3, control: &
             Ok(done) => {
                 let (whole, tries) = kink.unwrap_or((step, 0));
                 if tries < TRIES_AT_KINK
-                    && let Some(s) = field.kink(&done.piece)
+                    && let Some(s) = field.kink(&done.segment)
                 {
                     // The step is tried again up to the kink, so that no step crosses it.
                     kink = Some((whole, tries + 1));
@@ -179,15 +179,15 @@ pub fn trace<L: LineField>(field: &mut L, start: DVec3, along: DVec3, control: &
                     continue;
                 }
                 kink = None;
-                if let Some((piece, share, end)) = ends(&done, along, half.length, step, control) {
+                if let Some((segment, share, end)) = ends(&done, along, half.length, step, control) {
                     if share > 0.0 {
-                        half.pieces.push(piece);
+                        half.segments.push(segment);
                         half.length += share * step;
                     }
                     half.end = end;
                     return half;
                 }
-                half.pieces.push(done.piece);
+                half.segments.push(done.segment);
                 half.length = if last { control.length } else { half.length + step };
                 at = done.to;
                 // A step that was shortened at a kink does not limit the next one.
@@ -260,7 +260,7 @@ fn try_step<L: LineField>(
         k5 = stage(field, to, k5)?;
     }
     let next = StepStart { x: to, k: k5, formula: field.formula() };
-    Ok(AcceptedStep { piece: CubicSegment { ends: [x, to], tangents: [k1 * h, k5 * h] }, to: next, factor })
+    Ok(AcceptedStep { segment: CubicSegment { ends: [x, to], tangents: [k1 * h, k5 * h] }, to: next, factor })
 }
 
 /// Tests whether a step is the last one. Returns the part of its segment that counts, its share, and the cause of the
@@ -272,23 +272,23 @@ fn ends<C>(
     step: f64,
     control: &Control,
 ) -> Option<(CubicSegment, f64, EndCause<C>)> {
-    let piece = &done.piece;
+    let segment = &done.segment;
     let any = control.cos_max_angle <= -1.0;
-    let turned = if any { None } else { piece.turned(along, control.cos_max_angle) };
+    let turned = if any { None } else { segment.turned(along, control.cos_max_angle) };
     if let Some(goal) = control.goal
         && before >= goal.after
-        && goal.at.distance(piece.ends[1]) <= step + goal.within
+        && goal.at.distance(segment.ends[1]) <= step + goal.within
     {
-        let (s, distance) = piece.nearest(goal.at);
+        let (s, distance) = segment.nearest(goal.at);
         let first = turned.is_none_or(|t| s < t);
-        if first && distance <= goal.within && s > 0.0 && piece.tangent(s).dot(goal.along) > SMOOTH * step {
-            let mut closed = piece.until(s);
+        if first && distance <= goal.within && s > 0.0 && segment.tangent(s).dot(goal.along) > SMOOTH * step {
+            let mut closed = segment.until(s);
             closed.ends[1] = goal.at;
             closed.tangents[1] = goal.along * (s * step);
             return Some((closed, s, EndCause::Closed));
         }
     }
-    turned.map(|s| (piece.until(s), s, EndCause::Angle))
+    turned.map(|s| (segment.until(s), s, EndCause::Angle))
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ fn helix(x: DVec3) -> DVec3 {
 }
 
 fn end<C>(half: &HalfCurve<C>) -> DVec3 {
-    half.pieces[half.pieces.len() - 1].ends[1]
+    half.segments[half.segments.len() - 1].ends[1]
 }
 
 /// A field along x up to 7.3, then aslant. It tells or hides which of both it was asked for last.
@@ -93,8 +93,8 @@ fn the_error_is_that_of_the_tolerance_and_of_fourth_order() {
             let error = end(&half).distance(want);
             assert!(error <= 2.0 * control.tolerance, "{error:e} at {:e}", control.tolerance);
             assert_eq!((half.end, half.length), (EndCause::Length, 40.0));
-            assert_eq!(half.evaluations as usize, 4 * half.pieces.len() + 4 * half.rejected as usize);
-            measured.push(((half.pieces.len() as f64).ln(), error.ln()));
+            assert_eq!(half.evaluations as usize, 4 * half.segments.len() + 4 * half.rejected as usize);
+            measured.push(((half.segments.len() as f64).ln(), error.ln()));
         }
     }
     for measured in measured {
@@ -107,10 +107,10 @@ fn the_error_is_that_of_the_tolerance_and_of_fourth_order() {
 #[test]
 fn between_the_steps_it_is_as_exact() {
     let half = trace(&mut Formula(circle), DVec3::X * 20.0, DVec3::Y, &control(1e-6, 40.0));
-    for piece in &half.pieces {
-        let h = piece.tangents[0].length();
+    for segment in &half.segments {
+        let h = segment.tangents[0].length();
         for i in 0..=10 {
-            let off = (piece.point(f64::from(i) / 10.0).length() - 20.0).abs();
+            let off = (segment.point(f64::from(i) / 10.0).length() - 20.0).abs();
             assert!(off <= h.powi(4) / (384.0 * 8000.0) * 1.1 + 1e-6, "{off:e} at {h}");
         }
     }
@@ -121,8 +121,8 @@ fn between_the_steps_it_is_as_exact() {
 fn both_ways_are_the_same() {
     let along = DVec3::new(0.0, 10.0, 3.0) / 109f64.sqrt();
     let [to, fro] = [along, -along].map(|k| trace(&mut Formula(helix), DVec3::X * 10.0, k, &control(1e-4, 40.0)));
-    assert_eq!(to.pieces.len(), fro.pieces.len());
-    for (a, b) in to.pieces.iter().zip(&fro.pieces) {
+    assert_eq!(to.segments.len(), fro.segments.len());
+    for (a, b) in to.segments.iter().zip(&fro.segments) {
         assert_eq!(a.ends[1], b.ends[1] * DVec3::new(1.0, -1.0, -1.0));
     }
 }
@@ -191,8 +191,8 @@ fn no_step_turns_by_more_than_sixty_degrees() {
         let control = Control { first, ..control(1e9, 40.0) };
         let half = trace(&mut Formula(circle), DVec3::X, DVec3::Y, &control);
         assert_eq!(half.end, EndCause::Length);
-        for piece in &half.pieces {
-            let turn = piece.tangents[0].angle_between(piece.tangents[1]).to_degrees();
+        for segment in &half.segments {
+            let turn = segment.tangents[0].angle_between(segment.tangents[1]).to_degrees();
             assert!(turn <= 60.0 + 1e-9, "{first}: {turn}");
         }
     }
@@ -206,7 +206,7 @@ fn it_goes_up_to_the_border_of_the_field() {
     let half = trace(&mut Formula(inside), DVec3::ZERO, DVec3::X, &control);
     assert_eq!(half.end, EndCause::Field(()));
     assert!(end(&half).x < 7.3 && end(&half).x > 7.3 - 2e-3, "{}", end(&half));
-    assert!(half.pieces.iter().all(|piece| piece.tangents[0].x <= 2.0));
+    assert!(half.segments.iter().all(|segment| segment.tangents[0].x <= 2.0));
 }
 
 /// A kink of less than 60° is passed in small steps; a larger one ends the curve.
@@ -239,6 +239,6 @@ fn a_step_that_comes_off_is_put_back() {
     }
     let along = DVec3::new(0.1, 1.0, 0.0).normalize();
     let half = trace(&mut Climbing, DVec3::X, along, &Control { first: 0.1, ..control(1e-3, 5.0) });
-    assert!(half.pieces.iter().all(|piece| (piece.ends[1].length() - 1.0).abs() < 1e-15));
-    assert_eq!(half.evaluations as usize, 5 * half.pieces.len() + 4 * half.rejected as usize);
+    assert!(half.segments.iter().all(|segment| (segment.ends[1].length() - 1.0).abs() < 1e-15));
+    assert_eq!(half.evaluations as usize, 5 * half.segments.len() + 4 * half.rejected as usize);
 }
