@@ -1,12 +1,12 @@
 //! Interactive volume illustration (Nagy, Schneider and Westermann, Vision, Modeling and Visualization 2002).
 //!
 //! A [`Pyramid`] finds the cells of an iso-surface (3.2). [`Seeds`] selects the cells in which strokes begin (4.1).
-//! [`StrokeGrower`] grows a stroke along a line of curvature from each seed (3, 4.2). [`outlines()`] are found anew for each
-//! camera. [`Sight`] projects strokes and outlines onto the page and removes their hidden parts (4.3.2). A [`LineSpacing`]
-//! keeps lines apart on the page.
+//! [`StrokeGrower`] grows a stroke along a line of curvature from each seed (3, 4.2). [`outlines()`] are found anew
+//! for each camera. [`Sight`] projects strokes and outlines onto the page and removes their hidden parts (4.3.2). A
+//! [`LineSpacing`] keeps lines apart on the page.
 //!
-//! Section 4.4: [`Toon`] selects a tone by the light, [`SilhouetteTest`] blackens surfaces that turn away from the eye,
-//! and [`ViewOpacity`] makes them more opaque.
+//! Section 4.4: [`Toon`] selects a tone by the light, [`SilhouetteTest`] blackens surfaces that turn away from the
+//! eye, and [`ViewOpacity`] makes them more opaque.
 
 pub mod directions;
 mod outlines;

@@ -140,8 +140,8 @@ fn skin_and_bone(volume: &Volume, outside: Outside, levels: &Levels) -> Option<F
     whole.then_some(FirstSurfaces { main, hull: Some(hull), thin: false })
 }
 
-/// Area times (step · agreement)², weighted. The weights favour surfaces that enclose much with little area and that the box
-/// does not cut.
+/// Area times (step · agreement)², weighted. The weights favour surfaces that enclose much with little area and that
+/// the box does not cut.
 fn score(level: &Level) -> f64 {
     let open = 1.0 - level.cut;
     strength(level) * level.simplicity * level.simplicity.sqrt() * (open * open) * (open * open)

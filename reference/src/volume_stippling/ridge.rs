@@ -46,9 +46,9 @@ fn straight(grid: &Grid, normal: DVec3) -> DVec3 {
 /// voxels.
 ///
 /// A displacement along n itself would leave gaps. The layer is [`across`] thick. Where a voxel leaves the layer on
-/// one side, its neighbour along the nearest axis enters on the other side. If the thickness along the displacement
-/// is exactly that one step, the piece of the first voxel ends where the piece of the second begins, and rows of
-/// pieces close up.
+/// one side, its neighbour along the nearest axis enters on the other side. Rows of pieces close up if the thickness
+/// along the displacement is exactly that one step. Then the piece of the second voxel begins where that of the first
+/// ends.
 ///
 /// So the displacement is one voxel along the nearest axis; the other axes add the rest of the thickness in
 /// proportion to their steps along n. On a grid of cubes it is (n + axis)/(1 + n·axis).

@@ -1,5 +1,5 @@
-//! Outlines: the curves on which an iso-surface turns away from the eye, f = iso and N·v = 0, and its intersection
-//! with the volume's box ([HATCH-18]).
+//! Outlines ([HATCH-18]): the curves on which an iso-surface turns away from the eye, f = iso and N·v = 0, and its
+//! intersection with the volume's box.
 //!
 //! Both functions are taken as linear in the tetrahedra of each cell, which gives closed curves without branches.
 //! Their places are then moved onto the curve of the reconstruction itself. N·v is computed as g·v, with v towards

@@ -11,8 +11,8 @@ use crate::with_sampler;
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::tables::{GradientRange, Measure as Kind};
 
-/// Gradient lengths that count as |∇| = 0 and 1 ([VAL-2]), times the power of two of [SPACE-4], and the number of
-/// voxels read to find them.
+/// Gradient lengths that count as |∇| = 0 and 1 ([VAL-2]), times the power of two of [SPACE-4]. The number is that of
+/// the voxels read to find them.
 pub fn gradient_range(field: &Field<'_, f64>, range: GradientRange) -> ([f64; 2], u64) {
     match range {
         GradientRange::Fixed(range) => (range.map(|g| scale_by_power_of_two(g, -field.scale_exponent())), 0),

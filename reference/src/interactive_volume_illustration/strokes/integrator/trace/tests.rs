@@ -74,8 +74,9 @@ fn steps_narrow_down_to_where_the_formula_changes() {
     assert!(missed > 4, "{missed}");
 }
 
-/// The global error is at most twice the tolerance, from 10⁻¹ to 10⁻¹⁰, after an arc of 40 on a circle of radius 20
-/// and a helix of radius 10. It falls with the fourth power of the number of steps: slope −3.8 or steeper.
+/// The global error after an arc of 40, on a circle of radius 20 and a helix of radius 10, is at most twice the
+/// tolerance. This holds from 10⁻¹ to 10⁻¹⁰. The error falls with the fourth power of the number of steps: slope −3.8
+/// or steeper.
 #[test]
 fn the_error_is_that_of_the_tolerance_and_of_fourth_order() {
     let n = 109f64.sqrt();
