@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::number::Real;
 use crate::surface::RootFinder;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::shot::{IsoSurface, SampleQuery};
+use drypoint_scene::shot::{OpaqueSurface, SampleQuery};
 use drypoint_scene::volume::Bricks;
 
 /// An iso-surface ready for rays.
@@ -25,7 +25,7 @@ pub(super) struct PreparedSurface<R> {
 impl<R: Real> PreparedSurface<R> {
     /// Prepares the search for an iso-value in a field.
     pub(super) fn new(
-        surface: &IsoSurface,
+        surface: &OpaqueSurface,
         field: &Field<'_, R>,
         bricks: Option<&Bricks>,
         counts: &mut Counts,

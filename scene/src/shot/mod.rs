@@ -4,9 +4,9 @@
 //! value. A renderer reads the shot and the data that it names (voxels, labels, styles, pixels behind), and nothing else of a
 //! scene. Quantities that only voxels can tell, such as a quantile of ‖g‖, are named here and measured by the renderer.
 
-mod iso_surface;
 mod lattice;
 mod material;
+mod opaque_surface;
 mod query;
 mod reconstruction;
 
@@ -16,11 +16,11 @@ pub use crate::tables::{
     Axis, BlendSpace, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, LabelLookup, Mix, Number,
     Outside, SphereFrame, StepAlong, Tone, Transparency,
 };
-pub use iso_surface::IsoSurface;
 pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
     ContourParams, Illumination, LevelOfDetail, Lighting, Material, PhongParams, StyleParams, ToonParams,
 };
+pub use opaque_surface::OpaqueSurface;
 pub use query::{KappaSource, SampleQuery};
 pub use reconstruction::{NotSmooth, Reconstruction, Rung};
 
@@ -46,7 +46,7 @@ pub struct Shot {
     /// The volumes that are drawn.
     pub objects: [Object; 1],
     /// The opaque iso-surface; none: none ([HATCH-14]).
-    pub surface: Option<IsoSurface>,
+    pub surface: Option<OpaqueSurface>,
     /// Which numbers are composited ([VAL-3]).
     pub blend_space: BlendSpace,
     /// The opacity A at which a ray ends ([RAY-2]).
@@ -178,7 +178,7 @@ impl Shot {
             rays_across: scene.picture.samples,
             number: sampling.number,
             objects: [object],
-            surface: IsoSurface::new(scene, plan, &view)?,
+            surface: OpaqueSurface::new(scene, plan, &view)?,
             blend_space: scene.picture.blend_space,
             stop_at: stop_at(sampling.stop_below, scene.picture.blend_space),
             layers: if layers.is_empty() { vec![LayerKind::Beauty] } else { layers.clone() },

@@ -27,6 +27,17 @@ impl<T: Arithmetic> Accumulator<T> {
         w
     }
 
+    /// Lays a straight colour behind what is there in the lanes of a mask.
+    #[inline(always)]
+    pub(crate) fn over_where(&mut self, mask: T::Mask, rgb: [T; 3], alpha: T) {
+        let mut with = *self;
+        with.over(rgb, alpha);
+        for (before, with) in self.rgb.iter_mut().zip(with.rgb) {
+            *before = T::select(mask, with, *before);
+        }
+        self.opacity = T::select(mask, with.opacity, self.opacity);
+    }
+
     /// Lays an opaque colour behind what is there, after which A is 1 exactly. Returns w = 1 − A.
     #[inline(always)]
     pub(crate) fn end(&mut self, rgb: [T; 3]) -> T {

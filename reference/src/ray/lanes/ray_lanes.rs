@@ -79,28 +79,31 @@ pub(super) trait ShadeLanes<S: Simd> {
     ) -> ([f64x8<S>; 3], f64x8<S>);
 }
 
-/// The last opacities that were corrected, and what they became: levels of a function repeat along a ray.
-#[derive(Clone, Copy)]
-struct Corrected<S: Simd>([f64x8<S>; 2]);
+/// Colours and opacities in front on eight rays.
+struct LaneFront<S: Simd> {
+    accumulator: Accumulator<f64x8<S>>,
+    /// The last opacities that were corrected, and what they became: levels of a function repeat along a ray.
+    corrected: [f64x8<S>; 2],
+}
 
-impl<S: Simd> Corrected<S> {
+impl<S: Simd> LaneFront<S> {
     /// Corrects the opacities of the lanes `fresh`: together, or alone where they are few.
     #[inline(always)]
     fn correct(&mut self, fresh: u64, alpha: f64x8<S>, ratio: f64x8<S>) {
         let lanes = mask64x8::from_bitmask(alpha.simd, fresh);
         if fresh.count_ones() > 2 {
-            self.0[1] = lanes.select(correct(alpha, ratio), self.0[1]);
+            self.corrected[1] = lanes.select(correct(alpha, ratio), self.corrected[1]);
         } else {
-            let mut corrected: Column = self.0[1].into();
+            let mut corrected: Column = self.corrected[1].into();
             let mut left = fresh;
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
                 corrected[lane] = Correction::new(ratio[lane]).apply(alpha[lane]);
             }
-            self.0[1] = corrected.simd_into(alpha.simd);
+            self.corrected[1] = corrected.simd_into(alpha.simd);
         }
-        self.0[0] = lanes.select(alpha, self.0[0]);
+        self.corrected[0] = lanes.select(alpha, self.corrected[0]);
     }
 }
 
@@ -123,7 +126,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> RayLanes<'p, 'v, S, F> {
     #[inline(always)]
     pub(super) fn run(&self, packet: &mut Packet<'_, '_>, look: &mut impl ShadeLanes<S>, counts: &mut Counts) {
         let zero = f64x8::splat(self.simd, 0.0);
-        let (mut front, mut corrected) = (Accumulator::empty(zero), Corrected([zero; 2]));
+        let mut front = LaneFront { accumulator: Accumulator::empty(zero), corrected: [zero; 2] };
         let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
         let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
         let mut ahead = Lookahead::new(self.simd);
@@ -139,13 +142,13 @@ impl<'p, 'v, S: Simd, F: Reader<S>> RayLanes<'p, 'v, S, F> {
                 while let Some((plane, s, _)) = ahead.next() {
                     let k = plane as f64;
                     let active = farthest.simd_ge(k) & nearest.simd_le(k);
-                    let stopped = self.visit(k, s, active, look, &mut front, &mut corrected, counts);
+                    let stopped = self.visit(k, s, active, look, &mut front, counts);
                     farthest = stopped.select(f64x8::splat(self.simd, k), farthest);
                 }
             }
         }
         packet.ends[1] = farthest.into();
-        let Accumulator { rgb: [r, g, b], opacity } = front;
+        let Accumulator { rgb: [r, g, b], opacity } = front.accumulator;
         let (r, g, b, opacity): (Column, Column, Column, Column) = (r.into(), g.into(), b.into(), opacity.into());
         for lane in 0..LANES {
             packet.rgba[lane] = [r[lane], g[lane], b[lane], opacity[lane]];
@@ -216,8 +219,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> RayLanes<'p, 'v, S, F> {
         s: f64x8<S>,
         active: mask64x8<S>,
         look: &mut impl ShadeLanes<S>,
-        front: &mut Accumulator<f64x8<S>>,
-        corrected: &mut Corrected<S>,
+        front: &mut LaneFront<S>,
         counts: &mut Counts,
     ) -> mask64x8<S> {
         let simd = self.simd;
@@ -227,16 +229,11 @@ impl<'p, 'v, S: Simd, F: Reader<S>> RayLanes<'p, 'v, S, F> {
         let seen = mask64x8::from_bitmask(simd, place.visible);
         let sample = LaneSamples { k, place, seen };
         let (rgb, alpha) = look.show(self, &sample, counts);
-        let fresh = (seen & alpha.simd_ne(corrected.0[0])).to_bitmask();
+        let fresh = (seen & alpha.simd_ne(front.corrected[0])).to_bitmask();
         if fresh != 0 {
-            corrected.correct(fresh, alpha, self.ratio);
+            front.correct(fresh, alpha, self.ratio);
         }
-        let mut with = *front;
-        with.over(rgb, corrected.0[1]);
-        for (c, with) in front.rgb.iter_mut().zip(with.rgb) {
-            *c = seen.select(with, *c);
-        }
-        front.opacity = seen.select(with.opacity, front.opacity);
-        seen & front.opacity.simd_ge(self.prepared.stop_at)
+        front.accumulator.over_where(seen, rgb, front.corrected[1]);
+        seen & front.accumulator.opacity.simd_ge(self.prepared.stop_at)
     }
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// An iso-surface of opacity 1, at which rays end.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct IsoSurface {
+pub struct OpaqueSurface {
     /// The value.
     pub iso: f64,
     /// Its colour, linear.
@@ -24,7 +24,7 @@ pub struct IsoSurface {
     pub alone: bool,
 }
 
-impl IsoSurface {
+impl OpaqueSurface {
     /// The surface that a scene draws, if it draws one.
     pub(super) fn new(scene: &Scene, plan: &Plan, view: &View) -> Result<Option<Self>, ShotError> {
         let Some(surface) = scene.surface.as_ref().filter(|surface| surface.look != SurfaceLook::None) else {
