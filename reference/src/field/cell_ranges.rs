@@ -1,5 +1,5 @@
-//! What values a kernel can return in each cell of a brick ([RAY-2]): closer than the brick's range by far where the field is
-//! steep.
+//! Ranges of the values that a kernel can return in each cell of a brick ([RAY-2]). Where the field is steep they are
+//! far narrower than the brick's range.
 
 use super::{Field, KernelData, ranges};
 use crate::number::Real;

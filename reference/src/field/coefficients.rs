@@ -127,7 +127,7 @@ impl<R: Real> Coefficients<R> {
         self
     }
 
-    /// What is added to the spline of the coefficients to make a value.
+    /// The constant that is added to the spline of the coefficients to make a value.
     #[inline(always)]
     pub(super) fn base(&self) -> R {
         self.base
@@ -182,7 +182,7 @@ impl<R: Real> Coefficients<R> {
         self.sum(at.cell, &tensor::Second { w: at.w, taps: bspline::taps })
     }
 
-    /// The same at a voxel, of a border of one coefficient at least.
+    /// Like [`cubic_derivatives`](Self::cubic_derivatives), at a voxel. The border must have at least one coefficient.
     pub(super) fn derivatives_at(&self, [x, y, z]: [usize; 3]) -> (Vec3<f64>, Sym3<f64>)
     where
         R: Into<f64>,

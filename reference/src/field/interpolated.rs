@@ -1,8 +1,8 @@
-//! Central differences of samples, and those of the differences, interpolated linearly between the first two of a cell's six
-//! on each axis ([REC-3]).
+//! Central differences of samples, and central differences of those, interpolated linearly ([REC-3]).
 //!
-//! As a kernel's the two have six taps, of which the value has two that are not 0, the first derivative four: of the 216
-//! samples 112 count.
+//! Along an axis a cell has six samples; the interpolation runs between the differences at its two corners. Written as
+//! a kernel this has six taps. Two of them are nonzero for the value and four for the first derivative, so 112 of the
+//! 216 samples count.
 
 use super::tensor::{self, Given, Rows, Taps};
 use crate::number::lanes::wide;

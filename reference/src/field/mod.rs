@@ -67,7 +67,7 @@ pub struct Field<'v, R> {
     exponent: i32,
     no_normal_below: R,
     kernel: KernelData<R>,
-    /// Of the `regression` gradient alone.
+    /// Present only for the `regression` gradient.
     regression: Option<Regression<R>>,
     second: Second<R>,
 }
@@ -95,7 +95,7 @@ impl<'v, R: Real> Field<'v, R> {
     /// Prepares a volume for a reconstruction.
     ///
     /// # Errors
-    /// Those of [`FieldError`], whatever the rung.
+    /// Any of [`FieldError`], for every rung.
     pub fn new(volume: &'v Volume, how: Reconstruction, rung: Rung) -> Result<Self, FieldError> {
         let is_integer = volume.voxels().voxel_type().is_integer();
         let how = Reconstruction { hessian: how.hessian.resolved(how.kernel, is_integer)?, ..how };

@@ -1,4 +1,4 @@
-//! What values a kernel can return in each brick of cells ([RAY-2]).
+//! Ranges of the values that a kernel can return in each brick of cells ([RAY-2]).
 
 use super::columns::Columns;
 use super::stencil::Stencils;
@@ -35,7 +35,7 @@ pub(super) fn supports<R: Real>(stencils: &Stencils<'_>, row: &BrickRow) -> Vec<
     ranges
 }
 
-/// What Catmull–Rom can make of samples in a range: their middle ± [`OVERSHOOT`] half-ranges.
+/// The range of Catmull–Rom values over samples in a range: its middle ± [`OVERSHOOT`] half-ranges.
 pub(super) fn overshot([lo, hi]: [f64; 2]) -> [f64; 2] {
     let (middle, half) = (lo + (hi - lo) * 0.5, (hi - lo) * (0.5 * OVERSHOOT));
     [middle - half, middle + half]

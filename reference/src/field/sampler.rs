@@ -23,8 +23,8 @@ pub trait Sampler<R: Real>: Sync {
         }
     }
 
-    /// How many values are worth computing at once: as many wait for nothing, and some are computed in vain where only the
-    /// first are wanted.
+    /// Number of values worth computing at once: independent values hide latency, but those beyond the first ones
+    /// wanted are computed in vain.
     const AT_ONCE: usize = 1;
 
     /// The gradient at a place by the field's estimator, in world space, times 2^−e.
@@ -47,7 +47,7 @@ pub trait Sampler<R: Real>: Sync {
     /// is memory to work in, `squares` as long as the row.
     ///
     /// # Panics
-    /// As [`voxel_gradient`](Self::voxel_gradient).
+    /// See [`voxel_gradient`](Self::voxel_gradient).
     fn voxel_squares(&self, [y, z]: [usize; 2], _rows: &mut Vec<R>, squares: &mut [R]) {
         for (x, square) in squares.iter_mut().enumerate() {
             let gradient = self.voxel_gradient([x, y, z]);
@@ -103,7 +103,7 @@ pub trait Sampler<R: Real>: Sync {
     }
 }
 
-/// What a kernel computes, along the index axes and from the numbers that stencils read.
+/// A kernel: value and derivatives along the index axes, computed from the numbers that stencils read.
 pub(super) trait Interpolant<R: Real>: Sync {
     /// The value.
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R;

@@ -14,15 +14,15 @@ pub(super) struct Taps<R, const N: usize> {
     pub second: [R; N],
 }
 
-/// What is summed over z and y: a number, the same tap of several cells, or the taps of a row along x. `W` is what its
-/// weights are.
+/// A summand over z and y: a number, the same tap of several cells, or the taps of a row along x. `W` is the type of
+/// its weights.
 pub(super) trait Row<W>: Copy + Add<Output = Self> + Sub<W, Output = Self> + Mul<W, Output = Self> {}
 
 impl<W, A: Copy + Add<Output = A> + Sub<W, Output = A> + Mul<W, Output = A>> Row<W> for A {}
 
 /// The rows around a cell: `row(j, k)` is tap j along y, k along z. The cell's first voxel is tap N/2 − 1 on each axis.
 pub(super) trait Rows<A> {
-    /// That row, or with all others more by the same.
+    /// The row at (j, k); all rows may be shifted by one common constant.
     fn row(&self, j: usize, k: usize) -> A;
 
     /// A row of zeros.
@@ -210,7 +210,7 @@ pub(super) fn second<R: Real, A: Row<R> + Into<[R; N]>, const N: usize>(
 
 /// A sum over the 4³ numbers around a cell, whatever holds their rows.
 pub(super) trait Sum<R: Real> {
-    /// What it is.
+    /// The type of the sum.
     type Of;
 
     /// The sum.

@@ -1,4 +1,4 @@
-//! What one number and several side by side have in common.
+//! Operations that single numbers and vectors of lanes have in common.
 
 use super::Real;
 use super::lanes::{self, Eight};
@@ -25,7 +25,7 @@ pub trait Arithmetic:
 {
     /// The number in a lane.
     type Number: Real;
-    /// What a comparison gives.
+    /// The result of a comparison.
     type Mask: Mask;
 
     /// x in as many lanes as `self` has.

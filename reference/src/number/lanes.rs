@@ -144,7 +144,7 @@ fn turned<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high), ac_high.zip_high(bd_high)]
 }
 
-/// What tests compare lanes with numbers by.
+/// Helpers of tests that compare lanes with single numbers.
 #[cfg(test)]
 pub(crate) mod testing {
     use super::*;

@@ -42,11 +42,11 @@ pub trait Real:
 
     /// The nearest number of this type.
     fn from_f64(x: f64) -> Self;
-    /// The same number in f64.
+    /// The number in f64.
     fn to_f64(self) -> f64;
     /// The stored voxel as a number of this type.
     fn from_voxel<V: Voxel>(v: V) -> Self;
-    /// The same of several, side by side.
+    /// Several stored voxels as numbers of this type.
     fn from_voxels<V: Voxel, const N: usize>(v: [V; N]) -> [Self; N];
     /// ⌊x⌋ and x − ⌊x⌋ for 0 ≤ x < 2³¹ (f32: 2²²), without the saturation of an `as` cast and without a library call.
     fn split(self) -> (usize, Self);

@@ -14,7 +14,7 @@ pub struct StyleIndex {
     of_node: Option<Vec<u32>>,
 }
 
-/// What a value shows: styles j₀ and j₁ in the shares 1 − w and w, with the uniform opacity α_u.
+/// The styles of a value: j₀ and j₁ in the shares 1 − w and w, with the uniform opacity α_u.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend<R> {
     /// j₀.
@@ -70,7 +70,7 @@ impl<R: Real> Blend<R> {
     }
 }
 
-/// What two quantities show (4.2): the styles of two rows, mixed in the shares 1 − w and w.
+/// The styles of two quantities (4.2): those of two rows, mixed in the shares 1 − w and w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend2<R> {
     /// j₀₀ and j₁₀, j₀₁ and j₁₁, each pair with w_x.
@@ -117,7 +117,7 @@ impl<R: Real> Spheres<R> {
         Self { maps: styles.iter().map(SphereMap::new).collect(), chains: Vec::new(), mix }
     }
 
-    /// The same with a mip chain for each of the styles, which are those that it was made from.
+    /// Adds a mip chain for each style; `styles` must be those that `self` was made from.
     pub fn with_mipmaps(self, styles: &[Style]) -> Self {
         Self { chains: styles.iter().map(MipMap::new).collect(), ..self }
     }
@@ -139,7 +139,7 @@ impl<R: Real> Spheres<R> {
         self.mixed2(blend, |j| self.maps[j].sample(nx, ny))
     }
 
-    /// The same in the mip chains ([STF-10]), as [`Spheres::lookup_level`].
+    /// Like [`lookup2`](Self::lookup2), in the mip chains ([STF-10]). See [`Spheres::lookup_level`].
     #[inline(never)]
     pub fn lookup2_level(&self, blend: &Blend2<R>, nx: R, ny: R, below_last: R) -> [R; 4] {
         self.mixed2(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
@@ -182,8 +182,9 @@ impl<R: Real> Spheres<R> {
         self.mixed(blend, |j| self.maps[j].sample(nx, ny))
     }
 
-    /// The same in the mip chains ([STF-10]), at the level of detail `below_last` of [`Detail::below_last`]. Levels are
-    /// those of one style; styles mix after. Out of line: scenes without mip-maps do without its code.
+    /// Like [`lookup`](Self::lookup), in the mip chains ([STF-10]), at the level of detail `below_last` of
+    /// [`Detail::below_last`]. Each style is interpolated between its own levels first; styles are mixed afterwards.
+    /// Never inlined: scenes without mip-maps do without its code.
     ///
     /// [`Detail::below_last`]: super::Detail::below_last
     #[inline(never)]

@@ -14,9 +14,9 @@ use drypoint_scene::view::View;
 /// times as large ([RAY-6]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint<R> {
-    /// The same at every depth.
+    /// p, equal at every depth.
     Orthographic(R),
-    /// At eye depth 1; p falls with the depth.
+    /// p at eye depth 1; p falls with the depth.
     Perspective(R),
 }
 
@@ -122,7 +122,7 @@ mod tests {
     use drypoint_scene::tables::Mix;
     use proptest::prelude::*;
 
-    /// What a scene says with `[style_mipmaps]` and nothing in it, on unit voxels of p pixels.
+    /// The settings of an empty `[style_mipmaps]` table, on unit voxels of p pixels.
     fn detail(p: f64) -> Detail<f64> {
         Detail {
             curvature_bias: 1.0,

@@ -78,7 +78,7 @@ mod tests {
         Style::from_straight("test", side, &texels, true).unwrap()
     }
 
-    /// What a texel keeps of a number.
+    /// A number at a texel's precision.
     fn in_a_texture(c: f64) -> f64 {
         f64::from(c as f32)
     }
@@ -186,7 +186,7 @@ mod tests {
             prop_assert_eq!(map.sample(r * angle.cos(), r * angle.sin()), texel);
         }
 
-        /// What stands outside the disk never reaches a lookup.
+        /// Texels outside the disk never affect a lookup.
         #[test]
         fn nothing_outside_the_disk_is_read(side in 1usize..24, angle in 0.0..6.3f64, r in 0.0..=1.0f64) {
             let paint = |outside: f64| sphere(side, |i, j| {

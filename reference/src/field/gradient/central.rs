@@ -55,7 +55,7 @@ fn d<R: Arithmetic>(down: [R; 2], up: [R; 2], wx: R) -> R {
     R::lerp(up[0] - down[0], up[1] - down[1], wx)
 }
 
-/// The same of one row, along itself.
+/// The central difference of one row along x, interpolated along x.
 #[inline(always)]
 fn along_x<R: Arithmetic>(r: [R; 4], wx: R) -> R {
     d([r[0], r[1]], [r[2], r[3]], wx)

@@ -28,7 +28,7 @@ pub(super) type Taps<R> = [Vec<(usize, R)>; 3];
 pub(in crate::field) struct Regression<R> {
     /// By the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
     cases: Vec<Option<Box<Weights<R>>>>,
-    /// Those of the gradient of a voxel that has all neighbours.
+    /// Weights of the gradient at a voxel that has all neighbours.
     taps: Taps<R>,
 }
 

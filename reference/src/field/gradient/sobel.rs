@@ -65,7 +65,7 @@ fn taps<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 4> {
     Taps { value, first: [-(u * half), -(w * half), u * half, w * half], second: [R::ZERO; 4] }
 }
 
-/// The same where all four are in the grid.
+/// Like [`taps`], for a cell whose four voxels per axis all lie in the grid.
 #[inline(always)]
 pub(in crate::field) fn taps_inside<A: Arithmetic>(w: A, one: A, zero: A) -> Taps<A, 4> {
     let u = one - w;

@@ -51,7 +51,7 @@ fn along_x<R: Real, const N: usize>(taps: &[R; 6], row: &[R; 6], first: R) -> R 
     sum
 }
 
-/// How far a tap lies beside the two of the cell's corners: the order of difference that it takes to reach it.
+/// Distance of a tap from the nearer corner of the cell: the order of difference that reaches the tap.
 fn beside(tap: usize) -> usize {
     [2, 1, 0, 0, 1, 2][tap]
 }
@@ -71,7 +71,7 @@ fn taps<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 6> {
     }
 }
 
-/// The same by applying differences to differences, whatever their form.
+/// Like [`taps`], by applying differences to differences, in whichever form each of them has.
 fn taps_at_border<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 6> {
     let mut taps = Taps { value: [R::ZERO; 6], first: [R::ZERO; 6], second: [R::ZERO; 6] };
     // On an axis of length 1 the cell has one corner.

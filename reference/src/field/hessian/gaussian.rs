@@ -79,8 +79,8 @@ pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize
     (first, weights.into_iter().map(R::from_f64).collect())
 }
 
-/// What the sample k steps beyond the border is of the nearest three inside: the parabola through them, which is what
-/// c₋₁ = 3c₀ − 3c₁ + c₂ applied k times gives; with two samples the line.
+/// Weights of the three samples nearest to a border in the sample k steps beyond it. They extend the parabola through
+/// the three, as c₋₁ = 3c₀ − 3c₁ + c₂ applied k times does; two samples extend their line.
 fn extrapolation(k: usize, n: usize) -> [f64; 3] {
     let k = k as f64;
     if n == 2 {

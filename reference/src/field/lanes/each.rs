@@ -9,8 +9,8 @@ use crate::number::{Sym3, Vec3};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// What a kernel says of the lanes `asked`, along the index axes and before slope and intercept. The loops over samples are
-/// compiled once for all kernels that are dear, and call these.
+/// A kernel's results for the lanes `asked`, along the index axes and before slope and intercept. Loops over samples
+/// are compiled once for all expensive kernels and call these methods.
 pub(crate) trait Each: Sync {
     /// Values.
     fn numbers(&self, at: &Alone, asked: u64) -> [f64; LANES];
@@ -99,7 +99,7 @@ pub(crate) struct EachReader<'f, 'v, S> {
 }
 
 impl<'f, 'v, S: Simd> EachReader<'f, 'v, S> {
-    /// Of a field's own kernel.
+    /// Reads a field with its own kernel, `each`.
     #[inline(always)]
     pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, each: &'f dyn Each) -> Self {
         Self { simd, field, each }

@@ -68,7 +68,7 @@ fn word<V: Packed, const N: usize>(row: [V; N]) -> u64 {
 
 /// Bits of a word below those that 2⁵² has as a double, and below a byte that stays 0.
 const ROOM: u32 = 40;
-/// Which byte that is.
+/// Index of the byte that stays 0.
 const NOTHING: u64 = 5;
 
 /// The sign bits of `N` numbers in a word.
@@ -81,7 +81,8 @@ const fn signs<V: Packed, const N: usize>() -> u64 {
     signs
 }
 
-/// Which bytes of two words that hold 2⁵²'s bits, too, make number i of each plus 2⁵²; for all words.
+/// Byte selectors, for every word of a vector: from two words that also hold the bits of 2⁵², they take number i of
+/// each, plus 2⁵².
 const fn picks<V: Packed>(i: usize) -> [u64; LANES] {
     let bytes = V::BITS as u64 / 8;
     let mut picks = 0x0706 << 48;
@@ -95,9 +96,10 @@ const fn picks<V: Packed>(i: usize) -> [u64; LANES] {
     [picks, second, picks, second, picks, second, picks, second]
 }
 
-/// What is read around eight cells.
+/// The stored voxels around eight cells.
 ///
-/// Each of the eight is said: eight words become a vector at once then, instead of being put into one, one after the other.
+/// The eight are written out one by one: the compiler then builds a vector from eight words at once instead of
+/// inserting them in turn.
 struct Windows<'v, V>([Linear<'v, V>; LANES]);
 
 impl<V: Packed> Windows<'_, V> {
@@ -324,7 +326,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         ])
     }
 
-    /// Where voxels stand in the order of voxels.
+    /// Linear offsets of voxels in the volume.
     #[inline(always)]
     fn offsets(&self, voxel: Vec3<f64x8<S>>) -> [usize; LANES] {
         let [nx, ny, _] = self.voxels.dims();

@@ -56,7 +56,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// Where a sample is; each axis counts from two before the grid.
+    /// Index of a sample in `data`; each axis counts from two samples before the grid.
     #[inline(always)]
     fn place(&self, sample: [usize; 3]) -> usize {
         let ([x, y, z], [x0, y0, z0]) = (sample, self.first);
@@ -96,8 +96,9 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
     }
 
-    /// The same at a voxel, to rounding, sooner: of the 216 samples around a cell 19 count there. None where the gradient is no
-    /// longer than `bound`. `region` holds the voxel's samples; without one they are those of its brick.
+    /// Like [`derivatives`](Self::derivatives), at a voxel and faster: 19 of the 216 samples around a cell count there.
+    /// The results agree up to rounding. None where the gradient is no longer than `bound`. `region` holds the voxel's
+    /// samples; without it they are taken from the voxel's brick.
     #[inline]
     pub fn at_voxel(&self, voxel: [usize; 3], bound: f64, region: Option<&Region>) -> Option<(Vec3<f64>, Sym3<f64>)> {
         let region = region.unwrap_or_else(|| self.brick_of(self.cell_of(voxel)));
@@ -133,7 +134,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         self.noise_in(self.field.cells.locate(index).cell, deviation)
     }
 
-    /// The same of a cell.
+    /// Like [`noise`](Self::noise), for a cell.
     #[inline]
     pub fn noise_in(&self, cell: [usize; 3], deviation: f64) -> f64 {
         let q = self.rounding.max(deviation);

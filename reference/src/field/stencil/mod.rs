@@ -130,7 +130,7 @@ impl<'v> Stencils<'v> {
         self.read_run([0, y, z], out);
     }
 
-    /// As many voxels of a row as asked for, from one on.
+    /// A run of voxels of a row, from `start` on, as long as `out`.
     pub(super) fn read_run<R: Real>(&self, [start, y, z]: [usize; 3], out: &mut [R]) {
         let scale = self.scale;
         with_access!(self.volume, |a| {

@@ -1,5 +1,5 @@
-//! What holds bit for bit: constants, powers of two, offsets of whole numbers, both ends of the number range, mirrored
-//! fields, and the two paths that a stencil can take.
+//! Identities that hold bit for bit: constants, powers of two, integer offsets, both ends of the number range, mirrored
+//! fields, and the two code paths of a stencil.
 
 use super::*;
 use crate::field::{curvature, normal};
@@ -138,7 +138,7 @@ fn mirrored_fields_have_the_same_normals_and_curvatures() {
     }
 }
 
-/// Whatever type holds the same whole numbers, the samples have the same bits.
+/// Samples have the same bits for every stored type that holds the same integers.
 #[test]
 fn the_stored_type_does_not_matter() {
     use drypoint_scene::volume::VoxelType;

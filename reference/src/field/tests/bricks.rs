@@ -60,7 +60,8 @@ fn stays<R: Real>(volume: &Volume, how: Reconstruction, positions: &[DVec3]) -> 
     Ok(())
 }
 
-/// What a cell reads, and no more: a jump between two planes is in the ranges of the cells whose taps lie on both sides of it.
+/// Cells read their own taps and no more: a jump between two planes is in the ranges of exactly the cells with taps on
+/// both sides.
 #[test]
 fn ranges_of_cells_are_tight() {
     let grid = Grid::with_spacing([20, 9, 9], [1.0; 3]).unwrap();

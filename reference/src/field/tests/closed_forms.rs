@@ -267,7 +267,7 @@ fn probes_are_in_world_units() {
     assert_eq!((c.k1, c.k2, c.mean, c.gaussian), (0.0, 0.0, 0.0, 0.0));
 }
 
-/// What `auto` stands for, and the error that names a kernel which has what was asked ([REC-3]).
+/// The resolution of `auto`, and the error for a kernel without a Hessian, which names a kernel that has one ([REC-3]).
 #[test]
 fn the_automatic_hessian() {
     use drypoint_scene::volume::VoxelType;
@@ -304,7 +304,7 @@ fn values_that_the_number_does_not_hold() {
     assert_eq!(with_sampler!(field, |s| s.value(Vec3::new(0.5, 0.0, 0.0))), 5e299);
 }
 
-/// What no one asks for is not there ([PLAN-1]).
+/// Data that no rung asks for are not allocated ([PLAN-1]).
 #[test]
 fn only_what_is_asked_for_is_allocated() {
     let grid = Grid::with_spacing([6; 3], [1.0; 3]).unwrap();

@@ -69,12 +69,12 @@ pub enum Region {
     Outline {
         /// Its points in their order, x and y of each; the last is joined to the first.
         points: Vec<[f64; 2]>,
-        /// How far the body reaches out of the picture. None: as far as the largest circle inside would.
+        /// The body's extent out of the picture. None: the radius of the largest circle inside the outline.
         depth: Option<f64>,
     },
 }
 
-/// What [`extract`] has found.
+/// The result of [`extract`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extracted {
     /// The layer `beauty` of S × S texels: linear, premultiplied; transparent black outside the disk ([STF-1]).

@@ -21,7 +21,7 @@ const FINEST: f64 = 512.0;
 /// normal.
 ///
 /// # Errors
-/// Those of [`Polygon::new`], a depth that is not positive, [`ExtractError::Outside`], [`ExtractError::Empty`].
+/// The errors of [`Polygon::new`], a depth that is not positive, [`ExtractError::Outside`], [`ExtractError::Empty`].
 pub(super) fn texels(
     source: &SourcePicture,
     points: &[[f64; 2]],

@@ -3,9 +3,9 @@
 use drypoint_scene::color::Rgba;
 use drypoint_scene::style::SourcePicture;
 
-/// How far a pixel outside the region looks for one inside, in pixels. The pixels that are read for a place of the region
-/// have their centres less than two from it on either axis, and a centre inside is within two more, unless the region is
-/// thinner than that.
+/// Search radius, in pixels, from a pixel outside the region to its nearest pixel inside. Pixels read for a place of
+/// the region have their centres less than two from it on either axis. A centre inside lies within two more, unless the
+/// region is thinner than that.
 const REACH: usize = 4;
 
 /// The pixels about a region. Only those whose centres lie inside it count, as with the texels of a style ([STF-1]):

@@ -14,7 +14,7 @@ pub(super) struct Polygon {
     normals: Vec<[f64; 2]>,
 }
 
-/// Where a line parallel to an axis meets the outline.
+/// An intersection of the outline with a line parallel to an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Meeting {
     /// The coordinate along the line.
@@ -77,7 +77,8 @@ impl Polygon {
         [pick(f64::min), pick(f64::max)]
     }
 
-    /// Where the line along `axis` at the coordinate `across` meets the outline, in ascending order; an even number.
+    /// The intersections of the outline with the line along `axis` at the coordinate `across`, in ascending order.
+    /// Their number is even.
     pub(super) fn meetings(&self, axis: usize, across: f64) -> Vec<Meeting> {
         let other = 1 - axis;
         let mut found: Vec<Meeting> = (0..self.points.len())
@@ -95,7 +96,7 @@ impl Polygon {
         found
     }
 
-    /// How far a place is from the outline.
+    /// The distance of a place from the outline, in pixels.
     pub(super) fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let square = |k: usize| {
             let [p, q] = self.edge(k);
