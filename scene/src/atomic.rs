@@ -39,7 +39,7 @@ pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) 
 /// Whether [`write()`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
 ///
 /// # Errors
-/// As [`write()`].
+/// See [`write()`].
 pub fn check(path: &Path) -> io::Result<()> {
     match Target::of(path)? {
         Target::Direct => Ok(()),
@@ -47,7 +47,7 @@ pub fn check(path: &Path) -> io::Result<()> {
     }
 }
 
-/// What to do where [`write()`] or [`check`] was refused, in one line.
+/// The remedy for an error of [`write()`] or [`check`], in one line.
 pub fn remedy(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::IsADirectory => "give the name of a file, such as one in that folder",
@@ -80,7 +80,7 @@ fn filled<E: From<io::Error>>(file: File, fill: impl FnOnce(&mut dyn Write) -> R
     Ok(out.flush()?)
 }
 
-/// What stands under the name that is to be written.
+/// The kind of file at the path to be written.
 enum Target {
     /// A pipe or a device.
     Direct,

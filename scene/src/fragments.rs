@@ -2,7 +2,7 @@
 
 use crate::color::Rgb;
 
-/// What a line covers of the part of a pixel that a ray stands for.
+/// The part of a line in the share of a pixel that one ray stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fragment {
     /// Eye depth.
@@ -20,7 +20,7 @@ pub struct Fragments {
     rays: [usize; 2],
     /// n.
     samples: usize,
-    /// Where each ray's begin, and the end of all.
+    /// The index of each ray's first fragment in `all`, and the end of the last.
     starts: Vec<usize>,
     all: Vec<Fragment>,
 }
@@ -51,7 +51,7 @@ impl Fragments {
         Self { rays, samples, starts, all }
     }
 
-    /// Those of the ray through a point of the picture, in pixels from the top left corner.
+    /// The fragments of the ray through a point of the picture, in pixels from the top left corner.
     pub fn at(&self, point: [f64; 2]) -> &[Fragment] {
         let [column, row] = point.map(|x| (x * self.samples as f64) as usize);
         let ray = row * self.rays[0] + column;
@@ -69,7 +69,7 @@ impl Fragments {
         self.all.is_empty()
     }
 
-    /// What they take.
+    /// Bytes in memory.
     pub fn bytes(&self) -> usize {
         size_of_val(self.starts.as_slice()) + size_of_val(self.all.as_slice())
     }

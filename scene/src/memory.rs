@@ -97,7 +97,7 @@ pub fn room(needed: u64) -> Result<(), NoRoom> {
 /// Checks that `n` items of `each` bytes could be had now.
 ///
 /// # Errors
-/// As [`room`].
+/// See [`room`].
 pub fn room_for(n: u64, each: u64) -> Result<(), NoRoom> {
     room(n.saturating_mul(each))
 }
@@ -154,7 +154,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// Reads a whole file of UTF-8 within the memory budget.
 ///
 /// # Errors
-/// As [`read`], and [`ErrorKind::InvalidData`] for bytes that are not UTF-8.
+/// The errors of [`read`], and [`ErrorKind::InvalidData`] for bytes that are not UTF-8.
 pub fn read_to_string(path: &Path) -> io::Result<String> {
     String::from_utf8(read(path)?).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not text in UTF-8"))
 }

@@ -8,7 +8,7 @@ use glam::DVec3;
 /// The k-th voxel's points are `offsets[k·each .. (k + 1)·each]`, 12 bytes each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
-    /// Where the voxels lie: the volume's grid, or that of its boxes ([STIP-2]).
+    /// The grid of the voxels: the volume's, or that of its boxes ([STIP-2]).
     pub grid: Grid,
     /// Points of each voxel: N_max ([STIP-3]), or the next whole number where `full` is none.
     pub each: usize,

@@ -21,7 +21,7 @@ pub struct Stroke {
     pub vertices: Vec<StrokeVertex>,
     /// Whether the last vertex is joined to the first.
     pub closed: bool,
-    /// What its random numbers are drawn by ([RAY-4]): the index of the cell that it grew from.
+    /// The key of the stroke's random numbers ([RAY-4]): the index of the cell that the stroke grew from.
     pub key: u64,
 }
 

@@ -21,14 +21,14 @@ const STEP: f64 = 0.125;
 /// The coverage that T = 1 stands for where tone is asked for: beyond it the last gaps close, and take many dots.
 pub const FULL: f64 = 0.9;
 
-/// What a pen prints on its paper.
+/// The tone curve of a pen on its paper: printed coverage over wanted coverage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tone {
     /// Wanted and measured coverage: the first ascends, the second does not descend.
     rows: Vec<[f64; 2]>,
 }
 
-/// What is wrong with a step wedge.
+/// A fault of a step wedge.
 #[derive(Debug, thiserror::Error)]
 pub enum ToneError {
     /// The file cannot be read.
@@ -46,7 +46,7 @@ pub enum ToneError {
         path: PathBuf,
         /// Number of the line, from 1.
         line: u64,
-        /// What is wrong.
+        /// The fault.
         fault: String,
     },
 }
@@ -148,18 +148,18 @@ impl Tone {
         &self.rows
     }
 
-    /// What the pen prints where `wanted` is asked for.
+    /// The coverage that the pen prints if `wanted` is asked for.
     pub fn printed(&self, wanted: f64) -> f64 {
         along(&self.rows, wanted, 0)
     }
 
-    /// What to ask for where `coverage` is to be printed: the inverse. The least of several; the last row's where the pen
-    /// prints less.
+    /// The coverage to ask for so that `coverage` is printed: the inverse of [`printed`](Self::printed). It is the
+    /// least of several, and the last row's if the pen prints less.
     pub fn asked(&self, coverage: f64) -> f64 {
         along(&self.rows, coverage, 1)
     }
 
-    /// What dots of λa cover.
+    /// The coverage of dots of λa.
     pub fn coverage(&self, ink: f64) -> f64 {
         self.printed(ideal(ink))
     }
@@ -174,8 +174,8 @@ impl Tone {
 }
 
 impl Tone {
-    /// What dots of λa cover that lie in so many layers, each even and none in step with another: 1 − (1 − c)^layers, c the
-    /// coverage of one.
+    /// The coverage of dots of λa in so many layers, each even and none in step with another: 1 − (1 − c)^layers, c the
+    /// coverage of one layer.
     pub fn coverage_of_layers(&self, ink: f64, layers: f64) -> f64 {
         1.0 - pow(1.0 - self.coverage(ink / layers), layers)
     }

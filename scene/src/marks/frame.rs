@@ -1,4 +1,4 @@
-//! What lies inside the frame ([STIP-16]): dots whole or not at all, lines cut.
+//! Clipping of marks to the frame ([STIP-16]): dots are kept whole or not at all, lines are cut.
 
 use super::{Marks, Page, Polyline, Vertex};
 use glam::DVec2;
@@ -16,7 +16,8 @@ impl Marks {
     }
 }
 
-/// How far inside the frame, in mm, may be missing for a place to count: less than half a step of a place.
+/// The largest distance, in mm, of a place outside the frame that still counts as inside: less than half a step of a
+/// place.
 const SLACK: f64 = 1e-9;
 
 fn inside(page: &Page, at: DVec2, radius: f64) -> bool {
@@ -52,8 +53,8 @@ fn cut(page: &Page, line: Polyline) -> Vec<Polyline> {
     parts.into_iter().map(|vertices| Polyline { vertices, closed: false }).collect()
 }
 
-/// Where on a segment, from 0 to 1, the pen is inside: place and radius are linear along it, so each side of the frame
-/// leaves one interval.
+/// The interval of a segment, from 0 to 1, in which the pen is inside the frame. Place and radius are linear along the
+/// segment, so each side of the frame leaves one interval.
 fn range(page: &Page, a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
     let (lo, hi) = (page.margin - SLACK, page.size - page.margin + SLACK);
     clipped([

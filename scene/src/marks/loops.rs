@@ -56,7 +56,7 @@ fn along(line: &[(DVec2, f64)]) -> (Vec<f64>, Vec<f64>) {
     all.unzip()
 }
 
-/// Where two segments meet; none where they are parallel.
+/// The intersection of two segments; none where they are parallel.
 pub(super) fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> {
     let (u, v, w) = (b - a, d - c, c - a);
     let over = u.perp_dot(v);

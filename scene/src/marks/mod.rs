@@ -36,7 +36,7 @@ pub struct Marks {
     pub layers: Vec<Layer>,
 }
 
-/// What one pen draws.
+/// The marks of one pen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// The pen.

@@ -6,7 +6,7 @@ use crate::math;
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// How far the corners of an outline may leave an arc inside, in mm: a step of places.
+/// The largest distance, in mm, by which chords of an outline may leave an arc: one step of places.
 const OFF: f64 = 0.001;
 
 /// The cosine of a bend by which a line turns back on itself.
@@ -64,7 +64,7 @@ fn towards(a: (DVec2, f64), b: (DVec2, f64)) -> DVec2 {
     (b.0 - a.0).normalize_or(DVec2::X)
 }
 
-/// What lies beside a line, to the side that x lies to of y.
+/// The offset curve on the side of a line to which x lies from y.
 fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
     let n = line.len();
     let mut all: Vec<Beside> = Vec::with_capacity(n + 8);
@@ -154,7 +154,7 @@ mod tests {
         (0..radii.len()).map(|i| DVec2::new(3.0, 1.0) + DVec2::new(0.8, 0.6) * i as f64).collect()
     }
 
-    /// What chords leave of arcs of so many radii: ⅔ of OFF over their length.
+    /// Area between arcs and their chords, for arcs of the length `arcs`: ⅔ of OFF times that length.
     fn missing(arcs: f64) -> f64 {
         arcs * OFF * 2.0 / 3.0
     }
@@ -275,10 +275,10 @@ mod tests {
         pairs.filter(|&[i, j]| crossing(segment(i), segment(j)).is_some()).count()
     }
 
-    /// Of smooth lines whose bends are wider than half their width no outline crosses itself, and its area is ∫ width ds: both
-    /// sides lose and gain the same. The middle line is off by a step of places that are rounded and one of those left out, on
-    /// one side as on the other, and half its width by half a step in the same two ways; chords by their sagitta, φ²/24 of all,
-    /// and corners outside by OFF.
+    /// Outlines of smooth lines do not cross themselves if all bends are wider than half the width. The area is then ∫
+    /// width ds: the two sides lose and gain alike. The middle line is off by a step of rounded places and one of
+    /// places left out, on both sides alike. Half its width is off by half a step in the same two ways, chords by their
+    /// sagitta, φ²/24 of all, and corners outside by OFF.
     #[test]
     fn outlines_of_smooth_lines_do_not_cross() {
         for seed in 0..300 {
@@ -312,7 +312,7 @@ mod tests {
         }
     }
 
-    /// Where a line turns back on itself, in any direction, rounding throws no corner away from it.
+    /// Rounding throws no corner away from a line that turns back on itself, in any direction.
     #[test]
     fn turning_back_throws_no_corner_away() {
         for seed in 0..20_000 {

@@ -32,7 +32,8 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    /// What a straight line to another vertex has so far along, s from 0 to 1; at its ends the vertices themselves.
+    /// The vertex on the straight line to `b` at the share s, from 0 to 1. At its ends it equals the vertices
+    /// themselves.
     pub fn between(&self, b: &Self, s: f64) -> Self {
         if s == 0.0 {
             return *self;
@@ -52,13 +53,13 @@ impl Vertex {
     }
 }
 
-/// How far the codes of a piece's colour may be from those of the line, in sRGB.
+/// Largest difference between the colour codes of a piece and of the line, in sRGB.
 const CODES: f64 = 8.0 / 255.0;
 
-/// How far the opacity of a piece may be from that of the line, before it goes onto a step.
+/// Largest difference between the opacity of a piece, before it is rounded to a step, and that of the line.
 const FAINTER: f64 = 1.0 / 16.0;
 
-/// What a colour is between two, so far along.
+/// The colour at the share s between two colours.
 pub fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
     a.zip(b).map(|(a, b)| std::array::from_fn(|i| a[i] + (b[i] - a[i]) * s)).or(a).or(b)
 }
@@ -293,7 +294,7 @@ mod tests {
         assert_eq!(color_between(Some([0.0, 1.0, 0.5]), Some([1.0, 0.0, 0.5]), 0.25), Some([0.25, 0.75, 0.5]));
     }
 
-    /// Of any line each place has a piece whose colour is within 8 of 255, where no segment changes by more than 16, and joints
+    /// Every place of a line has a piece whose colour is within 8 of 255, if no segment changes by more than 16. Joints
     /// of a ring are no ends.
     #[test]
     fn pieces_are_as_near_as_they_say() {

@@ -16,7 +16,7 @@ const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 
 /// ln 2 = [`LN_2_HI`] + [`LN_2_LO`]; the first has 40 bits, so that its product with a whole number below 2¹³ is exact.
 pub(super) const LN_2_HI: f64 = 0.693_147_180_559_208_2;
-/// What is left.
+/// The rest of ln 2 beyond [`LN_2_HI`].
 pub(super) const LN_2_LO: f64 = 7.371_002_565_167_799e-13;
 
 /// 1.5 · 2⁵²: a small number that is added leaves its nearest whole number in the low bits of the sum.
@@ -178,7 +178,7 @@ mod tests {
         a.abs().to_bits().abs_diff(b.abs().to_bits())
     }
 
-    /// How far a number is from the truth, in its own units of the last place.
+    /// The error of a number, in its own units of the last place.
     fn ulps(got: f64, truth: Double) -> f64 {
         let ulp = got.abs().next_up() - got.abs();
         (((got - truth.hi) - truth.lo) / ulp).abs()

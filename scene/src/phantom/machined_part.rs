@@ -28,10 +28,10 @@ type Corners = [[f64; 3]; 2];
 
 const BLOCK: Corners = [[-0.5, -0.4, -0.4], [0.5, 0.4, 0.4]];
 
-/// What is milled away: the corner over the base, a groove under it.
+/// Boxes milled away: the corner over the base, and a groove under it.
 const CUTS: [Corners; 2] = [[[-0.28, -1.0, -0.16], [1.0, 1.0, 1.0]], [[-1.0, -0.14, -1.0], [1.0, 0.14, -0.31]]];
 
-/// What is drilled: axis, the two other coordinates of its centre in ascending order of axes, radius.
+/// Holes drilled: axis, the two other coordinates of the centre in ascending order of axes, radius.
 const HOLES: [(usize, [f64; 2], f64); 6] = [
     (0, [0.0, 0.12], 0.15),     // the bore through the wall
     (1, [-0.39, 0.335], 0.035), // a pin along the wall's top

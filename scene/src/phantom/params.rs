@@ -8,7 +8,7 @@ use crate::space::Grid;
 use crate::volume::VoxelType;
 use std::fmt;
 
-/// What there is to know about a phantom: one row of [`super::describe`].
+/// The description of a phantom: one row of [`super::describe`].
 #[derive(Clone, Copy, Debug)]
 pub struct About {
     /// The name in a scene and on the command line.
@@ -30,7 +30,7 @@ pub struct Param {
     pub doc: &'static str,
     /// Its value when none is given.
     pub default: Preset,
-    /// Which values it can have.
+    /// The values that it can have.
     pub allowed: Allowed,
 }
 
@@ -50,7 +50,7 @@ pub enum Preset {
     Top,
 }
 
-/// Which values a parameter can have; only finite ones ever.
+/// The set of values that a parameter can have. All of them are finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowed {
     /// Every number.
@@ -119,7 +119,7 @@ pub(super) const SEED: Param = Param {
     allowed: Allowed::Whole(0.0, 9_007_199_254_740_992.0),
 };
 
-/// What a phantom is built from: the grid it is sampled on and a value for each of its parameters.
+/// The input to a phantom: the grid that it is sampled on, and a value for each of its parameters.
 pub(super) struct Args<'a> {
     /// The grid it is sampled on.
     pub(super) grid: &'a Grid,

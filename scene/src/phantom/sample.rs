@@ -51,7 +51,7 @@ pub fn sample_labels(phantom: &dyn Phantom, grid: Grid) -> Result<Volume, Phanto
 /// The volume that a scene's `phantom` key names.
 ///
 /// # Errors
-/// As [`of_source`] and [`sample`].
+/// The errors of [`of_source`] and [`sample`].
 pub fn generate(source: &PhantomSource) -> Result<Volume, PhantomError> {
     let (phantom, grid) = of_source(source)?;
     sample(phantom.as_ref(), grid, source.voxel_type)

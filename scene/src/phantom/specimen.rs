@@ -11,10 +11,12 @@
 //! | core | 1 | 255 | a ball of radius 0.04 |
 //! | skeleton | 1 | 255 | a lattice shell of radius 0.265 with 42 pores; 20 spines from its joints to 0.44 |
 //!
-//! What is meant to be seen through has the low levels, close together, so nothing opaque lies on the way up to
-//! another value. An edge passes every value between its two sides, so what is solid lies under the veil to the tips of
-//! its spines: no edge of it passes the veil's own values, 12…40, and draws a second veil around it. It does pass the
-//! knot's, 94…110 about its level, in a fraction of a voxel where it gathers little opacity. Solid is all from 165 on.
+//! Bodies meant to be seen through have low levels, close together, so nothing opaque lies on the way up to another
+//! value. An edge passes every value between its two sides. Solid bodies therefore lie under the veil, to the tips of
+//! their spines. None of their edges then passes the veil's own values, 12…40, which would draw a second veil around
+//! it. Such an edge does pass the knot's values, 94…110 about its level, but within a fraction of a voxel, where it
+//! gathers little opacity. Everything from 165 on is solid.
+//!
 //! Labels: 1 veil, 2 knot, 3 marrow, 4 core, 5 skeleton.
 
 use super::jet::{Scalar, length_squared};
@@ -218,8 +220,7 @@ mod tests {
         }
     }
 
-    /// Where there is skeleton outside the lattice there is veil, several edges deep: no edge of it passes the veil's
-    /// values.
+    /// Skeleton outside the lattice is covered by veil, several edges deep: none of its edges passes the veil's values.
     #[test]
     fn the_veil_covers_the_spines() {
         let w = 0.5 / 159.0;

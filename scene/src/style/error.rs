@@ -1,4 +1,4 @@
-//! What can be wrong with a style, a theme or their pictures.
+//! Errors of styles, themes and their pictures.
 
 use crate::memory::NoRoom;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ pub enum PictureFault {
     /// Not a PNG, JPEG or OpenEXR, or a damaged one.
     #[error("not a readable PNG, JPEG or OpenEXR: {reason}")]
     Unreadable {
-        /// What the decoder says.
+        /// The decoder's reason.
         reason: String,
     },
     /// Width and height differ ([STF-1]).
@@ -90,7 +90,7 @@ pub enum StyleError {
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// What the system says.
+        /// The operating system's reason.
         reason: String,
     },
     /// Two pictures of a theme's folder bear one name.
@@ -110,7 +110,7 @@ pub enum StyleError {
         name: String,
         /// The file.
         file: PathBuf,
-        /// What the system says.
+        /// The operating system's reason.
         reason: String,
     },
     /// A style's picture is no style.
@@ -120,7 +120,7 @@ pub enum StyleError {
         name: String,
         /// The file, or the name of the embedded picture.
         file: PathBuf,
-        /// What is wrong with it.
+        /// The fault of the picture.
         fault: PictureFault,
     },
 }

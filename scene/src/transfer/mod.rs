@@ -17,7 +17,7 @@ pub struct Nodes<C> {
     pub at: Vec<f64>,
     /// α_u of each node, per reference length.
     pub opacity: Vec<f64>,
-    /// What each node shows: an index j into the distinct styles, or a linear straight colour.
+    /// The appearance of each node: an index j into the distinct styles, or a linear straight colour.
     pub color: Vec<C>,
     /// i of each of `at` and `opacity`, where those are entries of a table and not nodes; none: they are the nodes.
     pub index: Option<Vec<f64>>,
@@ -30,7 +30,7 @@ pub struct Nodes<C> {
 pub struct Rows {
     /// The quantities: the first along a row, the second from row to row.
     pub over: [Axis<u32>; 2],
-    /// Where each row stands: in non-decreasing order, for labels in ascending order of their ids.
+    /// The position of each row: in non-decreasing order, for labels in ascending order of their ids.
     pub at: Vec<f64>,
     /// The first node of each row.
     pub first: Vec<usize>,

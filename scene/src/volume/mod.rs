@@ -57,7 +57,7 @@ impl Anatomy {
         }
     }
 
-    /// Which way x and y point, as signs; z is superior in all of them.
+    /// Signs of the directions of x and y; z is superior in all of these spaces.
     fn signs(self) -> DVec3 {
         match self {
             Self::LeftPosteriorSuperior => DVec3::ONE,
@@ -107,9 +107,9 @@ pub enum VolumeError {
     /// Slope and intercept that are not finite, or a slope of 0, or values that overflow.
     #[error("slope {slope} and intercept {intercept} leave no range of finite values")]
     Scaling {
-        /// As the file has it.
+        /// The slope in the file.
         slope: f64,
-        /// As the file has it.
+        /// The intercept in the file.
         intercept: f64,
     },
 }
@@ -136,12 +136,13 @@ impl Volume {
         Ok(Self { grid, voxels, slope, intercept, mask, range: [a.min(b), a.max(b)], anatomy: None })
     }
 
-    /// The same volume with the anatomical space that its file names.
+    /// Sets the anatomical space that the volume's file names.
     pub fn with_anatomy(self, anatomy: Option<Anatomy>) -> Self {
         Self { anatomy, ..self }
     }
 
-    /// The same places with 1 where the value is above 0, and 0 elsewhere: what a volume of labels is a picture of.
+    /// A volume on the same grid: 1 where the value is above 0, and 0 elsewhere. It is the picture of a volume of
+    /// labels.
     pub fn present(&self) -> Self {
         let (slope, intercept) = (self.slope, self.intercept);
         let dims = self.dims();
@@ -157,7 +158,7 @@ impl Volume {
         Self { grid: self.grid.clone(), voxels, slope: 1.0, intercept: 0.0, mask: self.mask.clone(), range, ..*self }
     }
 
-    /// Where the voxels lie.
+    /// The grid of the voxels.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }

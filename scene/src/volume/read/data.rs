@@ -21,7 +21,7 @@ const COUNTED: u128 = 1 << 24;
 /// The longest number in text: the digits of the smallest f64 in full, with room.
 const LONGEST: usize = 1200;
 
-/// What a header says about the voxels and where they are.
+/// The voxels' layout and position, from a header.
 #[derive(Debug)]
 pub(super) struct Payload<'a> {
     /// The header.

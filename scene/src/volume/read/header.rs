@@ -72,7 +72,7 @@ impl Lines {
 pub(super) struct Field {
     /// Its name, as the format writes it.
     pub(super) name: &'static str,
-    /// What stands behind it, trimmed.
+    /// The value after the name, trimmed.
     pub(super) value: String,
     /// The line it stands on, from 1.
     pub(super) line: usize,

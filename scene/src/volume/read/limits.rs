@@ -1,4 +1,4 @@
-//! What the length of a file allows its header to claim ([IO-1]).
+//! Limits that the length of a file puts on the claims of its header ([IO-1]).
 
 use crate::memory::{self, NoRoom};
 
@@ -15,7 +15,7 @@ const STEP: usize = 1 << 16;
 /// How voxels are stored in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
-    /// As in memory.
+    /// Bytes as in memory.
     Raw,
     /// One or more gzip members.
     Gzip,

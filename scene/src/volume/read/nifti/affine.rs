@@ -3,7 +3,7 @@
 use super::fields::Fields;
 use glam::{DMat3, DVec3};
 
-/// Where the voxels of a file lie.
+/// The position of a file's voxels in the world.
 pub(super) struct Placed {
     /// D.
     pub(super) axes: DMat3,

@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 /// The most axes that the format allows.
 const MOST_AXES: usize = 16;
 
-/// What a header says about its axes.
+/// The axes that a header describes.
 pub(super) struct Axes {
     /// Samples along every axis, fastest first.
     pub(super) sizes: Vec<usize>,
