@@ -12,10 +12,10 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
 
-/// Coefficients less a constant, x fastest, with as many beyond each border as the spline reaches.
+/// Coefficients minus a constant, x fastest, padded beyond each border by the reach of the spline.
 ///
-/// The constant, the lowest voxel, is added to values again. So a constant volume has the coefficients 0, and whole
-/// numbers with a constant added have the same bits.
+/// The constant is the lowest voxel and is added to values again. A constant volume therefore has coefficients 0.
+/// Adding a constant to integers changes no bit of them.
 #[derive(Clone, Debug)]
 pub(super) struct Coefficients<R> {
     data: Vec<R>,
@@ -32,7 +32,7 @@ pub(super) struct Coefficients<R> {
 struct Fours<'c, S, R> {
     simd: S,
     window: &'c [R],
-    /// From a row to the next one along y and along z.
+    /// Steps in `window` from a row to the next one along y and along z.
     strides: [usize; 2],
 }
 
@@ -50,7 +50,7 @@ impl<S: Simd, R: Real> Rows<R::Four<S>> for Fours<'_, S, R> {
     }
 }
 
-/// In 32 bits 2²⁸ numbers a plane.
+/// The largest stride of rows and planes: 2²⁸ numbers where addresses have 32 bits.
 const LONGEST_STRIDE: usize = usize::MAX >> 4;
 
 impl<R: Real> Coefficients<R> {
@@ -89,8 +89,8 @@ impl<R: Real> Coefficients<R> {
         self
     }
 
-    /// Samples replaced by sums over their line along one axis: `rows` has for each sample of a line the first one that
-    /// its sum takes and the weights from there on.
+    /// Replaces each sample by a weighted sum over its line along one axis. `rows` holds, for each sample of a line,
+    /// the first sample of its sum and the weights from there on.
     pub(super) fn convolve(mut self, axis: usize, rows: &[(usize, Vec<R>)]) -> Self {
         let [px, py, _] = self.dims;
         let stride = [1, px, px * py][axis];
@@ -213,8 +213,8 @@ impl<R: Real> Coefficients<R> {
         [(lo + self.base).to_f64(), (hi + self.base).to_f64()]
     }
 
-    /// Hands over the numbers, base included, that the cells from `first` on read, `side` along each axis, with their place
-    /// among them; beyond those that the last cell reads the nearest.
+    /// Hands over `side` numbers along each axis, base included, from the first that the cell `first` reads, with their
+    /// index among them. Beyond the last number the nearest one is repeated.
     pub(super) fn around(&self, first: [usize; 3], side: usize, mut take: impl FnMut([usize; 3], f64)) {
         let [px, py, pz] = self.dims;
         for (z, y) in (0..side * side).map(|row| (row / side, row % side)) {

@@ -163,12 +163,12 @@ impl<'v, R: Real> Field<'v, R> {
         self.volume
     }
 
-    /// How it does, with the Hessian's estimator as [`hessian_estimator`](Self::hessian_estimator) gives it.
+    /// The reconstruction, with the Hessian's estimator as [`hessian_estimator`](Self::hessian_estimator) gives it.
     pub fn reconstruction(&self) -> Reconstruction {
         self.how
     }
 
-    /// For each brick of cells a range of values that no sample in it leaves ([RAY-2]).
+    /// Ranges of values that no sample leaves, one for each brick of cells ([RAY-2]).
     pub fn bricks(&self) -> Bricks {
         Bricks::new(self.volume.dims(), |row| {
             let read = match &self.kernel {

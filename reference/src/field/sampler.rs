@@ -33,8 +33,8 @@ pub trait Sampler<R: Real>: Sync {
     /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
     fn gradient_at(&self, at: Place<R>) -> Vec3<R>;
 
-    /// The gradient at a voxel: the bits of [`gradient_at`](Self::gradient_at) its place but for the signs of zeros, sooner
-    /// for estimators that are defined on voxels.
+    /// The gradient at a voxel: the bits of [`gradient_at`](Self::gradient_at) its place except for the signs of zeros.
+    /// Faster for estimators that are defined on voxels.
     ///
     /// # Panics
     /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
@@ -43,8 +43,8 @@ pub trait Sampler<R: Real>: Sync {
         self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64))))
     }
 
-    /// ‖g‖² at every voxel of a row, times 4^−e: the product of [`voxel_gradient`](Self::voxel_gradient) with itself. `rows`
-    /// is memory to work in, `squares` as long as the row.
+    /// ‖g‖² at every voxel of a row, times 4^−e: the product of [`voxel_gradient`](Self::voxel_gradient) with itself.
+    /// `rows` is working memory, and `squares` is as long as the row.
     ///
     /// # Panics
     /// See [`voxel_gradient`](Self::voxel_gradient).
@@ -68,8 +68,8 @@ pub trait Sampler<R: Real>: Sync {
         false
     }
 
-    /// The values at the corners of a cell, as pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1), where the field in
-    /// the cell is their trilinear interpolation.
+    /// The values at the corners of a cell, as pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1). None unless
+    /// the field in the cell is their trilinear interpolation.
     #[inline(always)]
     fn corners(&self, _cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
         None
@@ -287,8 +287,8 @@ pub enum AnySampler<'f, 'v, R> {
     CatmullRom(Sampled<'f, 'v, R, CatmullRom>),
 }
 
-/// Runs an expression with a reference to a field's sampler bound to a name: the kernel is decided here, once, and the
-/// expression is compiled for each.
+/// Runs an expression with a reference to a field's sampler bound to a name. The kernel is decided here, once, and the
+/// expression is compiled for each kernel.
 ///
 /// ```
 /// use drypoint_reference::field::{Field, Reconstruction, Rung, Sampler};

@@ -1,7 +1,7 @@
 //! Sums of a separable kernel over the numbers around a cell.
 //!
-//! All run over differences to the number at the cell's first voxel, so that a constant has exactly that value and
-//! derivatives that are exactly 0 ([REC-1], [REC-2]).
+//! All sums run over differences to the number at the cell's first voxel. A constant field therefore has exactly its
+//! value, and derivatives that are exactly 0 ([REC-1], [REC-2]).
 
 use crate::number::{Arithmetic, Real, Sym3, Vec3};
 use std::ops::{Add, Mul, Sub};
@@ -99,8 +99,8 @@ fn origin<R: Real, A: Into<[R; N]>, const N: usize>(rows: &impl Rows<A>) -> R {
     row[o]
 }
 
-/// Σ a b: the even terms, then the odd ones, then both. Two sums of one shape are what the compiler makes vectors of,
-/// here and in all that they are made from.
+/// Σ a b: the even terms, then the odd ones, then both. The compiler vectorizes pairs of sums of one shape, here and in
+/// the sums that these are made from.
 #[inline(always)]
 fn dot<A: Arithmetic, const N: usize>(a: &[A; N], b: &[A; N]) -> A {
     let (mut even, mut odd) = (a[0] * b[0], a[1] * b[1]);

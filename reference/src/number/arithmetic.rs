@@ -16,10 +16,10 @@ pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output
     fn all(self) -> bool;
 }
 
-/// A number, or a lane of numbers for each of which the same is computed.
+/// A number, or a vector of lanes on which the same computation runs.
 ///
-/// A formula over it is written once. It takes the same steps at both widths, and so gives the same bits: where it branches,
-/// both sides are computed and [`select`](Self::select) takes one.
+/// A formula over this trait is written once. It takes the same steps at both widths, and so gives the same bits. At a
+/// branch both sides are computed, and [`select`](Self::select) takes one.
 pub trait Arithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -307,7 +307,7 @@ impl<S: Simd> Elementary for f64x8<S> {
         lanes::power(self, y, asked.to_bitmask())
     }
 
-    /// Lane by lane: shininess is rarely a fraction.
+    /// Computed lane by lane: shininess is rarely a fraction.
     #[inline(always)]
     fn pow(self, y: f64) -> Self {
         f64x8::from_fn(self.simd, |lane| math::pow(self[lane], y))

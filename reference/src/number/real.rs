@@ -80,8 +80,8 @@ const MAGIC_F64: f64 = (1u64 << 52) as f64;
 /// 2²³, the same for f32.
 const MAGIC_F32: f32 = (1u32 << 23) as f32;
 
-/// 2⁵² + ⌊x⌋ for 0 ≤ x < 2⁵¹. The 1 that is taken off where the nearest whole number lies above is made by a mask: a
-/// branch would be mispredicted at every second sample.
+/// 2⁵² + ⌊x⌋ for 0 ≤ x < 2⁵¹. If the nearest integer lies above x, 1 is subtracted by a mask: a branch would be
+/// mispredicted at every second sample.
 #[inline(always)]
 fn floor_f64(x: f64) -> f64 {
     let nearest = x + MAGIC_F64;

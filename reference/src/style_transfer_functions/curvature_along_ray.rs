@@ -6,8 +6,8 @@ use drypoint_scene::shot::Turn;
 /// κ_v ≈ angle(N here, N at plane k − 1) / Δ_ray, in reciprocal world units, never negative; 0 unless both normals are
 /// `known`.
 ///
-/// The normal `before` is unknown where the previous plane's sample has none, lies outside the box or not beyond `near`. On
-/// a surface whose normal turns at the rate |dN/ds| along the ray the error is of first order in Δ_ray.
+/// The normal `before` is unknown if the previous plane's sample has none, lies outside the box, or is not beyond
+/// `near`. On a surface whose normal turns at the rate |dN/ds| along the ray, the error is of first order in Δ_ray.
 #[inline(always)]
 pub fn kappa<A: Elementary>(turn: Turn, n: Vec3<A>, before: Vec3<A>, known: A::Mask, delta_ray: A) -> A {
     let zero = delta_ray.zero();

@@ -20,7 +20,7 @@ pub(crate) struct Blends {
 }
 
 impl Blends {
-    /// How many style pictures a lookup of the lanes reads.
+    /// Number of style pictures that a lookup of the lanes reads.
     #[inline(always)]
     pub(crate) fn lookups(&self, lanes: u64) -> u64 {
         u64::from(lanes.count_ones() + (lanes & self.mixed).count_ones())

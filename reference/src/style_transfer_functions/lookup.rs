@@ -28,13 +28,13 @@ pub struct Blend<R> {
 }
 
 impl StyleIndex {
-    /// From the style of each node.
+    /// The index of styles from the style of each node.
     pub fn new(style: &[usize]) -> Self {
         let is_identity = style.iter().enumerate().all(|(k, &j)| k == j);
         Self { of_node: (!is_identity).then(|| style.iter().map(|&j| j as u32).collect()) }
     }
 
-    /// From (i, α_u) = tft(s), i = i₀ + w, to j₀ = ift(i₀) and j₁ = ift(i₀ + 1) (4.1, steps 2 and 3).
+    /// The blend at (i, α_u) = tft(s), i = i₀ + w: j₀ = ift(i₀) and j₁ = ift(i₀ + 1) (4.1, steps 2 and 3).
     #[inline]
     pub fn blend<R: Real>(&self, place: &Place<R>) -> Blend<R> {
         let &Place { node, w, alpha_u } = place;
@@ -63,7 +63,7 @@ impl<R: Real> Blend<R> {
         self.j0 == self.j1 || self.w == R::ZERO
     }
 
-    /// How many style pictures a lookup reads: one or two ([PLAN-2]).
+    /// Number of style pictures that a lookup reads: one or two ([PLAN-2]).
     #[inline]
     pub fn lookups(&self) -> u64 {
         if self.is_pure() { 1 } else { 2 }
@@ -80,7 +80,7 @@ pub struct Blend2<R> {
 }
 
 impl<R: Real> Blend2<R> {
-    /// From the places in two rows: four lookups in ift.
+    /// The blend at the places in two rows, by four lookups in ift.
     #[inline]
     pub fn new(index: &StyleIndex, patch: &Patch<R>) -> Self {
         Self { rows: patch.rows.each_ref().map(|place| index.blend(place)), w: patch.w }
@@ -94,7 +94,7 @@ impl<R: Real> Blend2<R> {
         [a[0], a[1], b[0], b[1]]
     }
 
-    /// How many style pictures a lookup reads: each once, one to four ([PLAN-2]).
+    /// Number of style pictures that a lookup reads, each once: one to four ([PLAN-2]).
     #[inline]
     pub fn lookups(&self) -> u64 {
         let j = self.styles();
@@ -175,8 +175,8 @@ impl<R: Real> Spheres<R> {
     /// (r, g, b, α_d) = sft(n, j₀)(1 − w) + sft(n, j₁) w (4.1, step 4), linear and premultiplied by α_d. A style
     /// without a share is not read.
     ///
-    /// [`Mix::Premultiplied`] mixes the premultiplied lookups. [`Mix::Printed`] mixes straight colour and opacity each
-    /// by itself, so that a transparent style still lends its colour, and multiplies afterwards.
+    /// [`Mix::Premultiplied`] mixes the premultiplied lookups. [`Mix::Printed`] mixes straight colour and opacity
+    /// separately, so that a transparent style still lends its colour, and multiplies afterwards.
     #[inline]
     pub fn lookup(&self, blend: &Blend<R>, nx: R, ny: R) -> [R; 4] {
         self.mixed(blend, |j| self.maps[j].sample(nx, ny))

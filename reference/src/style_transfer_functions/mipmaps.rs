@@ -8,10 +8,10 @@ use drypoint_scene::shot::LevelOfDetail;
 use drypoint_scene::style::{MipLevel, Style};
 use drypoint_scene::view::View;
 
-/// p of [STF-10]: how many rays lie side by side in a voxel's picture.
+/// p of [STF-10]: the number of rays side by side in a voxel's picture.
 ///
-/// With `picture.samples = n` rays are 1/n of a pixel apart, and so such a picture is still the mean of the one that is n
-/// times as large ([RAY-6]).
+/// With `picture.samples = n` rays are 1/n of a pixel apart. Such a picture is therefore still the mean of the one that
+/// is n times as large ([RAY-6]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint<R> {
     /// p, equal at every depth.
@@ -59,8 +59,8 @@ impl<R: Real> Detail<R> {
         }
     }
 
-    /// λ − log₂ S = log₂( ½·max(ω₀, b_κ·min(|κ|·voxel, 1)) / p ) + b_g(1 − |g|), not yet clamped, from κ in reciprocal
-    /// world units and |g| in [0, 1]: by how many levels the lookup lies below the style's last one.
+    /// λ − log₂ S = log₂( ½·max(ω₀, b_κ·min(|κ|·voxel, 1)) / p ) + b_g(1 − |g|), not yet clamped: the number of levels
+    /// by which the lookup lies below the style's last one. κ is in reciprocal world units and |g| in [0, 1].
     ///
     /// A normal that turns by ω from one voxel to the next moves the lookup by ½Sω texels at the most, in p rays.
     #[inline]
@@ -88,8 +88,9 @@ impl<R: Real> MipMap<R> {
         Self { last: R::from_f64(math::log2(style.side as f64)), levels: levels.iter().map(sampled).collect() }
     }
 
-    /// The lookup of `style`, which this is the chain of, at λ = clamp(`below_last` + log₂ S, 0, log₂ S): bilinear in the
-    /// two levels about λ, and linear between them. At λ = 0 it is the lookup of the style itself, bit for bit.
+    /// The lookup of `style` at λ = clamp(`below_last` + log₂ S, 0, log₂ S), bilinear in the two levels about λ and
+    /// linear between them. `self` must be the chain of `style`. At λ = 0 the result is the lookup of the style itself,
+    /// bit for bit.
     #[inline]
     pub fn sample(&self, style: &SphereMap, nx: R, ny: R, below_last: R) -> [R; 4] {
         // In this order of operands what is not a number (turn 0 seen from no distance) counts as 0.

@@ -6,8 +6,9 @@ use drypoint_scene::style::Style;
 
 /// One style's picture, sampled.
 ///
-/// Its texels are rounded to f32 once, whatever the precision of the samples: what a texture of a graphics card holds, and
-/// far finer than any painted picture. A style of 192² texels is then 0.6 MB, and a core keeps two of them at hand.
+/// Texels are rounded to f32 once, for every precision of the samples. This is the precision of a graphics card's
+/// texture, and far finer than any painted picture. A style of 192² texels then takes 0.6 MB, and a core keeps two of
+/// them in its cache.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereMap {
     pub(super) side: usize,
@@ -15,12 +16,12 @@ pub struct SphereMap {
 }
 
 impl SphereMap {
-    /// From a decoded style, whose texels outside the disk are already extended from its rim.
+    /// The map of a decoded style, whose texels outside the disk are already extended from its rim.
     pub fn new(style: &Style) -> Self {
         Self::from_texels(style.side, &style.texels)
     }
 
-    /// From S × S texels with the same property.
+    /// The map of S × S texels with the same property.
     pub(super) fn from_texels(side: usize, texels: &[Rgba]) -> Self {
         Self { side, texels: texels.iter().map(|texel| texel.map(|c| c as f32)).collect() }
     }

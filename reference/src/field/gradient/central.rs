@@ -1,8 +1,7 @@
 //! Central differences on the voxels, then trilinear interpolation: the papers' gradient ([REC-2]).
 //!
-//! At the border (−3f₀ + 4f₁ − f₂)/2, which is the central difference of the line continued by 3f₀ − 3f₁ + f₂.
-//! Voxels are subtracted before anything is weighted: of whole numbers the differences are exact, so a constant added to
-//! them changes no bit.
+//! At the border (−3f₀ + 4f₁ − f₂)/2 is the central difference of the line continued by 3f₀ − 3f₁ + f₂. Voxels are
+//! subtracted before they are weighted. Differences of integers are exact, so a constant added to them changes no bit.
 
 use crate::field::Field;
 use crate::field::kernel::trilinear::bilinear;

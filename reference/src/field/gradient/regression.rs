@@ -1,13 +1,13 @@
 //! 4D linear regression on the voxels, then trilinear interpolation ([REC-2], [STIP-1]).
 //!
 //! L. Neumann, B. Csébfalvi, A. König, E. Gröller, *Gradient Estimation in Volume Data using 4D Linear Regression*,
-//! Computer Graphics Forum 19(3), 2000: a·x + b·y + c·z + d is fitted to the 3×3×3 voxels around one, each weighted
-//! with 1/distance in world units, the middle one with 2/(smallest spacing); (a, b, c) is the gradient, d the smoothed
-//! value in the middle.
+//! Computer Graphics Forum 19(3), 2000. The hyperplane a·x + b·y + c·z + d is fitted to the 3×3×3 voxels around a
+//! voxel. Each has the weight 1/distance in world units, the middle one 2/(smallest spacing). (a, b, c) is the
+//! gradient, d the smoothed value in the middle.
 //!
-//! The fit is the same in any linear coordinates, so it is made in index space, where an axis of length 1 can be left
-//! out: h, the gradient along the index axes, is one linear combination of the voxels for each set of voxels that exist:
-//! all 27, or those that a border leaves.
+//! The fit is the same in any linear coordinates. It is made in index space, where an axis of length 1 can be left out.
+//! There h, the gradient along the index axes, is a linear combination of the voxels. Its weights depend only on which
+//! of them exist: all 27, or those that a border leaves.
 
 use crate::field::Field;
 use crate::field::place::Place;
@@ -20,13 +20,13 @@ use drypoint_scene::volume::Access;
 /// Weights of the 3³ voxels around one, x fastest: for the derivative along each index axis, and for d.
 type Weights<R> = [[R; 27]; 4];
 
-/// For each index axis the voxels that have a weight, x fastest, and it.
+/// For each index axis, the indices of the voxels with a nonzero weight, x fastest, and the weights.
 pub(super) type Taps<R> = [Vec<(usize, R)>; 3];
 
 /// The fit for each of the cases that a grid has.
 #[derive(Clone, Debug)]
 pub(in crate::field) struct Regression<R> {
-    /// By the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
+    /// The fits, indexed by the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
     cases: Vec<Option<Box<Weights<R>>>>,
     /// Weights of the gradient at a voxel that has all neighbours.
     taps: Taps<R>,

@@ -1,8 +1,8 @@
 //! Sobel's operator on the voxels, then trilinear interpolation ([REC-2]).
 //!
-//! On a voxel: central differences along one axis, smoothed with (1, 2, 1)/4 along the two others. At the border of an
-//! axis differences are one-sided, as the central ones, and the smoothing along that axis is dropped. Interpolated
-//! between two voxels each of the two operations has four taps, as a kernel's.
+//! At a voxel the operator is a central difference along one axis, smoothed with (1, 2, 1)/4 along the two others. At
+//! the border of an axis the difference is one-sided, as for central differences, and the smoothing along that axis is
+//! dropped. Interpolated between two voxels, each of the two operations has four taps, like a kernel.
 
 use crate::field::Field;
 use crate::field::place::Place;

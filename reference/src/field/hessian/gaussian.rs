@@ -48,8 +48,8 @@ pub(in crate::field) fn half_taps(sigma: f64) -> Vec<f64> {
     half.iter().map(|w| w / sum).collect()
 }
 
-/// The weights that make smoothed sample i of a line of n ≥ 2, and the first sample that they belong to. Taps beyond
-/// the border weight the samples that the line is continued from.
+/// The weights of smoothed sample i of a line of n ≥ 2, and the first sample that they apply to. Taps beyond the border
+/// weight the samples that the line is continued from.
 pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize, Vec<R>) {
     let reach = half.len() - 1;
     let short = n.min(3);

@@ -44,13 +44,13 @@ impl<K: Interpolant<f64>> Each for Sampled<'_, '_, f64, K> {
     }
 }
 
-/// Not for each kernel again.
+/// The field's estimate, compiled once and not for each kernel.
 #[inline(never)]
 fn estimated_gradient(field: &Field<'_, f64>, at: Place<f64>) -> Vec3<f64> {
     field.estimated_gradient(at)
 }
 
-/// Not for each kernel again.
+/// The field's estimate, compiled once and not for each kernel.
 #[inline(never)]
 fn estimated_second(field: &Field<'_, f64>, at: Place<f64>) -> (Vec3<f64>, Sym3<f64>) {
     field.estimated_second(at)

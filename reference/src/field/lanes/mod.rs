@@ -1,8 +1,8 @@
 //! A field at eight positions side by side, for rays that are cast in lanes.
 //!
-//! Trilinear values, central differences and Sobel's operator of small whole numbers, which is what scanners store: the formulas are those of
-//! one position, over lanes, so that the bits are the same. Voxels are fetched one lane after the other, whole rows at a
-//! time, and taken apart in lanes. Other kernels are asked for one position [after the other](each).
+//! Lanes cover trilinear values, central differences and Sobel's operator of small integers, which is what scanners
+//! store. The formulas are those of one position, over lanes, so the bits are the same. Voxels are fetched lane by
+//! lane, whole rows at a time, and unpacked in lanes. Other kernels are asked for one position [after the other](each).
 
 mod each;
 mod gradient;
@@ -138,14 +138,14 @@ pub(crate) struct Places<S: Simd> {
 }
 
 impl<S: Simd> Places<S> {
-    /// Cells, then ways.
+    /// The columns of the cells, then those of the fractions.
     #[inline(always)]
     pub(crate) fn to_columns(self) -> [[f64; LANES]; 6] {
         let Self { cell, w: [wx, wy, wz] } = self;
         [cell.x.into(), cell.y.into(), cell.z.into(), wx.into(), wy.into(), wz.into()]
     }
 
-    /// From [`to_columns`](Self::to_columns).
+    /// Restores the places from [`to_columns`](Self::to_columns).
     #[inline(always)]
     pub(crate) fn from_columns([x, y, z, wx, wy, wz]: [f64x8<S>; 6]) -> Self {
         Self { cell: Vec3::new(x, y, z), w: [wx, wy, wz] }
@@ -253,10 +253,10 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
 }
 
 impl Field<'_, f64> {
-    /// Whether a [`Reader`] reads this field, its gradients too if they are asked for: whole numbers, read as they are stored.
-    /// [`LaneReader`] reads the trilinear kernel: numbers of at most 16 bits, central differences or Sobel's operator, at
-    /// least four voxels on each axis. [`EachReader`] reads the others, where a sample's `looks` are dear too; else rays are
-    /// as fast alone.
+    /// Whether a [`Reader`] reads this field, and its gradients if `gradient` is set. The numbers must be integers,
+    /// read as they are stored. [`LaneReader`] reads the trilinear kernel: numbers of at most 16 bits, central
+    /// differences or Sobel's operator, at least four voxels on each axis. [`EachReader`] reads the other kernels if a
+    /// sample's `looks` are expensive too; otherwise single rays are as fast.
     pub(crate) fn fits_lanes(&self, gradient: bool, looks: bool) -> bool {
         if self.stencils.careful() || !self.volume.voxels().voxel_type().is_integer() {
             return false;
@@ -303,7 +303,7 @@ impl<S: Simd, V: Packed> Reader<S> for LaneReader<'_, '_, S, V> {
 }
 
 impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
-    /// For a field that [`fits_lanes`](Field::fits_lanes) and its voxels.
+    /// Reads a field that [`fits_lanes`](Field::fits_lanes), from its voxels.
     #[inline(always)]
     pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, voxels: &'f [V]) -> Self {
         let to_world = splat(simd, &field.to_world);
@@ -335,18 +335,17 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         whole(offset)
     }
 
-    /// Between two numbers, both raised.
+    /// Interpolates between two numbers, both raised.
     #[inline(always)]
     fn between(&self, a: f64x8<S>, b: f64x8<S>, w: f64x8<S>) -> f64x8<S> {
         // As `lerp`; whole numbers so small have exact differences.
         (a - (TO_BITS + V::SIGN as f64)) + w * (b - a)
     }
 
-    /// The first `N` numbers in each word, each more by one and the same whole number: their differences are those of the
-    /// numbers.
+    /// The first `N` numbers in each word, all raised by the same integer: their differences are those of the numbers.
     ///
-    /// No closure here or anywhere in lanes: what is not inlined at once is compiled for the least processor, and each
-    /// vector operation in it stays a call.
+    /// There is no closure here or anywhere in lanes. A closure that is not inlined at once is compiled for the
+    /// baseline processor, and each vector operation in it stays a call.
     #[inline(always)]
     fn raised<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
         let mut raised = [f64x8::splat(self.simd, 0.0); N];

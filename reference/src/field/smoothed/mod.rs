@@ -1,10 +1,11 @@
 //! Derivatives of a field smoothed by a Gaussian, made only where they are asked for ([REC-3], [HATCH-3]).
 //!
-//! The grid is smoothed as for the `gaussian` Hessian; its derivatives are then central differences and those of the central
-//! gradient, interpolated linearly, which look less at what is finer than the grid than a spline through the smoothed samples
-//! does: at σ = 1 voxel their weights' root sum of squares is 0.066, the spline's 0.158. Smoothing is separable: along an axis
-//! each sample is one sum over its line, whose weights hold the continuation beyond the border too. So the samples around any
-//! cell can be had by themselves, whatever else was asked for and in whatever order.
+//! The grid is smoothed as for the `gaussian` Hessian. Its derivatives are central differences and central differences
+//! of those, interpolated linearly. They respond less to detail finer than the grid than a spline through the smoothed
+//! samples does: at σ = 1 voxel the root sum of squares of their weights is 0.066, the spline's 0.158.
+//!
+//! Smoothing is separable. Along an axis each sample is one sum over its line, whose weights include the continuation
+//! beyond the border. The samples around any cell can therefore be computed on their own, in any order.
 
 mod rows;
 mod sums;
@@ -18,8 +19,8 @@ use rows::{Row, reads, responses, rows};
 use std::sync::OnceLock;
 use sums::Sums;
 
-/// Cells along the side of a brick, and of one of a σ beyond [`WIDE`]: there neighbouring bricks have more sums in common, which
-/// each makes by itself.
+/// Cells along the side of a brick. Bricks of a σ beyond [`WIDE`] are larger: neighbouring bricks share more sums
+/// there, and each brick computes its own.
 const BRICK: usize = 16;
 const WIDE_BRICK: usize = 32;
 const WIDE: f64 = 1.5;
@@ -28,16 +29,16 @@ const WIDE: f64 = 1.5;
 #[derive(Debug)]
 pub struct Smoothed<'f, 'v> {
     field: &'f Field<'v, f64>,
-    /// For each axis the rows of its samples, from two before the first on.
+    /// Rows of the samples of each axis, from two samples before the first on.
     rows: [Vec<Row>; 3],
     /// Cells along the side of a brick.
     side: usize,
     /// Bricks along x, y, z.
     dims: [usize; 3],
     bricks: Vec<OnceLock<Region>>,
-    /// For each voxel along each axis the root sums of squares of the weights of a value and of a second derivative.
+    /// Root sums of squares of the weights of a value and of a second derivative, for each voxel along each axis.
     responses: [Vec<[f64; 2]>; 3],
-    /// For each axis the square of the length of D⁻ᵀ's column, which takes second derivatives to the world's unit.
+    /// Squared length of each column of D⁻ᵀ, which converts second derivatives to the world's unit.
     squares: [f64; 3],
     /// The lowest number, as numbers are read: sums are of what is more.
     base: f64,
@@ -128,8 +129,9 @@ impl<'f, 'v> Smoothed<'f, 'v> {
     }
 
     /// q·w_σ of [HATCH-3]: the standard deviation of a second derivative in a cell, in the unit of
-    /// [`derivatives`](Self::derivatives), where each value times 2^−e is off by this, and by one rounding to an integer at
-    /// least; floating-point voxels have no rounding. Near the border, where samples are continued, it is larger.
+    /// [`derivatives`](Self::derivatives). Each value times 2^−e has the standard deviation `deviation`, but at least
+    /// that of one rounding to an integer. Floating-point voxels have no rounding. Near the border, where samples are
+    /// continued, the result is larger.
     pub fn noise(&self, index: Vec3<f64>, deviation: f64) -> f64 {
         self.noise_in(self.field.cells.locate(index).cell, deviation)
     }
@@ -146,8 +148,8 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         self.bricks.iter().filter_map(OnceLock::get).map(|brick| size_of_val(&*brick.data) as u64).sum()
     }
 
-    /// w_σ in a cell: the root sum of squares of the weights of a second derivative along an axis, to the world's unit, the
-    /// largest of the axes and of the cell's corners.
+    /// w_σ in a cell: the root sum of squares of the weights of a second derivative along an axis, in the world's unit.
+    /// It is the largest over the axes and the cell's corners.
     #[inline]
     fn response(&self, cell: [usize; 3]) -> f64 {
         let at = |a: usize| {
@@ -160,8 +162,8 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         along[0].max(along[1]).max(along[2])
     }
 
-    /// The samples that some cells read, or as many of them as there are, by themselves: nothing is kept. Sums along z, then
-    /// y, then x, each of all samples that one stored number goes into, in their order.
+    /// The samples that some cells read, or as many of them as there are, computed on their own and not kept. Sums run
+    /// along z, then y, then x, each over all samples that one stored number enters, in their order.
     pub fn region(&self, first: [usize; 3], cells: [usize; 3]) -> Region {
         let of_axis = |a: usize| {
             let rows = &self.rows[a][first[a]..];

@@ -66,8 +66,8 @@ impl Stencils<'_> {
         b
     }
 
-    /// The voxels from the one before the cell on that are in the grid, in their places; anything in those beyond. Axes have
-    /// at least four voxels.
+    /// The voxels of a block that are in the grid, in their places; the other entries hold anything. Axes have at least
+    /// four voxels.
     fn pushed_inside<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         let dims = self.dims();
         let mut start = [0; 3];

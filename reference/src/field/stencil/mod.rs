@@ -21,8 +21,8 @@ use std::marker::PhantomData;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stencils<'v> {
     volume: &'v Volume,
-    /// For each axis the number of cells whose 4 voxels from the one before the cell on are all in the grid; none
-    /// where every stencil has to be read with care.
+    /// Number of cells on each axis whose four voxels, from the one before the cell on, all lie in the grid. None where
+    /// every stencil has to be read with care.
     inner: [usize; 3],
     /// Whether an axis has length 1 or numbers are scaled as they are read.
     careful: bool,
@@ -32,7 +32,7 @@ pub(super) struct Stencils<'v> {
 
 /// The 32 voxels of central differences at the eight corners of a cell.
 pub(super) struct Cross<R> {
-    /// For (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) from the cell on: the four voxels from the one before it on.
+    /// Four voxels from the one before the cell on, in the rows (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) from the cell.
     pub x: [[R; 4]; 4],
     /// The two voxels of the cell in the rows at y = −1, 2, then the same at z = 1.
     pub y: [[R; 2]; 4],
@@ -267,8 +267,9 @@ impl<'v> Stencils<'v> {
         })
     }
 
-    /// Hands over the numbers from `before` voxels before the cell `first` on, `side` along each axis, with their place among
-    /// them; beyond the border those that continue them, beyond what the last cell reaches the nearest.
+    /// Hands over the numbers from `before` voxels before the cell `first` on, `side` along each axis, with their index
+    /// among them. Beyond the border they are continued; beyond the reach of the last cell the nearest number is
+    /// repeated.
     pub(super) fn around<R: Real>(
         &self,
         first: [usize; 3],
@@ -307,8 +308,8 @@ fn number<R: Real, V: Voxel>(voxel: V, scale: f64) -> R {
     if scale == 1.0 { R::from_voxel(voxel) } else { R::from_f64(voxel.to_f64() * scale) }
 }
 
-/// The exponent that is taken out of stored numbers so that sums and differences of them neither overflow nor become
-/// subnormal: 0 unless they come near the ends of the number type, which only floating-point voxels can.
+/// The exponent taken out of stored numbers so that their sums and differences neither overflow nor become subnormal.
+/// It is 0 unless they come near the ends of the number type, which only floating-point voxels can.
 fn exponent<R: Real>(volume: &Volume) -> i32 {
     let voxels = volume.voxels();
     let far = match voxels.voxel_type() {

@@ -32,13 +32,13 @@ pub enum ExtractError {
     /// An outline with fewer than three different points.
     #[error("an outline of {found} different points encloses nothing")]
     TooFewPoints {
-        /// How many different points in a row there are.
+        /// Number of different points in a row.
         found: usize,
     },
     /// More points than any drawn outline has.
     #[error("an outline of {found} points: at most {limit} are read")]
     TooManyPoints {
-        /// How many there are.
+        /// Number of points.
         found: usize,
         /// The most.
         limit: usize,

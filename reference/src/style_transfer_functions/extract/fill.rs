@@ -1,9 +1,9 @@
-//! Texels that the picture does not show ([STF-2]): the other side of its edge, or what an outline does not turn to.
+//! Texels that the picture does not show ([STF-2]): beyond its edge, or of normals that an outline does not have.
 //!
-//! They take the harmonic continuation of the others: the smoothest one, without seams, which stays between the least
-//! and the largest of what is known, channel by channel (the maximum principle). On the circumference nothing flows
-//! through. Solved from coarse to fine, as Bornemann and Deuflhard's cascadic multigrid (1996) does, with a fixed number
-//! of sweeps.
+//! They take the harmonic continuation of the known texels: the smoothest one, without seams. By the maximum principle
+//! it stays between the least and the largest known value, channel by channel. Nothing flows through the circumference.
+//! The equation is solved from coarse to fine, as in Bornemann and Deuflhard's cascadic multigrid (1996), with a fixed
+//! number of sweeps.
 
 use drypoint_scene::color::Rgba;
 use drypoint_scene::style::is_inside;

@@ -1,21 +1,23 @@
 //! A body for an outline, and with it a normal for each place inside ([STF-2]).
 //!
-//! Inside the outline −Δu = 1 is solved with u = 0 on it, and the body is z² = 4u/k: Sýkora et al. (*Ink-and-Ray*, 2014)
-//! inflate drawings so. Its outward normal is along
+//! Inside the outline −Δu = 1 is solved with u = 0 on the outline, and the body is z² = 4u/k. Sýkora et al.
+//! (*Ink-and-Ray*, 2014) inflate drawings in this way. The outward normal is along
 //!
 //! (−∇u, √(ku)),
 //!
 //! which on the outline lies in the picture's plane along the outline's own normal, and inside varies smoothly. For a
-//! circle u = (R² − ρ²)/4, for an ellipse a multiple of 1 − x²/a² − y²/b²: with the right k they become the sphere and
-//! any ellipsoid over the ellipse. k sets the depth, which no outline tells. Unless it is given, the body is as deep as
-//! the largest circle inside the outline, as bodies of revolution are: a circle becomes a sphere, an ellipse a spheroid.
-//! The body is closed, so every normal is met at least once.
+//! circle u = (R² − ρ²)/4, for an ellipse u is a multiple of 1 − x²/a² − y²/b². With the right k they become the sphere
+//! and any ellipsoid over the ellipse.
 //!
-//! Harmonic interpolation of the outline's normals (Johnston, *Lumo*, 2002) is the other well-known way. It makes a
-//! sphere of a circle too, but of no other ellipse an ellipsoid, and was farther from the blobs of the tests.
+//! k sets the depth, which no outline tells. Unless it is given, the body is as deep as the largest circle inside the
+//! outline, as bodies of revolution are: a circle becomes a sphere, an ellipse a spheroid. The body is closed, so it
+//! has every normal at least once.
 //!
-//! Solved by differences on a square grid whose arms are cut at the outline (Shortley and Weller 1938), which is exact
-//! where u is quadratic, by successive over-relaxation with Young's factor.
+//! Harmonic interpolation of the outline's normals (Johnston, *Lumo*, 2002) is the other well-known method. It makes a
+//! sphere of a circle too, but of no other ellipse an ellipsoid. It was farther from the blobs of the tests.
+//!
+//! The equation is solved by differences on a square grid whose arms are cut at the outline (Shortley and Weller 1938),
+//! which is exact where u is quadratic. The solver is successive over-relaxation with Young's factor.
 
 use super::polygon::{Meeting, Polygon};
 use drypoint_scene::math;
@@ -66,8 +68,8 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// Inflates an outline, to a depth in pixels: how far the body reaches out of the picture. None: as far as the
-    /// largest circle inside the outline would.
+    /// Inflates an outline to a depth in pixels, the body's extent out of the picture. None: the radius of the largest
+    /// circle inside the outline.
     pub(super) fn new(outline: &Polygon, depth: Option<f64>) -> Self {
         let [low, high] = outline.bounds();
         let extent = [high[0] - low[0], high[1] - low[1]];
@@ -217,8 +219,8 @@ fn neighbours(line: &[Meeting], x: f64) -> Option<[(f64, [f64; 2]); 2]> {
     Some([line[after - 1], *line.get(after)?].map(|meeting| ((meeting.at - x).abs(), meeting.outward)))
 }
 
-/// An arm towards a meeting at some distance. Where rounding lets the next node not lie inside, although the outline is
-/// farther away than it, the outline counts as there.
+/// An arm towards an intersection with the outline. Rounding can put the next node outside although the outline is
+/// farther away than that node. The outline then counts as lying at the node.
 fn arm((distance, outward): (f64, [f64; 2]), spacing: f64, next_is_inside: bool) -> Arm {
     if next_is_inside && distance >= spacing {
         return Arm { length: spacing, cut: None };

@@ -14,9 +14,9 @@ const DENSITY: f64 = 3.0;
 /// Parts along a triangle's side at the most.
 const FINEST: f64 = 512.0;
 
-/// The texels of a style from what an outline encloses; none where no place inside has such a normal.
+/// The texels of a style from the area that an outline encloses. None for normals that no place inside has.
 ///
-/// Every place counts by its area: a texel is the mean of all places whose normals it stands for, which is the style
+/// Every place counts by its area: a texel is the mean of all places whose normals it stands for. This is the style
 /// that shows the region with the smallest sum of squared differences. A region with bays has several places for one
 /// normal.
 ///

@@ -24,10 +24,10 @@ pub(super) struct Meeting {
 }
 
 impl Polygon {
-    /// From its points in either order; the last is joined to the first.
+    /// The polygon through points in either order; the last is joined to the first.
     ///
     /// # Errors
-    /// Numbers that are none, fewer than three different points in a row, too many, lines that meet.
+    /// Numbers that are not finite, fewer than three different points in a row, too many, lines that meet.
     pub(super) fn new(given: &[[f64; 2]]) -> Result<Self, ExtractError> {
         if given.len() > MOST {
             return Err(ExtractError::TooManyPoints { found: given.len(), limit: MOST });
@@ -148,7 +148,7 @@ fn unit([x, y]: [f64; 2]) -> [f64; 2] {
     [x / length, y / length]
 }
 
-/// On which side of the line from p to q the point r lies.
+/// The side of the line from p to q on which the point r lies, as the sign of a cross product.
 fn side([p, q]: [[f64; 2]; 2], r: [f64; 2]) -> f64 {
     (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 }
