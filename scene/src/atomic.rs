@@ -16,13 +16,13 @@ static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 /// Numbers the files of this process.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-/// Makes `path` hold what `fill` writes, replacing what is there, at once or not at all.
+/// Makes `path` hold what `fill` writes, at once or not at all; an existing file is replaced.
 ///
-/// A symbolic link is followed. A file that is replaced keeps its permissions. A target that is no regular file (a pipe,
-/// `/dev/null`) is written directly, since it must not be replaced by a file.
+/// A symbolic link is followed. A file that is replaced keeps its permissions. A target that is no regular file (a
+/// pipe, `/dev/null`) is written directly, since a file must not replace it.
 ///
 /// # Errors
-/// A file that may not be written to, or whatever the operating system refuses or `fill` returns; the target is then as
+/// A file that may not be written to, any error of the operating system, and any error of `fill`. The target is then as
 /// it was.
 pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) -> Result<(), E>) -> Result<(), E> {
     let (target, permissions) = match Target::of(path)? {
@@ -36,7 +36,7 @@ pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) 
     Ok(fs::rename(&beside.path, &target)?)
 }
 
-/// Whether [`write()`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
+/// Whether [`write()`] could begin now. Asked before long work, so that the work is not done in vain. Leaves no trace.
 ///
 /// # Errors
 /// See [`write()`].

@@ -7,9 +7,9 @@ use crate::color::Rgb;
 pub struct Fragment {
     /// Eye depth.
     pub depth: f64,
-    /// Linear, straight.
+    /// The colour: linear, straight.
     pub rgb: Rgb,
-    /// In (0, 1]: the share that is covered, times the line's opacity.
+    /// The share that is covered, times the line's opacity, in (0, 1].
     pub opacity: f64,
 }
 
@@ -26,8 +26,8 @@ pub struct Fragments {
 }
 
 impl Fragments {
-    /// The fragments of a picture of `size` pixels of `samples`² rays, each with the number of its ray, row by row. On each ray
-    /// they are ordered from the nearest to the farthest, equal depths as they come.
+    /// The fragments of a picture of `size` pixels of `samples`² rays, each with the number of its ray, row by row. On
+    /// each ray they are ordered from the nearest to the farthest; equal depths keep their order in `found`.
     pub fn new(size: [usize; 2], samples: usize, found: &[(usize, Fragment)]) -> Self {
         let rays = size.map(|n| n * samples);
         let mut starts = vec![0; rays[0] * rays[1] + 1];
@@ -59,7 +59,7 @@ impl Fragments {
         if inside { &self.all[self.starts[ray]..self.starts[ray + 1]] } else { &[] }
     }
 
-    /// How many there are.
+    /// Number of fragments.
     pub fn len(&self) -> usize {
         self.all.len()
     }

@@ -39,8 +39,8 @@ impl NoRoom {
         [a.min((most / b).max(1)), b.min((most / a).max(1))]
     }
 
-    /// Returns the least length that fits, rounded up to three digits, when one of `length` needs [`NoRoom::needed`] and the
-    /// need grows with its inverse; none if nothing fits.
+    /// Returns the least length that fits, rounded up to three digits, if a length of `length` needs [`NoRoom::needed`]
+    /// and the need grows with the inverse of the length. None if nothing fits.
     pub fn enlarged(&self, length: f64) -> Option<f64> {
         let fits = length * (self.needed as f64 / self.free as f64).max(1.0);
         let unit = 10f64.powf(fits.log10().floor() - 2.0);
@@ -72,10 +72,11 @@ pub fn limit(bytes: u64) {
     LIMIT.store(bytes, Ordering::Relaxed);
 }
 
-/// Checks that so many bytes could be had now: the budget allows them, the system has them, the allocator gives them.
+/// Checks that so many bytes are available now: the budget allows them, the system has them, and the allocator gives
+/// them.
 ///
 /// # Errors
-/// The bytes that are needed and those that are free.
+/// The number of bytes needed and the number that are free.
 pub fn room(needed: u64) -> Result<(), NoRoom> {
     let free = free().unwrap_or(u64::MAX);
     let given = |bytes: u64| usize::try_from(bytes).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
@@ -102,8 +103,8 @@ pub fn room_for(n: u64, each: u64) -> Result<(), NoRoom> {
     room(n.saturating_mul(each))
 }
 
-/// A reader that asks the memory budget for what its content will take: before the first byte, and again before what
-/// was read can double. A file or a pipe without an end is an error of [`ErrorKind::OutOfMemory`].
+/// A reader that asks the memory budget for the space of its content: before the first byte, and again before the
+/// content read can double. A file or a pipe without an end is an error of [`ErrorKind::OutOfMemory`].
 #[derive(Debug)]
 pub struct Metered<R> {
     inner: R,

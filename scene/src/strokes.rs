@@ -6,7 +6,7 @@ use glam::DVec3;
 /// A place on a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrokeVertex {
-    /// In world units.
+    /// The position, in world units.
     pub world: DVec3,
     /// The outward normal N there, of length 1, in world space.
     pub normal: DVec3,
@@ -17,7 +17,7 @@ pub struct StrokeVertex {
 /// A curve on an iso-surface, as straight segments between its vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stroke {
-    /// From the tail, at least two. A closed one does not repeat its first.
+    /// The vertices from the tail on, at least two. A closed stroke does not repeat its first vertex.
     pub vertices: Vec<StrokeVertex>,
     /// Whether the last vertex is joined to the first.
     pub closed: bool,
@@ -26,7 +26,7 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// Its length, in world units.
+    /// The stroke's length, in world units.
     pub fn length(&self) -> f64 {
         let along = self.vertices.windows(2).map(|pair| pair[0].world.distance(pair[1].world)).sum::<f64>();
         match self.vertices.as_slice() {

@@ -67,12 +67,12 @@ impl Tone {
         Self { rows: vec![[0.0, 0.0], [1.0, 1.0]] }
     }
 
-    /// From rows of wanted and measured coverage. Where a measured one is lower than one before it, both become their mean
-    /// (the pool of adjacent violators), so that more that is wanted is never less.
+    /// The curve through rows of wanted and measured coverage. A measured value lower than one before it is pooled:
+    /// both become their mean (the pool of adjacent violators). More wanted coverage then never prints less.
     ///
     /// # Errors
-    /// The number of a row, from 0, and what is wrong with it: a number outside [0, 1], or a wanted one that does not
-    /// ascend. Fewer than two rows are told of the row after the last.
+    /// The number of a row, from 0, and its fault: a number outside [0, 1], or a wanted coverage that does not ascend.
+    /// If there are fewer than two rows, the row after the last is reported.
     pub fn from_rows(rows: &[[f64; 2]]) -> Result<Self, (usize, String)> {
         for (i, row) in rows.iter().enumerate() {
             if let Some(x) = row.iter().find(|x| !(0.0..=1.0).contains(*x)) {

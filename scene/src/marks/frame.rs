@@ -4,8 +4,8 @@ use super::{Marks, Page, Polyline, Vertex};
 use glam::DVec2;
 
 impl Marks {
-    /// Leaves what the frame holds: a dot only if all of its disc does, a line as far as its centre line stays half its
-    /// width inside. A line that leaves and comes back becomes several, which keep their `t`.
+    /// Clips the marks to the frame. A dot stays if all of its disc is inside, a line as far as its centre line is half
+    /// its width inside. A line that leaves and comes back becomes several, which keep their `t`.
     pub fn keep_inside(&mut self) {
         let page = self.page;
         for layer in &mut self.layers {
@@ -65,8 +65,8 @@ fn range(page: &Page, a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
     ])
 }
 
-/// The part of a segment, from 0 at its start to 1 at its end, that lies inside all of some lines. Each line is given by
-/// how far inside of it the start and the end lie, negative outside.
+/// The part of a segment, from 0 at its start to 1 at its end, that lies inside all of some lines. Each line is given
+/// by the distances of start and end from it, positive inside.
 pub fn clipped(distances: impl IntoIterator<Item = (f64, f64)>) -> Option<[f64; 2]> {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (start, end) in distances {

@@ -10,8 +10,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// A place beside a line, and the number of the point of the line that it belongs to.
 pub(super) type Beside = (DVec2, usize);
 
-/// The places beside a line, to the left of it, without the loops of bends to the left. Of these the sides of what turns by
-/// less than a whole turn meet within 2πr of the line, r half of the width: farther apart are parts of the line that cross.
+/// The places beside a line, on its left, without the loops of bends to the left. The sides of a bend of less than a
+/// whole turn meet within 2πr of the line, r half of the width. Crossings farther apart belong to parts of the line
+/// that cross.
 pub(super) fn without_loops(side: &[Beside], line: &[(DVec2, f64)]) -> Vec<DVec2> {
     let (lengths, turns) = along(line);
     let widest = line.iter().map(|&(_, radius)| radius).fold(0.0, f64::max);
@@ -40,7 +41,7 @@ pub(super) fn without_loops(side: &[Beside], line: &[(DVec2, f64)]) -> Vec<DVec2
     out.into_iter().map(|(at, _)| at).collect()
 }
 
-/// At each point of a line: the length up to it, and by how much it has turned to the left there.
+/// For each point of a line, the length up to it and its total turn to the left there.
 fn along(line: &[(DVec2, f64)]) -> (Vec<f64>, Vec<f64>) {
     let (mut length, mut turn) = (0.0, 0.0);
     let all = (0..line.len()).map(|i| {
@@ -65,7 +66,8 @@ pub(super) fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> 
     (over != 0.0 && inside(s) && inside(t)).then(|| a + u * s)
 }
 
-/// Half the sum of cross products of a loop that begins and ends at a place: above 0 for one that winds to the left.
+/// Half the sum of cross products of a loop that begins and ends at a place: positive for a loop that winds to the
+/// left.
 fn area(place: DVec2, rest: &[Beside]) -> f64 {
     let pairs = rest.windows(2).map(|pair| (pair[0].0 - place).perp_dot(pair[1].0 - place));
     pairs.sum::<f64>() / 2.0

@@ -32,7 +32,7 @@ pub use round::on_step;
 pub struct Marks {
     /// The paper.
     pub page: Page,
-    /// From the lowest to the topmost.
+    /// The layers, from the lowest to the topmost.
     pub layers: Vec<Layer>,
 }
 
@@ -41,9 +41,9 @@ pub struct Marks {
 pub struct Layer {
     /// The pen.
     pub pen: Pen,
-    /// Its dots.
+    /// The dots.
     pub dots: Vec<Dot>,
-    /// Its lines.
+    /// The lines.
     pub lines: Vec<Polyline>,
 }
 

@@ -12,12 +12,13 @@ const OFF: f64 = 0.001;
 /// The cosine of a bend by which a line turns back on itself.
 const TURNED_BACK: f64 = -1.0 + 1e-9;
 
-/// The outlines of a line of that half width at each point, linear between them, for the nonzero rule.
+/// The outlines, for the nonzero rule, of a line with the given half width at each point, linear between the points.
 ///
-/// On either side the outline is as far from each segment as its half widths are, at right angles to it. Outside a bend it goes
-/// round the point, inside it is cut where both sides meet: where its bends have a larger radius than half its width, and it
-/// does not come back to itself, an outline does not cross itself. Where the sides of a sharper bend do not meet, as at the
-/// end of a short line, it goes through the point itself, and what overlaps is filled once.
+/// On either side the outline keeps the distance of the half width from each segment, at right angles to it. Outside a
+/// bend it goes round the point; inside a bend it is cut where both sides meet. An outline does not cross itself if its
+/// line does not come back to itself and all bends have a larger radius than half the width. The sides of a sharper
+/// bend may not meet, for example at the end of a short line. The outline then goes through the point itself, and
+/// overlaps are filled once.
 pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bool; 2]) -> Vec<Vec<DVec2>> {
     let mut line: Vec<(DVec2, f64)> = Vec::with_capacity(points.len());
     for (&at, &radius) in points.iter().zip(radii) {
@@ -88,13 +89,13 @@ fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
     without_loops(&all, line)
 }
 
-/// To the side of a direction.
+/// The unit normal on the left of a direction.
 fn beside(along: DVec2) -> DVec2 {
     DVec2::new(-along.y, along.x)
 }
 
-/// Round a point at which a line changes its direction; `shorter` is the length of the shorter segment there, and whether
-/// that is the line's first or last.
+/// Adds the outline of a point at which the line changes its direction. `shorter` is the length of the shorter segment
+/// there, and whether that segment is the line's first or last.
 fn bend((at, radius): (DVec2, f64), [from, to]: [DVec2; 2], (shorter, ends): (f64, bool), out: &mut Vec<DVec2>) {
     let [first, last] = [from, to].map(beside);
     let (sine, cosine) = (from.perp_dot(to), from.dot(to));
@@ -119,7 +120,7 @@ fn bend((at, radius): (DVec2, f64), [from, to]: [DVec2; 2], (shorter, ends): (f6
     }
 }
 
-/// Half a disc round the end of a line, from one side to the other.
+/// Adds half a disc round the end of a line, from one side to the other.
 fn cap(line: &[(DVec2, f64)], round: bool, out: &mut Vec<DVec2>) {
     if let (true, [.., before, end]) = (round, line) {
         arc(end.0, end.1, beside(towards(*before, *end)), -PI, out);

@@ -12,7 +12,7 @@ pub struct Pen {
     pub name: String,
     /// Across the nib, in mm.
     pub width: f64,
-    /// Linear, straight.
+    /// The colour: linear, straight.
     pub color: [f64; 4],
 }
 

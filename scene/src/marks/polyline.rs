@@ -82,13 +82,15 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Whether it begins and ends with half a disc, drawn in ink of that opacity. Opaque pieces lie over each other's ends, so
-    /// that nothing shows between them; a translucent line that goes on is cut straight across, so that it covers once.
+    /// Whether the piece begins and ends with half a disc, drawn in ink of that opacity. Opaque pieces overlap at their
+    /// ends, so that nothing shows between them. A translucent line that goes on is cut straight across, so that it
+    /// covers once.
     pub fn round(&self, ink: f64) -> [bool; 2] {
         if self.opacity * ink == 1.0 { [true; 2] } else { self.ends }
     }
 
-    /// Half its width, where that is the same all along and its ends are round: what a pen draws in one stroke.
+    /// Half the width of the piece if the width is constant and the ends are round: a pen draws such a piece in one
+    /// stroke.
     pub fn stroke(&self, ink: f64) -> Option<f64> {
         let first = *self.radii.first()?;
         (self.round(ink) == [true; 2] && self.radii.iter().all(|&radius| radius == first)).then_some(first)
@@ -99,8 +101,8 @@ impl Piece {
         self.radii.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Its outlines, to be filled by the nonzero rule: of a closed line an outer and an inner one. All of them turn the same way,
-    /// whichever way the line goes.
+    /// The piece's outlines, to be filled by the nonzero rule. A closed line has an outer and an inner one. All outlines
+    /// turn the same way, in either direction of the line.
     pub fn outlines(&self, ink: f64) -> Vec<Vec<DVec2>> {
         outlines(&self.points, &self.radii, self.closed, self.round(ink))
     }
@@ -147,7 +149,7 @@ impl Range {
 }
 
 impl Polyline {
-    /// Its length on the page, in mm.
+    /// Length of the piece on the page, in mm.
     pub fn length(&self) -> f64 {
         let along = self.vertices.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum::<f64>();
         match self.vertices.as_slice() {
@@ -156,9 +158,10 @@ impl Polyline {
         }
     }
 
-    /// The line in as few pieces as its opacity and its colour allow ([HATCH-21]): all along a piece its colour is within 8 of
-    /// 255 of the line's in sRGB, and its opacity within 1/16 and what a step of sixteenths rounds; only a segment that changes
-    /// by more between its two ends has the mean of them. Segments without opacity or width are left out.
+    /// The line in as few pieces as its opacity and its colour allow ([HATCH-21]). In a piece the colour is within 8 of
+    /// 255 of the line's in sRGB. The opacity is within 1/16 of the line's, plus the rounding to steps of sixteenths. A
+    /// segment that changes by more between its two ends has the mean of both. Segments without opacity or width are
+    /// left out.
     pub fn pieces(&self) -> Vec<Piece> {
         let n = self.vertices.len();
         let segments = match n {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 /// Why a picture is no style.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PictureFault {
-    /// Not a PNG, JPEG or OpenEXR, or a damaged one.
+    /// A file that is no PNG, JPEG or OpenEXR, or a damaged one.
     #[error("not a readable PNG, JPEG or OpenEXR: {reason}")]
     Unreadable {
         /// The decoder's reason.
@@ -45,7 +45,7 @@ pub enum PictureFault {
     Texels {
         /// S.
         side: usize,
-        /// How many there are.
+        /// Number of texels given.
         found: usize,
     },
     /// The pixels given are not width × height, or there is none.
@@ -55,7 +55,7 @@ pub enum PictureFault {
         width: usize,
         /// Pixels from top to bottom.
         height: usize,
-        /// How many there are.
+        /// Number of pixels given.
         found: usize,
     },
 }

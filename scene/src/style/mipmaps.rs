@@ -17,8 +17,8 @@ pub struct MipLevel {
     pub lambda: f64,
     /// Texels along its side.
     pub side: usize,
-    /// Row by row from the top, linear and premultiplied. A texel that covers nothing of the disk is a copy of the
-    /// nearest one that does, as outside texels of the style are.
+    /// Texels row by row from the top, linear and premultiplied. A texel that covers nothing of the disk is a copy of
+    /// the nearest one that does, like the outside texels of the style.
     pub texels: Vec<Rgba>,
 }
 
@@ -75,8 +75,8 @@ fn reduced(from: usize, side: usize, sum: impl Fn(usize, usize) -> Sum) -> Vec<S
     sums
 }
 
-/// The texels that part i of `side` equal parts of a row of `from` texels reaches, with the share of each that lies in
-/// it. Shares are counted in whole parts of a texel; where parts hold whole texels each is exactly 1.
+/// The texels of a row of `from` texels that part i of `side` equal parts reaches, with the share of each in the part.
+/// Shares are counted in whole parts of a texel. If parts hold whole texels, each share is exactly 1.
 fn shares(from: usize, side: usize, i: usize) -> (Range<usize>, Vec<f64>) {
     let [start, end] = [i * from, (i + 1) * from];
     let texels = start / side..end.div_ceil(side);

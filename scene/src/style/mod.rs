@@ -29,20 +29,20 @@ pub struct Style {
     pub name: String,
     /// S: the picture has S × S texels.
     pub side: usize,
-    /// Row by row from the top, linear and premultiplied ([VAL-3]). A texel outside the inscribed disk is a copy of
-    /// the inside texel with the nearest centre ([STF-1]), so a filter that straddles the rim reads only the sphere.
+    /// Texels row by row from the top, linear and premultiplied ([VAL-3]). A texel outside the inscribed disk is a copy
+    /// of the inside texel with the nearest centre ([STF-1]), so a filter that straddles the rim reads only the sphere.
     pub texels: Vec<Rgba>,
 }
 
 impl Style {
     /// A style from a PNG, JPEG or OpenEXR file's bytes.
     ///
-    /// Channels are divided by 2ⁿ − 1 and, unless the picture is `linear`, decoded from sRGB; gAMA, cHRM and ICC
-    /// chunks are ignored ([VAL-3]). Without an alpha channel α_d = 1. OpenEXR is linear light, multiplied by α_d where
-    /// there is one; what is brighter than 1 becomes 1.
+    /// Channels are divided by 2ⁿ − 1 and, unless the picture is `linear`, decoded from sRGB. gAMA, cHRM and ICC chunks
+    /// are ignored ([VAL-3]). Without an alpha channel α_d = 1. OpenEXR is linear light, multiplied by α_d if there is
+    /// one. Values above 1 become 1.
     ///
     /// # Errors
-    /// Bytes that are no such picture, and what [`Style::from_straight`] refuses.
+    /// Bytes that are no such picture, and the errors of [`Style::from_straight`].
     pub fn decode(name: &str, bytes: &[u8], linear: bool) -> Result<Self, PictureFault> {
         let Straight { width, height, texels, light } = decode::straight(bytes)?;
         if width != height {

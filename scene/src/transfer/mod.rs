@@ -21,7 +21,7 @@ pub struct Nodes<C> {
     pub color: Vec<C>,
     /// i of each of `at` and `opacity`, where those are entries of a table and not nodes; none: they are the nodes.
     pub index: Option<Vec<f64>>,
-    /// How the nodes are rows of a function over two quantities; none: they are one line over the value.
+    /// The nodes as rows of a function over two quantities. None: the nodes are one line over the value.
     pub rows: Option<Rows>,
 }
 
@@ -80,11 +80,11 @@ impl Function {
         Self::Regular(Nodes { at: vec![0.0], opacity: vec![0.0], color: vec![[0.0; 3]], index: None, rows: None })
     }
 
-    /// Turns the nodes of a scene into nodes over the values of a volume. `id_of` knows the labels by their names. `None`
-    /// where the scene leaves the function to be found from the data.
+    /// Turns the nodes of a scene into nodes over the values of a volume. `id_of` knows the labels by their names.
+    /// `None` if the scene leaves the function to be found from the data.
     ///
     /// # Errors
-    /// Every label that `id_of` does not know, or else one that has two rows.
+    /// Every label that `id_of` does not know; if it knows them all, a label that has two rows.
     pub fn new(
         transfer: &Transfer,
         range: [f64; 2],
@@ -167,9 +167,9 @@ impl Function {
         }
     }
 
-    /// Whether a value in [lo, hi] can have α_u > 0, for any second quantity, of labels for those in `among`. `rounded`
-    /// gives the value of a node as samples are compared with it, in their number type: f32 can round a node down to a
-    /// value that a brick reaches.
+    /// Whether a value in [lo, hi] can have α_u > 0, for any second quantity, or for the labels in `among`. `rounded`
+    /// converts the value of a node to the number type of the samples. f32 can round a node down to a value that a
+    /// brick reaches.
     pub fn can_be_visible(&self, range: [f64; 2], among: Option<&[u32]>, rounded: impl Fn(f64) -> f64) -> bool {
         let (at, opacity, rows) = self.nodes();
         let Some(rows) = rows else { return can_be_visible(at, opacity, range, rounded) };
@@ -200,8 +200,8 @@ impl Rows {
     }
 }
 
-/// The order in which rows are kept, and where each stands then: as they are written, but labels by their ids. A row that
-/// several labels share is there for each of them.
+/// The order in which rows are kept, and the position of each row then: as written, but labels by their ids. A row that
+/// several labels share is repeated for each of them.
 fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<usize>, Vec<f64>), Vec<FunctionError>> {
     // Where, which row, and whether it says so by a name.
     let (mut places, mut wrong): (Vec<(f64, usize, bool)>, _) = (Vec::with_capacity(rows.len()), Vec::new());
@@ -230,8 +230,8 @@ fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<us
 
 /// Whether a piecewise-linear opacity is above 0 somewhere on [lo, hi].
 ///
-/// On a closed range it is 0 throughout exactly if both nodes of every segment that the range reaches into have opacity 0, and
-/// every node that it touches. Of nodes at one value all count. Rounding keeps nodes in order.
+/// On a closed range it is 0 throughout exactly if both nodes of every segment that overlaps the range have opacity 0,
+/// and every node that the range touches. All nodes at one value count. Rounding keeps nodes in order.
 fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
     // Without a node nothing is shown; that it is no function is said where the nodes are evaluated.
     let Some(end) = at.len().checked_sub(1) else { return false };

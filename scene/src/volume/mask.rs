@@ -67,7 +67,7 @@ impl Mask {
 }
 
 /// Gives each voxel that is not finite the value of the nearest finite one in index space (ties: the lowest linear
-/// index) and returns the mask of those voxels, or none where all are finite.
+/// index). Returns the mask of those voxels, or none if all are finite.
 pub(super) fn fill_invalid(voxels: &mut Voxels, dims: [usize; 3]) -> Result<Option<Mask>, VolumeError> {
     match voxels {
         Voxels::F32(v) => fill(v, dims, |x| x.is_finite()),
@@ -92,7 +92,7 @@ fn fill<V: Copy>(v: &mut [V], dims: [usize; 3], finite: fn(V) -> bool) -> Result
     Ok(Some(Mask::new(dims, &invalid)))
 }
 
-/// For each voxel the linear index of the nearest valid one, ties to the lowest index.
+/// The linear index of the nearest valid voxel, for each voxel; ties go to the lowest index.
 ///
 /// The lexicographic minimum of (squared distance, index) separates by axis, since adding the squared distance along
 /// one more axis to all candidates of a line keeps their order.

@@ -66,8 +66,8 @@ impl Anatomy {
         }
     }
 
-    /// A grid of one world as it lies in another ([SPACE-2]): axes that point the other way are flipped. Where one of
-    /// the worlds has no name, the grid is taken as it is.
+    /// A grid of one world in another world ([SPACE-2]): axes that point the other way are flipped. If one of the
+    /// worlds has no name, the grid is unchanged.
     pub fn between(grid: &Grid, from: Option<Self>, to: Option<Self>) -> Grid {
         match (from, to) {
             (Some(from), Some(to)) => grid.flipped(from.signs() * to.signs()),
@@ -101,7 +101,7 @@ pub enum VolumeError {
         /// Voxels that were given.
         found: usize,
     },
-    /// Not one voxel has a finite value.
+    /// A volume without a finite value.
     #[error("no voxel has a finite value")]
     NothingFinite,
     /// Slope and intercept that are not finite, or a slope of 0, or values that overflow.
@@ -115,8 +115,8 @@ pub enum VolumeError {
 }
 
 impl Volume {
-    /// Takes voxels (x fastest) onto a grid. Voxels that are NaN or ±∞ get the value of the nearest valid one and a
-    /// bit in the mask ([PREC-2]).
+    /// Places voxels (x fastest) on a grid. Voxels that are NaN or ±∞ get the value of the nearest valid one and a bit
+    /// in the mask ([PREC-2]).
     ///
     /// # Errors
     /// A wrong number of voxels, no finite voxel, or a scaling that is not invertible.

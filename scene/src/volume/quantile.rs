@@ -48,8 +48,9 @@ key! {
         |k| f64::from_bits(if k >> 63 == 0 { !k } else { k ^ (1 << 63) });
 }
 
-/// The place, from 0, of the quantile q of n > 0 numbers in ascending order: the ⌈qn⌉-th, the first for q = 0
-/// ([VAL-2]). A product within rounding of an integer is that integer, so that q = 0.07 of 100 is the seventh.
+/// The index, from 0, of the quantile q of n > 0 numbers in ascending order: that of the ⌈qn⌉-th, or of the first for q
+/// = 0 ([VAL-2]). A product within rounding of an integer counts as that integer, so that q = 0.07 of 100 is the
+/// seventh.
 pub fn rank(q: f64, n: usize) -> usize {
     let product = q * n as f64;
     let whole = product.round();
@@ -69,14 +70,15 @@ pub fn quantile<N: Key, W: Send>(
     select(parts, work, fill, |n| vec![rank(q, n)]).pop()
 }
 
-/// Returns the numbers at some places, from 0, of the ascending order. `places` is given how many numbers there are, and not
-/// asked where there is none.
+/// Returns the numbers at some indices, from 0, of the ascending order. `places` receives the count of the numbers, and
+/// is not called if there are none.
 ///
-/// The numbers come in parts: `fill` appends those of a part to an empty list, with memory to work in that `work` makes for
-/// each thread. It is called again for a part, with the same numbers, if that part can hold a sought one.
+/// The numbers come in parts: `fill` appends the numbers of a part to an empty list, with working memory that `work`
+/// makes for each thread. It is called again for a part, with the same numbers, if that part can hold a sought one.
 ///
-/// Numbers are counted by the upper 16 bits of their keys first. Those that begin as a sought one are gathered if they are
-/// few, and else counted by the next 16 bits, and so on: gathering them all would need a second volume.
+/// Numbers are counted by the upper 16 bits of their keys first. If few share these bits with a sought number, they are
+/// gathered; otherwise they are counted by the next 16 bits, and so on. Gathering all of them would need a second
+/// volume.
 pub fn select<N: Key, W: Send>(
     parts: usize,
     work: impl Fn() -> W + Sync + Send,
@@ -130,9 +132,9 @@ const TOGETHER: usize = 64;
 struct Sought {
     /// The upper bits of its key, as far as they are known.
     prefix: u64,
-    /// Its place among the numbers that begin with them.
+    /// The sought index among the numbers that begin with the prefix.
     place: u64,
-    /// How many numbers begin with them.
+    /// Number of the numbers that begin with the prefix.
     alike: u64,
 }
 
@@ -164,8 +166,8 @@ struct Passes<W, F> {
 }
 
 impl<W, F> Passes<W, F> {
-    /// Counts the numbers whose keys begin with one of some prefixes, in ascending order, by the value of the digit that
-    /// stands behind the prefix and above `below` bits: a block of counts a prefix.
+    /// Counts the numbers whose keys begin with one of some prefixes, in ascending order. Counts are by the value of
+    /// the digit behind the prefix and above `below` bits: one block of counts for each prefix.
     fn count<N: Key, M: Send>(&mut self, prefixes: &[u64], below: u32, digit: u32) -> Vec<u64>
     where
         W: Fn() -> M + Sync + Send,

@@ -10,7 +10,7 @@ use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// How the voxels of a written file are stored.
+/// The encoding of a written file's voxels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
     /// Bytes as in memory, lowest byte first.
@@ -67,10 +67,10 @@ pub fn write_nrrd(volume: &Volume, path: &Path) -> Result<(), WriteError> {
 }
 
 /// Writes a volume as NRRD with attached header. Reading it gives the same dims, axes, origin, values and mask bit by
-/// bit; a masked voxel is written as NaN. The stored type is kept where values are as stored; NRRD has no slope and no
-/// intercept, so with them the values are written, in f64. The same volume gives the same bytes.
+/// bit; a masked voxel is written as NaN. The stored type is kept if there are no slope and intercept. NRRD has
+/// neither, so scaled values are written in f64. The same volume gives the same bytes.
 ///
-/// There is never half a file under its name ([`atomic::write()`]).
+/// A partly written file never has its name ([`atomic::write()`]).
 ///
 /// # Errors
 /// Any error of the operating system.

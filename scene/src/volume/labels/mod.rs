@@ -37,8 +37,8 @@ pub enum LabelError {
 }
 
 impl LabelVolume {
-    /// The ids that a volume holds, after slope and intercept. The type of its voxels does not matter: ids may have been
-    /// written as floating point.
+    /// The ids that a volume holds, after slope and intercept. All voxel types are accepted: ids may have been written
+    /// as floating point.
     ///
     /// # Errors
     /// A value that is negative, has a fraction, is not finite or exceeds u32, with the first voxel that has one.

@@ -45,7 +45,7 @@ pub enum NamesFault {
     IdTwice {
         /// The label.
         id: u32,
-        /// Its name.
+        /// The label's name.
         name: String,
         /// The line that gave it.
         before: u64,
@@ -63,11 +63,11 @@ pub enum NamesFault {
 }
 
 impl LabelNames {
-    /// Reads a CSV file: the first column holds an id, the second its name; further columns do not count, and neither
-    /// does a first line whose first column is no number. A field may be quoted.
+    /// Reads a CSV file: the first column holds an id, the second its name. Further columns are ignored, and so is a
+    /// first line whose first column is no number. A field may be quoted.
     ///
     /// # Errors
-    /// A file that cannot be read, and the first line that gives no id, no name, or one that is given already.
+    /// A file that cannot be read, and the first line that has no id, no name, or one that was given already.
     pub fn read(path: &Path) -> Result<Self, NamesError> {
         let error = |fault| NamesError { file: path.to_owned(), line: None, fault };
         let text = memory::read(path).map_err(|e| error(NamesFault::Io(e)))?;

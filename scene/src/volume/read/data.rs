@@ -44,7 +44,7 @@ pub(super) struct Payload<'a> {
     pub(super) lines: u64,
     /// Lines of the file before the start.
     pub(super) lines_before: usize,
-    /// How the data are stored.
+    /// The encoding of the data.
     pub(super) encoding: Encoding,
     /// Decoded bytes before the first voxel.
     pub(super) inside: u64,

@@ -48,7 +48,7 @@ pub enum Fault {
         format: &'static str,
         /// The first bytes.
         found: String,
-        /// How such a file begins.
+        /// The first bytes of such a file.
         expected: &'static str,
     },
     /// A text header that goes on and on.

@@ -70,7 +70,7 @@ impl Lines {
 /// A field of a header.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
-    /// Its name, as the format writes it.
+    /// The field's name, as the format writes it.
     pub(super) name: &'static str,
     /// The value after the name, trimmed.
     pub(super) value: String,

@@ -25,7 +25,8 @@ pub(super) fn list(header: &Path, lines: &mut Lines) -> Result<Vec<PathBuf>, Rea
 }
 
 /// The files of a name with a number in it, such as `slice%03d.raw`, the number going from `first` to `last` in steps
-/// of `step`. A field may ask for any number of files, so the first one that is not there is the end, and an error.
+/// of `step`. A field may ask for any number of files. The first missing file therefore ends the series, and is an
+/// error.
 pub(super) fn numbered(
     header: &Header,
     field: &Field,

@@ -1,4 +1,4 @@
-//! From voxels to the world: sform, qform or spacings (nifti1.h, methods 3, 2 and 1).
+//! The map from voxels to the world: sform, qform or spacings (nifti1.h, methods 3, 2 and 1).
 
 use super::fields::Fields;
 use glam::{DMat3, DVec3};
