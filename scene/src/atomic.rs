@@ -29,7 +29,7 @@ pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) 
         Target::Direct => return filled(File::create(path)?, fill),
         Target::File(target, permissions) => (target, permissions),
     };
-    let (beside, file) = Beside::create(&target)?;
+    let (beside, file) = PartFile::create(&target)?;
     // Before the first byte, so that a private file is private while it is written.
     permissions.map_or(Ok(()), |permissions| file.set_permissions(permissions))?;
     filled(file, fill)?;
@@ -43,7 +43,7 @@ pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) 
 pub fn check(path: &Path) -> io::Result<()> {
     match Target::of(path)? {
         Target::Direct => Ok(()),
-        Target::File(target, _) => Beside::create(&target).map(drop),
+        Target::File(target, _) => PartFile::create(&target).map(drop),
     }
 }
 
@@ -119,11 +119,11 @@ fn may_be_written(path: &Path, permissions: &Permissions) -> io::Result<()> {
 }
 
 /// A file beside the target, of which nothing is left when the write ends in any way.
-struct Beside {
+struct PartFile {
     path: PathBuf,
 }
 
-impl Beside {
+impl PartFile {
     fn create(target: &Path) -> io::Result<(Self, File)> {
         if target.file_name().is_none() {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "it names no file"));
@@ -147,7 +147,7 @@ impl Beside {
     }
 }
 
-impl Drop for Beside {
+impl Drop for PartFile {
     fn drop(&mut self) {
         // After the rename there is nothing of that name, and this does nothing.
         let _ = fs::remove_file(&self.path);

@@ -4,7 +4,7 @@ use super::kernel::bspline;
 use super::place::Place;
 use super::prefilter::Prefilter;
 use super::stencil::{Stencils, beyond};
-use super::tensor::{self, Given, Rows, Sum};
+use super::tensor::{self, Rows, RowsFn, Sum};
 use super::voxel_hessian::of_spline;
 use crate::number::lanes::wide;
 use crate::number::{Real, Sym3, Vec3};
@@ -29,14 +29,14 @@ pub(super) struct Coefficients<R> {
 }
 
 /// Rows of four coefficients.
-struct Fours<'c, S, R> {
+struct RowsOfFour<'c, S, R> {
     simd: S,
     window: &'c [R],
     /// Steps in `window` from a row to the next one along y and along z.
     strides: [usize; 2],
 }
 
-impl<S: Simd, R: Real> Rows<R::Four<S>> for Fours<'_, S, R> {
+impl<S: Simd, R: Real> Rows<R::Four<S>> for RowsOfFour<'_, S, R> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> R::Four<S> {
         let from = k * self.strides[1] + j * self.strides[0];
@@ -162,7 +162,7 @@ impl<R: Real> Coefficients<R> {
                 #[inline(always)]
                 || self.sum_in(simd, cell, sum),
             ),
-            None => sum.over(&Given(self.rows::<4>(cell))),
+            None => sum.over(&RowsFn(self.rows::<4>(cell))),
         }
     }
 
@@ -173,7 +173,7 @@ impl<R: Real> Coefficients<R> {
         // As in `rows`.
         assert!(px <= LONGEST_STRIDE && plane <= LONGEST_STRIDE);
         let window = &self.data[(z * py + y) * px + x..][..3 * (plane + px) + 4];
-        sum.over(&Fours { simd, window, strides: [px, plane] })
+        sum.over(&RowsOfFour { simd, window, strides: [px, plane] })
     }
 
     /// Gradient and Hessian of the cubic spline along the index axes.

@@ -4,7 +4,7 @@
 //! a kernel this has six taps. Two of them are nonzero for the value and four for the first derivative, so 112 of the
 //! 216 samples count.
 
-use super::tensor::{self, Given, Rows, Taps};
+use super::tensor::{self, Rows, RowsFn, Taps};
 use crate::number::lanes::wide;
 use crate::number::{Sym3, Vec3};
 use fearless_simd::prelude::*;
@@ -26,22 +26,22 @@ pub(super) fn taps(w: f64) -> Taps<f64, TAPS> {
 
 /// The samples around a cell: the first of them, and the way from a row to the next along y and along z.
 #[derive(Clone, Copy)]
-pub(super) struct Around<'s> {
+pub(super) struct SampleWindow<'s> {
     pub samples: &'s [f64],
     pub strides: [usize; 2],
 }
 
-impl Around<'_> {
+impl SampleWindow<'_> {
     /// Gradient and Hessian along the index axes at the way `w` into the cell.
     pub(super) fn second(self, w: [f64; 3]) -> (Vec3<f64>, Sym3<f64>) {
         match wide() {
             Some(simd) => simd.vectorize(
                 #[inline(always)]
-                || sums(&self, &Inner { around: &self, simd }, w),
+                || sums(&self, &MiddleRows { around: &self, simd }, w),
             ),
             None => {
                 let [y, z] = self.strides;
-                tensor::second(&Given(|j, k| self.row::<TAPS>(k * z + j * y)), &w.map(taps))
+                tensor::second(&RowsFn(|j, k| self.row::<TAPS>(k * z + j * y)), &w.map(taps))
             }
         }
     }
@@ -56,12 +56,12 @@ impl Around<'_> {
 }
 
 /// The four samples in the middle of each row.
-struct Inner<'a, S> {
-    around: &'a Around<'a>,
+struct MiddleRows<'a, S> {
+    around: &'a SampleWindow<'a>,
     simd: S,
 }
 
-impl<S: Simd> Rows<f64x4<S>> for Inner<'_, S> {
+impl<S: Simd> Rows<f64x4<S>> for MiddleRows<'_, S> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> f64x4<S> {
         let [y, z] = self.around.strides;
@@ -76,7 +76,7 @@ impl<S: Simd> Rows<f64x4<S>> for Inner<'_, S> {
 
 /// [`tensor::second`] of all six taps, to the same numbers, without those whose weight is 0.
 #[inline(always)]
-fn sums<S: Simd>(around: &Around<'_>, rows: &Inner<'_, S>, [x, y, z]: [f64; 3]) -> (Vec3<f64>, Sym3<f64>) {
+fn sums<S: Simd>(around: &SampleWindow<'_>, rows: &MiddleRows<'_, S>, [x, y, z]: [f64; 3]) -> (Vec3<f64>, Sym3<f64>) {
     let (x, y, z) = (taps(x), taps(y), taps(z));
     let at = |i: usize, j: usize, k: usize| k * around.strides[1] + j * around.strides[0] + i;
     let first = around.samples[at(2, 2, 2)];
@@ -141,8 +141,8 @@ mod tests {
             let from = [0, 1, 2].map(|a| (r(a as u32) * (SIDES[a] - TAPS + 1) as f64) as usize);
             let w = [3, 4, 5].map(|a| if i % 5 == 0 { r(a).round() } else { r(a) });
             let samples = &samples[(from[2] * SIDES[1] + from[1]) * SIDES[0] + from[0]..];
-            let around = Around { samples, strides };
-            let all = Given(|j: usize, k: usize| around.row::<TAPS>(k * strides[1] + j * strides[0]));
+            let around = SampleWindow { samples, strides };
+            let all = RowsFn(|j: usize, k: usize| around.row::<TAPS>(k * strides[1] + j * strides[0]));
             assert_eq!(around.second(w), tensor::second(&all, &w.map(taps)), "{from:?} {w:?}");
         }
     }

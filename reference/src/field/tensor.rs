@@ -30,9 +30,9 @@ pub(super) trait Rows<A> {
 }
 
 /// Rows of numbers that a function gives.
-pub(super) struct Given<F>(pub F);
+pub(super) struct RowsFn<F>(pub F);
 
-impl<R: Real, const N: usize, F: Fn(usize, usize) -> [R; N]> Rows<Numbers<R, N>> for Given<F> {
+impl<R: Real, const N: usize, F: Fn(usize, usize) -> [R; N]> Rows<Numbers<R, N>> for RowsFn<F> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> Numbers<R, N> {
         Numbers((self.0)(j, k))
@@ -267,10 +267,10 @@ mod tests {
         let axes = [taps(0.5, 1.0, 2.0), taps(0.25, 2.0, 4.0), taps(0.75, 4.0, 8.0)];
         // Along x: value 2, first 2, second 4; along y: 1.75, 6, 12; along z: 4.75, 20, 40.
         let (x, y, z) = ([2.0, 2.0, 4.0], [1.75, 6.0, 12.0], [4.75, 20.0, 40.0]);
-        assert_eq!(value(&Given(row), &axes), x[0] * y[0] * z[0]);
+        assert_eq!(value(&RowsFn(row), &axes), x[0] * y[0] * z[0]);
         let want = Vec3::new(x[1] * y[0] * z[0], x[0] * y[1] * z[0], x[0] * y[0] * z[1]);
-        assert_eq!(gradient(&Given(row), &axes), want);
-        let (g, h) = second(&Given(row), &axes);
+        assert_eq!(gradient(&RowsFn(row), &axes), want);
+        let (g, h) = second(&RowsFn(row), &axes);
         assert_eq!(g, want);
         let first = row(0, 0)[0] + 7.0;
         let [a, b] = [0, 1].map(|i| gradient_sums(&Every(&row, i), first, [&axes[1], &axes[2]]));

@@ -8,15 +8,15 @@ use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A place beside a line, and the number of the point of the line that it belongs to.
-pub(super) type Beside = (DVec2, usize);
+pub(super) type OffsetPoint = (DVec2, usize);
 
 /// The places beside a line, on its left, without the loops of bends to the left. The sides of a bend of less than a
 /// whole turn meet within 2πr of the line, r half of the width. Crossings farther apart belong to parts of the line
 /// that cross.
-pub(super) fn without_loops(side: &[Beside], line: &[(DVec2, f64)]) -> Vec<DVec2> {
+pub(super) fn without_loops(side: &[OffsetPoint], line: &[(DVec2, f64)]) -> Vec<DVec2> {
     let (lengths, turns) = along(line);
     let widest = line.iter().map(|&(_, radius)| radius).fold(0.0, f64::max);
-    let mut out: Vec<Beside> = Vec::with_capacity(side.len());
+    let mut out: Vec<OffsetPoint> = Vec::with_capacity(side.len());
     for &(at, i) in side {
         let mut cut = None;
         if let [before @ .., _, last] = out.as_slice() {
@@ -68,7 +68,7 @@ pub(super) fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> 
 
 /// Half the sum of cross products of a loop that begins and ends at a place: positive for a loop that winds to the
 /// left.
-fn area(place: DVec2, rest: &[Beside]) -> f64 {
+fn area(place: DVec2, rest: &[OffsetPoint]) -> f64 {
     let pairs = rest.windows(2).map(|pair| (pair[0].0 - place).perp_dot(pair[1].0 - place));
     pairs.sum::<f64>() / 2.0
 }
@@ -97,7 +97,7 @@ mod tests {
             };
             let ends = [(DVec2::new(0.0, 0.0), 0.2), (DVec2::new(4.0, 0.0), 0.2)];
             let line: Vec<_> = [ends[0]].into_iter().chain((0..60).map(round)).chain([ends[1]]).collect();
-            let side: Vec<Beside> = line.iter().enumerate().map(|(i, &(at, _))| (at, i)).collect();
+            let side: Vec<OffsetPoint> = line.iter().enumerate().map(|(i, &(at, _))| (at, i)).collect();
             let whole: Vec<DVec2> = line.iter().map(|&(at, _)| at).collect();
             assert_eq!(without_loops(&side, &line), whole, "{turn}");
         }

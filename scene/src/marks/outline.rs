@@ -1,7 +1,7 @@
 //! The outline of a line whose width changes along it ([HATCH-21]): two curves beside it, joined at its ends.
 
 use super::fewer::fewer;
-use super::loops::{Beside, without_loops};
+use super::loops::{OffsetPoint, without_loops};
 use crate::math;
 use glam::DVec2;
 use std::f64::consts::PI;
@@ -68,7 +68,7 @@ fn towards(a: (DVec2, f64), b: (DVec2, f64)) -> DVec2 {
 /// The offset curve on the side of a line to which x lies from y.
 fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
     let n = line.len();
-    let mut all: Vec<Beside> = Vec::with_capacity(n + 8);
+    let mut all: Vec<OffsetPoint> = Vec::with_capacity(n + 8);
     let mut out = Vec::new();
     for (i, &(at, radius)) in line.iter().enumerate() {
         let before = (closed || i > 0).then(|| line[(i + n - 1) % n]);

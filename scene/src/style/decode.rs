@@ -13,7 +13,7 @@ pub const MAX_SIDE: usize = 4096;
 const EACH: u64 = 2 * 16 + 2 * 32;
 
 /// A square or other picture of straight RGBA in [0, 1], row by row from the top.
-pub(super) struct Straight {
+pub(super) struct StraightPicture {
     pub(super) width: usize,
     pub(super) height: usize,
     pub(super) texels: Vec<Rgba>,
@@ -27,19 +27,19 @@ pub(super) struct Straight {
 /// # Errors
 /// Bytes that are no PNG, JPEG or OpenEXR, damaged ones, and sides above [`MAX_SIDE`] (seen before anything is
 /// allocated).
-pub(super) fn straight(bytes: &[u8]) -> Result<Straight, PictureFault> {
-    let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE, EACH)?;
+pub(super) fn straight(bytes: &[u8]) -> Result<StraightPicture, PictureFault> {
+    let DecodedPicture { width, height, channels, codes } = DecodedPicture::new(bytes, MAX_SIDE, EACH)?;
     let light = matches!(codes, Codes::Light(_));
     let texels = match codes {
         Codes::Eight(codes) => codes.chunks_exact(channels).map(|codes| shares(codes, 255.0)).collect(),
         Codes::Sixteen(codes) => codes.chunks_exact(channels).map(|codes| shares(codes, 65535.0)).collect(),
         Codes::Light(light) => light.chunks_exact(channels).map(of_light).collect(),
     };
-    Ok(Straight { width, height, texels, light })
+    Ok(StraightPicture { width, height, texels, light })
 }
 
 /// A decoded picture's channels as the file has them, without the decoder's own colour conversions.
-pub(super) struct Decoded {
+pub(super) struct DecodedPicture {
     pub(super) width: usize,
     pub(super) height: usize,
     /// Channels of a pixel, from one to four.
@@ -58,7 +58,7 @@ pub(super) enum Codes {
     Light(Vec<f32>),
 }
 
-impl Decoded {
+impl DecodedPicture {
     /// Decodes the bytes of a PNG, JPEG or OpenEXR file. `each` is the most bytes that a pixel takes, with everything
     /// made from it.
     ///

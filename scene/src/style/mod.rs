@@ -20,7 +20,7 @@ pub use source::SourcePicture;
 pub use theme::Theme;
 
 use crate::color::{Rgba, premultiply, srgb_to_linear};
-use decode::Straight;
+use decode::StraightPicture;
 
 /// A lit sphere, ready for bilinear lookups.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl Style {
     /// # Errors
     /// Bytes that are no such picture, and the errors of [`Style::from_straight`].
     pub fn decode(name: &str, bytes: &[u8], linear: bool) -> Result<Self, PictureFault> {
-        let Straight { width, height, texels, light } = decode::straight(bytes)?;
+        let StraightPicture { width, height, texels, light } = decode::straight(bytes)?;
         if width != height {
             return Err(PictureFault::NotSquare { width, height });
         }

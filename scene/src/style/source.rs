@@ -1,7 +1,7 @@
 //! A picture that a style is taken from: of any size, PNG, JPEG or OpenEXR ([STF-2], [VAL-3]).
 
 use super::PictureFault;
-use super::decode::{Codes, Decoded, of_light, shares};
+use super::decode::{Codes, DecodedPicture, of_light, shares};
 use crate::color::{Rgba, premultiply, srgb_to_linear};
 
 /// The largest side of such a picture, in pixels: room for large scans of works of art.
@@ -36,7 +36,7 @@ impl SourcePicture {
     /// Bytes that are no such picture; sides above 16384 and more pixels than memory has room for (found before
     /// anything is allocated).
     pub fn decode(bytes: &[u8], linear: bool) -> Result<Self, PictureFault> {
-        let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE, EACH)?;
+        let DecodedPicture { width, height, channels, codes } = DecodedPicture::new(bytes, MAX_SIDE, EACH)?;
         let linear = linear || matches!(codes, Codes::Light(_));
         Ok(Self { width, height, linear, pixels: Pixels::File(codes, channels) })
     }

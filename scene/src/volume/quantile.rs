@@ -93,9 +93,9 @@ pub fn select<N: Key, W: Send>(
     if total == 0 {
         return Vec::new();
     }
-    let mut sought: Vec<Sought> = places(total as usize)
+    let mut sought: Vec<RankQuery> = places(total as usize)
         .into_iter()
-        .map(|place| Sought { prefix: 0, place: place as u64, alike: total })
+        .map(|place| RankQuery { prefix: 0, place: place as u64, alike: total })
         .collect();
     let mut prefixes = vec![0];
     loop {
@@ -129,7 +129,7 @@ const TOGETHER: usize = 64;
 
 /// A number that is sought by its place in the ascending order.
 #[derive(Clone, Copy)]
-struct Sought {
+struct RankQuery {
     /// The upper bits of its key, as far as they are known.
     prefix: u64,
     /// The sought index among the numbers that begin with the prefix.
@@ -138,7 +138,7 @@ struct Sought {
     alike: u64,
 }
 
-impl Sought {
+impl RankQuery {
     /// Finds the next bits, given how many numbers there are for each of their values.
     fn narrow(&mut self, counts: &[u64], digit: u32) {
         for (value, &count) in counts.iter().enumerate() {

@@ -6,7 +6,7 @@
 
 use crate::field::Field;
 use crate::field::place::Place;
-use crate::field::tensor::{self, Given, Taps};
+use crate::field::tensor::{self, RowsFn, Taps};
 use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::volume::Access;
 
@@ -15,7 +15,7 @@ pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: Place<R>) ->
     let dims = field.stencils.dims();
     let block = field.stencils.block::<R>(at.cell);
     let taps: [Taps<R, 4>; 3] = std::array::from_fn(|axis| taps(at.cell[axis], at.w[axis], dims[axis]));
-    tensor::gradient(&Given(|j: usize, k: usize| block[k][j]), &taps)
+    tensor::gradient(&RowsFn(|j: usize, k: usize| block[k][j]), &taps)
 }
 
 /// The operator at a voxel that has neighbours on all sides: the sums of the interpolation, in their order.

@@ -1,6 +1,6 @@
 //! Fields whose kernel has no lanes of its own: one position after the other, as a ray alone would ask.
 
-use super::{Alone, LANES, Places, Reader, Seconds, places, splat};
+use super::{LANES, PlaceColumns, Places, Reader, Seconds, places, splat};
 use crate::field::Field;
 use crate::field::place::Place;
 use crate::field::sampler::{AnySampler, Interpolant, Sampled, index_gradient, index_second, number};
@@ -13,29 +13,29 @@ use fearless_simd::{Simd, f64x8, mask64x8};
 /// are compiled once for all expensive kernels and call these methods.
 pub(crate) trait Each: Sync {
     /// Values.
-    fn numbers(&self, at: &Alone, asked: u64) -> [f64; LANES];
+    fn numbers(&self, at: &PlaceColumns, asked: u64) -> [f64; LANES];
 
     /// Gradients.
-    fn gradients(&self, at: &Alone, asked: u64) -> [[f64; LANES]; 3];
+    fn gradients(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 3];
 
     /// Gradients and Hessians: x, y, z, xx, xy, xz, yy, yz, zz.
-    fn seconds(&self, at: &Alone, asked: u64) -> [[f64; LANES]; 9];
+    fn seconds(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 9];
 }
 
 impl<K: Interpolant<f64>> Each for Sampled<'_, '_, f64, K> {
-    fn numbers(&self, at: &Alone, asked: u64) -> [f64; LANES] {
+    fn numbers(&self, at: &PlaceColumns, asked: u64) -> [f64; LANES] {
         let [numbers] = of_each(asked, |lane| [number(self, at.place(lane))]);
         numbers
     }
 
-    fn gradients(&self, at: &Alone, asked: u64) -> [[f64; LANES]; 3] {
+    fn gradients(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 3] {
         of_each(asked, |lane| {
             let Vec3 { x, y, z } = index_gradient(self, at.place(lane), estimated_gradient);
             [x, y, z]
         })
     }
 
-    fn seconds(&self, at: &Alone, asked: u64) -> [[f64; LANES]; 9] {
+    fn seconds(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 9] {
         of_each(asked, |lane| {
             let (Vec3 { x, y, z }, Sym3 { xx, xy, xz, yy, yz, zz }) =
                 index_second(self, at.place(lane), estimated_second);

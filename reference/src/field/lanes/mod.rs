@@ -153,9 +153,9 @@ impl<S: Simd> Places<S> {
 
     /// One by one.
     #[inline(always)]
-    pub(crate) fn alone(&self) -> Alone {
+    pub(crate) fn alone(&self) -> PlaceColumns {
         let [wx, wy, wz] = self.w;
-        Alone {
+        PlaceColumns {
             cell: [whole(self.cell.x), whole(self.cell.y), whole(self.cell.z)],
             w: [wx.into(), wy.into(), wz.into()],
         }
@@ -163,12 +163,12 @@ impl<S: Simd> Places<S> {
 }
 
 /// [`Places`], to be taken one by one.
-pub(crate) struct Alone {
+pub(crate) struct PlaceColumns {
     cell: [[usize; LANES]; 3],
     w: [[f64; LANES]; 3],
 }
 
-impl Alone {
+impl PlaceColumns {
     /// The cell of a lane.
     #[inline(always)]
     pub(crate) fn cell(&self, lane: usize) -> [usize; 3] {

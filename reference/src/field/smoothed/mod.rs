@@ -12,7 +12,7 @@ mod sums;
 
 use super::Field;
 use super::hessian::gaussian;
-use super::interpolated::{Around, TAPS};
+use super::interpolated::{SampleWindow, TAPS};
 use super::voxel_hessian::{bends, slopes};
 use crate::number::{Sym3, Vec3};
 use rows::{Row, reads, responses, rows};
@@ -92,7 +92,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         let at = self.field.cells.locate(index);
         let region = self.brick_of(at.cell);
         let [from, plane] = [region.place(at.cell), region.sides[0] * region.sides[1]];
-        let around = Around { samples: &region.data[from..], strides: [region.sides[0], plane] };
+        let around = SampleWindow { samples: &region.data[from..], strides: [region.sides[0], plane] };
         let (gradient, hessian) = around.second(at.w);
         (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
     }

@@ -7,7 +7,7 @@ mod border;
 
 pub(super) use border::beyond;
 
-use super::tensor::{Given, Rows, Sum};
+use super::tensor::{Rows, RowsFn, Sum};
 use crate::number::Real;
 use crate::number::lanes::wide;
 use drypoint_scene::math;
@@ -78,13 +78,13 @@ fn row<R: Real, const N: usize>(access: impl Access, x: usize, y: usize, z: usiz
 pub(super) type Block<R> = [[[R; 4]; 4]; 4];
 
 /// The rows of a part of the volume.
-struct Stored<S, A, R> {
+struct VoxelRows<S, A, R> {
     simd: S,
     window: A,
     number: PhantomData<R>,
 }
 
-impl<S: Simd, A: Access, R: Real> Rows<R::Four<S>> for Stored<S, A, R> {
+impl<S: Simd, A: Access, R: Real> Rows<R::Four<S>> for VoxelRows<S, A, R> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> R::Four<S> {
         R::from_voxels(self.window.row::<4>(0, j, k)).simd_into(self.simd)
@@ -221,7 +221,7 @@ impl<'v> Stencils<'v> {
             ),
             _ => {
                 let block = self.block::<R>(cell);
-                sum.over(&Given(|j: usize, k: usize| block[k][j]))
+                sum.over(&RowsFn(|j: usize, k: usize| block[k][j]))
             }
         }
     }
@@ -230,7 +230,7 @@ impl<'v> Stencils<'v> {
     fn sum_inside<S: Simd, R: Real, T: Sum<R>>(&self, simd: S, [x, y, z]: [usize; 3], sum: &T) -> T::Of {
         with_access!(self.volume, |a| {
             let window = a.window::<4>(x - 1, y - 1, z - 1);
-            sum.over(&Stored { simd, window, number: PhantomData::<R> })
+            sum.over(&VoxelRows { simd, window, number: PhantomData::<R> })
         })
     }
 

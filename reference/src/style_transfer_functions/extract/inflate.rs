@@ -19,7 +19,7 @@
 //! The equation is solved by differences on a square grid whose arms are cut at the outline (Shortley and Weller 1938),
 //! which is exact where u is quadratic. The solver is successive over-relaxation with Young's factor.
 
-use super::polygon::{Meeting, Polygon};
+use super::polygon::{Intersection, Polygon};
 use drypoint_scene::math;
 
 /// Nodes along the longer side of the outline's box. The normal varies slowly; the picture is read at its own pixels.
@@ -211,7 +211,7 @@ const TOP: usize = 2;
 const BOTTOM: usize = 3;
 
 /// The meetings before and after a coordinate, if it lies inside the outline.
-fn neighbours(line: &[Meeting], x: f64) -> Option<[(f64, [f64; 2]); 2]> {
+fn neighbours(line: &[Intersection], x: f64) -> Option<[(f64, [f64; 2]); 2]> {
     let after = line.partition_point(|meeting| meeting.at <= x);
     if after % 2 == 0 {
         return None;

@@ -38,7 +38,7 @@ pub(super) fn texels(
         .collect();
     let inside = |x: f64, y: f64| rows[y as usize].partition_point(|&at| at <= x) % 2 == 1;
     let patch = Patch::new(source, low, high, inside).ok_or(ExtractError::Empty)?;
-    let mut style = Scattered { side, sums: vec![([0.0; 4], 0.0); side * side] };
+    let mut style = TexelSums { side, sums: vec![([0.0; 4], 0.0); side * side] };
     for triangle in Body::new(&polygon, depth).triangles() {
         style.add(&patch, &triangle);
     }
@@ -50,12 +50,12 @@ fn crossings(polygon: &Polygon, y: f64) -> Vec<f64> {
 }
 
 /// A style that is being gathered: for each texel Σ area · colour and Σ area.
-struct Scattered {
+struct TexelSums {
     side: usize,
     sums: Vec<(Rgba, f64)>,
 }
 
-impl Scattered {
+impl TexelSums {
     /// Adds the places of a triangle, in parts that are small in the picture and in the style.
     fn add(&mut self, patch: &Patch, corners: &[Corner; 3]) {
         let half = self.side as f64 / 2.0;

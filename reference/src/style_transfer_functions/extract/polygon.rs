@@ -16,7 +16,7 @@ pub(super) struct Polygon {
 
 /// An intersection of the outline with a line parallel to an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Meeting {
+pub(super) struct Intersection {
     /// The coordinate along the line.
     pub(super) at: f64,
     /// The outward unit normal there, y down, interpolated between those at the two points of the line.
@@ -79,9 +79,9 @@ impl Polygon {
 
     /// The intersections of the outline with the line along `axis` at the coordinate `across`, in ascending order.
     /// Their number is even.
-    pub(super) fn meetings(&self, axis: usize, across: f64) -> Vec<Meeting> {
+    pub(super) fn meetings(&self, axis: usize, across: f64) -> Vec<Intersection> {
         let other = 1 - axis;
-        let mut found: Vec<Meeting> = (0..self.points.len())
+        let mut found: Vec<Intersection> = (0..self.points.len())
             .map(|k| (k, self.edge(k)))
             // An end on the line belongs to the side below, so a corner counts once where the outline passes through.
             .filter(|(_, [p, q])| (p[other] <= across) != (q[other] <= across))
@@ -89,7 +89,7 @@ impl Polygon {
                 let share = (across - p[other]) / (q[other] - p[other]);
                 let [m, n] = [self.normals[k], self.normals[(k + 1) % self.normals.len()]];
                 let outward = unit([0, 1].map(|c| m[c] + share * (n[c] - m[c])));
-                Meeting { at: p[axis] + share * (q[axis] - p[axis]), outward }
+                Intersection { at: p[axis] + share * (q[axis] - p[axis]), outward }
             })
             .collect();
         found.sort_by(|a, b| a.at.total_cmp(&b.at));
@@ -190,11 +190,11 @@ mod tests {
             // In the middle of a side the normal is the side's; at a corner it is half-way between two.
             assert_eq!(
                 polygon.meetings(0, 2.0),
-                [Meeting { at: 1.0, outward: [-1.0, 0.0] }, Meeting { at: 4.0, outward: [1.0, 0.0] }]
+                [Intersection { at: 1.0, outward: [-1.0, 0.0] }, Intersection { at: 4.0, outward: [1.0, 0.0] }]
             );
             assert_eq!(
                 polygon.meetings(1, 2.5),
-                [Meeting { at: 1.0, outward: [0.0, -1.0] }, Meeting { at: 3.0, outward: [0.0, 1.0] }]
+                [Intersection { at: 1.0, outward: [0.0, -1.0] }, Intersection { at: 3.0, outward: [0.0, 1.0] }]
             );
             for (meeting, x) in polygon.meetings(0, 1.0).iter().zip([-0.5f64.sqrt(), 0.5f64.sqrt()]) {
                 assert!((meeting.outward[0] - x).abs() < 1e-15 && (meeting.outward[1] + 0.5f64.sqrt()).abs() < 1e-15);
