@@ -80,9 +80,13 @@ fn sums<S: Simd>(around: &SampleWindow<'_>, rows: &MiddleRows<'_, S>, [x, y, z]:
     let (x, y, z) = (taps(x), taps(y), taps(z));
     let at = |i: usize, j: usize, k: usize| k * around.strides[1] + j * around.strides[0] + i;
     let first = around.samples[at(2, 2, 2)];
+    // sᵢⱼ: sums over y and z with the i-th derivative along y and the j-th along z, of the middle four samples of each
+    // row. `outer` holds the two outer samples, which only f_xx reads.
     let [mut s00, mut s10, mut s01, mut s20, mut s11, mut s02] = [rows.zero(); 6];
     let mut outer = [0.0; 2];
     for k in 0..TAPS {
+        // pᵢ: the sums over y in one plane, with the i-th derivative. Taps 2 and 3 alone have a value, taps 1 to 4 a
+        // first derivative.
         let [mut p0, mut p1, mut p2] = [rows.zero(); 3];
         let middle = k == 2 || k == 3;
         let (from, end) = if middle { (0, TAPS) } else { (1, TAPS - 1) };
@@ -113,6 +117,7 @@ fn sums<S: Simd>(around: &SampleWindow<'_>, rows: &MiddleRows<'_, S>, [x, y, z]:
         s11 += p1 * z.first[k];
         s02 += p0 * z.second[k];
     }
+    // Sums over x; the order of the terms is that of `tensor::second`.
     let value = |s: [f64; 4]| s[1] * x.value[2] + s[2] * x.value[3];
     let slope = |s: [f64; 4]| (s[1] * x.first[2] + s[3] * x.first[4]) + (s[0] * x.first[1] + s[2] * x.first[3]);
     let [s00, s10, s01]: [[f64; 4]; 3] = [s00.into(), s10.into(), s01.into()];

@@ -20,6 +20,7 @@ const TURNED_BACK: f64 = -1.0 + 1e-9;
 /// bend may not meet, for example at the end of a short line. The outline then goes through the point itself, and
 /// overlaps are filled once.
 pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bool; 2]) -> Vec<Vec<DVec2>> {
+    // Points equal to the one before are merged; the wider of the two counts.
     let mut line: Vec<(DVec2, f64)> = Vec::with_capacity(points.len());
     for (&at, &radius) in points.iter().zip(radii) {
         match line.last_mut() {
@@ -41,6 +42,7 @@ pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bo
         line.pop();
     }
     let closed = closed && line.len() > 2;
+    // One side of the line, then the same side of the reversed line; open lines join both by caps.
     let back: Vec<(DVec2, f64)> = line.iter().rev().copied().collect();
     match line.as_slice() {
         [] => Vec::new(),
@@ -65,7 +67,7 @@ fn towards(a: (DVec2, f64), b: (DVec2, f64)) -> DVec2 {
     (b.0 - a.0).normalize_or(DVec2::X)
 }
 
-/// The offset curve on the side of a line to which x lies from y.
+/// The offset curve on one side of a line: that of +y for a line along +x.
 fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
     let n = line.len();
     let mut all: Vec<OffsetPoint> = Vec::with_capacity(n + 8);
@@ -89,7 +91,7 @@ fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
     without_loops(&all, line)
 }
 
-/// The unit normal on the left of a direction.
+/// The unit normal of a direction: +y for +x.
 fn beside(along: DVec2) -> DVec2 {
     DVec2::new(-along.y, along.x)
 }

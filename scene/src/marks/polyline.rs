@@ -174,6 +174,8 @@ impl Polyline {
         // Whether the last piece ends where the next segment begins.
         let mut joins = false;
         for i in 0..segments {
+            // A segment extends the last piece if both fit into one range of colour and opacity; otherwise it begins a
+            // new piece.
             let (a, b) = (&self.vertices[i], &self.vertices[(i + 1) % n]);
             let own = Range::of(a, b);
             let drawn = a.radius.max(b.radius) > 0.0 && own.opacity() > 0.0;
@@ -194,6 +196,7 @@ impl Polyline {
             }
             joins = drawn;
         }
+        // The colour and opacity of a piece are the middles of its ranges.
         let mut pieces: Vec<Piece> = pieces
             .into_iter()
             .map(|(piece, range)| Piece { opacity: range.opacity(), color: range.color(), ..piece })
@@ -208,9 +211,11 @@ impl Polyline {
             only.closed = true;
             return pieces;
         }
+        // A piece ends the line where the next one does not join it.
         for i in 1..pieces.len() {
             pieces[i - 1].ends[1] = pieces[i].ends[0];
         }
+        // In a ring the last piece may join the first.
         if let (true, true, [first, .., last]) = (segments == n, joins, pieces.as_mut_slice())
             && first.points[0] == self.vertices[0].at
         {

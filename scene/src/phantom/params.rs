@@ -134,6 +134,7 @@ impl<'a> Args<'a> {
         voxel_type: VoxelType,
         given: &[(String, f64)],
     ) -> Result<Self, PhantomError> {
+        // The parameters given, each known, allowed, and given once.
         let mut values = vec![None; about.params.len()];
         for (name, value) in given {
             let Some(i) = about.params.iter().position(|p| p.name == name) else {
@@ -155,6 +156,7 @@ impl<'a> Args<'a> {
                 return Err(PhantomError::Repeated { phantom: about.name, param: param.name });
             }
         }
+        // Defaults of the others, for this grid and voxel type.
         let default = |p: &Param| match p.default {
             Preset::Number(x) => x,
             Preset::Side(x) => x * smallest_side(grid),

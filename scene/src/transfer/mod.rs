@@ -98,6 +98,7 @@ impl Function {
             None | Some(Axis::Value) => values(at, transfer.unit, range, volume),
             Some(_) => at,
         };
+        // Lines of nodes: one per row over two quantities, in the order in which rows are kept, else a single one.
         let (lines, rows) = match (&transfer.over, &transfer.rows) {
             (Over::Two(axes), Some(rows)) => {
                 let unknown = |name: &str| FunctionError::UnknownLabel { name: name.into(), row: None };
@@ -118,9 +119,12 @@ impl Function {
             }
             _ => (vec![transfer.nodes.as_deref().unwrap_or_default()], None),
         };
+        // All lines one after the other; `rows.first` says where each begins.
         let nodes: Vec<&Node> = lines.into_iter().flatten().collect();
         let at = to_values(nodes.iter().map(|n| n.at).collect(), rows.as_ref().map(|_| &transfer.over.axes()[0]));
         let opacity: Vec<f64> = nodes.iter().map(|n| n.opacity).collect();
+        // A table replaces the nodes' positions and opacities by its entries; colours and styles stay those of the
+        // nodes.
         let (at, opacity, index) = match transfer.table {
             Table::Entries(n) if rows.is_none() && !at.is_empty() => {
                 let table::Entries { at, opacity, index } = table::Entries::new(&at, &opacity, n, range);
@@ -128,6 +132,7 @@ impl Function {
             }
             _ => (at, opacity, None),
         };
+        // j of each node: the distinct styles are numbered in the order in which they first occur.
         let mut names: Vec<String> = Vec::new();
         let mut styles = Vec::new();
         let mut colors = Vec::new();

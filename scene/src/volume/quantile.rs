@@ -85,6 +85,7 @@ pub fn select<N: Key, W: Send>(
     fill: impl Fn(&mut W, usize, &mut Vec<N>) + Sync,
     places: impl FnOnce(usize) -> Vec<usize>,
 ) -> Vec<N> {
+    // First pass: counts of all numbers by their upper digit.
     let passes = Passes { work, fill, spans: vec![[0, u64::MAX]; parts] };
     let (mut passes, digit) = (passes, N::BITS.min(DIGIT));
     let mut below = N::BITS - digit;
@@ -99,6 +100,7 @@ pub fn select<N: Key, W: Send>(
         .collect();
     let mut prefixes = vec![0];
     loop {
+        // Each query learns its next digit from the block of counts of its prefix.
         for one in &mut sought {
             let block = prefixes.partition_point(|&prefix| prefix < one.prefix);
             one.narrow(&counts[block << digit..][..1 << digit], digit);
@@ -106,9 +108,11 @@ pub fn select<N: Key, W: Send>(
         prefixes = sought.iter().map(|one| one.prefix).collect();
         prefixes.sort_unstable();
         prefixes.dedup();
+        // All bits are known, so the prefix is the key.
         if below == 0 {
             return sought.into_iter().map(|one| N::of_key(one.prefix)).collect();
         }
+        // Few enough numbers share the prefixes to be gathered and selected directly.
         if sought.iter().all(|one| one.alike <= FEW.max(total / 64)) {
             let members = passes.gather(&prefixes, below);
             return sought.into_iter().map(|one| N::of_key(one.among(&members, below))).collect();
@@ -174,6 +178,7 @@ impl<W, F> Passes<W, F> {
         F: Fn(&mut M, usize, &mut Vec<N>) + Sync,
     {
         let (work, fill, bins) = (&self.work, &self.fill, prefixes.len() << digit);
+        // Each task counts in its own list of bins, and the lists are summed.
         let together = self.spans.len().div_ceil(4 * rayon::current_num_threads()).max(TOGETHER);
         self.spans
             .par_iter_mut()

@@ -70,6 +70,7 @@ fn of_row<R: Real, V: Voxel + Into<i32>>(
     squares: &mut [R],
 ) {
     let row = |y: usize, z: usize| &voxels[(z * ny + y) * nx..][..nx];
+    // The three rows of each difference across the row are the same for all its voxels.
     let (along_y, along_z) = (Difference::at(y, ny), Difference::at(z, nz));
     let (middle, ys, zs) = (row(y, z), along_y.voxels.map(|y| row(y, z)), along_z.voxels.map(|z| row(y, z)));
     let square = |doubled: [i32; 3]| {
@@ -77,6 +78,7 @@ fn of_row<R: Real, V: Voxel + Into<i32>>(
         let gradient = to_world.apply(Vec3::new(x, y, z));
         gradient.dot(gradient)
     };
+    // The two ends of the row have one-sided differences along x.
     for x in [0, nx - 1] {
         let along_x = Difference::at(x, nx);
         let at = |rows: [&[V]; 3]| rows.map(|row| row[x]);

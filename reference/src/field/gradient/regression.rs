@@ -165,6 +165,7 @@ fn interpolated<R: Real>(block: &Block<R>, [wx, wy, wz]: [R; 3]) -> [R; 27] {
 /// that exist.
 fn fit(grid: &Grid, sides: [usize; 3]) -> Weights<f64> {
     let exists = |axis: usize, k: i32| k == 0 || sides[axis] & (if k < 0 { 1 } else { 2 }) != 0;
+    // (t, φ, w) of each neighbour that exists.
     let neighbours: Vec<(usize, [f64; 4], f64)> = (0..27)
         .map(|t| (t, [t as i32 % 3 - 1, t as i32 / 3 % 3 - 1, t as i32 / 9 - 1]))
         .filter(|(_, k)| (0..3).all(|a| exists(a, k[a])))
@@ -175,6 +176,7 @@ fn fit(grid: &Grid, sides: [usize; 3]) -> Weights<f64> {
             (t, [k[0], k[1], k[2], 1.0], weight)
         })
         .collect();
+    // The normal matrix Σ w φφᵀ.
     let mut normal = [[0.0; 4]; 4];
     for (_, phi, weight) in &neighbours {
         for i in 0..4 {
@@ -187,6 +189,7 @@ fn fit(grid: &Grid, sides: [usize; 3]) -> Weights<f64> {
     for (axis, _) in sides.iter().enumerate().filter(|(_, s)| **s == 0) {
         normal[axis][axis] = 1.0;
     }
+    // Weights of f: (Σ w φφᵀ)⁻¹ w φ, one column for each neighbour.
     let inverse = inverted(normal);
     let mut weights = [[0.0; 27]; 4];
     for (t, phi, weight) in neighbours {

@@ -61,6 +61,7 @@ pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize
     if i + reach >= n {
         first = first.min(n - short);
     }
+    // Each tap counts at its own sample, or by extrapolation at the three samples next to the border.
     let mut weights = vec![0.0; end - first];
     for (k, &w) in half.iter().enumerate() {
         if k > 0 && i < k {

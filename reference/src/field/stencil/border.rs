@@ -45,6 +45,7 @@ impl Stencils<'_> {
         } else {
             self.clamped::<R, 4>(cell.map(|i| i as isize - 1))
         };
+        // Continued lines along x, y, z in this order: each axis reads what the ones before it made.
         let [nx, ny, nz] = dims;
         for line in b.iter_mut().flatten() {
             *line = continued(*line, cell[0], nx);

@@ -40,12 +40,14 @@ fn solve(side: usize, cells: &[TexelState]) -> Option<Vec<Rgba>> {
     if side == 1 {
         return None;
     }
+    // The start: the solution on the grid of half the side.
     let half = side.div_ceil(2);
     let coarse = solve(half, &coarser(side, cells))?;
     let unknown: Vec<usize> = (0..cells.len()).filter(|&t| cells[t] == TexelState::Unknown).collect();
     for &t in &unknown {
         colors[t] = coarse[t / side / 2 * half + t % side / 2];
     }
+    // Gauss–Seidel for Δ = 0: each unknown texel becomes the mean of its neighbours inside the disk.
     for _ in 0..SWEEPS {
         for &t in &unknown {
             let [i, j] = [t % side, t / side];

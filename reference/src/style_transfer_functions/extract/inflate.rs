@@ -71,22 +71,26 @@ impl Body {
     /// Inflates an outline to a depth in pixels, the body's extent out of the picture. None: the radius of the largest
     /// circle inside the outline.
     pub(super) fn new(outline: &Polygon, depth: Option<f64>) -> Self {
+        // A square grid of at most NODES nodes a side, centred on the outline's box.
         let [low, high] = outline.bounds();
         let extent = [high[0] - low[0], high[1] - low[1]];
         let spacing = extent[0].max(extent[1]) / NODES as f64;
         let size = extent.map(|e| ((e / spacing).ceil() as usize).clamp(1, NODES));
         let corner = [0, 1].map(|c| (low[c] + high[c] - spacing * (size[c] - 1) as f64) / 2.0);
+        // Intersections of each grid row and column with the outline.
         let lines = [0, 1].map(|axis: usize| {
             let other = 1 - axis;
             let across = move |k: usize| corner[other] + spacing * k as f64;
             (0..size[other]).map(|k| outline.meetings(axis, across(k))).collect::<Vec<_>>()
         });
+        // For each node inside, the intersections next to it in all four directions.
         let between = |t: usize| {
             let [i, j] = [t % size[0], t / size[0]];
             let place = [corner[0] + spacing * i as f64, corner[1] + spacing * j as f64];
             Some([neighbours(&lines[0][j], place[0])?, neighbours(&lines[1][i], place[1])?])
         };
         let inside: Vec<_> = (0..size[0] * size[1]).map(between).collect();
+        // The arms of each node: to the next node, or cut at the outline.
         let node = |t: usize| {
             let [[left, right], [top, bottom]] = inside[t]?;
             let [i, j] = [t % size[0], t / size[0]];
@@ -100,6 +104,7 @@ impl Body {
             Some(Node { arms: std::array::from_fn(|k| arm(ways[k], spacing, there[k])) })
         };
         let nodes: Vec<Option<Node>> = (0..inside.len()).map(node).collect();
+        // −Δu = 1, and k so that the largest z = √(4u/k) is the depth.
         let u = solve(size, &nodes);
         let mut body = Self { corner, spacing, size, nodes, u, flatness: 1.0 };
         let largest = body.u.iter().copied().fold(0.0, f64::max);

@@ -32,6 +32,7 @@ impl Polygon {
         if given.len() > MOST {
             return Err(ExtractError::TooManyPoints { found: given.len(), limit: MOST });
         }
+        // Points that differ from the one before.
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(given.len());
         // Which of the given points each is, for messages.
         let mut kept = Vec::with_capacity(given.len());
@@ -48,6 +49,7 @@ impl Polygon {
         if points.len() < 3 {
             return Err(ExtractError::TooFewPoints { found: points.len() });
         }
+        // Positive orientation, with lines that do not meet.
         let mut polygon = Self { points, normals: Vec::new() };
         if let Some(edges) = polygon.crossing() {
             return Err(ExtractError::Crossing { edges: edges.map(|k| kept[k]) });
@@ -55,6 +57,7 @@ impl Polygon {
         if polygon.doubled_area() < 0.0 {
             polygon.points.reverse();
         }
+        // Normals of the lines, then half-way between two of them at each corner.
         let n = polygon.points.len();
         let outward = |k: usize| {
             let [p, q] = polygon.edge(k);

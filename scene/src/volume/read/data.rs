@@ -190,6 +190,7 @@ impl Payload<'_> {
         let mut source = Source { path: part.path, reader, cut: false };
         let expected = share as u128 * size_of::<T>() as u128;
         let short = |found| self.misfit(part.path, Fault::Short { expected, found, unit: "bytes" });
+        // Bytes to skip in the decoded data.
         let mut buffer = vec![0; CHUNK];
         let mut skip = self.inside;
         while skip > 0 {
@@ -199,6 +200,7 @@ impl Payload<'_> {
             }
             skip -= piece.len() as u64;
         }
+        // The numbers, chunk by chunk: memory grows with the data that arrive, not with the header's claim.
         let mut found = 0;
         while found < expected {
             let piece = &mut buffer[..(expected - found).min(CHUNK as u128) as usize];
@@ -239,6 +241,7 @@ impl Payload<'_> {
         share: usize,
         voxels: &mut Vec<T>,
     ) -> Result<(), ReadError> {
+        // Numbers found so far, the line for messages, and the digits of the number being read.
         let mut found = 0;
         let mut line = self.lines_before + self.lines as usize + 1;
         let mut word = Vec::new();

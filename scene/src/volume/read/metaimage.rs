@@ -56,6 +56,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
     } else {
         (data_files(&header, field, &sizes, &mut lines)?, header_size(&header)?, 0)
     };
+    // How the data are encoded.
     let compressed = flag_or(&header, &["CompressedData"], false)?;
     let encoding = match (flag_or(&header, &["BinaryData"], true)?, compressed) {
         (true, false) => Encoding::Raw,
@@ -72,6 +73,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
         let found = "data at the end of a file that is not raw".to_string();
         return Err(header.error(field, Fault::Unsupported { found, supported: "a HeaderSize of −1 with raw data" }));
     }
+    // Where the voxels lie in the world.
     let (axes, origin, names) = space(&header, sizes.len())?;
     let grid = grid_of(file, dims, axes, origin, names).map_err(|e| header.with_line(e))?;
     let payload = Payload {
@@ -91,6 +93,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
     if let (true, Some(field), &[_]) = (compressed, header.get("CompressedDataSize"), payload.files.as_slice()) {
         compressed_size(&header, field, &payload)?;
     }
+    // Values from stored numbers.
     let scaling = [
         number_or(&header, "ElementToIntensityFunctionSlope", 1.0)?,
         number_or(&header, "ElementToIntensityFunctionOffset", 0.0)?,

@@ -107,6 +107,8 @@ fn space_axes(header: &Header, sizes: &[usize], directions: Option<&[Option<DVec
         }
         None => None,
     };
+    // An axis is spatial if it has a direction. Without directions its kind decides, and without kinds every axis is
+    // spatial.
     let is_space = |axis: usize| match (directions, &kinds) {
         (Some(directions), _) => directions[axis].is_some(),
         (None, Some((_, kinds))) => {
