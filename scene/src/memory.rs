@@ -39,8 +39,8 @@ impl NoRoom {
         [a.min((most / b).max(1)), b.min((most / a).max(1))]
     }
 
-    /// Returns the least length that fits, rounded up to three digits, if a length of `length` needs [`NoRoom::needed`]
-    /// and the need grows with the inverse of the length. None if nothing fits.
+    /// Returns the least length that fits, rounded up to three digits; none if nothing fits. A length of `length` needs
+    /// [`NoRoom::needed`], and the need grows with the inverse of the length.
     pub fn enlarged(&self, length: f64) -> Option<f64> {
         let fits = length * (self.needed as f64 / self.free as f64).max(1.0);
         let unit = 10f64.powf(fits.log10().floor() - 2.0);

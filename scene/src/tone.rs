@@ -211,7 +211,7 @@ fn along(rows: &[[f64; 2]], x: f64, column: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Between no overlap and random places, and never less for more.
+    /// The coverage lies between those of dots without overlap and of random places, and more ink never covers less.
     #[test]
     fn discs_cover_what_they_can() {
         for (i, pair) in IDEAL.windows(2).enumerate() {

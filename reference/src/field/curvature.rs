@@ -199,7 +199,7 @@ mod tests {
         assert_eq!(along_view(g, h, tilted(2f64.powi(-25)), Outside::High), -3.0);
     }
 
-    /// In f32 the bound is its own, 2⁻¹²: a unit vector is off by 2⁻²⁴, and so is what is left of it in the tangent plane.
+    /// The bound in f32 is 2⁻¹²: a unit vector is off by 2⁻²⁴, and so is the rest of it in the tangent plane.
     #[test]
     fn along_the_normal_in_f32() {
         let g = Vec3::new(0.0f32, 0.0, -1.0);
@@ -210,7 +210,7 @@ mod tests {
         }
     }
 
-    /// Along the normal and past it, in every direction between, whatever the other lanes are.
+    /// View directions along the normal, past it, and in every direction between, next to any other lanes.
     #[test]
     fn lanes_have_the_bits_of_one() {
         let Some(simd) = wide() else { return };
@@ -243,8 +243,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(200))]
 
-        /// Against the eigenvectors of the 3×3 matrix, by another library. Both sides round −PHP/‖g‖ with at most some
-        /// twenty operations on numbers up to ‖H‖/‖g‖.
+        /// Comparison with the eigenvectors of the 3×3 matrix, by another library. Both sides round −PHP/‖g‖ with at
+        /// most some twenty operations on numbers up to ‖H‖/‖g‖.
         #[test]
         fn principal_curvatures_are_eigenvalues(
             g in prop::array::uniform3(-10.0f64..10.0),

@@ -134,7 +134,8 @@ mod tests {
     use super::*;
     use drypoint_scene::philox::uniform;
 
-    /// Against the sums over all 216 taps, number by number; on the voxels of the cell too, where more weights are 0.
+    /// Comparison with the sums over all 216 taps, number by number, also on the voxels of the cell, where more weights
+    /// are 0.
     #[test]
     fn taps_of_weight_0_change_nothing() {
         const SIDES: [usize; 3] = [9, 8, 7];

@@ -15,9 +15,9 @@ use rayon::prelude::*;
 /// The decomposed system of one line.
 #[derive(Clone, Debug)]
 pub(super) struct Prefilter<R> {
-    /// For each sample, the factors of the sample before it and of the one before that, both subtracted.
+    /// The factors subtracted from each sample: those of the sample before it and of the one before that.
     forward: Vec<[R; 2]>,
-    /// For each sample, its own factor, and the factors of the sample after it and of the one after that.
+    /// The factor of each sample, of the sample after it, and of the one after that.
     backward: Vec<[R; 3]>,
 }
 

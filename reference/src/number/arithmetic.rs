@@ -109,7 +109,7 @@ pub trait Elementary: Arithmetic {
 
 /// Numbers in f64, of which the series of [`drypoint_scene::math`] are.
 pub(crate) trait Double: Arithmetic<Number = f64> {
-    /// Their width.
+    /// The width of the numbers.
     type Width: Width<Number = Self>;
 
     /// The width of `self`.

@@ -227,8 +227,8 @@ mod tests {
         }
     }
 
-    /// On whole levels the level alone; between two of them, in proportion. Of a side of 12 the levels 6, 3, 2, 1 stand at
-    /// log₂ of 2, 4, 6 and 12.
+    /// The lookup on a whole level reads this level alone; between two levels it interpolates in proportion. The levels
+    /// 6, 3, 2, 1 of a side of 12 stand at log₂ of 2, 4, 6 and 12.
     #[test]
     fn levels_are_mixed_by_their_lambdas() {
         let style = noise(12);

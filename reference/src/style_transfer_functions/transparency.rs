@@ -64,7 +64,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(400))]
-        /// Between α_u^1.5 and α_u^0.5, and monotone in everything it depends on.
+        /// The opacity lies between α_u^1.5 and α_u^0.5, and is monotone in everything it depends on.
         #[test]
         fn laws(
             a in 0.0..=1.0f64, more in 0.0..=1.0f64, n_dot_v in -1.0..=1.0f64, tau in 0.0..=1.0f64, g in 0.0..=1.0f64,

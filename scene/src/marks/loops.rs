@@ -41,7 +41,7 @@ pub(super) fn without_loops(side: &[OffsetPoint], line: &[(DVec2, f64)]) -> Vec<
     out.into_iter().map(|(at, _)| at).collect()
 }
 
-/// For each point of a line, the length up to it and its total turn to the left there.
+/// The length up to each point of a line, and the line's total turn to the left there.
 fn along(line: &[(DVec2, f64)]) -> (Vec<f64>, Vec<f64>) {
     let (mut length, mut turn) = (0.0, 0.0);
     let all = (0..line.len()).map(|i| {

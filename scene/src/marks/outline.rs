@@ -179,8 +179,8 @@ mod tests {
         assert!((area(&outlines(&points, &back, false, [true; 2])) - area(&round)).abs() < 1e-12);
     }
 
-    /// Round an arc of radius R the area is ∫ width ds, either way round: both sides lose and gain the same. Chords of the middle
-    /// line have it as 1 − φ²/24.
+    /// The area about an arc of radius R is ∫ width ds, in both directions: the two sides lose and gain alike. Chords
+    /// of the middle line have it as 1 − φ²/24.
     #[test]
     fn an_arc_has_the_area_of_its_widths() {
         for turn in [1.0, -1.0] {
@@ -215,7 +215,8 @@ mod tests {
         }
     }
 
-    /// At a sharp bend, and where a line turns back, nothing reaches farther than its width, and the point itself is inside.
+    /// Nothing reaches farther than the width at a sharp bend or where a line turns back, and the point itself is
+    /// inside.
     #[test]
     fn sharp_bends_stay_round() {
         for end in [DVec2::new(0.0, 1.0), DVec2::new(-1.0, 0.001), DVec2::new(-1.0, 0.0), DVec2::new(0.3, -0.2)] {
@@ -235,8 +236,8 @@ mod tests {
         }
     }
 
-    /// A line on the steps of the page, none of whose bends has a smaller radius than `bend`, places from 0.01 to 0.15 mm apart,
-    /// half as wide as 0.02 to 0.25 mm; and ∫ width ds of what it was before the steps.
+    /// A line on the steps of the page, and ∫ width ds before the steps. None of its bends has a smaller radius than
+    /// `bend`. Places are 0.01 to 0.15 mm apart, half widths 0.02 to 0.25 mm.
     fn random(seed: u64, bend: f64) -> (Vec<DVec2>, Vec<f64>, f64) {
         let mut drawn = 0;
         let mut unit = || {
@@ -270,7 +271,7 @@ mod tests {
         (points, radii, widths)
     }
 
-    /// How many pairs of segments of an outline cross.
+    /// Number of pairs of segments of an outline that cross.
     fn crossings(outline: &[DVec2]) -> usize {
         let n = outline.len();
         let segment = |i: usize| [outline[i], outline[(i + 1) % n]];

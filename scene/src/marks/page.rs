@@ -11,7 +11,7 @@ pub const INCH: f64 = 25.4;
 pub struct Page {
     /// Width and height with both margins, in mm.
     pub size: DVec2,
-    /// In mm; nothing is drawn there. The rest is the frame, and the picture fills it.
+    /// The width of the margin, in mm. Nothing is drawn there. The rest is the frame, and the picture fills it.
     pub margin: f64,
     /// Pixels per inch, above 0.
     pub dpi: f64,

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 /// A line drawn with a round pen through its vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
-    /// In order, at least two; of one, nothing is drawn.
+    /// The vertices in order, at least two. Of a single one nothing is drawn.
     pub vertices: Vec<Vertex>,
     /// Whether it goes on from the last to the first.
     pub closed: bool,
@@ -17,17 +17,17 @@ pub struct Polyline {
 /// A vertex of a line: a dot's numbers, and how far along it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// On the page, in mm, y down.
+    /// The place on the page, in mm, y down.
     pub at: DVec2,
     /// The point in the world that it stands for.
     pub world: DVec3,
     /// Half the line's width there, in mm on the page.
     pub radius: f64,
-    /// In (0, 1]; it multiplies that of the pen's colour.
+    /// The opacity in (0, 1]. It multiplies the opacity of the pen's colour.
     pub opacity: f64,
-    /// Along the whole line from 0 to 1; a part that was cut out keeps its numbers.
+    /// The share of the whole line up to here, from 0 to 1. A part that was cut out keeps its shares.
     pub t: f64,
-    /// In place of the pen's; none: the pen's.
+    /// A colour in place of the pen's; none: the pen's.
     pub color: Option<Rgb>,
 }
 
@@ -67,13 +67,13 @@ pub fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
 /// A part of a line with one opacity and one colour: what every writer draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// In order, at least two, in mm on the page.
+    /// The points in order, at least two, in mm on the page.
     pub points: Vec<DVec2>,
     /// Half the width at each point, in mm; linear between them.
     pub radii: Vec<f64>,
-    /// In (0, 1].
+    /// The opacity in (0, 1].
     pub opacity: f64,
-    /// In place of the pen's; none: the pen's.
+    /// A colour in place of the pen's; none: the pen's.
     pub color: Option<Rgb>,
     /// Whether it goes on from the last point to the first.
     pub closed: bool,

@@ -22,8 +22,8 @@ pub(super) const LN_2_LO: f64 = 7.371_002_565_167_799e-13;
 /// 1.5 · 2⁵²: a small number that is added leaves its nearest whole number in the low bits of the sum.
 pub(super) const TO_WHOLE: f64 = (3u64 << 51) as f64;
 
-/// For c = 1 + i/128: 1/c and ln c in two parts, the first a multiple of 2⁻⁴⁴, so that adding multiples of ln 2's first
-/// part to it is exact.
+/// 1/c and ln c for c = 1 + i/128, the logarithm in two parts. The first part is a multiple of 2⁻⁴⁴, so that adding
+/// multiples of ln 2's first part to it is exact.
 static LOGARITHMS: [[f64; 3]; STEPS] = {
     let mut table = [[0.0; 3]; STEPS];
     let mut i = 0;
@@ -155,8 +155,9 @@ mod tests {
     use super::*;
     use crate::math::{ln_one_minus, one_minus_exp, one_minus_root};
 
-    /// N numbers in (0, 1) in ascending order: even steps through the bit patterns, which are steps of the logarithm
-    /// down to the smallest number, even steps of the number itself, and of the logarithm of what is left to 1.
+    /// N numbers in (0, 1) in ascending order. They are even steps through the bit patterns, which are steps of the
+    /// logarithm down to the smallest number; even steps of the number itself; and even steps of the logarithm of the
+    /// distance to 1.
     fn opacities(n: u64) -> Vec<f64> {
         let one = 1f64.to_bits();
         let third = n / 3;
@@ -244,7 +245,7 @@ mod tests {
         assert!((ln_one_minus(1f64.next_down()) - (0.5 * f64::EPSILON).ln()).abs() < 1e-14);
     }
 
-    /// Up to the last place, as far as a function within an ulp can be.
+    /// The result is right to the last place, as far as a function within an ulp can be.
     #[test]
     fn more_opacity_is_less_light() {
         let opacities = opacities(300_000);

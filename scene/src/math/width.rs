@@ -17,7 +17,7 @@ pub trait Width: Copy {
         + Add<f64, Output = Self::Number>
         + Sub<f64, Output = Self::Number>
         + Mul<f64, Output = Self::Number>;
-    /// Their bit patterns.
+    /// The bit patterns of the numbers.
     type Bits: Copy
         + Add<u64, Output = Self::Bits>
         + Sub<u64, Output = Self::Bits>

@@ -15,7 +15,7 @@ pub struct About {
     pub name: &'static str,
     /// One line: what it is, and its formula where that is short.
     pub doc: &'static str,
-    /// Its parameters.
+    /// The parameters.
     pub params: &'static [Param],
     /// Makes it; an error says which parameters do not go together.
     pub(super) build: fn(&Args) -> Result<Box<dyn Phantom>, String>,
@@ -28,7 +28,7 @@ pub struct Param {
     pub name: &'static str,
     /// One line: what it is.
     pub doc: &'static str,
-    /// Its value when none is given.
+    /// The value if none is given.
     pub default: Preset,
     /// The values that it can have.
     pub allowed: Allowed,

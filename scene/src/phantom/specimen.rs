@@ -58,7 +58,7 @@ const PORE: f64 = 0.0138;
 const SPINE: [f64; 2] = [0.0145, 0.44];
 /// Radius of the fillets where bodies of the skeleton meet.
 const FILLET: f64 = 0.006;
-/// Below this length a distance to a line or a shell is rounded off, which keeps it smooth.
+/// The length below which a distance to a line or a shell is rounded off, which keeps it smooth.
 const ROUND: f64 = 0.003;
 
 struct Specimen {

@@ -382,7 +382,8 @@ mod tests {
         assert!(!visible(-10.0, -5.0));
     }
 
-    /// At a node the function is that node's, and what is 0 all over, such as emptied surroundings, mostly has one.
+    /// The function at a node is that node's. An opacity of 0 all over, such as in emptied surroundings, usually has a
+    /// node.
     #[test]
     fn a_range_that_ends_at_a_node_sees_nothing_of_the_next() {
         let (at, opacity) = ([0.0, 10.0, 20.0], [0.0, 1.0, 0.0]);

@@ -94,8 +94,8 @@ fn fill<V: Copy>(v: &mut [V], dims: [usize; 3], finite: fn(V) -> bool) -> Result
 
 /// The linear index of the nearest valid voxel, for each voxel; ties go to the lowest index.
 ///
-/// The lexicographic minimum of (squared distance, index) separates by axis, since adding the squared distance along
-/// one more axis to all candidates of a line keeps their order.
+/// The lexicographic minimum of (squared distance, index) separates by axis. The squared distance along one more axis
+/// is equal for all candidates of a line, so adding it keeps their order.
 fn nearest_valid(invalid: &[bool], dims: [usize; 3]) -> Vec<usize> {
     const NONE: (u64, usize) = (u64::MAX, usize::MAX);
     let mut best: Vec<(u64, usize)> = (0..invalid.len()).map(|i| if invalid[i] { NONE } else { (0, i) }).collect();

@@ -96,7 +96,7 @@ pub enum VolumeError {
     Length {
         /// Voxels along x, y, z.
         dims: [usize; 3],
-        /// Their product.
+        /// The product of the dims.
         expected: usize,
         /// Voxels that were given.
         found: usize,

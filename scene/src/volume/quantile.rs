@@ -312,7 +312,7 @@ mod tests {
         }
     }
 
-    /// More numbers than are gathered that differ in their last bits alone, so that all digits are counted.
+    /// Numbers that differ in their last bits alone, more than are gathered, so that all digits are counted.
     #[test]
     fn many_numbers_that_begin_alike_are_counted_to_the_last_bit() {
         let (parts, each) = (300, 1000);

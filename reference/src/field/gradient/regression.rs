@@ -20,7 +20,7 @@ use drypoint_scene::volume::Access;
 /// Weights of the 3³ voxels around one, x fastest: for the derivative along each index axis, and for d.
 type Weights<R> = [[R; 27]; 4];
 
-/// For each index axis, the indices of the voxels with a nonzero weight, x fastest, and the weights.
+/// Indices of the voxels with a nonzero weight, x fastest, and the weights, for each index axis.
 pub(super) type Taps<R> = [Vec<(usize, R)>; 3];
 
 /// The fit for each of the cases that a grid has.
@@ -222,8 +222,8 @@ fn inverted(mut m: [[f64; 4]; 4]) -> [[f64; 4]; 4] {
 mod tests {
     use super::*;
 
-    /// On a cubic grid the normal equations are diagonal: h = Σ w k f / Σ w k², w = 1/√(k·k). Per axis Σ w k² over
-    /// the 18 neighbours with k ≠ 0 is 2·(1 + 4/√2 + 4/√3).
+    /// The normal equations of a cubic grid are diagonal: h = Σ w k f / Σ w k², w = 1/√(k·k). Per axis Σ w k² over the
+    /// 18 neighbours with k ≠ 0 is 2·(1 + 4/√2 + 4/√3).
     #[test]
     fn inside_a_cubic_grid_the_published_weights() {
         let grid = Grid::with_spacing([5; 3], [1.0; 3]).unwrap();
@@ -237,8 +237,8 @@ mod tests {
         }
     }
 
-    /// At the border of a plane, x ≥ 0: the six voxels lie on two lines, and h_x joins their weighted means. The line
-    /// k_x = 0 weighs 1, 2, 1, the other 1/√2, 1, 1/√2.
+    /// The border of a plane, x ≥ 0: the six voxels lie on two lines, and h_x joins their weighted means. The line k_x
+    /// = 0 weighs 1, 2, 1, the other 1/√2, 1, 1/√2.
     #[test]
     fn at_a_border_the_voxels_that_exist() {
         let grid = Grid::with_spacing([3, 3, 1], [1.0; 3]).unwrap();

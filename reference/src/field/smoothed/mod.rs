@@ -300,8 +300,9 @@ mod tests {
         }
     }
 
-    /// At voxels, from bricks and from a region by itself, up to the border: the same to some roundings of 128 over a spacing
-    /// squared, and the same bits from both.
+    /// Derivatives at voxels, from bricks and from a region by itself, up to the border. They agree with
+    /// [`Smoothed::derivatives`] up to some roundings of 128 over a spacing squared. Bricks and regions give the same
+    /// bits.
     #[test]
     fn at_voxels_nineteen_samples_are_enough() {
         for (dims, spacing) in [([35, 18, 17], [1.0, 0.5, 2.0]), ([6, 2, 1], [1.0; 3])] {

@@ -189,8 +189,8 @@ proptest! {
     }
 }
 
-/// Values that are computed at once are those that are computed alone, for every stored type, kernel and number of them, up
-/// to the border and on axes of length 1.
+/// Values computed at once equal those computed alone: for every stored type, kernel and count, up to the border and on
+/// axes of length 1.
 #[test]
 fn values_at_once_are_the_values_alone() {
     fn check<R: Real>(volume: &Volume, how: Reconstruction) {
@@ -221,8 +221,8 @@ fn values_at_once_are_the_values_alone() {
     }
 }
 
-/// At voxels all corners but one have weight 0: their gradient alone is the interpolated one, for numbers of which sums are
-/// rounded too, at the border and on an axis of length 1.
+/// The gradient at a voxel alone is the interpolated one there, since all other corners have weight 0. Numbers whose
+/// sums are rounded, the border, and an axis of length 1 are tested too.
 #[test]
 fn gradients_at_voxels_are_the_interpolated_ones() {
     for dims in [[5, 4, 6], [3, 5, 1], [2, 3, 4]] {

@@ -7,8 +7,8 @@ use proptest::prelude::*;
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
-    /// For every kernel, on volumes of few values with jumps between them, where cubic kernels overshoot; positions crowd
-    /// at the faces of cells and in their middles, where the overshoot is largest.
+    /// Every kernel is tested on volumes of few values with jumps between them, where cubic kernels overshoot.
+    /// Positions crowd at the faces of cells and in their middles, where the overshoot is largest.
     #[test]
     fn samples_stay_in_their_brick_and_their_cell(
         dims in prop::array::uniform3(prop_oneof![1usize..4, 8usize..20]),

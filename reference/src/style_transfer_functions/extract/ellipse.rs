@@ -97,7 +97,7 @@ mod tests {
         assert_eq!(circle.bounds(), [[5.0, 15.0], [15.0, 25.0]]);
     }
 
-    /// At the place of a normal the gradient of (x/a)² + (y/b)² + (z/c)² points along it.
+    /// The gradient of (x/a)² + (y/b)² + (z/c)² at the place of a normal points along the normal.
     #[test]
     fn places_have_their_normals() {
         let [a, b, c] = [7.0f64, 3.0, 5.0];

@@ -35,7 +35,7 @@ pub enum ExtractError {
         /// Number of different points in a row.
         found: usize,
     },
-    /// More points than any drawn outline has.
+    /// An outline with more points than any drawn one has.
     #[error("an outline of {found} points: at most {limit} are read")]
     TooManyPoints {
         /// Number of points.

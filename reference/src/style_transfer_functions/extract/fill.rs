@@ -11,10 +11,10 @@ use drypoint_scene::style::is_inside;
 /// Sweeps of Gauss–Seidel a level. The correction from the level below leaves only short waves.
 const SWEEPS: usize = 24;
 
-/// A place of a level.
+/// A texel of one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum TexelState {
-    /// Off the disk.
+    /// A texel off the disk.
     Outside,
     Known(Rgba),
     Unknown,
@@ -70,7 +70,8 @@ fn solve(side: usize, cells: &[TexelState]) -> Option<Vec<Rgba>> {
     Some(colors)
 }
 
-/// The level of half the side: the mean of what is known among four; unknown only where none of them is.
+/// The level of half the side. A texel is the mean of the known ones among four, and unknown only if none of them is
+/// known.
 fn coarser(side: usize, cells: &[TexelState]) -> Vec<TexelState> {
     let half = side.div_ceil(2);
     let merge = |t: usize| {

@@ -344,7 +344,7 @@ mod tests {
         }
     }
 
-    /// On the outline the normal is the outline's; inside N_z > 0, and every normal is a unit vector's.
+    /// The normal on the outline is the outline's. Inside, N_z > 0, and every normal is a unit vector's.
     #[test]
     fn normals_of_any_outline_are_normals() {
         let kidney: Vec<[f64; 2]> = (0..90)

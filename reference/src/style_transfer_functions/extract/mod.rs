@@ -198,9 +198,9 @@ mod tests {
         Region::Outline { points: (0..points).map(point).collect(), depth }
     }
 
-    /// Off the centre and between pixels. Texels are means over squares of side 2/S, which differ from their middles by
-    /// f''(2/S)²/24 < 10⁻³ each way; at the rim a texel's mean is over its part inside, and pixels outside stand in by
-    /// their neighbours: up to a slope of 0.5 times (1/S + 1/r).
+    /// Lookups off the centre and between pixels. Texels are means over squares of side 2/S, which differ from their
+    /// middles by f''(2/S)²/24 < 10⁻³ each way. At the rim a texel's mean is over its part inside, and pixels outside
+    /// are replaced by their neighbours: up to a slope of 0.5 times (1/S + 1/r).
     #[test]
     fn a_sphere_gives_its_style() {
         let (x, y, r) = (97.3, 88.8, 71.4);

@@ -30,7 +30,7 @@ pub(super) struct Payload<'a> {
     pub(super) sizes: &'static str,
     /// Number of voxels.
     pub(super) count: usize,
-    /// Their type.
+    /// The type of the numbers.
     pub(super) voxel_type: VoxelType,
     /// Whether the bytes of a number come highest first.
     pub(super) big_endian: bool,
