@@ -1,4 +1,4 @@
-//! Whole files or none: what is written goes beside the target and is renamed over it.
+//! Whole files or none: output goes to a file beside the target, which is renamed over it.
 //!
 //! A reader never sees half a file, and an error leaves the old file as it was. An interrupt handler calls
 //! [`remove_unfinished`] before it ends the process, so that nothing is left beside the target either.

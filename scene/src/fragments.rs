@@ -1,4 +1,4 @@
-//! Lines inside a picture: what they leave on each of its rays, at its depth ([HATCH-14] d).
+//! Lines inside a picture: their contribution to each of its rays, at its depth ([HATCH-14] d).
 
 use crate::color::Rgb;
 

@@ -1,8 +1,8 @@
-//! The memory budget: bytes that may still be allocated, asked for before anything large is made.
+//! The memory budget: the bytes that may still be allocated.
 //!
 //! A system that promises more memory than it has ends the process when the promise is called in, and an allocation
-//! that fails aborts it. So whatever a file or a key can make large asks [`room`] first, and is refused with what it
-//! would need and what would fit.
+//! that fails aborts the process. Everything that a file or a key can make large therefore asks [`room`] first. A
+//! refusal names the bytes needed and the bytes that would fit.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};

@@ -1,7 +1,7 @@
 //! Philox4x32-10, the counter-based random numbers of [RAY-4].
 //!
 //! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: Parallel random numbers: as easy as 1, 2, 3. SC '11, 2011.
-//! A number is a function of seed and counter alone, so neither threads nor order nor machine show in it.
+//! A number is a function of seed and counter alone. Threads, order and machine do not affect it.
 
 /// The multipliers of the two S-boxes.
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];

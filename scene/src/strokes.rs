@@ -1,5 +1,5 @@
-//! Strokes on surfaces: what hatching and outlines make and pictures draw (Nagy, Schneider and Westermann 2002, 3.2, 4.1;
-//! [HATCH-10]).
+//! Strokes on surfaces, made by hatching and outlines and drawn by pictures (Nagy, Schneider and Westermann 2002, 3.2,
+//! 4.1; [HATCH-10]).
 
 use glam::DVec3;
 

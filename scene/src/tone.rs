@@ -1,9 +1,9 @@
-//! Tone: how much of the paper dots cover, and how many dots a wanted coverage takes ([STIP-17]).
+//! Tone: the share of the paper that dots cover, and the number of dots that a wanted coverage takes ([STIP-17]).
 //!
-//! Dots of the area a at the density λ cover a share of the paper between 1 − e^(−λa), where they lie at random, and
-//! min(1, λa), where none overlap. Evenly spread dots lie between: `IDEAL` has what discs of blue noise cover. A pen prints
-//! more or less than its discs; what it does is measured on a step wedge, a table of wanted and measured coverage, and the
-//! inverse of that table says what to ask for.
+//! Dots of the area a at the density λ cover a share of the paper between 1 − e^(−λa), if they lie at random, and
+//! min(1, λa), if none overlap. Evenly spread dots lie between; `IDEAL` holds the coverage of discs of blue noise. A
+//! pen prints more or less than its discs. Its coverage is measured on a step wedge, a table of wanted and measured
+//! coverage. The inverse of that table gives the coverage to ask for.
 
 use crate::math::pow;
 use crate::memory;

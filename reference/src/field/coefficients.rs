@@ -1,4 +1,4 @@
-//! Numbers of our own on a volume's grid: the coefficients of a B-spline, with a border that continues them.
+//! Numbers on a volume's grid: the coefficients of a B-spline, with a border that continues them.
 
 use super::kernel::bspline;
 use super::place::Place;
@@ -74,7 +74,7 @@ impl<R: Real> Coefficients<R> {
         Self { data, dims, inner, pad, base }
     }
 
-    /// Makes coefficients of samples: solves for those whose spline takes the samples' values, and continues them.
+    /// Makes coefficients of samples: solves for the spline through the samples, and continues its coefficients.
     pub(super) fn prefilter(mut self) -> Self {
         for axis in 0..3 {
             if let Some(filter) = Prefilter::new(self.inner[axis], self.pad) {

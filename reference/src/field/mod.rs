@@ -72,7 +72,7 @@ pub struct Field<'v, R> {
     second: Second<R>,
 }
 
-/// The kernel with what it holds.
+/// The kernel with its data.
 #[derive(Clone, Debug)]
 enum KernelData<R> {
     Trilinear,
@@ -82,7 +82,7 @@ enum KernelData<R> {
     CatmullRom,
 }
 
-/// The estimator of the Hessian with what it holds.
+/// The estimator of the Hessian with its data.
 #[derive(Clone, Debug)]
 enum Second<R> {
     NotPrepared,

@@ -1,4 +1,4 @@
-//! The shading normal ([NORM-1]) and when there is none ([PREC-3]).
+//! The shading normal ([NORM-1]), and the condition under which there is none ([PREC-3]).
 
 use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::tables::Outside;
@@ -25,7 +25,7 @@ impl<A: Arithmetic> Normal<A> {
     }
 }
 
-/// ∓1/‖g‖: what makes the outward normal of a gradient.
+/// ∓1/‖g‖: the factor from a gradient to its outward normal.
 #[inline(always)]
 pub(super) fn outwards<A: Arithmetic>(length: A, outside: Outside) -> A {
     let inverse = length.one() / length;

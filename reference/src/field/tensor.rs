@@ -29,7 +29,7 @@ pub(super) trait Rows<A> {
     fn zero(&self) -> A;
 }
 
-/// Rows of numbers that a function gives.
+/// Rows of numbers from a function.
 pub(super) struct RowsFn<F>(pub F);
 
 impl<R: Real, const N: usize, F: Fn(usize, usize) -> [R; N]> Rows<Numbers<R, N>> for RowsFn<F> {
@@ -163,7 +163,7 @@ pub(super) fn gradient_sums<W: Copy, A: Row<W>, const N: usize>(
     [s00, s10, s01]
 }
 
-/// The gradient from them.
+/// The gradient from the sums s₀₀, s₁₀ and s₀₁.
 #[inline(always)]
 pub(super) fn gradient_of_sums<A: Arithmetic, const N: usize>(
     [s00, s10, s01]: &[[A; N]; 3],
@@ -208,7 +208,7 @@ pub(super) fn second<R: Real, A: Row<R> + Into<[R; N]>, const N: usize>(
     (gradient_of_sums(&[s00, s10, s01], x), hessian)
 }
 
-/// A sum over the 4³ numbers around a cell, whatever holds their rows.
+/// A sum over the 4³ numbers around a cell, for any storage of their rows.
 pub(super) trait Sum<R: Real> {
     /// The type of the sum.
     type Of;

@@ -9,7 +9,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A truth value, or one for each lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
-    /// Whether it is true in some lane. Where it is in none, both widths can leave out what is dear.
+    /// Whether the mask is true in some lane. If it is true in none, both widths can skip expensive steps.
     fn any(self) -> bool;
 
     /// Whether it is true in all lanes.

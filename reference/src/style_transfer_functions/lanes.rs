@@ -9,7 +9,7 @@ use drypoint_scene::tables::Mix;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
 
-/// The styles of each lane, as [`Blend`](super::Blend); w is that of the [`Places`] that they are made from.
+/// The styles of each lane, like [`Blend`](super::Blend). w is that of the [`Places`] from which the blends are made.
 pub(crate) struct Blends {
     /// j₀, or the one style that is shown.
     first: [u32; LANES],

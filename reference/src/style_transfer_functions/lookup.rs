@@ -145,7 +145,7 @@ impl<R: Real> Spheres<R> {
         self.mixed2(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
     }
 
-    /// The mix of what is looked up in each style of two rows.
+    /// The mix of the lookups in each style of two rows.
     #[inline(always)]
     fn mixed2(&self, blend: &Blend2<R>, sft: impl Fn(usize) -> [R; 4]) -> [R; 4] {
         let j = blend.styles();
@@ -192,7 +192,7 @@ impl<R: Real> Spheres<R> {
         self.mixed(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
     }
 
-    /// The mix of what is looked up in each style.
+    /// The mix of the lookups in each style.
     #[inline(always)]
     fn mixed(&self, blend: &Blend<R>, sft: impl Fn(usize) -> [R; 4]) -> [R; 4] {
         let first = sft(blend.j0);

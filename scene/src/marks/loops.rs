@@ -1,7 +1,7 @@
 //! One side of a line without the loops that it makes inside a bend ([HATCH-21]).
 //!
-//! Half a width to the side of a bend whose radius is smaller than that, a side runs back and crosses itself. The loop is
-//! no part of the outline: all of it lies within half a width of the line.
+//! Let a bend have a smaller radius than half the width. Its side then runs back and crosses itself. The loop is no
+//! part of the outline: all of it lies within half a width of the line.
 
 use crate::math;
 use glam::DVec2;

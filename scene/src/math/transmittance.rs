@@ -1,8 +1,8 @@
 //! The logarithm of a transmittance and the way back, for opacity correction ([VAL-4]).
 //!
-//! Written for the arguments that it has, 0 ≤ α < 1 and y ≤ 0, from + − × alone and without a branch, at every [`Width`]
-//! ([PREC-4]). What counts is how soon the result is there, since compositing waits for it: table steps of 2⁻⁷ leave
-//! polynomials so short that both together take half as long as `libm`'s `log1p` and `expm1`.
+//! The series cover the arguments that occur: 0 ≤ α < 1 and y ≤ 0. They use + − × alone, without a branch, at every
+//! [`Width`] ([PREC-4]). Latency counts, since compositing waits for the result. Table steps of 2⁻⁷ leave polynomials
+//! so short that both together take half as long as `libm`'s `log1p` and `expm1`.
 
 use super::Width;
 use super::double::Double;

@@ -1,8 +1,9 @@
-//! The mip chain of a style (4.3; [STF-10]): of this style alone, linear and premultiplied, of its disk alone.
+//! The mip chain of a style (4.3; [STF-10]): of this style alone, linear and premultiplied, over its disk alone.
 //!
-//! Level ℓ has ⌈S/2^ℓ⌉ texels a side, for sides that are no powers of two, too; the last one has one. Its texels share
-//! the picture equally, each is the mean of the part of the disk that it covers, by area, and it belongs to
-//! λ = log₂(S/side): ℓ itself for powers of two, log₂ S for the last level, whose texel is the mean of the disk.
+//! Level ℓ has ⌈S/2^ℓ⌉ texels a side, also for sides that are no powers of two; the last level has one texel. The
+//! texels of a level share the picture equally. Each is the mean, by area, of the part of the disk that it covers. The
+//! level belongs to λ = log₂(S/side): ℓ itself for powers of two, and log₂ S for the last level, whose texel is the
+//! mean of the disk.
 
 use super::Style;
 use super::rim::{extend_rows, is_inside};

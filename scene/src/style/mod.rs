@@ -1,7 +1,7 @@
 //! Lit-sphere pictures ([STF-1], [STF-12]; Bruckner and Gröller 2007, 3.1, after Sloan et al. 2001).
 //!
-//! A style is a square picture of a sphere under orthographic projection, lit as its maker likes. Here it is read,
-//! decoded and made ready for lookups; the lookup itself belongs to a renderer.
+//! A style is a square picture of a sphere under orthographic projection, lit as its maker likes. This module reads and
+//! decodes it and prepares it for lookups. The lookup itself belongs to a renderer.
 
 mod decode;
 mod error;

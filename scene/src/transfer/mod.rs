@@ -1,5 +1,5 @@
-//! Transfer functions over data values and other quantities: piecewise-linear nodes, and what a range of values can make
-//! visible ([RAY-2]).
+//! Transfer functions over data values and other quantities: piecewise-linear nodes, and the visibility of a range of
+//! values ([RAY-2]).
 
 mod table;
 

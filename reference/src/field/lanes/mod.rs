@@ -28,7 +28,8 @@ const MANTISSA: u64 = (1 << 52) - 1;
 pub(crate) trait Packed: Voxel {
     /// Bits of one.
     const BITS: u32;
-    /// The sign bit; 0 for types without one. Flipped, it leaves the number plus the bit's own worth, without a sign.
+    /// The sign bit; 0 for types without one. A number with this bit flipped is the unsigned number plus the value of
+    /// the bit.
     const SIGN: u64;
 
     /// The bits.
@@ -66,7 +67,8 @@ fn word<V: Packed, const N: usize>(row: [V; N]) -> u64 {
     word
 }
 
-/// Bits of a word below those that 2⁵² has as a double, and below a byte that stays 0.
+/// Width of the part of a word that holds numbers, in bits. Above it are a byte that stays 0 and the bits that 2⁵² has
+/// as a double.
 const ROOM: u32 = 40;
 /// Index of the byte that stays 0.
 const NOTHING: u64 = 5;
@@ -130,7 +132,7 @@ fn pairs<V: Packed>(window: &Linear<'_, V>, [(y, z), (next_y, next_z)]: [(usize,
     word(window.row::<2>(x, y, z)) | word(window.row::<2>(x, next_y, next_z)) << (2 * V::BITS)
 }
 
-/// Cells and the ways into them, as [`Place`].
+/// Cells and the fractions in them, like [`Place`].
 #[derive(Clone, Copy)]
 pub(crate) struct Places<S: Simd> {
     cell: Vec3<f64x8<S>>,
@@ -151,7 +153,7 @@ impl<S: Simd> Places<S> {
         Self { cell: Vec3::new(x, y, z), w: [wx, wy, wz] }
     }
 
-    /// One by one.
+    /// The places as scalars, for one lane at a time.
     #[inline(always)]
     pub(crate) fn alone(&self) -> PlaceColumns {
         let [wx, wy, wz] = self.w;
@@ -162,7 +164,7 @@ impl<S: Simd> Places<S> {
     }
 }
 
-/// [`Places`], to be taken one by one.
+/// [`Places`] as scalars, for one lane at a time.
 pub(crate) struct PlaceColumns {
     cell: [[usize; LANES]; 3],
     w: [[f64; LANES]; 3],
@@ -189,19 +191,19 @@ pub(crate) type Seconds<S> = (Vec3<f64x8<S>>, Sym3<f64x8<S>>);
 
 /// Reads a field in lanes.
 pub(crate) trait Reader<S: Simd>: Copy {
-    /// Whether a value is dear: only those are asked for then that may be seen in their cells.
+    /// Whether values are expensive. If so, only values that may be visible in their cells are asked for.
     const DEAR: bool;
 
-    /// The places of positions inside the box; of others the nearest cell, and ways that lead out of it.
+    /// The places of positions inside the box. Positions outside get the nearest cell, and fractions beyond [0, 1].
     fn places(&self, p: Vec3<f64x8<S>>) -> Places<S>;
 
     /// The values at places, of the lanes `asked` at least.
     fn values(&self, at: &Places<S>, asked: mask64x8<S>) -> f64x8<S>;
 
-    /// World gradients, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    /// World gradients, times 2^−e, at the places of `asked`; anything in the other lanes.
     fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>>;
 
-    /// World gradients and Hessians, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    /// World gradients and Hessians, times 2^−e, at the places of `asked`; anything in the other lanes.
     fn seconds(&self, at: &Places<S>, asked: mask64x8<S>) -> Seconds<S>;
 }
 
@@ -243,7 +245,7 @@ fn splat<S: Simd>(simd: S, m: &Mat3<f64>) -> Mat3<f64x8<S>> {
     Mat3 { rows }
 }
 
-/// Reads small whole numbers that are interpolated trilinearly.
+/// A reader of small integers that are interpolated trilinearly.
 #[derive(Clone, Copy)]
 pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
     simd: S,

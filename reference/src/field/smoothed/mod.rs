@@ -40,16 +40,16 @@ pub struct Smoothed<'f, 'v> {
     responses: [Vec<[f64; 2]>; 3],
     /// Squared length of each column of D⁻ᵀ, which converts second derivatives to the world's unit.
     squares: [f64; 3],
-    /// The lowest number, as numbers are read: sums are of what is more.
+    /// The lowest number, as numbers are read: sums run over the differences to it.
     base: f64,
-    /// The standard deviation of one rounding, as numbers are read, to the unit of the derivatives; 0 without rounding.
+    /// The standard deviation of one rounding, as numbers are read, in the unit of the derivatives; 0 without rounding.
     rounding: f64,
 }
 
-/// Smoothed samples of a box, x fastest: those that its cells read.
+/// Smoothed samples of a box, x fastest: the samples that its cells read.
 #[derive(Debug)]
 pub struct Region {
-    /// The first cell; two samples before it is the first.
+    /// The first cell. The first sample lies two before it.
     first: [usize; 3],
     /// Samples along each axis.
     sides: [usize; 3],
@@ -66,7 +66,7 @@ impl Region {
 }
 
 impl<'f, 'v> Smoothed<'f, 'v> {
-    /// σ is in voxels, at most some tens; nothing is smoothed yet.
+    /// Prepares smoothing by σ, in voxels, at most some tens. Nothing is smoothed yet.
     pub fn new(field: &'f Field<'v, f64>, sigma: f64) -> Self {
         let grid = field.volume().grid();
         let (n, spacing) = (grid.dims(), grid.spacing());
@@ -86,8 +86,8 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         Self { field, rows, side, dims, bricks, responses, squares, base: field.stencils.lowest(), rounding }
     }
 
-    /// Gradient and Hessian at a position in index space inside the box of [SPACE-1], in world space, times 2^−e as those of a
-    /// [`Sampler`](super::Sampler).
+    /// Gradient and Hessian at a position in index space inside the box of [SPACE-1]. They are in world space, times
+    /// 2^−e, like those of a [`Sampler`](super::Sampler).
     pub fn derivatives(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>) {
         let at = self.field.cells.locate(index);
         let region = self.brick_of(at.cell);
@@ -120,7 +120,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         [x.min(nx.max(2) - 2), y.min(ny.max(2) - 2), z.min(nz.max(2) - 2)]
     }
 
-    /// The samples that the cell's brick reads, made now if need be.
+    /// The samples that the cell's brick reads, computed on the first request.
     #[inline]
     fn brick_of(&self, [x, y, z]: [usize; 3]) -> &Region {
         let (side, [nx, ny, _]) = (self.side, self.dims);
@@ -202,8 +202,8 @@ mod tests {
         Volume::new(grid, Voxels::U8(voxels), 0.5, -20.0).unwrap()
     }
 
-    /// The central derivatives of a volume of the smoothed samples, each summed by itself, at places two voxels and more from
-    /// the border and on it; some hundred roundings of numbers below 128 over a spacing of ½ squared.
+    /// Central derivatives of a volume of the smoothed samples, each summed by itself, at places at least two voxels
+    /// from the border and on it. The bound is some hundred roundings of numbers below 128 over a spacing of ½ squared.
     #[test]
     fn bricks_are_the_smoothed_grid_s() {
         for (dims, spacing) in [([40, 21, 18], [1.0, 1.0, 1.0]), ([17, 9, 34], [0.5, 2.0, 0.75])] {
@@ -246,7 +246,8 @@ mod tests {
         }
     }
 
-    /// A quadratic keeps its Hessian up to the border, on axes of two samples its slope, and on one of a single sample nothing.
+    /// A quadratic keeps its Hessian up to the border. Axes of two samples keep the slope, and an axis of one sample
+    /// nothing.
     #[test]
     fn quadratics_are_reproduced() {
         for dims in [[12, 9, 7], [11, 2, 1]] {
@@ -327,7 +328,7 @@ mod tests {
         }
     }
 
-    /// Nothing is made before it is asked for, and then one brick of 21³ numbers, or of 37³ for a wide Gaussian.
+    /// No brick is made before it is asked for. Then one of 21³ numbers is made, or of 37³ for a wide Gaussian.
     #[test]
     fn only_what_is_asked_for_is_made() {
         let volume = noise([40; 3], [1.0; 3]);

@@ -35,7 +35,7 @@ pub(super) fn rows(n: usize, half: &[f64]) -> Vec<Row> {
     rows
 }
 
-/// The row next to so many of which these are the nearest ones.
+/// The next row of a line of n, continued from its nearest three rows.
 fn continued(n: usize, near: [&Row; 3]) -> Row {
     let weights = || near.into_iter().filter(|(_, weights)| !weights.is_empty());
     let first = weights().map(|(first, _)| *first).min().unwrap_or(0);

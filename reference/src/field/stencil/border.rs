@@ -1,4 +1,4 @@
-//! Stencils at the border of the grid: what is not stored continues the lines of voxels ([REC-1]).
+//! Stencils at the border of the grid, where lines of voxels are continued ([REC-1]).
 
 use super::{Block, Corners, Cross, Stencils, number};
 use crate::number::Real;
@@ -36,7 +36,7 @@ impl Stencils<'_> {
         }
     }
 
-    /// Reads what is in the grid and continues it outwards along x, then y, then z.
+    /// Reads the voxels that are in the grid and continues them outwards along x, then y, then z.
     #[cold]
     pub(super) fn read_block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         let dims = self.dims();

@@ -1,7 +1,7 @@
 //! The voxels around a cell as numbers of the sample loop.
 //!
-//! A stencil decides once what type is stored, reads all its voxels and hands them on in an array, so that the code
-//! of a sample exists once for each number type and kernel, not once for each of the ten stored types too.
+//! A stencil decides the stored type once, reads all its voxels and hands them on in an array. The code of a sample
+//! then exists once for each number type and kernel, and not for each of the ten stored types too.
 
 mod border;
 
@@ -234,7 +234,7 @@ impl<'v> Stencils<'v> {
         })
     }
 
-    /// The 6³ voxels from the second one before the cell on, [z][y][x]; beyond the border whatever is nearest.
+    /// The 6³ voxels from the second one before the cell on, [z][y][x]; beyond the border the nearest voxel.
     #[inline(never)]
     pub(super) fn large_block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 6]; 6]; 6] {
         let dims = self.dims();

@@ -1,8 +1,8 @@
 //! MetaImage: `.mhd` with the voxels beside it, `.mha` with them behind the header ([IO-1], [SPACE-2]).
 //!
-//! D is `TransformMatrix` × `ElementSpacing`: the first NDims numbers of the matrix are the direction of the first
-//! axis of the voxels, and so on; voxel (0, 0, 0) lies at `Offset`. The world is LPS, as MetaImage's own library has
-//! it; `AnatomicalOrientation` names the voxels' axes, not the world's, so it repeats the matrix and is not read.
+//! D is `TransformMatrix` × `ElementSpacing`. The first NDims numbers of the matrix are the direction of the first axis
+//! of the voxels, and so on; voxel (0, 0, 0) lies at `Offset`. The world is LPS, as in MetaImage's own library.
+//! `AnatomicalOrientation` names the voxels' axes, not the world's. It repeats the matrix and is not read.
 
 use super::data::Payload;
 use super::error::{Fault, ReadError, quoted};
