@@ -269,7 +269,7 @@ mod tests {
     #[test]
     fn a_file_of_that_name_beside_the_target_stays() {
         let folder = tempfile::tempdir().unwrap();
-        // Whatever number comes next, one of these is in its way.
+        // One of these files is in the way of every number that may come next.
         let next = COUNT.load(Ordering::Relaxed);
         let taken = |n| folder.path().join(format!(".drypoint.{}-{n}.part", std::process::id()));
         (next..next + 100).for_each(|n| fs::write(taken(n), b"another's").unwrap());

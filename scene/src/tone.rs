@@ -223,7 +223,7 @@ mod tests {
             let wanted = f64::from(k) / 100.0;
             assert!((tone.coverage(tone.ink(wanted)) - wanted).abs() < 1e-12, "{wanted}");
         }
-        // Of two layers that cover 0.4966 each: 1 − 0.5034².
+        // Two layers that cover 0.4966 each: 1 − 0.5034².
         assert!((tone.coverage_of_layers(1.0, 2.0) - 0.746_588_44).abs() < 1e-8);
         assert!((tone.ink_of_layers(0.746_588_44, 2.0) - 1.0).abs() < 1e-7);
         assert_eq!([tone.ink(0.0), tone.ink(1.0), tone.coverage(9.0)], [0.0, 2.0, 0.9893]);

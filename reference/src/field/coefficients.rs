@@ -170,7 +170,7 @@ impl<R: Real> Coefficients<R> {
     fn sum_in<S: Simd, T: Sum<R>>(&self, simd: S, [x, y, z]: [usize; 3], sum: &T) -> T::Of {
         let [px, py, _] = self.dims;
         let plane = px * py;
-        // As in `rows`.
+        // See `rows`.
         assert!(px <= LONGEST_STRIDE && plane <= LONGEST_STRIDE);
         let window = &self.data[(z * py + y) * px + x..][..3 * (plane + px) + 4];
         sum.over(&RowsOfFour { simd, window, strides: [px, plane] })

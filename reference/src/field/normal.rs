@@ -35,8 +35,8 @@ pub(super) fn outwards<A: Arithmetic>(length: A, outside: Outside) -> A {
     }
 }
 
-/// [`Normal::outward`] of one gradient. The bound is [`Field::no_normal_below`](super::Field::no_normal_below) for gradients
-/// as a field gives them.
+/// The outward unit normal of one gradient; none if ‖g‖ is at most the bound. The bound for a field's gradients is
+/// [`Field::no_normal_below`](super::Field::no_normal_below).
 #[inline(always)]
 pub fn outward<R: Real>(gradient: Vec3<R>, outside: Outside, no_normal_below: R) -> Option<Vec3<R>> {
     let Normal { n, has, .. } = Normal::outward(gradient, outside, no_normal_below);

@@ -173,7 +173,7 @@ mod tests {
         // Eight voxels away a voxel of 8 pixels at depth 1 has one.
         let far = Detail { footprint: Footprint::Perspective(8.0), ..detail(0.0) };
         assert_eq!(far.below_last(8.0, 0.0, 1.0), detail(1.0).below_last(123.0, 0.0, 1.0));
-        // Of f32 the same to its rounding: everything above is a power of two.
+        // f32 agrees up to its rounding: everything above is a power of two.
         let single = Detail {
             curvature_bias: 1f32,
             gradient_bias: 1.0,
@@ -205,7 +205,7 @@ mod tests {
             let found = MipMap::new(&style).sample(&SphereMap::new(&style), 0.4, -0.7, 0.0);
             for c in 0..4 {
                 let mean = inside.iter().map(|t| t[c]).sum::<f64>() / inside.len() as f64;
-                // As many roundings as there are texels, and one to f32.
+                // One rounding for each texel, and one to f32.
                 let bound = inside.len() as f64 * f64::EPSILON + 0.5 * f64::from(f32::EPSILON);
                 assert!((found[c] - mean).abs() <= bound, "{side}");
             }
@@ -274,7 +274,7 @@ mod tests {
             let lookup = |style: &Style| MipMap::<f64>::new(style).sample(&SphereMap::new(style), nx, ny, below);
             prop_assert!(lookup(&noise(side)).iter().all(|v| (0.0..=1.0).contains(v)));
             let constant = lookup(&style(side, |_, _| [c, 1.0, 0.0, 1.0]));
-            // Of n equal numbers the sum rounds n times, and a texel once to f32.
+            // The sum of n equal numbers rounds n times, and a texel once to f32.
             let bound = (side * side) as f64 * f64::EPSILON + 0.5 * f64::from(f32::EPSILON);
             prop_assert!((constant[0] - c).abs() <= bound);
             prop_assert_eq!([constant[1], constant[2], constant[3]], [1.0, 0.0, 1.0]);

@@ -25,7 +25,7 @@ pub(super) fn without_loops(side: &[OffsetPoint], line: &[(DVec2, f64)]) -> Vec<
                     break;
                 }
                 let Some(place) = crossing([from.0, out[j + 1].0], [last.0, at]) else { continue };
-                // What winds to the right where the line does not is none of its own loops.
+                // A part that winds to the right although the line does not is a loop of the side, not of the line.
                 let turned = turns[i] - turns[from.1];
                 if turned > -FRAC_PI_2 && area(place, &out[j + 1..]) < 0.0 {
                     cut = Some((j, place));

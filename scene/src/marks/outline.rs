@@ -30,7 +30,7 @@ pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bo
     }
     let closed = closed && line.first().zip(line.last()).is_some_and(|(a, b)| a.0 != b.0) && line.len() > 2;
     if closed {
-        // It begins where it is straightest: no loop goes over its beginning.
+        // A closed line begins where it is straightest, so that no loop goes over its beginning.
         let n = line.len();
         let bent = |i: usize| towards(line[(i + n - 1) % n], line[i]).dot(towards(line[i], line[(i + 1) % n]));
         let first = (0..n).max_by(|&i, &j| bent(i).total_cmp(&bent(j))).unwrap_or(0);

@@ -47,7 +47,7 @@ struct MachinedPart {
 
 /// Exact distance to a box, positive inside.
 fn cuboid<S: Scalar>(p: [S; 3], [lo, hi]: Corners, s: f64) -> S {
-    // How far outside the slab of each axis.
+    // Distance outside the slab of each axis.
     let q: [S; 3] = std::array::from_fn(|i| (p[i] - 0.5 * (lo[i] + hi[i]) * s).abs() - 0.5 * (hi[i] - lo[i]) * s);
     let most = q[0].max(q[1]).max(q[2]);
     if most.real() <= 0.0 {

@@ -245,7 +245,7 @@ fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl
     let first = if at.get(below).is_some_and(|&a| rounded(a) == lo) { below } else { below.saturating_sub(1) };
     let above = at.partition_point(|&a| rounded(a) <= hi);
     let last = if above > 0 && rounded(at[above - 1]) == hi { above - 1 } else { above.min(end) };
-    // Of a range of nothing, from ∞ to −∞, there is none.
+    // An empty range, from ∞ to −∞, has no node.
     opacity.get(first..=last).is_some_and(|between| between.iter().any(|&a| a > 0.0))
 }
 
@@ -391,7 +391,7 @@ mod tests {
         assert!(!visible(0.0, 0.0) && !visible(-5.0, 0.0) && !visible(20.0, 20.0) && !visible(20.0, 25.0));
         let least = f64::MIN_POSITIVE;
         assert!(visible(0.0, least) && visible(-5.0, least) && visible(20f64.next_down(), 20.0) && visible(10.0, 10.0));
-        // Of nodes at one value any may hold at an end.
+        // Any of several nodes at one value may count at an end.
         assert!(can_be_visible(&[5.0; 3], &[0.0, 0.5, 0.0], [5.0; 2]));
     }
 

@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(present.voxels(), &Voxels::U8(vec![0, 0, 1, 1]));
         assert_eq!((present.range(), present.value([1, 1, 0])), ([0.0, 1.0], 1.0));
         assert_eq!(present.anatomy(), Some(Anatomy::RightAnteriorSuperior));
-        // It is its own: what is present stays so.
+        // A volume of 0 and 1 is its own `present`.
         assert_eq!(present.present().voxels(), present.voxels());
         // The mask of what was not finite stays.
         let holes = Volume::new(grid, Voxels::F32(vec![1.0, f32::NAN, 0.0, -1.0]), 1.0, 0.0).unwrap().present();

@@ -325,7 +325,7 @@ impl<V: Voxel> Access for Linear<'_, V> {
 
     #[inline(always)]
     fn window<const S: usize>(&self, x: usize, y: usize, z: usize) -> Self {
-        // Not `offset`: of two independent products the compiler makes a slow vector.
+        // `offset` is avoided: the compiler makes a slow vector of its two independent products.
         self.window_at::<S>((z * self.dims[1] + y) * self.dims[0] + x)
     }
 

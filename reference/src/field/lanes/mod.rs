@@ -340,7 +340,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     /// Interpolates between two numbers, both raised.
     #[inline(always)]
     fn between(&self, a: f64x8<S>, b: f64x8<S>, w: f64x8<S>) -> f64x8<S> {
-        // As `lerp`; whole numbers so small have exact differences.
+        // The formula of `lerp`: integers this small have exact differences.
         (a - (TO_BITS + V::SIGN as f64)) + w * (b - a)
     }
 

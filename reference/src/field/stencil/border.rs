@@ -72,7 +72,7 @@ impl Stencils<'_> {
     fn pushed_inside<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         let dims = self.dims();
         let mut start = [0; 3];
-        // Which of the four that are read is the one before the cell, or nearest to it.
+        // For each tap, the index of its voxel, or of the nearest one, among the four that are read.
         let mut places = [[0; 4]; 3];
         for a in 0..3 {
             start[a] = cell[a].saturating_sub(1).min(dims[a] - 4);

@@ -172,7 +172,7 @@ proptest! {
         let wide = Field::<f64>::new(&v, how, Rung::Hessian).unwrap();
         let narrow = Field::<f32>::new(&v, how, Rung::Hessian).unwrap();
         for p in positions(v.grid(), 20) {
-            // The same position in both: one that f32 holds.
+            // One position for both, which f32 can represent.
             let q = Vec3::new(p.x as f32, p.y as f32, p.z as f32);
             let p = Vec3::new(f64::from(q.x), f64::from(q.y), f64::from(q.z));
             let (a, ga, (_, ha)) = with_sampler!(wide, |s| (s.value(p), s.gradient(p), s.hessian(p)));

@@ -34,7 +34,7 @@ impl Polygon {
         }
         // Points that differ from the one before.
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(given.len());
-        // Which of the given points each is, for messages.
+        // Index of each point among those given, for messages.
         let mut kept = Vec::with_capacity(given.len());
         for (k, &[x, y]) in given.iter().enumerate() {
             let point = [number(format!("x of point {}", k + 1), x)?, number(format!("y of point {}", k + 1), y)?];
