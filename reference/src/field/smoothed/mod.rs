@@ -149,7 +149,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
     }
 
     /// w_σ in a cell: the root sum of squares of the weights of a second derivative along an axis, in the world's unit.
-    /// It is the largest over the axes and the cell's corners.
+    /// The result is the largest over the axes and the cell's corners.
     #[inline]
     fn response(&self, cell: [usize; 3]) -> f64 {
         let at = |a: usize| {

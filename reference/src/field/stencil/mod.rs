@@ -309,7 +309,7 @@ fn number<R: Real, V: Voxel>(voxel: V, scale: f64) -> R {
 }
 
 /// The exponent taken out of stored numbers so that their sums and differences neither overflow nor become subnormal.
-/// It is 0 unless they come near the ends of the number type, which only floating-point voxels can.
+/// The exponent is 0 unless numbers come near the ends of the number type, which only floating-point voxels can.
 fn exponent<R: Real>(volume: &Volume) -> i32 {
     let voxels = volume.voxels();
     let far = match voxels.voxel_type() {
