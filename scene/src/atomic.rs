@@ -1,4 +1,4 @@
-//! Whole files or none: what is written goes beside the target and is renamed over it.
+//! Whole files or none: output goes to a file beside the target, which is renamed over it.
 //!
 //! A reader never sees half a file, and an error leaves the old file as it was. An interrupt handler calls
 //! [`remove_unfinished`] before it ends the process, so that nothing is left beside the target either.
@@ -16,38 +16,38 @@ static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 /// Numbers the files of this process.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-/// Makes `path` hold what `fill` writes, replacing what is there, at once or not at all.
+/// Makes `path` hold what `fill` writes, at once or not at all; an existing file is replaced.
 ///
-/// A symbolic link is followed. A file that is replaced keeps its permissions. A target that is no regular file (a pipe,
-/// `/dev/null`) is written directly, since it must not be replaced by a file.
+/// A symbolic link is followed. A file that is replaced keeps its permissions. A target that is no regular file (a
+/// pipe, `/dev/null`) is written directly, since a file must not replace it.
 ///
 /// # Errors
-/// A file that may not be written to, or whatever the operating system refuses or `fill` returns; the target is then as
+/// A file that may not be written to, any error of the operating system, and any error of `fill`. The target is then as
 /// it was.
 pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) -> Result<(), E>) -> Result<(), E> {
     let (target, permissions) = match Target::of(path)? {
         Target::Direct => return filled(File::create(path)?, fill),
         Target::File(target, permissions) => (target, permissions),
     };
-    let (beside, file) = Beside::create(&target)?;
+    let (beside, file) = PartFile::create(&target)?;
     // Before the first byte, so that a private file is private while it is written.
     permissions.map_or(Ok(()), |permissions| file.set_permissions(permissions))?;
     filled(file, fill)?;
     Ok(fs::rename(&beside.path, &target)?)
 }
 
-/// Whether [`write()`] could begin now: asked before long work, so that it is not done in vain. Leaves no trace.
+/// Whether [`write()`] could begin now. Asked before long work, so that the work is not done in vain. Leaves no trace.
 ///
 /// # Errors
-/// As [`write()`].
+/// See [`write()`].
 pub fn check(path: &Path) -> io::Result<()> {
     match Target::of(path)? {
         Target::Direct => Ok(()),
-        Target::File(target, _) => Beside::create(&target).map(drop),
+        Target::File(target, _) => PartFile::create(&target).map(drop),
     }
 }
 
-/// What to do where [`write()`] or [`check`] was refused, in one line.
+/// The remedy for an error of [`write()`] or [`check`], in one line.
 pub fn remedy(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::IsADirectory => "give the name of a file, such as one in that folder",
@@ -80,7 +80,7 @@ fn filled<E: From<io::Error>>(file: File, fill: impl FnOnce(&mut dyn Write) -> R
     Ok(out.flush()?)
 }
 
-/// What stands under the name that is to be written.
+/// The kind of file at the path to be written.
 enum Target {
     /// A pipe or a device.
     Direct,
@@ -119,11 +119,11 @@ fn may_be_written(path: &Path, permissions: &Permissions) -> io::Result<()> {
 }
 
 /// A file beside the target, of which nothing is left when the write ends in any way.
-struct Beside {
+struct PartFile {
     path: PathBuf,
 }
 
-impl Beside {
+impl PartFile {
     fn create(target: &Path) -> io::Result<(Self, File)> {
         if target.file_name().is_none() {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "it names no file"));
@@ -147,7 +147,7 @@ impl Beside {
     }
 }
 
-impl Drop for Beside {
+impl Drop for PartFile {
     fn drop(&mut self) {
         // After the rename there is nothing of that name, and this does nothing.
         let _ = fs::remove_file(&self.path);
@@ -269,7 +269,7 @@ mod tests {
     #[test]
     fn a_file_of_that_name_beside_the_target_stays() {
         let folder = tempfile::tempdir().unwrap();
-        // Whatever number comes next, one of these is in its way.
+        // One of these files is in the way of every number that may come next.
         let next = COUNT.load(Ordering::Relaxed);
         let taken = |n| folder.path().join(format!(".drypoint.{}-{n}.part", std::process::id()));
         (next..next + 100).for_each(|n| fs::write(taken(n), b"another's").unwrap());

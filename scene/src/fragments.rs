@@ -1,15 +1,15 @@
-//! Lines inside a picture: what they leave on each of its rays, at its depth ([HATCH-14] d).
+//! Lines inside a picture: their contribution to each of its rays, at its depth ([HATCH-14] d).
 
 use crate::color::Rgb;
 
-/// What a line covers of the part of a pixel that a ray stands for.
+/// The part of a line in the share of a pixel that one ray stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fragment {
     /// Eye depth.
     pub depth: f64,
-    /// Linear, straight.
+    /// The colour: linear, straight.
     pub rgb: Rgb,
-    /// In (0, 1]: the share that is covered, times the line's opacity.
+    /// The share that is covered, times the line's opacity, in (0, 1].
     pub opacity: f64,
 }
 
@@ -20,14 +20,14 @@ pub struct Fragments {
     rays: [usize; 2],
     /// n.
     samples: usize,
-    /// Where each ray's begin, and the end of all.
+    /// The index of each ray's first fragment in `all`, and the end of the last.
     starts: Vec<usize>,
     all: Vec<Fragment>,
 }
 
 impl Fragments {
-    /// The fragments of a picture of `size` pixels of `samples`² rays, each with the number of its ray, row by row. On each ray
-    /// they are ordered from the nearest to the farthest, equal depths as they come.
+    /// The fragments of a picture of `size` pixels of `samples`² rays, each with the number of its ray, row by row. On
+    /// each ray they are ordered from the nearest to the farthest; equal depths keep their order in `found`.
     pub fn new(size: [usize; 2], samples: usize, found: &[(usize, Fragment)]) -> Self {
         let rays = size.map(|n| n * samples);
         let mut starts = vec![0; rays[0] * rays[1] + 1];
@@ -51,7 +51,7 @@ impl Fragments {
         Self { rays, samples, starts, all }
     }
 
-    /// Those of the ray through a point of the picture, in pixels from the top left corner.
+    /// The fragments of the ray through a point of the picture, in pixels from the top left corner.
     pub fn at(&self, point: [f64; 2]) -> &[Fragment] {
         let [column, row] = point.map(|x| (x * self.samples as f64) as usize);
         let ray = row * self.rays[0] + column;
@@ -59,7 +59,7 @@ impl Fragments {
         if inside { &self.all[self.starts[ray]..self.starts[ray + 1]] } else { &[] }
     }
 
-    /// How many there are.
+    /// Number of fragments.
     pub fn len(&self) -> usize {
         self.all.len()
     }
@@ -69,7 +69,7 @@ impl Fragments {
         self.all.is_empty()
     }
 
-    /// What they take.
+    /// Bytes in memory.
     pub fn bytes(&self) -> usize {
         size_of_val(self.starts.as_slice()) + size_of_val(self.all.as_slice())
     }

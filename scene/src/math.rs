@@ -1,9 +1,9 @@
-//! The one place that transcendental functions come from ([PREC-4]).
+//! The only source of transcendental functions ([PREC-4]).
 //!
-//! All are those of the pure-Rust `libm` or our own over `+ − × ÷`, so that the same scene gives the same bits on every
-//! IEEE 754 machine. `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
+//! All functions are from the pure-Rust `libm` or our own over `+ − × ÷`, so that the same scene gives the same bits on
+//! every IEEE 754 machine. `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
 //!
-//! The series of our own are written once, over a [`Width`]: for one number, and for the vector registers of another crate.
+//! Our own series are written once, over a [`Width`]: for one number, and for the vector registers of another crate.
 
 use std::ops::Mul;
 

@@ -1,8 +1,8 @@
-//! The memory budget: bytes that may still be allocated, asked for before anything large is made.
+//! The memory budget: the bytes that may still be allocated.
 //!
 //! A system that promises more memory than it has ends the process when the promise is called in, and an allocation
-//! that fails aborts it. So whatever a file or a key can make large asks [`room`] first, and is refused with what it
-//! would need and what would fit.
+//! that fails aborts the process. Everything that a file or a key can make large therefore asks [`room`] first. A
+//! refusal names the bytes needed and the bytes that would fit.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
@@ -39,8 +39,8 @@ impl NoRoom {
         [a.min((most / b).max(1)), b.min((most / a).max(1))]
     }
 
-    /// Returns the least length that fits, rounded up to three digits, when one of `length` needs [`NoRoom::needed`] and the
-    /// need grows with its inverse; none if nothing fits.
+    /// Returns the least length that fits, rounded up to three digits; none if nothing fits. A length of `length` needs
+    /// [`NoRoom::needed`], and the need grows with the inverse of the length.
     pub fn enlarged(&self, length: f64) -> Option<f64> {
         let fits = length * (self.needed as f64 / self.free as f64).max(1.0);
         let unit = 10f64.powf(fits.log10().floor() - 2.0);
@@ -72,10 +72,11 @@ pub fn limit(bytes: u64) {
     LIMIT.store(bytes, Ordering::Relaxed);
 }
 
-/// Checks that so many bytes could be had now: the budget allows them, the system has them, the allocator gives them.
+/// Checks that so many bytes are available now: the budget allows them, the system has them, and the allocator gives
+/// them.
 ///
 /// # Errors
-/// The bytes that are needed and those that are free.
+/// The number of bytes needed and the number that are free.
 pub fn room(needed: u64) -> Result<(), NoRoom> {
     let free = free().unwrap_or(u64::MAX);
     let given = |bytes: u64| usize::try_from(bytes).is_ok_and(|n| Vec::<u8>::new().try_reserve_exact(n).is_ok());
@@ -97,13 +98,13 @@ pub fn room(needed: u64) -> Result<(), NoRoom> {
 /// Checks that `n` items of `each` bytes could be had now.
 ///
 /// # Errors
-/// As [`room`].
+/// See [`room`].
 pub fn room_for(n: u64, each: u64) -> Result<(), NoRoom> {
     room(n.saturating_mul(each))
 }
 
-/// A reader that asks the memory budget for what its content will take: before the first byte, and again before what
-/// was read can double. A file or a pipe without an end is an error of [`ErrorKind::OutOfMemory`].
+/// A reader that asks the memory budget for the space of its content: before the first byte, and again before the
+/// content read can double. A file or a pipe without an end is an error of [`ErrorKind::OutOfMemory`].
 #[derive(Debug)]
 pub struct Metered<R> {
     inner: R,
@@ -154,7 +155,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// Reads a whole file of UTF-8 within the memory budget.
 ///
 /// # Errors
-/// As [`read`], and [`ErrorKind::InvalidData`] for bytes that are not UTF-8.
+/// The errors of [`read`], and [`ErrorKind::InvalidData`] for bytes that are not UTF-8.
 pub fn read_to_string(path: &Path) -> io::Result<String> {
     String::from_utf8(read(path)?).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not text in UTF-8"))
 }

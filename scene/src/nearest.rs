@@ -1,7 +1,7 @@
 //! The known name that a misspelt one probably meant ([SCN-4]).
 
-/// The name with the fewest slips: characters changed, added, left out, or two neighbours swapped; capitals do not
-/// count. At most a third of the longer name may be slips, one always may; ties go to the first.
+/// The name with the fewest slips: characters changed, added, left out, or two neighbours swapped. Capitals do not
+/// count. At most a third of the longer name may be slips, but one slip is always allowed. Ties go to the first name.
 pub(crate) fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let slips = |name: &str| {
         let allowed = (wanted.chars().count().max(name.chars().count()) / 3).max(1);

@@ -1,11 +1,11 @@
 //! Philox4x32-10, the counter-based random numbers of [RAY-4].
 //!
 //! J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw: Parallel random numbers: as easy as 1, 2, 3. SC '11, 2011.
-//! A number is a function of seed and counter alone, so neither threads nor order nor machine show in it.
+//! A number is a function of seed and counter alone. Threads, order and machine do not affect it.
 
 /// The multipliers of the two S-boxes.
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
-/// What is added to the key after each round: the golden ratio and √3 − 1 as fractions of 2³².
+/// The constants added to the key after each round: the golden ratio and √3 − 1 as fractions of 2³².
 const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 
 /// The four words of a counter under a key.

@@ -8,23 +8,23 @@ use glam::DVec3;
 /// The k-th voxel's points are `offsets[k·each .. (k + 1)·each]`, 12 bytes each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
-    /// Where the voxels lie: the volume's grid, or that of its boxes ([STIP-2]).
+    /// The grid of the voxels: the volume's, or that of its boxes ([STIP-2]).
     pub grid: Grid,
     /// Points of each voxel: N_max ([STIP-3]), or the next whole number where `full` is none.
     pub each: usize,
-    /// How many of them T = 1 stands for: all, or less than one fewer with `k_max = "auto"` ([STIP-17]) and in thin layers
-    /// of voxels that are not cubes ([STIP-4]).
+    /// Number of a voxel's points that T = 1 stands for: all of them, or less than one fewer with `k_max = "auto"`
+    /// ([STIP-17]) and in thin layers of voxels that are not cubes ([STIP-4]).
     pub full: f64,
     /// The voxels that have points, in ascending linear order.
     pub voxels: Vec<PointVoxel>,
-    /// From the voxel's centre to the point, in index space.
+    /// The vector from the voxel's centre to the point, in index space.
     pub offsets: Vec<[f32; 3]>,
 }
 
 /// A voxel that has points, with what the factors of a frame read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointVoxel {
-    /// Its place in the grid.
+    /// The voxel's place in the grid.
     pub cell: [u32; 3],
     /// V_i in [0, 1]: the smoothed value, normalized by the volume's range ([STIP-1]).
     pub value: f64,

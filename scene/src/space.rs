@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-/// Where the voxels of a volume lie: dims, and the affine map `world = D · index + origin`.
+/// The position of a volume's voxels: dims, and the affine map `world = D · index + origin`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     dims: [usize; 3],
@@ -61,7 +61,7 @@ impl Grid {
     /// An axis-aligned grid with the given spacings and voxel (0, 0, 0) at the world's origin.
     ///
     /// # Errors
-    /// As [`Grid::new`].
+    /// See [`Grid::new`].
     pub fn with_spacing(dims: [usize; 3], spacing: [f64; 3]) -> Result<Self, SpaceError> {
         Self::new(dims, DMat3::from_diagonal(DVec3::from_array(spacing)), DVec3::ZERO)
     }
@@ -109,7 +109,7 @@ impl Grid {
         self.inverse * (world - self.origin)
     }
 
-    /// The same grid in a world whose axes point the other way where `signs` has −1, to the last bit.
+    /// The grid in a world whose axes are reversed where `signs` has −1, exact to the last bit.
     pub(crate) fn flipped(&self, signs: DVec3) -> Self {
         let flip = DMat3::from_diagonal(signs);
         Self { axes: flip * self.axes, inverse: self.inverse * flip, origin: signs * self.origin, ..self.clone() }

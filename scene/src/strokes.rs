@@ -1,12 +1,12 @@
-//! Strokes on surfaces: what hatching and outlines make and pictures draw (Nagy, Schneider and Westermann 2002, 3.2, 4.1;
-//! [HATCH-10]).
+//! Strokes on surfaces, made by hatching and outlines and drawn by pictures (Nagy, Schneider and Westermann 2002, 3.2,
+//! 4.1; [HATCH-10]).
 
 use glam::DVec3;
 
 /// A place on a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrokeVertex {
-    /// In world units.
+    /// The position, in world units.
     pub world: DVec3,
     /// The outward normal N there, of length 1, in world space.
     pub normal: DVec3,
@@ -17,16 +17,16 @@ pub struct StrokeVertex {
 /// A curve on an iso-surface, as straight segments between its vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stroke {
-    /// From the tail, at least two. A closed one does not repeat its first.
+    /// The vertices from the tail on, at least two. A closed stroke does not repeat its first vertex.
     pub vertices: Vec<StrokeVertex>,
     /// Whether the last vertex is joined to the first.
     pub closed: bool,
-    /// What its random numbers are drawn by ([RAY-4]): the index of the cell that it grew from.
+    /// The key of the stroke's random numbers ([RAY-4]): the index of the cell that the stroke grew from.
     pub key: u64,
 }
 
 impl Stroke {
-    /// Its length, in world units.
+    /// The stroke's length, in world units.
     pub fn length(&self) -> f64 {
         let along = self.vertices.windows(2).map(|pair| pair[0].world.distance(pair[1].world)).sum::<f64>();
         match self.vertices.as_slice() {

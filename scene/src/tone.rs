@@ -1,9 +1,9 @@
-//! Tone: how much of the paper dots cover, and how many dots a wanted coverage takes ([STIP-17]).
+//! Tone: the share of the paper that dots cover, and the number of dots that a wanted coverage takes ([STIP-17]).
 //!
-//! Dots of the area a at the density λ cover a share of the paper between 1 − e^(−λa), where they lie at random, and
-//! min(1, λa), where none overlap. Evenly spread dots lie between: `IDEAL` has what discs of blue noise cover. A pen prints
-//! more or less than its discs; what it does is measured on a step wedge, a table of wanted and measured coverage, and the
-//! inverse of that table says what to ask for.
+//! Dots of the area a at the density λ cover a share of the paper between 1 − e^(−λa), if they lie at random, and
+//! min(1, λa), if none overlap. Evenly spread dots lie between; `IDEAL` holds the coverage of discs of blue noise. A
+//! pen prints more or less than its discs. Its coverage is measured on a step wedge, a table of wanted and measured
+//! coverage. The inverse of that table gives the coverage to ask for.
 
 use crate::math::pow;
 use crate::memory;
@@ -21,14 +21,14 @@ const STEP: f64 = 0.125;
 /// The coverage that T = 1 stands for where tone is asked for: beyond it the last gaps close, and take many dots.
 pub const FULL: f64 = 0.9;
 
-/// What a pen prints on its paper.
+/// The tone curve of a pen on its paper: printed coverage over wanted coverage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tone {
     /// Wanted and measured coverage: the first ascends, the second does not descend.
     rows: Vec<[f64; 2]>,
 }
 
-/// What is wrong with a step wedge.
+/// A fault of a step wedge.
 #[derive(Debug, thiserror::Error)]
 pub enum ToneError {
     /// The file cannot be read.
@@ -46,7 +46,7 @@ pub enum ToneError {
         path: PathBuf,
         /// Number of the line, from 1.
         line: u64,
-        /// What is wrong.
+        /// The fault.
         fault: String,
     },
 }
@@ -67,12 +67,12 @@ impl Tone {
         Self { rows: vec![[0.0, 0.0], [1.0, 1.0]] }
     }
 
-    /// From rows of wanted and measured coverage. Where a measured one is lower than one before it, both become their mean
-    /// (the pool of adjacent violators), so that more that is wanted is never less.
+    /// The curve through rows of wanted and measured coverage. A measured value lower than one before it is pooled:
+    /// both become their mean (the pool of adjacent violators). More wanted coverage then never prints less.
     ///
     /// # Errors
-    /// The number of a row, from 0, and what is wrong with it: a number outside [0, 1], or a wanted one that does not
-    /// ascend. Fewer than two rows are told of the row after the last.
+    /// The number of a row, from 0, and its fault: a number outside [0, 1], or a wanted coverage that does not ascend.
+    /// If there are fewer than two rows, the row after the last is reported.
     pub fn from_rows(rows: &[[f64; 2]]) -> Result<Self, (usize, String)> {
         for (i, row) in rows.iter().enumerate() {
             if let Some(x) = row.iter().find(|x| !(0.0..=1.0).contains(*x)) {
@@ -148,18 +148,18 @@ impl Tone {
         &self.rows
     }
 
-    /// What the pen prints where `wanted` is asked for.
+    /// The coverage that the pen prints if `wanted` is asked for.
     pub fn printed(&self, wanted: f64) -> f64 {
         along(&self.rows, wanted, 0)
     }
 
-    /// What to ask for where `coverage` is to be printed: the inverse. The least of several; the last row's where the pen
-    /// prints less.
+    /// The coverage to ask for so that `coverage` is printed: the inverse of [`printed`](Self::printed). It is the
+    /// least of several, and the last row's if the pen prints less.
     pub fn asked(&self, coverage: f64) -> f64 {
         along(&self.rows, coverage, 1)
     }
 
-    /// What dots of λa cover.
+    /// The coverage of dots of λa.
     pub fn coverage(&self, ink: f64) -> f64 {
         self.printed(ideal(ink))
     }
@@ -174,8 +174,8 @@ impl Tone {
 }
 
 impl Tone {
-    /// What dots of λa cover that lie in so many layers, each even and none in step with another: 1 − (1 − c)^layers, c the
-    /// coverage of one.
+    /// The coverage of dots of λa in so many layers, each even and none in step with another: 1 − (1 − c)^layers, c the
+    /// coverage of one layer.
     pub fn coverage_of_layers(&self, ink: f64, layers: f64) -> f64 {
         1.0 - pow(1.0 - self.coverage(ink / layers), layers)
     }
@@ -211,7 +211,7 @@ fn along(rows: &[[f64; 2]], x: f64, column: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Between no overlap and random places, and never less for more.
+    /// The coverage lies between those of dots without overlap and of random places, and more ink never covers less.
     #[test]
     fn discs_cover_what_they_can() {
         for (i, pair) in IDEAL.windows(2).enumerate() {
@@ -223,7 +223,7 @@ mod tests {
             let wanted = f64::from(k) / 100.0;
             assert!((tone.coverage(tone.ink(wanted)) - wanted).abs() < 1e-12, "{wanted}");
         }
-        // Of two layers that cover 0.4966 each: 1 − 0.5034².
+        // Two layers that cover 0.4966 each: 1 − 0.5034².
         assert!((tone.coverage_of_layers(1.0, 2.0) - 0.746_588_44).abs() < 1e-8);
         assert!((tone.ink_of_layers(0.746_588_44, 2.0) - 1.0).abs() < 1e-7);
         assert_eq!([tone.ink(0.0), tone.ink(1.0), tone.coverage(9.0)], [0.0, 2.0, 0.9893]);

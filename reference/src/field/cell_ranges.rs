@@ -1,5 +1,5 @@
-//! What values a kernel can return in each cell of a brick ([RAY-2]): closer than the brick's range by far where the field is
-//! steep.
+//! Ranges of the values that a kernel can return in each cell of a brick ([RAY-2]). Where the field is steep they are
+//! far narrower than the brick's range.
 
 use super::{Field, KernelData, ranges};
 use crate::number::Real;
@@ -15,8 +15,8 @@ const MOST: usize = BRICK + 5;
 type Extremes = [[[[f64; 2]; MOST]; MOST]; MOST];
 
 impl<R: Real> Field<'_, R> {
-    /// For each cell of a brick, x fastest, a range of values that no sample in it leaves; those of cells beyond the last are
-    /// of none.
+    /// Ranges of values that no sample leaves, one for each cell of a brick, x fastest. Ranges of cells beyond the last
+    /// cell describe no sample.
     pub(crate) fn cell_ranges(&self, brick: [usize; 3]) -> [[f64; 2]; CELLS] {
         let first = brick.map(|i| i * BRICK);
         let mut numbers: Extremes = [[[[0.0; 2]; MOST]; MOST]; MOST];
@@ -45,7 +45,7 @@ fn put(numbers: &mut Extremes, [x, y, z]: [usize; 3], number: f64) {
     numbers[z][y][x] = [number; 2];
 }
 
-/// From numbers to the extremes of `taps` of them on each axis, from each of the first [`BRICK`] on.
+/// Replaces numbers by the extremes of `taps` of them on each axis, starting at each of the first [`BRICK`].
 fn closed(numbers: &mut Extremes, side: usize, taps: usize) {
     let join = |[lo, hi]: [f64; 2], [a, b]: [f64; 2]| [lo.min(a), hi.max(b)];
     for plane in &mut numbers[..side] {

@@ -1,10 +1,10 @@
-//! Numbers of our own on a volume's grid: the coefficients of a B-spline, with a border that continues them.
+//! Numbers on a volume's grid: the coefficients of a B-spline, with a border that continues them.
 
 use super::kernel::bspline;
 use super::place::Place;
 use super::prefilter::Prefilter;
 use super::stencil::{Stencils, beyond};
-use super::tensor::{self, Given, Rows, Sum};
+use super::tensor::{self, Rows, RowsFn, Sum};
 use super::voxel_hessian::of_spline;
 use crate::number::lanes::wide;
 use crate::number::{Real, Sym3, Vec3};
@@ -12,10 +12,10 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
 
-/// Coefficients less a constant, x fastest, with as many beyond each border as the spline reaches.
+/// Coefficients minus a constant, x fastest, padded beyond each border by the reach of the spline.
 ///
-/// The constant, the lowest voxel, is added to values again. So a constant volume has the coefficients 0, and whole
-/// numbers with a constant added have the same bits.
+/// The constant is the lowest voxel and is added to values again. A constant volume therefore has coefficients 0.
+/// Adding a constant to integers changes no bit of them.
 #[derive(Clone, Debug)]
 pub(super) struct Coefficients<R> {
     data: Vec<R>,
@@ -29,14 +29,14 @@ pub(super) struct Coefficients<R> {
 }
 
 /// Rows of four coefficients.
-struct Fours<'c, S, R> {
+struct RowsOfFour<'c, S, R> {
     simd: S,
     window: &'c [R],
-    /// From a row to the next one along y and along z.
+    /// Steps in `window` from a row to the next one along y and along z.
     strides: [usize; 2],
 }
 
-impl<S: Simd, R: Real> Rows<R::Four<S>> for Fours<'_, S, R> {
+impl<S: Simd, R: Real> Rows<R::Four<S>> for RowsOfFour<'_, S, R> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> R::Four<S> {
         let from = k * self.strides[1] + j * self.strides[0];
@@ -50,7 +50,7 @@ impl<S: Simd, R: Real> Rows<R::Four<S>> for Fours<'_, S, R> {
     }
 }
 
-/// In 32 bits 2²⁸ numbers a plane.
+/// The largest stride of rows and planes: 2²⁸ numbers where addresses have 32 bits.
 const LONGEST_STRIDE: usize = usize::MAX >> 4;
 
 impl<R: Real> Coefficients<R> {
@@ -74,7 +74,7 @@ impl<R: Real> Coefficients<R> {
         Self { data, dims, inner, pad, base }
     }
 
-    /// Makes coefficients of samples: solves for those whose spline takes the samples' values, and continues them.
+    /// Makes coefficients of samples: solves for the spline through the samples, and continues its coefficients.
     pub(super) fn prefilter(mut self) -> Self {
         for axis in 0..3 {
             if let Some(filter) = Prefilter::new(self.inner[axis], self.pad) {
@@ -89,8 +89,8 @@ impl<R: Real> Coefficients<R> {
         self
     }
 
-    /// Samples replaced by sums over their line along one axis: `rows` has for each sample of a line the first one that
-    /// its sum takes and the weights from there on.
+    /// Replaces each sample by a weighted sum over its line along one axis. `rows` holds, for each sample of a line,
+    /// the first sample of its sum and the weights from there on.
     pub(super) fn convolve(mut self, axis: usize, rows: &[(usize, Vec<R>)]) -> Self {
         let [px, py, _] = self.dims;
         let stride = [1, px, px * py][axis];
@@ -127,7 +127,7 @@ impl<R: Real> Coefficients<R> {
         self
     }
 
-    /// What is added to the spline of the coefficients to make a value.
+    /// The constant that is added to the spline of the coefficients to make a value.
     #[inline(always)]
     pub(super) fn base(&self) -> R {
         self.base
@@ -162,7 +162,7 @@ impl<R: Real> Coefficients<R> {
                 #[inline(always)]
                 || self.sum_in(simd, cell, sum),
             ),
-            None => sum.over(&Given(self.rows::<4>(cell))),
+            None => sum.over(&RowsFn(self.rows::<4>(cell))),
         }
     }
 
@@ -170,10 +170,10 @@ impl<R: Real> Coefficients<R> {
     fn sum_in<S: Simd, T: Sum<R>>(&self, simd: S, [x, y, z]: [usize; 3], sum: &T) -> T::Of {
         let [px, py, _] = self.dims;
         let plane = px * py;
-        // As in `rows`.
+        // See `rows`.
         assert!(px <= LONGEST_STRIDE && plane <= LONGEST_STRIDE);
         let window = &self.data[(z * py + y) * px + x..][..3 * (plane + px) + 4];
-        sum.over(&Fours { simd, window, strides: [px, plane] })
+        sum.over(&RowsOfFour { simd, window, strides: [px, plane] })
     }
 
     /// Gradient and Hessian of the cubic spline along the index axes.
@@ -182,7 +182,7 @@ impl<R: Real> Coefficients<R> {
         self.sum(at.cell, &tensor::Second { w: at.w, taps: bspline::taps })
     }
 
-    /// The same at a voxel, of a border of one coefficient at least.
+    /// Like [`cubic_derivatives`](Self::cubic_derivatives), at a voxel. The border must have at least one coefficient.
     pub(super) fn derivatives_at(&self, [x, y, z]: [usize; 3]) -> (Vec3<f64>, Sym3<f64>)
     where
         R: Into<f64>,
@@ -213,8 +213,8 @@ impl<R: Real> Coefficients<R> {
         [(lo + self.base).to_f64(), (hi + self.base).to_f64()]
     }
 
-    /// Hands over the numbers, base included, that the cells from `first` on read, `side` along each axis, with their place
-    /// among them; beyond those that the last cell reads the nearest.
+    /// Hands over `side` numbers along each axis, base included, from the first that the cell `first` reads, with their
+    /// index among them. Beyond the last number the nearest one is repeated.
     pub(super) fn around(&self, first: [usize; 3], side: usize, mut take: impl FnMut([usize; 3], f64)) {
         let [px, py, pz] = self.dims;
         for (z, y) in (0..side * side).map(|row| (row / side, row % side)) {

@@ -3,7 +3,7 @@
 use drypoint_scene::volume::{Access, Voxel};
 use std::ops::Range;
 
-/// Voxels that are compared at a time: so many that the compiler keeps the loop, and takes as many in a step as fit.
+/// Voxels compared at a time: enough that the compiler keeps the loop and vectorizes it.
 const LANES: usize = 64;
 
 /// Lowest and highest voxel of several rows, for each x.

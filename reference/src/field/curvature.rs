@@ -3,8 +3,8 @@
 //! The shape operator is G = −P H P / ‖g‖ with P = I − nnᵀ, n = g/‖g‖ (Kindlmann, Whitaker, Tasdizen, Möller,
 //! *Curvature-Based Transfer Functions for Direct Volume Rendering*, IEEE Visualization 2003), negated for
 //! `outside = "high"`: a sphere that is bright inside has two positive curvatures. g and H belong to one field, as
-//! [`Sampler::hessian`](super::Sampler::hessian) gives them; a common factor cancels. Where g is negligible ([PREC-3])
-//! there is no surface, and the caller does not ask.
+//! [`Sampler::hessian`](super::Sampler::hessian) gives them; a common factor cancels. If g is negligible ([PREC-3])
+//! there is no surface, and curvature must not be asked for.
 
 use super::Outside;
 use super::normal::outwards;
@@ -36,7 +36,7 @@ impl<R: Real> Curvature<R> {
     }
 }
 
-/// G in the tangent plane of a surface: −H/‖g‖, of which only forms in tangent vectors are taken, so that P drops out.
+/// G in the tangent plane of a surface: −H/‖g‖. Only forms in tangent vectors are taken, so P drops out.
 struct Shape<R> {
     /// The outward normal, [NORM-1]'s N.
     n: Vec3<R>,
@@ -89,8 +89,8 @@ impl<A: Arithmetic> Shape<A> {
 
 /// The principal curvatures and directions of the surface with gradient g and Hessian H.
 ///
-/// κ = m ± hypot((a − c)/2, b) on the 2×2 block of G: at umbilics, where trace and norm lose half their digits, the
-/// difference of the two keeps them. At an exact umbilic the directions are some frame.
+/// κ = m ± hypot((a − c)/2, b) on the 2×2 block of G. At umbilics trace and norm lose half their digits, and the
+/// difference a − c keeps them. At an exact umbilic the directions are an arbitrary frame.
 #[inline]
 pub fn principal<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside) -> Curvature<R> {
     let shape = Shape::new(gradient, hessian, outside);
@@ -105,8 +105,8 @@ pub fn principal<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside)
     Curvature { k1: m + r, k2: m - r, e1: t * p + u * q, e2: u * p - t * q }
 }
 
-/// κ_v, the normal curvature in the direction of the unit vector v projected to the tangent plane: tᵀ G t, t = Pv/‖Pv‖;
-/// the mean curvature where the projection is lost to rounding, ‖Pv‖ ≤ 2⁻²⁶ ([CUR-2]).
+/// κ_v, the normal curvature in the direction of the unit vector v projected to the tangent plane: tᵀ G t, t = Pv/‖Pv‖.
+/// The mean curvature if the projection is lost to rounding, ‖Pv‖ ≤ 2⁻²⁶ ([CUR-2]).
 #[inline(always)]
 pub fn along_view<A: Arithmetic>(gradient: Vec3<A>, hessian: Sym3<A>, v: Vec3<A>, outside: Outside) -> A {
     let shape = Shape::new(gradient, hessian, outside);
@@ -199,7 +199,7 @@ mod tests {
         assert_eq!(along_view(g, h, tilted(2f64.powi(-25)), Outside::High), -3.0);
     }
 
-    /// In f32 the bound is its own, 2⁻¹²: a unit vector is off by 2⁻²⁴, and so is what is left of it in the tangent plane.
+    /// The bound in f32 is 2⁻¹²: a unit vector is off by 2⁻²⁴, and so is the rest of it in the tangent plane.
     #[test]
     fn along_the_normal_in_f32() {
         let g = Vec3::new(0.0f32, 0.0, -1.0);
@@ -210,7 +210,7 @@ mod tests {
         }
     }
 
-    /// Along the normal and past it, in every direction between, whatever the other lanes are.
+    /// View directions along the normal, past it, and in every direction between, next to any other lanes.
     #[test]
     fn lanes_have_the_bits_of_one() {
         let Some(simd) = wide() else { return };
@@ -243,8 +243,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(200))]
 
-        /// Against the eigenvectors of the 3×3 matrix, by another library. Both sides round −PHP/‖g‖ with at most some
-        /// twenty operations on numbers up to ‖H‖/‖g‖.
+        /// Comparison with the eigenvectors of the 3×3 matrix, by another library. Both sides round −PHP/‖g‖ with at
+        /// most some twenty operations on numbers up to ‖H‖/‖g‖.
         #[test]
         fn principal_curvatures_are_eigenvalues(
             g in prop::array::uniform3(-10.0f64..10.0),

@@ -17,7 +17,7 @@ pub enum FieldError {
     /// A σ of the `gaussian` Hessian that is not a length, or is longer than the sums are made for.
     #[error("scale = {scale} world units is not between 0 and {longest}, which is 1000 voxels")]
     Scale {
-        /// As given, in world units.
+        /// The scale given, in world units.
         scale: f64,
         /// The longest, in world units.
         longest: f64,

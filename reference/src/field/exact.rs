@@ -62,8 +62,8 @@ mod tests {
     use drypoint_scene::phantom::{by_name, sample};
     use drypoint_scene::volume::VoxelType;
 
-    /// At the voxels of a quadratic field central differences, first and second, are exact: there the formula and the
-    /// reconstruction are the same to rounding, in the same units.
+    /// Central differences, first and second, are exact at the voxels of a quadratic field. There the formula and the
+    /// reconstruction agree up to rounding, in the same units.
     #[test]
     fn where_differences_are_exact_they_agree() {
         let grid = Grid::with_spacing([24, 20, 22], [0.5, 1.0, 0.75]).unwrap();

@@ -1,10 +1,10 @@
-//! Central differences of samples, and those of the differences, interpolated linearly between the first two of a cell's six
-//! on each axis ([REC-3]).
+//! Central differences of samples, and central differences of those, interpolated linearly ([REC-3]).
 //!
-//! As a kernel's the two have six taps, of which the value has two that are not 0, the first derivative four: of the 216
-//! samples 112 count.
+//! Along an axis a cell has six samples; the interpolation runs between the differences at its two corners. Written as
+//! a kernel this has six taps. Two of them are nonzero for the value and four for the first derivative, so 112 of the
+//! 216 samples count.
 
-use super::tensor::{self, Given, Rows, Taps};
+use super::tensor::{self, Rows, RowsFn, Taps};
 use crate::number::lanes::wide;
 use crate::number::{Sym3, Vec3};
 use fearless_simd::prelude::*;
@@ -26,22 +26,22 @@ pub(super) fn taps(w: f64) -> Taps<f64, TAPS> {
 
 /// The samples around a cell: the first of them, and the way from a row to the next along y and along z.
 #[derive(Clone, Copy)]
-pub(super) struct Around<'s> {
+pub(super) struct SampleWindow<'s> {
     pub samples: &'s [f64],
     pub strides: [usize; 2],
 }
 
-impl Around<'_> {
+impl SampleWindow<'_> {
     /// Gradient and Hessian along the index axes at the way `w` into the cell.
     pub(super) fn second(self, w: [f64; 3]) -> (Vec3<f64>, Sym3<f64>) {
         match wide() {
             Some(simd) => simd.vectorize(
                 #[inline(always)]
-                || sums(&self, &Inner { around: &self, simd }, w),
+                || sums(&self, &MiddleRows { around: &self, simd }, w),
             ),
             None => {
                 let [y, z] = self.strides;
-                tensor::second(&Given(|j, k| self.row::<TAPS>(k * z + j * y)), &w.map(taps))
+                tensor::second(&RowsFn(|j, k| self.row::<TAPS>(k * z + j * y)), &w.map(taps))
             }
         }
     }
@@ -56,12 +56,12 @@ impl Around<'_> {
 }
 
 /// The four samples in the middle of each row.
-struct Inner<'a, S> {
-    around: &'a Around<'a>,
+struct MiddleRows<'a, S> {
+    around: &'a SampleWindow<'a>,
     simd: S,
 }
 
-impl<S: Simd> Rows<f64x4<S>> for Inner<'_, S> {
+impl<S: Simd> Rows<f64x4<S>> for MiddleRows<'_, S> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> f64x4<S> {
         let [y, z] = self.around.strides;
@@ -76,13 +76,17 @@ impl<S: Simd> Rows<f64x4<S>> for Inner<'_, S> {
 
 /// [`tensor::second`] of all six taps, to the same numbers, without those whose weight is 0.
 #[inline(always)]
-fn sums<S: Simd>(around: &Around<'_>, rows: &Inner<'_, S>, [x, y, z]: [f64; 3]) -> (Vec3<f64>, Sym3<f64>) {
+fn sums<S: Simd>(around: &SampleWindow<'_>, rows: &MiddleRows<'_, S>, [x, y, z]: [f64; 3]) -> (Vec3<f64>, Sym3<f64>) {
     let (x, y, z) = (taps(x), taps(y), taps(z));
     let at = |i: usize, j: usize, k: usize| k * around.strides[1] + j * around.strides[0] + i;
     let first = around.samples[at(2, 2, 2)];
+    // sᵢⱼ: sums over y and z with the i-th derivative along y and the j-th along z, of the middle four samples of each
+    // row. `outer` holds the two outer samples, which only f_xx reads.
     let [mut s00, mut s10, mut s01, mut s20, mut s11, mut s02] = [rows.zero(); 6];
     let mut outer = [0.0; 2];
     for k in 0..TAPS {
+        // pᵢ: the sums over y in one plane, with the i-th derivative. Taps 2 and 3 alone have a value, taps 1 to 4 a
+        // first derivative.
         let [mut p0, mut p1, mut p2] = [rows.zero(); 3];
         let middle = k == 2 || k == 3;
         let (from, end) = if middle { (0, TAPS) } else { (1, TAPS - 1) };
@@ -113,6 +117,7 @@ fn sums<S: Simd>(around: &Around<'_>, rows: &Inner<'_, S>, [x, y, z]: [f64; 3]) 
         s11 += p1 * z.first[k];
         s02 += p0 * z.second[k];
     }
+    // Sums over x; the order of the terms is that of `tensor::second`.
     let value = |s: [f64; 4]| s[1] * x.value[2] + s[2] * x.value[3];
     let slope = |s: [f64; 4]| (s[1] * x.first[2] + s[3] * x.first[4]) + (s[0] * x.first[1] + s[2] * x.first[3]);
     let [s00, s10, s01]: [[f64; 4]; 3] = [s00.into(), s10.into(), s01.into()];
@@ -129,7 +134,8 @@ mod tests {
     use super::*;
     use drypoint_scene::philox::uniform;
 
-    /// Against the sums over all 216 taps, number by number; on the voxels of the cell too, where more weights are 0.
+    /// Comparison with the sums over all 216 taps, number by number, also on the voxels of the cell, where more weights
+    /// are 0.
     #[test]
     fn taps_of_weight_0_change_nothing() {
         const SIDES: [usize; 3] = [9, 8, 7];
@@ -141,8 +147,8 @@ mod tests {
             let from = [0, 1, 2].map(|a| (r(a as u32) * (SIDES[a] - TAPS + 1) as f64) as usize);
             let w = [3, 4, 5].map(|a| if i % 5 == 0 { r(a).round() } else { r(a) });
             let samples = &samples[(from[2] * SIDES[1] + from[1]) * SIDES[0] + from[0]..];
-            let around = Around { samples, strides };
-            let all = Given(|j: usize, k: usize| around.row::<TAPS>(k * strides[1] + j * strides[0]));
+            let around = SampleWindow { samples, strides };
+            let all = RowsFn(|j: usize, k: usize| around.row::<TAPS>(k * strides[1] + j * strides[0]));
             assert_eq!(around.second(w), tensor::second(&all, &w.map(taps)), "{from:?} {w:?}");
         }
     }

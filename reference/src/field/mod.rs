@@ -67,12 +67,12 @@ pub struct Field<'v, R> {
     exponent: i32,
     no_normal_below: R,
     kernel: KernelData<R>,
-    /// Of the `regression` gradient alone.
+    /// Present only for the `regression` gradient.
     regression: Option<Regression<R>>,
     second: Second<R>,
 }
 
-/// The kernel with what it holds.
+/// The kernel with its data.
 #[derive(Clone, Debug)]
 enum KernelData<R> {
     Trilinear,
@@ -82,7 +82,7 @@ enum KernelData<R> {
     CatmullRom,
 }
 
-/// The estimator of the Hessian with what it holds.
+/// The estimator of the Hessian with its data.
 #[derive(Clone, Debug)]
 enum Second<R> {
     NotPrepared,
@@ -95,7 +95,7 @@ impl<'v, R: Real> Field<'v, R> {
     /// Prepares a volume for a reconstruction.
     ///
     /// # Errors
-    /// Those of [`FieldError`], whatever the rung.
+    /// Any of [`FieldError`], for every rung.
     pub fn new(volume: &'v Volume, how: Reconstruction, rung: Rung) -> Result<Self, FieldError> {
         let is_integer = volume.voxels().voxel_type().is_integer();
         let how = Reconstruction { hessian: how.hessian.resolved(how.kernel, is_integer)?, ..how };
@@ -163,12 +163,12 @@ impl<'v, R: Real> Field<'v, R> {
         self.volume
     }
 
-    /// How it does, with the Hessian's estimator as [`hessian_estimator`](Self::hessian_estimator) gives it.
+    /// The reconstruction, with the Hessian's estimator as [`hessian_estimator`](Self::hessian_estimator) gives it.
     pub fn reconstruction(&self) -> Reconstruction {
         self.how
     }
 
-    /// For each brick of cells a range of values that no sample in it leaves ([RAY-2]).
+    /// Ranges of values that no sample leaves, one for each brick of cells ([RAY-2]).
     pub fn bricks(&self) -> Bricks {
         Bricks::new(self.volume.dims(), |row| {
             let read = match &self.kernel {

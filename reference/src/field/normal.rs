@@ -1,4 +1,4 @@
-//! The shading normal ([NORM-1]) and when there is none ([PREC-3]).
+//! The shading normal ([NORM-1]), and the condition under which there is none ([PREC-3]).
 
 use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::tables::Outside;
@@ -24,7 +24,7 @@ impl<A: Arithmetic> Normal<A> {
     }
 }
 
-/// ∓1/‖g‖: what makes the outward normal of a gradient.
+/// ∓1/‖g‖: the factor from a gradient to its outward normal.
 #[inline(always)]
 pub(super) fn outwards<A: Arithmetic>(length: A, outside: Outside) -> A {
     let inverse = length.one() / length;
@@ -34,9 +34,8 @@ pub(super) fn outwards<A: Arithmetic>(length: A, outside: Outside) -> A {
     }
 }
 
-/// N, the unit normal that points outwards, in world space: −g/‖g‖ for `outside = "low"`, g/‖g‖ for `"high"`; none
-/// where ‖g‖ ≤ `no_normal_below`, which is [`Field::no_normal_below`](super::Field::no_normal_below) for gradients as
-/// a field gives them.
+/// The outward unit normal of one gradient; none if ‖g‖ is at most the bound. The bound for a field's gradients is
+/// [`Field::no_normal_below`](super::Field::no_normal_below).
 #[inline(always)]
 pub fn outward<R: Real>(gradient: Vec3<R>, outside: Outside, no_normal_below: R) -> Option<Vec3<R>> {
     let Normal { n, has, .. } = Normal::outward(gradient, outside, no_normal_below);

@@ -1,4 +1,4 @@
-//! Which cell a position belongs to, and where in it ([REC-1], [SPACE-1]).
+//! The cell of a position, and the fractions within it ([REC-1], [SPACE-1]).
 
 use crate::number::{Real, Vec3};
 

@@ -1,12 +1,13 @@
 //! B-spline coefficients of samples, exactly, with the border that [REC-1] asks for.
 //!
-//! Along a line the cubic spline takes the value (c₋₁ + 4c₀ + c₁)/6 at a sample, the quintic one
-//! (c₋₂ + 26c₋₁ + 66c₀ + 26c₁ + c₂)/120. Beyond the border c₋₁ = 3c₀ − 3c₁ + c₂ and c₋₂ = 6c₀ − 8c₁ + 3c₂, the
-//! recurrence applied twice; so the first row of the cubic system is (7, −2, 1)/6, the first two of the quintic one are
-//! (150, −60, 30)/120 and (29, 63, 27, 1)/120, and the last ones are their mirror images. No row has an entry more than
-//! two beside the diagonal, and every row is diagonally dominant: an LU decomposition of five bands without pivoting
-//! solves the system, and serves all lines of one length. Quadratics are reproduced up to the border; lines of one and
-//! two samples are their own coefficients.
+//! Along a line the cubic spline takes the value (c₋₁ + 4c₀ + c₁)/6 at a sample, the quintic one (c₋₂ + 26c₋₁ + 66c₀ +
+//! 26c₁ + c₂)/120. Beyond the border c₋₁ = 3c₀ − 3c₁ + c₂ and c₋₂ = 6c₀ − 8c₁ + 3c₂, the recurrence applied twice. The
+//! first row of the cubic system is therefore (7, −2, 1)/6. The first two of the quintic system are (150, −60, 30)/120
+//! and (29, 63, 27, 1)/120. The last rows are their mirror images.
+//!
+//! No row has an entry more than two beside the diagonal, and every row is diagonally dominant. An LU decomposition of
+//! five bands without pivoting solves the system, and serves all lines of one length. Quadratics are reproduced up to
+//! the border. Lines of one and two samples are their own coefficients.
 
 use crate::number::Real;
 use rayon::prelude::*;
@@ -14,9 +15,9 @@ use rayon::prelude::*;
 /// The decomposed system of one line.
 #[derive(Clone, Debug)]
 pub(super) struct Prefilter<R> {
-    /// For each sample the multiples of the one before and the one before that which are taken off it.
+    /// The factors subtracted from each sample: those of the sample before it and of the one before that.
     forward: Vec<[R; 2]>,
-    /// For each sample its factor, and the multiples of the one after and the one after that.
+    /// The factor of each sample, of the sample after it, and of the one after that.
     backward: Vec<[R; 3]>,
 }
 

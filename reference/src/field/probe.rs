@@ -9,11 +9,11 @@ use drypoint_scene::math;
 /// The field at one point. Derivatives are in value per world unit (squared), curvatures per world unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
-    /// After slope and intercept.
+    /// The value, after slope and intercept.
     pub value: f64,
-    /// By the estimator of the gradient.
+    /// The gradient, by the estimator of the gradient.
     pub gradient: DVec3,
-    /// By the estimator of the Hessian; symmetric.
+    /// The Hessian, by its estimator; symmetric.
     pub hessian: DMat3,
     /// N, the outward unit normal; none where the gradient is negligible ([PREC-3]).
     pub normal: Option<DVec3>,
@@ -33,7 +33,7 @@ pub struct Probe {
     pub kv: Option<f64>,
 }
 
-/// Probes a field at a position in index space; none outside the box of [SPACE-1]. `view` points towards the eye; its
+/// Probes a field at a position in index space. None outside the box of [SPACE-1]. `view` points towards the eye; its
 /// length does not matter.
 ///
 /// # Panics
@@ -73,9 +73,8 @@ pub fn at_index(field: &Field<'_, f64>, index: DVec3, view: Option<DVec3>) -> Op
     })
 }
 
-/// Probes a field at a position in world space; otherwise as [`at_index`]. A position that lies outside by no more than
-/// the rounding of its way to index space is taken to the border: 21.7 at a spacing of 0.7 is voxel 31, not
-/// 31.000000000000004.
+/// Probes a field at a position in world space. See [`at_index`]. A position outside by no more than the rounding of
+/// its conversion to index space is moved to the border: 21.7 at a spacing of 0.7 is voxel 31, not 31.000000000000004.
 ///
 /// # Panics
 /// If the field was prepared for a lower rung than `Hessian`.

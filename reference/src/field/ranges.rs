@@ -1,4 +1,4 @@
-//! What values a kernel can return in each brick of cells ([RAY-2]).
+//! Ranges of the values that a kernel can return in each brick of cells ([RAY-2]).
 
 use super::columns::Columns;
 use super::stencil::Stencils;
@@ -35,15 +35,15 @@ pub(super) fn supports<R: Real>(stencils: &Stencils<'_>, row: &BrickRow) -> Vec<
     ranges
 }
 
-/// What Catmull–Rom can make of samples in a range: their middle ± [`OVERSHOOT`] half-ranges.
+/// The range of Catmull–Rom values over samples in a range: its middle ± [`OVERSHOOT`] half-ranges.
 pub(super) fn overshot([lo, hi]: [f64; 2]) -> [f64; 2] {
     let (middle, half) = (lo + (hi - lo) * 0.5, (hi - lo) * (0.5 * OVERSHOOT));
     [middle - half, middle + half]
 }
 
-/// A range widened by what rounding can add: 8 ε of its largest magnitude, at least four and at most eight of that
-/// number's last places. An interpolation a + w(b − a) with 0 ≤ w ≤ 1 leaves a, b by at most one and a half, and there
-/// are three of them; B-splines and Catmull–Rom leave their range by less than their bounds leave room.
+/// A range widened by what rounding can add: 8 ε of its largest magnitude, between four and eight of that number's last
+/// places. An interpolation a + w(b − a) with 0 ≤ w ≤ 1 leaves [a, b] by at most one and a half of them, and there are
+/// three interpolations. B-splines and Catmull–Rom exceed their range by less than the room that their bounds leave.
 pub(super) fn widened<R: Real>([lo, hi]: [f64; 2]) -> [f64; 2] {
     let rounding = 8.0 * R::EPSILON.to_f64() * lo.abs().max(hi.abs());
     [lo - rounding, hi + rounding]

@@ -23,8 +23,8 @@ pub trait Sampler<R: Real>: Sync {
         }
     }
 
-    /// How many values are worth computing at once: as many wait for nothing, and some are computed in vain where only the
-    /// first are wanted.
+    /// Number of values worth computing at once: independent values hide latency, but those beyond the first ones
+    /// wanted are computed in vain.
     const AT_ONCE: usize = 1;
 
     /// The gradient at a place by the field's estimator, in world space, times 2^−e.
@@ -33,8 +33,8 @@ pub trait Sampler<R: Real>: Sync {
     /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
     fn gradient_at(&self, at: Place<R>) -> Vec3<R>;
 
-    /// The gradient at a voxel: the bits of [`gradient_at`](Self::gradient_at) its place but for the signs of zeros, sooner
-    /// for estimators that are defined on voxels.
+    /// The gradient at a voxel: the bits of [`gradient_at`](Self::gradient_at) its place except for the signs of zeros.
+    /// Faster for estimators that are defined on voxels.
     ///
     /// # Panics
     /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
@@ -43,11 +43,11 @@ pub trait Sampler<R: Real>: Sync {
         self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64))))
     }
 
-    /// ‖g‖² at every voxel of a row, times 4^−e: the product of [`voxel_gradient`](Self::voxel_gradient) with itself. `rows`
-    /// is memory to work in, `squares` as long as the row.
+    /// ‖g‖² at every voxel of a row, times 4^−e: the product of [`voxel_gradient`](Self::voxel_gradient) with itself.
+    /// `rows` is working memory, and `squares` is as long as the row.
     ///
     /// # Panics
-    /// As [`voxel_gradient`](Self::voxel_gradient).
+    /// See [`voxel_gradient`](Self::voxel_gradient).
     fn voxel_squares(&self, [y, z]: [usize; 2], _rows: &mut Vec<R>, squares: &mut [R]) {
         for (x, square) in squares.iter_mut().enumerate() {
             let gradient = self.voxel_gradient([x, y, z]);
@@ -68,8 +68,8 @@ pub trait Sampler<R: Real>: Sync {
         false
     }
 
-    /// The values at the corners of a cell, as pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1), where the field in
-    /// the cell is their trilinear interpolation.
+    /// The values at the corners of a cell, as pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1). None unless
+    /// the field in the cell is their trilinear interpolation.
     #[inline(always)]
     fn corners(&self, _cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
         None
@@ -103,7 +103,7 @@ pub trait Sampler<R: Real>: Sync {
     }
 }
 
-/// What a kernel computes, along the index axes and from the numbers that stencils read.
+/// A kernel: value and derivatives along the index axes, computed from the numbers that stencils read.
 pub(super) trait Interpolant<R: Real>: Sync {
     /// The value.
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R;
@@ -287,8 +287,8 @@ pub enum AnySampler<'f, 'v, R> {
     CatmullRom(Sampled<'f, 'v, R, CatmullRom>),
 }
 
-/// Runs an expression with a reference to a field's sampler bound to a name: the kernel is decided here, once, and the
-/// expression is compiled for each.
+/// Runs an expression with a reference to a field's sampler bound to a name. The kernel is decided here, once, and the
+/// expression is compiled for each kernel.
 ///
 /// ```
 /// use drypoint_reference::field::{Field, Reconstruction, Rung, Sampler};

@@ -1,7 +1,7 @@
 //! Sums of a separable kernel over the numbers around a cell.
 //!
-//! All run over differences to the number at the cell's first voxel, so that a constant has exactly that value and
-//! derivatives that are exactly 0 ([REC-1], [REC-2]).
+//! All sums run over differences to the number at the cell's first voxel. A constant field therefore has exactly its
+//! value, and derivatives that are exactly 0 ([REC-1], [REC-2]).
 
 use crate::number::{Arithmetic, Real, Sym3, Vec3};
 use std::ops::{Add, Mul, Sub};
@@ -14,25 +14,25 @@ pub(super) struct Taps<R, const N: usize> {
     pub second: [R; N],
 }
 
-/// What is summed over z and y: a number, the same tap of several cells, or the taps of a row along x. `W` is what its
-/// weights are.
+/// A summand over z and y: a number, the same tap of several cells, or the taps of a row along x. `W` is the type of
+/// its weights.
 pub(super) trait Row<W>: Copy + Add<Output = Self> + Sub<W, Output = Self> + Mul<W, Output = Self> {}
 
 impl<W, A: Copy + Add<Output = A> + Sub<W, Output = A> + Mul<W, Output = A>> Row<W> for A {}
 
 /// The rows around a cell: `row(j, k)` is tap j along y, k along z. The cell's first voxel is tap N/2 − 1 on each axis.
 pub(super) trait Rows<A> {
-    /// That row, or with all others more by the same.
+    /// The row at (j, k); all rows may be shifted by one common constant.
     fn row(&self, j: usize, k: usize) -> A;
 
     /// A row of zeros.
     fn zero(&self) -> A;
 }
 
-/// Rows of numbers that a function gives.
-pub(super) struct Given<F>(pub F);
+/// Rows of numbers from a function.
+pub(super) struct RowsFn<F>(pub F);
 
-impl<R: Real, const N: usize, F: Fn(usize, usize) -> [R; N]> Rows<Numbers<R, N>> for Given<F> {
+impl<R: Real, const N: usize, F: Fn(usize, usize) -> [R; N]> Rows<Numbers<R, N>> for RowsFn<F> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> Numbers<R, N> {
         Numbers((self.0)(j, k))
@@ -99,8 +99,8 @@ fn origin<R: Real, A: Into<[R; N]>, const N: usize>(rows: &impl Rows<A>) -> R {
     row[o]
 }
 
-/// Σ a b: the even terms, then the odd ones, then both. Two sums of one shape are what the compiler makes vectors of,
-/// here and in all that they are made from.
+/// Σ a b: the even terms, then the odd ones, then both. The compiler vectorizes pairs of sums of one shape, here and in
+/// the sums that these are made from.
 #[inline(always)]
 fn dot<A: Arithmetic, const N: usize>(a: &[A; N], b: &[A; N]) -> A {
     let (mut even, mut odd) = (a[0] * b[0], a[1] * b[1]);
@@ -163,7 +163,7 @@ pub(super) fn gradient_sums<W: Copy, A: Row<W>, const N: usize>(
     [s00, s10, s01]
 }
 
-/// The gradient from them.
+/// The gradient from the sums s₀₀, s₁₀ and s₀₁.
 #[inline(always)]
 pub(super) fn gradient_of_sums<A: Arithmetic, const N: usize>(
     [s00, s10, s01]: &[[A; N]; 3],
@@ -208,9 +208,9 @@ pub(super) fn second<R: Real, A: Row<R> + Into<[R; N]>, const N: usize>(
     (gradient_of_sums(&[s00, s10, s01], x), hessian)
 }
 
-/// A sum over the 4³ numbers around a cell, whatever holds their rows.
+/// A sum over the 4³ numbers around a cell, for any storage of their rows.
 pub(super) trait Sum<R: Real> {
-    /// What it is.
+    /// The type of the sum.
     type Of;
 
     /// The sum.
@@ -267,10 +267,10 @@ mod tests {
         let axes = [taps(0.5, 1.0, 2.0), taps(0.25, 2.0, 4.0), taps(0.75, 4.0, 8.0)];
         // Along x: value 2, first 2, second 4; along y: 1.75, 6, 12; along z: 4.75, 20, 40.
         let (x, y, z) = ([2.0, 2.0, 4.0], [1.75, 6.0, 12.0], [4.75, 20.0, 40.0]);
-        assert_eq!(value(&Given(row), &axes), x[0] * y[0] * z[0]);
+        assert_eq!(value(&RowsFn(row), &axes), x[0] * y[0] * z[0]);
         let want = Vec3::new(x[1] * y[0] * z[0], x[0] * y[1] * z[0], x[0] * y[0] * z[1]);
-        assert_eq!(gradient(&Given(row), &axes), want);
-        let (g, h) = second(&Given(row), &axes);
+        assert_eq!(gradient(&RowsFn(row), &axes), want);
+        let (g, h) = second(&RowsFn(row), &axes);
         assert_eq!(g, want);
         let first = row(0, 0)[0] + 7.0;
         let [a, b] = [0, 1].map(|i| gradient_sums(&Every(&row, i), first, [&axes[1], &axes[2]]));

@@ -8,8 +8,8 @@ use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
 
 impl Field<'_, f64> {
-    /// What the sampler's Hessian gives at a voxel, to rounding: central differences of 19 voxels away from the border, and of
-    /// a smoothed spline its 27 coefficients; else that itself.
+    /// Gradient and Hessian at a voxel: those of the sampler, up to rounding. Away from the border central differences
+    /// read 19 voxels and a smoothed spline reads 27 coefficients. Elsewhere the sampler itself is asked.
     ///
     /// # Panics
     /// If the field was prepared for a lower rung than `Hessian`.
@@ -28,7 +28,8 @@ impl Field<'_, f64> {
         }
     }
 
-    /// Of whole numbers all differences are exact, in whatever order.
+    /// Central differences at a voxel two or more voxels from the border. Differences of integers are exact in any
+    /// order.
     #[inline]
     fn central(&self, [x, y, z]: [usize; 3]) -> (Vec3<f64>, Sym3<f64>) {
         with_access!(self.volume, |a| {
@@ -41,8 +42,8 @@ impl Field<'_, f64> {
     }
 }
 
-/// Central differences along the index axes: `d(i, j, k)` is what lies i, j, k voxels beyond the second one before the voxel, less
-/// the voxel's own.
+/// Central differences along the index axes. `d(i, j, k)` is the difference to the voxel's own number; tap 2 is the
+/// voxel itself on each axis.
 #[inline(always)]
 pub(super) fn slopes(d: impl Fn(usize, usize, usize) -> f64) -> Vec3<f64> {
     Vec3::new(d(3, 2, 2) - d(1, 2, 2), d(2, 3, 2) - d(2, 1, 2), d(2, 2, 3) - d(2, 2, 1)) * 0.5
@@ -61,8 +62,8 @@ pub(super) fn bends(d: impl Fn(usize, usize, usize) -> f64) -> Sym3<f64> {
     }
 }
 
-/// Gradient and Hessian of a cubic B-spline at one of its coefficients, (1, 4, 1)/6 along each axis and its derivatives: `d` counts from
-/// the one before.
+/// Gradient and Hessian of a cubic B-spline at one of its coefficients, from the weights (1, 4, 1)/6 along each axis
+/// and their derivatives. In `d`, tap 1 is that coefficient.
 #[inline(always)]
 pub(super) fn of_spline(d: impl Fn(usize, usize, usize) -> f64) -> (Vec3<f64>, Sym3<f64>) {
     let mean = |c: [f64; 3]| (c[0] + c[2]) * (1.0 / 6.0) + c[1] * (2.0 / 3.0);
@@ -105,8 +106,8 @@ mod tests {
     use drypoint_scene::space::Grid;
     use drypoint_scene::volume::{Volume, Voxels};
 
-    /// What the sampler gives at every voxel, up to the border, of noise on an anisotropic grid: some dozen roundings of 128
-    /// over the spacing squared.
+    /// Agreement with the sampler at every voxel, up to the border, on noise on an anisotropic grid. The bound is some
+    /// dozen roundings of 128 over the spacing squared.
     #[test]
     fn it_is_the_sampler_s() {
         for dims in [[9, 8, 7], [5, 2, 1]] {

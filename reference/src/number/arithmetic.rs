@@ -1,4 +1,4 @@
-//! What one number and several side by side have in common.
+//! Operations that single numbers and vectors of lanes have in common.
 
 use super::Real;
 use super::lanes::{self, Eight};
@@ -9,24 +9,24 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A truth value, or one for each lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
-    /// Whether it is true in some lane. Where it is in none, both widths can leave out what is dear.
+    /// Whether the mask is true in some lane. If it is true in none, both widths can skip expensive steps.
     fn any(self) -> bool;
 
     /// Whether it is true in all lanes.
     fn all(self) -> bool;
 }
 
-/// A number, or a lane of numbers for each of which the same is computed.
+/// A number, or a vector of lanes on which the same computation runs.
 ///
-/// A formula over it is written once. It takes the same steps at both widths, and so gives the same bits: where it branches,
-/// both sides are computed and [`select`](Self::select) takes one. A formula is `#[inline(always)]` and has no closures, which
-/// would be compiled without the vector registers.
+/// A formula over this trait is written once. It takes the same steps at both widths, and so gives the same bits. At a
+/// branch both sides are computed, and [`select`](Self::select) takes one. A formula is `#[inline(always)]` and has no
+/// closures, which would be compiled without the vector registers.
 pub trait Arithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// The number in a lane.
     type Number: Real;
-    /// What a comparison gives.
+    /// The result of a comparison.
     type Mask: Mask;
 
     /// x in as many lanes as `self` has.
@@ -110,7 +110,7 @@ pub trait Elementary: Arithmetic {
 
 /// Numbers in f64, of which the series of [`drypoint_scene::math`] are.
 pub(crate) trait Double: Arithmetic<Number = f64> {
-    /// Their width.
+    /// The width of the numbers.
     type Width: Width<Number = Self>;
 
     /// The width of `self`.
@@ -308,7 +308,7 @@ impl<S: Simd> Elementary for f64x8<S> {
         lanes::power(self, y, asked.to_bitmask())
     }
 
-    /// Lane by lane: shininess is rarely a fraction.
+    /// Computed lane by lane: shininess is rarely a fraction.
     #[inline(always)]
     fn pow(self, y: f64) -> Self {
         f64x8::from_fn(self.simd, |lane| math::pow(self[lane], y))

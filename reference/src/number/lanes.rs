@@ -7,7 +7,7 @@ use fearless_simd::{Simd, f64x4, f64x8, mask64x8, u64x8};
 /// Numbers side by side.
 pub(crate) const LANES: usize = 8;
 
-/// Registers of the processor that hold lanes: AVX2 where an x86 has it, NEON on ARM, none elsewhere. AVX-512 gained nothing
+/// The processor's vector instructions: AVX2 where an x86 has it, NEON on ARM, none elsewhere. AVX-512 gained nothing
 /// beyond AVX2, for twice the code.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 pub(crate) fn wide() -> Option<impl Simd> {
@@ -26,8 +26,8 @@ pub(crate) fn wide() -> Option<impl Simd> {
     None::<fearless_simd::Fallback>
 }
 
-/// Runs something compiled for those registers, where there are any: the same operations, so the same bits. What is to gain
-/// from it has to be inlined.
+/// Runs a closure compiled for those instructions, where the processor has them. The operations are the same, so the
+/// bits are. Only code that is inlined into the closure gains from it.
 #[inline(always)]
 pub(crate) fn widely<T>(compute: impl FnOnce() -> T) -> T {
     match wide() {
@@ -119,7 +119,7 @@ pub(super) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
     result
 }
 
-/// From rows of four numbers, one a lane, to columns.
+/// Transposes rows of four numbers, one a lane, to columns.
 #[inline(always)]
 pub(crate) fn columns<S: Simd>(rows: [f64x4<S>; LANES]) -> [f64x8<S>; 4] {
     let low = turned([rows[0], rows[1], rows[2], rows[3]]);
@@ -127,7 +127,7 @@ pub(crate) fn columns<S: Simd>(rows: [f64x4<S>; LANES]) -> [f64x8<S>; 4] {
     [low[0].combine(high[0]), low[1].combine(high[1]), low[2].combine(high[2]), low[3].combine(high[3])]
 }
 
-/// From four columns to rows, one a lane.
+/// Transposes four columns to rows, one a lane.
 #[inline(always)]
 pub(crate) fn rows<S: Simd>([a, b, c, d]: [f64x8<S>; 4]) -> [f64x4<S>; LANES] {
     let ((a, a_high), (b, b_high), (c, c_high), (d, d_high)) = (a.split(), b.split(), c.split(), d.split());
@@ -144,7 +144,7 @@ fn turned<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high), ac_high.zip_high(bd_high)]
 }
 
-/// What tests compare lanes with numbers by.
+/// Helpers of tests that compare lanes with single numbers.
 #[cfg(test)]
 pub(crate) mod testing {
     use super::*;

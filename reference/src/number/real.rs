@@ -42,11 +42,11 @@ pub trait Real:
 
     /// The nearest number of this type.
     fn from_f64(x: f64) -> Self;
-    /// The same number in f64.
+    /// The number in f64.
     fn to_f64(self) -> f64;
     /// The stored voxel as a number of this type.
     fn from_voxel<V: Voxel>(v: V) -> Self;
-    /// The same of several, side by side.
+    /// Several stored voxels as numbers of this type.
     fn from_voxels<V: Voxel, const N: usize>(v: [V; N]) -> [Self; N];
     /// ⌊x⌋ and x − ⌊x⌋ for 0 ≤ x < 2³¹ (f32: 2²²), without the saturation of an `as` cast and without a library call.
     fn split(self) -> (usize, Self);
@@ -80,8 +80,8 @@ const MAGIC_F64: f64 = (1u64 << 52) as f64;
 /// 2²³, the same for f32.
 const MAGIC_F32: f32 = (1u32 << 23) as f32;
 
-/// 2⁵² + ⌊x⌋ for 0 ≤ x < 2⁵¹. The 1 that is taken off where the nearest whole number lies above is made by a mask: a
-/// branch would be mispredicted at every second sample.
+/// 2⁵² + ⌊x⌋ for 0 ≤ x < 2⁵¹. If the nearest integer lies above x, 1 is subtracted by a mask: a branch would be
+/// mispredicted at every second sample.
 #[inline(always)]
 fn floor_f64(x: f64) -> f64 {
     let nearest = x + MAGIC_F64;

@@ -16,7 +16,7 @@ pub struct Vec3<R> {
 }
 
 impl<R: Arithmetic> Vec3<R> {
-    /// From its components.
+    /// The vector of three components.
     #[inline(always)]
     pub fn new(x: R, y: R, z: R) -> Self {
         Self { x, y, z }
@@ -60,12 +60,12 @@ impl<R: Real> Vec3<R> {
         Self::new(R::ZERO, R::ZERO, R::ZERO)
     }
 
-    /// Rounded from glam's.
+    /// Rounds a vector of glam.
     pub fn from_glam(v: DVec3) -> Self {
         Self::new(R::from_f64(v.x), R::from_f64(v.y), R::from_f64(v.z))
     }
 
-    /// To glam's.
+    /// Converts to a vector of glam.
     pub fn to_glam(self) -> DVec3 {
         DVec3::new(self.x.to_f64(), self.y.to_f64(), self.z.to_f64())
     }

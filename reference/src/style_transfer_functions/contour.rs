@@ -186,7 +186,7 @@ mod tests {
     struct Ball {
         radius: f64,
         delta: f64,
-        /// Where the planes lie, in [0, Δ).
+        /// The offset of the planes, in [0, Δ).
         shift: f64,
     }
 

@@ -6,8 +6,8 @@ use drypoint_scene::shot::Turn;
 /// κ_v ≈ angle(N here, N at plane k − 1) / Δ_ray, in reciprocal world units, never negative; 0 unless both normals are
 /// `known`.
 ///
-/// The normal `before` is unknown where the previous plane's sample has none, lies outside the box or not beyond `near`. On
-/// a surface whose normal turns at the rate |dN/ds| along the ray the error is of first order in Δ_ray.
+/// The normal `before` is unknown if the previous plane's sample has none, lies outside the box, or is not beyond
+/// `near`. On a surface whose normal turns at the rate |dN/ds| along the ray, the error is of first order in Δ_ray.
 #[inline(always)]
 pub fn kappa<A: Elementary>(turn: Turn, n: Vec3<A>, before: Vec3<A>, known: A::Mask, delta_ray: A) -> A {
     let zero = delta_ray.zero();
@@ -55,8 +55,8 @@ mod tests {
         assert!((kappa(Turn::OfLines, n, across, true, 1.0) - FRAC_PI_2).abs() < 1e-15);
     }
 
-    /// On a sphere of radius r a step Δ along the ray, from a point at angle θ between N and v, turns the normal by
-    /// atan2(Δ sinθ, r + Δ cosθ): the rate is sinθ/r.
+    /// A step Δ along the ray on a sphere of radius r, from a point at angle θ between N and v, turns the normal by
+    /// atan2(Δ sinθ, r + Δ cosθ). The rate is sinθ/r.
     #[test]
     fn spheres_in_closed_form() {
         for (r, theta) in [(4.0, 0.3), (4.0, FRAC_PI_2), (100.0, 1.2)] {
@@ -73,8 +73,8 @@ mod tests {
         }
     }
 
-    /// On a cylinder of radius r whose axis is at ψ to the view plane, at its silhouette: the exact normal curvature
-    /// in the view direction is cos²ψ/r, the turn along the ray |cosψ|/r.
+    /// A cylinder of radius r whose axis is at ψ to the view plane, at its silhouette. The exact normal curvature in
+    /// the view direction is cos²ψ/r, the turn along the ray |cosψ|/r.
     #[test]
     fn a_tilted_cylinder_has_the_ratio_one_to_cos_psi() {
         let r = 5.0;

@@ -9,7 +9,7 @@ use drypoint_scene::tables::Mix;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
 
-/// The styles of each lane, as [`Blend`](super::Blend); w is that of the [`NodePlaces`] that they are made from.
+/// The styles of each lane, like [`Blend`](super::Blend). w is that of the [`NodePlaces`] from which the blends are made.
 pub(crate) struct Blends {
     /// j₀, or the one style that is shown.
     first: [u32; LANES],
@@ -20,7 +20,7 @@ pub(crate) struct Blends {
 }
 
 impl Blends {
-    /// How many style pictures a lookup of the lanes reads.
+    /// Number of style pictures that a lookup of the lanes reads.
     #[inline(always)]
     pub(crate) fn lookups(&self, lanes: u64) -> u64 {
         u64::from(lanes.count_ones() + (lanes & self.mixed).count_ones())

@@ -14,7 +14,7 @@ pub struct StyleIndex {
     of_node: Option<Vec<u32>>,
 }
 
-/// What a value shows: styles j₀ and j₁ in the shares 1 − w and w, with the uniform opacity α_u.
+/// The styles of a value: j₀ and j₁ in the shares 1 − w and w, with the uniform opacity α_u.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend<R> {
     /// j₀.
@@ -28,13 +28,13 @@ pub struct Blend<R> {
 }
 
 impl StyleIndex {
-    /// From the style of each node.
+    /// The index of styles from the style of each node.
     pub fn new(style: &[usize]) -> Self {
         let is_identity = style.iter().enumerate().all(|(k, &j)| k == j);
         Self { of_node: (!is_identity).then(|| style.iter().map(|&j| j as u32).collect()) }
     }
 
-    /// From (i, α_u) = tft(s), i = i₀ + w, to j₀ = ift(i₀) and j₁ = ift(i₀ + 1) (4.1, steps 2 and 3).
+    /// The blend at (i, α_u) = tft(s), i = i₀ + w: j₀ = ift(i₀) and j₁ = ift(i₀ + 1) (4.1, steps 2 and 3).
     #[inline]
     pub fn blend<R: Real>(&self, place: &NodePlace<R>) -> Blend<R> {
         let &NodePlace { node, w, alpha_u } = place;
@@ -63,14 +63,14 @@ impl<R: Real> Blend<R> {
         self.j0 == self.j1 || self.w == R::ZERO
     }
 
-    /// How many style pictures a lookup reads: one or two ([PLAN-2]).
+    /// Number of style pictures that a lookup reads: one or two ([PLAN-2]).
     #[inline]
     pub fn lookups(&self) -> u64 {
         if self.is_pure() { 1 } else { 2 }
     }
 }
 
-/// What two quantities show (4.2): the styles of two rows, mixed in the shares 1 − w and w.
+/// The styles of two quantities (4.2): those of two rows, mixed in the shares 1 − w and w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend2<R> {
     /// j₀₀ and j₁₀, j₀₁ and j₁₁, each pair with w_x.
@@ -80,7 +80,7 @@ pub struct Blend2<R> {
 }
 
 impl<R: Real> Blend2<R> {
-    /// From the places in two rows: four lookups in ift.
+    /// The blend at the places in two rows, by four lookups in ift.
     #[inline]
     pub fn new(index: &StyleIndex, patch: &NodePatch<R>) -> Self {
         Self { rows: patch.rows.each_ref().map(|place| index.blend(place)), w: patch.w }
@@ -94,7 +94,7 @@ impl<R: Real> Blend2<R> {
         [a[0], a[1], b[0], b[1]]
     }
 
-    /// How many style pictures a lookup reads: each once, one to four ([PLAN-2]).
+    /// Number of style pictures that a lookup reads, each once: one to four ([PLAN-2]).
     #[inline]
     pub fn lookups(&self) -> u64 {
         let j = self.styles();
@@ -117,7 +117,7 @@ impl<R: Real> Spheres<R> {
         Self { maps: styles.iter().map(SphereMap::new).collect(), chains: Vec::new(), mix }
     }
 
-    /// The same with a mip chain for each of the styles, which are those that it was made from.
+    /// Adds a mip chain for each style; `styles` must be those that `self` was made from.
     pub fn with_mipmaps(self, styles: &[Style]) -> Self {
         Self { chains: styles.iter().map(MipMap::new).collect(), ..self }
     }
@@ -139,13 +139,13 @@ impl<R: Real> Spheres<R> {
         self.mixed2(blend, |j| self.maps[j].sample(nx, ny))
     }
 
-    /// The same in the mip chains ([STF-10]), as [`Spheres::lookup_level`].
+    /// Like [`lookup2`](Self::lookup2), in the mip chains ([STF-10]). See [`Spheres::lookup_level`].
     #[inline(never)]
     pub fn lookup2_level(&self, blend: &Blend2<R>, nx: R, ny: R, below_last: R) -> [R; 4] {
         self.mixed2(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
     }
 
-    /// The mix of what is looked up in each style of two rows.
+    /// The mix of the lookups in each style of two rows.
     #[inline(always)]
     fn mixed2(&self, blend: &Blend2<R>, sft: impl Fn(usize) -> [R; 4]) -> [R; 4] {
         let j = blend.styles();
@@ -175,15 +175,16 @@ impl<R: Real> Spheres<R> {
     /// (r, g, b, α_d) = sft(n, j₀)(1 − w) + sft(n, j₁) w (4.1, step 4), linear and premultiplied by α_d. A style
     /// without a share is not read.
     ///
-    /// [`Mix::Premultiplied`] mixes the premultiplied lookups. [`Mix::Printed`] mixes straight colour and opacity each
-    /// by itself, so that a transparent style still lends its colour, and multiplies afterwards.
+    /// [`Mix::Premultiplied`] mixes the premultiplied lookups. [`Mix::Printed`] mixes straight colour and opacity
+    /// separately, so that a transparent style still lends its colour, and multiplies afterwards.
     #[inline]
     pub fn lookup(&self, blend: &Blend<R>, nx: R, ny: R) -> [R; 4] {
         self.mixed(blend, |j| self.maps[j].sample(nx, ny))
     }
 
-    /// The same in the mip chains ([STF-10]), at the level of detail `below_last` of [`Detail::below_last`]. Levels are
-    /// those of one style; styles mix after. Out of line: scenes without mip-maps do without its code.
+    /// Like [`lookup`](Self::lookup), in the mip chains ([STF-10]), at the level of detail `below_last` of
+    /// [`Detail::below_last`]. Each style is interpolated between its own levels first; styles are mixed afterwards.
+    /// Never inlined: scenes without mip-maps do without its code.
     ///
     /// [`Detail::below_last`]: super::Detail::below_last
     #[inline(never)]
@@ -191,7 +192,7 @@ impl<R: Real> Spheres<R> {
         self.mixed(blend, |j| self.chains[j].sample(&self.maps[j], nx, ny, below_last))
     }
 
-    /// The mix of what is looked up in each style.
+    /// The mix of the lookups in each style.
     #[inline(always)]
     fn mixed(&self, blend: &Blend<R>, sft: impl Fn(usize) -> [R; 4]) -> [R; 4] {
         let first = sft(blend.j0);

@@ -8,15 +8,15 @@ use drypoint_scene::shot::LevelOfDetail;
 use drypoint_scene::style::{MipLevel, Style};
 use drypoint_scene::view::View;
 
-/// p of [STF-10]: how many rays lie side by side in a voxel's picture.
+/// p of [STF-10]: the number of rays side by side in a voxel's picture.
 ///
-/// With `picture.samples = n` rays are 1/n of a pixel apart, and so such a picture is still the mean of the one that is n
-/// times as large ([RAY-6]).
+/// With `picture.samples = n` rays are 1/n of a pixel apart. Such a picture is therefore still the mean of the one that
+/// is n times as large ([RAY-6]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint<R> {
-    /// The same at every depth.
+    /// p, equal at every depth.
     Orthographic(R),
-    /// At eye depth 1; p falls with the depth.
+    /// p at eye depth 1; p falls with the depth.
     Perspective(R),
 }
 
@@ -59,8 +59,8 @@ impl<R: Real> Detail<R> {
         }
     }
 
-    /// λ − log₂ S = log₂( ½·max(ω₀, b_κ·min(|κ|·voxel, 1)) / p ) + b_g(1 − |g|), not yet clamped, from κ in reciprocal
-    /// world units and |g| in [0, 1]: by how many levels the lookup lies below the style's last one.
+    /// λ − log₂ S = log₂( ½·max(ω₀, b_κ·min(|κ|·voxel, 1)) / p ) + b_g(1 − |g|), not yet clamped: the number of levels
+    /// by which the lookup lies below the style's last one. κ is in reciprocal world units and |g| in [0, 1].
     ///
     /// A normal that turns by ω from one voxel to the next moves the lookup by ½Sω texels at the most, in p rays.
     #[inline]
@@ -88,8 +88,9 @@ impl<R: Real> MipMap<R> {
         Self { last: R::from_f64(math::log2(style.side as f64)), levels: levels.iter().map(sampled).collect() }
     }
 
-    /// The lookup of `style`, which this is the chain of, at λ = clamp(`below_last` + log₂ S, 0, log₂ S): bilinear in the
-    /// two levels about λ, and linear between them. At λ = 0 it is the lookup of the style itself, bit for bit.
+    /// The lookup of `style` at λ = clamp(`below_last` + log₂ S, 0, log₂ S), bilinear in the two levels about λ and
+    /// linear between them. `self` must be the chain of `style`. At λ = 0 the result is the lookup of the style itself,
+    /// bit for bit.
     #[inline]
     pub fn sample(&self, style: &SphereMap, nx: R, ny: R, below_last: R) -> [R; 4] {
         // In this order of operands what is not a number (turn 0 seen from no distance) counts as 0.
@@ -122,7 +123,7 @@ mod tests {
     use drypoint_scene::tables::Mix;
     use proptest::prelude::*;
 
-    /// What a scene says with `[style_mipmaps]` and nothing in it, on unit voxels of p pixels.
+    /// The settings of an empty `[style_mipmaps]` table, on unit voxels of p pixels.
     fn detail(p: f64) -> Detail<f64> {
         Detail {
             curvature_bias: 1.0,
@@ -172,7 +173,7 @@ mod tests {
         // Eight voxels away a voxel of 8 pixels at depth 1 has one.
         let far = Detail { footprint: Footprint::Perspective(8.0), ..detail(0.0) };
         assert_eq!(far.below_last(8.0, 0.0, 1.0), detail(1.0).below_last(123.0, 0.0, 1.0));
-        // Of f32 the same to its rounding: everything above is a power of two.
+        // f32 agrees up to its rounding: everything above is a power of two.
         let single = Detail {
             curvature_bias: 1f32,
             gradient_bias: 1.0,
@@ -204,7 +205,7 @@ mod tests {
             let found = MipMap::new(&style).sample(&SphereMap::new(&style), 0.4, -0.7, 0.0);
             for c in 0..4 {
                 let mean = inside.iter().map(|t| t[c]).sum::<f64>() / inside.len() as f64;
-                // As many roundings as there are texels, and one to f32.
+                // One rounding for each texel, and one to f32.
                 let bound = inside.len() as f64 * f64::EPSILON + 0.5 * f64::from(f32::EPSILON);
                 assert!((found[c] - mean).abs() <= bound, "{side}");
             }
@@ -226,8 +227,8 @@ mod tests {
         }
     }
 
-    /// On whole levels the level alone; between two of them, in proportion. Of a side of 12 the levels 6, 3, 2, 1 stand at
-    /// log₂ of 2, 4, 6 and 12.
+    /// The lookup on a whole level reads this level alone; between two levels it interpolates in proportion. The levels
+    /// 6, 3, 2, 1 of a side of 12 stand at log₂ of 2, 4, 6 and 12.
     #[test]
     fn levels_are_mixed_by_their_lambdas() {
         let style = noise(12);
@@ -273,7 +274,7 @@ mod tests {
             let lookup = |style: &Style| MipMap::<f64>::new(style).sample(&SphereMap::new(style), nx, ny, below);
             prop_assert!(lookup(&noise(side)).iter().all(|v| (0.0..=1.0).contains(v)));
             let constant = lookup(&style(side, |_, _| [c, 1.0, 0.0, 1.0]));
-            // Of n equal numbers the sum rounds n times, and a texel once to f32.
+            // The sum of n equal numbers rounds n times, and a texel once to f32.
             let bound = (side * side) as f64 * f64::EPSILON + 0.5 * f64::from(f32::EPSILON);
             prop_assert!((constant[0] - c).abs() <= bound);
             prop_assert_eq!([constant[1], constant[2], constant[3]], [1.0, 0.0, 1.0]);

@@ -1,11 +1,11 @@
 //! Bruckner and Gröller, Style Transfer Functions for Illustrative Volume Rendering, Computer Graphics Forum 26(3),
 //! 2007.
 //!
-//! One visible sample passes through here in this order: [`crate::transfer`] says where the value lies and what α_u it has,
-//! [`lookup`] which styles (3.2, 4.1); [`frame`] says which normal is looked up; [`curvature_along_ray`] gives κ_v (3.3);
-//! [`contour`] turns it into the threshold τ (eq. 1) and pushes the normal outwards; the styles are looked up in their
-//! [`sphere_map`]s, or in their [`mipmaps`] (4.3); and [`transparency`] makes the opacity (eq. 2), per reference length and not yet corrected for the
-//! step ([VAL-4]).
+//! A visible sample passes through these modules in order. [`crate::transfer`] gives the position of the value and its
+//! α_u, and [`lookup`] the styles (3.2, 4.1). [`frame`] gives the normal that is looked up. [`curvature_along_ray`]
+//! gives κ_v (3.3), and [`contour`] turns it into the threshold τ (eq. 1) and pushes the normal outwards. The styles
+//! are looked up in their [`sphere_map`]s, or in their [`mipmaps`] (4.3). [`transparency`] makes the opacity (eq. 2),
+//! per reference length and not yet corrected for the step ([VAL-4]).
 
 pub mod contour;
 pub mod curvature_along_ray;

@@ -6,8 +6,9 @@ use drypoint_scene::style::Style;
 
 /// One style's picture, sampled.
 ///
-/// Its texels are rounded to f32 once, whatever the precision of the samples: what a texture of a graphics card holds, and
-/// far finer than any painted picture. A style of 192² texels is then 0.6 MB, and a core keeps two of them at hand.
+/// Texels are rounded to f32 once, for every precision of the samples. This is the precision of a graphics card's
+/// texture, and far finer than any painted picture. A style of 192² texels then takes 0.6 MB, and a core keeps two of
+/// them in its cache.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereMap {
     pub(super) side: usize,
@@ -15,12 +16,12 @@ pub struct SphereMap {
 }
 
 impl SphereMap {
-    /// From a decoded style, whose texels outside the disk are already extended from its rim.
+    /// The map of a decoded style, whose texels outside the disk are already extended from its rim.
     pub fn new(style: &Style) -> Self {
         Self::from_texels(style.side, &style.texels)
     }
 
-    /// From S × S texels with the same property.
+    /// The map of S × S texels with the same property.
     pub(super) fn from_texels(side: usize, texels: &[Rgba]) -> Self {
         Self { side, texels: texels.iter().map(|texel| texel.map(|c| c as f32)).collect() }
     }
@@ -78,7 +79,7 @@ mod tests {
         Style::from_straight("test", side, &texels, true).unwrap()
     }
 
-    /// What a texel keeps of a number.
+    /// A number at a texel's precision.
     fn in_a_texture(c: f64) -> f64 {
         f64::from(c as f32)
     }
@@ -186,7 +187,7 @@ mod tests {
             prop_assert_eq!(map.sample(r * angle.cos(), r * angle.sin()), texel);
         }
 
-        /// What stands outside the disk never reaches a lookup.
+        /// Texels outside the disk never affect a lookup.
         #[test]
         fn nothing_outside_the_disk_is_read(side in 1usize..24, angle in 0.0..6.3f64, r in 0.0..=1.0f64) {
             let paint = |outside: f64| sphere(side, |i, j| {

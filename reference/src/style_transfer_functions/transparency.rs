@@ -3,12 +3,12 @@
 use crate::number::{Elementary, Mask};
 use drypoint_scene::tables::Transparency;
 
-/// α/α_d: what the style's premultiplied colour and directional opacity are multiplied by. All opacities here are per
-/// reference length; the correction for the step ([VAL-4]) comes after.
+/// α/α_d: the factor of the style's premultiplied colour and directional opacity. All opacities here are per reference
+/// length. The correction for the step ([VAL-4]) comes after.
 ///
 /// Illustrative: α_u^(0.5 + max(0, |N·v| − τ)(1 − |g|)), eq. 2. On a contour, and where the gradient is strong, the
-/// exponent is ½ and the structure keeps more of its opacity; flat and homogeneous places lose it first. α_u = 1 gives
-/// 1 and α_u = 0 gives 0, exactly: the paper's two constraints. Plain: α_u.
+/// exponent is ½ and the structure keeps more of its opacity. Flat and homogeneous places lose opacity first. α_u = 1
+/// gives 1 and α_u = 0 gives 0, exactly: the paper's two constraints. Plain: α_u.
 ///
 /// α_u, τ and |g| are in [0, 1]; without contours τ = 0.
 #[inline(always)]
@@ -64,7 +64,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(400))]
-        /// Between α_u^1.5 and α_u^0.5, and monotone in everything it depends on.
+        /// The opacity lies between α_u^1.5 and α_u^0.5, and is monotone in everything it depends on.
         #[test]
         fn laws(
             a in 0.0..=1.0f64, more in 0.0..=1.0f64, n_dot_v in -1.0..=1.0f64, tau in 0.0..=1.0f64, g in 0.0..=1.0f64,

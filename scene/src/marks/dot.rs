@@ -9,8 +9,8 @@ pub struct Dot {
     pub at: DVec2,
     /// The point in the world that it stands for.
     pub world: DVec3,
-    /// In mm on the page.
+    /// The centre, in mm on the page.
     pub radius: f64,
-    /// In (0, 1]; it multiplies that of the pen's colour.
+    /// The opacity in (0, 1]. It multiplies the opacity of the pen's colour.
     pub opacity: f64,
 }

@@ -2,11 +2,12 @@
 
 use glam::DVec2;
 
-/// How far a point that is left out may be from what is left, in mm: it and the ends of what is left are each up to 0.00071
-/// off by their steps of 0.001, so that no step alone makes a bend.
+/// The largest distance, in mm, of a point left out from the line that is kept. The point and the ends of the line kept
+/// are each up to 0.00071 off by their steps of 0.001, so a step alone makes no bend.
 const PLACE: f64 = 0.0015;
 
-/// How far half of its width may be, in mm: twice half a step of 0.005, for the same reason. A dot at 2400 dpi is 0.0106.
+/// The largest error, in mm, of half the width at such a point: twice half a step of 0.005, for the same reason. A dot
+/// at 2400 dpi is 0.0106.
 const RADIUS: f64 = 0.005;
 
 /// The line without the points that lie on it but for steps, with half a width that is linear between two others but for
@@ -32,7 +33,7 @@ pub(super) fn fewer(line: &[(DVec2, f64)]) -> Vec<(DVec2, f64)> {
     line.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
 }
 
-/// How far a point is from a segment, in units of what is allowed.
+/// Distance of a point from a segment, in units of the allowed distance.
 fn off((at, radius): (DVec2, f64), [a, b]: [(DVec2, f64); 2]) -> f64 {
     let way = b.0 - a.0;
     let length = way.length_squared();

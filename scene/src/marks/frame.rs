@@ -1,11 +1,11 @@
-//! What lies inside the frame ([STIP-16]): dots whole or not at all, lines cut.
+//! Clipping of marks to the frame ([STIP-16]): dots are kept whole or not at all, lines are cut.
 
 use super::{Marks, Page, Polyline, Vertex};
 use glam::DVec2;
 
 impl Marks {
-    /// Leaves what the frame holds: a dot only if all of its disc does, a line as far as its centre line stays half its
-    /// width inside. A line that leaves and comes back becomes several, which keep their `t`.
+    /// Clips the marks to the frame. A dot stays if all of its disc is inside, a line as far as its centre line is half
+    /// its width inside. A line that leaves and comes back becomes several, which keep their `t`.
     pub fn keep_inside(&mut self) {
         let page = self.page;
         for layer in &mut self.layers {
@@ -16,7 +16,8 @@ impl Marks {
     }
 }
 
-/// How far inside the frame, in mm, may be missing for a place to count: less than half a step of a place.
+/// The largest distance, in mm, of a place outside the frame that still counts as inside: less than half a step of a
+/// place.
 const SLACK: f64 = 1e-9;
 
 fn inside(page: &Page, at: DVec2, radius: f64) -> bool {
@@ -52,8 +53,8 @@ fn cut(page: &Page, line: Polyline) -> Vec<Polyline> {
     parts.into_iter().map(|vertices| Polyline { vertices, closed: false }).collect()
 }
 
-/// Where on a segment, from 0 to 1, the pen is inside: place and radius are linear along it, so each side of the frame
-/// leaves one interval.
+/// The interval of a segment, from 0 to 1, in which the pen is inside the frame. Place and radius are linear along the
+/// segment, so each side of the frame leaves one interval.
 fn range(page: &Page, a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
     let (lo, hi) = (page.margin - SLACK, page.size - page.margin + SLACK);
     clipped([
@@ -64,8 +65,8 @@ fn range(page: &Page, a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
     ])
 }
 
-/// The part of a segment, from 0 at its start to 1 at its end, that lies inside all of some lines. Each line is given by
-/// how far inside of it the start and the end lie, negative outside.
+/// The part of a segment, from 0 at its start to 1 at its end, that lies inside all of some lines. Each line is given
+/// by the distances of start and end from it, positive inside.
 pub fn clipped(distances: impl IntoIterator<Item = (f64, f64)>) -> Option<[f64; 2]> {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (start, end) in distances {

@@ -1,21 +1,22 @@
 //! One side of a line without the loops that it makes inside a bend ([HATCH-21]).
 //!
-//! Half a width to the side of a bend whose radius is smaller than that, a side runs back and crosses itself. The loop is
-//! no part of the outline: all of it lies within half a width of the line.
+//! Let a bend have a smaller radius than half the width. Its side then runs back and crosses itself. The loop is no
+//! part of the outline: all of it lies within half a width of the line.
 
 use crate::math;
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A place beside a line, and the number of the point of the line that it belongs to.
-pub(super) type Beside = (DVec2, usize);
+pub(super) type OffsetPoint = (DVec2, usize);
 
-/// The places beside a line, to the left of it, without the loops of bends to the left. Of these the sides of what turns by
-/// less than a whole turn meet within 2πr of the line, r half of the width: farther apart are parts of the line that cross.
-pub(super) fn without_loops(side: &[Beside], line: &[(DVec2, f64)]) -> Vec<DVec2> {
+/// The places beside a line, on its left, without the loops of bends to the left. The sides of a bend of less than a
+/// whole turn meet within 2πr of the line, r half of the width. Crossings farther apart belong to parts of the line
+/// that cross.
+pub(super) fn without_loops(side: &[OffsetPoint], line: &[(DVec2, f64)]) -> Vec<DVec2> {
     let (lengths, turns) = along(line);
     let widest = line.iter().map(|&(_, radius)| radius).fold(0.0, f64::max);
-    let mut out: Vec<Beside> = Vec::with_capacity(side.len());
+    let mut out: Vec<OffsetPoint> = Vec::with_capacity(side.len());
     for &(at, i) in side {
         let mut cut = None;
         if let [before @ .., _, last] = out.as_slice() {
@@ -24,7 +25,7 @@ pub(super) fn without_loops(side: &[Beside], line: &[(DVec2, f64)]) -> Vec<DVec2
                     break;
                 }
                 let Some(place) = crossing([from.0, out[j + 1].0], [last.0, at]) else { continue };
-                // What winds to the right where the line does not is none of its own loops.
+                // A part that winds to the right although the line does not is a loop of the side, not of the line.
                 let turned = turns[i] - turns[from.1];
                 if turned > -FRAC_PI_2 && area(place, &out[j + 1..]) < 0.0 {
                     cut = Some((j, place));
@@ -40,7 +41,7 @@ pub(super) fn without_loops(side: &[Beside], line: &[(DVec2, f64)]) -> Vec<DVec2
     out.into_iter().map(|(at, _)| at).collect()
 }
 
-/// At each point of a line: the length up to it, and by how much it has turned to the left there.
+/// The length up to each point of a line, and the line's total turn to the left there.
 fn along(line: &[(DVec2, f64)]) -> (Vec<f64>, Vec<f64>) {
     let (mut length, mut turn) = (0.0, 0.0);
     let all = (0..line.len()).map(|i| {
@@ -56,7 +57,7 @@ fn along(line: &[(DVec2, f64)]) -> (Vec<f64>, Vec<f64>) {
     all.unzip()
 }
 
-/// Where two segments meet; none where they are parallel.
+/// The intersection of two segments; none where they are parallel.
 pub(super) fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> {
     let (u, v, w) = (b - a, d - c, c - a);
     let over = u.perp_dot(v);
@@ -65,8 +66,9 @@ pub(super) fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> 
     (over != 0.0 && inside(s) && inside(t)).then(|| a + u * s)
 }
 
-/// Half the sum of cross products of a loop that begins and ends at a place: above 0 for one that winds to the left.
-fn area(place: DVec2, rest: &[Beside]) -> f64 {
+/// Half the sum of cross products of a loop that begins and ends at a place: positive for a loop that winds to the
+/// left.
+fn area(place: DVec2, rest: &[OffsetPoint]) -> f64 {
     let pairs = rest.windows(2).map(|pair| (pair[0].0 - place).perp_dot(pair[1].0 - place));
     pairs.sum::<f64>() / 2.0
 }
@@ -95,7 +97,7 @@ mod tests {
             };
             let ends = [(DVec2::new(0.0, 0.0), 0.2), (DVec2::new(4.0, 0.0), 0.2)];
             let line: Vec<_> = [ends[0]].into_iter().chain((0..60).map(round)).chain([ends[1]]).collect();
-            let side: Vec<Beside> = line.iter().enumerate().map(|(i, &(at, _))| (at, i)).collect();
+            let side: Vec<OffsetPoint> = line.iter().enumerate().map(|(i, &(at, _))| (at, i)).collect();
             let whole: Vec<DVec2> = line.iter().map(|&(at, _)| at).collect();
             assert_eq!(without_loops(&side, &line), whole, "{turn}");
         }

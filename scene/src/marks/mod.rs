@@ -1,15 +1,16 @@
-//! Points and lines on a page, as plain data ([STIP-16], [IO-7]): what stippling and hatching make, and what PNG, SVG,
-//! PDF and lists all show with the same geometry.
+//! Points and lines on a page, as plain data ([STIP-16], [IO-7]). Stippling and hatching make them; PNG, SVG, PDF and
+//! lists show them with the same geometry.
 //!
 //! **Space.** The page has its origin in the upper left corner, x to the right, y down. Every length on it is in
-//! millimetres, also where a scene counts in pixels: `picture.dpi` turns one into the other, and [`Page::unit`] only says
-//! in which of the two a list is written.
+//! millimetres, also if a scene counts in pixels. `picture.dpi` converts between the two, and [`Page::unit`] is the
+//! unit in which a list is written.
 //!
-//! **Steps.** [`Marks::settle`] puts a list onto steps and into the frame: places 0.001 mm, radii 0.005 mm (0.001 mm where the scene counts
-//! in pixels), opacities 1/16, colours of vertices 1/255 of sRGB. No writer rounds any further.
+//! **Steps.** [`Marks::settle`] rounds a list to steps and clips it to the frame. The steps are 0.001 mm for places,
+//! 0.005 mm for radii (0.001 mm if the scene counts in pixels), 1/16 for opacities, and 1/255 of sRGB for colours of
+//! vertices. No writer rounds any further.
 //!
-//! **Order.** A layer has one pen, hence one colour, so that the order of what is drawn in it cannot be seen, but for lines
-//! whose vertices have colours: those are drawn in their order, after the others. Layers are drawn in their order.
+//! **Order.** A layer has one pen, hence one colour, so the order of its marks cannot be seen. Lines whose vertices
+//! have colours are the exception: they are drawn in their order, after the others. Layers are drawn in their order.
 
 mod dot;
 mod fewer;
@@ -38,18 +39,18 @@ pub fn mark_counts(layers: &[Layer]) -> [usize; 2] {
 pub struct Marks {
     /// The paper.
     pub page: Page,
-    /// From the lowest to the topmost.
+    /// The layers, from the lowest to the topmost.
     pub layers: Vec<Layer>,
 }
 
-/// What one pen draws.
+/// The marks of one pen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// The pen.
     pub pen: Pen,
-    /// Its dots.
+    /// The dots.
     pub dots: Vec<Dot>,
-    /// Its lines.
+    /// The lines.
     pub lines: Vec<Polyline>,
 }
 

@@ -1,24 +1,26 @@
 //! The outline of a line whose width changes along it ([HATCH-21]): two curves beside it, joined at its ends.
 
 use super::fewer::fewer;
-use super::loops::{Beside, without_loops};
+use super::loops::{OffsetPoint, without_loops};
 use crate::math;
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// How far the corners of an outline may leave an arc inside, in mm: a step of places.
+/// The largest distance, in mm, by which chords of an outline may leave an arc: one step of places.
 const OFF: f64 = 0.001;
 
 /// The cosine of a bend by which a line turns back on itself.
 const TURNED_BACK: f64 = -1.0 + 1e-9;
 
-/// The outlines of a line of that half width at each point, linear between them, for the nonzero rule.
+/// The outlines, for the nonzero rule, of a line with the given half width at each point, linear between the points.
 ///
-/// On either side the outline is as far from each segment as its half widths are, at right angles to it. Outside a bend it goes
-/// round the point, inside it is cut where both sides meet: where its bends have a larger radius than half its width, and it
-/// does not come back to itself, an outline does not cross itself. Where the sides of a sharper bend do not meet, as at the
-/// end of a short line, it goes through the point itself, and what overlaps is filled once.
+/// On either side the outline keeps the distance of the half width from each segment, at right angles to it. Outside a
+/// bend it goes round the point; inside a bend it is cut where both sides meet. An outline does not cross itself if its
+/// line does not come back to itself and all bends have a larger radius than half the width. The sides of a sharper
+/// bend may not meet, for example at the end of a short line. The outline then goes through the point itself, and
+/// overlaps are filled once.
 pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bool; 2]) -> Vec<Vec<DVec2>> {
+    // Points equal to the one before are merged; the wider of the two counts.
     let mut line: Vec<(DVec2, f64)> = Vec::with_capacity(points.len());
     for (&at, &radius) in points.iter().zip(radii) {
         match line.last_mut() {
@@ -28,7 +30,7 @@ pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bo
     }
     let closed = closed && line.first().zip(line.last()).is_some_and(|(a, b)| a.0 != b.0) && line.len() > 2;
     if closed {
-        // It begins where it is straightest: no loop goes over its beginning.
+        // A closed line begins where it is straightest, so that no loop goes over its beginning.
         let n = line.len();
         let bent = |i: usize| towards(line[(i + n - 1) % n], line[i]).dot(towards(line[i], line[(i + 1) % n]));
         let first = (0..n).max_by(|&i, &j| bent(i).total_cmp(&bent(j))).unwrap_or(0);
@@ -40,6 +42,7 @@ pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bo
         line.pop();
     }
     let closed = closed && line.len() > 2;
+    // One side of the line, then the same side of the reversed line; open lines join both by caps.
     let back: Vec<(DVec2, f64)> = line.iter().rev().copied().collect();
     match line.as_slice() {
         [] => Vec::new(),
@@ -64,10 +67,10 @@ fn towards(a: (DVec2, f64), b: (DVec2, f64)) -> DVec2 {
     (b.0 - a.0).normalize_or(DVec2::X)
 }
 
-/// What lies beside a line, to the side that x lies to of y.
+/// The offset curve on one side of a line: that of +y for a line along +x.
 fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
     let n = line.len();
-    let mut all: Vec<Beside> = Vec::with_capacity(n + 8);
+    let mut all: Vec<OffsetPoint> = Vec::with_capacity(n + 8);
     let mut out = Vec::new();
     for (i, &(at, radius)) in line.iter().enumerate() {
         let before = (closed || i > 0).then(|| line[(i + n - 1) % n]);
@@ -88,13 +91,13 @@ fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
     without_loops(&all, line)
 }
 
-/// To the side of a direction.
+/// The unit normal of a direction: +y for +x.
 fn beside(along: DVec2) -> DVec2 {
     DVec2::new(-along.y, along.x)
 }
 
-/// Round a point at which a line changes its direction; `shorter` is the length of the shorter segment there, and whether
-/// that is the line's first or last.
+/// Adds the outline of a point at which the line changes its direction. `shorter` is the length of the shorter segment
+/// there, and whether that segment is the line's first or last.
 fn bend((at, radius): (DVec2, f64), [from, to]: [DVec2; 2], (shorter, ends): (f64, bool), out: &mut Vec<DVec2>) {
     let [first, last] = [from, to].map(beside);
     let (sine, cosine) = (from.perp_dot(to), from.dot(to));
@@ -119,7 +122,7 @@ fn bend((at, radius): (DVec2, f64), [from, to]: [DVec2; 2], (shorter, ends): (f6
     }
 }
 
-/// Half a disc round the end of a line, from one side to the other.
+/// Adds half a disc round the end of a line, from one side to the other.
 fn cap(line: &[(DVec2, f64)], round: bool, out: &mut Vec<DVec2>) {
     if let (true, [.., before, end]) = (round, line) {
         arc(end.0, end.1, beside(towards(*before, *end)), -PI, out);
@@ -154,7 +157,7 @@ mod tests {
         (0..radii.len()).map(|i| DVec2::new(3.0, 1.0) + DVec2::new(0.8, 0.6) * i as f64).collect()
     }
 
-    /// What chords leave of arcs of so many radii: ⅔ of OFF over their length.
+    /// Area between arcs and their chords, for arcs of the length `arcs`: ⅔ of OFF times that length.
     fn missing(arcs: f64) -> f64 {
         arcs * OFF * 2.0 / 3.0
     }
@@ -176,8 +179,8 @@ mod tests {
         assert!((area(&outlines(&points, &back, false, [true; 2])) - area(&round)).abs() < 1e-12);
     }
 
-    /// Round an arc of radius R the area is ∫ width ds, either way round: both sides lose and gain the same. Chords of the middle
-    /// line have it as 1 − φ²/24.
+    /// The area about an arc of radius R is ∫ width ds, in both directions: the two sides lose and gain alike. Chords
+    /// of the middle line have it as 1 − φ²/24.
     #[test]
     fn an_arc_has_the_area_of_its_widths() {
         for turn in [1.0, -1.0] {
@@ -212,7 +215,8 @@ mod tests {
         }
     }
 
-    /// At a sharp bend, and where a line turns back, nothing reaches farther than its width, and the point itself is inside.
+    /// Nothing reaches farther than the width at a sharp bend or where a line turns back, and the point itself is
+    /// inside.
     #[test]
     fn sharp_bends_stay_round() {
         for end in [DVec2::new(0.0, 1.0), DVec2::new(-1.0, 0.001), DVec2::new(-1.0, 0.0), DVec2::new(0.3, -0.2)] {
@@ -232,8 +236,8 @@ mod tests {
         }
     }
 
-    /// A line on the steps of the page, none of whose bends has a smaller radius than `bend`, places from 0.01 to 0.15 mm apart,
-    /// half as wide as 0.02 to 0.25 mm; and ∫ width ds of what it was before the steps.
+    /// A line on the steps of the page, and ∫ width ds before the steps. None of its bends has a smaller radius than
+    /// `bend`. Places are 0.01 to 0.15 mm apart, half widths 0.02 to 0.25 mm.
     fn random(seed: u64, bend: f64) -> (Vec<DVec2>, Vec<f64>, f64) {
         let mut drawn = 0;
         let mut unit = || {
@@ -267,7 +271,7 @@ mod tests {
         (points, radii, widths)
     }
 
-    /// How many pairs of segments of an outline cross.
+    /// Number of pairs of segments of an outline that cross.
     fn crossings(outline: &[DVec2]) -> usize {
         let n = outline.len();
         let segment = |i: usize| [outline[i], outline[(i + 1) % n]];
@@ -275,10 +279,10 @@ mod tests {
         pairs.filter(|&[i, j]| crossing(segment(i), segment(j)).is_some()).count()
     }
 
-    /// Of smooth lines whose bends are wider than half their width no outline crosses itself, and its area is ∫ width ds: both
-    /// sides lose and gain the same. The middle line is off by a step of places that are rounded and one of those left out, on
-    /// one side as on the other, and half its width by half a step in the same two ways; chords by their sagitta, φ²/24 of all,
-    /// and corners outside by OFF.
+    /// Outlines of smooth lines do not cross themselves if all bends are wider than half the width. The area is then ∫
+    /// width ds: the two sides lose and gain alike. The middle line is off by a step of rounded places and one of
+    /// places left out, on both sides alike. Half its width is off by half a step in the same two ways, chords by their
+    /// sagitta, φ²/24 of all, and corners outside by OFF.
     #[test]
     fn outlines_of_smooth_lines_do_not_cross() {
         for seed in 0..300 {
@@ -312,7 +316,7 @@ mod tests {
         }
     }
 
-    /// Where a line turns back on itself, in any direction, rounding throws no corner away from it.
+    /// Rounding throws no corner away from a line that turns back on itself, in any direction.
     #[test]
     fn turning_back_throws_no_corner_away() {
         for seed in 0..20_000 {

@@ -11,15 +11,15 @@ pub const INCH: f64 = 25.4;
 pub struct Page {
     /// Width and height with both margins, in mm.
     pub size: DVec2,
-    /// In mm; nothing is drawn there. The rest is the frame, and the picture fills it.
+    /// The width of the margin, in mm. Nothing is drawn there. The rest is the frame, and the picture fills it.
     pub margin: f64,
     /// Pixels per inch, above 0.
     pub dpi: f64,
-    /// What the scene counts in, and hence its lists.
+    /// The unit of the scene's lengths, and hence of its lists.
     pub unit: PageUnit,
 }
 
-/// What a scene measures its picture in.
+/// The unit in which a scene measures its picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PageUnit {
     /// `picture.width` and `picture.height` in mm.
@@ -72,9 +72,9 @@ impl Page {
         self.size - 2.0 * self.margin
     }
 
-    /// Where on the page a place in a picture of `size` pixels is: `at` in pixels from the picture's upper left corner,
-    /// the centre of the first pixel at (½, ½). The picture fills the frame, so that whole pixels that a length in mm was
-    /// rounded to are stretched by less than half a pixel over the whole side.
+    /// The place on the page of a point in a picture of `size` pixels. `at` is in pixels from the picture's upper left
+    /// corner, the centre of the first pixel at (½, ½). The picture fills the frame. Rounding a length in mm to whole
+    /// pixels therefore stretches it by less than half a pixel over the whole side.
     pub fn place(&self, at: DVec2, size: [usize; 2]) -> DVec2 {
         DVec2::splat(self.margin) + at * self.picture() / DVec2::from(size.map(|n| n as f64))
     }

@@ -3,16 +3,16 @@
 use super::Page;
 use crate::tables::PenSettings;
 
-/// What draws a layer: a pen of `[[pen]]`, or the colour that an effect has in place of one ([IO-7]).
+/// The pen that draws a layer: one of `[[pen]]`, or the colour that an effect has instead ([IO-7]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pen {
     /// Number of the layer, from 1, in the order of `[[pen]]`.
     pub number: usize,
-    /// What the layer is called.
+    /// Name of the layer.
     pub name: String,
     /// Across the nib, in mm.
     pub width: f64,
-    /// Linear, straight.
+    /// The colour: linear, straight.
     pub color: [f64; 4],
 }
 

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 /// A line drawn with a round pen through its vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
-    /// In order, at least two; of one, nothing is drawn.
+    /// The vertices in order, at least two. Of a single one nothing is drawn.
     pub vertices: Vec<Vertex>,
     /// Whether it goes on from the last to the first.
     pub closed: bool,
@@ -17,22 +17,23 @@ pub struct Polyline {
 /// A vertex of a line: a dot's numbers, and how far along it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// On the page, in mm, y down.
+    /// The place on the page, in mm, y down.
     pub at: DVec2,
     /// The point in the world that it stands for.
     pub world: DVec3,
     /// Half the line's width there, in mm on the page.
     pub radius: f64,
-    /// In (0, 1]; it multiplies that of the pen's colour.
+    /// The opacity in (0, 1]. It multiplies the opacity of the pen's colour.
     pub opacity: f64,
-    /// Along the whole line from 0 to 1; a part that was cut out keeps its numbers.
+    /// The share of the whole line up to here, from 0 to 1. A part that was cut out keeps its shares.
     pub t: f64,
-    /// In place of the pen's; none: the pen's.
+    /// A colour in place of the pen's; none: the pen's.
     pub color: Option<Rgb>,
 }
 
 impl Vertex {
-    /// What a straight line to another vertex has so far along, s from 0 to 1; at its ends the vertices themselves.
+    /// The vertex on the straight line to `b` at the share s, from 0 to 1. At its ends it equals the vertices
+    /// themselves.
     pub fn between(&self, b: &Self, s: f64) -> Self {
         if s == 0.0 {
             return *self;
@@ -52,13 +53,13 @@ impl Vertex {
     }
 }
 
-/// How far the codes of a piece's colour may be from those of the line, in sRGB.
+/// Largest difference between the colour codes of a piece and of the line, in sRGB.
 const CODES: f64 = 8.0 / 255.0;
 
-/// How far the opacity of a piece may be from that of the line, before it goes onto a step.
+/// Largest difference between the opacity of a piece, before it is rounded to a step, and that of the line.
 const FAINTER: f64 = 1.0 / 16.0;
 
-/// What a colour is between two, so far along.
+/// The colour at the share s between two colours.
 pub fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
     a.zip(b).map(|(a, b)| std::array::from_fn(|i| a[i] + (b[i] - a[i]) * s)).or(a).or(b)
 }
@@ -66,13 +67,13 @@ pub fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
 /// A part of a line with one opacity and one colour: what every writer draws.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// In order, at least two, in mm on the page.
+    /// The points in order, at least two, in mm on the page.
     pub points: Vec<DVec2>,
     /// Half the width at each point, in mm; linear between them.
     pub radii: Vec<f64>,
-    /// In (0, 1].
+    /// The opacity in (0, 1].
     pub opacity: f64,
-    /// In place of the pen's; none: the pen's.
+    /// A colour in place of the pen's; none: the pen's.
     pub color: Option<Rgb>,
     /// Whether it goes on from the last point to the first.
     pub closed: bool,
@@ -81,13 +82,15 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Whether it begins and ends with half a disc, drawn in ink of that opacity. Opaque pieces lie over each other's ends, so
-    /// that nothing shows between them; a translucent line that goes on is cut straight across, so that it covers once.
+    /// Whether the piece begins and ends with half a disc, drawn in ink of that opacity. Opaque pieces overlap at their
+    /// ends, so that nothing shows between them. A translucent line that goes on is cut straight across, so that it
+    /// covers once.
     pub fn round(&self, ink: f64) -> [bool; 2] {
         if self.opacity * ink == 1.0 { [true; 2] } else { self.ends }
     }
 
-    /// Half its width, where that is the same all along and its ends are round: what a pen draws in one stroke.
+    /// Half the width of the piece if the width is constant and the ends are round: a pen draws such a piece in one
+    /// stroke.
     pub fn stroke(&self, ink: f64) -> Option<f64> {
         let first = *self.radii.first()?;
         (self.round(ink) == [true; 2] && self.radii.iter().all(|&radius| radius == first)).then_some(first)
@@ -98,8 +101,8 @@ impl Piece {
         self.radii.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Its outlines, to be filled by the nonzero rule: of a closed line an outer and an inner one. All of them turn the same way,
-    /// whichever way the line goes.
+    /// The piece's outlines, to be filled by the nonzero rule. A closed line has an outer and an inner one. All outlines
+    /// turn the same way, in either direction of the line.
     pub fn outlines(&self, ink: f64) -> Vec<Vec<DVec2>> {
         outlines(&self.points, &self.radii, self.closed, self.round(ink))
     }
@@ -146,7 +149,7 @@ impl Range {
 }
 
 impl Polyline {
-    /// Its length on the page, in mm.
+    /// Length of the piece on the page, in mm.
     pub fn length(&self) -> f64 {
         let along = self.vertices.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum::<f64>();
         match self.vertices.as_slice() {
@@ -155,9 +158,10 @@ impl Polyline {
         }
     }
 
-    /// The line in as few pieces as its opacity and its colour allow ([HATCH-21]): all along a piece its colour is within 8 of
-    /// 255 of the line's in sRGB, and its opacity within 1/16 and what a step of sixteenths rounds; only a segment that changes
-    /// by more between its two ends has the mean of them. Segments without opacity or width are left out.
+    /// The line in as few pieces as its opacity and its colour allow ([HATCH-21]). In a piece the colour is within 8 of
+    /// 255 of the line's in sRGB. The opacity is within 1/16 of the line's, plus the rounding to steps of sixteenths. A
+    /// segment that changes by more between its two ends has the mean of both. Segments without opacity or width are
+    /// left out.
     pub fn pieces(&self) -> Vec<Piece> {
         let n = self.vertices.len();
         let segments = match n {
@@ -170,6 +174,8 @@ impl Polyline {
         // Whether the last piece ends where the next segment begins.
         let mut joins = false;
         for i in 0..segments {
+            // A segment extends the last piece if both fit into one range of colour and opacity; otherwise it begins a
+            // new piece.
             let (a, b) = (&self.vertices[i], &self.vertices[(i + 1) % n]);
             let own = Range::of(a, b);
             let drawn = a.radius.max(b.radius) > 0.0 && own.opacity() > 0.0;
@@ -190,6 +196,7 @@ impl Polyline {
             }
             joins = drawn;
         }
+        // The colour and opacity of a piece are the middles of its ranges.
         let mut pieces: Vec<Piece> = pieces
             .into_iter()
             .map(|(piece, range)| Piece { opacity: range.opacity(), color: range.color(), ..piece })
@@ -204,9 +211,11 @@ impl Polyline {
             only.closed = true;
             return pieces;
         }
+        // A piece ends the line where the next one does not join it.
         for i in 1..pieces.len() {
             pieces[i - 1].ends[1] = pieces[i].ends[0];
         }
+        // In a ring the last piece may join the first.
         if let (true, true, [first, .., last]) = (segments == n, joins, pieces.as_mut_slice())
             && first.points[0] == self.vertices[0].at
         {
@@ -293,7 +302,7 @@ mod tests {
         assert_eq!(color_between(Some([0.0, 1.0, 0.5]), Some([1.0, 0.0, 0.5]), 0.25), Some([0.25, 0.75, 0.5]));
     }
 
-    /// Of any line each place has a piece whose colour is within 8 of 255, where no segment changes by more than 16, and joints
+    /// Every place of a line has a piece whose colour is within 8 of 255, if no segment changes by more than 16. Joints
     /// of a ring are no ends.
     #[test]
     fn pieces_are_as_near_as_they_say() {

@@ -35,11 +35,12 @@ impl Marks {
         self.round();
     }
 
-    /// Puts every mark onto its step: places 0.001 mm, radii 0.005 mm, opacities 1/16, colours of vertices 1/255 of sRGB.
-    /// Where the scene counts in pixels, radii have 0.001 mm too: a dot there may be a few hundredths of a millimetre.
+    /// Rounds every mark to its step: places to 0.001 mm, radii to 0.005 mm, opacities to 1/16, colours of vertices to
+    /// 1/255 of sRGB. If the scene counts in pixels, the step of radii is 0.001 mm too: a dot there may be a few
+    /// hundredths of a millimetre.
     ///
-    /// A dot that is left without radius or opacity, or whose place is not a number, is no dot any more; a vertex whose
-    /// place is not a number is left out, and so is a line of fewer than two. Rounding twice changes nothing.
+    /// Dots without radius or opacity after that, or whose place is not a number, are removed. So are vertices whose
+    /// place is not a number, and lines of fewer than two vertices. Rounding twice changes nothing.
     pub fn round(&mut self) {
         let radius_steps = match self.page.unit {
             PageUnit::Millimetres => 200.0,

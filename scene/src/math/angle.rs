@@ -1,6 +1,6 @@
 //! The angle of a point in the upper half plane, for angles between vectors ([CUR-3]).
 //!
-//! From + − × ÷ alone, without a branch, at every [`Width`] ([PREC-4]).
+//! Computed with + − × ÷ alone, without a branch, at every [`Width`] ([PREC-4]).
 
 use super::Width;
 use super::double::Double;

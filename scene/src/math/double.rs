@@ -9,7 +9,7 @@ pub(super) struct Double {
     pub(super) lo: f64,
 }
 
-/// How a₀·a₁ compares with b₀·b₁, exactly, unless a product leaves the range of f64. Numbers that are none are equal.
+/// The exact comparison of a₀·a₁ with b₀·b₁, unless a product leaves the range of f64. NaN compares as equal.
 pub fn compare_products(a: [f64; 2], b: [f64; 2]) -> Ordering {
     let compare = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
     // Rounding keeps the order, so that only equal products need what was rounded off.

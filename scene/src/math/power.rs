@@ -1,8 +1,8 @@
 //! Powers of opacities, for illustrative transparency ([STF-9]).
 //!
-//! Written for the arguments that it has, x in (0, 1] and exponents about 1, from + − × alone and without a branch, at every
-//! [`Width`] ([PREC-4]). It uses the tables of [`transmittance`](super::transmittance), and takes half the time of `libm`'s
-//! `pow`.
+//! The series covers the arguments that occur: x in (0, 1] and exponents about 1. It uses + − × alone, without a
+//! branch, at every [`Width`] ([PREC-4]), and the tables of [`transmittance`](super::transmittance). It takes half the
+//! time of `libm`'s `pow`.
 
 use super::Width;
 use super::transmittance::{LN_2_HI, LN_2_LO, Octave, STEPS, grown, power_of_two, steps};

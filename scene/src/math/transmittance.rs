@@ -1,8 +1,8 @@
 //! The logarithm of a transmittance and the way back, for opacity correction ([VAL-4]).
 //!
-//! Written for the arguments that it has, 0 ≤ α < 1 and y ≤ 0, from + − × alone and without a branch, at every [`Width`]
-//! ([PREC-4]). What counts is how soon the result is there, since compositing waits for it: table steps of 2⁻⁷ leave
-//! polynomials so short that both together take half as long as `libm`'s `log1p` and `expm1`.
+//! The series cover the arguments that occur: 0 ≤ α < 1 and y ≤ 0. They use + − × alone, without a branch, at every
+//! [`Width`] ([PREC-4]). Latency counts, since compositing waits for the result. Table steps of 2⁻⁷ leave polynomials
+//! so short that both together take half as long as `libm`'s `log1p` and `expm1`.
 
 use super::Width;
 use super::double::Double;
@@ -16,14 +16,14 @@ const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 
 /// ln 2 = [`LN_2_HI`] + [`LN_2_LO`]; the first has 40 bits, so that its product with a whole number below 2¹³ is exact.
 pub(super) const LN_2_HI: f64 = 0.693_147_180_559_208_2;
-/// What is left.
+/// The rest of ln 2 beyond [`LN_2_HI`].
 pub(super) const LN_2_LO: f64 = 7.371_002_565_167_799e-13;
 
 /// 1.5 · 2⁵²: a small number that is added leaves its nearest whole number in the low bits of the sum.
 pub(super) const TO_WHOLE: f64 = (3u64 << 51) as f64;
 
-/// For c = 1 + i/128: 1/c and ln c in two parts, the first a multiple of 2⁻⁴⁴, so that adding multiples of ln 2's first
-/// part to it is exact.
+/// 1/c and ln c for c = 1 + i/128, the logarithm in two parts. The first part is a multiple of 2⁻⁴⁴, so that adding
+/// multiples of ln 2's first part to it is exact.
 static LOGARITHMS: [[f64; 3]; STEPS] = {
     let mut table = [[0.0; 3]; STEPS];
     let mut i = 0;
@@ -155,8 +155,9 @@ mod tests {
     use super::*;
     use crate::math::{ln_one_minus, one_minus_exp, one_minus_root};
 
-    /// N numbers in (0, 1) in ascending order: even steps through the bit patterns, which are steps of the logarithm
-    /// down to the smallest number, even steps of the number itself, and of the logarithm of what is left to 1.
+    /// N numbers in (0, 1) in ascending order. They are even steps through the bit patterns, which are steps of the
+    /// logarithm down to the smallest number; even steps of the number itself; and even steps of the logarithm of the
+    /// distance to 1.
     fn opacities(n: u64) -> Vec<f64> {
         let one = 1f64.to_bits();
         let third = n / 3;
@@ -178,7 +179,7 @@ mod tests {
         a.abs().to_bits().abs_diff(b.abs().to_bits())
     }
 
-    /// How far a number is from the truth, in its own units of the last place.
+    /// The error of a number, in its own units of the last place.
     fn ulps(got: f64, truth: Double) -> f64 {
         let ulp = got.abs().next_up() - got.abs();
         (((got - truth.hi) - truth.lo) / ulp).abs()
@@ -186,7 +187,7 @@ mod tests {
 
     #[test]
     fn a_million_arguments_against_libm() {
-        // Its own two are within an ulp.
+        // libm's own two functions are within an ulp.
         for alpha in opacities(1_000_000) {
             let y = ln_one_minus(alpha);
             assert!(apart(y, libm::log1p(-alpha)) <= 1, "{alpha:e}");
@@ -213,7 +214,7 @@ mod tests {
             }
         }
         assert!(worst[0] < 1.0 && worst[1] < 2.0, "{worst:?}");
-        // That many are not all right by chance.
+        // An error near 0 over so many arguments would show that nothing was measured.
         assert!(worst[0] > 0.5 && worst[1] > 0.5, "{worst:?}");
     }
 
@@ -244,7 +245,7 @@ mod tests {
         assert!((ln_one_minus(1f64.next_down()) - (0.5 * f64::EPSILON).ln()).abs() < 1e-14);
     }
 
-    /// Up to the last place, as far as a function within an ulp can be.
+    /// The result is right to the last place, as far as a function within an ulp can be.
     #[test]
     fn more_opacity_is_less_light() {
         let opacities = opacities(300_000);

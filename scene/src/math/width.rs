@@ -1,11 +1,11 @@
-//! How many numbers a series is computed for at once.
+//! Widths: the number of values for which a series is computed at once.
 
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Shl, Shr, Sub};
 
 /// One number or several side by side, and the operations on them that the series of this module are made of.
 ///
-/// A series is written once over this trait. It takes the same steps at every width, and so gives the same bits ([PREC-4]).
-/// [`One`] is the width of a number; a crate that has vector registers adds theirs.
+/// A series is written once over this trait. It takes the same steps at every width, and so gives the same bits
+/// ([PREC-4]). [`One`] is the width of one number. A crate that has vector registers adds their widths.
 pub trait Width: Copy {
     /// The numbers.
     type Number: Copy
@@ -17,7 +17,7 @@ pub trait Width: Copy {
         + Add<f64, Output = Self::Number>
         + Sub<f64, Output = Self::Number>
         + Mul<f64, Output = Self::Number>;
-    /// Their bit patterns.
+    /// The bit patterns of the numbers.
     type Bits: Copy
         + Add<u64, Output = Self::Bits>
         + Sub<u64, Output = Self::Bits>

@@ -32,7 +32,7 @@ pub(super) const ELLIPSOID: About = About {
     },
 };
 
-/// Below this share of the half axis, a coordinate counts as 0: its reciprocal's cube would overflow.
+/// The share of the half axis below which a coordinate counts as 0: its reciprocal's cube would overflow.
 const TINY: f64 = 1e-90;
 
 struct Ellipsoid {

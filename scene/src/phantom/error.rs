@@ -1,4 +1,4 @@
-//! What can be wrong with a phantom's name and parameters.
+//! Errors in a phantom's name and parameters.
 
 use crate::memory::NoRoom;
 use crate::space::SpaceError;
@@ -10,7 +10,7 @@ pub enum PhantomError {
     /// No phantom has that name.
     #[error("no phantom is called `{name}`{}; phantoms: {}", suggestion(nearest), known.join(", "))]
     UnknownName {
-        /// As given.
+        /// The name given.
         name: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<&'static str>,
@@ -20,9 +20,9 @@ pub enum PhantomError {
     /// The phantom has no parameter of that name.
     #[error("phantom `{phantom}` has no parameter `{param}`{}; parameters: {}", suggestion(nearest), known.join(", "))]
     UnknownParam {
-        /// Which phantom.
+        /// The phantom's name.
         phantom: &'static str,
-        /// As given.
+        /// The name given.
         param: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<&'static str>,
@@ -32,29 +32,29 @@ pub enum PhantomError {
     /// A parameter is given twice.
     #[error("phantom `{phantom}`: parameter `{param}` is given twice")]
     Repeated {
-        /// Which phantom.
+        /// The phantom's name.
         phantom: &'static str,
-        /// Which parameter.
+        /// The parameter's name.
         param: &'static str,
     },
     /// A parameter's value is not allowed.
     #[error("phantom `{phantom}`: parameter `{param}` is {value}, expected {expected}")]
     OutOfRange {
-        /// Which phantom.
+        /// The phantom's name.
         phantom: &'static str,
-        /// Which parameter.
+        /// The parameter's name.
         param: &'static str,
-        /// As given.
+        /// The value given.
         value: f64,
-        /// What is allowed, in words.
+        /// The values allowed, in words.
         expected: String,
     },
     /// Parameters that are allowed one by one, but not together.
     #[error("phantom `{phantom}`: {fault}")]
     Together {
-        /// Which phantom.
+        /// The phantom's name.
         phantom: &'static str,
-        /// Which parameters, and what must hold.
+        /// The parameters, and the condition that they must meet.
         fault: String,
     },
     /// The phantom's grid cannot be.

@@ -113,8 +113,8 @@ impl Formula for Hydrogen {
     }
 }
 
-/// The maximum of a smooth function on an interval: the best of 4096 equal steps, then a golden-section search
-/// between its neighbours. At a maximum the value is exact long before the place is.
+/// The maximum of a smooth function on an interval: the best of 4096 equal steps, then a golden-section search between
+/// its neighbours. Near a maximum the value converges long before the position does.
 fn maximum(lo: f64, hi: f64, f: impl Fn(f64) -> f64) -> f64 {
     const STEPS: u32 = 4096;
     let at = |i: u32| lo + (hi - lo) * f64::from(i) / f64::from(STEPS);

@@ -19,7 +19,7 @@ pub struct Jet {
     pub hessian: DMat3,
 }
 
-/// What a phantom's formula is written over: f64, or [`Jet`].
+/// The numbers that a phantom's formula is written over: f64, or [`Jet`].
 pub(super) trait Scalar:
     Copy
     + Neg<Output = Self>

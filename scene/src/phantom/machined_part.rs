@@ -28,10 +28,10 @@ type Corners = [[f64; 3]; 2];
 
 const BLOCK: Corners = [[-0.5, -0.4, -0.4], [0.5, 0.4, 0.4]];
 
-/// What is milled away: the corner over the base, a groove under it.
+/// Boxes milled away: the corner over the base, and a groove under it.
 const CUTS: [Corners; 2] = [[[-0.28, -1.0, -0.16], [1.0, 1.0, 1.0]], [[-1.0, -0.14, -1.0], [1.0, 0.14, -0.31]]];
 
-/// What is drilled: axis, the two other coordinates of its centre in ascending order of axes, radius.
+/// Holes drilled: axis, the two other coordinates of the centre in ascending order of axes, radius.
 const HOLES: [(usize, [f64; 2], f64); 6] = [
     (0, [0.0, 0.12], 0.15),     // the bore through the wall
     (1, [-0.39, 0.335], 0.035), // a pin along the wall's top
@@ -47,7 +47,7 @@ struct MachinedPart {
 
 /// Exact distance to a box, positive inside.
 fn cuboid<S: Scalar>(p: [S; 3], [lo, hi]: Corners, s: f64) -> S {
-    // How far outside the slab of each axis.
+    // Distance outside the slab of each axis.
     let q: [S; 3] = std::array::from_fn(|i| (p[i] - 0.5 * (lo[i] + hi[i]) * s).abs() - 0.5 * (hi[i] - lo[i]) * s);
     let most = q[0].max(q[1]).max(q[2]);
     if most.real() <= 0.0 {

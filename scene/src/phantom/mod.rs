@@ -8,8 +8,8 @@
 //!   chain rule. Integer voxel types have w = 1 voxel unless it is given, so that 0…255 is used well.
 //! - **All others** have a natural range, which the parameter `high` (default 255) sets.
 //!
-//! Where a field has a kink (the medial surface of a box, the centre of a sphere), gradient and Hessian are those of
-//! one side, or 0.
+//! At a kink of a field (the medial surface of a box, the centre of a sphere), gradient and Hessian are those of one
+//! side, or 0.
 //!
 //! ```
 //! use drypoint_scene::{phantom, space::Grid};
@@ -127,10 +127,10 @@ pub fn by_name(name: &str, grid: &Grid, params: &[(String, f64)]) -> Result<Box<
     for_type(name, grid, VoxelType::F64, params)
 }
 
-/// As [`by_name`], with the defaults of a voxel type.
+/// Like [`by_name`], with the defaults of a voxel type.
 ///
 /// # Errors
-/// As [`by_name`].
+/// See [`by_name`].
 pub fn for_type(
     name: &str,
     grid: &Grid,
@@ -152,7 +152,7 @@ pub fn for_type(
 /// The phantom that a scene names, and its grid, whose voxel (0, 0, 0) lies at the world's origin.
 ///
 /// # Errors
-/// As [`by_name`], or a grid that cannot be.
+/// The errors of [`by_name`], and a grid that is not possible.
 pub fn of_source(source: &PhantomSource) -> Result<(Box<dyn Phantom>, Grid), PhantomError> {
     let grid = Grid::with_spacing(source.size, source.spacing)?;
     Ok((for_type(&source.name, &grid, source.voxel_type, &source.params)?, grid))

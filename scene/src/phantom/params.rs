@@ -8,14 +8,14 @@ use crate::space::Grid;
 use crate::volume::VoxelType;
 use std::fmt;
 
-/// What there is to know about a phantom: one row of [`super::describe`].
+/// The description of a phantom: one row of [`super::describe`].
 #[derive(Clone, Copy, Debug)]
 pub struct About {
     /// The name in a scene and on the command line.
     pub name: &'static str,
     /// One line: what it is, and its formula where that is short.
     pub doc: &'static str,
-    /// Its parameters.
+    /// The parameters.
     pub params: &'static [Param],
     /// Makes it; an error says which parameters do not go together.
     pub(super) build: fn(&Args) -> Result<Box<dyn Phantom>, String>,
@@ -28,9 +28,9 @@ pub struct Param {
     pub name: &'static str,
     /// One line: what it is.
     pub doc: &'static str,
-    /// Its value when none is given.
+    /// The value if none is given.
     pub default: Preset,
-    /// Which values it can have.
+    /// The values that it can have.
     pub allowed: Allowed,
 }
 
@@ -50,7 +50,7 @@ pub enum Preset {
     Top,
 }
 
-/// Which values a parameter can have; only finite ones ever.
+/// The set of values that a parameter can have. All of them are finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowed {
     /// Every number.
@@ -119,7 +119,7 @@ pub(super) const SEED: Param = Param {
     allowed: Allowed::Whole(0.0, 9_007_199_254_740_992.0),
 };
 
-/// What a phantom is built from: the grid it is sampled on and a value for each of its parameters.
+/// The input to a phantom: the grid that it is sampled on, and a value for each of its parameters.
 pub(super) struct Args<'a> {
     /// The grid it is sampled on.
     pub(super) grid: &'a Grid,
@@ -134,6 +134,7 @@ impl<'a> Args<'a> {
         voxel_type: VoxelType,
         given: &[(String, f64)],
     ) -> Result<Self, PhantomError> {
+        // The parameters given, each known, allowed, and given once.
         let mut values = vec![None; about.params.len()];
         for (name, value) in given {
             let Some(i) = about.params.iter().position(|p| p.name == name) else {
@@ -155,6 +156,7 @@ impl<'a> Args<'a> {
                 return Err(PhantomError::Repeated { phantom: about.name, param: param.name });
             }
         }
+        // Defaults of the others, for this grid and voxel type.
         let default = |p: &Param| match p.default {
             Preset::Number(x) => x,
             Preset::Side(x) => x * smallest_side(grid),

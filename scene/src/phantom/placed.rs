@@ -1,4 +1,4 @@
-//! From a formula about its own origin to a phantom in the world.
+//! Phantoms in the world, from formulas about their own origin.
 
 use super::Phantom;
 use super::jet::{Jet, Scalar};
@@ -15,7 +15,7 @@ pub(super) trait Formula: Send + Sync {
     }
 }
 
-/// How a distance becomes a value.
+/// The map from a distance to a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Edge {
     /// Width in world units; 0: the distance itself.

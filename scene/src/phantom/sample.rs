@@ -9,8 +9,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// The phantom's value at each voxel centre. Integer types are rounded to the nearest (ties to even) and clamped to
-/// their range, so a stored value is within ½ of the analytic one where that is in range; f32 rounds to the nearest.
-/// Threads do not show.
+/// their range. A stored value is therefore within ½ of the analytic one if that is in range. f32 rounds to the
+/// nearest. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// A volume that does not fit in memory, or one without a finite value (world coordinates beyond 10¹⁵⁰ or so).
@@ -51,7 +51,7 @@ pub fn sample_labels(phantom: &dyn Phantom, grid: Grid) -> Result<Volume, Phanto
 /// The volume that a scene's `phantom` key names.
 ///
 /// # Errors
-/// As [`of_source`] and [`sample`].
+/// The errors of [`of_source`] and [`sample`].
 pub fn generate(source: &PhantomSource) -> Result<Volume, PhantomError> {
     let (phantom, grid) = of_source(source)?;
     sample(phantom.as_ref(), grid, source.voxel_type)

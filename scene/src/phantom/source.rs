@@ -5,7 +5,7 @@ use crate::volume::VoxelType;
 /// A phantom by name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhantomSource {
-    /// Which phantom.
+    /// Name of the phantom.
     pub name: String,
     /// Voxels along x, y, z.
     pub size: [usize; 3],

@@ -11,10 +11,12 @@
 //! | core | 1 | 255 | a ball of radius 0.04 |
 //! | skeleton | 1 | 255 | a lattice shell of radius 0.265 with 42 pores; 20 spines from its joints to 0.44 |
 //!
-//! What is meant to be seen through has the low levels, close together, so nothing opaque lies on the way up to
-//! another value. An edge passes every value between its two sides, so what is solid lies under the veil to the tips of
-//! its spines: no edge of it passes the veil's own values, 12…40, and draws a second veil around it. It does pass the
-//! knot's, 94…110 about its level, in a fraction of a voxel where it gathers little opacity. Solid is all from 165 on.
+//! Bodies meant to be seen through have low levels, close together, so nothing opaque lies on the way up to another
+//! value. An edge passes every value between its two sides. Solid bodies therefore lie under the veil, to the tips of
+//! their spines. None of their edges then passes the veil's own values, 12…40, which would draw a second veil around
+//! it. Such an edge does pass the knot's values, 94…110 about its level, but within a fraction of a voxel, where it
+//! gathers little opacity. Everything from 165 on is solid.
+//!
 //! Labels: 1 veil, 2 knot, 3 marrow, 4 core, 5 skeleton.
 
 use super::jet::{Scalar, length_squared};
@@ -56,7 +58,7 @@ const PORE: f64 = 0.0138;
 const SPINE: [f64; 2] = [0.0145, 0.44];
 /// Radius of the fillets where bodies of the skeleton meet.
 const FILLET: f64 = 0.006;
-/// Below this length a distance to a line or a shell is rounded off, which keeps it smooth.
+/// The length below which a distance to a line or a shell is rounded off, which keeps it smooth.
 const ROUND: f64 = 0.003;
 
 struct Specimen {
@@ -143,9 +145,9 @@ fn blend<S: Scalar>(a: S, b: S, k: f64) -> S {
     hi + (((lo - hi) * (1.0 / k)).exp() + 1.0).ln() * k
 }
 
-/// About the square of the distance to a trefoil. In the half-plane at the angle φ about z, with
-/// w = (√(x² + y²) − R) + i z, its two strands are at ± a e^(3iφ/2), and |w² − a² e^(3iφ)| / 2a is the distance to the
-/// nearer one in first order.
+/// Approximate square of the distance to a trefoil. In the half-plane at the angle φ about z, let w = (√(x² + y²) − R)
+/// + i z. The two strands are at ± a e^(3iφ/2), and |w² − a² e^(3iφ)| / 2a is the distance to the nearer one in first
+/// order.
 fn from_knot<S: Scalar>([x, y, z]: [S; 3]) -> S {
     let [ring, a, _] = KNOT;
     // The small number keeps the axis smooth, where the knot is not.
@@ -218,8 +220,7 @@ mod tests {
         }
     }
 
-    /// Where there is skeleton outside the lattice there is veil, several edges deep: no edge of it passes the veil's
-    /// values.
+    /// Skeleton outside the lattice is covered by veil, several edges deep: none of its edges passes the veil's values.
     #[test]
     fn the_veil_covers_the_spines() {
         let w = 0.5 / 159.0;

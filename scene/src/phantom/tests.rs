@@ -1,4 +1,4 @@
-//! What holds for all phantoms.
+//! Properties that hold for all phantoms.
 
 use super::*;
 use crate::philox;
@@ -35,8 +35,8 @@ pub(super) fn points(grid: &Grid, n: u32) -> impl Iterator<Item = DVec3> + use<'
     })
 }
 
-/// Those whose fields, or whose first three derivatives, jump inside the box: each name with the share of points, at
-/// the least, whose difference stencil of ±2·10⁻³ meets no jump. (White noise jumps at every 64th of the box.)
+/// Phantoms whose fields, or whose first three derivatives, jump inside the box. The number is the least share of
+/// points whose difference stencil of ±2·10⁻³ meets no jump. (White noise jumps at every 64th of the box.)
 const BROKEN: [(&str, f64); 6] = [
     ("machined-part", 0.95),
     ("tube-tree", 0.95),

@@ -53,7 +53,7 @@ impl Tube {
         S::constant(self.radius) - length([x - t * along[0], y - t * along[1], z - t * along[2]])
     }
 
-    /// No tube that grows from here gives more than this at p.
+    /// An upper bound of the values at p of all tubes that grow from here.
     fn bound(&self, p: [f64; 3]) -> f64 {
         let away = length_squared(std::array::from_fn::<_, 3, _>(|i| p[i] - self.to.to_array()[i])).sqrt();
         // The slack is for the rounding of both sides.

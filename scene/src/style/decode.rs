@@ -13,7 +13,7 @@ pub const MAX_SIDE: usize = 4096;
 const EACH: u64 = 2 * 16 + 2 * 32;
 
 /// A square or other picture of straight RGBA in [0, 1], row by row from the top.
-pub(super) struct Straight {
+pub(super) struct StraightPicture {
     pub(super) width: usize,
     pub(super) height: usize,
     pub(super) texels: Vec<Rgba>,
@@ -21,25 +21,25 @@ pub(super) struct Straight {
     pub(super) light: bool,
 }
 
-/// A picture whose channels are each divided by 2ⁿ − 1, and nothing else is done to them; grey is repeated, a missing
-/// alpha is 1. OpenEXR has light that is multiplied by alpha: it is divided by it, and what is above 1 becomes 1.
+/// A picture whose channels are divided by 2ⁿ − 1, with no other change. Grey is repeated, and a missing alpha is 1.
+/// OpenEXR light, which is multiplied by alpha, is divided by alpha; values above 1 become 1.
 ///
 /// # Errors
 /// Bytes that are no PNG, JPEG or OpenEXR, damaged ones, and sides above [`MAX_SIDE`] (seen before anything is
 /// allocated).
-pub(super) fn straight(bytes: &[u8]) -> Result<Straight, PictureFault> {
-    let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE, EACH)?;
+pub(super) fn straight(bytes: &[u8]) -> Result<StraightPicture, PictureFault> {
+    let DecodedPicture { width, height, channels, codes } = DecodedPicture::new(bytes, MAX_SIDE, EACH)?;
     let light = matches!(codes, Codes::Light(_));
     let texels = match codes {
         Codes::Eight(codes) => codes.chunks_exact(channels).map(|codes| shares(codes, 255.0)).collect(),
         Codes::Sixteen(codes) => codes.chunks_exact(channels).map(|codes| shares(codes, 65535.0)).collect(),
         Codes::Light(light) => light.chunks_exact(channels).map(of_light).collect(),
     };
-    Ok(Straight { width, height, texels, light })
+    Ok(StraightPicture { width, height, texels, light })
 }
 
 /// A decoded picture's channels as the file has them, without the decoder's own colour conversions.
-pub(super) struct Decoded {
+pub(super) struct DecodedPicture {
     pub(super) width: usize,
     pub(super) height: usize,
     /// Channels of a pixel, from one to four.
@@ -50,20 +50,21 @@ pub(super) struct Decoded {
 /// The channels of all pixels, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Codes {
-    /// From 0 to 2⁸ − 1.
+    /// Channels from 0 to 2⁸ − 1.
     Eight(Vec<u8>),
-    /// From 0 to 2¹⁶ − 1.
+    /// Channels from 0 to 2¹⁶ − 1.
     Sixteen(Vec<u16>),
     /// Linear light, multiplied by alpha where there is one.
     Light(Vec<f32>),
 }
 
-impl Decoded {
-    /// From a PNG, JPEG or OpenEXR file's bytes. A pixel takes `each` bytes at the most, with all that is made of it.
+impl DecodedPicture {
+    /// Decodes the bytes of a PNG, JPEG or OpenEXR file. `each` is the most bytes that a pixel takes, with everything
+    /// made from it.
     ///
     /// # Errors
-    /// Bytes that are no such picture, damaged ones; sides above `limit` and more pixels than memory has room for (seen
-    /// before anything is allocated).
+    /// Bytes that are no such picture, damaged ones; sides above `limit` and more pixels than memory has room for
+    /// (found before anything is allocated).
     pub(super) fn new(bytes: &[u8], limit: usize, each: u64) -> Result<Self, PictureFault> {
         // Some decoders end their message with a line break, and a fault is told on one line.
         let one_line = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -1,4 +1,4 @@
-//! What can be wrong with a style, a theme or their pictures.
+//! Errors of styles, themes and their pictures.
 
 use crate::memory::NoRoom;
 use std::path::PathBuf;
@@ -6,10 +6,10 @@ use std::path::PathBuf;
 /// Why a picture is no style.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PictureFault {
-    /// Not a PNG, JPEG or OpenEXR, or a damaged one.
+    /// A file that is no PNG, JPEG or OpenEXR, or a damaged one.
     #[error("not a readable PNG, JPEG or OpenEXR: {reason}")]
     Unreadable {
-        /// What the decoder says.
+        /// The decoder's reason.
         reason: String,
     },
     /// Width and height differ ([STF-1]).
@@ -45,7 +45,7 @@ pub enum PictureFault {
     Texels {
         /// S.
         side: usize,
-        /// How many there are.
+        /// Number of texels given.
         found: usize,
     },
     /// The pixels given are not width × height, or there is none.
@@ -55,7 +55,7 @@ pub enum PictureFault {
         width: usize,
         /// Pixels from top to bottom.
         height: usize,
-        /// How many there are.
+        /// Number of pixels given.
         found: usize,
     },
 }
@@ -90,7 +90,7 @@ pub enum StyleError {
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// What the system says.
+        /// The operating system's reason.
         reason: String,
     },
     /// Two pictures of a theme's folder bear one name.
@@ -110,7 +110,7 @@ pub enum StyleError {
         name: String,
         /// The file.
         file: PathBuf,
-        /// What the system says.
+        /// The operating system's reason.
         reason: String,
     },
     /// A style's picture is no style.
@@ -120,7 +120,7 @@ pub enum StyleError {
         name: String,
         /// The file, or the name of the embedded picture.
         file: PathBuf,
-        /// What is wrong with it.
+        /// The fault of the picture.
         fault: PictureFault,
     },
 }

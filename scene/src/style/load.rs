@@ -5,9 +5,9 @@ use super::{Style, StyleError, Theme};
 use crate::nearest::nearest;
 use crate::tables::Styles;
 
-/// The M distinct styles among the names `used`, each once, in the order in which they first occur: the index j of
-/// [STF-3] is the position in the result. A single file of `[styles]` goes over the theme's style of the same name.
-/// Nothing is opened if no style is used; no picture is decoded that is not used.
+/// The M distinct styles among the names `used`, each once, in the order in which they first occur. The index j of
+/// [STF-3] is the position in the result. A single file of `[styles]` overrides the theme's style of the same name. No
+/// file is opened if no style is used, and no picture is decoded that is not used.
 ///
 /// # Errors
 /// A theme that does not exist, a style that neither the theme nor `[styles]` has (with the nearest name and all the

@@ -1,8 +1,9 @@
-//! The mip chain of a style (4.3; [STF-10]): of this style alone, linear and premultiplied, of its disk alone.
+//! The mip chain of a style (4.3; [STF-10]): of this style alone, linear and premultiplied, over its disk alone.
 //!
-//! Level ℓ has ⌈S/2^ℓ⌉ texels a side, for sides that are no powers of two, too; the last one has one. Its texels share
-//! the picture equally, each is the mean of the part of the disk that it covers, by area, and it belongs to
-//! λ = log₂(S/side): ℓ itself for powers of two, log₂ S for the last level, whose texel is the mean of the disk.
+//! Level ℓ has ⌈S/2^ℓ⌉ texels a side, also for sides that are no powers of two; the last level has one texel. The
+//! texels of a level share the picture equally. Each is the mean, by area, of the part of the disk that it covers. The
+//! level belongs to λ = log₂(S/side): ℓ itself for powers of two, and log₂ S for the last level, whose texel is the
+//! mean of the disk.
 
 use super::Style;
 use super::rim::{extend_rows, is_inside};
@@ -17,8 +18,8 @@ pub struct MipLevel {
     pub lambda: f64,
     /// Texels along its side.
     pub side: usize,
-    /// Row by row from the top, linear and premultiplied. A texel that covers nothing of the disk is a copy of the
-    /// nearest one that does, as outside texels of the style are.
+    /// Texels row by row from the top, linear and premultiplied. A texel that covers nothing of the disk is a copy of
+    /// the nearest one that does, like the outside texels of the style.
     pub texels: Vec<Rgba>,
 }
 
@@ -75,8 +76,8 @@ fn reduced(from: usize, side: usize, sum: impl Fn(usize, usize) -> Sum) -> Vec<S
     sums
 }
 
-/// The texels that part i of `side` equal parts of a row of `from` texels reaches, with the share of each that lies in
-/// it. Shares are counted in whole parts of a texel; where parts hold whole texels each is exactly 1.
+/// The texels of a row of `from` texels that part i of `side` equal parts reaches, with the share of each in the part.
+/// Shares are counted in whole parts of a texel. If parts hold whole texels, each share is exactly 1.
 fn shares(from: usize, side: usize, i: usize) -> (Range<usize>, Vec<f64>) {
     let [start, end] = [i * from, (i + 1) * from];
     let texels = start / side..end.div_ceil(side);

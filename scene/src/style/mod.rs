@@ -1,7 +1,7 @@
 //! Lit-sphere pictures ([STF-1], [STF-12]; Bruckner and Gröller 2007, 3.1, after Sloan et al. 2001).
 //!
-//! A style is a square picture of a sphere under orthographic projection, lit as its maker likes. Here it is read,
-//! decoded and made ready for lookups; the lookup itself belongs to a renderer.
+//! A style is a square picture of a sphere under orthographic projection, lit as its maker likes. This module reads and
+//! decodes it and prepares it for lookups. The lookup itself belongs to a renderer.
 
 mod decode;
 mod error;
@@ -20,7 +20,7 @@ pub use source::SourcePicture;
 pub use theme::Theme;
 
 use crate::color::{Rgba, premultiply, srgb_to_linear};
-use decode::Straight;
+use decode::StraightPicture;
 
 /// A lit sphere, ready for bilinear lookups.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,22 +29,22 @@ pub struct Style {
     pub name: String,
     /// S: the picture has S × S texels.
     pub side: usize,
-    /// Row by row from the top, linear and premultiplied ([VAL-3]). A texel outside the inscribed disk is a copy of
-    /// the inside texel with the nearest centre ([STF-1]), so a filter that straddles the rim reads only the sphere.
+    /// Texels row by row from the top, linear and premultiplied ([VAL-3]). A texel outside the inscribed disk is a copy
+    /// of the inside texel with the nearest centre ([STF-1]), so a filter that straddles the rim reads only the sphere.
     pub texels: Vec<Rgba>,
 }
 
 impl Style {
     /// A style from a PNG, JPEG or OpenEXR file's bytes.
     ///
-    /// Channels are divided by 2ⁿ − 1 and, unless the picture is `linear`, decoded from sRGB; gAMA, cHRM and ICC
-    /// chunks are ignored ([VAL-3]). Without an alpha channel α_d = 1. OpenEXR is linear light, multiplied by α_d where
-    /// there is one; what is brighter than 1 becomes 1.
+    /// Channels are divided by 2ⁿ − 1 and, unless the picture is `linear`, decoded from sRGB. gAMA, cHRM and ICC chunks
+    /// are ignored ([VAL-3]). Without an alpha channel α_d = 1. OpenEXR is linear light, multiplied by α_d if there is
+    /// one. Values above 1 become 1.
     ///
     /// # Errors
-    /// Bytes that are no such picture, and what [`Style::from_straight`] refuses.
+    /// Bytes that are no such picture, and the errors of [`Style::from_straight`].
     pub fn decode(name: &str, bytes: &[u8], linear: bool) -> Result<Self, PictureFault> {
-        let Straight { width, height, texels, light } = decode::straight(bytes)?;
+        let StraightPicture { width, height, texels, light } = decode::straight(bytes)?;
         if width != height {
             return Err(PictureFault::NotSquare { width, height });
         }

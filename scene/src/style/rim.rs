@@ -45,8 +45,8 @@ pub(super) fn extend(side: usize, texels: &mut [Rgba]) {
     extend_rows(&rows, texels);
 }
 
-/// The same where the inside columns of every row are given: none empty, symmetric, and no longer than in a row nearer to
-/// the middle.
+/// Like [`extend`], given the inside columns of every row. No row may be empty. Rows are symmetric, and none is longer
+/// than a row nearer to the middle.
 pub(super) fn extend_rows(rows: &[Range<usize>], texels: &mut [Rgba]) {
     let side = rows.len();
     for j in 0..side {

@@ -1,7 +1,7 @@
 //! A picture that a style is taken from: of any size, PNG, JPEG or OpenEXR ([STF-2], [VAL-3]).
 
 use super::PictureFault;
-use super::decode::{Codes, Decoded, of_light, shares};
+use super::decode::{Codes, DecodedPicture, of_light, shares};
 use crate::color::{Rgba, premultiply, srgb_to_linear};
 
 /// The largest side of such a picture, in pixels: room for large scans of works of art.
@@ -10,8 +10,8 @@ const MAX_SIDE: usize = 16384;
 /// Bytes of a pixel at the most: four channels as the decoder and the file have them.
 const EACH: u64 = 2 * 16;
 
-/// A decoded picture. Its pixels are kept as the file has them, a byte or two a channel, and become light where they
-/// are asked for: a style needs few of those of a large scan.
+/// A decoded picture. Its pixels are kept as the file has them, a byte or two a channel, and are converted to light on
+/// demand: a style needs few pixels of a large scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourcePicture {
     width: usize,
@@ -28,22 +28,23 @@ enum Pixels {
 }
 
 impl SourcePicture {
-    /// From a PNG, JPEG or OpenEXR file's bytes. Channels of the first two are divided by 2ⁿ − 1 and, unless the picture is `linear`, decoded from
-    /// sRGB; gAMA, cHRM and ICC chunks are ignored ([VAL-3]). Without an alpha channel it is opaque.
+    /// Decodes the bytes of a PNG, JPEG or OpenEXR file. Channels of the first two are divided by 2ⁿ − 1 and, unless
+    /// the picture is `linear`, decoded from sRGB. gAMA, cHRM and ICC chunks are ignored ([VAL-3]). A picture without
+    /// an alpha channel is opaque.
     ///
     /// # Errors
-    /// Bytes that are no such picture; sides above 16384 and more pixels than memory has room for (seen before anything
-    /// is allocated).
+    /// Bytes that are no such picture; sides above 16384 and more pixels than memory has room for (found before
+    /// anything is allocated).
     pub fn decode(bytes: &[u8], linear: bool) -> Result<Self, PictureFault> {
-        let Decoded { width, height, channels, codes } = Decoded::new(bytes, MAX_SIDE, EACH)?;
+        let DecodedPicture { width, height, channels, codes } = DecodedPicture::new(bytes, MAX_SIDE, EACH)?;
         let linear = linear || matches!(codes, Codes::Light(_));
         Ok(Self { width, height, linear, pixels: Pixels::File(codes, channels) })
     }
 
-    /// From straight RGBA in [0, 1], row by row from the top, encoded as sRGB unless `linear`.
+    /// A picture of straight RGBA in [0, 1], row by row from the top, encoded as sRGB unless `linear`.
     ///
     /// # Errors
-    /// No pixel, or another number of them than width × height.
+    /// A picture without pixels, or a number of pixels other than width × height.
     pub fn from_straight(width: usize, height: usize, straight: Vec<Rgba>, linear: bool) -> Result<Self, PictureFault> {
         if straight.is_empty() || width.checked_mul(height) != Some(straight.len()) {
             return Err(PictureFault::Pixels { width, height, found: straight.len() });

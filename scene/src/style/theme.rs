@@ -35,7 +35,7 @@ pub struct Theme {
     pictures: BTreeMap<String, Source>,
 }
 
-/// Where one picture of a theme is.
+/// The location of one picture of a theme.
 #[derive(Clone, Debug, PartialEq)]
 enum Source {
     Embedded(&'static [u8]),

@@ -1,5 +1,5 @@
-//! Transfer functions over data values and other quantities: piecewise-linear nodes, and what a range of values can make
-//! visible ([RAY-2]).
+//! Transfer functions over data values and other quantities: piecewise-linear nodes, and the visibility of a range of
+//! values ([RAY-2]).
 
 mod table;
 
@@ -17,11 +17,11 @@ pub struct Nodes<C> {
     pub at: Vec<f64>,
     /// α_u of each node, per reference length.
     pub opacity: Vec<f64>,
-    /// What each node shows: an index j into the distinct styles, or a linear straight colour.
+    /// The appearance of each node: an index j into the distinct styles, or a linear straight colour.
     pub color: Vec<C>,
     /// i of each of `at` and `opacity`, where those are entries of a table and not nodes; none: they are the nodes.
     pub index: Option<Vec<f64>>,
-    /// How the nodes are rows of a function over two quantities; none: they are one line over the value.
+    /// The nodes as rows of a function over two quantities. None: the nodes are one line over the value.
     pub rows: Option<Rows>,
 }
 
@@ -30,7 +30,7 @@ pub struct Nodes<C> {
 pub struct Rows {
     /// The quantities: the first along a row, the second from row to row.
     pub over: [Axis<u32>; 2],
-    /// Where each row stands: in non-decreasing order, for labels in ascending order of their ids.
+    /// The position of each row: in non-decreasing order, for labels in ascending order of their ids.
     pub at: Vec<f64>,
     /// The first node of each row.
     pub first: Vec<usize>,
@@ -80,11 +80,11 @@ impl Function {
         Self::Regular(Nodes { at: vec![0.0], opacity: vec![0.0], color: vec![[0.0; 3]], index: None, rows: None })
     }
 
-    /// Turns the nodes of a scene into nodes over the values of a volume. `id_of` knows the labels by their names. `None`
-    /// where the scene leaves the function to be found from the data.
+    /// Turns the nodes of a scene into nodes over the values of a volume. `id_of` knows the labels by their names.
+    /// `None` if the scene leaves the function to be found from the data.
     ///
     /// # Errors
-    /// Every label that `id_of` does not know, or else one that has two rows.
+    /// Every label that `id_of` does not know; if it knows them all, a label that has two rows.
     pub fn new(
         transfer: &Transfer,
         range: [f64; 2],
@@ -98,6 +98,7 @@ impl Function {
             None | Some(Axis::Value) => values(at, transfer.unit, range, volume),
             Some(_) => at,
         };
+        // Lines of nodes: one per row over two quantities, in the order in which rows are kept, else a single one.
         let (lines, rows) = match (&transfer.over, &transfer.rows) {
             (Over::Two(axes), Some(rows)) => {
                 let unknown = |name: &str| FunctionError::UnknownLabel { name: name.into(), row: None };
@@ -118,9 +119,12 @@ impl Function {
             }
             _ => (vec![transfer.nodes.as_deref().unwrap_or_default()], None),
         };
+        // All lines one after the other; `rows.first` says where each begins.
         let nodes: Vec<&Node> = lines.into_iter().flatten().collect();
         let at = to_values(nodes.iter().map(|n| n.at).collect(), rows.as_ref().map(|_| &transfer.over.axes()[0]));
         let opacity: Vec<f64> = nodes.iter().map(|n| n.opacity).collect();
+        // A table replaces the nodes' positions and opacities by its entries; colours and styles stay those of the
+        // nodes.
         let (at, opacity, index) = match transfer.table {
             Table::Entries(n) if rows.is_none() && !at.is_empty() => {
                 let table::Entries { at, opacity, index } = table::Entries::new(&at, &opacity, n, range);
@@ -128,6 +132,7 @@ impl Function {
             }
             _ => (at, opacity, None),
         };
+        // j of each node: the distinct styles are numbered in the order in which they first occur.
         let mut names: Vec<String> = Vec::new();
         let mut styles = Vec::new();
         let mut colors = Vec::new();
@@ -167,9 +172,9 @@ impl Function {
         }
     }
 
-    /// Whether a value in [lo, hi] can have α_u > 0, for any second quantity, of labels for those in `among`. `rounded`
-    /// gives the value of a node as samples are compared with it, in their number type: f32 can round a node down to a
-    /// value that a brick reaches.
+    /// Whether a value in [lo, hi] can have α_u > 0, for any second quantity, or for the labels in `among`. `rounded`
+    /// converts the value of a node to the number type of the samples. f32 can round a node down to a value that a
+    /// brick reaches.
     pub fn can_be_visible(&self, range: [f64; 2], among: Option<&[u32]>, rounded: impl Fn(f64) -> f64) -> bool {
         let (at, opacity, rows) = self.nodes();
         let Some(rows) = rows else { return can_be_visible(at, opacity, range, rounded) };
@@ -200,8 +205,8 @@ impl Rows {
     }
 }
 
-/// The order in which rows are kept, and where each stands then: as they are written, but labels by their ids. A row that
-/// several labels share is there for each of them.
+/// The order in which rows are kept, and the position of each row then: as written, but labels by their ids. A row that
+/// several labels share is repeated for each of them.
 fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<usize>, Vec<f64>), Vec<FunctionError>> {
     // Where, which row, and whether it says so by a name.
     let (mut places, mut wrong): (Vec<(f64, usize, bool)>, _) = (Vec::with_capacity(rows.len()), Vec::new());
@@ -230,8 +235,8 @@ fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<us
 
 /// Whether a piecewise-linear opacity is above 0 somewhere on [lo, hi].
 ///
-/// On a closed range it is 0 throughout exactly if both nodes of every segment that the range reaches into have opacity 0, and
-/// every node that it touches. Of nodes at one value all count. Rounding keeps nodes in order.
+/// On a closed range it is 0 throughout exactly if both nodes of every segment that overlaps the range have opacity 0,
+/// and every node that the range touches. All nodes at one value count. Rounding keeps nodes in order.
 fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
     // Without a node nothing is shown; that it is no function is said where the nodes are evaluated.
     let Some(end) = at.len().checked_sub(1) else { return false };
@@ -240,7 +245,7 @@ fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl
     let first = if at.get(below).is_some_and(|&a| rounded(a) == lo) { below } else { below.saturating_sub(1) };
     let above = at.partition_point(|&a| rounded(a) <= hi);
     let last = if above > 0 && rounded(at[above - 1]) == hi { above - 1 } else { above.min(end) };
-    // Of a range of nothing, from ∞ to −∞, there is none.
+    // An empty range, from ∞ to −∞, has no node.
     opacity.get(first..=last).is_some_and(|between| between.iter().any(|&a| a > 0.0))
 }
 
@@ -377,7 +382,8 @@ mod tests {
         assert!(!visible(-10.0, -5.0));
     }
 
-    /// At a node the function is that node's, and what is 0 all over, such as emptied surroundings, mostly has one.
+    /// The function at a node is that node's. An opacity of 0 all over, such as in emptied surroundings, usually has a
+    /// node.
     #[test]
     fn a_range_that_ends_at_a_node_sees_nothing_of_the_next() {
         let (at, opacity) = ([0.0, 10.0, 20.0], [0.0, 1.0, 0.0]);
@@ -385,7 +391,7 @@ mod tests {
         assert!(!visible(0.0, 0.0) && !visible(-5.0, 0.0) && !visible(20.0, 20.0) && !visible(20.0, 25.0));
         let least = f64::MIN_POSITIVE;
         assert!(visible(0.0, least) && visible(-5.0, least) && visible(20f64.next_down(), 20.0) && visible(10.0, 10.0));
-        // Of nodes at one value any may hold at an end.
+        // Any of several nodes at one value may count at an end.
         assert!(can_be_visible(&[5.0; 3], &[0.0, 0.5, 0.0], [5.0; 2]));
     }
 

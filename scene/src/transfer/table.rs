@@ -1,6 +1,6 @@
-//! A transfer function as a table of equal steps, as graphics hardware has it (4.1, the texture tft; [STF-3]).
+//! A transfer function as a table of equal steps, like a texture of graphics hardware (4.1, the texture tft; [STF-3]).
 
-/// The entries of a table: α_u and i at equal steps of the range of values, exact where they stand. Between two of them
+/// The entries of a table: α_u and i at equal steps of the range of values, exact at the steps. Between two entries
 /// both are interpolated linearly, as a texture unit does.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entries {

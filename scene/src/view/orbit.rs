@@ -7,9 +7,9 @@ use crate::tables::{Camera, Orbit};
 use glam::{DMat3, DVec3};
 
 impl Orbit {
-    /// The camera of a frame: `first`, the view that `camera` makes of a volume, turned as a whole by
-    /// `degrees`·frame/`frames` about `camera.up` through its target, the centre of the volume's box if it has none.
-    /// Frame 0 is `first` itself, and turns by multiples of 90° have an exact sine and cosine.
+    /// The camera of a frame: `first`, the view that `camera` makes of a volume, turned as a whole about `camera.up` by
+    /// `degrees`·frame/`frames`. The axis passes through the camera's target, or through the centre of the volume's box
+    /// if it has none. Frame 0 is `first` itself. Turns by multiples of 90° have an exact sine and cosine.
     pub fn view(&self, first: &View, camera: &Camera, grid: &Grid, frame: usize) -> View {
         let [cos, sin] = turn(self.degrees * frame as f64 / self.frames as f64);
         if [cos, sin] == [1.0, 0.0] {

@@ -52,7 +52,7 @@ pub struct BrickRow {
 }
 
 impl BrickRow {
-    /// For each brick its first cell and the one after its last, along x, y, z.
+    /// The first cell of each brick and the cell after its last, along x, y, z.
     pub fn cells(&self) -> impl Iterator<Item = [[usize; 3]; 2]> + use<> {
         let Self { cells, brick: [y, z] } = *self;
         (0..cells[0].div_ceil(BRICK)).map(move |x| {

@@ -1,4 +1,4 @@
-//! What `info` tells about a volume file.
+//! The report of `info` about a volume file.
 
 use super::Volume;
 use super::histogram::{Histogram, quantiles};

@@ -67,7 +67,7 @@ impl Mask {
 }
 
 /// Gives each voxel that is not finite the value of the nearest finite one in index space (ties: the lowest linear
-/// index) and returns the mask of those voxels, or none where all are finite.
+/// index). Returns the mask of those voxels, or none if all are finite.
 pub(super) fn fill_invalid(voxels: &mut Voxels, dims: [usize; 3]) -> Result<Option<Mask>, VolumeError> {
     match voxels {
         Voxels::F32(v) => fill(v, dims, |x| x.is_finite()),
@@ -92,10 +92,10 @@ fn fill<V: Copy>(v: &mut [V], dims: [usize; 3], finite: fn(V) -> bool) -> Result
     Ok(Some(Mask::new(dims, &invalid)))
 }
 
-/// For each voxel the linear index of the nearest valid one, ties to the lowest index.
+/// The linear index of the nearest valid voxel, for each voxel; ties go to the lowest index.
 ///
-/// The lexicographic minimum of (squared distance, index) separates by axis, since adding the squared distance along
-/// one more axis to all candidates of a line keeps their order.
+/// The lexicographic minimum of (squared distance, index) separates by axis. The squared distance along one more axis
+/// is equal for all candidates of a line, so adding it keeps their order.
 fn nearest_valid(invalid: &[bool], dims: [usize; 3]) -> Vec<usize> {
     const NONE: (u64, usize) = (u64::MAX, usize::MAX);
     let mut best: Vec<(u64, usize)> = (0..invalid.len()).map(|i| if invalid[i] { NONE } else { (0, i) }).collect();

@@ -57,7 +57,7 @@ impl Anatomy {
         }
     }
 
-    /// Which way x and y point, as signs; z is superior in all of them.
+    /// Signs of the directions of x and y; z is superior in all of these spaces.
     fn signs(self) -> DVec3 {
         match self {
             Self::LeftPosteriorSuperior => DVec3::ONE,
@@ -66,8 +66,8 @@ impl Anatomy {
         }
     }
 
-    /// A grid of one world as it lies in another ([SPACE-2]): axes that point the other way are flipped. Where one of
-    /// the worlds has no name, the grid is taken as it is.
+    /// A grid of one world in another world ([SPACE-2]): axes that point the other way are flipped. If one of the
+    /// worlds has no name, the grid is unchanged.
     pub fn between(grid: &Grid, from: Option<Self>, to: Option<Self>) -> Grid {
         match (from, to) {
             (Some(from), Some(to)) => grid.flipped(from.signs() * to.signs()),
@@ -96,27 +96,27 @@ pub enum VolumeError {
     Length {
         /// Voxels along x, y, z.
         dims: [usize; 3],
-        /// Their product.
+        /// The product of the dims.
         expected: usize,
         /// Voxels that were given.
         found: usize,
     },
-    /// Not one voxel has a finite value.
+    /// A volume without a finite value.
     #[error("no voxel has a finite value")]
     NothingFinite,
     /// Slope and intercept that are not finite, or a slope of 0, or values that overflow.
     #[error("slope {slope} and intercept {intercept} leave no range of finite values")]
     Scaling {
-        /// As the file has it.
+        /// The slope in the file.
         slope: f64,
-        /// As the file has it.
+        /// The intercept in the file.
         intercept: f64,
     },
 }
 
 impl Volume {
-    /// Takes voxels (x fastest) onto a grid. Voxels that are NaN or ±∞ get the value of the nearest valid one and a
-    /// bit in the mask ([PREC-2]).
+    /// Places voxels (x fastest) on a grid. Voxels that are NaN or ±∞ get the value of the nearest valid one and a bit
+    /// in the mask ([PREC-2]).
     ///
     /// # Errors
     /// A wrong number of voxels, no finite voxel, or a scaling that is not invertible.
@@ -136,12 +136,13 @@ impl Volume {
         Ok(Self { grid, voxels, slope, intercept, mask, range: [a.min(b), a.max(b)], anatomy: None })
     }
 
-    /// The same volume with the anatomical space that its file names.
+    /// Sets the anatomical space that the volume's file names.
     pub fn with_anatomy(self, anatomy: Option<Anatomy>) -> Self {
         Self { anatomy, ..self }
     }
 
-    /// The same places with 1 where the value is above 0, and 0 elsewhere: what a volume of labels is a picture of.
+    /// A volume on the same grid: 1 where the value is above 0, and 0 elsewhere. It is the picture of a volume of
+    /// labels.
     pub fn present(&self) -> Self {
         let (slope, intercept) = (self.slope, self.intercept);
         let dims = self.dims();
@@ -157,7 +158,7 @@ impl Volume {
         Self { grid: self.grid.clone(), voxels, slope: 1.0, intercept: 0.0, mask: self.mask.clone(), range, ..*self }
     }
 
-    /// Where the voxels lie.
+    /// The grid of the voxels.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -225,7 +226,7 @@ mod tests {
         assert_eq!(present.voxels(), &Voxels::U8(vec![0, 0, 1, 1]));
         assert_eq!((present.range(), present.value([1, 1, 0])), ([0.0, 1.0], 1.0));
         assert_eq!(present.anatomy(), Some(Anatomy::RightAnteriorSuperior));
-        // It is its own: what is present stays so.
+        // A volume of 0 and 1 is its own `present`.
         assert_eq!(present.present().voxels(), present.voxels());
         // The mask of what was not finite stays.
         let holes = Volume::new(grid, Voxels::F32(vec![1.0, f32::NAN, 0.0, -1.0]), 1.0, 0.0).unwrap().present();

@@ -48,8 +48,9 @@ key! {
         |k| f64::from_bits(if k >> 63 == 0 { !k } else { k ^ (1 << 63) });
 }
 
-/// The place, from 0, of the quantile q of n > 0 numbers in ascending order: the ⌈qn⌉-th, the first for q = 0
-/// ([VAL-2]). A product within rounding of an integer is that integer, so that q = 0.07 of 100 is the seventh.
+/// The index, from 0, of the quantile q of n > 0 numbers in ascending order: that of the ⌈qn⌉-th, or of the first for q
+/// = 0 ([VAL-2]). A product within rounding of an integer counts as that integer, so that q = 0.07 of 100 is the
+/// seventh.
 pub fn rank(q: f64, n: usize) -> usize {
     let product = q * n as f64;
     let whole = product.round();
@@ -69,20 +70,22 @@ pub fn quantile<N: Key, W: Send>(
     select(parts, work, fill, |n| vec![rank(q, n)]).pop()
 }
 
-/// Returns the numbers at some places, from 0, of the ascending order. `places` is given how many numbers there are, and not
-/// asked where there is none.
+/// Returns the numbers at some indices, from 0, of the ascending order. `places` receives the count of the numbers, and
+/// is not called if there are none.
 ///
-/// The numbers come in parts: `fill` appends those of a part to an empty list, with memory to work in that `work` makes for
-/// each thread. It is called again for a part, with the same numbers, if that part can hold a sought one.
+/// The numbers come in parts: `fill` appends the numbers of a part to an empty list, with working memory that `work`
+/// makes for each thread. It is called again for a part, with the same numbers, if that part can hold a sought one.
 ///
-/// Numbers are counted by the upper 16 bits of their keys first. Those that begin as a sought one are gathered if they are
-/// few, and else counted by the next 16 bits, and so on: gathering them all would need a second volume.
+/// Numbers are counted by the upper 16 bits of their keys first. If few share these bits with a sought number, they are
+/// gathered; otherwise they are counted by the next 16 bits, and so on. Gathering all of them would need a second
+/// volume.
 pub fn select<N: Key, W: Send>(
     parts: usize,
     work: impl Fn() -> W + Sync + Send,
     fill: impl Fn(&mut W, usize, &mut Vec<N>) + Sync,
     places: impl FnOnce(usize) -> Vec<usize>,
 ) -> Vec<N> {
+    // First pass: counts of all numbers by their upper digit.
     let passes = Passes { work, fill, spans: vec![[0, u64::MAX]; parts] };
     let (mut passes, digit) = (passes, N::BITS.min(DIGIT));
     let mut below = N::BITS - digit;
@@ -91,12 +94,13 @@ pub fn select<N: Key, W: Send>(
     if total == 0 {
         return Vec::new();
     }
-    let mut sought: Vec<Sought> = places(total as usize)
+    let mut sought: Vec<RankQuery> = places(total as usize)
         .into_iter()
-        .map(|place| Sought { prefix: 0, place: place as u64, alike: total })
+        .map(|place| RankQuery { prefix: 0, place: place as u64, alike: total })
         .collect();
     let mut prefixes = vec![0];
     loop {
+        // Each query learns its next digit from the block of counts of its prefix.
         for one in &mut sought {
             let block = prefixes.partition_point(|&prefix| prefix < one.prefix);
             one.narrow(&counts[block << digit..][..1 << digit], digit);
@@ -104,9 +108,11 @@ pub fn select<N: Key, W: Send>(
         prefixes = sought.iter().map(|one| one.prefix).collect();
         prefixes.sort_unstable();
         prefixes.dedup();
+        // All bits are known, so the prefix is the key.
         if below == 0 {
             return sought.into_iter().map(|one| N::of_key(one.prefix)).collect();
         }
+        // Few enough numbers share the prefixes to be gathered and selected directly.
         if sought.iter().all(|one| one.alike <= FEW.max(total / 64)) {
             let members = passes.gather(&prefixes, below);
             return sought.into_iter().map(|one| N::of_key(one.among(&members, below))).collect();
@@ -127,16 +133,16 @@ const TOGETHER: usize = 64;
 
 /// A number that is sought by its place in the ascending order.
 #[derive(Clone, Copy)]
-struct Sought {
+struct RankQuery {
     /// The upper bits of its key, as far as they are known.
     prefix: u64,
-    /// Its place among the numbers that begin with them.
+    /// The sought index among the numbers that begin with the prefix.
     place: u64,
-    /// How many numbers begin with them.
+    /// Number of the numbers that begin with the prefix.
     alike: u64,
 }
 
-impl Sought {
+impl RankQuery {
     /// Finds the next bits, given how many numbers there are for each of their values.
     fn narrow(&mut self, counts: &[u64], digit: u32) {
         for (value, &count) in counts.iter().enumerate() {
@@ -164,14 +170,15 @@ struct Passes<W, F> {
 }
 
 impl<W, F> Passes<W, F> {
-    /// Counts the numbers whose keys begin with one of some prefixes, in ascending order, by the value of the digit that
-    /// stands behind the prefix and above `below` bits: a block of counts a prefix.
+    /// Counts the numbers whose keys begin with one of some prefixes, in ascending order. Counts are by the value of
+    /// the digit behind the prefix and above `below` bits: one block of counts for each prefix.
     fn count<N: Key, M: Send>(&mut self, prefixes: &[u64], below: u32, digit: u32) -> Vec<u64>
     where
         W: Fn() -> M + Sync + Send,
         F: Fn(&mut M, usize, &mut Vec<N>) + Sync,
     {
         let (work, fill, bins) = (&self.work, &self.fill, prefixes.len() << digit);
+        // Each task counts in its own list of bins, and the lists are summed.
         let together = self.spans.len().div_ceil(4 * rayon::current_num_threads()).max(TOGETHER);
         self.spans
             .par_iter_mut()
@@ -305,7 +312,7 @@ mod tests {
         }
     }
 
-    /// More numbers than are gathered that differ in their last bits alone, so that all digits are counted.
+    /// Numbers that differ in their last bits alone, more than are gathered, so that all digits are counted.
     #[test]
     fn many_numbers_that_begin_alike_are_counted_to_the_last_bit() {
         let (parts, each) = (300, 1000);

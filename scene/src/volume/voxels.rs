@@ -247,8 +247,8 @@ pub trait Access: Copy + Sync {
     /// Voxels along x, y, z.
     fn dims(&self) -> [usize; 3];
 
-    /// The `S`³ voxels from (x, y, z) on, which is the window's (0, 0, 0). That all lie inside the grid is checked here,
-    /// once, and not for each row.
+    /// The `S`³ voxels from (x, y, z) on, which is the window's (0, 0, 0). The check that all lie inside the grid is
+    /// made here, once, and not for each row.
     ///
     /// # Panics
     /// If one lies outside.
@@ -275,12 +275,12 @@ pub trait Access: Copy + Sync {
 pub struct Linear<'a, V> {
     data: &'a [V],
     dims: [usize; 3],
-    /// From a voxel to the next one along y and along z.
+    /// Steps from a voxel to the next one along y and along z.
     strides: [usize; 2],
 }
 
-/// Strides are at most this, so that the compiler knows that an offset inside a window does not overflow, and leaves
-/// out the checks that follow from the window's own. In 32 bits it is a slice of 16384² voxels.
+/// The largest stride. With it the compiler knows that an offset inside a window does not overflow, and leaves out the
+/// checks that follow from the window's own. With 32-bit addresses it is a slice of 16384² voxels.
 const LONGEST_STRIDE: usize = usize::MAX >> 4;
 
 impl<'a, V: Voxel> Linear<'a, V> {
@@ -301,10 +301,10 @@ impl<'a, V: Voxel> Linear<'a, V> {
         z * self.strides[1] + y * self.strides[0] + x
     }
 
-    /// [`window`](Access::window) from the voxel on that stands at `start` in the order of voxels.
+    /// A [`window`](Access::window) that starts at the voxel with the linear index `start`.
     ///
     /// # Panics
-    /// If the window reaches beyond the last voxel. One that reaches beyond the end of a row reads the next row.
+    /// If the window reaches beyond the last voxel. A window that reaches beyond the end of a row reads the next row.
     #[inline(always)]
     pub fn window_at<const S: usize>(&self, start: usize) -> Self {
         // Checked in `new`; said again for the compiler, which does not look that far.
@@ -325,7 +325,7 @@ impl<V: Voxel> Access for Linear<'_, V> {
 
     #[inline(always)]
     fn window<const S: usize>(&self, x: usize, y: usize, z: usize) -> Self {
-        // Not `offset`: of two independent products the compiler makes a slow vector.
+        // `offset` is avoided: the compiler makes a slow vector of its two independent products.
         self.window_at::<S>((z * self.dims[1] + y) * self.dims[0] + x)
     }
 

@@ -10,12 +10,12 @@ use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// How the voxels of a written file are stored.
+/// The encoding of a written file's voxels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
-    /// As in memory, lowest byte first.
+    /// Bytes as in memory, lowest byte first.
     Raw,
-    /// The same, compressed.
+    /// Raw bytes, compressed by gzip.
     Gzip,
 }
 
@@ -25,22 +25,22 @@ pub enum Encoding {
 pub struct WriteError {
     /// The file that was to be written.
     pub file: PathBuf,
-    /// What the operating system says.
+    /// The operating system's error.
     pub source: io::Error,
 }
 
 impl WriteError {
-    /// What is wrong, in one line.
+    /// The fault, in one line.
     pub fn what(&self) -> String {
         format!("the volume cannot be written: {}", self.source)
     }
 
-    /// Where, in one line.
+    /// The file, in one line.
     pub fn place(&self) -> String {
         self.file.display().to_string()
     }
 
-    /// What to do, in one line.
+    /// The remedy, in one line.
     pub fn remedy(&self) -> String {
         atomic::remedy(&self.source).into()
     }
@@ -61,19 +61,19 @@ impl std::error::Error for WriteError {
 /// Writes a volume as NRRD, compressed. See [`write_nrrd_as`].
 ///
 /// # Errors
-/// Whatever the operating system refuses.
+/// Any error of the operating system.
 pub fn write_nrrd(volume: &Volume, path: &Path) -> Result<(), WriteError> {
     write_nrrd_as(volume, path, Encoding::Gzip)
 }
 
 /// Writes a volume as NRRD with attached header. Reading it gives the same dims, axes, origin, values and mask bit by
-/// bit; a masked voxel is written as NaN. The stored type is kept where values are as stored; NRRD has no slope and no
-/// intercept, so with them the values are written, in f64. The same volume gives the same bytes.
+/// bit; a masked voxel is written as NaN. The stored type is kept if there are no slope and intercept. NRRD has
+/// neither, so scaled values are written in f64. The same volume gives the same bytes.
 ///
-/// There is never half a file under its name ([`atomic::write()`]).
+/// A partly written file never has its name ([`atomic::write()`]).
 ///
 /// # Errors
-/// Whatever the operating system refuses.
+/// Any error of the operating system.
 pub fn write_nrrd_as(volume: &Volume, path: &Path, encoding: Encoding) -> Result<(), WriteError> {
     let filled = atomic::write(path, |out| {
         write_header(volume, encoding, out)?;

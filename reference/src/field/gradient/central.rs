@@ -1,8 +1,7 @@
 //! Central differences on the voxels, then trilinear interpolation: the papers' gradient ([REC-2]).
 //!
-//! At the border (−3f₀ + 4f₁ − f₂)/2, which is the central difference of the line continued by 3f₀ − 3f₁ + f₂.
-//! Voxels are subtracted before anything is weighted: of whole numbers the differences are exact, so a constant added to
-//! them changes no bit.
+//! At the border (−3f₀ + 4f₁ − f₂)/2 is the central difference of the line continued by 3f₀ − 3f₁ + f₂. Voxels are
+//! subtracted before they are weighted. Differences of integers are exact, so a constant added to them changes no bit.
 
 use crate::field::Field;
 use crate::field::kernel::trilinear::bilinear;
@@ -55,7 +54,7 @@ fn d<R: Arithmetic>(down: [R; 2], up: [R; 2], wx: R) -> R {
     R::lerp(up[0] - down[0], up[1] - down[1], wx)
 }
 
-/// The same of one row, along itself.
+/// The central difference of one row along x, interpolated along x.
 #[inline(always)]
 fn along_x<R: Arithmetic>(r: [R; 4], wx: R) -> R {
     d([r[0], r[1]], [r[2], r[3]], wx)

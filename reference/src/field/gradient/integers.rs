@@ -1,7 +1,7 @@
 //! ‖g‖² by central differences at every voxel of a row of 8- or 16-bit integers.
 //!
-//! Differences of such integers are exact, beyond the border too, so the bits are those of [`super::central`] whatever the
-//! order of the sums. Voxels are not converted one by one: only their differences become numbers of the sample loop.
+//! Differences of such integers are exact, beyond the border too. The bits are therefore those of [`super::central`] in
+//! any order of the sums. Only the differences are converted to numbers of the sample loop, not each voxel.
 
 use crate::field::{Field, GradientEstimator};
 use crate::number::lanes::widely;
@@ -16,8 +16,8 @@ struct Difference {
 }
 
 impl Difference {
-    /// At voxel i of a line of n ≥ 2. Beyond the border the line goes on by 3c₀ − 3c₁ + c₂, by 2c₀ − c₁ where it has two
-    /// voxels ([REC-1]).
+    /// The difference at voxel i of a line of n ≥ 2. Beyond the border the line is continued by 3c₀ − 3c₁ + c₂, or by
+    /// 2c₀ − c₁ if it has two voxels ([REC-1]).
     fn at(i: usize, n: usize) -> Self {
         match i {
             _ if n == 2 => Self { voxels: [0, 1, 1], weights: [-2, 2, 0] },
@@ -41,10 +41,11 @@ impl Difference {
 }
 
 impl<R: Real> Field<'_, R> {
-    /// ‖g‖² times 4^−e of all voxels of a row, those at the border too: the bits of
+    /// ‖g‖² times 4^−e of all voxels of a row, those at the border too. The bits are those of
     /// [`voxel_gradient`](crate::field::Sampler::voxel_gradient) times itself. `squares` is as long as the row.
     ///
-    /// Returns whether it can. It can for central differences of 8- and 16-bit integers on axes of two voxels and more.
+    /// Returns whether the row was computed: central differences of 8- and 16-bit integers, on axes of at least two
+    /// voxels.
     pub(crate) fn integer_squares(&self, row: [usize; 2], squares: &mut [R]) -> bool {
         if self.how.gradient != GradientEstimator::Central || self.stencils.careful() {
             return false;
@@ -69,6 +70,7 @@ fn of_row<R: Real, V: Voxel + Into<i32>>(
     squares: &mut [R],
 ) {
     let row = |y: usize, z: usize| &voxels[(z * ny + y) * nx..][..nx];
+    // The three rows of each difference across the row are the same for all its voxels.
     let (along_y, along_z) = (Difference::at(y, ny), Difference::at(z, nz));
     let (middle, ys, zs) = (row(y, z), along_y.voxels.map(|y| row(y, z)), along_z.voxels.map(|z| row(y, z)));
     let square = |doubled: [i32; 3]| {
@@ -76,6 +78,7 @@ fn of_row<R: Real, V: Voxel + Into<i32>>(
         let gradient = to_world.apply(Vec3::new(x, y, z));
         gradient.dot(gradient)
     };
+    // The two ends of the row have one-sided differences along x.
     for x in [0, nx - 1] {
         let along_x = Difference::at(x, nx);
         let at = |rows: [&[V]; 3]| rows.map(|row| row[x]);

@@ -1,6 +1,6 @@
-//! The gradient estimators of [REC-2] that read the voxels, one file each. Each gives its estimate in index space and
-//! in stored units: interpolated, trilinear, from the estimates at the corners of the cell. The fourth, `analytic`, is
-//! the derivative that each kernel has in its own file.
+//! The gradient estimators of [REC-2] that read the voxels, one file each. Each estimate is in index space and in
+//! stored units, interpolated trilinearly between the estimates at the corners of the cell. The fourth estimator,
+//! `analytic`, is the derivative of each kernel and stands in the kernel's file.
 
 pub(super) mod central;
 mod integers;
@@ -12,7 +12,7 @@ use super::{Field, GradientEstimator};
 use crate::number::{Real, Vec3};
 use drypoint_scene::with_access;
 
-/// The estimate at a voxel that has neighbours on all sides, which is what interpolation gives there: the other corners
+/// The estimate at a voxel that has neighbours on all sides. It equals the interpolated one, in which the other corners
 /// have weight 0. None at the border, for numbers that are scaled as they are read, and for `analytic`.
 #[inline(never)]
 pub(super) fn at_voxel<R: Real>(field: &Field<'_, R>, x: usize, y: usize, z: usize) -> Option<Vec3<R>> {

@@ -1,13 +1,13 @@
 //! 4D linear regression on the voxels, then trilinear interpolation ([REC-2], [STIP-1]).
 //!
 //! L. Neumann, B. Csébfalvi, A. König, E. Gröller, *Gradient Estimation in Volume Data using 4D Linear Regression*,
-//! Computer Graphics Forum 19(3), 2000: a·x + b·y + c·z + d is fitted to the 3×3×3 voxels around one, each weighted
-//! with 1/distance in world units, the middle one with 2/(smallest spacing); (a, b, c) is the gradient, d the smoothed
-//! value in the middle.
+//! Computer Graphics Forum 19(3), 2000. The hyperplane a·x + b·y + c·z + d is fitted to the 3×3×3 voxels around a
+//! voxel. Each has the weight 1/distance in world units, the middle one 2/(smallest spacing). (a, b, c) is the
+//! gradient, d the smoothed value in the middle.
 //!
-//! The fit is the same in any linear coordinates, so it is made in index space, where an axis of length 1 can be left
-//! out: h, the gradient along the index axes, is one linear combination of the voxels for each set of voxels that exist:
-//! all 27, or those that a border leaves.
+//! The fit is the same in any linear coordinates. It is made in index space, where an axis of length 1 can be left out.
+//! There h, the gradient along the index axes, is a linear combination of the voxels. Its weights depend only on which
+//! of them exist: all 27, or those that a border leaves.
 
 use crate::field::Field;
 use crate::field::place::Place;
@@ -20,15 +20,15 @@ use drypoint_scene::volume::Access;
 /// Weights of the 3³ voxels around one, x fastest: for the derivative along each index axis, and for d.
 type Weights<R> = [[R; 27]; 4];
 
-/// For each index axis the voxels that have a weight, x fastest, and it.
+/// Indices of the voxels with a nonzero weight, x fastest, and the weights, for each index axis.
 pub(super) type Taps<R> = [Vec<(usize, R)>; 3];
 
 /// The fit for each of the cases that a grid has.
 #[derive(Clone, Debug)]
 pub(in crate::field) struct Regression<R> {
-    /// By the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
+    /// The fits, indexed by the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
     cases: Vec<Option<Box<Weights<R>>>>,
-    /// Those of the gradient of a voxel that has all neighbours.
+    /// Weights of the gradient at a voxel that has all neighbours.
     taps: Taps<R>,
 }
 
@@ -165,6 +165,7 @@ fn interpolated<R: Real>(block: &Block<R>, [wx, wy, wz]: [R; 3]) -> [R; 27] {
 /// that exist.
 fn fit(grid: &Grid, sides: [usize; 3]) -> Weights<f64> {
     let exists = |axis: usize, k: i32| k == 0 || sides[axis] & (if k < 0 { 1 } else { 2 }) != 0;
+    // (t, φ, w) of each neighbour that exists.
     let neighbours: Vec<(usize, [f64; 4], f64)> = (0..27)
         .map(|t| (t, [t as i32 % 3 - 1, t as i32 / 3 % 3 - 1, t as i32 / 9 - 1]))
         .filter(|(_, k)| (0..3).all(|a| exists(a, k[a])))
@@ -175,6 +176,7 @@ fn fit(grid: &Grid, sides: [usize; 3]) -> Weights<f64> {
             (t, [k[0], k[1], k[2], 1.0], weight)
         })
         .collect();
+    // The normal matrix Σ w φφᵀ.
     let mut normal = [[0.0; 4]; 4];
     for (_, phi, weight) in &neighbours {
         for i in 0..4 {
@@ -187,6 +189,7 @@ fn fit(grid: &Grid, sides: [usize; 3]) -> Weights<f64> {
     for (axis, _) in sides.iter().enumerate().filter(|(_, s)| **s == 0) {
         normal[axis][axis] = 1.0;
     }
+    // Weights of f: (Σ w φφᵀ)⁻¹ w φ, one column for each neighbour.
     let inverse = inverted(normal);
     let mut weights = [[0.0; 27]; 4];
     for (t, phi, weight) in neighbours {
@@ -219,8 +222,8 @@ fn inverted(mut m: [[f64; 4]; 4]) -> [[f64; 4]; 4] {
 mod tests {
     use super::*;
 
-    /// On a cubic grid the normal equations are diagonal: h = Σ w k f / Σ w k², w = 1/√(k·k). Per axis Σ w k² over
-    /// the 18 neighbours with k ≠ 0 is 2·(1 + 4/√2 + 4/√3).
+    /// The normal equations of a cubic grid are diagonal: h = Σ w k f / Σ w k², w = 1/√(k·k). Per axis Σ w k² over the
+    /// 18 neighbours with k ≠ 0 is 2·(1 + 4/√2 + 4/√3).
     #[test]
     fn inside_a_cubic_grid_the_published_weights() {
         let grid = Grid::with_spacing([5; 3], [1.0; 3]).unwrap();
@@ -234,8 +237,8 @@ mod tests {
         }
     }
 
-    /// At the border of a plane, x ≥ 0: the six voxels lie on two lines, and h_x joins their weighted means. The line
-    /// k_x = 0 weighs 1, 2, 1, the other 1/√2, 1, 1/√2.
+    /// The border of a plane, x ≥ 0: the six voxels lie on two lines, and h_x joins their weighted means. The line k_x
+    /// = 0 weighs 1, 2, 1, the other 1/√2, 1, 1/√2.
     #[test]
     fn at_a_border_the_voxels_that_exist() {
         let grid = Grid::with_spacing([3, 3, 1], [1.0; 3]).unwrap();

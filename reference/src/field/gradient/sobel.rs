@@ -1,12 +1,12 @@
 //! Sobel's operator on the voxels, then trilinear interpolation ([REC-2]).
 //!
-//! On a voxel: central differences along one axis, smoothed with (1, 2, 1)/4 along the two others. At the border of an
-//! axis differences are one-sided, as the central ones, and the smoothing along that axis is dropped. Interpolated
-//! between two voxels each of the two operations has four taps, as a kernel's.
+//! At a voxel the operator is a central difference along one axis, smoothed with (1, 2, 1)/4 along the two others. At
+//! the border of an axis the difference is one-sided, as for central differences, and the smoothing along that axis is
+//! dropped. Interpolated between two voxels, each of the two operations has four taps, like a kernel.
 
 use crate::field::Field;
 use crate::field::place::Place;
-use crate::field::tensor::{self, Given, Taps};
+use crate::field::tensor::{self, RowsFn, Taps};
 use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::volume::Access;
 
@@ -15,7 +15,7 @@ pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: Place<R>) ->
     let dims = field.stencils.dims();
     let block = field.stencils.block::<R>(at.cell);
     let taps: [Taps<R, 4>; 3] = std::array::from_fn(|axis| taps(at.cell[axis], at.w[axis], dims[axis]));
-    tensor::gradient(&Given(|j: usize, k: usize| block[k][j]), &taps)
+    tensor::gradient(&RowsFn(|j: usize, k: usize| block[k][j]), &taps)
 }
 
 /// The operator at a voxel that has neighbours on all sides: the sums of the interpolation, in their order.
@@ -65,7 +65,7 @@ fn taps<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 4> {
     Taps { value, first: [-(u * half), -(w * half), u * half, w * half], second: [R::ZERO; 4] }
 }
 
-/// The same where all four are in the grid.
+/// Like [`taps`], for a cell whose four voxels per axis all lie in the grid.
 #[inline(always)]
 pub(in crate::field) fn taps_inside<A: Arithmetic>(w: A, one: A, zero: A) -> Taps<A, 4> {
     let u = one - w;

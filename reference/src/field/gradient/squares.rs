@@ -1,5 +1,5 @@
-//! ‖g‖² by central differences, Sobel's operator and the fit at every voxel of a row, eight side by side: the operations of
-//! one voxel, so the same bits.
+//! ‖g‖² by central differences, Sobel's operator and the fit at every voxel of a row, eight side by side. The
+//! operations are those of one voxel, so the bits are the same.
 
 use super::regression::Taps;
 use crate::field::{Field, GradientEstimator};
@@ -19,12 +19,12 @@ type Windows<R> = [[R; LANES + 2]; ROWS];
 type Lane<R> = [[R; LANES]; 3];
 
 impl<R: Real> Field<'_, R> {
-    /// ‖g‖² times 4^−e of the voxels of a row but for its first and last: the bits of
-    /// [`voxel_gradient`](crate::field::Sampler::voxel_gradient) times itself. `rows` is memory to work in, `squares` as long
-    /// as the row.
+    /// ‖g‖² times 4^−e of the voxels of a row except the first and the last. The bits are those of
+    /// [`voxel_gradient`](crate::field::Sampler::voxel_gradient) times itself. `rows` is working memory, and `squares`
+    /// is as long as the row.
     ///
-    /// Returns whether it can. It cannot in rows at a border or shorter than ten voxels, where numbers are read with care,
-    /// and with a kernel's own derivative.
+    /// Returns whether the row was computed. Rows at a border, rows shorter than ten voxels, fields whose numbers are
+    /// read with care, and a kernel's own derivative are not.
     pub(crate) fn squares_inside(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, squares: &mut [R]) -> bool {
         let (nx, inside) = (squares.len(), squares.len().saturating_sub(2));
         if inside < LANES || !self.stencils.surrounds([1, y, z]) {

@@ -1,8 +1,8 @@
 //! Central differences of the grid gradient, then trilinear interpolation ([REC-3]).
 //!
-//! The grid gradient is [REC-2]'s central one whatever `gradient` says, with its one-sided differences at the border, and
-//! it is differenced by the same rule. Along an axis this makes of six voxels two numbers, at the corners of the cell,
-//! which w interpolates: weights of six taps, as a kernel's.
+//! The grid gradient is the central one of [REC-2] for every value of `gradient`, with its one-sided differences at the
+//! border. It is differenced by the same rule. Along an axis this turns six voxels into two numbers, at the corners of
+//! the cell, and w interpolates between them. The result has six taps, like a kernel.
 
 use crate::field::Field;
 use crate::field::place::Place;
@@ -51,7 +51,7 @@ fn along_x<R: Real, const N: usize>(taps: &[R; 6], row: &[R; 6], first: R) -> R 
     sum
 }
 
-/// How far a tap lies beside the two of the cell's corners: the order of difference that it takes to reach it.
+/// Distance of a tap from the nearer corner of the cell: the order of difference that reaches the tap.
 fn beside(tap: usize) -> usize {
     [2, 1, 0, 0, 1, 2][tap]
 }
@@ -71,7 +71,7 @@ fn taps<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 6> {
     }
 }
 
-/// The same by applying differences to differences, whatever their form.
+/// Like [`taps`], by applying differences to differences, in whichever form each of them has.
 fn taps_at_border<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 6> {
     let mut taps = Taps { value: [R::ZERO; 6], first: [R::ZERO; 6], second: [R::ZERO; 6] };
     // On an axis of length 1 the cell has one corner.
@@ -88,8 +88,8 @@ fn taps_at_border<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 6> {
     taps
 }
 
-/// The derivative at voxel i of a line of n as voxels and their weights: the central difference, (−3f₀ + 4f₁ − f₂)/2 at
-/// an end, the difference of two voxels, 0 of one.
+/// The derivative at voxel i of a line of n, as voxels and their weights. It is the central difference, (−3f₀ + 4f₁ −
+/// f₂)/2 at an end, the difference of two voxels if there are two, and 0 of one.
 fn difference(i: usize, n: usize) -> [(usize, f64); 3] {
     match n {
         1 => [(i, 0.0); 3],

@@ -48,8 +48,8 @@ pub(in crate::field) fn half_taps(sigma: f64) -> Vec<f64> {
     half.iter().map(|w| w / sum).collect()
 }
 
-/// The weights that make smoothed sample i of a line of n ≥ 2, and the first sample that they belong to. Taps beyond
-/// the border weight the samples that the line is continued from.
+/// The weights of smoothed sample i of a line of n ≥ 2, and the first sample that they apply to. Taps beyond the border
+/// weight the samples that the line is continued from.
 pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize, Vec<R>) {
     let reach = half.len() - 1;
     let short = n.min(3);
@@ -61,6 +61,7 @@ pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize
     if i + reach >= n {
         first = first.min(n - short);
     }
+    // Each tap counts at its own sample, or by extrapolation at the three samples next to the border.
     let mut weights = vec![0.0; end - first];
     for (k, &w) in half.iter().enumerate() {
         if k > 0 && i < k {
@@ -79,8 +80,8 @@ pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize
     (first, weights.into_iter().map(R::from_f64).collect())
 }
 
-/// What the sample k steps beyond the border is of the nearest three inside: the parabola through them, which is what
-/// c₋₁ = 3c₀ − 3c₁ + c₂ applied k times gives; with two samples the line.
+/// Weights of the three samples nearest to a border in the sample k steps beyond it. They extend the parabola through
+/// the three, as c₋₁ = 3c₀ − 3c₁ + c₂ applied k times does; two samples extend their line.
 fn extrapolation(k: usize, n: usize) -> [f64; 3] {
     let k = k as f64;
     if n == 2 {

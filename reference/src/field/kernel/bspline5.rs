@@ -5,7 +5,7 @@ use crate::field::Field;
 use crate::field::coefficients::Coefficients;
 use crate::field::place::Place;
 use crate::field::sampler::Interpolant;
-use crate::field::tensor::{self, Given, Taps};
+use crate::field::tensor::{self, RowsFn, Taps};
 use crate::number::lanes::widely;
 use crate::number::{Real, Sym3, Vec3};
 
@@ -60,7 +60,7 @@ impl<R: Real> Interpolant<R> for Bspline5<'_, R> {
     fn value(&self, _: &Field<'_, R>, at: Place<R>) -> R {
         widely(
             #[inline(always)]
-            || self.0.base() + tensor::value(&Given(self.0.rows(at.cell)), &at.w.map(taps)),
+            || self.0.base() + tensor::value(&RowsFn(self.0.rows(at.cell)), &at.w.map(taps)),
         )
     }
 
@@ -68,7 +68,7 @@ impl<R: Real> Interpolant<R> for Bspline5<'_, R> {
     fn gradient(&self, _: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
         widely(
             #[inline(always)]
-            || tensor::gradient(&Given(self.0.rows(at.cell)), &at.w.map(taps)),
+            || tensor::gradient(&RowsFn(self.0.rows(at.cell)), &at.w.map(taps)),
         )
     }
 
@@ -76,7 +76,7 @@ impl<R: Real> Interpolant<R> for Bspline5<'_, R> {
     fn second(&self, _: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
         widely(
             #[inline(always)]
-            || tensor::second(&Given(self.0.rows(at.cell)), &at.w.map(taps)),
+            || tensor::second(&RowsFn(self.0.rows(at.cell)), &at.w.map(taps)),
         )
     }
 }

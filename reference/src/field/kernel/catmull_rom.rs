@@ -10,8 +10,9 @@ use crate::number::{Real, Vec3};
 #[derive(Clone, Copy, Debug)]
 pub struct CatmullRom;
 
-/// The cubic through samples 0 and 1 with central differences as slopes: weights of samples −1 … 2 for 0 ≤ t ≤ 1, with
-/// first derivatives. The second ones jump at the voxels and are no estimate ([REC-3]): left out.
+/// Weights of samples −1 … 2 for 0 ≤ t ≤ 1, with first derivatives. The cubic passes through samples 0 and 1, with
+/// central differences as slopes. Its second derivatives jump at the voxels and are no estimate ([REC-3]), so they are
+/// left out.
 #[inline(always)]
 fn taps<R: Real>(t: R) -> Taps<R, 4> {
     let c = |x: f64| R::from_f64(x);

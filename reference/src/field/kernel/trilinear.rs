@@ -28,7 +28,7 @@ fn along<R: Arithmetic>(r: [R; 2], wx: R) -> R {
     R::lerp(r[0], r[1], wx)
 }
 
-/// Constant along each axis inside a cell, with jumps between cells.
+/// The kernel's derivative: constant along each axis inside a cell, with jumps between cells.
 #[inline(always)]
 fn gradient<R: Real>(r: Corners<R>, [wx, wy, wz]: [R; 3]) -> Vec3<R> {
     let step = |a: [R; 2]| a[1] - a[0];
@@ -51,8 +51,8 @@ impl<R: Real> Interpolant<R> for Trilinear {
 
     const AT_ONCE: usize = 8;
 
-    /// Eight voxels are read so soon that to decide the stored type for each value, and to wait for one before the next,
-    /// would be most of the time.
+    /// Decides the stored type once for all values. Eight voxels are read so quickly that a decision per value, and the
+    /// wait for each value before the next, would take most of the time.
     #[inline(always)]
     fn values(&self, field: &Field<'_, R>, place: impl Fn(usize) -> Place<R>, values: &mut [R]) {
         let places = values.iter_mut().enumerate().map(|(i, value)| (place(i), value));

@@ -1,6 +1,6 @@
 //! Fields whose kernel has no lanes of its own: one position after the other, as a ray alone would ask.
 
-use super::{Alone, LANES, Places, Reader, Seconds, places, splat};
+use super::{LANES, PlaceColumns, Places, Reader, Seconds, places, splat};
 use crate::field::Field;
 use crate::field::place::Place;
 use crate::field::sampler::{AnySampler, Interpolant, Sampled, index_gradient, index_second, number};
@@ -9,33 +9,33 @@ use crate::number::{Sym3, Vec3};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// What a kernel says of the lanes `asked`, along the index axes and before slope and intercept. The loops over samples are
-/// compiled once for all kernels that are dear, and call these.
+/// A kernel's results for the lanes `asked`, along the index axes and before slope and intercept. Loops over samples
+/// are compiled once for all expensive kernels and call these methods.
 pub(crate) trait Each: Sync {
     /// Values.
-    fn numbers(&self, at: &Alone, asked: u64) -> [f64; LANES];
+    fn numbers(&self, at: &PlaceColumns, asked: u64) -> [f64; LANES];
 
     /// Gradients.
-    fn gradients(&self, at: &Alone, asked: u64) -> [[f64; LANES]; 3];
+    fn gradients(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 3];
 
     /// Gradients and Hessians: x, y, z, xx, xy, xz, yy, yz, zz.
-    fn seconds(&self, at: &Alone, asked: u64) -> [[f64; LANES]; 9];
+    fn seconds(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 9];
 }
 
 impl<K: Interpolant<f64>> Each for Sampled<'_, '_, f64, K> {
-    fn numbers(&self, at: &Alone, asked: u64) -> [f64; LANES] {
+    fn numbers(&self, at: &PlaceColumns, asked: u64) -> [f64; LANES] {
         let [numbers] = of_each(asked, |lane| [number(self, at.place(lane))]);
         numbers
     }
 
-    fn gradients(&self, at: &Alone, asked: u64) -> [[f64; LANES]; 3] {
+    fn gradients(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 3] {
         of_each(asked, |lane| {
             let Vec3 { x, y, z } = index_gradient(self, at.place(lane), estimated_gradient);
             [x, y, z]
         })
     }
 
-    fn seconds(&self, at: &Alone, asked: u64) -> [[f64; LANES]; 9] {
+    fn seconds(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 9] {
         of_each(asked, |lane| {
             let (Vec3 { x, y, z }, Sym3 { xx, xy, xz, yy, yz, zz }) =
                 index_second(self, at.place(lane), estimated_second);
@@ -44,13 +44,13 @@ impl<K: Interpolant<f64>> Each for Sampled<'_, '_, f64, K> {
     }
 }
 
-/// Not for each kernel again.
+/// The field's estimate, compiled once and not for each kernel.
 #[inline(never)]
 fn estimated_gradient(field: &Field<'_, f64>, at: Place<f64>) -> Vec3<f64> {
     field.estimated_gradient(at)
 }
 
-/// Not for each kernel again.
+/// The field's estimate, compiled once and not for each kernel.
 #[inline(never)]
 fn estimated_second(field: &Field<'_, f64>, at: Place<f64>) -> (Vec3<f64>, Sym3<f64>) {
     field.estimated_second(at)
@@ -99,7 +99,7 @@ pub(crate) struct EachReader<'f, 'v, S> {
 }
 
 impl<'f, 'v, S: Simd> EachReader<'f, 'v, S> {
-    /// Of a field's own kernel.
+    /// Reads a field with its own kernel, `each`.
     #[inline(always)]
     pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, each: &'f dyn Each) -> Self {
         Self { simd, field, each }

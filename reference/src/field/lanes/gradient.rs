@@ -11,9 +11,9 @@ use drypoint_scene::volume::Access;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, f64x8, mask64x8};
 
-/// Up to so many gradients are computed one by one.
+/// The largest number of gradients that are computed one by one.
 const FEW: u32 = 2;
-/// The same with Sobel's operator, which one cell's columns are vectors for.
+/// [`FEW`] for Sobel's operator, for which the columns of a single cell already fill vectors.
 const FEW_SOBEL: u32 = 5;
 
 impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {

@@ -1,8 +1,8 @@
 //! A field at eight positions side by side, for rays that are cast in lanes.
 //!
-//! Trilinear values, central differences and Sobel's operator of small whole numbers, which is what scanners store: the formulas are those of
-//! one position, over lanes, so that the bits are the same. Voxels are fetched one lane after the other, whole rows at a
-//! time, and taken apart in lanes. Other kernels are asked for one position [after the other](each).
+//! Lanes cover trilinear values, central differences and Sobel's operator of small integers, which is what scanners
+//! store. The formulas are those of one position, over lanes, so the bits are the same. Voxels are fetched lane by
+//! lane, whole rows at a time, and unpacked in lanes. Other kernels are asked for one position [after the other](each).
 
 mod each;
 mod gradient;
@@ -28,7 +28,8 @@ const MANTISSA: u64 = (1 << 52) - 1;
 pub(crate) trait Packed: Voxel {
     /// Bits of one.
     const BITS: u32;
-    /// The sign bit; 0 for types without one. Flipped, it leaves the number plus the bit's own worth, without a sign.
+    /// The sign bit; 0 for types without one. A number with this bit flipped is the unsigned number plus the value of
+    /// the bit.
     const SIGN: u64;
 
     /// The bits.
@@ -66,9 +67,10 @@ fn word<V: Packed, const N: usize>(row: [V; N]) -> u64 {
     word
 }
 
-/// Bits of a word below those that 2⁵² has as a double, and below a byte that stays 0.
+/// Width of the part of a word that holds numbers, in bits. Above it are a byte that stays 0 and the bits that 2⁵² has
+/// as a double.
 const ROOM: u32 = 40;
-/// Which byte that is.
+/// Index of the byte that stays 0.
 const NOTHING: u64 = 5;
 
 /// The sign bits of `N` numbers in a word.
@@ -81,7 +83,8 @@ const fn signs<V: Packed, const N: usize>() -> u64 {
     signs
 }
 
-/// Which bytes of two words that hold 2⁵²'s bits, too, make number i of each plus 2⁵²; for all words.
+/// Byte selectors, for every word of a vector: from two words that also hold the bits of 2⁵², they take number i of
+/// each, plus 2⁵².
 const fn picks<V: Packed>(i: usize) -> [u64; LANES] {
     let bytes = V::BITS as u64 / 8;
     let mut picks = 0x0706 << 48;
@@ -95,9 +98,10 @@ const fn picks<V: Packed>(i: usize) -> [u64; LANES] {
     [picks, second, picks, second, picks, second, picks, second]
 }
 
-/// What is read around eight cells.
+/// The stored voxels around eight cells.
 ///
-/// Each of the eight is said: eight words become a vector at once then, instead of being put into one, one after the other.
+/// The eight are written out one by one: the compiler then builds a vector from eight words at once instead of
+/// inserting them in turn.
 struct Windows<'v, V>([Linear<'v, V>; LANES]);
 
 impl<V: Packed> Windows<'_, V> {
@@ -128,7 +132,7 @@ fn pairs<V: Packed>(window: &Linear<'_, V>, [(y, z), (next_y, next_z)]: [(usize,
     word(window.row::<2>(x, y, z)) | word(window.row::<2>(x, next_y, next_z)) << (2 * V::BITS)
 }
 
-/// Cells and the ways into them, as [`Place`].
+/// Cells and the fractions in them, like [`Place`].
 #[derive(Clone, Copy)]
 pub(crate) struct Places<S: Simd> {
     cell: Vec3<f64x8<S>>,
@@ -136,37 +140,37 @@ pub(crate) struct Places<S: Simd> {
 }
 
 impl<S: Simd> Places<S> {
-    /// Cells, then ways.
+    /// The columns of the cells, then those of the fractions.
     #[inline(always)]
     pub(crate) fn to_columns(self) -> [[f64; LANES]; 6] {
         let Self { cell, w: [wx, wy, wz] } = self;
         [cell.x.into(), cell.y.into(), cell.z.into(), wx.into(), wy.into(), wz.into()]
     }
 
-    /// From [`to_columns`](Self::to_columns).
+    /// Restores the places from [`to_columns`](Self::to_columns).
     #[inline(always)]
     pub(crate) fn from_columns([x, y, z, wx, wy, wz]: [f64x8<S>; 6]) -> Self {
         Self { cell: Vec3::new(x, y, z), w: [wx, wy, wz] }
     }
 
-    /// One by one.
+    /// The places as scalars, for one lane at a time.
     #[inline(always)]
-    pub(crate) fn alone(&self) -> Alone {
+    pub(crate) fn alone(&self) -> PlaceColumns {
         let [wx, wy, wz] = self.w;
-        Alone {
+        PlaceColumns {
             cell: [whole(self.cell.x), whole(self.cell.y), whole(self.cell.z)],
             w: [wx.into(), wy.into(), wz.into()],
         }
     }
 }
 
-/// [`Places`], to be taken one by one.
-pub(crate) struct Alone {
+/// [`Places`] as scalars, for one lane at a time.
+pub(crate) struct PlaceColumns {
     cell: [[usize; LANES]; 3],
     w: [[f64; LANES]; 3],
 }
 
-impl Alone {
+impl PlaceColumns {
     /// The cell of a lane.
     #[inline(always)]
     pub(crate) fn cell(&self, lane: usize) -> [usize; 3] {
@@ -187,19 +191,19 @@ pub(crate) type Seconds<S> = (Vec3<f64x8<S>>, Sym3<f64x8<S>>);
 
 /// Reads a field in lanes.
 pub(crate) trait Reader<S: Simd>: Copy {
-    /// Whether a value is dear: only those are asked for then that may be seen in their cells.
+    /// Whether values are expensive. If so, only values that may be visible in their cells are asked for.
     const DEAR: bool;
 
-    /// The places of positions inside the box; of others the nearest cell, and ways that lead out of it.
+    /// The places of positions inside the box. Positions outside get the nearest cell, and fractions beyond [0, 1].
     fn places(&self, p: Vec3<f64x8<S>>) -> Places<S>;
 
     /// The values at places, of the lanes `asked` at least.
     fn values(&self, at: &Places<S>, asked: mask64x8<S>) -> f64x8<S>;
 
-    /// World gradients, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    /// World gradients, times 2^−e, at the places of `asked`; anything in the other lanes.
     fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>>;
 
-    /// World gradients and Hessians, times 2^−e, at the places of `asked`; whatever in the other lanes.
+    /// World gradients and Hessians, times 2^−e, at the places of `asked`; anything in the other lanes.
     fn seconds(&self, at: &Places<S>, asked: mask64x8<S>) -> Seconds<S>;
 }
 
@@ -241,7 +245,7 @@ fn splat<S: Simd>(simd: S, m: &Mat3<f64>) -> Mat3<f64x8<S>> {
     Mat3 { rows }
 }
 
-/// Reads small whole numbers that are interpolated trilinearly.
+/// A reader of small integers that are interpolated trilinearly.
 #[derive(Clone, Copy)]
 pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
     simd: S,
@@ -251,10 +255,10 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
 }
 
 impl Field<'_, f64> {
-    /// Whether a [`Reader`] reads this field, its gradients too if they are asked for: whole numbers, read as they are stored.
-    /// [`LaneReader`] reads the trilinear kernel: numbers of at most 16 bits, central differences or Sobel's operator, at
-    /// least four voxels on each axis. [`EachReader`] reads the others, where a sample's `looks` are dear too; else rays are
-    /// as fast alone.
+    /// Whether a [`Reader`] reads this field, and its gradients if `gradient` is set. The numbers must be integers,
+    /// read as they are stored. [`LaneReader`] reads the trilinear kernel: numbers of at most 16 bits, central
+    /// differences or Sobel's operator, at least four voxels on each axis. [`EachReader`] reads the other kernels if a
+    /// sample's `looks` are expensive too; otherwise single rays are as fast.
     pub(crate) fn fits_lanes(&self, gradient: bool, looks: bool) -> bool {
         if self.stencils.careful() || !self.volume.voxels().voxel_type().is_integer() {
             return false;
@@ -301,7 +305,7 @@ impl<S: Simd, V: Packed> Reader<S> for LaneReader<'_, '_, S, V> {
 }
 
 impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
-    /// For a field that [`fits_lanes`](Field::fits_lanes) and its voxels.
+    /// Reads a field that [`fits_lanes`](Field::fits_lanes), from its voxels.
     #[inline(always)]
     pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, voxels: &'f [V]) -> Self {
         let to_world = splat(simd, &field.to_world);
@@ -324,7 +328,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         ])
     }
 
-    /// Where voxels stand in the order of voxels.
+    /// Linear offsets of voxels in the volume.
     #[inline(always)]
     fn offsets(&self, voxel: Vec3<f64x8<S>>) -> [usize; LANES] {
         let [nx, ny, _] = self.voxels.dims();
@@ -333,18 +337,17 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         whole(offset)
     }
 
-    /// Between two numbers, both raised.
+    /// Interpolates between two numbers, both raised.
     #[inline(always)]
     fn between(&self, a: f64x8<S>, b: f64x8<S>, w: f64x8<S>) -> f64x8<S> {
-        // As `lerp`; whole numbers so small have exact differences.
+        // The formula of `lerp`: integers this small have exact differences.
         (a - (TO_BITS + V::SIGN as f64)) + w * (b - a)
     }
 
-    /// The first `N` numbers in each word, each more by one and the same whole number: their differences are those of the
-    /// numbers.
+    /// The first `N` numbers in each word, all raised by the same integer: their differences are those of the numbers.
     ///
-    /// No closure here or anywhere in lanes: what is not inlined at once is compiled for the least processor, and each
-    /// vector operation in it stays a call.
+    /// There is no closure here or anywhere in lanes. A closure that is not inlined at once is compiled for the
+    /// baseline processor, and each vector operation in it stays a call.
     #[inline(always)]
     fn raised<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
         let mut raised = [f64x8::splat(self.simd, 0.0); N];

@@ -1,25 +1,26 @@
 //! Derivatives of a field smoothed by a Gaussian, made only where they are asked for ([REC-3], [HATCH-3]).
 //!
-//! The grid is smoothed as for the `gaussian` Hessian; its derivatives are then central differences and those of the central
-//! gradient, interpolated linearly, which look less at what is finer than the grid than a spline through the smoothed samples
-//! does: at σ = 1 voxel their weights' root sum of squares is 0.066, the spline's 0.158. Smoothing is separable: along an axis
-//! each sample is one sum over its line, whose weights hold the continuation beyond the border too. So the samples around any
-//! cell can be had by themselves, whatever else was asked for and in whatever order.
+//! The grid is smoothed as for the `gaussian` Hessian. Its derivatives are central differences and central differences
+//! of those, interpolated linearly. They respond less to detail finer than the grid than a spline through the smoothed
+//! samples does: at σ = 1 voxel the root sum of squares of their weights is 0.066, the spline's 0.158.
+//!
+//! Smoothing is separable. Along an axis each sample is one sum over its line, whose weights include the continuation
+//! beyond the border. The samples around any cell can therefore be computed on their own, in any order.
 
 mod rows;
 mod sums;
 
 use super::Field;
 use super::hessian::gaussian;
-use super::interpolated::{Around, TAPS};
+use super::interpolated::{SampleWindow, TAPS};
 use super::voxel_hessian::{bends, slopes};
 use crate::number::{Sym3, Vec3};
 use rows::{Row, reads, responses, rows};
 use std::sync::OnceLock;
 use sums::Sums;
 
-/// Cells along the side of a brick, and of one of a σ beyond [`WIDE`]: there neighbouring bricks have more sums in common, which
-/// each makes by itself.
+/// Cells along the side of a brick. Bricks of a σ beyond [`WIDE`] are larger: neighbouring bricks share more sums
+/// there, and each brick computes its own.
 const BRICK: usize = 16;
 const WIDE_BRICK: usize = 32;
 const WIDE: f64 = 1.5;
@@ -28,27 +29,27 @@ const WIDE: f64 = 1.5;
 #[derive(Debug)]
 pub struct Smoothed<'f, 'v> {
     field: &'f Field<'v, f64>,
-    /// For each axis the rows of its samples, from two before the first on.
+    /// Rows of the samples of each axis, from two samples before the first on.
     rows: [Vec<Row>; 3],
     /// Cells along the side of a brick.
     side: usize,
     /// Bricks along x, y, z.
     dims: [usize; 3],
     bricks: Vec<OnceLock<Region>>,
-    /// For each voxel along each axis the root sums of squares of the weights of a value and of a second derivative.
+    /// Root sums of squares of the weights of a value and of a second derivative, for each voxel along each axis.
     responses: [Vec<[f64; 2]>; 3],
-    /// For each axis the square of the length of D⁻ᵀ's column, which takes second derivatives to the world's unit.
+    /// Squared length of each column of D⁻ᵀ, which converts second derivatives to the world's unit.
     squares: [f64; 3],
-    /// The lowest number, as numbers are read: sums are of what is more.
+    /// The lowest number, as numbers are read: sums run over the differences to it.
     base: f64,
-    /// The standard deviation of one rounding, as numbers are read, to the unit of the derivatives; 0 without rounding.
+    /// The standard deviation of one rounding, as numbers are read, in the unit of the derivatives; 0 without rounding.
     rounding: f64,
 }
 
-/// Smoothed samples of a box, x fastest: those that its cells read.
+/// Smoothed samples of a box, x fastest: the samples that its cells read.
 #[derive(Debug)]
 pub struct Region {
-    /// The first cell; two samples before it is the first.
+    /// The first cell. The first sample lies two before it.
     first: [usize; 3],
     /// Samples along each axis.
     sides: [usize; 3],
@@ -56,7 +57,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// Where a sample is; each axis counts from two before the grid.
+    /// Index of a sample in `data`; each axis counts from two samples before the grid.
     #[inline(always)]
     fn place(&self, sample: [usize; 3]) -> usize {
         let ([x, y, z], [x0, y0, z0]) = (sample, self.first);
@@ -65,7 +66,7 @@ impl Region {
 }
 
 impl<'f, 'v> Smoothed<'f, 'v> {
-    /// σ is in voxels, at most some tens; nothing is smoothed yet.
+    /// Prepares smoothing by σ, in voxels, at most some tens. Nothing is smoothed yet.
     pub fn new(field: &'f Field<'v, f64>, sigma: f64) -> Self {
         let grid = field.volume().grid();
         let (n, spacing) = (grid.dims(), grid.spacing());
@@ -85,19 +86,20 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         Self { field, rows, side, dims, bricks, responses, squares, base: field.stencils.lowest(), rounding }
     }
 
-    /// Gradient and Hessian at a position in index space inside the box of [SPACE-1], in world space, times 2^−e as those of a
-    /// [`Sampler`](super::Sampler).
+    /// Gradient and Hessian at a position in index space inside the box of [SPACE-1]. They are in world space, times
+    /// 2^−e, like those of a [`Sampler`](super::Sampler).
     pub fn derivatives(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>) {
         let at = self.field.cells.locate(index);
         let region = self.brick_of(at.cell);
         let [from, plane] = [region.place(at.cell), region.sides[0] * region.sides[1]];
-        let around = Around { samples: &region.data[from..], strides: [region.sides[0], plane] };
+        let around = SampleWindow { samples: &region.data[from..], strides: [region.sides[0], plane] };
         let (gradient, hessian) = around.second(at.w);
         (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
     }
 
-    /// The same at a voxel, to rounding, sooner: of the 216 samples around a cell 19 count there. None where the gradient is no
-    /// longer than `bound`. `region` holds the voxel's samples; without one they are those of its brick.
+    /// Like [`derivatives`](Self::derivatives), at a voxel and faster: 19 of the 216 samples around a cell count there.
+    /// The results agree up to rounding. None where the gradient is no longer than `bound`. `region` holds the voxel's
+    /// samples; without it they are taken from the voxel's brick.
     #[inline]
     pub fn at_voxel(&self, voxel: [usize; 3], bound: f64, region: Option<&Region>) -> Option<(Vec3<f64>, Sym3<f64>)> {
         let region = region.unwrap_or_else(|| self.brick_of(self.cell_of(voxel)));
@@ -118,7 +120,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         [x.min(nx.max(2) - 2), y.min(ny.max(2) - 2), z.min(nz.max(2) - 2)]
     }
 
-    /// The samples that the cell's brick reads, made now if need be.
+    /// The samples that the cell's brick reads, computed on the first request.
     #[inline]
     fn brick_of(&self, [x, y, z]: [usize; 3]) -> &Region {
         let (side, [nx, ny, _]) = (self.side, self.dims);
@@ -127,13 +129,14 @@ impl<'f, 'v> Smoothed<'f, 'v> {
     }
 
     /// q·w_σ of [HATCH-3]: the standard deviation of a second derivative in a cell, in the unit of
-    /// [`derivatives`](Self::derivatives), where each value times 2^−e is off by this, and by one rounding to an integer at
-    /// least; floating-point voxels have no rounding. Near the border, where samples are continued, it is larger.
+    /// [`derivatives`](Self::derivatives). Each value times 2^−e has the standard deviation `deviation`, but at least
+    /// that of one rounding to an integer. Floating-point voxels have no rounding. Near the border, where samples are
+    /// continued, the result is larger.
     pub fn noise(&self, index: Vec3<f64>, deviation: f64) -> f64 {
         self.noise_in(self.field.cells.locate(index).cell, deviation)
     }
 
-    /// The same of a cell.
+    /// Like [`noise`](Self::noise), for a cell.
     #[inline]
     pub fn noise_in(&self, cell: [usize; 3], deviation: f64) -> f64 {
         let q = self.rounding.max(deviation);
@@ -145,8 +148,8 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         self.bricks.iter().filter_map(OnceLock::get).map(|brick| size_of_val(&*brick.data) as u64).sum()
     }
 
-    /// w_σ in a cell: the root sum of squares of the weights of a second derivative along an axis, to the world's unit, the
-    /// largest of the axes and of the cell's corners.
+    /// w_σ in a cell: the root sum of squares of the weights of a second derivative along an axis, in the world's unit.
+    /// The result is the largest over the axes and the cell's corners.
     #[inline]
     fn response(&self, cell: [usize; 3]) -> f64 {
         let at = |a: usize| {
@@ -159,8 +162,8 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         along[0].max(along[1]).max(along[2])
     }
 
-    /// The samples that some cells read, or as many of them as there are, by themselves: nothing is kept. Sums along z, then
-    /// y, then x, each of all samples that one stored number goes into, in their order.
+    /// The samples that some cells read, or as many of them as there are, computed on their own and not kept. Sums run
+    /// along z, then y, then x, each over all samples that one stored number enters, in their order.
     pub fn region(&self, first: [usize; 3], cells: [usize; 3]) -> Region {
         let of_axis = |a: usize| {
             let rows = &self.rows[a][first[a]..];
@@ -199,8 +202,8 @@ mod tests {
         Volume::new(grid, Voxels::U8(voxels), 0.5, -20.0).unwrap()
     }
 
-    /// The central derivatives of a volume of the smoothed samples, each summed by itself, at places two voxels and more from
-    /// the border and on it; some hundred roundings of numbers below 128 over a spacing of ½ squared.
+    /// Central derivatives of a volume of the smoothed samples, each summed by itself, at places at least two voxels
+    /// from the border and on it. The bound is some hundred roundings of numbers below 128 over a spacing of ½ squared.
     #[test]
     fn bricks_are_the_smoothed_grid_s() {
         for (dims, spacing) in [([40, 21, 18], [1.0, 1.0, 1.0]), ([17, 9, 34], [0.5, 2.0, 0.75])] {
@@ -243,7 +246,8 @@ mod tests {
         }
     }
 
-    /// A quadratic keeps its Hessian up to the border, on axes of two samples its slope, and on one of a single sample nothing.
+    /// A quadratic keeps its Hessian up to the border. Axes of two samples keep the slope, and an axis of one sample
+    /// nothing.
     #[test]
     fn quadratics_are_reproduced() {
         for dims in [[12, 9, 7], [11, 2, 1]] {
@@ -297,8 +301,9 @@ mod tests {
         }
     }
 
-    /// At voxels, from bricks and from a region by itself, up to the border: the same to some roundings of 128 over a spacing
-    /// squared, and the same bits from both.
+    /// Derivatives at voxels, from bricks and from a region by itself, up to the border. They agree with
+    /// [`Smoothed::derivatives`] up to some roundings of 128 over a spacing squared. Bricks and regions give the same
+    /// bits.
     #[test]
     fn at_voxels_nineteen_samples_are_enough() {
         for (dims, spacing) in [([35, 18, 17], [1.0, 0.5, 2.0]), ([6, 2, 1], [1.0; 3])] {
@@ -323,7 +328,7 @@ mod tests {
         }
     }
 
-    /// Nothing is made before it is asked for, and then one brick of 21³ numbers, or of 37³ for a wide Gaussian.
+    /// No brick is made before it is asked for. Then one of 21³ numbers is made, or of 37³ for a wide Gaussian.
     #[test]
     fn only_what_is_asked_for_is_made() {
         let volume = noise([40; 3], [1.0; 3]);

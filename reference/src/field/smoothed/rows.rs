@@ -17,8 +17,8 @@ pub(super) fn reads(rows: &[Row]) -> [usize; 2] {
     [first, rows.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or(first)]
 }
 
-/// The rows of a line of n samples, smoothed with half taps, and of those beyond its ends, which continue three rows each as
-/// numbers are continued ([REC-1]).
+/// The rows of a line of n samples, smoothed with half taps, and the rows beyond its ends. These continue three rows
+/// each, as numbers are continued ([REC-1]).
 pub(super) fn rows(n: usize, half: &[f64]) -> Vec<Row> {
     let padded = n.max(2) + 2 * PAD;
     let mut rows = vec![(0, Vec::new()); padded];
@@ -35,7 +35,7 @@ pub(super) fn rows(n: usize, half: &[f64]) -> Vec<Row> {
     rows
 }
 
-/// The row next to so many of which these are the nearest ones.
+/// The next row of a line of n, continued from its nearest three rows.
 fn continued(n: usize, near: [&Row; 3]) -> Row {
     let weights = || near.into_iter().filter(|(_, weights)| !weights.is_empty());
     let first = weights().map(|(first, _)| *first).min().unwrap_or(0);
@@ -55,8 +55,8 @@ fn shortened(first: usize, weights: &[f64]) -> Row {
     (first + from, weights[from..end].to_vec())
 }
 
-/// For each of the n voxels of a line the root sums of squares of the weights that the stored ones have in its smoothed value
-/// and in the second derivative there.
+/// Root sums of squares of the weights that stored numbers have at each of the n voxels of a line: in the smoothed
+/// value, and in the second derivative.
 pub(super) fn responses(rows: &[Row], n: usize) -> Vec<[f64; 2]> {
     let tensor::Taps { value, second, .. } = taps(0.0);
     let mut sum = Vec::new();

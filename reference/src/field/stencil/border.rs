@@ -1,4 +1,4 @@
-//! Stencils at the border of the grid: what is not stored continues the lines of voxels ([REC-1]).
+//! Stencils at the border of the grid, where lines of voxels are continued ([REC-1]).
 
 use super::{Block, Corners, Cross, Stencils, number};
 use crate::number::Real;
@@ -36,7 +36,7 @@ impl Stencils<'_> {
         }
     }
 
-    /// Reads what is in the grid and continues it outwards along x, then y, then z.
+    /// Reads the voxels that are in the grid and continues them outwards along x, then y, then z.
     #[cold]
     pub(super) fn read_block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         let dims = self.dims();
@@ -45,6 +45,7 @@ impl Stencils<'_> {
         } else {
             self.clamped::<R, 4>(cell.map(|i| i as isize - 1))
         };
+        // Continued lines along x, y, z in this order: each axis reads what the ones before it made.
         let [nx, ny, nz] = dims;
         for line in b.iter_mut().flatten() {
             *line = continued(*line, cell[0], nx);
@@ -66,12 +67,12 @@ impl Stencils<'_> {
         b
     }
 
-    /// The voxels from the one before the cell on that are in the grid, in their places; anything in those beyond. Axes have
-    /// at least four voxels.
+    /// The voxels of a block that are in the grid, in their places; the other entries hold anything. Axes have at least
+    /// four voxels.
     fn pushed_inside<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
         let dims = self.dims();
         let mut start = [0; 3];
-        // Which of the four that are read is the one before the cell, or nearest to it.
+        // For each tap, the index of its voxel, or of the nearest one, among the four that are read.
         let mut places = [[0; 4]; 3];
         for a in 0..3 {
             start[a] = cell[a].saturating_sub(1).min(dims[a] - 4);

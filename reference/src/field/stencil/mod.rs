@@ -1,13 +1,13 @@
 //! The voxels around a cell as numbers of the sample loop.
 //!
-//! A stencil decides once what type is stored, reads all its voxels and hands them on in an array, so that the code
-//! of a sample exists once for each number type and kernel, not once for each of the ten stored types too.
+//! A stencil decides the stored type once, reads all its voxels and hands them on in an array. The code of a sample
+//! then exists once for each number type and kernel, and not for each of the ten stored types too.
 
 mod border;
 
 pub(super) use border::beyond;
 
-use super::tensor::{Given, Rows, Sum};
+use super::tensor::{Rows, RowsFn, Sum};
 use crate::number::Real;
 use crate::number::lanes::wide;
 use drypoint_scene::math;
@@ -21,8 +21,8 @@ use std::marker::PhantomData;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stencils<'v> {
     volume: &'v Volume,
-    /// For each axis the number of cells whose 4 voxels from the one before the cell on are all in the grid; none
-    /// where every stencil has to be read with care.
+    /// Number of cells on each axis whose four voxels, from the one before the cell on, all lie in the grid. None where
+    /// every stencil has to be read with care.
     inner: [usize; 3],
     /// Whether an axis has length 1 or numbers are scaled as they are read.
     careful: bool,
@@ -32,7 +32,7 @@ pub(super) struct Stencils<'v> {
 
 /// The 32 voxels of central differences at the eight corners of a cell.
 pub(super) struct Cross<R> {
-    /// For (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) from the cell on: the four voxels from the one before it on.
+    /// Four voxels from the one before the cell on, in the rows (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) from the cell.
     pub x: [[R; 4]; 4],
     /// The two voxels of the cell in the rows at y = −1, 2, then the same at z = 1.
     pub y: [[R; 2]; 4],
@@ -78,13 +78,13 @@ fn row<R: Real, const N: usize>(access: impl Access, x: usize, y: usize, z: usiz
 pub(super) type Block<R> = [[[R; 4]; 4]; 4];
 
 /// The rows of a part of the volume.
-struct Stored<S, A, R> {
+struct VoxelRows<S, A, R> {
     simd: S,
     window: A,
     number: PhantomData<R>,
 }
 
-impl<S: Simd, A: Access, R: Real> Rows<R::Four<S>> for Stored<S, A, R> {
+impl<S: Simd, A: Access, R: Real> Rows<R::Four<S>> for VoxelRows<S, A, R> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> R::Four<S> {
         R::from_voxels(self.window.row::<4>(0, j, k)).simd_into(self.simd)
@@ -130,7 +130,7 @@ impl<'v> Stencils<'v> {
         self.read_run([0, y, z], out);
     }
 
-    /// As many voxels of a row as asked for, from one on.
+    /// A run of voxels of a row, from `start` on, as long as `out`.
     pub(super) fn read_run<R: Real>(&self, [start, y, z]: [usize; 3], out: &mut [R]) {
         let scale = self.scale;
         with_access!(self.volume, |a| {
@@ -221,7 +221,7 @@ impl<'v> Stencils<'v> {
             ),
             _ => {
                 let block = self.block::<R>(cell);
-                sum.over(&Given(|j: usize, k: usize| block[k][j]))
+                sum.over(&RowsFn(|j: usize, k: usize| block[k][j]))
             }
         }
     }
@@ -230,11 +230,11 @@ impl<'v> Stencils<'v> {
     fn sum_inside<S: Simd, R: Real, T: Sum<R>>(&self, simd: S, [x, y, z]: [usize; 3], sum: &T) -> T::Of {
         with_access!(self.volume, |a| {
             let window = a.window::<4>(x - 1, y - 1, z - 1);
-            sum.over(&Stored { simd, window, number: PhantomData::<R> })
+            sum.over(&VoxelRows { simd, window, number: PhantomData::<R> })
         })
     }
 
-    /// The 6³ voxels from the second one before the cell on, [z][y][x]; beyond the border whatever is nearest.
+    /// The 6³ voxels from the second one before the cell on, [z][y][x]; beyond the border the nearest voxel.
     #[inline(never)]
     pub(super) fn large_block<R: Real>(&self, cell: [usize; 3]) -> [[[R; 6]; 6]; 6] {
         let dims = self.dims();
@@ -267,8 +267,9 @@ impl<'v> Stencils<'v> {
         })
     }
 
-    /// Hands over the numbers from `before` voxels before the cell `first` on, `side` along each axis, with their place among
-    /// them; beyond the border those that continue them, beyond what the last cell reaches the nearest.
+    /// Hands over the numbers from `before` voxels before the cell `first` on, `side` along each axis, with their index
+    /// among them. Beyond the border they are continued; beyond the reach of the last cell the nearest number is
+    /// repeated.
     pub(super) fn around<R: Real>(
         &self,
         first: [usize; 3],
@@ -307,8 +308,8 @@ fn number<R: Real, V: Voxel>(voxel: V, scale: f64) -> R {
     if scale == 1.0 { R::from_voxel(voxel) } else { R::from_f64(voxel.to_f64() * scale) }
 }
 
-/// The exponent that is taken out of stored numbers so that sums and differences of them neither overflow nor become
-/// subnormal: 0 unless they come near the ends of the number type, which only floating-point voxels can.
+/// The exponent taken out of stored numbers so that their sums and differences neither overflow nor become subnormal.
+/// The exponent is 0 unless numbers come near the ends of the number type, which only floating-point voxels can.
 fn exponent<R: Real>(volume: &Volume) -> i32 {
     let voxels = volume.voxels();
     let far = match voxels.voxel_type() {

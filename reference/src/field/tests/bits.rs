@@ -1,5 +1,5 @@
-//! What holds bit for bit: constants, powers of two, offsets of whole numbers, both ends of the number range, mirrored
-//! fields, and the two paths that a stencil can take.
+//! Identities that hold bit for bit: constants, powers of two, integer offsets, both ends of the number range, mirrored
+//! fields, and the two code paths of a stencil.
 
 use super::*;
 use crate::field::{curvature, normal};
@@ -138,7 +138,7 @@ fn mirrored_fields_have_the_same_normals_and_curvatures() {
     }
 }
 
-/// Whatever type holds the same whole numbers, the samples have the same bits.
+/// Samples have the same bits for every stored type that holds the same integers.
 #[test]
 fn the_stored_type_does_not_matter() {
     use drypoint_scene::volume::VoxelType;
@@ -172,7 +172,7 @@ proptest! {
         let wide = Field::<f64>::new(&v, how, Rung::Hessian).unwrap();
         let narrow = Field::<f32>::new(&v, how, Rung::Hessian).unwrap();
         for p in positions(v.grid(), 20) {
-            // The same position in both: one that f32 holds.
+            // One position for both, which f32 can represent.
             let q = Vec3::new(p.x as f32, p.y as f32, p.z as f32);
             let p = Vec3::new(f64::from(q.x), f64::from(q.y), f64::from(q.z));
             let (a, ga, (_, ha)) = with_sampler!(wide, |s| (s.value(p), s.gradient(p), s.hessian(p)));
@@ -189,8 +189,8 @@ proptest! {
     }
 }
 
-/// Values that are computed at once are those that are computed alone, for every stored type, kernel and number of them, up
-/// to the border and on axes of length 1.
+/// Values computed at once equal those computed alone: for every stored type, kernel and count, up to the border and on
+/// axes of length 1.
 #[test]
 fn values_at_once_are_the_values_alone() {
     fn check<R: Real>(volume: &Volume, how: Reconstruction) {
@@ -221,8 +221,8 @@ fn values_at_once_are_the_values_alone() {
     }
 }
 
-/// At voxels all corners but one have weight 0: their gradient alone is the interpolated one, for numbers of which sums are
-/// rounded too, at the border and on an axis of length 1.
+/// The gradient at a voxel alone is the interpolated one there, since all other corners have weight 0. Numbers whose
+/// sums are rounded, the border, and an axis of length 1 are tested too.
 #[test]
 fn gradients_at_voxels_are_the_interpolated_ones() {
     for dims in [[5, 4, 6], [3, 5, 1], [2, 3, 4]] {

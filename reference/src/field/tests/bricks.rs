@@ -7,8 +7,8 @@ use proptest::prelude::*;
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
-    /// For every kernel, on volumes of few values with jumps between them, where cubic kernels overshoot; positions crowd
-    /// at the faces of cells and in their middles, where the overshoot is largest.
+    /// Every kernel is tested on volumes of few values with jumps between them, where cubic kernels overshoot.
+    /// Positions crowd at the faces of cells and in their middles, where the overshoot is largest.
     #[test]
     fn samples_stay_in_their_brick_and_their_cell(
         dims in prop::array::uniform3(prop_oneof![1usize..4, 8usize..20]),
@@ -60,7 +60,8 @@ fn stays<R: Real>(volume: &Volume, how: Reconstruction, positions: &[DVec3]) -> 
     Ok(())
 }
 
-/// What a cell reads, and no more: a jump between two planes is in the ranges of the cells whose taps lie on both sides of it.
+/// Cells read their own taps and no more: a jump between two planes is in the ranges of exactly the cells with taps on
+/// both sides.
 #[test]
 fn ranges_of_cells_are_tight() {
     let grid = Grid::with_spacing([20, 9, 9], [1.0; 3]).unwrap();

@@ -63,8 +63,8 @@ fn order(radii: &[f64], errors: &[f64]) -> f64 {
 
 const RADII: [f64; 4] = [8.0, 16.0, 32.0, 64.0];
 
-/// On the distance field the third and fourth derivatives fall as 1/r² and 1/r³ while H falls as 1/r: the cubic spline's
-/// second derivative, of order 2, is off by O(1/r²) of itself.
+/// The third and fourth derivatives of the distance field fall as 1/r² and 1/r³, while H falls as 1/r. The cubic
+/// spline's second derivative, of order 2, is therefore off by O(1/r²) of itself.
 #[test]
 fn cubic_spline_on_the_distance_field_has_order_two() {
     let errors = RADII.map(|r| error_on_sphere(r, analytic(Kernel::Bspline), |d| r - d));
@@ -72,8 +72,8 @@ fn cubic_spline_on_the_distance_field_has_order_two() {
     assert!((order - 2.0).abs() <= 0.2, "order {order}, errors {errors:?}");
 }
 
-/// On an edge of fixed shape, 1/(1 + e^((‖p‖ − r)/w)), refined as a whole, w = r/8. At r = 8 the edge is
-/// one voxel wide, too steep for an order yet: it is left out.
+/// An edge of fixed shape, 1/(1 + e^((‖p‖ − r)/w)), refined as a whole, w = r/8. At r = 8 the edge is one voxel wide,
+/// too steep for an order yet, and is left out.
 #[test]
 fn cubic_spline_on_a_logistic_edge_has_order_two() {
     let errors =
@@ -267,7 +267,7 @@ fn probes_are_in_world_units() {
     assert_eq!((c.k1, c.k2, c.mean, c.gaussian), (0.0, 0.0, 0.0, 0.0));
 }
 
-/// What `auto` stands for, and the error that names a kernel which has what was asked ([REC-3]).
+/// The resolution of `auto`, and the error for a kernel without a Hessian, which names a kernel that has one ([REC-3]).
 #[test]
 fn the_automatic_hessian() {
     use drypoint_scene::volume::VoxelType;
@@ -304,7 +304,7 @@ fn values_that_the_number_does_not_hold() {
     assert_eq!(with_sampler!(field, |s| s.value(Vec3::new(0.5, 0.0, 0.0))), 5e299);
 }
 
-/// What no one asks for is not there ([PLAN-1]).
+/// Data that no rung asks for are not allocated ([PLAN-1]).
 #[test]
 fn only_what_is_asked_for_is_allocated() {
     let grid = Grid::with_spacing([6; 3], [1.0; 3]).unwrap();

@@ -40,7 +40,7 @@ fn quadratic_gradient(p: DVec3) -> DVec3 {
     )
 }
 
-/// What a field says at a position, 2^e undone.
+/// Value and derivatives of a field at a position, with the factor 2^−e undone.
 fn ask(field: &Field<'_, f64>, p: DVec3) -> (f64, DVec3, DVec3, [f64; 6]) {
     let up = 2f64.powi(field.scale_exponent());
     let p = Vec3::from_glam(p);

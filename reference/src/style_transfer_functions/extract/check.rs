@@ -5,7 +5,7 @@ use super::{ExtractError, LARGEST};
 /// A coordinate.
 ///
 /// # Errors
-/// What is not finite, or beyond all pictures.
+/// Values that are not finite or lie beyond all pictures.
 pub(super) fn number(name: impl Into<String>, value: f64) -> Result<f64, ExtractError> {
     if value.abs() <= LARGEST { Ok(value) } else { Err(ExtractError::Number { name: name.into(), value }) }
 }
@@ -13,7 +13,7 @@ pub(super) fn number(name: impl Into<String>, value: f64) -> Result<f64, Extract
 /// A length.
 ///
 /// # Errors
-/// As [`number`], and what is not positive.
+/// The errors of [`number`], and values that are not positive.
 pub(super) fn positive(name: &'static str, value: f64) -> Result<f64, ExtractError> {
     if number(name, value)? > 0.0 { Ok(value) } else { Err(ExtractError::NotPositive { name, value }) }
 }

@@ -4,8 +4,8 @@
 //!
 //! p = A n / √(nᵀ A n), A = diag(a², b², c²).
 //!
-//! So the outline, n_z = 0, has the outline's own normals. How deep the body is, no picture of it tells. Unless c is
-//! given it is the smaller of a and b, the radius of the largest circle inside, as for any outline.
+//! The outline, n_z = 0, therefore has the outline's own normals. A picture does not tell the depth of the body. Unless
+//! c is given it is the smaller of a and b, the radius of the largest circle inside, as for any outline.
 
 use super::ExtractError;
 use super::check::{number, positive};
@@ -33,8 +33,8 @@ impl Ellipse {
         Ok(Self { centre, a: r, b: r, c: r, axis: [1.0, 0.0] })
     }
 
-    /// With half axes a and b, the first turned by an angle in degrees, anticlockwise as one sees it, from the line to
-    /// the right; and c, if it is known.
+    /// An ellipsoid with half axes a and b, the first turned by an angle in degrees from the line to the right,
+    /// anticlockwise as one sees it. c is the half axis across the picture, if it is known.
     ///
     /// # Errors
     /// Numbers that are none, half axes that are not positive.
@@ -97,7 +97,7 @@ mod tests {
         assert_eq!(circle.bounds(), [[5.0, 15.0], [15.0, 25.0]]);
     }
 
-    /// At the place of a normal the gradient of (x/a)² + (y/b)² + (z/c)² points along it.
+    /// The gradient of (x/a)² + (y/b)² + (z/c)² at the place of a normal points along the normal.
     #[test]
     fn places_have_their_normals() {
         let [a, b, c] = [7.0f64, 3.0, 5.0];

@@ -1,4 +1,4 @@
-//! What can be wrong with a region or with the style that is asked for.
+//! Errors of regions and of the styles extracted from them.
 
 use super::LARGEST;
 
@@ -8,7 +8,7 @@ pub enum ExtractError {
     /// A side of 0, or one that no style is read with.
     #[error("a side of {side} texels is not between 1 and {limit}")]
     Side {
-        /// What was asked for.
+        /// The side asked for.
         side: usize,
         /// The largest.
         limit: usize,
@@ -16,29 +16,29 @@ pub enum ExtractError {
     /// A coordinate or a length that is no number, or lies beyond all pictures.
     #[error("{name} is {value}: it must be a number between -{LARGEST:e} and {LARGEST:e}")]
     Number {
-        /// Which one.
+        /// The name of the number.
         name: String,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
     /// A radius or a half axis that is not positive.
     #[error("{name} is {value}: it must be above 0")]
     NotPositive {
-        /// Which one.
+        /// The name of the length.
         name: &'static str,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
     /// An outline with fewer than three different points.
     #[error("an outline of {found} different points encloses nothing")]
     TooFewPoints {
-        /// How many different points in a row there are.
+        /// Number of different points in a row.
         found: usize,
     },
-    /// More points than any drawn outline has.
+    /// An outline with more points than any drawn one has.
     #[error("an outline of {found} points: at most {limit} are read")]
     TooManyPoints {
-        /// How many there are.
+        /// Number of points.
         found: usize,
         /// The most.
         limit: usize,

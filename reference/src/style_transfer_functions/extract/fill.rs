@@ -1,9 +1,9 @@
-//! Texels that the picture does not show ([STF-2]): the other side of its edge, or what an outline does not turn to.
+//! Texels that the picture does not show ([STF-2]): beyond its edge, or of normals that an outline does not have.
 //!
-//! They take the harmonic continuation of the others: the smoothest one, without seams, which stays between the least
-//! and the largest of what is known, channel by channel (the maximum principle). On the circumference nothing flows
-//! through. Solved from coarse to fine, as Bornemann and Deuflhard's cascadic multigrid (1996) does, with a fixed number
-//! of sweeps.
+//! They take the harmonic continuation of the known texels: the smoothest one, without seams. By the maximum principle
+//! it stays between the least and the largest known value, channel by channel. Nothing flows through the circumference.
+//! The equation is solved from coarse to fine, as in Bornemann and Deuflhard's cascadic multigrid (1996), with a fixed
+//! number of sweeps.
 
 use drypoint_scene::color::Rgba;
 use drypoint_scene::style::is_inside;
@@ -11,10 +11,10 @@ use drypoint_scene::style::is_inside;
 /// Sweeps of Gauss–Seidel a level. The correction from the level below leaves only short waves.
 const SWEEPS: usize = 24;
 
-/// A place of a level.
+/// A texel of one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Cell {
-    /// Off the disk.
+enum TexelState {
+    /// A texel off the disk.
     Outside,
     Known(Rgba),
     Unknown,
@@ -23,29 +23,31 @@ enum Cell {
 /// Colours for all texels inside the disk of S × S; transparent black outside. None if no texel is known.
 pub(super) fn fill(side: usize, texels: &[Option<Rgba>]) -> Option<Vec<Rgba>> {
     let cell = |t: usize| match texels[t] {
-        _ if !is_inside(side, t % side, t / side) => Cell::Outside,
-        Some(color) => Cell::Known(color),
-        None => Cell::Unknown,
+        _ if !is_inside(side, t % side, t / side) => TexelState::Outside,
+        Some(color) => TexelState::Known(color),
+        None => TexelState::Unknown,
     };
-    let cells: Vec<Cell> = (0..side * side).map(cell).collect();
+    let cells: Vec<TexelState> = (0..side * side).map(cell).collect();
     solve(side, &cells)
 }
 
-fn solve(side: usize, cells: &[Cell]) -> Option<Vec<Rgba>> {
-    let value = |cell: &Cell| if let Cell::Known(color) = cell { *color } else { [0.0; 4] };
+fn solve(side: usize, cells: &[TexelState]) -> Option<Vec<Rgba>> {
+    let value = |cell: &TexelState| if let TexelState::Known(color) = cell { *color } else { [0.0; 4] };
     let mut colors: Vec<Rgba> = cells.iter().map(value).collect();
-    if !cells.contains(&Cell::Unknown) {
-        return cells.iter().any(|cell| matches!(cell, Cell::Known(_))).then_some(colors);
+    if !cells.contains(&TexelState::Unknown) {
+        return cells.iter().any(|cell| matches!(cell, TexelState::Known(_))).then_some(colors);
     }
     if side == 1 {
         return None;
     }
+    // The start: the solution on the grid of half the side.
     let half = side.div_ceil(2);
     let coarse = solve(half, &coarser(side, cells))?;
-    let unknown: Vec<usize> = (0..cells.len()).filter(|&t| cells[t] == Cell::Unknown).collect();
+    let unknown: Vec<usize> = (0..cells.len()).filter(|&t| cells[t] == TexelState::Unknown).collect();
     for &t in &unknown {
         colors[t] = coarse[t / side / 2 * half + t % side / 2];
     }
+    // Gauss–Seidel for Δ = 0: each unknown texel becomes the mean of its neighbours inside the disk.
     for _ in 0..SWEEPS {
         for &t in &unknown {
             let [i, j] = [t % side, t / side];
@@ -56,7 +58,7 @@ fn solve(side: usize, cells: &[Cell]) -> Option<Vec<Rgba>> {
                 (j + 1 < side).then(|| t + side),
             ];
             let (mut sum, mut count) = ([0.0; 4], 0.0);
-            for at in places.into_iter().flatten().filter(|&at| cells[at] != Cell::Outside) {
+            for at in places.into_iter().flatten().filter(|&at| cells[at] != TexelState::Outside) {
                 sum = std::array::from_fn(|c| sum[c] + colors[at][c]);
                 count += 1.0;
             }
@@ -68,26 +70,27 @@ fn solve(side: usize, cells: &[Cell]) -> Option<Vec<Rgba>> {
     Some(colors)
 }
 
-/// The level of half the side: the mean of what is known among four; unknown only where none of them is.
-fn coarser(side: usize, cells: &[Cell]) -> Vec<Cell> {
+/// The level of half the side. A texel is the mean of the known ones among four, and unknown only if none of them is
+/// known.
+fn coarser(side: usize, cells: &[TexelState]) -> Vec<TexelState> {
     let half = side.div_ceil(2);
     let merge = |t: usize| {
         let (mut sum, mut known, mut unknown) = ([0.0; 4], 0.0, false);
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             let [i, j] = [t % half * 2 + dx, t / half * 2 + dy];
             match (i < side && j < side).then(|| cells[j * side + i]) {
-                Some(Cell::Known(color)) => {
+                Some(TexelState::Known(color)) => {
                     sum = std::array::from_fn(|c| sum[c] + color[c]);
                     known += 1.0;
                 }
-                Some(Cell::Unknown) => unknown = true,
-                Some(Cell::Outside) | None => {}
+                Some(TexelState::Unknown) => unknown = true,
+                Some(TexelState::Outside) | None => {}
             }
         }
         match (known > 0.0, unknown) {
-            (true, _) => Cell::Known(sum.map(|s: f64| s / known)),
-            (false, true) => Cell::Unknown,
-            (false, false) => Cell::Outside,
+            (true, _) => TexelState::Known(sum.map(|s: f64| s / known)),
+            (false, true) => TexelState::Unknown,
+            (false, false) => TexelState::Outside,
         }
     };
     (0..half * half).map(merge).collect()

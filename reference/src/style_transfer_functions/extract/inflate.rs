@@ -1,23 +1,25 @@
 //! A body for an outline, and with it a normal for each place inside ([STF-2]).
 //!
-//! Inside the outline −Δu = 1 is solved with u = 0 on it, and the body is z² = 4u/k: Sýkora et al. (*Ink-and-Ray*, 2014)
-//! inflate drawings so. Its outward normal is along
+//! Inside the outline −Δu = 1 is solved with u = 0 on the outline, and the body is z² = 4u/k. Sýkora et al.
+//! (*Ink-and-Ray*, 2014) inflate drawings in this way. The outward normal is along
 //!
 //! (−∇u, √(ku)),
 //!
 //! which on the outline lies in the picture's plane along the outline's own normal, and inside varies smoothly. For a
-//! circle u = (R² − ρ²)/4, for an ellipse a multiple of 1 − x²/a² − y²/b²: with the right k they become the sphere and
-//! any ellipsoid over the ellipse. k sets the depth, which no outline tells. Unless it is given, the body is as deep as
-//! the largest circle inside the outline, as bodies of revolution are: a circle becomes a sphere, an ellipse a spheroid.
-//! The body is closed, so every normal is met at least once.
+//! circle u = (R² − ρ²)/4, for an ellipse u is a multiple of 1 − x²/a² − y²/b². With the right k they become the sphere
+//! and any ellipsoid over the ellipse.
 //!
-//! Harmonic interpolation of the outline's normals (Johnston, *Lumo*, 2002) is the other well-known way. It makes a
-//! sphere of a circle too, but of no other ellipse an ellipsoid, and was farther from the blobs of the tests.
+//! k sets the depth, which no outline tells. Unless it is given, the body is as deep as the largest circle inside the
+//! outline, as bodies of revolution are: a circle becomes a sphere, an ellipse a spheroid. The body is closed, so it
+//! has every normal at least once.
 //!
-//! Solved by differences on a square grid whose arms are cut at the outline (Shortley and Weller 1938), which is exact
-//! where u is quadratic, by successive over-relaxation with Young's factor.
+//! Harmonic interpolation of the outline's normals (Johnston, *Lumo*, 2002) is the other well-known method. It makes a
+//! sphere of a circle too, but of no other ellipse an ellipsoid. It was farther from the blobs of the tests.
+//!
+//! The equation is solved by differences on a square grid whose arms are cut at the outline (Shortley and Weller 1938),
+//! which is exact where u is quadratic. The solver is successive over-relaxation with Young's factor.
 
-use super::polygon::{Meeting, Polygon};
+use super::polygon::{Intersection, Polygon};
 use drypoint_scene::math;
 
 /// Nodes along the longer side of the outline's box. The normal varies slowly; the picture is read at its own pixels.
@@ -66,25 +68,29 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// Inflates an outline, to a depth in pixels: how far the body reaches out of the picture. None: as far as the
-    /// largest circle inside the outline would.
+    /// Inflates an outline to a depth in pixels, the body's extent out of the picture. None: the radius of the largest
+    /// circle inside the outline.
     pub(super) fn new(outline: &Polygon, depth: Option<f64>) -> Self {
+        // A square grid of at most NODES nodes a side, centred on the outline's box.
         let [low, high] = outline.bounds();
         let extent = [high[0] - low[0], high[1] - low[1]];
         let spacing = extent[0].max(extent[1]) / NODES as f64;
         let size = extent.map(|e| ((e / spacing).ceil() as usize).clamp(1, NODES));
         let corner = [0, 1].map(|c| (low[c] + high[c] - spacing * (size[c] - 1) as f64) / 2.0);
+        // Intersections of each grid row and column with the outline.
         let lines = [0, 1].map(|axis: usize| {
             let other = 1 - axis;
             let across = move |k: usize| corner[other] + spacing * k as f64;
             (0..size[other]).map(|k| outline.meetings(axis, across(k))).collect::<Vec<_>>()
         });
+        // For each node inside, the intersections next to it in all four directions.
         let between = |t: usize| {
             let [i, j] = [t % size[0], t / size[0]];
             let place = [corner[0] + spacing * i as f64, corner[1] + spacing * j as f64];
             Some([neighbours(&lines[0][j], place[0])?, neighbours(&lines[1][i], place[1])?])
         };
         let inside: Vec<_> = (0..size[0] * size[1]).map(between).collect();
+        // The arms of each node: to the next node, or cut at the outline.
         let node = |t: usize| {
             let [[left, right], [top, bottom]] = inside[t]?;
             let [i, j] = [t % size[0], t / size[0]];
@@ -98,6 +104,7 @@ impl Body {
             Some(Node { arms: std::array::from_fn(|k| arm(ways[k], spacing, there[k])) })
         };
         let nodes: Vec<Option<Node>> = (0..inside.len()).map(node).collect();
+        // −Δu = 1, and k so that the largest z = √(4u/k) is the depth.
         let u = solve(size, &nodes);
         let mut body = Self { corner, spacing, size, nodes, u, flatness: 1.0 };
         let largest = body.u.iter().copied().fold(0.0, f64::max);
@@ -209,7 +216,7 @@ const TOP: usize = 2;
 const BOTTOM: usize = 3;
 
 /// The meetings before and after a coordinate, if it lies inside the outline.
-fn neighbours(line: &[Meeting], x: f64) -> Option<[(f64, [f64; 2]); 2]> {
+fn neighbours(line: &[Intersection], x: f64) -> Option<[(f64, [f64; 2]); 2]> {
     let after = line.partition_point(|meeting| meeting.at <= x);
     if after % 2 == 0 {
         return None;
@@ -217,8 +224,8 @@ fn neighbours(line: &[Meeting], x: f64) -> Option<[(f64, [f64; 2]); 2]> {
     Some([line[after - 1], *line.get(after)?].map(|meeting| ((meeting.at - x).abs(), meeting.outward)))
 }
 
-/// An arm towards a meeting at some distance. Where rounding lets the next node not lie inside, although the outline is
-/// farther away than it, the outline counts as there.
+/// An arm towards an intersection with the outline. Rounding can put the next node outside although the outline is
+/// farther away than that node. The outline then counts as lying at the node.
 fn arm((distance, outward): (f64, [f64; 2]), spacing: f64, next_is_inside: bool) -> Arm {
     if next_is_inside && distance >= spacing {
         return Arm { length: spacing, cut: None };
@@ -337,7 +344,7 @@ mod tests {
         }
     }
 
-    /// On the outline the normal is the outline's; inside N_z > 0, and every normal is a unit vector's.
+    /// The normal on the outline is the outline's. Inside, N_z > 0, and every normal is a unit vector's.
     #[test]
     fn normals_of_any_outline_are_normals() {
         let kidney: Vec<[f64; 2]> = (0..90)

@@ -1,9 +1,9 @@
 //! A style from a part of a picture ([STF-2]; Bruckner and Gröller 2007, 3.1, after Sloan et al., *The Lit Sphere*,
 //! 2001).
 //!
-//! A region of the picture is taken for the picture of a body: a circle for a sphere, an ellipse for an ellipsoid, a
-//! closed outline for what is inflated from it. Each place then has a normal, and the style shows at each normal what
-//! the picture shows at its place.
+//! A region is read as the picture of a body: a circle as a sphere, an ellipse as an ellipsoid, a closed outline as the
+//! body inflated from it. Each place then has a normal. The style shows at each normal what the picture shows at the
+//! place.
 //!
 //! - **Circle, ellipse**: a normal has one place, known by a formula. A texel is the mean over its own square, in parts of
 //!   half a pixel or less: an average where the style is coarser than the picture, cubic interpolation where it is finer.
@@ -33,8 +33,8 @@ use rayon::prelude::*;
 /// The largest coordinate or length of a region, in pixels: beyond every picture.
 pub const LARGEST: f64 = 1e7;
 
-/// Parts of a style's side into which its texels are divided at the most, so that no region takes minutes. Regions up to
-/// half as many pixels across are averaged without gaps.
+/// The most parts into which the texels divide a style's side, so that no region takes minutes. Regions up to half as
+/// many pixels across are averaged without gaps.
 const FINEST: usize = 16384;
 
 /// A part of a picture, in pixels from its upper left corner: x to the right, y down, the pixel in column i and row j
@@ -43,18 +43,18 @@ const FINEST: usize = 16384;
 pub enum Region {
     /// A sphere.
     Circle {
-        /// Its middle from the left.
+        /// The middle's distance from the left.
         x: f64,
-        /// Its middle from the top.
+        /// The middle's distance from the top.
         y: f64,
-        /// Its radius.
+        /// The radius.
         r: f64,
     },
     /// An ellipsoid.
     Ellipse {
-        /// Its middle from the left.
+        /// The middle's distance from the left.
         x: f64,
-        /// Its middle from the top.
+        /// The middle's distance from the top.
         y: f64,
         /// One half axis.
         a: f64,
@@ -67,14 +67,14 @@ pub enum Region {
     },
     /// Any closed shape.
     Outline {
-        /// Its points in their order, x and y of each; the last is joined to the first.
+        /// The points in their order, x and y of each; the last is joined to the first.
         points: Vec<[f64; 2]>,
-        /// How far the body reaches out of the picture. None: as far as the largest circle inside would.
+        /// The body's extent out of the picture. None: the radius of the largest circle inside the outline.
         depth: Option<f64>,
     },
 }
 
-/// What [`extract`] has found.
+/// The result of [`extract`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extracted {
     /// The layer `beauty` of S × S texels: linear, premultiplied; transparent black outside the disk ([STF-1]).
@@ -88,8 +88,9 @@ pub struct Extracted {
 /// Only pixels whose centres lie in the region are read.
 ///
 /// # Errors
-/// A side that no style has; numbers that are none or beyond [`LARGEST`]; a radius, half axis or depth that is not positive; an
-/// outline with fewer than three points or with lines that meet; a region outside the picture, or without a pixel.
+/// A side that no style has; numbers that are not finite or beyond [`LARGEST`]; a radius, half axis or depth that is
+/// not positive; an outline with fewer than three points or with lines that meet; a region outside the picture, or
+/// without a pixel.
 pub fn extract(source: &SourcePicture, region: &Region, side: usize) -> Result<Extracted, ExtractError> {
     if side == 0 || side > MAX_SIDE {
         return Err(ExtractError::Side { side, limit: MAX_SIDE });
@@ -197,9 +198,9 @@ mod tests {
         Region::Outline { points: (0..points).map(point).collect(), depth }
     }
 
-    /// Off the centre and between pixels. Texels are means over squares of side 2/S, which differ from their middles by
-    /// f''(2/S)²/24 < 10⁻³ each way; at the rim a texel's mean is over its part inside, and pixels outside stand in by
-    /// their neighbours: up to a slope of 0.5 times (1/S + 1/r).
+    /// Lookups off the centre and between pixels. Texels are means over squares of side 2/S, which differ from their
+    /// middles by f''(2/S)²/24 < 10⁻³ each way. At the rim a texel's mean is over its part inside, and pixels outside
+    /// are replaced by their neighbours: up to a slope of 0.5 times (1/S + 1/r).
     #[test]
     fn a_sphere_gives_its_style() {
         let (x, y, r) = (97.3, 88.8, 71.4);

@@ -14,14 +14,14 @@ const DENSITY: f64 = 3.0;
 /// Parts along a triangle's side at the most.
 const FINEST: f64 = 512.0;
 
-/// The texels of a style from what an outline encloses; none where no place inside has such a normal.
+/// The texels of a style from the area that an outline encloses. None for normals that no place inside has.
 ///
-/// Every place counts by its area: a texel is the mean of all places whose normals it stands for, which is the style
+/// Every place counts by its area: a texel is the mean of all places whose normals it stands for. This is the style
 /// that shows the region with the smallest sum of squared differences. A region with bays has several places for one
 /// normal.
 ///
 /// # Errors
-/// Those of [`Polygon::new`], a depth that is not positive, [`ExtractError::Outside`], [`ExtractError::Empty`].
+/// The errors of [`Polygon::new`], a depth that is not positive, [`ExtractError::Outside`], [`ExtractError::Empty`].
 pub(super) fn texels(
     source: &SourcePicture,
     points: &[[f64; 2]],
@@ -38,7 +38,7 @@ pub(super) fn texels(
         .collect();
     let inside = |x: f64, y: f64| rows[y as usize].partition_point(|&at| at <= x) % 2 == 1;
     let patch = Patch::new(source, low, high, inside).ok_or(ExtractError::Empty)?;
-    let mut style = Scattered { side, sums: vec![([0.0; 4], 0.0); side * side] };
+    let mut style = TexelSums { side, sums: vec![([0.0; 4], 0.0); side * side] };
     for triangle in Body::new(&polygon, depth).triangles() {
         style.add(&patch, &triangle);
     }
@@ -50,12 +50,12 @@ fn crossings(polygon: &Polygon, y: f64) -> Vec<f64> {
 }
 
 /// A style that is being gathered: for each texel Σ area · colour and Σ area.
-struct Scattered {
+struct TexelSums {
     side: usize,
     sums: Vec<(Rgba, f64)>,
 }
 
-impl Scattered {
+impl TexelSums {
     /// Adds the places of a triangle, in parts that are small in the picture and in the style.
     fn add(&mut self, patch: &Patch, corners: &[Corner; 3]) {
         let half = self.side as f64 / 2.0;

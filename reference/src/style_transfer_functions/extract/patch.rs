@@ -3,13 +3,13 @@
 use drypoint_scene::color::Rgba;
 use drypoint_scene::style::SourcePicture;
 
-/// How far a pixel outside the region looks for one inside, in pixels. The pixels that are read for a place of the region
-/// have their centres less than two from it on either axis, and a centre inside is within two more, unless the region is
-/// thinner than that.
+/// Search radius, in pixels, from a pixel outside the region to its nearest pixel inside. Pixels read for a place of
+/// the region have their centres less than two from it on either axis. A centre inside lies within two more, unless the
+/// region is thinner than that.
 const REACH: usize = 4;
 
-/// The pixels about a region. Only those whose centres lie inside it count, as with the texels of a style ([STF-1]):
-/// each other one takes the colour of the nearest of them, so that no background bleeds into the style.
+/// The pixels about a region. Only pixels whose centres lie inside it count, as with the texels of a style ([STF-1]).
+/// Every other pixel takes the colour of the nearest of them, so that no background bleeds into the style.
 pub(super) struct Patch {
     /// The picture's own width and height.
     frame: [f64; 2],
@@ -44,9 +44,10 @@ impl Patch {
         })
     }
 
-    /// Linear premultiplied light at a place of the picture, whose pixels have their centres at i + ½, j + ½: cubic
-    /// (Catmull–Rom), x then y, no channel beyond the least and the largest of the sixteen pixels. The outermost pixels
-    /// extend to the edge and past it. None beyond the picture, and off the region.
+    /// Linear premultiplied light at a place of the picture, whose pixels have their centres at i + ½, j + ½. The
+    /// interpolation is cubic (Catmull–Rom), x then y. Each channel is clamped to the least and the largest of the
+    /// sixteen pixels. The outermost pixels extend to the edge and past it. None beyond the picture, and off the
+    /// region.
     pub(super) fn sample(&self, x: f64, y: f64) -> Option<Rgba> {
         if !(0.0..=self.frame[0]).contains(&x) || !(0.0..=self.frame[1]).contains(&y) {
             return None;

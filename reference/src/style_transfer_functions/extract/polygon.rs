@@ -14,9 +14,9 @@ pub(super) struct Polygon {
     normals: Vec<[f64; 2]>,
 }
 
-/// Where a line parallel to an axis meets the outline.
+/// An intersection of the outline with a line parallel to an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Meeting {
+pub(super) struct Intersection {
     /// The coordinate along the line.
     pub(super) at: f64,
     /// The outward unit normal there, y down, interpolated between those at the two points of the line.
@@ -24,16 +24,17 @@ pub(super) struct Meeting {
 }
 
 impl Polygon {
-    /// From its points in either order; the last is joined to the first.
+    /// The polygon through points in either order; the last is joined to the first.
     ///
     /// # Errors
-    /// Numbers that are none, fewer than three different points in a row, too many, lines that meet.
+    /// Numbers that are not finite, fewer than three different points in a row, too many, lines that meet.
     pub(super) fn new(given: &[[f64; 2]]) -> Result<Self, ExtractError> {
         if given.len() > MOST {
             return Err(ExtractError::TooManyPoints { found: given.len(), limit: MOST });
         }
+        // Points that differ from the one before.
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(given.len());
-        // Which of the given points each is, for messages.
+        // Index of each point among those given, for messages.
         let mut kept = Vec::with_capacity(given.len());
         for (k, &[x, y]) in given.iter().enumerate() {
             let point = [number(format!("x of point {}", k + 1), x)?, number(format!("y of point {}", k + 1), y)?];
@@ -48,6 +49,7 @@ impl Polygon {
         if points.len() < 3 {
             return Err(ExtractError::TooFewPoints { found: points.len() });
         }
+        // Positive orientation, with lines that do not meet.
         let mut polygon = Self { points, normals: Vec::new() };
         if let Some(edges) = polygon.crossing() {
             return Err(ExtractError::Crossing { edges: edges.map(|k| kept[k]) });
@@ -55,6 +57,7 @@ impl Polygon {
         if polygon.doubled_area() < 0.0 {
             polygon.points.reverse();
         }
+        // Normals of the lines, then half-way between two of them at each corner.
         let n = polygon.points.len();
         let outward = |k: usize| {
             let [p, q] = polygon.edge(k);
@@ -77,10 +80,11 @@ impl Polygon {
         [pick(f64::min), pick(f64::max)]
     }
 
-    /// Where the line along `axis` at the coordinate `across` meets the outline, in ascending order; an even number.
-    pub(super) fn meetings(&self, axis: usize, across: f64) -> Vec<Meeting> {
+    /// The intersections of the outline with the line along `axis` at the coordinate `across`, in ascending order.
+    /// Their number is even.
+    pub(super) fn meetings(&self, axis: usize, across: f64) -> Vec<Intersection> {
         let other = 1 - axis;
-        let mut found: Vec<Meeting> = (0..self.points.len())
+        let mut found: Vec<Intersection> = (0..self.points.len())
             .map(|k| (k, self.edge(k)))
             // An end on the line belongs to the side below, so a corner counts once where the outline passes through.
             .filter(|(_, [p, q])| (p[other] <= across) != (q[other] <= across))
@@ -88,14 +92,14 @@ impl Polygon {
                 let share = (across - p[other]) / (q[other] - p[other]);
                 let [m, n] = [self.normals[k], self.normals[(k + 1) % self.normals.len()]];
                 let outward = unit([0, 1].map(|c| m[c] + share * (n[c] - m[c])));
-                Meeting { at: p[axis] + share * (q[axis] - p[axis]), outward }
+                Intersection { at: p[axis] + share * (q[axis] - p[axis]), outward }
             })
             .collect();
         found.sort_by(|a, b| a.at.total_cmp(&b.at));
         found
     }
 
-    /// How far a place is from the outline.
+    /// The distance of a place from the outline, in pixels.
     pub(super) fn distance(&self, [x, y]: [f64; 2]) -> f64 {
         let square = |k: usize| {
             let [p, q] = self.edge(k);
@@ -147,7 +151,7 @@ fn unit([x, y]: [f64; 2]) -> [f64; 2] {
     [x / length, y / length]
 }
 
-/// On which side of the line from p to q the point r lies.
+/// The side of the line from p to q on which the point r lies, as the sign of a cross product.
 fn side([p, q]: [[f64; 2]; 2], r: [f64; 2]) -> f64 {
     (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 }
@@ -189,11 +193,11 @@ mod tests {
             // In the middle of a side the normal is the side's; at a corner it is half-way between two.
             assert_eq!(
                 polygon.meetings(0, 2.0),
-                [Meeting { at: 1.0, outward: [-1.0, 0.0] }, Meeting { at: 4.0, outward: [1.0, 0.0] }]
+                [Intersection { at: 1.0, outward: [-1.0, 0.0] }, Intersection { at: 4.0, outward: [1.0, 0.0] }]
             );
             assert_eq!(
                 polygon.meetings(1, 2.5),
-                [Meeting { at: 1.0, outward: [0.0, -1.0] }, Meeting { at: 3.0, outward: [0.0, 1.0] }]
+                [Intersection { at: 1.0, outward: [0.0, -1.0] }, Intersection { at: 3.0, outward: [0.0, 1.0] }]
             );
             for (meeting, x) in polygon.meetings(0, 1.0).iter().zip([-0.5f64.sqrt(), 0.5f64.sqrt()]) {
                 assert!((meeting.outward[0] - x).abs() < 1e-15 && (meeting.outward[1] + 0.5f64.sqrt()).abs() < 1e-15);

@@ -1,4 +1,4 @@
-//! Which part each voxel belongs to, and what the parts are called ([STF-13]).
+//! The part that each voxel belongs to, and the names of the parts ([STF-13]).
 
 mod names;
 
@@ -37,8 +37,8 @@ pub enum LabelError {
 }
 
 impl LabelVolume {
-    /// The ids that a volume holds, after slope and intercept. The type of its voxels does not matter: ids may have been
-    /// written as floating point.
+    /// The ids that a volume holds, after slope and intercept. All voxel types are accepted: ids may have been written
+    /// as floating point.
     ///
     /// # Errors
     /// A value that is negative, has a fraction, is not finite or exceeds u32, with the first voxel that has one.
@@ -56,12 +56,12 @@ impl LabelVolume {
         Ok(Self { grid: volume.grid().clone(), anatomy: volume.anatomy(), ids })
     }
 
-    /// Where the voxels lie, in the file's own world.
+    /// The grid of the voxels, in the file's own world.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// Where they lie in a world of those anatomical directions ([SPACE-2]).
+    /// The grid of the voxels in a world of the anatomical directions `world` ([SPACE-2]).
     pub fn grid_in(&self, world: Option<Anatomy>) -> Grid {
         Anatomy::between(&self.grid, self.anatomy, world)
     }
@@ -117,7 +117,7 @@ mod tests {
         Volume::new(grid, voxels, slope, intercept).unwrap()
     }
 
-    /// Whatever the file's type, with slope and intercept.
+    /// Ids are read from every voxel type, with slope and intercept.
     #[test]
     fn ids_of_every_type_of_voxel() {
         for &to in VoxelType::ALL {

@@ -21,11 +21,11 @@ pub struct NamesError {
     pub file: PathBuf,
     /// The line at fault, counted from 1.
     pub line: Option<u64>,
-    /// What is wrong.
+    /// The fault.
     pub fault: NamesFault,
 }
 
-/// What is wrong with a table of names.
+/// A fault of a table of names.
 #[derive(Debug, thiserror::Error)]
 pub enum NamesFault {
     /// The file cannot be read.
@@ -45,7 +45,7 @@ pub enum NamesFault {
     IdTwice {
         /// The label.
         id: u32,
-        /// Its name.
+        /// The label's name.
         name: String,
         /// The line that gave it.
         before: u64,
@@ -63,11 +63,11 @@ pub enum NamesFault {
 }
 
 impl LabelNames {
-    /// Reads a CSV file: the first column holds an id, the second its name; further columns do not count, and neither
-    /// does a first line whose first column is no number. A field may be quoted.
+    /// Reads a CSV file: the first column holds an id, the second its name. Further columns are ignored, and so is a
+    /// first line whose first column is no number. A field may be quoted.
     ///
     /// # Errors
-    /// A file that cannot be read, and the first line that gives no id, no name, or one that is given already.
+    /// A file that cannot be read, and the first line that has no id, no name, or one that was given already.
     pub fn read(path: &Path) -> Result<Self, NamesError> {
         let error = |fault| NamesError { file: path.to_owned(), line: None, fault };
         let text = memory::read(path).map_err(|e| error(NamesFault::Io(e)))?;
@@ -136,7 +136,8 @@ fn line(text: &[u8], position: Option<&csv::Position>) -> Option<u64> {
     Some(position.line() + skipped.filter(|&&byte| byte == b'\n').count() as u64)
 }
 
-/// What is wrong with a record that is none: the text is in memory and lines may have any length, so it is the bytes.
+/// The fault of a malformed record. The text is in memory and lines may have any length, so only its bytes can be
+/// wrong.
 fn fault(error: csv::Error) -> NamesFault {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => NamesFault::Io(error),
@@ -145,18 +146,18 @@ fn fault(error: csv::Error) -> NamesFault {
 }
 
 impl NamesError {
-    /// What is wrong, in one line.
+    /// The fault, in one line.
     pub fn what(&self) -> String {
         self.fault.to_string()
     }
 
-    /// Where: the file, and the line as far as it is known.
+    /// The file, and the line if it is known.
     pub fn place(&self) -> String {
         let file = self.file.display();
         self.line.map_or_else(|| file.to_string(), |line| format!("{file}, line {line}"))
     }
 
-    /// What to do, in one line.
+    /// The remedy, in one line.
     pub fn remedy(&self) -> &'static str {
         match self.fault {
             NamesFault::Io(_) => "give a file that may be read",

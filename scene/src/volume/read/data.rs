@@ -21,7 +21,7 @@ const COUNTED: u128 = 1 << 24;
 /// The longest number in text: the digits of the smallest f64 in full, with room.
 const LONGEST: usize = 1200;
 
-/// What a header says about the voxels and where they are.
+/// The voxels' layout and position, from a header.
 #[derive(Debug)]
 pub(super) struct Payload<'a> {
     /// The header.
@@ -30,7 +30,7 @@ pub(super) struct Payload<'a> {
     pub(super) sizes: &'static str,
     /// Number of voxels.
     pub(super) count: usize,
-    /// Their type.
+    /// The type of the numbers.
     pub(super) voxel_type: VoxelType,
     /// Whether the bytes of a number come highest first.
     pub(super) big_endian: bool,
@@ -44,7 +44,7 @@ pub(super) struct Payload<'a> {
     pub(super) lines: u64,
     /// Lines of the file before the start.
     pub(super) lines_before: usize,
-    /// How the data are stored.
+    /// The encoding of the data.
     pub(super) encoding: Encoding,
     /// Decoded bytes before the first voxel.
     pub(super) inside: u64,
@@ -190,6 +190,7 @@ impl Payload<'_> {
         let mut source = Source { path: part.path, reader, cut: false };
         let expected = share as u128 * size_of::<T>() as u128;
         let short = |found| self.misfit(part.path, Fault::Short { expected, found, unit: "bytes" });
+        // Bytes to skip in the decoded data.
         let mut buffer = vec![0; CHUNK];
         let mut skip = self.inside;
         while skip > 0 {
@@ -199,6 +200,7 @@ impl Payload<'_> {
             }
             skip -= piece.len() as u64;
         }
+        // The numbers, chunk by chunk: memory grows with the data that arrive, not with the header's claim.
         let mut found = 0;
         while found < expected {
             let piece = &mut buffer[..(expected - found).min(CHUNK as u128) as usize];
@@ -239,6 +241,7 @@ impl Payload<'_> {
         share: usize,
         voxels: &mut Vec<T>,
     ) -> Result<(), ReadError> {
+        // Numbers found so far, the line for messages, and the digits of the number being read.
         let mut found = 0;
         let mut line = self.lines_before + self.lines as usize + 1;
         let mut word = Vec::new();

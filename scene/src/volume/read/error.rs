@@ -1,4 +1,4 @@
-//! What is wrong with a volume file, where, and what to do about it.
+//! Errors of volume files: the fault, its position, and its remedy.
 
 use crate::memory::NoRoom;
 use crate::space::SpaceError;
@@ -19,11 +19,11 @@ pub struct ReadError {
     pub field: Option<String>,
     /// Whether the file has no header, and a layout describes it.
     pub has_layout: bool,
-    /// What is wrong with it.
+    /// The fault.
     pub fault: Box<Fault>,
 }
 
-/// What can be wrong with a volume file.
+/// A fault of a volume file.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// The operating system refuses.
@@ -48,7 +48,7 @@ pub enum Fault {
         format: &'static str,
         /// The first bytes.
         found: String,
-        /// How such a file begins.
+        /// The first bytes of such a file.
         expected: &'static str,
     },
     /// A text header that goes on and on.
@@ -69,7 +69,7 @@ pub enum Fault {
     /// A field that must be there is not.
     #[error("the field is missing, expected {expected}")]
     Missing {
-        /// What the field should hold.
+        /// The content that the field should have.
         expected: String,
     },
     /// A field that is given twice.
@@ -78,17 +78,17 @@ pub enum Fault {
     /// A field that does not hold what it should.
     #[error("found {found}, expected {expected}")]
     Value {
-        /// What stands there.
+        /// The content found.
         found: String,
-        /// What should.
+        /// The content expected.
         expected: String,
     },
     /// Something that the format allows and this program does not read.
     #[error("{found}, where this program reads {supported}")]
     Unsupported {
-        /// What the file holds.
+        /// The content of the file.
         found: String,
-        /// What it could hold instead.
+        /// The alternatives that are supported.
         supported: &'static str,
     },
     /// A sidecar that is not valid.
@@ -97,23 +97,23 @@ pub enum Fault {
     /// Fewer data than the header says.
     #[error("the data are too short: found {found} {unit}, expected {expected}")]
     Short {
-        /// What the header asks for.
+        /// The number that the header asks for.
         expected: u128,
-        /// What is there.
+        /// The number found.
         found: u128,
-        /// What is counted.
+        /// The unit of both numbers.
         unit: &'static str,
     },
     /// More data than the header says.
     #[error("the data are too long: found {}{found} {unit}, expected {expected}", if *.at_least { "at least " } else { "" })]
     Long {
-        /// What the header asks for.
+        /// The number that the header asks for.
         expected: u128,
-        /// What is there.
+        /// The number found.
         found: u128,
         /// Whether counting stopped before the end.
         at_least: bool,
-        /// What is counted.
+        /// The unit of both numbers.
         unit: &'static str,
     },
     /// Sizes that the file cannot hold, however well it is compressed.
@@ -162,7 +162,7 @@ impl ReadError {
         Self::new(file, Fault::Io(error))
     }
 
-    /// The same error, at a field.
+    /// Sets the field of the error.
     pub(super) fn field(self, field: impl Into<String>) -> Self {
         Self { field: Some(field.into()), ..self }
     }
@@ -172,17 +172,17 @@ impl ReadError {
         Self { has_layout: true, ..self }
     }
 
-    /// The same error, on a line counted from 1.
+    /// Sets the line of the error, counted from 1.
     pub(super) fn line(self, line: usize) -> Self {
         Self { line: Some(line), ..self }
     }
 
-    /// What is wrong, in one line.
+    /// The fault, in one line.
     pub fn what(&self) -> String {
         self.fault.to_string()
     }
 
-    /// Where: file, line and field as far as they are known, in one line.
+    /// File, line and field as far as they are known, in one line.
     pub fn place(&self) -> String {
         let mut place = self.file.display().to_string();
         if let Some(line) = self.line {
@@ -194,7 +194,7 @@ impl ReadError {
         place
     }
 
-    /// What to do, in one line.
+    /// The remedy, in one line.
     pub fn remedy(&self) -> String {
         let name = self.file.file_name().unwrap_or_default().to_string_lossy();
         let header = if self.has_layout { "layout" } else { "header" };

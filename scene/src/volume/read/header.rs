@@ -70,9 +70,9 @@ impl Lines {
 /// A field of a header.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
-    /// Its name, as the format writes it.
+    /// The field's name, as the format writes it.
     pub(super) name: &'static str,
-    /// What stands behind it, trimmed.
+    /// The value after the name, trimmed.
     pub(super) value: String,
     /// The line it stands on, from 1.
     pub(super) line: usize,

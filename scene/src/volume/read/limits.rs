@@ -1,21 +1,21 @@
-//! What the length of a file allows its header to claim ([IO-1]).
+//! Limits that the length of a file puts on the claims of its header ([IO-1]).
 
 use crate::memory::{self, NoRoom};
 
 /// DEFLATE's limit: one stored byte decodes to 1032 bytes at the most (a match of 258 bytes takes two bits).
 const EXPANSION: u128 = 1032;
 
-/// bzip2's limit. A block holds 900 000 bytes at the most, in which five may stand for a run of 259: 46 620 000 decoded
-/// bytes. It is stored in no fewer than 24: sums, tables and the length of its runs.
+/// bzip2's limit. A block holds at most 900 000 bytes, of which five may stand for a run of 259: 46 620 000 decoded
+/// bytes. A block takes at least 24 stored bytes: sums, tables and the length of its runs.
 const BZIP2_EXPANSION: u128 = 46_620_000 / 24;
 
 /// Numbers that are taken in one step: decoded data get memory as they arrive, not as the header claims.
 const STEP: usize = 1 << 16;
 
-/// How voxels are stored in a file.
+/// The encoding of a file's voxels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
-    /// As in memory.
+    /// Bytes as in memory.
     Raw,
     /// One or more gzip members.
     Gzip,

@@ -1,8 +1,8 @@
 //! MetaImage: `.mhd` with the voxels beside it, `.mha` with them behind the header ([IO-1], [SPACE-2]).
 //!
-//! D is `TransformMatrix` × `ElementSpacing`: the first NDims numbers of the matrix are the direction of the first
-//! axis of the voxels, and so on; voxel (0, 0, 0) lies at `Offset`. The world is LPS, as MetaImage's own library has
-//! it; `AnatomicalOrientation` names the voxels' axes, not the world's, so it repeats the matrix and is not read.
+//! D is `TransformMatrix` × `ElementSpacing`. The first NDims numbers of the matrix are the direction of the first axis
+//! of the voxels, and so on; voxel (0, 0, 0) lies at `Offset`. The world is LPS, as in MetaImage's own library.
+//! `AnatomicalOrientation` names the voxels' axes, not the world's. It repeats the matrix and is not read.
 
 use super::data::Payload;
 use super::error::{Fault, ReadError, quoted};
@@ -56,6 +56,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
     } else {
         (data_files(&header, field, &sizes, &mut lines)?, header_size(&header)?, 0)
     };
+    // How the data are encoded.
     let compressed = flag_or(&header, &["CompressedData"], false)?;
     let encoding = match (flag_or(&header, &["BinaryData"], true)?, compressed) {
         (true, false) => Encoding::Raw,
@@ -72,6 +73,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
         let found = "data at the end of a file that is not raw".to_string();
         return Err(header.error(field, Fault::Unsupported { found, supported: "a HeaderSize of −1 with raw data" }));
     }
+    // Where the voxels lie in the world.
     let (axes, origin, names) = space(&header, sizes.len())?;
     let grid = grid_of(file, dims, axes, origin, names).map_err(|e| header.with_line(e))?;
     let payload = Payload {
@@ -91,6 +93,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
     if let (true, Some(field), &[_]) = (compressed, header.get("CompressedDataSize"), payload.files.as_slice()) {
         compressed_size(&header, field, &payload)?;
     }
+    // Values from stored numbers.
     let scaling = [
         number_or(&header, "ElementToIntensityFunctionSlope", 1.0)?,
         number_or(&header, "ElementToIntensityFunctionOffset", 0.0)?,

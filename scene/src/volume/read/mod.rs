@@ -1,8 +1,8 @@
 //! Reading volumes ([IO-1]): NRRD, NIfTI, MetaImage, and raw voxels with a described layout.
 //!
-//! Every reader takes the header first, checks what it claims against the lengths of the files, and only then asks
-//! for memory: exactly the voxels where they are stored as they are, in doubling steps behind the arriving data where
-//! they are compressed or text. Whatever a file holds, the result is a volume or a [`ReadError`].
+//! Every reader takes the header first and checks its claims against the lengths of the files. Only then does it ask
+//! for memory: exactly the voxels if they are stored raw; in doubling steps behind the arriving data if they are
+//! compressed or text. For every file the result is a volume or a [`ReadError`].
 
 mod data;
 mod error;

@@ -25,14 +25,15 @@ pub(super) fn list(header: &Path, lines: &mut Lines) -> Result<Vec<PathBuf>, Rea
 }
 
 /// The files of a name with a number in it, such as `slice%03d.raw`, the number going from `first` to `last` in steps
-/// of `step`. A field may ask for any number of files, so the first one that is not there is the end, and an error.
+/// of `step`. A field may ask for any number of files. The first missing file therefore ends the series, and is an
+/// error.
 pub(super) fn numbered(
     header: &Header,
     field: &Field,
     name: &str,
     [first, last, step]: [i64; 3],
 ) -> Result<Vec<PathBuf>, ReadError> {
-    let name = Numbered::parse(name).ok_or_else(|| header.expected(field, "a name with one %d in it"))?;
+    let name = NumberedName::parse(name).ok_or_else(|| header.expected(field, "a name with one %d in it"))?;
     if step == 0 || (last < first) != (step < 0) && last != first {
         return Err(header.expected(field, "a step that leads from the first number to the last"));
     }
@@ -50,14 +51,14 @@ pub(super) fn numbered(
 }
 
 /// A name with one printf-like number in it.
-struct Numbered {
+struct NumberedName {
     before: String,
     after: String,
     zeros: bool,
     width: usize,
 }
 
-impl Numbered {
+impl NumberedName {
     /// Takes `%d`, `%i` or `%u` with an optional width, and `%%` for a percent sign.
     fn parse(name: &str) -> Option<Self> {
         let mut found: Option<Self> = None;
@@ -94,7 +95,7 @@ mod tests {
 
     #[test]
     fn names_as_printf_writes_them() {
-        let write = |name: &str, n| Numbered::parse(name).map(|p| p.with(n));
+        let write = |name: &str, n| NumberedName::parse(name).map(|p| p.with(n));
         assert_eq!(write("a%d.raw", 7).as_deref(), Some("a7.raw"));
         assert_eq!(write("a%03d.raw", 7).as_deref(), Some("a007.raw"));
         assert_eq!(write("a%3u.raw", 7).as_deref(), Some("a  7.raw"));

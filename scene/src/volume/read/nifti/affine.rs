@@ -1,10 +1,10 @@
-//! From voxels to the world: sform, qform or spacings (nifti1.h, methods 3, 2 and 1).
+//! The map from voxels to the world: sform, qform or spacings (nifti1.h, methods 3, 2 and 1).
 
 use super::fields::Fields;
 use glam::{DMat3, DVec3};
 
-/// Where the voxels of a file lie.
-pub(super) struct Placed {
+/// The position of a file's voxels in the world.
+pub(super) struct VoxelAffine {
     /// D.
     pub(super) axes: DMat3,
     /// Voxel (0, 0, 0).
@@ -18,18 +18,18 @@ pub(super) struct Placed {
 }
 
 /// Takes the best of the three ways that a header has to place its voxels.
-pub(super) fn place(fields: &Fields) -> Placed {
+pub(super) fn place(fields: &Fields) -> VoxelAffine {
     if fields.sform_code > 0 {
         let column = |i: usize| DVec3::new(fields.srow[0][i], fields.srow[1][i], fields.srow[2][i]);
         let axes = DMat3::from_cols(column(0), column(1), column(2));
         let field = "srow_x, srow_y, srow_z";
-        return Placed { axes, origin: column(3), anatomical: true, axes_field: field, origin_field: field };
+        return VoxelAffine { axes, origin: column(3), anatomical: true, axes_field: field, origin_field: field };
     }
     let spacing = spacing(fields);
     if fields.qform_code > 0 {
         let mirrored = if fields.pixdim[0] < 0.0 { -1.0 } else { 1.0 };
         let scale = DMat3::from_diagonal(DVec3::new(spacing.x, spacing.y, spacing.z * mirrored));
-        return Placed {
+        return VoxelAffine {
             axes: rotation(fields.quatern) * scale,
             origin: DVec3::from_array(fields.qoffset),
             anatomical: true,
@@ -38,7 +38,7 @@ pub(super) fn place(fields: &Fields) -> Placed {
         };
     }
     let axes = DMat3::from_diagonal(spacing);
-    Placed { axes, origin: DVec3::ZERO, anatomical: false, axes_field: "pixdim", origin_field: "pixdim" }
+    VoxelAffine { axes, origin: DVec3::ZERO, anatomical: false, axes_field: "pixdim", origin_field: "pixdim" }
 }
 
 /// The spacings. Older files put a sign on some, which means nothing in NIfTI; axes that do not count have 1.

@@ -1,6 +1,6 @@
 //! The binary headers of NIfTI-1 (348 bytes) and NIfTI-2 (540 bytes).
 //!
-//! Our own few lines in place of a crate: the one that is kept knows NIfTI-1 only, and panics on a quaternion that is
+//! A few lines of our own replace a crate: the maintained one knows NIfTI-1 only, and panics on a quaternion that is
 //! too long.
 
 use super::super::error::{Fault, ReadError, quoted};

@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 /// The most axes that the format allows.
 const MOST_AXES: usize = 16;
 
-/// What a header says about its axes.
+/// The axes that a header describes.
 pub(super) struct Axes {
     /// Samples along every axis, fastest first.
     pub(super) sizes: Vec<usize>,
@@ -107,6 +107,8 @@ fn space_axes(header: &Header, sizes: &[usize], directions: Option<&[Option<DVec
         }
         None => None,
     };
+    // An axis is spatial if it has a direction. Without directions its kind decides, and without kinds every axis is
+    // spatial.
     let is_space = |axis: usize| match (directions, &kinds) {
         (Some(directions), _) => directions[axis].is_some(),
         (None, Some((_, kinds))) => {

@@ -49,8 +49,8 @@ fn name(written: &str) -> Option<&'static str> {
     NAMES.into_iter().find(|name| plain(name) == wanted)
 }
 
-/// Reads the lines up to the blank one that ends the header, to the end of the file, or to a list of data files. Only
-/// behind a blank line, or in files that the header names, there can be data.
+/// Reads the lines up to the blank line that ends the header, to the end of the file, or to a list of data files. Data
+/// can follow only a blank line, or lie in files that the header names.
 pub(super) fn read(file: &Path, lines: &mut Lines) -> Result<Header, ReadError> {
     lines.magic("an NRRD file", "NRRD000")?;
     lines.read()?;

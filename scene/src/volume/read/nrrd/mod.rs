@@ -129,7 +129,7 @@ fn data_files(header: &Header, field: &Field, sizes: &[usize], lines: &mut Lines
     Ok(files)
 }
 
-/// What stands before the data. Of compressed data, lines are skipped in the file, bytes in what it decodes to.
+/// The parts of a file to skip before the data. Lines are skipped in the file itself, bytes in the decoded data.
 #[derive(Default)]
 struct Skips {
     lines: u64,

@@ -121,7 +121,7 @@ const WORDS: [&str; 20] = [
     "s%d.raw 0 9223372036854775807 1",
 ];
 
-/// How files of the formats begin.
+/// The first bytes of files of the formats.
 const STARTS: [&[u8]; 6] =
     [b"", b"NRRD0004\n", b"ObjectType = Image\n", b"\x5c\x01\0\0", b"\0\0\x02\x1c", b"\x1f\x8b\x08\0"];
 

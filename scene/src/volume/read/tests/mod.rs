@@ -212,7 +212,7 @@ impl Nifti {
         header
     }
 
-    /// The same in NIfTI-2.
+    /// The header in NIfTI-2.
     fn two(voxel_type: VoxelType, dims: &[i64], big_endian: bool) -> Self {
         let mut header = Self { bytes: vec![0; 544], big_endian };
         header.i32(0, 540).i64(16, dims.len() as i64).i16(12, nifti_code(voxel_type));

@@ -1,4 +1,4 @@
-//! Where the voxels lie: each format's axes and origin, on numbers worked by hand.
+//! Positions of the voxels: each format's axes and origin, on numbers worked by hand.
 
 use super::super::Fault;
 use super::*;

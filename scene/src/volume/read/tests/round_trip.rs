@@ -1,4 +1,4 @@
-//! What is written is read back, bit by bit.
+//! Volumes written are read back bit by bit.
 
 use super::*;
 use crate::space::Grid;
