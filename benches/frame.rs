@@ -141,6 +141,10 @@ impl PlaneEffect for Nothing {
 
     fn after(&self, _: &SampleOnPlane<'_>, _: &mut [f64]) {}
 
+    fn lays_behind(&self, _: i64) -> bool {
+        false
+    }
+
     fn behind(&self, _: i64, _: RayOnPlane<'_>) {}
 
     fn end_of_group(&mut self, _: i64, _: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool {

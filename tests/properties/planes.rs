@@ -105,11 +105,13 @@ impl PlaneEffect for Fog {
         own[0] += sample.alpha;
     }
 
+    fn lays_behind(&self, _: i64) -> bool {
+        self.shine > 0.0
+    }
+
     fn behind(&self, _: i64, ray: RayOnPlane<'_>) {
         assert!(ray.is_open);
-        if self.shine > 0.0 {
-            ray.front.over([1.0; 3], self.shine);
-        }
+        ray.front.over([1.0; 3], self.shine);
     }
 
     fn end_of_group(&mut self, group: i64, rays: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool {
@@ -156,10 +158,11 @@ fn an_effect_sees_all_and_changes_nothing_by_itself() {
         let [width, height] = stage.scene.picture.size;
         for (i, pixel) in plain.pixels().iter().enumerate() {
             let parts = (0..n * n).map(|part| [i % width * n + part % n, i / width * n + part / n]);
-            let opacity = parts.map(|ray| 1.0 - 0.9f64.powf(fog.sums[&ray] / 0.1)).sum::<f64>();
+            let opacity =
+                parts.map(|ray| 1.0 - 0.9f64.powf(fog.sums.get(&ray).copied().unwrap_or(0.0) / 0.1)).sum::<f64>();
             assert!((pixel[3] - opacity / (n * n) as f64).abs() < 1e-12, "{i}: {} {opacity}", pixel[3]);
         }
-        assert_eq!(fog.sums.len(), width * height * n * n);
+        assert!(fog.sums.len() <= width * height * n * n);
         assert!(fog.sums.values().filter(|sum| **sum > 0.0).count() > width * height / 4);
     }
 }

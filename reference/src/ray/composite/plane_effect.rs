@@ -22,10 +22,14 @@ pub trait PlaneEffect: Sync {
     /// Reads a sample after it was composited; `own` are the ray's numbers.
     fn after(&self, sample: &SampleOnPlane<'_>, own: &mut [f64]);
 
+    /// Whether the effect lays something behind planes of a group.
+    fn lays_behind(&self, group: i64) -> bool;
+
     /// Lays something behind a plane of an open ray, with or without a sample there.
     fn behind(&self, k: i64, ray: RayOnPlane<'_>);
 
-    /// Ends a group, of which each ray is seen once. Returns whether the next group is due even if no ray has a sample there.
+    /// Ends a group. Rays that had a sample in the group are seen once, others at most once. Returns whether the next group is
+    /// due even if no ray has a sample there.
     fn end_of_group(&mut self, group: i64, rays: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool;
 }
 

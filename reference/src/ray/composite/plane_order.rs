@@ -1,7 +1,8 @@
 //! Plane order: all rays of a picture, group of planes by group, each with a path on which it can go on ([HALO-1], [HALO-8]).
 //!
 //! Rays of one tile lie together, and the tiles that have something in a group are visited in parallel. Between groups all
-//! threads meet, since an effect may read what its neighbours left on the groups before. Without an effect a group is a plane.
+//! threads meet, since an effect may read what its neighbours left on the groups before. Without an effect tiles need not wait
+//! for each other: each is visited plane by plane by itself, and the state of its rays alone is in memory.
 
 use super::cast::Cast;
 use super::path::Step;
@@ -14,6 +15,7 @@ use crate::ray::sample::need::{self, Need, Needs};
 use crate::ray::tile_work::TileRays;
 use drypoint_scene::counts::Counts;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A ray that waits for its next plane.
 struct WaitingRay<'p, 'v, R: Real, S> {
@@ -34,6 +36,8 @@ const ENDED: i64 = i64::MAX;
 /// Rays of one tile.
 struct WaitingTile<'p, 'v, R: Real, S> {
     rays: Vec<WaitingRay<'p, 'v, R, S>>,
+    /// Rays that have not ended.
+    open: Vec<usize>,
     /// The nearest plane of any of its rays.
     next: i64,
     counts: Counts,
@@ -60,27 +64,41 @@ fn cast_with<N: Need, R: Real, S: Sampler<R> + Sync>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
     tiles: Vec<TileRays>,
-    mut effect: Option<&mut dyn PlaneEffect>,
+    effect: Option<&mut dyn PlaneEffect>,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<(Vec<Cast>, Counts)> {
-    let numbers = effect.as_ref().map_or(0, |effect| effect.numbers());
-    let planes = effect.as_ref().map_or(1, |effect| effect.planes_per_group().max(1));
-    let aim = |tile: TileRays| WaitingTile::new(prepared, sampler, tile, numbers);
+    let Some(effect) = effect else {
+        let done = AtomicUsize::new(0);
+        let all = tiles.len() as f64;
+        let alone = |tile| {
+            let mut tile = WaitingTile::new(prepared, sampler, tile, 0);
+            while tile.next != ENDED {
+                tile.visit::<N>(tile.next, None);
+            }
+            progress((1 + done.fetch_add(1, Ordering::Relaxed)) as f64 / all);
+            tile.finish()
+        };
+        return tiles.into_par_iter().map(alone).collect();
+    };
+    let planes = effect.planes_per_group().max(1);
+    let aim = |tile: TileRays| WaitingTile::new(prepared, sampler, tile, effect.numbers());
     let mut tiles: Vec<WaitingTile<'_, '_, R, S>> = tiles.into_par_iter().map(aim).collect();
     let last = tiles.iter().flat_map(|tile| &tile.rays).filter_map(WaitingRay::last).max().unwrap_or(0);
     let first = tiles.iter().map(|tile| tile.next).min().unwrap_or(ENDED);
     let (mut next, mut is_due) = (first, false);
     let mut group = first.div_euclid(planes);
     while next != ENDED || is_due {
-        let seen: Option<&dyn PlaneEffect> = effect.as_deref();
         let range = [group * planes, group * planes + planes - 1];
-        // An effect lays something behind rays without samples, too.
-        let has_work = |tile: &WaitingTile<'_, '_, R, S>| seen.is_some() || tile.next <= range[1];
-        tiles.par_iter_mut().filter(|tile| has_work(tile)).for_each(|tile| tile.visit::<N>(range, seen));
-        is_due = effect.as_deref_mut().is_some_and(|effect| {
-            let rays = tiles.iter_mut().flat_map(|tile| &mut tile.rays);
-            effect.end_of_group(group, &mut rays.map(WaitingRay::on_plane))
-        });
+        let mut visited: Vec<&mut WaitingTile<'_, '_, R, S>> = if effect.lays_behind(group) {
+            tiles.par_iter_mut().for_each(|tile| tile.visit_with::<N>(range, effect));
+            tiles.iter_mut().collect()
+        } else {
+            let mut visited: Vec<_> = tiles.iter_mut().filter(|tile| tile.next <= range[1]).collect();
+            visited.par_iter_mut().for_each(|tile| tile.visit::<N>(range[1], Some(effect)));
+            visited
+        };
+        let rays = visited.iter_mut().flat_map(|tile| &mut tile.rays);
+        is_due = effect.end_of_group(group, &mut rays.map(WaitingRay::on_plane));
         next = tiles.iter().map(|tile| tile.next).min().unwrap_or(ENDED);
         group = if is_due { group + 1 } else { next.div_euclid(planes) };
         progress((next.min(last) - first) as f64 / (last - first).max(1) as f64);
@@ -100,21 +118,37 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
         });
         let rays: Vec<_> = rays.collect();
         let next = rays.iter().map(|ray| ray.next).min().unwrap_or(ENDED);
-        Self { rays, next, counts: Counts::default() }
+        let open = (0..rays.len()).filter(|&i| rays[i].next != ENDED).collect();
+        Self { rays, open, next, counts: Counts::default() }
     }
 
-    /// Visits the planes first..=last of its rays.
-    fn visit<N: Need>(&mut self, range: [i64; 2], effect: Option<&dyn PlaneEffect>) {
+    /// Visits the planes of its rays up to `last`.
+    fn visit<N: Need>(&mut self, last: i64, effect: Option<&dyn PlaneEffect>) {
         let mut next = ENDED;
-        for ray in &mut self.rays {
-            match effect {
-                None if ray.next <= range[1] => ray.visit::<N>(range, &mut None, &mut self.counts),
-                None => {}
-                Some(effect) => ray.visit_with::<N>(range, effect, &mut self.counts),
+        self.open.retain(|&i| {
+            let ray = &mut self.rays[i];
+            if ray.next <= last {
+                ray.visit::<N>(last, effect, &mut self.counts);
             }
             next = next.min(ray.next);
-        }
+            ray.next != ENDED
+        });
         self.next = next;
+    }
+
+    /// Visits the planes first..=last of its rays, each followed by what an effect lays behind it.
+    fn visit_with<N: Need>(&mut self, [first, last]: [i64; 2], effect: &dyn PlaneEffect) {
+        for k in first..=last {
+            self.visit::<N>(k, Some(effect));
+            for ray in &mut self.rays {
+                if ray.state.is_open() {
+                    effect.behind(k, ray.on_plane());
+                } else {
+                    ray.next = ENDED;
+                }
+            }
+        }
+        self.next = self.rays.iter().map(|ray| ray.next).min().unwrap_or(ENDED);
     }
 
     /// Ends the rays and returns their results.
@@ -129,14 +163,15 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 
 impl<R: Real, S: Sampler<R>> WaitingRay<'_, '_, R, S> {
     /// Takes all its steps on the planes up to `last`.
-    fn visit<N: Need>(&mut self, [_, last]: [i64; 2], hook: &mut Option<Hook<'_>>, counts: &mut Counts) {
+    fn visit<N: Need>(&mut self, last: i64, effect: Option<&dyn PlaneEffect>, counts: &mut Counts) {
+        let mut hook = effect.map(|effect| Hook { effect, ray: self.place, own: &mut self.own });
         while self.next <= last {
             let whole = self.path[self.at];
             let step = match whole {
                 Step::Samples([_, end]) => Step::Samples([self.next, end.min(last)]),
                 other => other,
             };
-            if !self.state.take::<N>(&step, hook, counts) {
+            if !self.state.take::<N>(&step, &mut hook, counts) {
                 self.next = ENDED;
                 return;
             }
@@ -146,23 +181,6 @@ impl<R: Real, S: Sampler<R>> WaitingRay<'_, '_, R, S> {
                     self.at += 1;
                     self.next = self.path.get(self.at).map_or(ENDED, Step::plane);
                 }
-            }
-        }
-    }
-
-    /// Takes all its steps on some planes, each plane followed by what an effect lays behind it.
-    fn visit_with<N: Need>(&mut self, [first, last]: [i64; 2], effect: &dyn PlaneEffect, counts: &mut Counts) {
-        for k in first..=last {
-            if !self.state.is_open() {
-                self.next = ENDED;
-                return;
-            }
-            let mut own = std::mem::take(&mut self.own);
-            let mut hook = Some(Hook { effect, ray: self.place, own: &mut own });
-            self.visit::<N>([k, k], &mut hook, counts);
-            self.own = own;
-            if self.state.is_open() {
-                effect.behind(k, self.on_plane());
             }
         }
     }
