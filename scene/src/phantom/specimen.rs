@@ -145,9 +145,10 @@ fn blend<S: Scalar>(a: S, b: S, k: f64) -> S {
     hi + (((lo - hi) * (1.0 / k)).exp() + 1.0).ln() * k
 }
 
-/// Approximate square of the distance to a trefoil. In the half-plane at the angle φ about z, let w = (√(x² + y²) − R)
-/// + i z. The two strands are at ± a e^(3iφ/2), and |w² − a² e^(3iφ)| / 2a is the distance to the nearer one in first
-/// order.
+/// Approximate square of the distance to a trefoil.
+///
+/// In the half-plane at the angle φ about z, let w = √(x² + y²) − R + i z. The two strands are at ± a e^(3iφ/2), and
+/// |w² − a² e^(3iφ)| / 2a is the distance to the nearer one in first order.
 fn from_knot<S: Scalar>([x, y, z]: [S; 3]) -> S {
     let [ring, a, _] = KNOT;
     // The small number keeps the axis smooth, where the knot is not.
