@@ -1,6 +1,6 @@
 //! The mask of blue noise by which a fraction becomes whole things spread evenly over voxels ([STIP-5]).
 //!
-//! It is made by the void-and-cluster method: R. Ulichney, *The void-and-cluster method for dither array generation*,
+//! The mask is made by the void-and-cluster method: R. Ulichney, *The void-and-cluster method for dither array generation*,
 //! Human Vision, Visual Processing, and Digital Display IV, SPIE 1913, 1993, here in three dimensions. What is seen of it
 //! are surfaces, so that voids are measured in the planes of two axes as well as in space.
 
@@ -64,7 +64,7 @@ pub fn void_and_cluster() -> Vec<u16> {
     ranks
 }
 
-/// What a voxel that is set adds to those around it, by their offsets on the torus.
+/// The weights that a set voxel adds to those around it, by their offsets on the torus.
 fn kernel() -> Vec<f64> {
     /// In voxels. Ulichney's, 1.5 in a plane, leaves cuts of a tone of a tenth uneven.
     const SIGMA: f64 = 2.0;

@@ -1,4 +1,4 @@
-//! What a render did ([PLAN-2]): a count of a thing that was not done is 0, never left out.
+//! Counts of the work of a render ([PLAN-2]). A count of work that was not done is 0, never left out.
 
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! What a Drypoint picture is made of: space, volumes, phantoms, scene files, styles, plans, and the plain types that
+//! The parts of a Drypoint picture: space, volumes, phantoms, scene files, styles, plans, and the plain types that
 //! the other crates hand to each other.
 //!
 //! This crate renders nothing: it has no value of the field between voxels and no loop over pixels.

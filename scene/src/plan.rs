@@ -1,4 +1,4 @@
-//! What a scene calls for, and why ([PLAN-1], [PLAN-3]). What is not in the plan is not computed.
+//! The plan of a scene: the work that it calls for, and why ([PLAN-1], [PLAN-3]). Nothing else is computed.
 //!
 //! The rules of a table stand in `plan::rules`, one file a table: each says what its effect needs and which line of the scene
 //! asked for it. Here they are gathered and closed under what one quantity needs of another.

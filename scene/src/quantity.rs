@@ -1,6 +1,6 @@
 //! The quantities of a plan.
 
-/// What may have to be known at a sample.
+/// A quantity that a sample may be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quantity {
     /// f.
@@ -21,7 +21,7 @@ pub enum Quantity {
     LabelDistance,
     /// The value of a further volume ([STF-4]).
     FurtherVolume,
-    /// Where a ray first meets the iso-surface ([HATCH-14]).
+    /// The place where a ray first meets the iso-surface ([HATCH-14]).
     Surface,
     /// The normal there.
     SurfaceNormal,
@@ -60,7 +60,7 @@ impl Quantity {
         }
     }
 
-    /// What it adds to a picture's work.
+    /// The work that the quantity adds to a picture.
     pub fn adds(self) -> &'static str {
         match self {
             Self::Value => "one reconstruction a sample",
@@ -76,7 +76,7 @@ impl Quantity {
         }
     }
 
-    /// What it adds where only the first visible sample of each ray needs it.
+    /// The work that it adds if only the first visible sample of each ray needs it.
     pub(crate) fn adds_at_first(self) -> &'static str {
         match self {
             Self::Gradient | Self::PreviousNormal => "one gradient a ray",
@@ -85,7 +85,7 @@ impl Quantity {
         }
     }
 
-    /// What it is made of.
+    /// The quantity that it is made of.
     pub(crate) fn prerequisite(self) -> Option<Self> {
         match self {
             Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume | Self::Surface => {

@@ -167,7 +167,7 @@ impl Check {
         self.table_over(table, item, None)
     }
 
-    /// The same, with what a preset supplied where the item has no key.
+    /// Reads a table like `table`, with the values of a preset for keys that the item does not have.
     pub(crate) fn table_over<S>(&mut self, table: &Table<S>, item: &Item, supplied: Option<S>) -> Option<S> {
         let Value::Table(entries) = &item.value else {
             return self.wrong(item, table_expected(table));

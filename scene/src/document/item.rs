@@ -26,7 +26,7 @@ pub(crate) enum Value {
     Date(String),
     List(Vec<Item>),
     Table(Entries),
-    /// That nothing is to be there, whatever a preset supplies.
+    /// An item that is to be absent, whatever a preset supplies.
     Off,
 }
 

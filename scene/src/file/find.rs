@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// The variable that lists folders of volumes.
 const VARIABLE: &str = "DRYPOINT_DATA";
 
-/// Where volumes lie beside a source tree, from its root: only what is run from there finds them.
+/// The folder of volumes beside a source tree, from its root. Only programs that run there find it.
 const BESIDE_THE_SOURCE: &str = "../shared/data";
 
 /// The folders in which a volume is looked for that is not where the scene says: those of the environment variable

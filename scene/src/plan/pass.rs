@@ -23,7 +23,7 @@ pub enum Pass {
     StippleGradients,
     /// The points of stippling, relaxed and in order ([STIP-4]).
     StipplePoints,
-    /// Where silhouette curves can be ([STIP-13]).
+    /// The voxels in which silhouette curves can be ([STIP-13]).
     CurveVoxels,
     /// The label of each voxel's dots.
     DotLabels,
@@ -57,7 +57,7 @@ pub enum Pass {
     AllDirections,
     /// The strokes of hatching ([HATCH-8]).
     Strokes,
-    /// Those that cross them ([HATCH-11]).
+    /// Strokes that cross the first ones ([HATCH-11]).
     CrossStrokes,
     /// Which of them are drawn, so that they are apart on the page ([HATCH-19]).
     Spacing,
@@ -67,7 +67,7 @@ pub enum Pass {
     HiddenStrokes,
     /// Strokes inside the picture of the volume ([HATCH-14]).
     MergedStrokes,
-    /// What is cut out of strokes where nearer lines cross them ([HATCH-20]).
+    /// Gaps in strokes where nearer lines cross them ([HATCH-20]).
     Gaps,
 }
 
@@ -111,7 +111,7 @@ impl Pass {
         }
     }
 
-    /// What it adds to a picture's work.
+    /// The work that the pass adds to a picture.
     pub fn adds(self) -> &'static str {
         match self {
             Self::Coefficients => "one filter along each axis, one number a voxel",
