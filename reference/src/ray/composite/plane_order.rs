@@ -11,7 +11,7 @@ use super::ray_state::RayState;
 use crate::field::Sampler;
 use crate::number::Real;
 use crate::ray::prepared::Prepared;
-use crate::ray::sample::need::{self, Need, Needs};
+use crate::ray::sample::need::Anything;
 use crate::ray::tile_work::TileRays;
 use drypoint_scene::counts::Counts;
 use rayon::prelude::*;
@@ -44,23 +44,8 @@ struct WaitingTile<'p, 'v, R: Real, S> {
 }
 
 /// Casts the rays of tiles plane by plane, with an effect if one is given. Returns what comes out of the rays of each tile, in
-/// their order. `progress` hears the share of planes that is done.
-pub(crate) fn cast_tiles<R: Real, S: Sampler<R> + Sync>(
-    prepared: &Prepared<'_, R>,
-    sampler: &S,
-    tiles: Vec<TileRays>,
-    effect: Option<&mut dyn PlaneEffect>,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Vec<(Vec<Cast>, Counts)> {
-    match prepared.object.needs {
-        _ if effect.is_some() => cast_with::<need::Anything, R, S>(prepared, sampler, tiles, effect, progress),
-        Needs::Value => cast_with::<need::Value, R, S>(prepared, sampler, tiles, effect, progress),
-        Needs::Normal => cast_with::<need::Normal, R, S>(prepared, sampler, tiles, effect, progress),
-        Needs::Anything => cast_with::<need::Anything, R, S>(prepared, sampler, tiles, effect, progress),
-    }
-}
-
-fn cast_with<N: Need, R: Real, S: Sampler<R> + Sync>(
+/// their order. `progress` hears the share of tiles or planes that is done.
+pub(crate) fn cast_tiles<R: Real, S: Sampler<R>>(
     prepared: &Prepared<'_, R>,
     sampler: &S,
     tiles: Vec<TileRays>,
@@ -73,7 +58,7 @@ fn cast_with<N: Need, R: Real, S: Sampler<R> + Sync>(
         let alone = |tile| {
             let mut tile = WaitingTile::new(prepared, sampler, tile, 0);
             while tile.next != ENDED {
-                tile.visit::<N>(tile.next, None);
+                tile.visit(tile.next, None);
             }
             progress((1 + done.fetch_add(1, Ordering::Relaxed)) as f64 / all);
             tile.finish()
@@ -90,11 +75,11 @@ fn cast_with<N: Need, R: Real, S: Sampler<R> + Sync>(
     while next != ENDED || is_due {
         let range = [group * planes, group * planes + planes - 1];
         let mut visited: Vec<&mut WaitingTile<'_, '_, R, S>> = if effect.lays_behind(group) {
-            tiles.par_iter_mut().for_each(|tile| tile.visit_with::<N>(range, effect));
+            tiles.par_iter_mut().for_each(|tile| tile.visit_with(range, effect));
             tiles.iter_mut().collect()
         } else {
             let mut visited: Vec<_> = tiles.iter_mut().filter(|tile| tile.next <= range[1]).collect();
-            visited.par_iter_mut().for_each(|tile| tile.visit::<N>(range[1], Some(effect)));
+            visited.par_iter_mut().for_each(|tile| tile.visit(range[1], Some(effect)));
             visited
         };
         let rays = visited.iter_mut().flat_map(|tile| &mut tile.rays);
@@ -123,12 +108,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
     }
 
     /// Visits the planes of its rays up to `last`.
-    fn visit<N: Need>(&mut self, last: i64, effect: Option<&dyn PlaneEffect>) {
+    fn visit(&mut self, last: i64, effect: Option<&dyn PlaneEffect>) {
         let mut next = ENDED;
         self.open.retain(|&i| {
             let ray = &mut self.rays[i];
             if ray.next <= last {
-                ray.visit::<N>(last, effect, &mut self.counts);
+                ray.visit(last, effect, &mut self.counts);
             }
             next = next.min(ray.next);
             ray.next != ENDED
@@ -137,9 +122,9 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
     }
 
     /// Visits the planes first..=last of its rays, each followed by what an effect lays behind it.
-    fn visit_with<N: Need>(&mut self, [first, last]: [i64; 2], effect: &dyn PlaneEffect) {
+    fn visit_with(&mut self, [first, last]: [i64; 2], effect: &dyn PlaneEffect) {
         for k in first..=last {
-            self.visit::<N>(k, Some(effect));
+            self.visit(k, Some(effect));
             for ray in &mut self.rays {
                 if ray.state.is_open() {
                     effect.behind(k, ray.on_plane());
@@ -163,7 +148,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 
 impl<R: Real, S: Sampler<R>> WaitingRay<'_, '_, R, S> {
     /// Takes all its steps on the planes up to `last`.
-    fn visit<N: Need>(&mut self, last: i64, effect: Option<&dyn PlaneEffect>, counts: &mut Counts) {
+    fn visit(&mut self, last: i64, effect: Option<&dyn PlaneEffect>, counts: &mut Counts) {
         let mut hook = effect.map(|effect| Hook { effect, ray: self.place, own: &mut self.own });
         while self.next <= last {
             let whole = self.path[self.at];
@@ -171,7 +156,7 @@ impl<R: Real, S: Sampler<R>> WaitingRay<'_, '_, R, S> {
                 Step::Samples([_, end]) => Step::Samples([self.next, end.min(last)]),
                 other => other,
             };
-            if !self.state.take::<N>(&step, &mut hook, counts) {
+            if !self.state.take::<Anything>(&step, &mut hook, counts) {
                 self.next = ENDED;
                 return;
             }
