@@ -341,7 +341,7 @@ impl Job {
         shot: &Shot,
         make: impl FnOnce(&Shot, Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
     ) -> Result<Renderer<'a>, Failure> {
-        let background = match (&self.background, &scene.picture.background) {
+        let background = match (&self.background, &shot.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
             (None, Background::Color(color)) => Backdrop::Color(*color),
             (None, _) => Backdrop::None,

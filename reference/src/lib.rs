@@ -2,6 +2,7 @@
 //!
 //! This crate opens no file and knows no file format; what it reads and makes are plain types of `drypoint_scene`.
 
+mod accumulator;
 pub mod dot_colors;
 pub mod field;
 pub mod interactive_volume_illustration;

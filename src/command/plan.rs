@@ -18,7 +18,7 @@ pub(super) struct PlanArgs {
     /// Print the scene with every default filled in, as a valid scene; its paths are those from the working directory
     #[arg(long)]
     full: bool,
-    /// Print the picture with nothing left to decide, as JSON: all that a renderer has to know of the scene beside its data
+    /// Print the picture with nothing left to decide, as JSON: all that rays have to know of the scene beside its data
     #[arg(long, conflicts_with = "full")]
     json: bool,
     /// The preset of a bare volume, as `render` takes it
@@ -38,6 +38,10 @@ impl PlanArgs {
             input::load(self.input.as_deref(), &over)?
         };
         if self.json {
+            if !job.draws_volume() {
+                let what = "the scene draws points and lines alone, and --json prints what rays have to know";
+                return Err(Failure::new(what, "--json", "add a [transfer] table or a [surface]").into());
+            }
             let json = job.shot()?.to_json();
             return print(
                 &json.map_err(|error| Failure::new(error, "transfer.over", "name volumes by paths that are text"))?,

@@ -70,9 +70,8 @@ fn a_paper_imports_no_other_paper() {
 /// The share of what is laid behind, (1 − A)·α, is formed in one place.
 #[test]
 fn there_is_one_over() {
-    let found =
-        lines_with("reference/src", &["- self.opacity", "- front.opacity", "- light.opacity", "- accumulator.opacity"]);
+    let found = lines_with("reference/src", &["- self.opacity", "- front.opacity", "1.0 - a)", "1.0 - a;", "ONE - a"]);
     let weights: Vec<&String> = found.iter().filter(|line| !line.contains("accumulator.rs")).collect();
     assert_eq!(weights, [""; 0] as [&str; 0]);
-    assert_eq!(found.len(), 2, "over, and its end: {found:?}");
+    assert_eq!(found.len(), 3, "over, its end, and the background: {found:?}");
 }

@@ -49,6 +49,11 @@ fn planes_show_nowhere() {
         let [rays, planes] = [false, true].map(by);
         assert_eq!(planes.bits(), rays.bits(), "seed {seed}: {:?}", shot.scene);
         assert_eq!(counted(&planes.counts), counted(&rays.counts), "seed {seed}: {:?}", shot.scene);
+        // The same with an effect that does nothing, over groups of one to three planes.
+        let mut nothing = Fog { planes: 1 + seed as i64 % 3, lays: seed % 2 == 0, ..Fog::new() };
+        let grouped = with(&shot, lines.clone(), &mut nothing);
+        assert_eq!(grouped.bits(), rays.bits(), "seed {seed}: {:?}", shot.scene);
+        assert_eq!(counted(&grouped.counts), counted(&rays.counts), "seed {seed}: {:?}", shot.scene);
         if rays.counts.samples == 0 {
             continue;
         }
@@ -74,6 +79,8 @@ struct Fog {
     sums: BTreeMap<[usize; 2], f64>,
     tint: Option<[f64; 3]>,
     shine: f64,
+    /// Whether it is asked behind each plane.
+    lays: bool,
     /// Groups that are due in any case.
     due: usize,
 }
@@ -81,7 +88,7 @@ struct Fog {
 impl Fog {
     fn new() -> Self {
         let (ended, late, sums) = (Vec::new(), Mutex::default(), BTreeMap::new());
-        Self { planes: 1, ended, late, sums, tint: None, shine: 0.0, due: 0 }
+        Self { planes: 1, ended, late, sums, tint: None, shine: 0.0, lays: false, due: 0 }
     }
 }
 
@@ -106,12 +113,14 @@ impl PlaneEffect for Fog {
     }
 
     fn lays_behind(&self, _: i64) -> bool {
-        self.shine > 0.0
+        self.lays
     }
 
     fn behind(&self, _: i64, ray: RayOnPlane<'_>) {
         assert!(ray.is_open);
-        ray.front.over([1.0; 3], self.shine);
+        if self.shine > 0.0 {
+            ray.front.over([1.0; 3], self.shine);
+        }
     }
 
     fn end_of_group(&mut self, group: i64, rays: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool {
@@ -131,9 +140,10 @@ fn translucent() -> Stage {
     stage.step(0.5).with(|s| s.picture.size = [12, 9])
 }
 
-fn with(stage: &Stage, fog: &mut Fog) -> Shown {
+fn with(stage: &Stage, lines: Option<Fragments>, fog: &mut Fog) -> Shown {
     let mut shown = None;
-    stage.render_by(|renderer| {
+    stage.render_by(|mut renderer| {
+        renderer.merge(lines);
         let (picture, counts) = renderer.frame_with(fog, &|_| {});
         shown = Some(Shown { picture, counts });
         renderer
@@ -148,7 +158,7 @@ fn an_effect_sees_all_and_changes_nothing_by_itself() {
     for (stage, planes) in [(translucent(), 1), (translucent().with(|s| s.picture.samples = 2), 1), (translucent(), 4)]
     {
         let (mut fog, plain) = (Fog { planes, ..Fog::new() }, stage.render());
-        let shown = with(&stage, &mut fog);
+        let shown = with(&stage, None, &mut fog);
         assert_eq!(shown.bits(), plain.bits());
         assert_eq!(counted(&shown.counts), counted(&plain.counts));
         assert!(fog.late.lock().unwrap().is_empty());
@@ -171,7 +181,7 @@ fn an_effect_sees_all_and_changes_nothing_by_itself() {
 #[test]
 fn an_effect_tints_samples() {
     let (stage, mut fog) = (translucent(), Fog { tint: Some([0.0, 1.0, 0.0]), ..Fog::new() });
-    let (plain, tinted) = (stage.render(), with(&stage, &mut fog));
+    let (plain, tinted) = (stage.render(), with(&stage, None, &mut fog));
     for (plain, tinted) in plain.pixels().iter().zip(tinted.pixels()) {
         assert_eq!(tinted, [0.0, plain[3], 0.0, plain[3]].map(|c| if c == 0.0 { 0.0 } else { tinted[3] }));
         assert_eq!(plain[3], tinted[3]);
@@ -184,10 +194,10 @@ fn an_effect_tints_samples() {
 fn an_effect_lays_light_behind_planes() {
     let stage = translucent();
     let mut still = Fog::new();
-    with(&stage, &mut still);
+    with(&stage, None, &mut still);
     for (planes, due) in [(1, 0), (1, 1000), (4, 250)] {
-        let mut fog = Fog { planes, shine: 0.01, due, ..Fog::new() };
-        let shown = with(&stage, &mut fog);
+        let mut fog = Fog { planes, shine: 0.01, lays: true, due, ..Fog::new() };
+        let shown = with(&stage, None, &mut fog);
         let groups = fog.ended.len();
         assert_eq!(groups, if due == 0 { still.ended.len() } else { due });
         assert!(fog.ended.windows(2).all(|g| g[1] == g[0] + 1));
@@ -198,5 +208,19 @@ fn an_effect_lays_light_behind_planes() {
         // In the middle samples and light alternate.
         let middle = shown.pixels()[4 * 12 + 6];
         assert!(middle[3] > wanted && middle[1] < middle[2] && middle[1] > 0.0, "{middle:?}");
+    }
+}
+
+/// A plane that shines so much that nothing behind it is seen ends its rays there: no sample behind it is taken.
+#[test]
+fn light_that_hides_all_ends_rays() {
+    let stage = translucent();
+    for planes in [1, 4] {
+        let mut fog = Fog { planes, shine: 1.0, lays: true, ..Fog::new() };
+        let shown = with(&stage, None, &mut fog);
+        // Only rays with samples on the first plane take one.
+        assert_eq!(fog.ended.len(), 1);
+        assert!(shown.counts.samples < stage.render().counts.samples / 4, "{}", shown.counts.samples);
+        assert!(shown.pixels().iter().all(|p| p[3] == 1.0));
     }
 }

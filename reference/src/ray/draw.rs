@@ -6,6 +6,7 @@ use super::inputs::Backdrop;
 use super::lattice::IndexRay;
 use super::prepared::Prepared;
 use super::tile_work::{CastAll, TileRays, TileWork};
+use crate::accumulator::Accumulator;
 use crate::number::Real;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
@@ -237,11 +238,15 @@ impl PixelSum {
     }
 }
 
-/// C + (1 − A)·B, A + (1 − A)·A_B ([IO-6]). With encoded compositing the colour comes in encoded; the background's
+/// A ray's colour over the background ([IO-6]). With encoded compositing the colour comes in encoded; the background's
 /// straight colour is encoded and premultiplied, and the result is decoded ([VAL-3]).
 fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
-    let through = 1.0 - a;
-    let add = |[br, bg, bb, ba]: Rgba| [r + through * br, g + through * bg, b + through * bb, a + through * ba];
+    let add = |behind: Rgba| {
+        let mut front = Accumulator { rgb: [r, g, b], opacity: a };
+        front.over_premultiplied(behind);
+        let Accumulator { rgb: [r, g, b], opacity } = front;
+        [r, g, b, opacity]
+    };
     if !encode {
         return add(behind);
     }

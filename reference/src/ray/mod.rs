@@ -4,7 +4,6 @@ pub mod brick_occupancy;
 mod cell_mask;
 mod composite;
 mod draw;
-mod gradient_range;
 mod inputs;
 mod lanes;
 pub mod lattice;
@@ -18,7 +17,6 @@ mod sample;
 mod tile_work;
 
 pub use composite::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};
-pub(crate) use gradient_range::{quantile_of_norms, touches as touches_mask};
 pub use inputs::{Backdrop, Inputs, RenderError};
 pub use render::Renderer;
 pub use sample::SampleAttributes;

@@ -2,14 +2,13 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
-use super::gradient_range::quantile_of_norms;
 use super::inputs::{Inputs, RenderError};
 use super::lattice::{MOST_SAMPLES, samples_in};
 use super::prepared::Prepared;
 use super::prepared_surface::PreparedSurface;
 use super::sample::need::Needs;
 use super::sample::{EyeAxes, Lit, OverTwo, PreparedObject, Shader};
-use crate::field::{Field, Sampler};
+use crate::field::{Field, Sampler, quantile_of_norms};
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise, gate};

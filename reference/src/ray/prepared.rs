@@ -21,7 +21,7 @@ pub(super) struct Prepared<'v, R> {
     pub(super) lines: Option<Fragments>,
     /// An opaque iso-surface; none: none.
     pub(super) surface: Option<PreparedSurface<R>>,
-    /// A at which a ray ends: 1 − ε ([RAY-2]).
+    /// A at which a ray ends ([RAY-2]).
     pub(super) stop_at: R,
     /// Whether colours are composited encoded ([VAL-3]).
     pub(super) encode: bool,

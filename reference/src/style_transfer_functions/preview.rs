@@ -1,6 +1,7 @@
 //! Picture of a style on a sphere.
 
 use super::SphereMap;
+use crate::accumulator::Accumulator;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::style::Style;
 
@@ -27,8 +28,10 @@ fn pixel(map: &SphereMap, side: usize, x: usize, y: usize) -> [f64; 4] {
     for part in 0..PARTS * PARTS {
         let (nx, ny) = (at(x, part % PARTS), -at(y, part / PARTS));
         let [r, g, b, a] = if nx * nx + ny * ny <= 1.0 { map.sample(nx, ny) } else { [0.0; 4] };
-        for (sum, c) in sum.iter_mut().zip([r, g, b]) {
-            *sum += c + (1.0 - a);
+        let mut front = Accumulator { rgb: [r, g, b], opacity: a };
+        front.over_premultiplied([1.0; 4]);
+        for (sum, c) in sum.iter_mut().zip(front.rgb) {
+            *sum += c;
         }
         sum[3] += 1.0;
     }

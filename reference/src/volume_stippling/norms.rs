@@ -1,7 +1,7 @@
 //! ‖g‖ at every voxel and the length that counts as |g| = 1, by the estimator of stippling ([STIP-1], [VAL-2]).
 
+use crate::field::touches_mask;
 use crate::field::{GradientEstimator, Sampler};
-use crate::ray::touches_mask;
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::quantile::quantile;
 use rayon::prelude::*;

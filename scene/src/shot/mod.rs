@@ -13,8 +13,8 @@ mod reconstruction;
 pub use crate::picture::LayerKind;
 pub use crate::tables::contours::Measured;
 pub use crate::tables::{
-    Axis, BlendSpace, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, LabelLookup, Mix, Number,
-    Outside, SphereFrame, StepAlong, Tone, Transparency,
+    Axis, Background, BlendSpace, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, LabelLookup, Mix,
+    Number, Outside, SphereFrame, StepAlong, Tone, Transparency,
 };
 pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
@@ -49,6 +49,8 @@ pub struct Shot {
     pub surface: Option<OpaqueSurface>,
     /// Which numbers are composited ([VAL-3]).
     pub blend_space: BlendSpace,
+    /// The background ([IO-6]); of a picture the file.
+    pub background: Background,
     /// The opacity A at which a ray ends ([RAY-2]).
     pub stop_at: f64,
     /// Layers of the picture, at least one ([IO-6]).
@@ -180,6 +182,7 @@ impl Shot {
             objects: [object],
             surface: OpaqueSurface::new(scene, plan, &view)?,
             blend_space: scene.picture.blend_space,
+            background: scene.picture.background.clone(),
             stop_at: stop_at(sampling.stop_below, scene.picture.blend_space),
             layers: if layers.is_empty() { vec![LayerKind::Beauty] } else { layers.clone() },
             view,

@@ -12,6 +12,7 @@ use crate::document::out::Out;
 use crate::picture::LayerKind;
 use crate::quantity::Quantity;
 use crate::tables::Length;
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
@@ -38,7 +39,8 @@ pub struct PictureSettings {
 }
 
 /// Background of the picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Background {
     /// Nothing: A is the coverage.
     None,

@@ -136,6 +136,7 @@ pub(super) const FAMILIES: [Family; 17] = [
         rules: &[
             (1, "Any number of halos is composited plane by plane, each with its own table."),
             (4, "A halo's seeds are spread as an image, by their gradient or as they are."),
+            (8, "Planes come in groups, and the halo of one group is composited with the next one."),
             (12, "A pixel picks the first visible structure along its ray."),
         ],
     },

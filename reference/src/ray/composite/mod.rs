@@ -3,7 +3,6 @@
 //! [`ray_order`] follows one ray at a time. [`plane_order`] visits all rays of a picture plane by plane, for effects that read
 //! what lies on the planes before. Both give the same bits and the same counts.
 
-mod accumulator;
 mod cast;
 mod layers;
 mod path;
@@ -12,7 +11,6 @@ pub(super) mod plane_order;
 pub(super) mod ray_order;
 mod ray_state;
 
-pub(super) use accumulator::Accumulator;
 pub(super) use cast::Cast;
 pub(super) use layers::{Sums, pooled};
 pub use plane_effect::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};

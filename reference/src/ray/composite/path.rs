@@ -13,7 +13,7 @@ pub(crate) enum Step<'l> {
     Share { k: i64, steps: f64, again: bool },
     /// A line, between samples or between shares of sample k.
     Line { k: i64, line: &'l Fragment },
-    /// The iso-surface at a depth, where the ray ends; k is the last sample before it.
+    /// The iso-surface at a depth, where the ray ends; k is the first plane behind it.
     Surface { k: i64, depth: f64 },
 }
 
@@ -30,8 +30,8 @@ impl Step<'_> {
 /// Appends the steps of a ray: samples of its visits, and lines and the iso-surface at their own depths.
 ///
 /// A sample stands for the way of one step about it, so its way is split where something lies in it: the share before a line is
-/// composited, then the line, then the rest. Of an opacity α a step both shares leave what the whole leaves,
-/// (1 − α)^s·(1 − α)^(1−s).
+/// composited, then the line, then the rest. Both shares together let through as much as the whole step:
+/// (1 − α)^s·(1 − α)^(1−s) = 1 − α.
 ///
 /// A sample counts if its plane lies before the surface. The last one stands for all the way from where its own share of the ray
 /// begins to the surface, from half a step to one and a half. So the way through a volume that is translucent before a surface
@@ -90,5 +90,5 @@ pub(crate) fn steps<'l, R: Real>(
         }
     }
     steps.extend(lines.iter().map(|line| Step::Line { k: plane(line.depth), line }));
-    steps.extend(surface.map(|depth| Step::Surface { k: last_of_all, depth }));
+    steps.extend(surface.map(|depth| Step::Surface { k: last_of_all + 1, depth }));
 }

@@ -68,6 +68,10 @@ pub(crate) fn cast_tiles<R: Real, S: Sampler<R>>(
     let planes = effect.planes_per_group().max(1);
     let aim = |tile: TileRays| WaitingTile::new(prepared, sampler, tile, effect.numbers());
     let mut tiles: Vec<WaitingTile<'_, '_, R, S>> = tiles.into_par_iter().map(aim).collect();
+    for tile in &mut tiles {
+        let bytes = tile.bytes();
+        tile.counts.bytes.insert("rays".into(), bytes);
+    }
     let last = tiles.iter().flat_map(|tile| &tile.rays).filter_map(WaitingRay::last).max().unwrap_or(0);
     let first = tiles.iter().map(|tile| tile.next).min().unwrap_or(ENDED);
     let (mut next, mut is_due) = (first, false);
@@ -128,7 +132,9 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
             for ray in &mut self.rays {
                 if ray.state.is_open() {
                     effect.behind(k, ray.on_plane());
-                } else {
+                }
+                if !ray.state.is_open() {
+                    // What lies in front hides all that follows.
                     ray.next = ENDED;
                 }
             }
@@ -136,11 +142,14 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
         self.next = self.rays.iter().map(|ray| ray.next).min().unwrap_or(ENDED);
     }
 
+    /// Bytes of the states of its rays.
+    fn bytes(&self) -> u64 {
+        let own = |ray: &WaitingRay<'_, '_, R, S>| size_of_val(ray.path.as_slice()) + size_of_val(ray.own.as_slice());
+        (size_of_val(self.rays.as_slice()) + self.rays.iter().map(own).sum::<usize>()) as u64
+    }
+
     /// Ends the rays and returns their results.
     fn finish(mut self) -> (Vec<Cast>, Counts) {
-        let own = |ray: &WaitingRay<'_, '_, R, S>| size_of_val(ray.path.as_slice()) + size_of_val(ray.own.as_slice());
-        let bytes = size_of_val(self.rays.as_slice()) + self.rays.iter().map(own).sum::<usize>();
-        self.counts.bytes.insert("rays".into(), bytes as u64);
         let casts = self.rays.into_iter().map(|ray| ray.state.finish(&mut self.counts)).collect();
         (casts, self.counts)
     }

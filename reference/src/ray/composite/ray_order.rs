@@ -13,8 +13,7 @@ use crate::ray::tile_work::TileWork;
 pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {
     match prepared.object.needs {
         Needs::Value => cast_with::<need::Value, R, S>(prepared, sampler, work),
-        Needs::Normal => cast_with::<need::Normal, R, S>(prepared, sampler, work),
-        Needs::Anything => cast_with::<need::Anything, R, S>(prepared, sampler, work),
+        Needs::Normal | Needs::Anything => cast_with::<need::Anything, R, S>(prepared, sampler, work),
     }
 }
 

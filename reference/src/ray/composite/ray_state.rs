@@ -1,10 +1,10 @@
 //! A ray on its way, sample by sample, front to back ([VAL-3], [VAL-4], [RAY-2]).
 
-use super::Accumulator;
 use super::cast::Cast;
 use super::layers::{LayerSample, Sums};
 use super::path::Step;
 use super::plane_effect::Hook;
+use crate::accumulator::Accumulator;
 use crate::field::{Place, Sampler};
 use crate::number::{Real, Vec3};
 use crate::ray::cell_mask::CellMask;

@@ -1,9 +1,9 @@
 //! From sample to sample, front to back, in lanes ([RAY-1], [RAY-2], [VAL-3]).
 
 use super::{Column, IN_ORDER, Packet, of_rays, vector};
+use crate::accumulator::Accumulator;
 use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
-use crate::ray::composite::Accumulator;
 use crate::ray::opacity::{Correction, correct};
 use crate::ray::prepared::Prepared;
 use crate::transfer;

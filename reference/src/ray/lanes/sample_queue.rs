@@ -9,10 +9,10 @@
 use super::ray_lanes::{AHEAD, Asked, Lookahead, RayLanes};
 use super::style::{ShadedLanes, StyleShader};
 use super::{Packet, RAYS, vector};
+use crate::accumulator::Accumulator;
 use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::rows;
-use crate::ray::composite::Accumulator;
 use crate::ray::opacity::{Correction, correct};
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::Styled;

@@ -1,20 +1,20 @@
 //! The needs of samples beyond their value.
 //!
-//! The loop over samples is compiled for each of three needs: quantities of few scenes would cost the others the registers
-//! that they compute in.
+//! The loop over samples is compiled for values alone and for anything else: quantities of few scenes would cost unshaded
+//! pictures the registers that they compute in.
 
 use super::PreparedObject;
 use crate::number::Real;
 use drypoint_scene::shot::SampleQuery;
 
-/// The need that the loop is compiled for.
+/// The need of a shot, which decides what it is cast by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Needs {
-    /// [`Value`].
+    /// The value alone: an unshaded picture.
     Value,
-    /// [`Normal`].
+    /// The normal: a picture under Blinn–Phong.
     Normal,
-    /// [`Anything`].
+    /// Everything that a scene can call for.
     Anything,
 }
 
@@ -29,7 +29,7 @@ impl Needs {
     }
 }
 
-/// One of [`Needs`], as a type.
+/// A need that the loop is compiled for.
 pub(crate) trait Need {
     /// Whether there can be more than a colour for each value: a function over two quantities or from a table, |g|,
     /// styles, layers, and compositing of encoded colours.
@@ -42,9 +42,6 @@ pub(crate) trait Need {
 /// The value alone: an unshaded picture.
 pub(crate) enum Value {}
 
-/// The normal: a shaded picture.
-pub(crate) enum Normal {}
-
 /// Everything that a scene can call for.
 pub(crate) enum Anything {}
 
@@ -54,15 +51,6 @@ impl Need for Value {
     #[inline(always)]
     fn query<R: Real>(_: &PreparedObject<'_, R>) -> SampleQuery {
         SampleQuery::VALUE
-    }
-}
-
-impl Need for Normal {
-    const MORE: bool = false;
-
-    #[inline(always)]
-    fn query<R: Real>(_: &PreparedObject<'_, R>) -> SampleQuery {
-        SampleQuery::NORMAL
     }
 }
 

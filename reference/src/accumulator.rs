@@ -38,6 +38,14 @@ impl<T: Arithmetic> Accumulator<T> {
         self.opacity = T::select(mask, with.opacity, self.opacity);
     }
 
+    /// Lays a premultiplied colour B of opacity A_B behind what is there: C ← C + (1 − A)·B, A ← A + (1 − A)·A_B ([IO-6]).
+    #[inline(always)]
+    pub(crate) fn over_premultiplied(&mut self, [r, g, b, opacity]: [T; 4]) {
+        let through = self.opacity.one() - self.opacity;
+        self.add([r, g, b], through);
+        self.opacity = self.opacity + through * opacity;
+    }
+
     /// Lays an opaque colour behind what is there, after which A is 1 exactly. Returns w = 1 − A.
     #[inline(always)]
     pub(crate) fn end(&mut self, rgb: [T; 3]) -> T {
