@@ -1,4 +1,4 @@
-//! From a shot and its data to what samples need: everything that is measured or made once a picture.
+//! The preparation of a shot: everything that is measured or made of its data once a picture.
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;

@@ -32,7 +32,7 @@ pub struct Renderer<'a> {
     order: Order,
 }
 
-/// In which order samples are visited. It shows nowhere, neither in the picture nor in the counts.
+/// The order in which samples are visited. It shows nowhere, neither in the picture nor in the counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Order {
     /// Ray by ray, eight rays side by side.
@@ -108,13 +108,12 @@ impl<'a> Renderer<'a> {
         Self { order: Order::Rays, ..self }
     }
 
-    /// Casts all rays together, plane by plane, as effects need that read what lies on the planes before. It shows neither
-    /// in the picture nor in the counts.
+    /// Casts the rays of each tile together, plane by plane. It shows neither in the picture nor in the counts.
     pub fn plane_by_plane(self) -> Self {
         Self { order: Order::Planes, ..self }
     }
 
-    /// About how many samples a frame has, if none is skipped.
+    /// The number of samples of a frame, roughly, if none is skipped.
     pub fn samples(&self) -> f64 {
         fn of<R: Real>(p: &Prepared<'_, R>) -> f64 {
             samples_in(&p.lattice, &p.view, p.object.volume.grid()) * (p.rays_across * p.rays_across) as f64
@@ -130,8 +129,7 @@ impl<'a> Renderer<'a> {
         self.order == Order::Lanes
     }
 
-    /// Turns the camera for the frames that follow to that of another shot, which differs in where the camera stands alone. What
-    /// was prepared stays.
+    /// Takes the camera and the lights of another shot for the frames that follow. The shots may differ in nothing else.
     ///
     /// # Errors
     /// Sample planes that fall together, seen from there.

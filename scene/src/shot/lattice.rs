@@ -19,11 +19,11 @@ pub struct Lattice {
     pub near: f64,
 }
 
-/// From here on k + ½ is no number of its own.
+/// The number of planes from which on k + ½ is no number of its own.
 pub const MOST_PLANES: f64 = (1u64 << 52) as f64;
 
 impl Lattice {
-    /// How many steps the farthest point of a grid's box lies from the eye, before it or behind it.
+    /// The distance of the farthest point of a grid's box from the eye, before it or behind it, in steps.
     pub fn planes(&self, view: &View, grid: &Grid) -> f64 {
         let away = |corner: DVec3| match self.along {
             StepAlong::Ray if view.perspective => view.to_eye(corner).length(),

@@ -1,4 +1,4 @@
-//! How samples are coloured, and how light falls on colours.
+//! Materials of samples, and the light on colours.
 
 use super::{Kappa, Mix, ShotError, SphereFrame, Transparency};
 use crate::space::Grid;
@@ -18,18 +18,18 @@ pub enum Material {
     Style(StyleParams),
 }
 
-/// How a colour is lit.
+/// The illumination of a colour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Illumination {
-    /// How light is reflected.
+    /// The reflection of light.
     pub lighting: Lighting,
     /// The offset of the test (N·V)² + offset > ½, where silhouettes are black ([HATCH-15]); none: no silhouettes.
     pub silhouette: Option<f64>,
-    /// s: how much more opaque samples are that are seen from the side ([HATCH-15]); 0: opacities are as they are.
+    /// s: the growth of the opacity of samples that are seen from the side ([HATCH-15]); 0: opacities are as they are.
     pub view_opacity: f64,
 }
 
-/// How light is reflected.
+/// A reflection of light.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lighting {
@@ -70,15 +70,15 @@ pub struct ToonParams {
 /// The parameters of a function of styles beside its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StyleParams {
-    /// How two styles mix ([STF-3]).
+    /// The mix of two styles ([STF-3]).
     pub mix: Mix,
-    /// How α_u and α_d become α ([STF-9]).
+    /// The rule by which α_u and α_d become α ([STF-9]).
     pub transparency: Transparency,
     /// The frame of the lit sphere ([STF-1]).
     pub frame: SphereFrame,
     /// Contours; none: none ([STF-7], [STF-8]).
     pub contour: Option<ContourParams>,
-    /// How the level in mip-maps is found ([STF-10]); none: styles are read as they are.
+    /// The level of detail in mip-maps ([STF-10]); none: styles are read as they are.
     pub level_of_detail: Option<LevelOfDetail>,
 }
 

@@ -1,7 +1,7 @@
-//! How samples come together: one *over*, and two orders that drive it.
+//! Compositing: two orders in which samples come together, by the one *over* of [`crate::accumulator`].
 //!
-//! [`ray_order`] follows one ray at a time. [`plane_order`] visits all rays of a picture plane by plane, for effects that read
-//! what lies on the planes before. Both give the same bits and the same counts.
+//! [`ray_order`] follows one ray at a time. [`plane_order`] visits rays plane by plane, for effects that read what
+//! lies on the planes before. Both give the same bits and the same counts.
 
 mod cast;
 mod layers;

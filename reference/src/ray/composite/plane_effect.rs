@@ -8,7 +8,7 @@ use crate::ray::sample::{Sample, SampleAttributes};
 /// Planes come in groups: group g has the planes k with ⌊k/M⌋ = g. Within a group rays go on independently, on any thread. At
 /// the end of a group all rays meet, so an effect reads what its neighbours left on the groups before.
 pub trait PlaneEffect: Sync {
-    /// How many numbers the effect keeps for each ray.
+    /// The number of numbers that the effect keeps for each ray.
     fn numbers(&self) -> usize;
 
     /// M, the planes of a group.
@@ -19,7 +19,8 @@ pub trait PlaneEffect: Sync {
     /// The linear straight colour that a visible sample is composited in.
     fn before(&self, sample: &SampleOnPlane<'_>, rgb: [f64; 3]) -> [f64; 3];
 
-    /// Reads a sample after it was composited; `own` are the ray's numbers.
+    /// Reads a sample after it was composited; `own` are the ray's numbers. A sample that a line splits is read once a
+    /// share.
     fn after(&self, sample: &SampleOnPlane<'_>, own: &mut [f64]);
 
     /// Whether the effect lays something behind planes of a group.

@@ -1,4 +1,4 @@
-//! From sample to sample, front to back, in lanes ([RAY-1], [RAY-2], [VAL-3]).
+//! Rays in lanes, sample by sample, front to back ([RAY-1], [RAY-2], [VAL-3]).
 
 use super::{Column, IN_ORDER, Packet, of_rays, vector};
 use crate::accumulator::Accumulator;

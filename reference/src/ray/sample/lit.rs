@@ -1,4 +1,4 @@
-//! How a colour is lit, at a sample or on an iso-surface: by Blinn–Phong or in tones, and black on silhouettes.
+//! The light on a colour, at a sample or on an iso-surface: by Blinn–Phong or in tones, and black on silhouettes.
 
 use crate::interactive_volume_illustration::{SilhouetteTest, Toon};
 use crate::number::{Real, Vec3};
@@ -11,7 +11,7 @@ pub(crate) struct Lit<R> {
     silhouette: Option<SilhouetteTest<R>>,
 }
 
-/// How light is reflected.
+/// A reflection of light.
 enum Model<R> {
     /// Not at all.
     Flat,
