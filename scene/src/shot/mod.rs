@@ -4,6 +4,7 @@
 //! value. A renderer reads the shot and the data that it names (voxels, labels, styles, pixels behind), and nothing else of a
 //! scene. Quantities that only voxels can tell, such as a quantile of ‖g‖, are named here and measured by the renderer.
 
+mod halo;
 mod lattice;
 mod material;
 mod opaque_surface;
@@ -13,9 +14,10 @@ mod reconstruction;
 pub use crate::picture::LayerKind;
 pub use crate::tables::contours::Measured;
 pub use crate::tables::{
-    Axis, Background, BlendSpace, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, LabelLookup, Mix,
-    Number, Outside, SphereFrame, StepAlong, Tone, Transparency,
+    Axis, Background, BlendSpace, GradientEstimator, GradientRange, HaloAccumulation, HaloKind, HaloSource,
+    HessianEstimator, Kappa, Kernel, LabelLookup, Mix, Number, Outside, SphereFrame, StepAlong, Tone, Transparency,
 };
+pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, ProfileNode, SeedDirection, SeedFocus, SeedSide, SeedValue};
 pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
     ContourParams, Illumination, LevelOfDetail, Lighting, Material, PhongParams, StyleParams, ToonParams,
@@ -47,6 +49,8 @@ pub struct Shot {
     pub objects: [Object; 1],
     /// The opaque iso-surface; none: none ([HATCH-14]).
     pub surface: Option<OpaqueSurface>,
+    /// Volumetric halos ([HALO-1]).
+    pub halos: Halos,
     /// Which numbers are composited ([VAL-3]).
     pub blend_space: BlendSpace,
     /// The background ([IO-6]); of a picture the file.
@@ -181,6 +185,7 @@ impl Shot {
             number: sampling.number,
             objects: [object],
             surface: OpaqueSurface::new(scene, plan, &view)?,
+            halos: Halos { list: Vec::new(), query: SampleQuery::VALUE },
             blend_space: scene.picture.blend_space,
             background: scene.picture.background.clone(),
             stop_at: stop_at(sampling.stop_below, scene.picture.blend_space),

@@ -6,6 +6,7 @@
 
 pub mod camera;
 pub mod contours;
+pub mod halo;
 pub mod hatching;
 pub mod nodes;
 pub mod orbit;
@@ -32,6 +33,7 @@ pub mod volume;
 pub use crate::length::Length;
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
+pub use halo::{HaloAccumulation, HaloKind, HaloSource};
 pub use hatching::{
     DirectionRule, DirectionSource, Directions, Family, HatchIso, HatchStyle, Hatching, Hidden, Interpolate,
     LineLighting, Measure, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,
