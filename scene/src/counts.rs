@@ -14,6 +14,8 @@ pub struct Counts {
     pub hessians: u64,
     /// Lookups of one style's picture.
     pub style_lookups: u64,
+    /// Values reconstructed at samples that are asked for the seeds of halos.
+    pub halo_samples: u64,
     /// Passes over a halo buffer.
     pub halo_passes: u64,
     /// Rays cast.
@@ -48,6 +50,7 @@ impl Counts {
         self.gradients += other.gradients;
         self.hessians += other.hessians;
         self.style_lookups += other.style_lookups;
+        self.halo_samples += other.halo_samples;
         self.halo_passes += other.halo_passes;
         self.rays += other.rays;
         self.rays_skipped += other.rays_skipped;

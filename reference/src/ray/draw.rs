@@ -13,6 +13,8 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use rayon::prelude::*;
 use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 /// Pixels that are drawn before they are gathered, so that a huge picture is not in memory twice.
 const BATCH: usize = 1 << 20;
@@ -26,33 +28,103 @@ struct TilePixels {
     counts: Counts,
 }
 
+/// How the rays of a picture are cast.
+pub(super) enum Casting<'c> {
+    /// Tile by tile, when a tile is drawn.
+    ByTile(&'c dyn CastAll),
+    /// Bands of tiles, each as a whole before its tiles are drawn: the results of each of its tiles.
+    ByBand(&'c (dyn Fn(Band) -> Vec<(Vec<Cast>, Counts)> + Sync)),
+}
+
+/// Some rows of tiles of a picture.
+pub(super) struct Band {
+    /// Its tiles, in the order of the picture's.
+    pub(super) tiles: Range<usize>,
+    /// Its rays.
+    pub(super) region: Region,
+    /// Converts the share of the band that is done to the picture's.
+    pub(super) share: [f64; 2],
+}
+
+/// A rectangle of rays.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Region {
+    /// Column and row of its first ray.
+    pub(super) first: [usize; 2],
+    /// Rays across and down.
+    pub(super) size: [usize; 2],
+    /// Rays along the side of a tile.
+    side: usize,
+}
+
+impl Region {
+    /// The columns and the rows of a tile of the region, each from and up to, the latter excluded.
+    pub(super) fn tile(&self, index: usize) -> [[usize; 2]; 2] {
+        let across = self.size[0].div_ceil(self.side);
+        let at = [index % across * self.side, index / across * self.side];
+        [0, 1].map(|a| [at[a], (at[a] + self.side).min(self.size[a])])
+    }
+}
+
 /// Casts all rays of a picture. Each pixel is a function of its place alone, so neither threads nor the order of tiles
 /// show ([RAY-3]).
 pub(super) fn draw<R: Real>(
     prepared: &Prepared<'_, R>,
-    cast_all: &dyn CastAll,
+    casting: &Casting<'_>,
     background: Backdrop<'_>,
     tile: usize,
     progress: &(dyn Fn(f64) + Sync),
 ) -> (Picture, Counts) {
     let [width, height] = prepared.view.size;
     let [across, down] = tiles_across(prepared, tile);
-    let batch = BATCH / (tile * tile);
+    let n = prepared.rays_across;
+    let batch = match casting {
+        Casting::ByTile(_) => BATCH / (tile * tile),
+        Casting::ByBand(_) => across * (BATCH / (width * n * n * tile)).max(1),
+    };
     let done = std::sync::atomic::AtomicUsize::new(0);
     let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();
     let mut counts = Counts::default();
     let mut channels = vec![vec![0.0; width * height]; per_pixel];
     let whole = in_blocks([tile; 2]);
     for first in (0..across * down).step_by(batch) {
-        let tiles: Vec<TilePixels> = (first..(first + batch).min(across * down))
-            .into_par_iter()
-            .map(|t| {
-                let drawn = draw_tile(prepared, cast_all, background, TilePlace::new(prepared, t, tile), &whole);
-                let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-                progress(n as f64 / (across * down) as f64);
-                drawn
-            })
-            .collect();
+        let batch = first..(first + batch).min(across * down);
+        let share = [first, batch.end].map(|tile| tile as f64 / (across * down) as f64);
+        let mut cast_before = match casting {
+            Casting::ByTile(_) => Vec::new(),
+            Casting::ByBand(cast) => {
+                let rows = [first, batch.end].map(|tile_index| (tile_index / across * tile).min(height) * n);
+                let region = Region { first: [0, rows[0]], size: [width * n, rows[1] - rows[0]], side: tile * n };
+                cast(Band { tiles: batch.clone(), region, share })
+            }
+        };
+        let draw = |t: usize, cast_before: Option<&mut (Vec<Cast>, Counts)>| {
+            let place = TilePlace::new(prepared, t, tile);
+            match (casting, cast_before) {
+                (Casting::ByTile(cast_all), None) => {
+                    let drawn = draw_tile(prepared, *cast_all, background, place, &whole);
+                    let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                    progress(n as f64 / (across * down) as f64);
+                    drawn
+                }
+                (_, before) => {
+                    let (casts, counts) = before.map(std::mem::take).unwrap_or_default();
+                    let casts = Mutex::new(casts.into_iter());
+                    let take = |work: TileWork<'_>| {
+                        let mut casts = casts.lock().unwrap_or_else(PoisonError::into_inner);
+                        work.casts.extend(casts.by_ref().take(work.points.len()));
+                    };
+                    let mut drawn = draw_tile(prepared, &take, background, place, &whole);
+                    drawn.counts.add(&counts);
+                    drawn
+                }
+            }
+        };
+        let tiles: Vec<TilePixels> = if cast_before.is_empty() {
+            batch.into_par_iter().map(|t| draw(t, None)).collect()
+        } else {
+            batch.into_par_iter().zip(&mut cast_before).map(|(t, casts)| draw(t, Some(casts))).collect()
+        };
         for tile in &tiles {
             counts.add(&tile.counts);
             let blocks = blocks_of(tile.size, &whole);
@@ -81,7 +153,7 @@ fn draw_tile<R: Real>(
     place: TilePlace,
     whole: &[[usize; 2]],
 ) -> TilePixels {
-    let TilePlace { index, at: [x, y], size } = place;
+    let TilePlace { at: [x, y], size } = place;
     let mut tile = TilePixels { x, y, size, pixels: Vec::new(), counts: Counts::default() };
     let mut boxes = place.boxes(prepared);
     let blocks = blocks_of(size, whole);
@@ -100,7 +172,7 @@ fn draw_tile<R: Real>(
         points.clear();
         points.extend(blocks.iter().map(|&pixel| place.point(pixel, part, n)));
         let (boxes, counts) = (boxes.as_mut(), &mut tile.counts);
-        cast_all(TileWork { tile: index, points: &points, boxes, counts, casts: &mut casts });
+        cast_all(TileWork { points: &points, boxes, counts, casts: &mut casts });
         for ((sum, cast), place) in sums.iter_mut().zip(casts.drain(..)).zip(&*blocks) {
             sum.add(prepared, cast, behind(*place));
         }
@@ -112,24 +184,40 @@ fn draw_tile<R: Real>(
     tile
 }
 
-/// The rays of all tiles of a picture, each tile's in the order in which [`draw`] asks for them.
-pub(super) fn rays_of_tiles<R: Real>(prepared: &Prepared<'_, R>, side: usize) -> Vec<TileRays> {
+/// The rays of the tiles of a band, each tile's in the order in which [`draw`] asks for them.
+pub(super) fn rays_of_tiles<'p, R: Real>(
+    prepared: &'p Prepared<'_, R>,
+    side: usize,
+    band: &Band,
+) -> impl IndexedParallelIterator<Item = TileRays> + use<'p, R> {
     let n = prepared.rays_across;
     let whole = in_blocks([side; 2]);
-    let places = (0..tiles_across(prepared, side).iter().product()).into_par_iter();
-    let rays = places.map(|index| {
+    let [left, top] = band.region.first;
+    band.tiles.clone().into_par_iter().map(move |index| {
         let place = TilePlace::new(prepared, index, side);
         let blocks = blocks_of(place.size, &whole);
         let parts = || (0..n * n).flat_map(|part| blocks.iter().map(move |&pixel| (pixel, part)));
-        let ray =
-            |([i, j], part): ([usize; 2], usize)| [(place.at[0] + i) * n + part % n, (place.at[1] + j) * n + part / n];
+        let ray = |([i, j], part): ([usize; 2], usize)| {
+            [(place.at[0] + i) * n + part % n - left, (place.at[1] + j) * n + part / n - top]
+        };
         TileRays {
             points: parts().map(|(pixel, part)| place.point(pixel, part, n)).collect(),
             places: parts().map(ray).collect(),
             boxes: place.boxes(prepared),
         }
-    });
-    rays.collect()
+    })
+}
+
+/// The point of a ray of the picture or of a guard band about it, in pixels from the top left corner; `n` rays lie across a
+/// pixel.
+pub(super) fn ray_point(n: usize, ray: [i64; 2]) -> [f64; 2] {
+    let n = n as i64;
+    ray.map(|i| part_centre(i.div_euclid(n) as f64, i.rem_euclid(n) as usize, n as usize))
+}
+
+/// The centre of a part of a pixel.
+fn part_centre(pixel: f64, part: usize, n: usize) -> f64 {
+    pixel + (part as f64 + 0.5) / n as f64
 }
 
 /// Tiles across and down.
@@ -140,7 +228,6 @@ fn tiles_across<R: Real>(prepared: &Prepared<'_, R>, side: usize) -> [usize; 2] 
 /// The place of a tile in the picture.
 #[derive(Clone, Copy)]
 struct TilePlace {
-    index: usize,
     /// Its first pixel.
     at: [usize; 2],
     /// Pixels across and down.
@@ -151,14 +238,13 @@ impl TilePlace {
     fn new<R: Real>(prepared: &Prepared<'_, R>, index: usize, side: usize) -> Self {
         let [across, _] = tiles_across(prepared, side);
         let at = [index % across * side, index / across * side];
-        Self { index, at, size: [0, 1].map(|a| side.min(prepared.view.size[a] - at[a])) }
+        Self { at, size: [0, 1].map(|a| side.min(prepared.view.size[a] - at[a])) }
     }
 
     /// The point of a part of a pixel. The n×n rays of a pixel go through the centres of its parts ([RAY-6]); the first parts
     /// of all pixels are cast, then the second ones, and so on.
     fn point(&self, [i, j]: [usize; 2], part: usize, n: usize) -> [f64; 2] {
-        let centre = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / n as f64;
-        [centre(self.at[0] + i, part % n), centre(self.at[1] + j, part / n)]
+        [part_centre((self.at[0] + i) as f64, part % n, n), part_centre((self.at[1] + j) as f64, part / n, n)]
     }
 
     /// The boxes of visible bricks that its rays can meet; none where nothing is skipped.
@@ -205,6 +291,8 @@ struct PixelSum {
     first: Option<(Option<Box<Sums>>, u64)>,
     /// The sums of all rays.
     all: Option<Box<Sums>>,
+    /// Mean intensities of halos, each ray with its share.
+    intensities: Vec<f64>,
 }
 
 impl PixelSum {
@@ -216,6 +304,10 @@ impl PixelSum {
         }
         if let Some(sums) = &cast.sums {
             self.all.get_or_insert_with(|| Box::new(Sums::new())).pool(sums);
+        }
+        self.intensities.resize(cast.intensities.len(), 0.0);
+        for (mean, h) in self.intensities.iter_mut().zip(&cast.intensities) {
+            *mean += h * share;
         }
         self.first.get_or_insert((cast.sums, cast.samples));
     }
@@ -230,6 +322,9 @@ impl PixelSum {
         for &kind in &prepared.layers {
             if kind == LayerKind::Beauty {
                 pixels.extend(self.beauty);
+            } else if let LayerKind::Halo(halo) = kind {
+                let place = prepared.halos.as_ref().and_then(|halos| halos.watched_place(halo));
+                pixels.push(place.and_then(|place| self.intensities.get(place).copied()).unwrap_or(0.0));
             } else {
                 let sums = if pooled(kind) { all } else { first };
                 sums.channels(kind, samples, prepared.object.field.scale_exponent(), pixels);

@@ -11,12 +11,12 @@ pub(super) fn cast_apart<R: Real>(
     [alone, together]: [&dyn CastAll; 2],
     work: TileWork<'_>,
 ) {
-    let TileWork { tile, points, mut boxes, counts, casts } = work;
+    let TileWork { points, mut boxes, counts, casts } = work;
     let (with, without): (Vec<_>, Vec<_>) = points.iter().partition(|&&point| !prepared.lines_at(point).is_empty());
     let mut found = [Vec::with_capacity(with.len()), Vec::with_capacity(without.len())];
     let [casts_with, casts_without] = &mut found;
-    alone(TileWork { tile, points: &with, boxes: boxes.as_deref_mut(), counts, casts: casts_with });
-    together(TileWork { tile, points: &without, boxes, counts, casts: casts_without });
+    alone(TileWork { points: &with, boxes: boxes.as_deref_mut(), counts, casts: casts_with });
+    together(TileWork { points: &without, boxes, counts, casts: casts_without });
     let [mut with, mut without] = found.map(Vec::into_iter);
     let next = |point: &[f64; 2]| if prepared.lines_at(*point).is_empty() { without.next() } else { with.next() };
     casts.extend(points.iter().filter_map(next));

@@ -11,12 +11,11 @@ mod merged;
 pub mod opacity;
 mod prepare;
 mod prepared;
+mod prepared_halos;
 mod prepared_surface;
 mod render;
 mod sample;
 mod tile_work;
 
-pub use composite::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};
 pub use inputs::{Backdrop, Inputs, RenderError};
 pub use render::Renderer;
-pub use sample::SampleAttributes;

@@ -5,6 +5,7 @@ use super::cell_mask::CellMask;
 use super::inputs::{Inputs, RenderError};
 use super::lattice::{MOST_SAMPLES, samples_in};
 use super::prepared::Prepared;
+use super::prepared_halos::PreparedHalos;
 use super::prepared_surface::PreparedSurface;
 use super::sample::need::Needs;
 use super::sample::{EyeAxes, Lit, OverTwo, PreparedObject, Shader};
@@ -66,7 +67,14 @@ pub(super) fn prepare<'a, R: Real>(
     if let Some(bytes) = shader.mipmap_bytes() {
         counts.bytes.insert("style_mipmaps".into(), bytes as u64);
     }
-    let collects = shot.layers.iter().any(|&l| l != LayerKind::Beauty && l != LayerKind::Counts);
+    let asks_samples = |layer| !matches!(layer, LayerKind::Beauty | LayerKind::Counts | LayerKind::Halo(_));
+    let collects = shot.layers.iter().any(|&layer| asks_samples(layer));
+    let of_alpha = over_two.as_ref().map(|over_two: &OverTwo<'_, R>| over_two.first);
+    let rounded = |at| R::from_f64(at).to_f64();
+    let halos = PreparedHalos::new(shot, inputs, bricks.as_ref(), of_alpha, rounded)?;
+    if let Some(skip) = halos.as_ref().and_then(|halos| halos.skip.as_ref()) {
+        counts.bytes.insert("skip_seeds".into(), skip.bytes() as u64);
+    }
     let encode = shot.blend_space == BlendSpace::Srgb;
     let plain = matches!(shader, Shader::Regular { .. });
     let more = !plain || table.is_some() || over_two.is_some() || gradient_range.is_some() || collects || encode;
@@ -96,6 +104,7 @@ pub(super) fn prepare<'a, R: Real>(
         cells,
         lines: None,
         surface,
+        halos,
         stop_at: R::from_f64(shot.stop_at),
         encode,
         collects,

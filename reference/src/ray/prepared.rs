@@ -2,6 +2,7 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
+use super::prepared_halos::PreparedHalos;
 use super::prepared_surface::PreparedSurface;
 use super::sample::{EyeAxes, PreparedObject};
 use drypoint_scene::fragments::{Fragment, Fragments};
@@ -21,6 +22,8 @@ pub(super) struct Prepared<'v, R> {
     pub(super) lines: Option<Fragments>,
     /// An opaque iso-surface; none: none.
     pub(super) surface: Option<PreparedSurface<R>>,
+    /// Halos; none: none.
+    pub(super) halos: Option<PreparedHalos<'v>>,
     /// A at which a ray ends ([RAY-2]).
     pub(super) stop_at: R,
     /// Whether colours are composited encoded ([VAL-3]).

@@ -1,14 +1,14 @@
 //! Pictures of a shot, any number of them.
 
-use super::composite::{PlaneEffect, plane_order, ray_order};
-use super::draw::{draw, rays_of_tiles};
+use super::composite::{plane_order, ray_order};
+use super::draw::{Band, Casting, draw, rays_of_tiles};
 use super::inputs::{Backdrop, Inputs, RenderError};
 use super::lanes;
 use super::lattice::samples_in;
 use super::merged;
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
-use super::tile_work::{CastAll, TileWork};
+use super::tile_work::TileWork;
 use crate::field::{Exact, Sampler};
 use crate::number::Real;
 use crate::with_sampler;
@@ -17,7 +17,6 @@ use drypoint_scene::fragments::Fragments;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::{Number, Shot};
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Pixels along the side of a tile, the work of one thread at a time.
@@ -32,7 +31,8 @@ pub struct Renderer<'a> {
     order: Order,
 }
 
-/// The order in which samples are visited. It shows nowhere, neither in the picture nor in the counts.
+/// The order in which samples are visited. Without halos it shows nowhere, neither in the picture nor in the counts; with
+/// halos the order is always plane by plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Order {
     /// Ray by ray, eight rays side by side.
@@ -94,7 +94,10 @@ impl<'a> Renderer<'a> {
             counts.bytes.insert("mask".into(), mask.bytes() as u64);
         }
         counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
-        let order = if matches!(&ready, Ready::F64(p) if lanes::serve(p)) { Order::Lanes } else { Order::Rays };
+        let order = match &ready {
+            Ready::F64(p) if p.halos.is_none() && lanes::serve(p) => Order::Lanes,
+            _ => Order::Rays,
+        };
         Self { ready, background: inputs.background, counts, tile: TILE, order }
     }
 
@@ -103,7 +106,8 @@ impl<'a> Renderer<'a> {
         Self { tile: side.clamp(1, 1024), ..self }
     }
 
-    /// Casts each ray alone, as on a processor without wide registers. It shows neither in the picture nor in the counts.
+    /// Casts each ray alone, as on a processor without wide registers, if there are no halos. It shows neither in the picture
+    /// nor in the counts.
     pub fn ray_by_ray(self) -> Self {
         Self { order: Order::Rays, ..self }
     }
@@ -162,22 +166,13 @@ impl<'a> Renderer<'a> {
 
     /// Renders a further frame, with the counts of the frame alone.
     pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
-        self.draw_frame(None, progress)
-    }
-
-    /// Renders a frame plane by plane with an effect, as [`again`](Self::again) does without one.
-    pub fn frame_with(&self, effect: &mut dyn PlaneEffect, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
-        self.draw_frame(Some(effect), progress)
-    }
-
-    fn draw_frame(&self, effect: Option<&mut dyn PlaneEffect>, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let start = Instant::now();
         let (picture, mut counts) = match &self.ready {
-            Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, effect, progress)),
-            Ready::F32(p) => with_sampler!(p.object.field, |s| self.draw(p, s, effect, progress)),
+            Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
+            Ready::F32(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
             Ready::Exact(p, phantom) => {
                 let exact = Exact::new(*phantom, p.object.volume.grid(), p.object.field.scale_exponent());
-                self.draw(p, &exact, effect, progress)
+                self.draw(p, &exact, progress)
             }
         };
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
@@ -191,30 +186,30 @@ impl<'a> Renderer<'a> {
         &self,
         prepared: &Prepared<'_, R>,
         sampler: &S,
-        effect: Option<&mut dyn PlaneEffect>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> (Picture, Counts) {
         let alone = |work: TileWork<'_>| ray_order::cast_all(prepared, sampler, work);
-        let draw = |cast_all: &dyn CastAll| draw(prepared, cast_all, self.background, self.tile, progress);
-        let order = if effect.is_some() { Order::Planes } else { self.order };
-        match (&self.ready, order) {
-            (Ready::F64(p), Order::Lanes) if p.lines.is_none() => draw(&|work: TileWork<'_>| lanes::cast_all(p, work)),
+        let draw = |casting: Casting<'_>| draw(prepared, &casting, self.background, self.tile, progress);
+        if let Some(halos) = &prepared.halos {
+            return draw(Casting::ByBand(&|band: Band| {
+                let [from, to] = band.share;
+                let progress = |share: f64| progress(from + (to - from) * share);
+                let tiles = rays_of_tiles(prepared, self.tile, &band);
+                plane_order::cast_with_halos((prepared, halos), sampler, tiles, band.region, &progress)
+            }));
+        }
+        match (&self.ready, self.order) {
+            (Ready::F64(p), Order::Lanes) if p.lines.is_none() => {
+                draw(Casting::ByTile(&|work: TileWork<'_>| lanes::cast_all(p, work)))
+            }
             (Ready::F64(p), Order::Lanes) => {
                 let together = |work: TileWork<'_>| lanes::cast_all(p, work);
-                draw(&|work: TileWork<'_>| merged::cast_apart(p, [&alone, &together], work))
+                draw(Casting::ByTile(&|work: TileWork<'_>| merged::cast_apart(p, [&alone, &together], work)))
             }
-            (_, Order::Lanes | Order::Rays) => draw(&alone),
-            (_, Order::Planes) => {
-                let tiles = rays_of_tiles(prepared, self.tile);
-                let done = plane_order::cast_tiles(prepared, sampler, tiles, effect, progress);
-                let done: Vec<_> =
-                    done.into_iter().map(|(casts, counts)| Mutex::new((casts.into_iter(), counts))).collect();
-                draw(&|work: TileWork<'_>| {
-                    let mut tile = done[work.tile].lock().unwrap_or_else(PoisonError::into_inner);
-                    work.casts.extend(tile.0.by_ref().take(work.points.len()));
-                    work.counts.add(&std::mem::take(&mut tile.1));
-                })
-            }
+            (_, Order::Lanes | Order::Rays) => draw(Casting::ByTile(&alone)),
+            (_, Order::Planes) => draw(Casting::ByBand(&|band: Band| {
+                plane_order::cast_tiles(prepared, sampler, rays_of_tiles(prepared, self.tile, &band))
+            })),
         }
     }
 }

@@ -6,8 +6,6 @@ use drypoint_scene::counts::Counts;
 
 /// Rays of one tile that are to be cast.
 pub(super) struct TileWork<'a> {
-    /// The number of the tile.
-    pub(super) tile: usize,
     /// Points of the picture that the rays go through, in pixels from the top left corner.
     pub(super) points: &'a [[f64; 2]],
     /// RayIntervals of visible bricks that they can meet; none where nothing is skipped.

@@ -39,6 +39,16 @@ impl SampleQuery {
     /// The normal, which comes with the gradient.
     pub const NORMAL: Self = Self { gradient: true, ..Self::VALUE };
 
+    /// The quantities beyond those of another query.
+    pub fn without(self, other: Self) -> Self {
+        Self {
+            gradient: self.gradient && !other.gradient,
+            hessian: self.hessian && !other.hessian,
+            principal: self.principal && !other.principal,
+            kappa: if other.kappa == KappaSource::None { self.kappa } else { KappaSource::None },
+        }
+    }
+
     /// The quantities of both queries. κ is the other's where both name one.
     pub fn and(self, other: Self) -> Self {
         Self {

@@ -177,7 +177,7 @@ impl Function {
     /// brick reaches.
     pub fn can_be_visible(&self, range: [f64; 2], among: Option<&[u32]>, rounded: impl Fn(f64) -> f64) -> bool {
         let (at, opacity, rows) = self.nodes();
-        let Some(rows) = rows else { return can_be_visible(at, opacity, range, rounded) };
+        let Some(rows) = rows else { return can_be_above_zero(at, opacity, range, rounded) };
         match &rows.over {
             [Axis::Value, second] => {
                 let occurs = |row: usize| match among {
@@ -185,12 +185,12 @@ impl Function {
                     _ => true,
                 };
                 let spans = rows.spans(at.len()).enumerate().filter(|(row, _)| occurs(*row));
-                spans.map(|(_, span)| span).any(|s| can_be_visible(&at[s.clone()], &opacity[s], range, &rounded))
+                spans.map(|(_, span)| span).any(|s| can_be_above_zero(&at[s.clone()], &opacity[s], range, &rounded))
             }
             [_, Axis::Value] => {
                 let highest = |span: Range<usize>| opacity[span].iter().copied().fold(0.0, f64::max);
                 let highest: Vec<f64> = rows.spans(at.len()).map(highest).collect();
-                can_be_visible(&rows.at, &highest, range, rounded)
+                can_be_above_zero(&rows.at, &highest, range, rounded)
             }
             _ => opacity.iter().any(|&a| a > 0.0),
         }
@@ -237,7 +237,7 @@ fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<us
 ///
 /// On a closed range it is 0 throughout exactly if both nodes of every segment that overlaps the range have opacity 0,
 /// and every node that the range touches. All nodes at one value count. Rounding keeps nodes in order.
-fn can_be_visible(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
+pub fn can_be_above_zero(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
     // Without a node nothing is shown; that it is no function is said where the nodes are evaluated.
     let Some(end) = at.len().checked_sub(1) else { return false };
     // The nodes from lo to hi, and the next one on either side where none stands at that end itself.

@@ -10,4 +10,13 @@ pub(crate) struct Cast {
     pub(crate) sums: Option<Box<Sums>>,
     /// Samples evaluated.
     pub(crate) samples: u64,
+    /// The largest intensities of the halos that layers show, in their order.
+    pub(crate) intensities: Box<[f64]>,
+}
+
+impl Cast {
+    /// The result of a ray without layers.
+    pub(crate) fn of_samples(rgba: [f64; 4], samples: u64) -> Self {
+        Self { rgba, sums: None, samples, intensities: Box::default() }
+    }
 }

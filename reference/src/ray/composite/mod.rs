@@ -1,16 +1,16 @@
 //! Compositing: two orders in which samples come together, by the one *over* of [`crate::accumulator`].
 //!
-//! [`ray_order`] follows one ray at a time. [`plane_order`] visits rays plane by plane, for effects that read what
-//! lies on the planes before. Both give the same bits and the same counts.
+//! [`ray_order`] follows one ray at a time. [`plane_order`] visits rays plane by plane, for halos, which read what lies on
+//! the planes before. Without halos both give the same bits and the same counts.
 
 mod cast;
 mod layers;
 mod path;
-mod plane_effect;
 pub(super) mod plane_order;
 pub(super) mod ray_order;
 mod ray_state;
+mod seed_rays;
+mod waiting_tile;
 
 pub(super) use cast::Cast;
 pub(super) use layers::{Sums, pooled};
-pub use plane_effect::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};

@@ -25,7 +25,7 @@ fn cast_with<N: Need, R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sample
         steps.clear();
         state.path(point, boxes.as_deref_mut(), &mut steps);
         for step in &steps {
-            if !state.take::<N>(step, &mut None, counts) {
+            if !state.take::<N>(step, None, counts) {
                 break;
             }
         }

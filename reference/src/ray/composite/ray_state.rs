@@ -3,7 +3,6 @@
 use super::cast::Cast;
 use super::layers::{LayerSample, Sums};
 use super::path::Step;
-use super::plane_effect::Hook;
 use crate::accumulator::Accumulator;
 use crate::field::{Place, Sampler};
 use crate::number::{Real, Vec3};
@@ -15,8 +14,10 @@ use crate::ray::sample::need::{self, Need};
 use crate::ray::sample::{Evaluator, OverTwo, Previous, Sample, SampleAttributes};
 use crate::transfer;
 use crate::transfer::over::SampleQuantities;
+use crate::volumetric_halos::Tint;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
+use drypoint_scene::fragments::Fragment;
 
 /// The most values that are computed at once.
 const MOST_AT_ONCE: usize = 8;
@@ -30,6 +31,8 @@ pub(crate) struct RayState<'p, 'v, R: Real, S> {
     /// The previous sample of the one whose shares are visited.
     before_shares: Previous<R>,
     pub(crate) front: Front<R>,
+    /// A of the samples alone, without lines and glows; kept for layers.
+    of_samples: R,
     /// Sums for the layers; none before the first sample with an opacity.
     sums: Option<Box<Sums>>,
     /// Samples evaluated.
@@ -64,6 +67,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             },
             before_shares: Previous::None,
             front: Front { accumulator: Accumulator::empty(R::ZERO), corrected: [R::ZERO; 2] },
+            of_samples: R::ZERO,
             sums: None,
             samples: 0,
         }
@@ -75,18 +79,23 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         counts.rays_skipped += u64::from(self.samples == 0);
         counts.samples += self.samples;
         let Accumulator { rgb: [r, g, b], opacity } = self.front.accumulator;
-        Cast { rgba: [r, g, b, opacity].map(Real::to_f64), sums: self.sums, samples: self.samples }
+        Cast {
+            rgba: [r, g, b, opacity].map(Real::to_f64),
+            sums: self.sums,
+            samples: self.samples,
+            intensities: Box::default(),
+        }
     }
 
     /// Takes a step of the path. Returns whether the ray is still open.
     #[inline(always)]
-    pub(crate) fn take<N: Need>(&mut self, step: &Step<'_>, hook: &mut Option<Hook<'_>>, counts: &mut Counts) -> bool {
+    pub(crate) fn take<N: Need>(&mut self, step: &Step<'_>, tint: Option<&Tint>, counts: &mut Counts) -> bool {
         match *step {
-            Step::Samples(range) => self.run::<N>(range, hook, counts),
-            Step::Share { k, steps, again } => self.run_share::<N>((k, steps, again), hook, counts),
-            Step::Line { line, .. } => self.lay_behind(line.rgb.map(R::from_f64), R::from_f64(line.opacity)),
+            Step::Samples(range) => self.run::<N>(range, tint, counts),
+            Step::Share { k, steps, again } => self.run_share::<N>((k, steps, again), tint, counts),
+            Step::Line { line, .. } => self.meet_line(line, tint),
             Step::Surface { depth, .. } => {
-                self.meet_surface(depth, counts);
+                self.meet_surface(depth, tint, counts);
                 false
             }
         }
@@ -97,7 +106,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     fn run_share<N: Need>(
         &mut self,
         (k, steps, again): (i64, f64, bool),
-        hook: &mut Option<Hook<'_>>,
+        tint: Option<&Tint>,
         counts: &mut Counts,
     ) -> bool {
         // All shares have the same sample before.
@@ -107,7 +116,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
         let whole = self.correction;
         self.correct_by(Correction::new(steps * self.evaluator.ray.step / self.prepared.object.reference_length));
-        let open = self.run::<N>([k, k], hook, counts);
+        let open = self.run::<N>([k, k], tint, counts);
         self.correct_by(whole);
         open
     }
@@ -118,15 +127,26 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.front.corrected = [R::ZERO; 2];
     }
 
-    /// Lays something of a linear colour that is no sample behind what is there. Returns whether the ray is still open.
-    pub(crate) fn lay_behind(&mut self, rgb: [R; 3], alpha: R) -> bool {
-        let rgb = self.in_blend_space(rgb);
+    /// Lays a line behind what is there. Returns whether the ray is still open.
+    fn meet_line(&mut self, line: &Fragment, tint: Option<&Tint>) -> bool {
+        let rgb = tinted(self.in_blend_space(line.rgb.map(R::from_f64)), tint);
+        let alpha = R::from_f64(line.opacity);
         if alpha >= R::ONE {
             self.front.accumulator.end(rgb);
             return false;
         }
         self.front.accumulator.over(rgb, alpha);
         self.is_open()
+    }
+
+    /// Lays the glow of a plane, premultiplied in the blend space, behind what is there.
+    pub(crate) fn lay_glow(&mut self, glow: [f64; 4]) {
+        self.front.accumulator.over_premultiplied(glow.map(R::from_f64));
+    }
+
+    /// The opacity of one step on this ray, of an opacity per reference length ([VAL-4]).
+    pub(crate) fn corrected(&self, alpha: f64) -> f64 {
+        self.correction.apply(alpha)
     }
 
     /// Whether what lies behind would be seen.
@@ -136,7 +156,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
 
     /// Composites the iso-surface, of opacity 1, at its own depth.
     #[inline(never)]
-    fn meet_surface(&mut self, depth: f64, counts: &mut Counts) {
+    fn meet_surface(&mut self, depth: f64, tint: Option<&Tint>, counts: &mut Counts) {
         let prepared = self.prepared;
         let Some(surface) = &prepared.surface else { return };
         let query = if self.sums.is_none() { surface.query.and(surface.first) } else { surface.query };
@@ -144,9 +164,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         counts.without_normal += u64::from(query.gradient && attributes.normal.is_none());
         let v = self.evaluator.dirs.v;
         let rgb = surface.lit.color(surface.rgb, attributes.normal, [v, surface.lit.half_vector(v)]);
-        let w = self.front.accumulator.end(self.in_blend_space(rgb));
+        let rgb = tinted(self.in_blend_space(rgb), tint);
+        self.front.accumulator.end(rgb);
         if prepared.collects {
-            self.add_to_layers([w, R::ONE], depth, surface.roots.iso(), &attributes);
+            self.add_to_layers(R::ONE, depth, surface.roots.iso(), &attributes);
         }
     }
 
@@ -158,22 +179,17 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
 
     /// Visits the samples first..=last. Returns whether the ray is still open.
     #[inline(never)]
-    fn run<N: Need>(&mut self, visit: [i64; 2], hook: &mut Option<Hook<'_>>, counts: &mut Counts) -> bool {
+    fn run<N: Need>(&mut self, visit: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
         if S::AT_ONCE > 1 {
-            self.run_ahead::<N>(visit, hook, counts)
+            self.run_ahead::<N>(visit, tint, counts)
         } else {
-            self.run_by_cells::<N>(visit, hook, counts)
+            self.run_by_cells::<N>(visit, tint, counts)
         }
     }
 
     /// Values are computed a few samples ahead. Where a ray ends early those left over count for nothing.
     #[inline(always)]
-    fn run_ahead<N: Need>(
-        &mut self,
-        [first, last]: [i64; 2],
-        hook: &mut Option<Hook<'_>>,
-        counts: &mut Counts,
-    ) -> bool {
+    fn run_ahead<N: Need>(&mut self, [first, last]: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
         let (prepared, object) = (self.prepared, &self.prepared.object);
         let mut samples = 0;
         let mut front = self.front;
@@ -191,7 +207,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
                 }
                 samples += 1;
                 if let Some(place) = object.function.locate(s) {
-                    self.visit::<N>(Sample { k, at: at(), s }, &place, &mut front, hook, counts);
+                    self.visit::<N>(Sample { k, at: at(), s }, &place, &mut front, tint, counts);
                     if front.accumulator.opacity >= prepared.stop_at {
                         open = false;
                         break 'samples;
@@ -206,12 +222,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
 
     /// Values are computed only in cells that can show something.
     #[inline(always)]
-    fn run_by_cells<N: Need>(
-        &mut self,
-        [first, last]: [i64; 2],
-        hook: &mut Option<Hook<'_>>,
-        counts: &mut Counts,
-    ) -> bool {
+    fn run_by_cells<N: Need>(&mut self, [first, last]: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
         let (prepared, object) = (self.prepared, &self.prepared.object);
         let mut samples = 0;
         let mut front = self.front;
@@ -225,7 +236,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             samples += 1;
             let s = self.evaluator.sampler.value_at(at);
             if let Some(place) = object.function.locate(s) {
-                self.visit::<N>(Sample { k, at, s }, &place, &mut front, hook, counts);
+                self.visit::<N>(Sample { k, at, s }, &place, &mut front, tint, counts);
                 if front.accumulator.opacity >= prepared.stop_at {
                     open = false;
                     break;
@@ -251,12 +262,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         sample: Sample<R>,
         place: &transfer::NodePlace<R>,
         front: &mut Front<R>,
-        hook: &mut Option<Hook<'_>>,
+        tint: Option<&Tint>,
         counts: &mut Counts,
     ) {
         let object = &self.prepared.object;
         if let (true, Some(over_two)) = (N::MORE, &object.over_two) {
-            return self.visit_over_two(over_two, sample, front, hook, counts);
+            return self.visit_over_two(over_two, sample, front, tint, counts);
         }
         let query = N::query(object);
         let attributes = self.evaluator.evaluate(sample, query, SampleAttributes::neutral(), counts);
@@ -266,7 +277,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             Some(table) if N::MORE => object.shader.shade(table.between_nodes(place), attributes, dirs, counts),
             _ => object.shader.shade(*place, attributes, dirs, counts),
         };
-        self.composite::<N>(sample, shaded, attributes, front, hook, counts);
+        self.composite::<N>(sample, shaded, attributes, front, tint, counts);
     }
 
     /// Visits a sample of a function over two quantities: what they need is asked first, and the rest only where α_u > 0.
@@ -276,7 +287,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         over_two: &OverTwo<'_, R>,
         sample: Sample<R>,
         front: &mut Front<R>,
-        hook: &mut Option<Hook<'_>>,
+        tint: Option<&Tint>,
         counts: &mut Counts,
     ) {
         let object = &self.prepared.object;
@@ -295,7 +306,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let attributes = self.evaluator.evaluate(sample, over_two.rest, attributes, counts);
         counts.without_normal += u64::from(object.query.gradient && attributes.normal.is_none());
         let shaded = object.shader.shade(patch, attributes, &self.evaluator.dirs, counts);
-        self.composite::<need::Anything>(sample, shaded, attributes, front, hook, counts);
+        self.composite::<need::Anything>(sample, shaded, attributes, front, tint, counts);
     }
 
     /// Composites a shaded sample, of an opacity per reference length.
@@ -306,40 +317,35 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         (rgb, alpha): ([R; 3], R),
         attributes: SampleAttributes<R>,
         front: &mut Front<R>,
-        hook: &mut Option<Hook<'_>>,
+        tint: Option<&Tint>,
         counts: &mut Counts,
     ) {
         let prepared = self.prepared;
         if alpha != front.corrected[0] {
             front.corrected = [alpha, self.correction.apply(alpha)];
         }
-        let mut rgb = rgb;
-        if let (true, Some(hook)) = (N::MORE, &*hook) {
-            rgb = hook.before(sample, rgb, &attributes);
-        }
-        let rgb = if N::MORE { self.in_blend_space(rgb) } else { rgb };
-        let w = front.accumulator.over(rgb, front.corrected[1]);
+        let rgb = if N::MORE { tinted(self.in_blend_space(rgb), tint) } else { rgb };
+        front.accumulator.over(rgb, front.corrected[1]);
         if N::MORE && prepared.collects && alpha > R::ZERO {
-            self.collect(sample, [w, front.accumulator.opacity], attributes, counts);
-        }
-        if let (true, Some(hook)) = (N::MORE, hook) {
-            hook.after(sample, alpha, &attributes);
+            self.collect(sample, front.corrected[1], attributes, counts);
         }
     }
 
-    /// Adds a sample with α > 0 to the layers, by its w and the A after it.
+    /// Adds a sample with α > 0 to the layers, by its α(Δ).
     #[inline(never)]
-    fn collect(&mut self, sample: Sample<R>, weights: [R; 2], attributes: SampleAttributes<R>, counts: &mut Counts) {
+    fn collect(&mut self, sample: Sample<R>, alpha: R, attributes: SampleAttributes<R>, counts: &mut Counts) {
         let mut attributes = attributes;
         if let (Some(first), true) = (self.prepared.object.first, self.sums.is_none()) {
             attributes = self.evaluator.evaluate(sample, first, attributes, counts);
             counts.without_normal += u64::from(first.gradient && attributes.normal.is_none());
         }
-        self.add_to_layers(weights, self.evaluator.ray.depth(sample.k).to_f64(), sample.s.to_f64(), &attributes);
+        self.add_to_layers(alpha, self.evaluator.ray.depth(sample.k).to_f64(), sample.s.to_f64(), &attributes);
     }
 
-    /// Adds a value at a depth to the layers, by its w and the A after it.
-    fn add_to_layers(&mut self, [w, opacity]: [R; 2], depth: f64, value: f64, attributes: &SampleAttributes<R>) {
+    /// Adds a value at a depth to the layers, by its α(Δ). There A is the opacity of samples alone ([IO-6]).
+    fn add_to_layers(&mut self, alpha: R, depth: f64, value: f64, attributes: &SampleAttributes<R>) {
+        let w = (R::ONE - self.of_samples) * alpha;
+        self.of_samples = if alpha < R::ONE { self.of_samples + w } else { R::ONE };
         let sample = LayerSample {
             weight: w.to_f64(),
             depth,
@@ -348,6 +354,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             gradient: attributes.gradient.to_glam().to_array(),
             curvature: [attributes.principal[0], attributes.principal[1], attributes.kappa].map(Real::to_f64),
         };
-        self.sums.get_or_insert_with(|| Box::new(Sums::new())).add(&sample, opacity.to_f64());
+        self.sums.get_or_insert_with(|| Box::new(Sums::new())).add(&sample, self.of_samples.to_f64());
     }
+}
+
+/// A colour in the blend space under a tint.
+#[inline(always)]
+fn tinted<R: Real>(rgb: [R; 3], tint: Option<&Tint>) -> [R; 3] {
+    tint.map_or(rgb, |tint| tint.apply(rgb.map(Real::to_f64)).map(R::from_f64))
 }

@@ -76,7 +76,7 @@ pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
     if boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
         counts.rays += points.len() as u64;
         counts.rays_skipped += points.len() as u64;
-        casts.extend(points.iter().map(|_| Cast { rgba: [0.0; 4], sums: None, samples: 0 }));
+        casts.extend(points.iter().map(|_| Cast::of_samples([0.0; 4], 0)));
         return;
     }
     let inside = boxes.as_ref().is_some_and(|boxes| boxes.are_inside(prepared.object.ends.map(Vec3::to_glam)));
@@ -115,7 +115,7 @@ pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
                 counts.rays += 1;
                 counts.rays_skipped += u64::from(samples == 0);
                 counts.samples += samples;
-                casts.push(Cast { rgba: packet.rgba[lane], sums: None, samples });
+                casts.push(Cast::of_samples(packet.rgba[lane], samples));
             }
         }
     }

@@ -5,19 +5,19 @@ use drypoint_scene::view::View;
 
 /// The attributes of a visible sample beyond its value. Those that the scene does not ask for keep their neutral values.
 #[derive(Clone, Copy, Debug)]
-pub struct SampleAttributes<R> {
+pub(crate) struct SampleAttributes<R> {
     /// Eye depth.
-    pub depth: R,
+    pub(crate) depth: R,
     /// World gradient, times the power of two of [SPACE-4].
-    pub gradient: Vec3<R>,
+    pub(crate) gradient: Vec3<R>,
     /// N in world space; none where the gradient is negligible ([PREC-3]) or not asked for.
-    pub normal: Option<Vec3<R>>,
+    pub(crate) normal: Option<Vec3<R>>,
     /// |g| of [VAL-2], in [0, 1].
-    pub magnitude: R,
+    pub(crate) magnitude: R,
     /// The scene's κ; 0 where there is no normal.
-    pub kappa: R,
+    pub(crate) kappa: R,
     /// κ₁ and κ₂.
-    pub principal: [R; 2],
+    pub(crate) principal: [R; 2],
 }
 
 impl<R: Real> SampleAttributes<R> {
@@ -26,19 +26,6 @@ impl<R: Real> SampleAttributes<R> {
     pub(crate) fn neutral() -> Self {
         let zero = R::ZERO;
         Self { depth: zero, gradient: Vec3::zero(), normal: None, magnitude: zero, kappa: zero, principal: [zero; 2] }
-    }
-
-    /// The attributes in f64.
-    pub(crate) fn to_f64(self) -> SampleAttributes<f64> {
-        let vector = |v: Vec3<R>| Vec3::from_glam(v.to_glam());
-        SampleAttributes {
-            depth: self.depth.to_f64(),
-            gradient: vector(self.gradient),
-            normal: self.normal.map(vector),
-            magnitude: self.magnitude.to_f64(),
-            kappa: self.kappa.to_f64(),
-            principal: self.principal.map(Real::to_f64),
-        }
     }
 }
 

@@ -8,8 +8,7 @@ mod object;
 mod over_two;
 mod shader;
 
-pub use attributes::SampleAttributes;
-pub(super) use attributes::{EyeAxes, ViewDirs};
+pub(super) use attributes::{EyeAxes, SampleAttributes, ViewDirs};
 pub(super) use evaluate::{Evaluator, Previous, Sample};
 pub(super) use lit::Lit;
 pub(super) use object::{PreparedObject, turned};

@@ -114,13 +114,7 @@ fn split(query: SampleQuery, over: &[Axis<u32>; 2]) -> (SampleQuery, SampleQuery
     };
     let gradient = hessian || along_view || any(|axis| *axis == Axis::GradientMagnitude);
     let first = SampleQuery { gradient, hessian, principal: hessian && query.principal, kappa };
-    let rest = SampleQuery {
-        gradient: query.gradient && !gradient,
-        hessian: query.hessian && !hessian,
-        principal: query.principal && !first.principal,
-        kappa: if kappa == KappaSource::None { query.kappa } else { KappaSource::None },
-    };
-    (first, rest)
+    (first, query.without(first))
 }
 
 #[cfg(test)]

@@ -19,7 +19,12 @@ pub(super) const RULES: Rules = Rules {
                 Measured::AlongRay => Quantity::PreviousNormal,
             };
             let (needs, first_only): (&[Quantity], bool) = match layer {
-                LayerKind::Beauty | LayerKind::Z | LayerKind::Depth | LayerKind::First | LayerKind::Counts => continue,
+                LayerKind::Beauty
+                | LayerKind::Z
+                | LayerKind::Depth
+                | LayerKind::First
+                | LayerKind::Counts
+                | LayerKind::Halo(_) => continue,
                 LayerKind::Normal | LayerKind::Gradient => (&[Quantity::Gradient], false),
                 LayerKind::Curvature => (&[Quantity::Hessian, along_view], false),
                 LayerKind::CurvatureAlongView => (&[along_view], false),

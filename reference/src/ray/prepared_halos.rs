@@ -1,0 +1,105 @@
+//! The halos of a picture prepared for its samples ([HALO-1], [RAY-2]).
+
+use super::brick_occupancy::BrickOccupancy;
+use super::inputs::{Inputs, RenderError};
+use crate::labels::Labels;
+use crate::volumetric_halos::PreparedHalo;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::picture::LayerKind;
+use drypoint_scene::shot::{BlendSpace, SampleQuery, SeedValue, Shot};
+use drypoint_scene::transfer::can_be_above_zero;
+use drypoint_scene::volume::{BRICK, Bricks};
+
+/// Halos, and what samples are asked for their seeds.
+pub(super) struct PreparedHalos<'v> {
+    pub(super) list: Vec<PreparedHalo>,
+    /// The query of samples that can seed.
+    pub(super) query: SampleQuery,
+    /// The part of the query that α_u of a function over two quantities has not asked before.
+    pub(super) rest: SampleQuery,
+    /// Whether some h_v is α_u.
+    pub(super) reads_opacity: bool,
+    /// Whether there is some h_p.
+    pub(super) reads_places: bool,
+    /// The labels, if there is some h_l.
+    pub(super) labels: Option<Labels<'v>>,
+    /// The bricks in which a sample can seed; none where nothing is skipped.
+    pub(super) skip: Option<BrickOccupancy>,
+}
+
+impl<'v> PreparedHalos<'v> {
+    /// Prepares the halos of a shot; none where it has none.
+    ///
+    /// # Errors
+    /// Nodes of h_v that make no function, labels that were not handed over.
+    pub(super) fn new(
+        shot: &Shot,
+        inputs: &Inputs<'v>,
+        bricks: Option<&Bricks>,
+        over_two: Option<SampleQuery>,
+        rounded: impl Fn(f64) -> f64 + Copy,
+    ) -> Result<Option<Self>, RenderError> {
+        let (halos, [object]) = (&shot.halos, &shot.objects);
+        if halos.list.is_empty() {
+            return Ok(None);
+        }
+        let encode = shot.blend_space == BlendSpace::Srgb;
+        let is_watched = |i: usize| shot.layers.contains(&LayerKind::Halo(i));
+        let list = halos.list.iter().enumerate().map(|(i, halo)| PreparedHalo::new(halo, encode, is_watched(i)));
+        let list: Vec<PreparedHalo> = list.collect::<Result<_, _>>()?;
+        let any = |is: fn(&PreparedHalo) -> bool| list.iter().any(is);
+        let labels = if any(|halo| halo.seeding.labels.is_some()) {
+            let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
+            Some(Labels::new(labels, inputs.volume.grid(), inputs.volume.anatomy(), object.label_lookup))
+        } else {
+            None
+        };
+        // A brick is skipped if none of its samples can seed.
+        let grid = inputs.volume.grid();
+        let cells = inputs.volume.dims().map(|n| n.max(2) - 1);
+        let can_seed = |brick: [usize; 3], range: [f64; 2]| {
+            let first = brick.map(|i| i * BRICK);
+            let end: [usize; 3] = std::array::from_fn(|a| (first[a] + BRICK).min(cells[a]));
+            let [lo, hi] = [first, end].map(|corner| DVec3::from_array(corner.map(|i| i as f64)));
+            let centre = grid.to_world((lo + hi) * 0.5);
+            // On an axis of length 1 coordinates reach half a voxel beyond.
+            let half = (hi - lo) * 0.5 + DVec3::splat(0.5);
+            let radius = grid.axes().x_axis.length() * half.x
+                + grid.axes().y_axis.length() * half.y
+                + grid.axes().z_axis.length() * half.z;
+            halos.list.iter().zip(&list).any(|(params, halo)| {
+                let by_value = match &params.seed.value {
+                    None => true,
+                    Some(SeedValue::Opacity) => object.function.can_be_visible(range, None, rounded),
+                    Some(SeedValue::Nodes(nodes)) => {
+                        let (at, h): (Vec<f64>, Vec<f64>) = nodes.iter().map(|&[at, h]| (at, h)).unzip();
+                        can_be_above_zero(&at, &h, range, rounded)
+                    }
+                };
+                by_value
+                    && halo.seeding.focus.as_ref().is_none_or(|focus| focus.can_reach(centre, radius))
+                    && halo.seeding.labels.as_ref().is_none_or(|wanted| {
+                        labels
+                            .as_ref()
+                            .is_none_or(|labels| labels.ids_in(first, end).iter().any(|id| wanted.contains(id)))
+                    })
+            })
+        };
+        let skip = bricks.map(|bricks| BrickOccupancy::new(bricks, can_seed));
+        let reads_opacity = any(|halo| halo.seeding.reads_opacity());
+        let reads_places = any(|halo| halo.seeding.focus.is_some());
+        let rest = over_two.map_or(halos.query, |first| halos.query.without(first));
+        Ok(Some(Self { list, query: halos.query, rest, reads_opacity, reads_places, labels, skip }))
+    }
+
+    /// The place of a halo among those that layers show.
+    pub(super) fn watched_place(&self, halo: usize) -> Option<usize> {
+        let is_watched = self.list.get(halo).is_some_and(|halo| halo.is_watched);
+        is_watched.then(|| self.list[..halo].iter().filter(|halo| halo.is_watched).count())
+    }
+
+    /// The number of halos that layers show.
+    pub(super) fn watched(&self) -> usize {
+        self.list.iter().filter(|halo| halo.is_watched).count()
+    }
+}
