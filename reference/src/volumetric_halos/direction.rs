@@ -25,7 +25,7 @@ impl DirectionInfluence {
             return 0.0;
         }
         let SeedDirection { toward, width, softness } = self.0;
-        let theta = math::angle(x, y).to_degrees();
+        let theta = math::atan2(x, y).to_degrees();
         // The remainder is exact, so a whole turn of `toward` changes d by the rounding of the difference alone.
         let apart = (theta - toward).rem_euclid(360.0);
         let d = apart.min(360.0 - apart);
