@@ -16,3 +16,4 @@ pub mod suggest;
 pub mod surface;
 pub mod transfer;
 pub mod volume_stippling;
+pub mod volumetric_halos;

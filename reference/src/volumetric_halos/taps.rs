@@ -1,0 +1,133 @@
+//! Reads of an image at a distance on both sides of a pixel, and beyond its border ([HALO-4], [HALO-5]).
+
+use super::spans::{Span, SpanImage};
+
+/// The values beyond the border of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Border {
+    /// Zeros: a structure that the frame cuts has no halo along the frame.
+    Zero,
+    /// The nearest pixel's value.
+    Replicate,
+}
+
+/// Two taps, t pixels before and behind a pixel. Where t is not whole, each is linear between its two neighbours:
+/// (1 − f)·a(±j) + f·a(±(j + 1)), t = j + f.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Taps {
+    pub(super) j: usize,
+    pub(super) f: f64,
+}
+
+impl Taps {
+    /// Makes taps at a distance of t ≥ 0 pixels. A distance beyond `side`, the longer side of the image, is `side`: both
+    /// read what is beyond the border.
+    pub(super) fn new(t: f64, side: usize) -> Self {
+        if t < side as f64 { Self { j: t as usize, f: t - t.floor() } } else { Self { j: side, f: 0.0 } }
+    }
+
+    /// The largest distance of a pixel that is read.
+    pub(super) fn reach(self) -> usize {
+        self.j + usize::from(self.f > 0.0)
+    }
+}
+
+/// The rows of an image that taps in y read for one row, and the range outside which all are zero.
+pub(super) struct TappedRows<'a> {
+    /// The row itself, and its range.
+    pub(super) middle: (&'a [f64], Span),
+    /// The rows at −j and +j.
+    pub(super) near: [&'a [f64]; 2],
+    /// The rows at −(j + 1) and j + 1; read if f > 0.
+    pub(super) far: [&'a [f64]; 2],
+    /// Union of the ranges.
+    pub(super) span: Span,
+}
+
+impl<'a> TappedRows<'a> {
+    /// Finds the rows around row y. `zeros` is a row of zeros.
+    #[inline(always)]
+    pub(super) fn new(image: &'a SpanImage, y: usize, taps: Taps, border: Border, zeros: &'a [f64]) -> Self {
+        let last = image.height() - 1;
+        let row = |inside: Option<usize>, nearest: usize| match (inside, border) {
+            (Some(y), _) => image.row(y),
+            (None, Border::Replicate) => image.row(nearest),
+            (None, Border::Zero) => (zeros, Span::EMPTY),
+        };
+        let pair = |t: usize| [row(y.checked_sub(t), 0), row(Some(y + t).filter(|y| *y <= last), last)];
+        let middle = image.row(y);
+        let near = pair(taps.j);
+        let far = if taps.f > 0.0 { pair(taps.j + 1) } else { near };
+        let span = near.iter().chain(&far).fold(middle.1, |span, (_, other)| span.union(*other));
+        Self { middle, near: near.map(|(row, _)| row), far: far.map(|(row, _)| row), span }
+    }
+}
+
+/// A row with `pad` pixels of what is beyond the border on each side.
+pub(super) struct PaddedRow<'a> {
+    values: &'a mut [f64],
+    pad: usize,
+}
+
+impl<'a> PaddedRow<'a> {
+    /// Numbers that a row takes.
+    pub(super) fn len(width: usize, pad: usize) -> usize {
+        width + 2 * pad
+    }
+
+    /// Makes a row in a space of [`len`](Self::len) numbers: zeros from `pad` before to `pad` behind a range of `width`
+    /// pixels, and in the range what `fill` writes. Other pixels are never read by taps whose result is not zero.
+    #[inline(always)]
+    pub(super) fn new(
+        values: &'a mut [f64],
+        pad: usize,
+        span: Span,
+        border: Border,
+        fill: impl FnOnce(&mut [f64]),
+    ) -> Self {
+        let width = values.len() - 2 * pad;
+        // The filter's range is `span` and `pad` on each side, and its taps go `pad` beyond that.
+        let begin = span.start.saturating_sub(pad);
+        let end = (span.end + 3 * pad).min(values.len());
+        values[begin..span.start + pad].fill(0.0);
+        values[span.end + pad..end].fill(0.0);
+        fill(&mut values[span.start + pad..span.end + pad]);
+        if border == Border::Replicate {
+            let [first, last] = [values[pad], values[pad + width - 1]];
+            if span.start == 0 {
+                values[..pad].fill(first);
+            }
+            if span.end == width {
+                values[width + pad..].fill(last);
+            }
+        }
+        Self { values, pad }
+    }
+
+    /// The pixels of a range, shifted by `t` ≤ pad to both sides.
+    #[inline(always)]
+    pub(super) fn shifted(&self, span: Span, t: usize) -> [&[f64]; 2] {
+        let at = span.start + self.pad;
+        [&self.values[at - t..][..span.len()], &self.values[at + t..][..span.len()]]
+    }
+
+    /// The pixels of a range.
+    #[inline(always)]
+    pub(super) fn middle(&self, span: Span) -> &[f64] {
+        &self.values[span.start + self.pad..span.end + self.pad]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_by_hand() {
+        assert_eq!((Taps::new(2.0, 9), Taps::new(2.0, 9).reach()), (Taps { j: 2, f: 0.0 }, 2));
+        assert_eq!((Taps::new(2.25, 9), Taps::new(2.25, 9).reach()), (Taps { j: 2, f: 0.25 }, 3));
+        for t in [9.0, 9.5, 1e300, f64::INFINITY] {
+            assert_eq!(Taps::new(t, 9), Taps { j: 9, f: 0.0 });
+        }
+    }
+}
