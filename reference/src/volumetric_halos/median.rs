@@ -5,100 +5,110 @@ use super::taps::{Border, PaddedRow, TappedRows, Taps};
 use crate::number::lanes::widely;
 
 /// Writes the median of each pixel and its eight neighbours.
+///
+/// Each column of three is put in order, and neighbouring pixels share columns. The median of the nine is the median of
+/// three numbers: the largest of the three least, the median of the three medians, and the least of the three largest.
 pub(super) fn median(s: &SpanImage, border: Border, zeros: &[f64], to: &mut SpanImage) {
     let (width, taps) = (zeros.len(), Taps { j: 1, f: 0.0 });
     let rows = s.rows().dilated(1, s.height());
     let padded = PaddedRow::len(width, 1);
-    to.write_rows(rows, 4 * s.area(), 3 * padded, |y, row, scratch| {
+    to.write_rows(rows, 4 * s.area(), 3 * padded + 2 * width, |y, row, scratch| {
         let around = TappedRows::new(s, y, taps, border, zeros);
         let (inner, span) = (around.span, around.span.dilated(1, width));
         if span.is_empty() {
             return span;
         }
+        let column = [around.near[0], around.middle.0, around.near[1]].map(|row| &row[inner.start..inner.end]);
+        let (columns, rows) = scratch.split_at_mut(3 * padded);
+        let (least, rest) = columns.split_at_mut(padded);
+        let (medians, largest) = rest.split_at_mut(padded);
+        let (of_least, of_medians) = rows.split_at_mut(width);
+        let [to, of_least, of_medians] = [row, of_least, of_medians].map(|row| &mut row[span.start..span.end]);
         widely(|| {
-            let (first, rest) = scratch.split_at_mut(padded);
-            let (second, third) = rest.split_at_mut(padded);
-            let pad = |space, row: &[f64]| {
-                PaddedRow::new(space, 1, inner, border, |to| to.copy_from_slice(&row[inner.start..inner.end]))
-            };
-            let rows = [pad(first, around.near[0]), pad(second, around.middle.0), pad(third, around.near[1])];
-            let [a, b, c] = rows.each_ref().map(|row| {
-                let [left, right] = row.shifted(span, 1);
-                left.iter().zip(row.middle(span)).zip(right)
-            });
-            for (((to, ((a, b), c)), ((d, e), f)), ((g, h), i)) in
-                row[span.start..span.end].iter_mut().zip(a).zip(b).zip(c)
-            {
-                *to = median_of_nine([*a, *b, *c, *d, *e, *f, *g, *h, *i]);
+            // Columns in order.
+            let least = PaddedRow::new(least, 1, inner, border, |to| each_of_three(to, column, least_of_three));
+            let medians = PaddedRow::new(medians, 1, inner, border, |to| each_of_three(to, column, median_of_three));
+            let largest = PaddedRow::new(largest, 1, inner, border, |to| each_of_three(to, column, largest_of_three));
+            // Three columns.
+            each_of_three(of_least, least.around(span), largest_of_three);
+            each_of_three(of_medians, medians.around(span), median_of_three);
+            each_of_three(to, largest.around(span), least_of_three);
+            for ((to, a), b) in to.iter_mut().zip(of_least).zip(of_medians) {
+                *to = median_of_three(*a, *b, *to);
             }
         });
         span
     });
 }
 
-/// The fifth of nine numbers in order: a network of 19 exchanges (Paeth 1990, by Devillard).
+/// Writes a number of three rows' numbers.
 #[inline(always)]
-fn median_of_nine(mut p: [f64; 9]) -> f64 {
-    const EXCHANGES: [[usize; 2]; 19] = [
-        [1, 2],
-        [4, 5],
-        [7, 8],
-        [0, 1],
-        [3, 4],
-        [6, 7],
-        [1, 2],
-        [4, 5],
-        [7, 8],
-        [0, 3],
-        [5, 8],
-        [4, 7],
-        [3, 6],
-        [1, 4],
-        [2, 5],
-        [4, 7],
-        [4, 2],
-        [6, 4],
-        [4, 2],
-    ];
-    for [a, b] in EXCHANGES {
-        let [x, y] = [p[a], p[b]];
-        [p[a], p[b]] = if y < x { [y, x] } else { [x, y] };
+fn each_of_three(to: &mut [f64], [a, b, c]: [&[f64]; 3], of: impl Fn(f64, f64, f64) -> f64) {
+    for (((to, a), b), c) in to.iter_mut().zip(a).zip(b).zip(c) {
+        *to = of(*a, *b, *c);
     }
-    p[4]
+}
+
+#[inline(always)]
+fn less(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+#[inline(always)]
+fn more(a: f64, b: f64) -> f64 {
+    if b < a { a } else { b }
+}
+
+#[inline(always)]
+fn least_of_three(a: f64, b: f64, c: f64) -> f64 {
+    less(less(a, b), c)
+}
+
+#[inline(always)]
+fn largest_of_three(a: f64, b: f64, c: f64) -> f64 {
+    more(more(a, b), c)
+}
+
+#[inline(always)]
+fn median_of_three(a: f64, b: f64, c: f64) -> f64 {
+    more(less(a, b), less(more(a, b), c))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A network that orders all rows of zeros and ones orders all numbers; the median follows likewise.
+    fn filtered(size: [usize; 2], s: &[f64], border: Border) -> Vec<f64> {
+        let [mut image, mut to] = [SpanImage::new(size), SpanImage::new(size)];
+        image.values_mut().copy_from_slice(s);
+        image.find_spans();
+        median(&image, border, &vec![0.0; size[0]], &mut to);
+        to.values().to_vec()
+    }
+
+    /// A filter of order that is right for all zeros and ones is right for all numbers: thresholds commute with it.
     #[test]
-    fn every_row_of_zeros_and_ones() {
+    fn every_nine_of_zeros_and_ones() {
         for bits in 0..512u32 {
-            let p = std::array::from_fn(|i| f64::from(bits >> i & 1));
-            assert_eq!(median_of_nine(p), f64::from(u8::from(bits.count_ones() >= 5)), "{bits:b}");
+            let s: Vec<f64> = (0..9).map(|i| f64::from(bits >> i & 1)).collect();
+            let expected = f64::from(u8::from(bits.count_ones() >= 5));
+            assert_eq!(filtered([3, 3], &s, Border::Zero)[4], expected, "{bits:b}");
         }
     }
 
-    /// A median of zeros and ones by hand: a plus has five of nine ones in its middle, a corner of a square four.
+    /// By hand: the middle of a plus has five ones of nine, a corner of a square four.
     #[test]
     fn a_plus_keeps_its_middle_and_a_square_loses_its_corners() {
-        let filtered = |border, rows: [[u8; 5]; 4]| {
-            let mut s = SpanImage::new([5, 4]);
-            for (s, v) in s.values_mut().iter_mut().zip(rows.as_flattened()) {
-                *s = f64::from(*v);
-            }
-            s.find_spans();
-            let mut to = SpanImage::new([5, 4]);
-            median(&s, border, &[0.0; 5], &mut to);
-            to.values().iter().map(|v| *v as u8).collect::<Vec<_>>()
+        let of = |border, rows: [[u8; 5]; 4]| {
+            let s: Vec<f64> = rows.as_flattened().iter().map(|v| f64::from(*v)).collect();
+            filtered([5, 4], &s, border).into_iter().map(|v| v as u8).collect::<Vec<_>>()
         };
         let plus = [[0, 0, 1, 0, 0], [0, 1, 1, 1, 0], [0, 0, 1, 0, 0], [0, 0, 0, 0, 0]];
-        assert_eq!(filtered(Border::Zero, plus), [[0; 5], [0, 0, 1, 0, 0], [0; 5], [0; 5]].concat());
+        assert_eq!(of(Border::Zero, plus), [[0; 5], [0, 0, 1, 0, 0], [0; 5], [0; 5]].concat());
         let square = [[0, 1, 1, 1, 0], [0, 1, 1, 1, 0], [0, 1, 1, 1, 0], [0; 5]];
         let left = [[0, 0, 1, 0, 0], [0, 1, 1, 1, 0], [0, 0, 1, 0, 0], [0; 5]];
-        assert_eq!(filtered(Border::Zero, square), left.concat());
-        assert_eq!(filtered(Border::Zero, [[1; 5]; 4])[..5], [0, 1, 1, 1, 0]);
-        assert_eq!(filtered(Border::Replicate, [[1; 5]; 4]), [1; 20]);
+        assert_eq!(of(Border::Zero, square), left.concat());
+        assert_eq!(of(Border::Zero, [[1; 5]; 4])[..5], [0, 1, 1, 1, 0]);
+        assert_eq!(of(Border::Replicate, [[1; 5]; 4]), [1; 20]);
     }
 }

@@ -111,6 +111,13 @@ impl<'a> PaddedRow<'a> {
         [&self.values[at - t..][..span.len()], &self.values[at + t..][..span.len()]]
     }
 
+    /// The pixels of a range, between their neighbours on the left and on the right.
+    #[inline(always)]
+    pub(super) fn around(&self, span: Span) -> [&[f64]; 3] {
+        let [left, right] = self.shifted(span, 1);
+        [left, self.middle(span), right]
+    }
+
     /// The pixels of a range.
     #[inline(always)]
     pub(super) fn middle(&self, span: Span) -> &[f64] {
