@@ -218,6 +218,11 @@ impl Stage {
     }
 
     pub(crate) fn render_by(&self, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
+        self.render_shot(&self.resolved(self.view()), set)
+    }
+
+    /// The picture of a shot of this scene that may have been changed.
+    pub(crate) fn render_shot(&self, shot: &Shot, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
         let function = self.function();
         let named: Vec<Style> = match &function {
             Function::Regular(_) => Vec::new(),
@@ -238,7 +243,7 @@ impl Stage {
             styles: &named,
             background,
         };
-        let (picture, counts) = set(Renderer::new(&self.resolved(self.view()), inputs).unwrap()).frame(&|_| {});
+        let (picture, counts) = set(Renderer::new(shot, inputs).unwrap()).frame(&|_| {});
         Shown { picture, counts }
     }
 }

@@ -6,3 +6,4 @@ mod common;
 mod interactive_volume_illustration;
 mod style_transfer_functions;
 mod volume_stippling;
+mod volumetric_halos;

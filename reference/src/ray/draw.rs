@@ -66,13 +66,13 @@ impl Region {
     }
 }
 
-/// Casts all rays of a picture. Each pixel is a function of its place alone, so neither threads nor the order of tiles
+/// Casts all rays of a picture, in tiles of a side in pixels and bands of about so many rays. Each pixel is a function of its place alone, so neither threads nor the order of tiles
 /// show ([RAY-3]).
 pub(super) fn draw<R: Real>(
     prepared: &Prepared<'_, R>,
     casting: &Casting<'_>,
     background: Backdrop<'_>,
-    tile: usize,
+    [tile, band]: [usize; 2],
     progress: &(dyn Fn(f64) + Sync),
 ) -> (Picture, Counts) {
     let [width, height] = prepared.view.size;
@@ -80,7 +80,7 @@ pub(super) fn draw<R: Real>(
     let n = prepared.rays_across;
     let batch = match casting {
         Casting::ByTile(_) => BATCH / (tile * tile),
-        Casting::ByBand(_) => across * (BATCH / (width * n * n * tile)).max(1),
+        Casting::ByBand(_) => across * (band / (width * n * n * tile)).max(1),
     };
     let done = std::sync::atomic::AtomicUsize::new(0);
     let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();

@@ -22,12 +22,17 @@ use std::time::Instant;
 /// Pixels along the side of a tile, the work of one thread at a time.
 const TILE: usize = 8;
 
+/// Rays that wait for each other in plane order, so that their states need not all be in memory. Each band has a guard band
+/// of its own, so a small one is slow.
+const BAND: usize = 1 << 20;
+
 /// A shot that is ready to be rendered any number of times.
 pub struct Renderer<'a> {
     ready: Ready<'a>,
     background: Backdrop<'a>,
     counts: Counts,
     tile: usize,
+    band: usize,
     order: Order,
 }
 
@@ -98,12 +103,17 @@ impl<'a> Renderer<'a> {
             Ready::F64(p) if p.halos.is_none() && lanes::serve(p) => Order::Lanes,
             _ => Order::Rays,
         };
-        Self { ready, background: inputs.background, counts, tile: TILE, order }
+        Self { ready, background: inputs.background, counts, tile: TILE, band: BAND, order }
     }
 
     /// Sets the side of tiles, from 1 to 1024 pixels. It shows nowhere ([RAY-3]).
     pub fn with_tiles(self, side: usize) -> Self {
         Self { tile: side.clamp(1, 1024), ..self }
+    }
+
+    /// Sets about how many rays wait for each other with halos; at least a row of tiles does. It shows nowhere.
+    pub fn with_band(self, rays: usize) -> Self {
+        Self { band: rays, ..self }
     }
 
     /// Casts each ray alone, as on a processor without wide registers, if there are no halos. It shows neither in the picture
@@ -189,7 +199,7 @@ impl<'a> Renderer<'a> {
         progress: &(dyn Fn(f64) + Sync),
     ) -> (Picture, Counts) {
         let alone = |work: TileWork<'_>| ray_order::cast_all(prepared, sampler, work);
-        let draw = |casting: Casting<'_>| draw(prepared, &casting, self.background, self.tile, progress);
+        let draw = |casting: Casting<'_>| draw(prepared, &casting, self.background, [self.tile, self.band], progress);
         if let Some(halos) = &prepared.halos {
             return draw(Casting::ByBand(&|band: Band| {
                 let [from, to] = band.share;

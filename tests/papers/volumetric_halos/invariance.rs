@@ -1,0 +1,90 @@
+//! A halo belongs to the picture, not to the frame about it ([HALO-4], [HALO-5]).
+
+use crate::common::{Stage, largest_difference, orthographic, perspective, volume};
+use drypoint::scene::glam::DVec3;
+use drypoint::scene::picture::LayerKind;
+use drypoint::scene::tables::{Halo, HaloKind, Length};
+
+/// Crossing tubes.
+fn tubes() -> Stage {
+    let field = volume([40; 3], |p: DVec3| {
+        let a = 4.0 - DVec3::new(p.x - 14.0, p.y - 12.0, 0.0).length();
+        let b = 3.0 - DVec3::new(0.0, p.y - 24.0, p.z - 20.0).length();
+        a.max(b)
+    });
+    Stage::regular(field, &[(-0.5, [0.7, 0.5, 0.3], 0.0), (0.5, [0.7, 0.5, 0.3], 0.6)]).with(|s| {
+        s.camera = orthographic(Some(32.0));
+        s.camera.direction = DVec3::new(0.1, 1.0, 0.2);
+        s.picture.size = [64, 64];
+        let mut glow = Halo { kind: HaloKind::Emissive, name: "glow".into(), opacity: 0.3, ..Halo::default() };
+        glow.profile[0].rgb = [1.0, 0.8, 0.2];
+        s.halos = vec![Halo { name: "dark".into(), ..Halo::default() }, glow];
+    })
+}
+
+/// A crop of a picture is the picture of the crop, to the bit: structures that the frame cuts have their seeds beyond it.
+#[test]
+fn a_crop_is_the_picture_of_the_crop() {
+    for samples in [1, 2] {
+        let layers = [LayerKind::Halo(0), LayerKind::Halo(1)];
+        let whole = tubes().with(|s| s.picture.samples = samples).layers(&layers);
+        let crop = whole.with(|s| {
+            // A quarter of the height at the same pixel pitch, a power of two.
+            s.camera = orthographic(Some(8.0));
+            s.camera.direction = DVec3::new(0.1, 1.0, 0.2);
+            s.picture.size = [32, 16];
+        });
+        let (whole, crop) = (whole.render(), crop.render());
+        for (of_whole, of_crop) in whole.picture.layers.iter().zip(&crop.picture.layers) {
+            for (large, small) in of_whole.channels.iter().zip(&of_crop.channels) {
+                let cut: Vec<f64> = (24..40).flat_map(|y| large[y * 64 + 16..y * 64 + 48].iter().copied()).collect();
+                let same = cut.iter().zip(small).all(|(a, b)| a.to_bits() == b.to_bits());
+                assert!(same, "{} with {samples}", of_whole.kind);
+                assert!(small.iter().any(|v| *v != small[0]), "{}", of_whole.kind);
+            }
+        }
+    }
+}
+
+/// With a reach in the picture's height H is that of a picture of four times the pixels, averaged over its pixels. So does
+/// a picture of several rays a pixel.
+#[test]
+fn a_reach_is_the_same_at_every_resolution() {
+    let with = |side: usize, samples: usize| {
+        let stage = tubes().with(|s| {
+            s.picture.size = [side; 2];
+            s.picture.samples = samples;
+            s.halos.iter_mut().for_each(|halo| halo.spread.reach = Some(Length::Percent(12.0)));
+        });
+        stage.layers(&[LayerKind::Halo(0)]).render()
+    };
+    let coarse = with(128, 1).one(LayerKind::Halo(0));
+    let fine = with(512, 1).one(LayerKind::Halo(0));
+    let mean = |x: usize, y: usize| (0..16).map(|i| fine[(4 * y + i / 4) * 512 + 4 * x + i % 4]).sum::<f64>() / 16.0;
+    let apart = |h: &[f64]| {
+        let apart = (0..128 * 128).map(|i| (h[i] - mean(i % 128, i / 128)).abs());
+        apart.fold(0.0, f64::max)
+    };
+    assert!(coarse.iter().copied().fold(0.0, f64::max) > 0.3);
+    println!(
+        "|ΔH| {:.4} with one ray a pixel, {:.4} with 2×2",
+        apart(&coarse),
+        apart(&with(128, 2).one(LayerKind::Halo(0)))
+    );
+    assert!(apart(&coarse) < 0.03);
+    assert!(apart(&with(128, 2).one(LayerKind::Halo(0))) < 0.03);
+}
+
+/// In perspective a dollied camera moves seeds continuously; here only: nothing depends on the side of the tiles, on threads or
+/// on the number type beyond rounding.
+#[test]
+fn perspective_in_two_number_types() {
+    let stage = tubes().with(|s| {
+        s.camera = perspective(40.0);
+        s.camera.direction = DVec3::new(0.3, 1.0, -0.2);
+    });
+    let (double, single) = (stage.render(), stage.in_number(drypoint::scene::tables::Number::F32).render());
+    let apart = largest_difference(&double, &single);
+    assert!(apart > 0.0 && apart < 2e-3, "{apart}");
+    assert_eq!(stage.render_in_tiles(32).bits(), double.bits());
+}

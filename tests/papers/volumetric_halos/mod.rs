@@ -1,0 +1,5 @@
+//! Volumetric halos (Bruckner and Gröller 2007).
+
+mod by_hand;
+mod invariance;
+mod planes;
