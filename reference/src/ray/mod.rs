@@ -9,6 +9,7 @@ mod lanes;
 pub mod lattice;
 mod merged;
 pub mod opacity;
+mod pick;
 mod prepare;
 mod prepared;
 mod prepared_surface;
@@ -18,5 +19,6 @@ mod tile_work;
 
 pub use composite::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};
 pub use inputs::{Backdrop, Inputs, RenderError};
+pub use pick::{Picked, VISIBLE};
 pub use render::Renderer;
 pub use sample::SampleAttributes;

@@ -13,4 +13,6 @@ mod ray_state;
 
 pub(super) use cast::Cast;
 pub(super) use layers::{Sums, pooled};
+pub(super) use path::Step;
 pub use plane_effect::{LayBehind, PlaneEffect, RayOnPlane, SampleOnPlane};
+pub(super) use ray_state::RayState;
