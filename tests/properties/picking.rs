@@ -2,9 +2,13 @@
 
 use super::generator::{resized, scene};
 use crate::common::{Stage, orthographic, perspective, quadratic_ball, volume};
+use drypoint::job::Job;
+use drypoint::picking::pick_pixel;
 use drypoint::reference::ray::{Picked, VISIBLE};
+use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::fragments::{Fragment, Fragments};
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::phantom;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{
     Camera, GradientEstimator, Iso, Kernel, Length, Number, StepAlong, Surface, SurfaceLook,
@@ -85,7 +89,7 @@ fn picks_on_a_sphere_in_closed_form() {
             assert!(normal.dot((picked.world - centre).normalize()) > 1.0 - 1e-9, "{normal}");
             assert_eq!((picked.opacity, picked.label, picked.on_surface), (1.0, None, false));
         }
-        assert!(hits > 60 && misses > 60, "{hits} {misses}");
+        assert!(hits > 20 && misses > 20, "{hits} {misses}");
         // The rays of the picture itself end where picks are.
         let depths = stage.render().layer::<3>(LayerKind::Depth);
         for (picked, [first, half, mean]) in picks(&stage, None, &first_rays(&stage)).iter().zip(depths) {
@@ -161,6 +165,39 @@ fn faint_skin_is_passed_over() {
     assert!((3.0..3.25).contains(&first.value), "{first:?}");
 }
 
+/// Masked cells are transparent, so what lies behind is picked.
+#[test]
+fn masked_cells_are_passed_over() {
+    let mut stage = skin([0.0, 0.0], 1.0);
+    let with_hole = volume([8, 14, 8], |p| if p.y == 10.0 { f64::NAN } else { p.y });
+    stage.volume = with_hole;
+    // The cells from 9 to 11 have an invalid voxel.
+    let picked = picks(&stage, None, &[[8.5, 7.5]])[0].unwrap();
+    assert!((11.0..11.25).contains(&picked.world.y), "{picked:?}");
+}
+
+/// A phantom's own formula is picked where it has the value, without the error of voxels.
+#[test]
+fn a_phantom_is_picked_by_its_formula() {
+    let text = r##"drypoint = 1
+[volume]
+phantom = { name = "sphere", size = 20, type = "f64", param = { R = 6 } }
+[picture]
+size = [15, 15]
+[transfer]
+kind = "regular"
+nodes = [{ at = 0, color = "#ffffff", opacity = 0 }, { at = 0, color = "#ffffff", opacity = 1 }]
+"##;
+    let job = Job::load(parse(text, "sphere.toml".as_ref(), &Overrides::default()).unwrap()).unwrap();
+    let grid = job.volume.grid();
+    let phantom = phantom::by_name("sphere", grid, &[("R".into(), 6.0)]).unwrap();
+    let variant = job.variant(job.scene.clone());
+    let exact = job.exact_renderer_of(&variant, &*phantom).unwrap();
+    let [by_voxels, by_formula] = [job.renderer().unwrap(), exact].map(|r| pick_pixel(&r, [7, 7]).unwrap());
+    assert!((by_formula.value - (6.0 - by_formula.world.distance(grid.centre()))).abs() < 1e-12);
+    assert!(by_formula.value >= 0.0 && by_formula.world.distance(by_voxels.world) < 1.0);
+}
+
 #[test]
 fn nothing_is_picked_where_nothing_is_seen() {
     assert_eq!(picks(&skin([0.0, 0.0], 0.0), None, &[[8.5, 7.5]]), [None]);
@@ -234,7 +271,7 @@ fn picks_agree_with_the_layers() {
     }
     println!("{seen} picks: {firsts} first samples, {halves} halves, {surfaces} on surfaces, {faint} faint; {kinds:?}");
     assert!(
-        seen > 2000 && firsts > 500 && halves > 500 && surfaces > 50 && faint > 50 && kinds.len() == 10,
+        seen > 1500 && firsts > 500 && halves > 500 && surfaces > 50 && faint > 50 && kinds.len() == 10,
         "{kinds:?}"
     );
 }
