@@ -235,7 +235,7 @@ fn picks_agree_with_the_layers() {
         let picked = picks(&stage, None, &points);
         let rays = 63 * stage.scene.picture.samples.pow(2);
         let line = Fragment { depth: 1.0, rgb: [0.9, 0.2, 0.1], opacity: 0.9 };
-        let lines: Vec<(usize, Fragment)> = (0..rays).map(|ray| (ray, line.clone())).collect();
+        let lines: Vec<(usize, Fragment)> = (0..rays).map(|ray| (ray, line)).collect();
         let lines = Fragments::new([9, 7], stage.scene.picture.samples, &lines);
         assert_eq!(picks(&stage, Some(lines), &points), picked, "seed {seed}");
         let view = stage.view();
