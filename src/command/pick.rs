@@ -156,8 +156,12 @@ fn toml(v: DVec3, voxel: f64) -> String {
     format!("[{}]", v.to_array().map(|x| coordinate(x, voxel)).join(", "))
 }
 
-/// Returns a coordinate with six digits if they tell a hundredth of a unit, else with all.
+/// Returns a coordinate with six digits if they tell a hundredth of a unit, else with all. A coordinate of less than
+/// 10⁻⁹ units is 0.
 fn coordinate(x: f64, unit: f64) -> String {
+    if x.abs() < 1e-9 * unit {
+        return "0".into();
+    }
     let text = short(x);
     let is_near = text.parse().is_ok_and(|near: f64| (near - x).abs() <= unit / 100.0);
     if is_near { text } else { format!("{x:?}") }
@@ -182,8 +186,9 @@ mod tests {
 
     #[test]
     fn coordinates_tell_voxels_apart() {
-        assert_eq!((coordinate(12.25, 1.0), coordinate(1.0 / 3.0, 1.0)), ("12.25".into(), "0.33333".into()));
+        assert_eq!((coordinate(12.25, 1.0), coordinate(1.0 / 3.0, 1.0)), ("12.25".into(), "0.333333".into()));
         assert_eq!((coordinate(1e6 + 0.123, 1.0), coordinate(1e-7, 1e-7)), ("1000000.123".into(), "1.00000e-7".into()));
+        assert_eq!((coordinate(-1e-17, 1.0), coordinate(-0.0, 1.0)), ("0".into(), "0".into()));
         assert_eq!((rounded(21.65), rounded(0.001234)), ("22".into(), "0.0012".into()));
     }
 }
