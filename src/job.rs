@@ -41,7 +41,7 @@ use drypoint_scene::file::identity;
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::plan::{Pass, Plan};
+use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::shot::{Shot, ShotError, VolumeFacts};
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
@@ -51,7 +51,7 @@ use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
 use iso::find_iso_values;
-use load::{background, function_failure, further, load_volume, named, styles};
+use load::{background, function_failure, further, halo_labels, load_volume, named, styles};
 use room::room_for_table;
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
 use sha2::{Digest, Sha256};
@@ -185,6 +185,9 @@ impl Job {
         let labels =
             if plan.reads_labels() { SceneLabels::load(&scene.volume, &mut failures) } else { SceneLabels::default() };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
+        if failures.is_empty() && plan.needs_at_seeds(Quantity::Label) {
+            halo_labels(&mut scene, &labels.names, &mut failures);
+        }
         // Values that the scene leaves to the data: iso-values and the transfer function.
         let mut counts = Counts::default();
         find_iso_values(&mut scene, &plan, &volume, &mut counts);
@@ -419,11 +422,15 @@ fn view_failure(error: ViewError, scene: &Scene) -> Failure {
 /// Returns the failure of a shot, at the key that causes it.
 fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
-        ShotError::NotSmooth(_) => NOT_SMOOTH,
-        ShotError::Length { key } => (*key, "give it in world units or in voxels"),
-        ShotError::NoIso => ("surface.iso", "give it a value"),
+        ShotError::NotSmooth(_) => (NOT_SMOOTH.0.to_owned(), NOT_SMOOTH.1),
+        ShotError::Length { key } => ((*key).to_owned(), "give it in world units or in voxels"),
+        ShotError::NoIso => ("surface.iso".to_owned(), "give it a value"),
+        ShotError::FocusInPixels { halo } => {
+            (format!("halo[{halo}].seed.focus.pixels"), "give points of the world in its place: at = [[x, y, z]]")
+        }
+        ShotError::LabelName { halo, label } => (format!("halo[{halo}].seed.labels[{label}]"), "write the label's id"),
     };
-    Failure::new(error, scene.given.position(key), remedy)
+    Failure::new(error, scene.given.position(&key), remedy)
 }
 
 /// The key and the remedy of a Hessian that its kernel does not have.

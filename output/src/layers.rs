@@ -40,7 +40,7 @@ pub(crate) fn room(path: Option<&Path>, size: [usize; 2], each: usize) -> Result
 
 /// Returns the error of a layer.
 pub(crate) fn fault(kind: LayerKind, fault: String) -> OutputError {
-    OutputError::Layer { layer: kind.name().into(), fault }
+    OutputError::Layer { layer: kind.name().into_owned(), fault }
 }
 
 #[cfg(test)]

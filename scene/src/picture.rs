@@ -1,6 +1,7 @@
 //! A rendered picture as plain layers, before any file format.
 
 use serde::{Serialize, Serializer};
+use std::borrow::Cow;
 use std::fmt;
 
 /// Named layers of one size; row 0 is the top. The layer `beauty` is linear, premultiplied, background included
@@ -51,16 +52,21 @@ pub enum LayerKind {
     FirstCurvatureAlongView,
     /// Samples evaluated on the ray: `counts.SAMPLES`.
     Counts,
+    /// The intensity of halo n of the scene: `halo0.H` of the first.
+    Halo(usize),
 }
+
+/// The beginning of the names of halos' layers, before the halo's place in the list.
+const HALO: &str = "halo";
 
 impl Serialize for LayerKind {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name())
+        serializer.serialize_str(&self.name())
     }
 }
 
 impl LayerKind {
-    /// Every layer, in the order of the documentation.
+    /// Every layer but those of halos, in the order of the documentation.
     pub const ALL: [Self; 12] = [
         Self::Beauty,
         Self::Z,
@@ -77,8 +83,9 @@ impl LayerKind {
     ];
 
     /// The name in a scene and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
+    pub fn name(self) -> Cow<'static, str> {
+        Cow::Borrowed(match self {
+            Self::Halo(n) => return Cow::Owned(format!("{HALO}{n}")),
             Self::Beauty => "beauty",
             Self::Z => "Z",
             Self::Depth => "depth",
@@ -91,17 +98,23 @@ impl LayerKind {
             Self::FirstCurvature => "first.curvature",
             Self::FirstCurvatureAlongView => "first.curvature.KV",
             Self::Counts => "counts",
-        }
+        })
     }
 
     /// The layer of that name.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
+        let of_halo = || {
+            let kind = Self::Halo(name.strip_prefix(HALO)?.parse().ok()?);
+            // Leading zeros and signs make no second name.
+            (kind.name() == name).then_some(kind)
+        };
+        Self::ALL.into_iter().find(|kind| kind.name() == name).or_else(of_halo)
     }
 
     /// Full channel names as an EXR file has them.
-    pub fn channels(self) -> &'static [&'static str] {
-        match self {
+    pub fn channels(self) -> Vec<Cow<'static, str>> {
+        let names: &[&str] = match self {
+            Self::Halo(n) => return vec![Cow::Owned(format!("{HALO}{n}.H"))],
             Self::Beauty => &["R", "G", "B", "A"],
             Self::Z => &["Z"],
             Self::Depth => &["depth.FIRST", "depth.HALF", "depth.MEAN"],
@@ -114,13 +127,14 @@ impl LayerKind {
             Self::FirstCurvature => &["first.curvature.K1", "first.curvature.K2", "first.curvature.KV"],
             Self::FirstCurvatureAlongView => &["first.curvature.KV"],
             Self::Counts => &["counts.SAMPLES"],
-        }
+        };
+        names.iter().copied().map(Cow::Borrowed).collect()
     }
 }
 
 impl fmt::Display for LayerKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        f.write_str(&self.name())
     }
 }
 

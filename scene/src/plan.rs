@@ -13,8 +13,9 @@ pub use crate::quantity::Quantity;
 pub(crate) use asks::{Asks, At, Idle};
 pub use ladder::Limit;
 pub(crate) use ladder::{Ladder, Settings};
-pub use need::{IdleKey, Need, PassNeed, Plan, PointsPlan};
+pub use need::{IdleKey, Need, PassNeed, Plan, PointsPlan, Samples};
 pub use pass::Pass;
+pub(crate) use rules::halos_in_effect;
 
 use crate::tables::{GradientEstimator, Kernel, Scene};
 use asks::Drawn;

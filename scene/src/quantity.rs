@@ -85,6 +85,20 @@ impl Quantity {
         }
     }
 
+    /// The work that it adds if samples that are asked for seeds need it.
+    pub(crate) fn adds_at_seeds(self) -> &'static str {
+        match self {
+            Self::Gradient => "one gradient a seed sample",
+            Self::PreviousNormal => "one more gradient a seed sample",
+            Self::Hessian => "one Hessian a seed sample",
+            Self::GradientMagnitudeRange => "a norm and a division a seed sample",
+            Self::Label => "one look at the labels a seed sample",
+            Self::Distance => "one norm a seed sample",
+            Self::LabelDistance | Self::FurtherVolume => "one trilinear reconstruction a seed sample",
+            Self::Value | Self::Surface | Self::SurfaceNormal => self.adds(),
+        }
+    }
+
     /// The quantity that it is made of.
     pub(crate) fn prerequisite(self) -> Option<Self> {
         match self {

@@ -55,13 +55,28 @@ pub(super) fn function_failure(error: &FunctionError, given: &Given, names: &Lab
     };
     let remedy = match error {
         FunctionError::LabelTwice { .. } => "keep one row for each label".into(),
-        FunctionError::UnknownLabel { name, .. } => match names.nearest(name) {
-            Some(nearest) => format!("write {nearest:?}"),
-            None if names.iter().next().is_none() => "write an id, or name the labels with volume.label_names".into(),
-            None => "write an id, or one of the names in volume.label_names".into(),
-        },
+        FunctionError::UnknownLabel { name, .. } => known_label(name, names),
     };
     Failure::new(error, given.position(&key), remedy)
+}
+
+/// Returns the remedy of a label's name that nothing has.
+fn known_label(name: &str, names: &LabelNames) -> String {
+    match names.nearest(name) {
+        Some(nearest) => format!("write {nearest:?}"),
+        None if names.iter().next().is_none() => "write an id, or name the labels with volume.label_names".into(),
+        None => "write an id, or one of the names in volume.label_names".into(),
+    }
+}
+
+/// Puts ids in place of the names of labels that seed halos. Names that no label has go to `failures`.
+pub(super) fn halo_labels(scene: &mut Scene, names: &LabelNames, failures: &mut Vec<Failure>) {
+    for (i, halo) in scene.halos.iter_mut().enumerate() {
+        for (j, name) in halo.seed.resolve_labels(|name| names.id(name)).err().into_iter().flatten() {
+            let position = scene.given.position(&format!("halo[{i}].seed.labels[{j}]"));
+            failures.push(Failure::new(format!("there is no label {name:?}"), position, known_label(&name, names)));
+        }
+    }
 }
 
 /// Loads styles by name. Errors go to `failures`.

@@ -58,7 +58,7 @@ impl From<&Picture> for Image {
         for layer in &picture.layers {
             for (name, values) in layer.kind.channels().iter().zip(&layer.channels) {
                 if image.channel(name).is_none() {
-                    image.channels.push(((*name).into(), values.clone()));
+                    image.channels.push((name.to_string(), values.clone()));
                 }
             }
         }

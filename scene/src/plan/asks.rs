@@ -1,6 +1,6 @@
 //! Collectors that the rules of a table write to: needs, and keys without effect.
 
-use super::{IdleKey, Need, Pass, PassNeed};
+use super::{IdleKey, Need, Pass, PassNeed, Samples};
 use crate::document::Place;
 use crate::quantity::Quantity;
 use crate::tables::Scene;
@@ -43,14 +43,14 @@ pub(crate) struct Asks<'a> {
 impl Asks<'_> {
     /// An effect needs a quantity at every visible sample, because of a key.
     pub(crate) fn need(&mut self, quantity: Quantity, effect: &str, key: &str) {
-        self.need_where(quantity, false, effect, key);
+        self.need_at(quantity, Samples::Visible, effect, key);
     }
 
-    /// An effect needs a quantity at the first visible sample of each ray alone, or at every one, because of a key.
-    pub(crate) fn need_where(&mut self, quantity: Quantity, first_only: bool, effect: &str, key: &str) {
+    /// An effect needs a quantity at some samples, because of a key.
+    pub(crate) fn need_at(&mut self, quantity: Quantity, samples: Samples, effect: &str, key: &str) {
         let place = self.place(key);
         let item = self.at.item;
-        self.needs.push(Need { quantity, first_only, effect: effect.into(), item, key: key.into(), place });
+        self.needs.push(Need { quantity, samples, effect: effect.into(), item, key: key.into(), place });
     }
 
     /// An effect needs a pass, because of a key.
@@ -100,12 +100,18 @@ impl Asks<'_> {
 
     /// Adds what the needed quantities are made of, for whoever needed them first: where they are needed.
     pub(super) fn close(&mut self) {
-        for (quantity, first_only) in Quantity::ALL.into_iter().rev().flat_map(|q| [(q, false), (q, true)]) {
-            let is = |need: &Need, quantity| need.quantity == quantity && need.first_only == first_only;
+        const ALL: [Samples; 3] = [Samples::Visible, Samples::First, Samples::Seeds];
+        for (quantity, samples) in Quantity::ALL.into_iter().rev().flat_map(|q| ALL.map(|samples| (q, samples))) {
+            let is = |need: &Need, quantity| need.quantity == quantity && need.samples == samples;
             let need = self.needs.iter().find(|need| is(need, quantity));
-            if let (Some(need), Some(prerequisite)) = (need, quantity.prerequisite())
-                && !self.needs.iter().any(|n| is(n, prerequisite) || (n.quantity == prerequisite && !n.first_only))
-            {
+            let (Some(need), Some(prerequisite)) = (need, quantity.prerequisite()) else { continue };
+            // What every visible sample has, the first one has. The value is one of every sample, seen or not.
+            let is_covered = |need: &Need| {
+                let covers =
+                    need.samples == Samples::Visible && (samples == Samples::First || prerequisite == Quantity::Value);
+                is(need, prerequisite) || (need.quantity == prerequisite && covers)
+            };
+            if !self.needs.iter().any(is_covered) {
                 let need = Need { quantity: prerequisite, ..need.clone() };
                 self.needs.push(need);
             }

@@ -7,13 +7,24 @@ use crate::space::Grid;
 use crate::view::View;
 use std::fmt;
 
+/// The samples of a ray that a need is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Samples {
+    /// Every visible sample.
+    Visible,
+    /// The first visible sample alone: layers `first.*` ([IO-6]).
+    First,
+    /// The samples that are asked for seeds of halos, visible or not ([HALO-2]).
+    Seeds,
+}
+
 /// A quantity that an effect needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Need {
     /// The quantity.
     pub quantity: Quantity,
-    /// Whether only the first visible sample of each ray needs it: layers `first.*` ([IO-6]).
-    pub first_only: bool,
+    /// The samples that need it.
+    pub samples: Samples,
     /// The effect that needs it.
     pub effect: String,
     /// The item that needs it, if the effect is one of a list of tables; items count from 0. Needs are closed for the
@@ -28,7 +39,11 @@ pub struct Need {
 impl Need {
     /// Returns the work that the need adds to a picture.
     pub fn adds(&self) -> &'static str {
-        if self.first_only { self.quantity.adds_at_first() } else { self.quantity.adds() }
+        match self.samples {
+            Samples::Visible => self.quantity.adds(),
+            Samples::First => self.quantity.adds_at_first(),
+            Samples::Seeds => self.quantity.adds_at_seeds(),
+        }
     }
 }
 
@@ -89,22 +104,42 @@ pub struct PointsPlan {
 impl Plan {
     /// Whether an effect of the scene needs that quantity at every visible sample.
     pub fn needs(&self, quantity: Quantity) -> bool {
-        self.needs.iter().any(|need| need.quantity == quantity && !need.first_only)
+        self.needs_at(quantity, &[Samples::Visible])
     }
 
     /// Whether an effect of the scene needs that quantity at the first visible sample of a ray, or at every one.
     pub fn needs_at_first(&self, quantity: Quantity) -> bool {
-        self.needs.iter().any(|need| need.quantity == quantity)
+        self.needs_at(quantity, &[Samples::Visible, Samples::First])
+    }
+
+    /// Whether a halo needs that quantity at samples that are asked for seeds.
+    pub fn needs_at_seeds(&self, quantity: Quantity) -> bool {
+        self.needs_at(quantity, &[Samples::Seeds])
+    }
+
+    /// Whether an effect of the scene needs that quantity at any sample.
+    pub fn needs_anywhere(&self, quantity: Quantity) -> bool {
+        self.needs_at(quantity, &[Samples::Visible, Samples::First, Samples::Seeds])
+    }
+
+    fn needs_at(&self, quantity: Quantity, samples: &[Samples]) -> bool {
+        self.needs.iter().any(|need| need.quantity == quantity && samples.contains(&need.samples))
     }
 
     /// Whether an effect of the scene reads a gradient anywhere: at samples, or on the iso-surface.
     pub fn reads_gradients(&self) -> bool {
+        self.shows_gradients() || self.needs_at_seeds(Quantity::Gradient)
+    }
+
+    /// Whether an effect of the scene reads a gradient where something is seen.
+    pub fn shows_gradients(&self) -> bool {
         self.needs_at_first(Quantity::Gradient) || self.needs(Quantity::SurfaceNormal)
     }
 
     /// Whether something reads the labels of `volume.labels`.
     pub fn reads_labels(&self) -> bool {
-        self.needs(Quantity::Label) || self.needs(Quantity::LabelDistance) || self.has_pass(Pass::DotLabels)
+        let labels = [Quantity::Label, Quantity::LabelDistance];
+        labels.into_iter().any(|quantity| self.needs_anywhere(quantity)) || self.has_pass(Pass::DotLabels)
     }
 
     /// Whether an effect of the scene needs that pass.

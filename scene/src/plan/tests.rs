@@ -76,11 +76,11 @@ fn a_scene_needs_what_its_effects_need_and_no_more() {
 
 #[test]
 fn what_only_first_samples_need_is_asked_there_alone() {
-    let needs = |rest: &str| -> Vec<(Quantity, bool)> {
-        plan(rest).needs.iter().map(|need| (need.quantity, need.first_only)).collect()
+    let needs = |rest: &str| -> Vec<(Quantity, Samples)> {
+        plan(rest).needs.iter().map(|need| (need.quantity, need.samples)).collect()
     };
     let layers = |names: &str| format!("{REGULAR}[picture]\nlayers = [{names}]\n");
-    let (every, first) = (false, true);
+    let (every, first) = (Samples::Visible, Samples::First);
     assert_eq!(needs(&layers("\"first.normal\"")), [(Value, every), (Gradient, first)]);
     assert_eq!(
         needs(&layers("\"first.curvature\"")),

@@ -1,14 +1,22 @@
 //! Volumetric halos of a picture (Bruckner and Gröller 2007), with nothing left to decide.
 
-use super::{HaloAccumulation, HaloKind, HaloSource, SampleQuery};
+use super::{
+    HaloAccumulation, HaloKind, HaloSource, Outside, ProfileNode, SampleQuery, SeedDirection, SeedValue, ShotError,
+    query,
+};
+use crate::plan::{Plan, halos_in_effect};
+use crate::space::Grid;
+use crate::tables::{FocusPoints, Halo, Iso, LabelKey, Length, PictureSettings, Scene, SeedBy, Seeding, Spreading};
+use crate::transfer::Function;
 use glam::DVec3;
 use serde::Serialize;
 
-/// The halos of a picture; an empty list where there are none.
+/// The halos of a picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Halos {
     /// The halos, in the scene's order: of emissive ones the first lies in front, of occlusive ones the first is mixed
-    /// last ([HALO-7]).
+    /// last ([HALO-7]). All of the scene if one has an effect, so that layers find them by their places; else none. One without an
+    /// effect beside others has no seeds.
     pub list: Vec<HaloParams>,
     /// The query of every sample that is asked for its seeds.
     pub query: SampleQuery,
@@ -39,17 +47,6 @@ pub struct HaloParams {
     pub tints: Vec<usize>,
 }
 
-/// A node of a halo's profile.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ProfileNode {
-    /// The intensity H, in [0, 1].
-    pub at: f64,
-    /// Linear straight colour.
-    pub rgb: [f64; 3],
-    /// Opacity: per reference length if emissive, else a weight of mixing.
-    pub opacity: f64,
-}
-
 /// The halo transfer function h = h_v·h_d·h_p·h_l, and the exponents of s ([HALO-2], [HALO-3]).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HaloSeed {
@@ -65,27 +62,6 @@ pub struct HaloSeed {
     pub gradient_exponent: f64,
     /// The factor that is large where the surface is seen from the side.
     pub side: SeedSide,
-}
-
-/// h_v.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SeedValue {
-    /// α_u of the object's transfer function.
-    Opacity,
-    /// Pairs of a value and h_v, linear between them, constant beyond both ends; in non-decreasing order of the value.
-    Nodes(Vec<[f64; 2]>),
-}
-
-/// h_d: the angle θ between N in the picture and up, in degrees, 0 up and 90 right.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct SeedDirection {
-    /// The middle of the range.
-    pub toward: f64,
-    /// The width of the range in which h_d = 1.
-    pub width: f64,
-    /// The width of the fall on each side of it.
-    pub softness: f64,
 }
 
 /// h_p = clamp₀₁(1 − (dist − inner)/falloff), of the distance to a point or a polyline.
@@ -128,4 +104,289 @@ pub struct HaloSpread {
     pub stretch: f64,
     /// Whether a 3×3 median is taken of the seeds before.
     pub median: bool,
+}
+
+impl Halos {
+    /// The halos of a scene.
+    pub(super) fn new(scene: &Scene, plan: &Plan, grid: &Grid, function: &Function) -> Result<Self, ShotError> {
+        if halos_in_effect(scene).next().is_none() {
+            return Ok(Self { list: Vec::new(), query: SampleQuery::VALUE });
+        }
+        let list = scene.halos.iter().enumerate().map(|(i, halo)| HaloParams::new(i, halo, scene, grid));
+        Ok(Self { list: list.collect::<Result<_, _>>()?, query: query::of_seeds(scene, plan, function) })
+    }
+}
+
+impl HaloParams {
+    /// Halo `place` of a scene.
+    fn new(place: usize, halo: &Halo, scene: &Scene, grid: &Grid) -> Result<Self, ShotError> {
+        let seed = match halos_in_effect(scene).any(|(i, _)| i == place) {
+            true => HaloSeed::new(place, halo, scene, grid)?,
+            false => HaloSeed::none(),
+        };
+        let is_tinted = |(j, other): (usize, &Halo)| {
+            (other.kind == HaloKind::Emissive && halo.tints.contains(&other.name)).then_some(j)
+        };
+        let tints = match halo.kind {
+            HaloKind::Emissive => Vec::new(),
+            HaloKind::Occlusive => scene.halos.iter().enumerate().filter_map(is_tinted).collect(),
+        };
+        Ok(Self {
+            name: halo.name.clone(),
+            kind: halo.kind,
+            seed,
+            spread: HaloSpread::new(&halo.spread, &scene.picture),
+            profile: halo.profile.clone(),
+            opacity: halo.opacity,
+            floor: halo.floor,
+            // At most 1024.
+            every: halo.every as i64,
+            accumulate: halo.accumulate,
+            tints,
+        })
+    }
+}
+
+impl HaloSeed {
+    /// The seeds of a halo without an effect: 0 at every value.
+    fn none() -> Self {
+        Self {
+            value: Some(SeedValue::Nodes(vec![[0.0, 0.0]])),
+            direction: None,
+            focus: None,
+            labels: None,
+            gradient_exponent: 0.0,
+            side: SeedSide::Power { exponent: 0.0 },
+        }
+    }
+
+    /// The seeds of halo `place` of a scene.
+    fn new(place: usize, halo: &Halo, scene: &Scene, grid: &Grid) -> Result<Self, ShotError> {
+        let [gradient_exponent, exponent] = halo.exponents.numbers();
+        let side = match halo.seed.by {
+            SeedBy::Power => SeedSide::Power { exponent },
+            SeedBy::Curvature => {
+                SeedSide::Curvature { thickness: world(halo.seed.thickness, grid, "halo.seed.thickness")? }
+            }
+        };
+        let focus = halo.seed.focus.as_ref().map(|focus| {
+            let FocusPoints::World(at) = &focus.points else { return Err(ShotError::FocusInPixels { halo: place }) };
+            Ok(SeedFocus {
+                at: at.clone(),
+                inner: world(focus.inner, grid, "halo.seed.focus.inner")?,
+                falloff: world(focus.falloff, grid, "halo.seed.focus.falloff")?,
+            })
+        });
+        Ok(Self {
+            value: seed_value(&halo.seed, scene)?,
+            direction: halo.seed.direction,
+            focus: focus.transpose()?,
+            labels: halo.seed.labels.as_deref().map(|labels| ids(labels, place)).transpose()?,
+            gradient_exponent,
+            side,
+        })
+    }
+}
+
+/// A length of a halo in world units.
+fn world(length: Length, grid: &Grid, key: &'static str) -> Result<f64, ShotError> {
+    length.world(grid).ok_or(ShotError::Length { key })
+}
+
+/// The ids of labels.
+fn ids(labels: &[LabelKey], halo: usize) -> Result<Vec<u32>, ShotError> {
+    let id = |(label, key): (usize, &LabelKey)| match key {
+        LabelKey::Id(id) => Ok(*id),
+        LabelKey::Name(_) => Err(ShotError::LabelName { halo, label }),
+    };
+    labels.iter().enumerate().map(id).collect()
+}
+
+/// h_v. The opacity of a scene without [transfer] is that of its iso-surface: 1 inside, 0 outside.
+fn seed_value(seed: &Seeding, scene: &Scene) -> Result<Option<SeedValue>, ShotError> {
+    if !seed.is_by_opacity() {
+        return Ok(seed.value.clone());
+    }
+    let Some(surface) = scene.surface.as_ref().filter(|_| scene.transfer.is_none()) else {
+        return Ok(Some(SeedValue::Opacity));
+    };
+    let Iso::Value(iso) = surface.iso else { return Err(ShotError::NoIso) };
+    // The later of two nodes at one value holds there. The iso-value itself is inside.
+    Ok(Some(SeedValue::Nodes(match scene.volume.outside {
+        Outside::Low => vec![[iso, 0.0], [iso, 1.0]],
+        Outside::High => vec![[iso, 1.0], [iso.next_up(), 0.0]],
+    })))
+}
+
+impl HaloSpread {
+    /// N and q of a picture ([HALO-5]). With `reach` N falls until taps are at least a pixel apart.
+    fn new(spread: &Spreading, picture: &PictureSettings) -> Self {
+        let reached = |passes: u32| f64::from((1_u32 << passes) - 1);
+        // A scene has at most 12 passes.
+        let most = u32::try_from(spread.passes).unwrap_or(u32::MAX).min(MOST_PASSES);
+        let (passes, stretch) = match spread.reach.and_then(|reach| picture.in_pixels(reach)) {
+            None => (most, 1.0),
+            Some(reach) => {
+                let reach = reach.min(FARTHEST);
+                let fits = (1..=most).rev().find(|&passes| reach >= reached(passes));
+                fits.map_or((0, 1.0), |passes| (passes, reach / reached(passes)))
+            }
+        };
+        let stretch = stretch * picture.samples as f64;
+        Self { from: spread.from, passes, delta: spread.delta, stretch, median: spread.median }
+    }
+}
+
+/// The largest N.
+const MOST_PASSES: u32 = 12;
+
+/// A reach in pixels beyond any picture.
+const FARTHEST: f64 = (1_u64 << 21) as f64;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::file::{Overrides, parse};
+    use crate::shot::{KappaSource, Shot, VolumeFacts};
+    use crate::tables::SeedValue;
+    use crate::view::View;
+    use crate::volume::{Volume, Voxels};
+    use std::path::Path;
+    use std::sync::Arc;
+
+    const REGULAR: &str = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \"red\" }]\n";
+
+    /// The halos of a picture of 200 × 100 pixels at 254 dpi, of a volume whose smallest spacing is ½.
+    fn halos(rest: &str) -> Result<Halos, ShotError> {
+        let (volume, rest) = match rest.strip_prefix("[volume]\n") {
+            Some(rest) => rest.split_once('\n').unwrap(),
+            None => ("", rest),
+        };
+        let files = "file = \"a.nrrd\"\nlabels = \"l.nrrd\"\nlabel_names = \"l.csv\"\n";
+        let picture = "[picture]\nsize = [200, 100]\ndpi = 254\n";
+        let text = format!("drypoint = 1\n[volume]\n{files}{volume}\n{picture}{rest}");
+        let mut scene = parse(&text, Path::new("s"), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
+        for halo in &mut scene.halos {
+            // "liver" is label 5; no other has a name.
+            let _ = halo.seed.resolve_labels(|name| (name == "liver").then_some(5));
+        }
+        let grid = Grid::with_spacing([9, 9, 9], [0.5, 1.0, 1.0]).unwrap();
+        let view = View::new(&scene.camera, &grid, scene.picture.size).unwrap();
+        let volume = Volume::new(grid.clone(), Voxels::U8(vec![0; 729]), 1.0, 0.0).unwrap();
+        let transfer = scene.transfer.as_ref();
+        let function = transfer.and_then(|t| Function::new(t, [0.0, 1.0], &volume, &|_| None).unwrap());
+        let function = Arc::new(function.unwrap_or_else(Function::nothing));
+        let facts = VolumeFacts { grid: &grid, is_integer: true };
+        Shot::resolve(&scene, &Plan::new(&scene), facts, function, view).map(|shot| shot.halos)
+    }
+
+    fn regular(rest: &str) -> Halos {
+        halos(&format!("{REGULAR}[[halo]]\n{rest}")).unwrap()
+    }
+
+    #[test]
+    fn a_halo_that_says_nothing_has_every_default() {
+        let node = |at, opacity| ProfileNode { at, rgb: [0.0; 3], opacity };
+        let expected = HaloParams {
+            name: "halo 0".into(),
+            kind: HaloKind::Occlusive,
+            seed: HaloSeed {
+                value: Some(SeedValue::Opacity),
+                direction: None,
+                focus: None,
+                labels: None,
+                gradient_exponent: 0.125,
+                side: SeedSide::Power { exponent: 32.0 },
+            },
+            spread: HaloSpread { from: HaloSource::Gradient, passes: 4, delta: 0.8, stretch: 1.0, median: false },
+            profile: vec![node(0.2, 0.0), node(0.6, 0.8)],
+            opacity: 1.0,
+            floor: 1.0 / 255.0,
+            every: 1,
+            accumulate: HaloAccumulation::Max,
+            tints: vec![],
+        };
+        assert_eq!(regular(""), Halos { list: vec![expected], query: SampleQuery::NORMAL });
+        assert_eq!(halos(REGULAR).unwrap(), Halos { list: vec![], query: SampleQuery::VALUE });
+    }
+
+    #[test]
+    fn lengths_are_in_the_world_and_labels_are_ids() {
+        let focus = "seed.focus = { at = [[1, 2, 3]], inner = 4, falloff = \"6 voxels\" }\n";
+        let seed = regular(&format!(
+            "{focus}seed.labels = [\"liver\", 7]\nseed.by = \"curvature\"\nseed.thickness = \"3 voxels\"\n"
+        ));
+        let HaloSeed { value, focus, labels, side, .. } = seed.list[0].seed.clone();
+        assert_eq!((value, labels), (None, Some(vec![5, 7])));
+        assert_eq!(focus, Some(SeedFocus { at: vec![DVec3::new(1.0, 2.0, 3.0)], inner: 4.0, falloff: 3.0 }));
+        assert_eq!(side, SeedSide::Curvature { thickness: 1.5 });
+        assert_eq!(seed.query, SampleQuery { kappa: KappaSource::AlongRay, ..SampleQuery::NORMAL });
+        let error = |rest: &str| halos(&format!("{REGULAR}[[halo]]\n[[halo]]\n{rest}")).unwrap_err();
+        assert_eq!(error("seed.labels = [1, \"lver\"]\n"), ShotError::LabelName { halo: 1, label: 1 });
+        assert_eq!(error("seed.focus.pixels = [[1, 2]]\n"), ShotError::FocusInPixels { halo: 1 });
+        assert_eq!(
+            error("seed.focus.pixels = [[1, 2]]\n").to_string(),
+            "the focus of halo 1 is given in pixels, and was not picked"
+        );
+    }
+
+    /// κ is that of [contours], and along the ray without it or without κ.
+    #[test]
+    fn seeds_have_the_curvature_of_contours() {
+        let query = |contours: &str| regular(&format!("seed.by = \"curvature\"\n{contours}")).query;
+        let along = SampleQuery { kappa: KappaSource::AlongRay, ..SampleQuery::NORMAL };
+        let exact = SampleQuery { hessian: true, kappa: KappaSource::Exact, ..SampleQuery::NORMAL };
+        for (kappa, expected) in [("ray", along), ("exact", exact), ("none", along)] {
+            assert_eq!(query(&format!("[contours]\nkappa = \"{kappa}\"\n")), expected, "{kappa}");
+        }
+    }
+
+    /// By hand, of 100 rows at 10 px/mm: 30 px are 15·2, 12 px are 7·12/7, 0.5 px are none.
+    #[test]
+    fn a_reach_makes_the_taps_wider_and_the_passes_fewer() {
+        let spread = |rest: &str| {
+            let HaloSpread { passes, stretch, .. } = regular(rest).list[0].spread;
+            (passes, stretch)
+        };
+        assert_eq!(spread("spread.reach = \"30 px\"\n"), (4, 2.0));
+        assert_eq!(spread("spread.reach = \"3 mm\"\n"), (4, 2.0));
+        assert_eq!(spread("spread.reach = \"30 %\"\n"), (4, 2.0));
+        assert_eq!(spread("spread.reach = \"15 px\"\n"), (4, 1.0));
+        assert_eq!(spread("spread.reach = \"12 px\"\n"), (3, 12.0 / 7.0));
+        assert_eq!(spread("spread.reach = \"1 px\"\n"), (1, 1.0));
+        assert_eq!(spread("spread.reach = \"0.5 px\"\n"), (0, 1.0));
+        assert_eq!(spread("spread = { passes = 0, reach = \"9 px\" }\n"), (0, 1.0));
+        assert_eq!(spread("spread.passes = 12\n"), (12, 1.0));
+        let finer = |rest: &str| {
+            let text = format!("samples = 3\n{REGULAR}[[halo]]\n{rest}");
+            let HaloSpread { passes, stretch, .. } = halos(&text).unwrap().list[0].spread;
+            (passes, stretch)
+        };
+        assert_eq!(finer(""), (4, 3.0));
+        assert_eq!(finer("spread.reach = \"30 px\"\n"), (4, 6.0));
+        assert_eq!(finer("spread.reach = \"0.5 px\"\n"), (0, 3.0));
+    }
+
+    /// Without [transfer] the inside of the iso-surface seeds, the iso-value included.
+    #[test]
+    fn a_surface_alone_seeds_by_its_inside() {
+        let value =
+            |rest: &str| halos(&format!("{rest}[surface]\niso = 12\n[[halo]]\n")).unwrap().list[0].seed.value.clone();
+        assert_eq!(value(""), Some(SeedValue::Nodes(vec![[12.0, 0.0], [12.0, 1.0]])));
+        let high = vec![[12.0, 1.0], [12f64.next_up(), 0.0]];
+        assert_eq!(value("[volume]\noutside = \"high\"\n"), Some(SeedValue::Nodes(high)));
+        assert_eq!(value(REGULAR), Some(SeedValue::Opacity));
+        assert_eq!(halos("[surface]\n[[halo]]\n"), Err(ShotError::NoIso));
+    }
+
+    #[test]
+    fn tints_are_places_and_halos_without_effect_have_no_seeds() {
+        let glow =
+            "kind = \"emissive\"\nname = \"glow\"\n[[halo]]\ntints = [\"glow\"]\nopacity = 0\nseed.labels = [\"?\"]\n";
+        let both = regular(glow);
+        assert_eq!((both.list[0].accumulate, &both.list[1].tints[..]), (HaloAccumulation::Mean, &[0][..]));
+        assert_eq!(both.list[1].seed, HaloSeed::none());
+        assert_eq!(regular("opacity = 0\n").list, []);
+        assert_eq!(halos(&format!("layers = [\"halo0\"]\n{REGULAR}[[halo]]\nopacity = 0\n")).unwrap().list.len(), 1);
+    }
 }

@@ -15,9 +15,10 @@ pub use crate::picture::LayerKind;
 pub use crate::tables::contours::Measured;
 pub use crate::tables::{
     Axis, Background, BlendSpace, GradientEstimator, GradientRange, HaloAccumulation, HaloKind, HaloSource,
-    HessianEstimator, Kappa, Kernel, LabelLookup, Mix, Number, Outside, SphereFrame, StepAlong, Tone, Transparency,
+    HessianEstimator, Kappa, Kernel, LabelLookup, Mix, Number, Outside, ProfileNode, SeedDirection, SeedValue,
+    SphereFrame, StepAlong, Tone, Transparency,
 };
-pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, ProfileNode, SeedDirection, SeedFocus, SeedSide, SeedValue};
+pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, SeedFocus, SeedSide};
 pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
     ContourParams, Illumination, LevelOfDetail, Lighting, Material, PhongParams, StyleParams, ToonParams,
@@ -136,6 +137,20 @@ pub enum ShotError {
     /// The iso-value is still left to the volume.
     #[error("surface.iso is \"auto\", and no value was found")]
     NoIso,
+    /// The focus of a halo is still in pixels.
+    #[error("the focus of halo {halo} is given in pixels, and was not picked")]
+    FocusInPixels {
+        /// The halo's place in the list.
+        halo: usize,
+    },
+    /// A label of a halo is still a name.
+    #[error("label {label} of halo {halo} is a name, and its id was not looked up")]
+    LabelName {
+        /// The halo's place in the list.
+        halo: usize,
+        /// The label's place in `seed.labels`.
+        label: usize,
+    },
 }
 
 impl Shot {
@@ -143,7 +158,8 @@ impl Shot {
     /// scene's own.
     ///
     /// # Errors
-    /// A length on the page, a Hessian that the kernel does not have, an iso-value that was not found in the data yet.
+    /// A length on the page, a Hessian that the kernel does not have, an iso-value that was not found in the data yet, a
+    /// focus that was not picked, the name of a label whose id was not looked up.
     pub fn resolve(
         scene: &Scene,
         plan: &Plan,
@@ -170,7 +186,9 @@ impl Shot {
             skip_empty: plan.has_pass(Pass::Bricks),
             label_lookup: scene.volume.label_lookup,
             reference_length: world(sampling.reference_length, "sampling.reference_length")?,
-            gradient_range: plan.needs(Quantity::GradientMagnitudeRange).then_some(scene.volume.gradient_range),
+            gradient_range: plan
+                .needs_anywhere(Quantity::GradientMagnitudeRange)
+                .then_some(scene.volume.gradient_range),
             normal: NormalDirection::new(sampling.normal, scene.volume.outside),
             turn: Turn::new(sampling.normal, scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip)),
             query,
@@ -178,14 +196,15 @@ impl Shot {
             material: Material::new(scene, &function, facts.grid, &view)?,
             function,
         };
+        let surface = OpaqueSurface::new(scene, plan, &view)?;
         let layers = &scene.picture.layers;
         Ok(Self {
             lattice: Lattice { step, along: sampling.step_along, near },
             rays_across: scene.picture.samples,
             number: sampling.number,
+            halos: Halos::new(scene, plan, facts.grid, &object.function)?,
             objects: [object],
-            surface: OpaqueSurface::new(scene, plan, &view)?,
-            halos: Halos { list: Vec::new(), query: SampleQuery::VALUE },
+            surface,
             blend_space: scene.picture.blend_space,
             background: scene.picture.background.clone(),
             stop_at: stop_at(sampling.stop_below, scene.picture.blend_space),

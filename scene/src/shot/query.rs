@@ -2,7 +2,7 @@
 
 use super::Measured;
 use crate::picture::LayerKind;
-use crate::plan::{Plan, Quantity};
+use crate::plan::{Plan, Quantity, halos_in_effect};
 use crate::tables::contours::measured_curvature;
 use crate::tables::{Axis, Kappa, Scene};
 use crate::transfer::Function;
@@ -52,21 +52,12 @@ impl SampleQuery {
 
 /// The query of every visible sample, and what the first visible sample of a ray is asked for beyond that.
 pub(super) fn of_samples(scene: &Scene, plan: &Plan, function: &Function) -> (SampleQuery, Option<SampleQuery>) {
-    let kappa = |needs: &dyn Fn(Quantity) -> bool| {
-        if needs(Quantity::PreviousNormal) {
-            KappaSource::AlongRay
-        } else if needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
-            KappaSource::Exact
-        } else {
-            KappaSource::None
-        }
-    };
+    let kappa = |needs: &dyn Fn(Quantity) -> bool| kappa(scene, needs);
     let asks_for = |layer| scene.picture.layers.contains(&layer);
     let all = SampleQuery {
         gradient: plan.needs(Quantity::Gradient),
         hessian: plan.needs(Quantity::Hessian),
-        principal: asks_for(LayerKind::Curvature)
-            || function.nodes().2.is_some_and(|rows| rows.over.iter().any(Axis::is_principal)),
+        principal: asks_for(LayerKind::Curvature) || is_principal(function),
         kappa: kappa(&|quantity| plan.needs(quantity)),
     };
     let principal = asks_for(LayerKind::FirstCurvature) && !all.principal;
@@ -81,6 +72,33 @@ pub(super) fn of_samples(scene: &Scene, plan: &Plan, function: &Function) -> (Sa
         kappa,
     };
     (all, (first.gradient || first.hessian || first.kappa != KappaSource::None).then_some(first))
+}
+
+/// The query of samples that are asked for their seeds ([HALO-3]): without a normal a sample is no seed.
+pub(super) fn of_seeds(scene: &Scene, plan: &Plan, function: &Function) -> SampleQuery {
+    let by_opacity = halos_in_effect(scene).any(|(_, halo)| halo.seed.is_by_opacity());
+    SampleQuery {
+        gradient: true,
+        hessian: plan.needs_at_seeds(Quantity::Hessian),
+        principal: by_opacity && is_principal(function),
+        kappa: kappa(scene, &|quantity| plan.needs_at_seeds(quantity)),
+    }
+}
+
+/// The κ of samples that need those quantities.
+fn kappa(scene: &Scene, needs: &dyn Fn(Quantity) -> bool) -> KappaSource {
+    if needs(Quantity::PreviousNormal) {
+        KappaSource::AlongRay
+    } else if needs(Quantity::Hessian) && scene.contours.as_ref().is_some_and(|c| c.kappa == Kappa::Exact) {
+        KappaSource::Exact
+    } else {
+        KappaSource::None
+    }
+}
+
+/// Whether a function is over κ₁ or κ₂.
+fn is_principal(function: &Function) -> bool {
+    function.nodes().2.is_some_and(|rows| rows.over.iter().any(Axis::is_principal))
 }
 
 /// The query of layers of normals, of curvatures, and of κ alone on an iso-surface.

@@ -46,7 +46,7 @@ pub enum Rung {
 impl Rung {
     /// The rung that the effects of a plan ask for.
     pub fn of(plan: &Plan) -> Self {
-        if plan.needs_at_first(Quantity::Hessian) {
+        if plan.needs_anywhere(Quantity::Hessian) {
             Self::Hessian
         } else if plan.reads_gradients() {
             Self::Gradient

@@ -33,7 +33,10 @@ pub mod volume;
 pub use crate::length::Length;
 pub use camera::{Camera, Projection};
 pub use contours::{Contours, Kappa, SignFlip};
-pub use halo::{HaloAccumulation, HaloKind, HaloSource};
+pub use halo::{
+    Exponents, FocusPoints, Halo, HaloAccumulation, HaloFocus, HaloKind, HaloSource, ProfileNode, SeedBy,
+    SeedDirection, SeedValue, Seeding, Spreading,
+};
 pub use hatching::{
     DirectionRule, DirectionSource, Directions, Family, HatchIso, HatchStyle, Hatching, Hidden, Interpolate,
     LineLighting, Measure, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,

@@ -9,6 +9,7 @@ use crate::document::kind::{
     Bounds, Choice, ChoiceOption, Colors, Lengths, ListOf, Number, On, Whole, Wholes, nearest_color, parse_color,
 };
 use crate::document::out::Out;
+use crate::nearest::nearest;
 use crate::picture::LayerKind;
 use crate::quantity::Quantity;
 use crate::tables::Length;
@@ -83,6 +84,16 @@ impl PictureSettings {
         let [Some(width), Some(height)] = self.lengths else { return None };
         ([width, height].map(|length| pixels(length, self.dpi)) == self.size).then_some([width, height])
     }
+
+    /// The pixels of a length on the page, or of a share of the picture's height; none of a length in the world.
+    pub fn in_pixels(&self, length: Length) -> Option<f64> {
+        match length {
+            Length::Millimetres(mm) => Some(mm * self.dpi / INCH),
+            Length::Pixels(px) => Some(px),
+            Length::Percent(share) => Some(share * self.size[1] as f64 / 100.0),
+            Length::World(_) | Length::Voxels(_) => None,
+        }
+    }
 }
 
 /// Width and height: at most 2³⁰ pixels, which are 32 GiB of `beauty` alone.
@@ -96,10 +107,11 @@ const SIZE: Wholes<2> = Wholes {
 /// Width or height on the page.
 const EXTENT: Lengths = Lengths { on: On::Page, bounds: Bounds::POSITIVE };
 
+/// Millimetres of an inch.
+const INCH: f64 = 25.4;
+
 /// A length on the page in whole pixels; what is too long for any picture ends at the largest number.
 fn pixels(length: Length, dpi: f64) -> usize {
-    /// Millimetres of an inch.
-    const INCH: f64 = 25.4;
     match length {
         Length::Millimetres(mm) => (mm / INCH * dpi).round_ties_even() as usize,
         Length::Pixels(px) => px.round_ties_even() as usize,
@@ -159,7 +171,7 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
             /// Bits a channel of a PNG.
             bits: key("IO-2", Bits);
             /// Layers of an EXR.
-            layers: key("IO-6", ListOf { what: "a list of layers", each: LAYER })
+            layers: key("IO-6", ListOf { what: "a list of layers", each: LayerName })
                 .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]);
         } },
     )
@@ -181,8 +193,39 @@ const LAYER: Choice<LayerKind> = Choice {
         ChoiceOption::new("first.curvature.KV", LayerKind::FirstCurvatureAlongView, "κ_v there, as [contours] has it."),
         ChoiceOption::new("counts", LayerKind::Counts, "Samples evaluated on the ray."),
     ],
-    later: &[("halo0", "IO-6"), ("halo0.H", "IO-6")],
+    later: &[],
 };
+
+/// A layer by its name; that of a halo has the halo's place in the list, from 0.
+struct LayerName;
+
+impl Shape for LayerName {
+    fn expected(&self) -> String {
+        format!("{}, or such as \"halo0\" for the first of [[halo]]", LAYER.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [LAYER.schema(), { "type": "string", "pattern": "^halo(0|[1-9][0-9]*)$" }] })
+    }
+}
+
+impl Kind for LayerName {
+    type Of = LayerKind;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<LayerKind> {
+        let Some(name) = item.text() else { return check.wrong(item, self.expected()) };
+        // "halo0.H" is the name of the channel.
+        let nearest = || match name.strip_suffix(".H").and_then(LayerKind::from_name) {
+            Some(layer) => Some(layer.name().into_owned()),
+            None => nearest(name, LAYER.options.iter().map(|option| option.name).chain(["halo0"])).map(Into::into),
+        };
+        LayerKind::from_name(name).or_else(|| check.wrong_name(item, self.expected(), nearest()))
+    }
+
+    fn write(&self, value: &LayerKind) -> Out {
+        Out::Text(value.name().into_owned())
+    }
+}
 
 /// A channel can be in a file once.
 fn check_layers(layers: &[LayerKind], check: &mut Check) {

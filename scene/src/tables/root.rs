@@ -2,8 +2,8 @@
 
 use super::preset::PRESETS;
 use super::{
-    Scene, VolumeSource, camera, contours, hatching, orbit, outlines, page, pen, picture, sampling, shading, stipples,
-    style_mipmaps, styles, surface, transfer, volume,
+    Halo, Scene, VolumeSource, camera, contours, halo, hatching, orbit, outlines, page, pen, picture, sampling,
+    shading, stipples, style_mipmaps, styles, surface, transfer, volume,
 };
 use crate::document::check::Check;
 use crate::document::declare::keys;
@@ -51,7 +51,6 @@ const fn later(name: &'static str, tag: &'static str) -> Later {
 /// The whole file.
 pub(crate) static ROOT: Table<Scene> = Table {
     later: &[
-        later("halo", "HALO-1"),
         later("combine", "VS-3"),
         later("object", "VS-2"),
         later("intersection", "VS-4"),
@@ -105,6 +104,11 @@ pub(crate) static ROOT: Table<Scene> = Table {
             contours: key("STF-6", TableOf(&contours::TABLE)).absent("no contours");
             /// Styles read at the level of detail that the picture can show.
             style_mipmaps: key("STF-10", TableOf(&style_mipmaps::TABLE)).absent("no mip-maps");
+            /// Volumetric halos; of emissive ones the first lies in front, of occlusive ones the first is mixed last.
+            halo: key("HALO-1", ListOf { what: "a list of halos", each: TableOf(&halo::TABLE) },
+                |s| (!s.halos.is_empty()).then(|| s.halos.clone()),
+                |s, v| s.halos = v.into_iter().enumerate().map(|(i, halo): (usize, Halo)| halo.named(i)).collect())
+                .absent("none").needs(&Quantity::ALL);
             /// Stippling: dots on the volume's boundaries.
             stipples: key("STIP-1", TableOf(&stipples::TABLE)).absent("no stipples");
             /// Strokes along the lines of curvature of an iso-surface.

@@ -1,7 +1,7 @@
 //! The scene: all tables of a scene file ([SCN-1], [SCN-3]).
 
 use super::{
-    Axis, Background, Camera, Contours, Hatching, LightDirection, Orbit, Outlines, PageSettings, PenSettings,
+    Axis, Background, Camera, Contours, Halo, Hatching, LightDirection, Orbit, Outlines, PageSettings, PenSettings,
     PictureSettings, Sampling, Shading, Stipples, StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook, Transfer,
     TransferKind, VolumeSource, VolumeTable,
 };
@@ -38,6 +38,8 @@ pub struct Scene {
     pub contours: Option<Contours>,
     /// Mip-maps of the styles; none: each lookup reads the style itself.
     pub style_mipmaps: Option<StyleMipmaps>,
+    /// Volumetric halos, in their order.
+    pub halos: Vec<Halo>,
     /// Volume stippling; none: no dots.
     pub stipples: Option<Stipples>,
     /// Strokes along the lines of curvature of an iso-surface; none: none.
@@ -113,6 +115,7 @@ impl Scene {
             shading: None,
             contours: None,
             style_mipmaps: None,
+            halos: Vec::new(),
             stipples: None,
             hatching: None,
             outlines: None,

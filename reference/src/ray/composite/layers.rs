@@ -98,6 +98,8 @@ impl Sums {
             LayerKind::FirstCurvature => out.extend(first.curvature),
             LayerKind::FirstCurvatureAlongView => out.push(first.curvature[2]),
             LayerKind::Counts => out.push(samples as f64),
+            // Without halos in the picture.
+            LayerKind::Halo(_) => out.push(0.0),
         }
     }
 }

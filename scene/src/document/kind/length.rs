@@ -22,6 +22,8 @@ pub(crate) enum On {
     World,
     /// The page: mm and px.
     Page,
+    /// The page, or a share of the picture: mm, px and %.
+    Picture,
 }
 
 /// A length in the world above 0.
@@ -43,8 +45,8 @@ impl Lengths {
     fn allows(&self, length: Length) -> bool {
         match length {
             Length::World(_) | Length::Voxels(_) => self.on == On::World,
-            Length::Millimetres(_) | Length::Pixels(_) => self.on == On::Page,
-            Length::Percent(_) => false,
+            Length::Millimetres(_) | Length::Pixels(_) => self.on != On::World,
+            Length::Percent(_) => self.on == On::Picture,
         }
     }
 }
@@ -74,6 +76,7 @@ impl Shape for Lengths {
         match self.on {
             On::World => format!("a length{words}: a number in world units, or such as \"2 voxels\""),
             On::Page => format!("a length{words} with its unit, such as \"180 mm\" or \"700 px\""),
+            On::Picture => format!("a length{words} with its unit, such as \"3 mm\", \"20 px\" or \"4 %\""),
         }
     }
 
@@ -85,6 +88,7 @@ impl Shape for Lengths {
                 json!({ "anyOf": [self.bounds.schema(), text] })
             }
             On::Page => json!({ "type": "string", "pattern": format!("{NUMBER}(mm|px)\\s*$") }),
+            On::Picture => json!({ "type": "string", "pattern": format!("{NUMBER}(mm|px|%)\\s*$") }),
         }
     }
 }

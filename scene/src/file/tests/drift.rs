@@ -12,6 +12,9 @@ const ROWS: (&str, &str) = ("transfer.rows", "[{ at = 1, nodes = [{ at = 1, styl
 const REGULAR: (&str, &str) = ("transfer.kind", "regular");
 const PHANTOM: (&str, &str) = ("volume.phantom.name", "torus");
 const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.type", "u16")];
+const HALO: (&str, &str) = ("halo", "[{ profile = [{ at = 0, color = \"red\" }] }]");
+const GLOW: (&str, &str) = ("halo", "[{ kind = \"emissive\" }, { kind = \"emissive\", name = \"glow\" }]");
+const FOCUS: (&str, &str) = ("halo", "[{ seed = { focus = { at = [[1, 2, 3]] } } }]");
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
 const HATCHING: (&str, &str) = ("hatching", "{}");
@@ -134,6 +137,39 @@ const SAMPLES: &[Sample] = &[
     ("style_mipmaps.curvature_bias", &[("style_mipmaps", "{}")], "0"),
     ("style_mipmaps.gradient_bias", &[("style_mipmaps", "{}")], "2.5"),
     ("style_mipmaps.turn", &[("style_mipmaps", "{}")], "0.02"),
+    ("halo", &[], "[{}]"),
+    ("halo[0].name", &[HALO], "rim"),
+    ("halo[0].kind", &[HALO], "emissive"),
+    ("halo[0].seed", &[HALO], "{ by = \"curvature\" }"),
+    ("halo[0].seed.value", &[HALO], "[[80, 0], [120, 1]]"),
+    ("halo[0].seed.direction", &[HALO], "{}"),
+    ("halo[0].seed.direction.toward", &[HALO], "-90"),
+    ("halo[0].seed.direction.width", &[HALO], "30"),
+    ("halo[0].seed.direction.softness", &[HALO], "0"),
+    ("halo[0].seed.focus", &[HALO], "{ at = [[1, 2, 3]] }"),
+    ("halo[0].seed.focus.at", &[HALO], "[[1, 2, 3], [4, 5, 6]]"),
+    ("halo[0].seed.focus.pixels", &[HALO], "[[7.5, 8]]"),
+    ("halo[0].seed.focus.inner", &[FOCUS], "2 voxels"),
+    ("halo[0].seed.focus.falloff", &[FOCUS], "0"),
+    ("halo[0].seed.labels", &[HALO, ("volume.labels", "l.nrrd")], "[3]"),
+    ("halo[0].seed.by", &[HALO], "curvature"),
+    ("halo[0].seed.thickness", &[HALO], "2 voxels"),
+    ("halo[0].exponents", &[HALO], "printed"),
+    ("halo[0].spread", &[HALO], "{ median = true }"),
+    ("halo[0].spread.from", &[HALO], "seeds"),
+    ("halo[0].spread.passes", &[HALO], "0"),
+    ("halo[0].spread.delta", &[HALO], "0.9"),
+    ("halo[0].spread.median", &[HALO], "true"),
+    ("halo[0].spread.reach", &[HALO], "4.5 %"),
+    ("halo[0].profile", &[HALO], "[{ at = 0.5, color = \"blue\" }]"),
+    ("halo[0].profile[0].at", &[HALO], "0.5"),
+    ("halo[0].profile[0].opacity", &[HALO], "0.5"),
+    ("halo[0].profile[0].color", &[HALO], "blue"),
+    ("halo[0].opacity", &[HALO], "0.5"),
+    ("halo[0].floor", &[HALO], "0"),
+    ("halo[0].every", &[HALO], "8"),
+    ("halo[0].accumulate", &[HALO], "mean"),
+    ("halo[0].tints", &[GLOW], "[\"glow\"]"),
     ("stipples", &[], "{}"),
     ("stipples.threshold", &[STIPPLES], "q0.9"),
     ("stipples.k_max", &[STIPPLES], "2.5"),

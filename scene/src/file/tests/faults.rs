@@ -21,8 +21,8 @@ fn an_unknown_key_names_the_nearest() {
 #[test]
 fn a_part_that_is_not_built_says_so() {
     assert_eq!(
-        faults("[[halo]]\nname = \"rim\"\n"),
-        "[[halo]] is not built yet ([HALO-1])\n  at scene.toml:4:3, key halo\n  remove it: this version cannot draw it, \
+        faults("[[mesh]]\nfile = \"plate.ply\"\n"),
+        "[[mesh]] is not built yet ([VS-12])\n  at scene.toml:4:3, key mesh\n  remove it: this version cannot draw it, \
          and would not ignore it"
     );
     for (rest, what) in [
@@ -31,21 +31,12 @@ fn a_part_that_is_not_built_says_so() {
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),
         ("[shading]\nmodel = \"lighting-function\"\n", "shading.model = \"lighting-function\""),
         ("[shading]\ndivisor_floor = 0.1\n", "shading.divisor_floor"),
-        ("[picture]\nlayers = [\"halo0\"]\n", "picture.layers[0] = \"halo0\""),
+        ("[[halo]]\nobject = \"tumour\"\n", "halo[0].object"),
     ] {
         let text = faults(rest);
         assert!(text.starts_with(&format!("{what} is not built yet ([")), "{text}");
         assert_eq!(text.lines().count(), 3, "{text}");
     }
-    let text = parse(
-        "drypoint = 1\npreset = \"halo\"\n[volume]\nfile = \"a\"\n[[halo]]\n",
-        Path::new("s"),
-        &Overrides::default(),
-    )
-    .unwrap_err()
-    .to_string();
-    assert!(text.contains("preset = \"halo\" is not built yet ([HALO-1])\n  at s:2:10"), "{text}");
-    assert!(text.contains("[[halo]] is not built yet ([HALO-1])\n  at s:5:3"), "{text}");
 }
 
 #[test]
@@ -310,6 +301,7 @@ outside = "hihg"
 fov = 400
 upp = [0, 0, 1]
 [[halo]]
+every = 0
 [transfer]
 nodes = [
   { at = 60, style = "wx" },
@@ -329,14 +321,14 @@ step = "2 furlongs"
             (Some(5), "volume.outside"),
             (Some(7), "camera.fov"),
             (Some(8), "camera.upp"),
-            (Some(9), "halo"),
-            (Some(12), "transfer.nodes[0].style"),
-            (Some(13), "transfer.nodes[1].style"),
-            (Some(13), "transfer.nodes[1].at"),
-            (Some(13), "transfer.nodes[1].stile"),
-            (Some(13), "transfer.nodes[1].opacity"),
-            (Some(14), "transfer.nodes[2]"),
-            (Some(17), "sampling.step"),
+            (Some(10), "halo[0].every"),
+            (Some(13), "transfer.nodes[0].style"),
+            (Some(14), "transfer.nodes[1].style"),
+            (Some(14), "transfer.nodes[1].at"),
+            (Some(14), "transfer.nodes[1].stile"),
+            (Some(14), "transfer.nodes[1].opacity"),
+            (Some(15), "transfer.nodes[2]"),
+            (Some(18), "sampling.step"),
             (None, "picture.bits"),
         ]
     );

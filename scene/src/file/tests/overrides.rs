@@ -53,8 +53,8 @@ fn off_removes_tables_items_and_keys() {
     // What is not there cannot be removed, but must be a thing that could.
     assert_eq!(set(&[("shading", "off"), ("halo.0", "off"), ("styles.wax", "off")]).unwrap(), set(&[]).unwrap());
     // What is not built may be taken out of a scene that has it.
-    let halo = format!("{SCENE}[[halo]]\nname = \"rim\"\n");
-    assert!(parse(&halo, Path::new("s"), &[("halo", "off")].into_iter().collect()).is_ok());
+    let mesh = format!("{SCENE}[[mesh]]\nfile = \"plate.ply\"\n");
+    assert!(parse(&mesh, Path::new("s"), &[("mesh", "off")].into_iter().collect()).is_ok());
     // The text "off" in quotes is a text.
     assert!(set(&[("contours.kappa", "\"off\"")]).is_err());
 }
@@ -105,7 +105,7 @@ fn faults_of_overrides_name_them() {
         (
             ("contour", "off"),
             "a scene has no key \"contour\"\n  at --set contour=off, key contour\n  write \"contours\"; the keys here are \
-             drypoint, preset, light, volume, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, stipples, hatching, outlines, surface",
+             drypoint, preset, light, volume, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, halo, stipples, hatching, outlines, surface",
         ),
         (
             ("contours.thicknes", "off"),

@@ -1,9 +1,10 @@
 //! Rules of `[contours]`: needs, keys without effect, knobs.
 
+use super::halo::halos_in_effect;
 use super::{Ladder, Rules};
 use crate::picture::LayerKind;
 use crate::quantity::Quantity;
-use crate::tables::{Kappa, NormalSide, Scene, TransferKind};
+use crate::tables::{Kappa, NormalSide, Scene, SeedBy, TransferKind};
 
 /// The rules of `[contours]`.
 pub(super) const RULES: Rules = Rules {
@@ -24,8 +25,10 @@ pub(super) const RULES: Rules = Rules {
             let layers = &scene.picture.layers;
             let shown = layers.contains(&LayerKind::Curvature) || layers.contains(&LayerKind::CurvatureAlongView);
             let why = "contours act on styles, and the function is regular";
-            if shown {
-                idle.key("contours", &format!("{why}; only a layer reads its kappa"));
+            let seeds = halos_in_effect(scene).any(|(_, halo)| halo.seed.by == SeedBy::Curvature);
+            if shown || seeds {
+                let who = if shown { "a layer reads" } else { "halos read" };
+                idle.key("contours", &format!("{why}; only {who} its kappa"));
             } else {
                 idle.key("contours", why);
             }

@@ -2,6 +2,7 @@
 
 mod camera;
 mod contours;
+mod halo;
 mod hatching;
 mod outlines;
 mod pen;
@@ -15,6 +16,8 @@ mod styles;
 mod surface;
 mod transfer;
 mod volume;
+
+pub(crate) use halo::halos_in_effect;
 
 use super::{Asks, At, Idle, Ladder, Pass, Plan, Settings};
 use crate::tables::Scene;
@@ -43,7 +46,7 @@ impl Rules {
 }
 
 /// The rules of all tables that ask something, in the order of the file.
-static ALL: [Rules; 15] = [
+static ALL: [Rules; 16] = [
     scene::RULES,
     volume::RULES,
     camera::RULES,
@@ -55,6 +58,7 @@ static ALL: [Rules; 15] = [
     shading::RULES,
     contours::RULES,
     style_mipmaps::RULES,
+    halo::RULES,
     stipples::RULES,
     hatching::RULES,
     outlines::RULES,

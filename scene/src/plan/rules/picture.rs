@@ -1,7 +1,9 @@
 //! Rules of `[picture]`: needs, keys without effect, knobs.
 
+use super::halo::{halos_in_effect, is_in_millimetres};
 use super::{Ladder, Pass, Rules};
 use crate::picture::LayerKind;
+use crate::plan::Samples;
 use crate::quantity::Quantity;
 use crate::tables::contours::{Measured, measured_curvature};
 
@@ -18,16 +20,18 @@ pub(super) const RULES: Rules = Rules {
                 Measured::Exact => Quantity::Hessian,
                 Measured::AlongRay => Quantity::PreviousNormal,
             };
-            let (needs, first_only): (&[Quantity], bool) = match layer {
+            let (needs, samples): (&[Quantity], Samples) = match layer {
                 LayerKind::Beauty | LayerKind::Z | LayerKind::Depth | LayerKind::First | LayerKind::Counts => continue,
-                LayerKind::Normal | LayerKind::Gradient => (&[Quantity::Gradient], false),
-                LayerKind::Curvature => (&[Quantity::Hessian, along_view], false),
-                LayerKind::CurvatureAlongView => (&[along_view], false),
-                LayerKind::FirstNormal => (&[Quantity::Gradient], true),
-                LayerKind::FirstCurvature => (&[Quantity::Hessian, along_view], true),
-                LayerKind::FirstCurvatureAlongView => (&[along_view], true),
+                // The rules of halos ask for what it needs.
+                LayerKind::Halo(_) => continue,
+                LayerKind::Normal | LayerKind::Gradient => (&[Quantity::Gradient], Samples::Visible),
+                LayerKind::Curvature => (&[Quantity::Hessian, along_view], Samples::Visible),
+                LayerKind::CurvatureAlongView => (&[along_view], Samples::Visible),
+                LayerKind::FirstNormal => (&[Quantity::Gradient], Samples::First),
+                LayerKind::FirstCurvature => (&[Quantity::Hessian, along_view], Samples::First),
+                LayerKind::FirstCurvatureAlongView => (&[along_view], Samples::First),
             };
-            needs.iter().for_each(|&quantity| asks.need_where(quantity, first_only, &effect, &key));
+            needs.iter().for_each(|&quantity| asks.need_at(quantity, samples, &effect, &key));
         }
     },
     idle: |scene, plan, idle| {
@@ -36,7 +40,8 @@ pub(super) const RULES: Rules = Rules {
                 idle.key(key, "the volume itself is not drawn");
             }
         }
-        if !idle.says("picture.width") && !scene.has_marks() {
+        let halos_in_millimetres = halos_in_effect(scene).any(|(_, halo)| is_in_millimetres(halo));
+        if !idle.says("picture.width") && !scene.has_marks() && !halos_in_millimetres {
             idle.key("picture.dpi", "nothing is in mm: size is in pixels");
         }
     },

@@ -51,8 +51,8 @@ pub(super) const RULES: Rules = Rules {
         if !(lines || draws && plan.reads_gradients()) {
             idle.key("sampling.gradient", if draws { "nothing needs a gradient" } else { NOT_DRAWN });
         }
-        if draws && !plan.reads_gradients() {
-            idle.key("sampling.normal", "nothing needs a normal");
+        if draws && !plan.shows_gradients() && !plan.needs_at_seeds(Quantity::PreviousNormal) {
+            idle.key("sampling.normal", "nothing needs a normal of that side");
         }
         if !reads_hessians(scene, plan) {
             let why = match (hatches, draws) {
@@ -120,7 +120,7 @@ fn gradients(scene: &Scene, plan: &Plan) -> Settings {
 
 /// Whether anything reads a Hessian: a ray, or strokes by the paper's rule.
 fn reads_hessians(scene: &Scene, plan: &Plan) -> bool {
-    (plan.has_pass(Pass::Rays) && plan.needs_at_first(Quantity::Hessian))
+    (plan.has_pass(Pass::Rays) && plan.needs_anywhere(Quantity::Hessian))
         || strokes_read_hessians(scene, plan.has_pass(Pass::Strokes))
 }
 

@@ -13,6 +13,7 @@ pub(super) const RULES: Rules = Rules {
             (scene.hatching.is_some(), "hatching"),
             (scene.outlines.is_some(), "outlines"),
             (scene.shading.is_some(), "shading"),
+            (!scene.halos.is_empty(), "halo"),
             (scene.surface.is_some(), "surface"),
         ];
         if !supplied.iter().any(|(is_there, table)| *is_there && !idle.says(table)) {

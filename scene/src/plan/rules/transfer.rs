@@ -59,23 +59,33 @@ fn tables(scene: &Scene, plan: &Plan) -> Settings {
 fn axis(axis: &Axis, scene: &Scene, unit: Unit, asks: &mut Asks) {
     let key = "transfer.over";
     let effect = format!("function over {}", axis.name());
-    let mut need = |quantity| asks.need(quantity, &effect, key);
-    match axis {
-        // Every transfer function needs it.
-        Axis::Value => {}
-        Axis::GradientMagnitude if unit == Unit::Normalized => need(Quantity::GradientMagnitudeRange),
-        Axis::GradientMagnitude => need(Quantity::Gradient),
-        Axis::Label => need(Quantity::Label),
-        Axis::K1 | Axis::K2 | Axis::Mean | Axis::Gaussian => need(Quantity::Hessian),
-        Axis::AlongView => need(match measured_curvature(scene) {
-            Measured::AlongRay => Quantity::PreviousNormal,
-            Measured::Exact => Quantity::Hessian,
-        }),
-        Axis::Distance(_) => need(Quantity::Distance),
-        Axis::DistanceToLabel(_) => {
-            need(Quantity::LabelDistance);
-            asks.pass(Pass::LabelDistances, &effect, key);
-        }
-        Axis::Volume(_) => need(Quantity::FurtherVolume),
+    if let Some(quantity) = quantity(axis, scene, unit) {
+        asks.need(quantity, &effect, key);
+    }
+    if let Axis::DistanceToLabel(_) = axis {
+        asks.pass(Pass::LabelDistances, &effect, key);
+    }
+}
+
+/// The quantity of samples that an axis measures; none for the value, which every transfer function needs.
+pub(super) fn quantity(axis: &Axis, scene: &Scene, unit: Unit) -> Option<Quantity> {
+    Some(match axis {
+        Axis::Value => return None,
+        Axis::GradientMagnitude if unit == Unit::Normalized => Quantity::GradientMagnitudeRange,
+        Axis::GradientMagnitude => Quantity::Gradient,
+        Axis::Label => Quantity::Label,
+        Axis::K1 | Axis::K2 | Axis::Mean | Axis::Gaussian => Quantity::Hessian,
+        Axis::AlongView => along_view(scene),
+        Axis::Distance(_) => Quantity::Distance,
+        Axis::DistanceToLabel(_) => Quantity::LabelDistance,
+        Axis::Volume(_) => Quantity::FurtherVolume,
+    })
+}
+
+/// The quantity that κ_v is made of.
+pub(super) fn along_view(scene: &Scene) -> Quantity {
+    match measured_curvature(scene) {
+        Measured::AlongRay => Quantity::PreviousNormal,
+        Measured::Exact => Quantity::Hessian,
     }
 }

@@ -1,5 +1,6 @@
 //! Rules of `[volume]`: needs, keys without effect, knobs.
 
+use super::halo::halos_in_effect;
 use super::{Pass, Rules};
 use crate::quantity::Quantity;
 use crate::tables::{GradientRange, NormalSide, Unit, VolumeSource};
@@ -32,11 +33,16 @@ pub(super) const RULES: Rules = Rules {
                 idle.key(key, why);
             }
         }
-        if !stippled && !plan.needs(Quantity::GradientMagnitudeRange) {
+        if !stippled && !plan.needs_anywhere(Quantity::GradientMagnitudeRange) {
             idle.key("volume.gradient_range", "nothing reads |g|");
         }
         let turned = scene.sampling.normal == NormalSide::Outward || plan.needs_at_first(Quantity::Hessian);
-        if !(stippled || scene.has_strokes() || turned && plan.reads_gradients()) {
+        // Seeds have |n·v|, whatever the side of the normal, except by a direction, a signed κ or the inside of a surface.
+        let halos = || plan.has_pass(Pass::HaloSeeds).then(|| halos_in_effect(scene)).into_iter().flatten();
+        let seeds = plan.needs_at_seeds(Quantity::Hessian)
+            || halos().any(|(_, halo)| halo.seed.direction.is_some())
+            || scene.transfer.is_none() && halos().any(|(_, halo)| halo.seed.is_by_opacity());
+        if !(stippled || scene.has_strokes() || turned && plan.shows_gradients() || seeds) {
             idle.key("volume.outside", "nothing reads an outward normal or a signed curvature");
         }
     },

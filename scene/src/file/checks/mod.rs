@@ -1,5 +1,7 @@
 //! Checks that need several tables of a scene.
 
+mod halos;
+
 use crate::document::Problem;
 use crate::document::check::Check;
 use crate::nearest::nearest;
@@ -12,6 +14,7 @@ pub(super) fn check(scene: &Scene, check: &mut Check) {
     pens(&scene.pens, check);
     labels(scene, check);
     colors(scene, check);
+    halos::check(scene, check);
 }
 
 /// Every style that a node names must be one that the theme or a file provides. A folder of pictures that cannot be
@@ -51,33 +54,36 @@ fn labels(scene: &Scene, check: &mut Check) {
     if !check.sound(&["transfer.over", "volume"]) {
         return;
     }
-    let mut lacks = |key: &str, what: String, remedy: &str| {
-        check.fault_in(key, Problem::Contradiction { what, remedy: remedy.into() });
-    };
     if scene.volume.labels.is_none() {
         if let Some(axis) = transfer.over.axes().iter().find(|axis| axis.reads_labels()) {
             let what = format!("the function is over {:?}, and the scene has no labels", axis.name());
-            lacks("transfer.over", what, "add the label volume: volume.labels = \"…\"");
+            let remedy = "add the label volume: volume.labels = \"…\"".into();
+            check.fault_in("transfer.over", Problem::Contradiction { what, remedy });
         }
         return;
     }
     if scene.volume.label_names.is_some() {
         return;
     }
-    let remedy = "write an id, or add the table of names: volume.label_names = \"…\"";
-    let without = |name: &str| format!("{name:?} is the name of a label, and the scene has no names of them");
     for axis in transfer.over.axes() {
         if let Axis::DistanceToLabel(LabelKey::Name(name)) = axis {
-            lacks("transfer.over", without(name), remedy);
+            check.fault_in("transfer.over", no_label_names(name));
         }
     }
     for (i, row) in transfer.rows.iter().flatten().enumerate() {
         for at in row.at.each() {
             if let Stand::Name(name) = at {
-                lacks(&format!("transfer.rows[{i}].at"), without(name), remedy);
+                check.fault_in(&format!("transfer.rows[{i}].at"), no_label_names(name));
             }
         }
     }
+}
+
+/// The fault of a label's name in a scene without a table of names.
+fn no_label_names(name: &str) -> Problem {
+    let what = format!("{name:?} is the name of a label, and the scene has no names of them");
+    let remedy = "write an id, or add the table of names: volume.label_names = \"…\"".into();
+    Problem::Contradiction { what, remedy }
 }
 
 /// Colours are borrowed from `[transfer]`, and a dot has its value and its label, no other quantity.

@@ -1,0 +1,96 @@
+//! `profile` of a halo: colour and opacity over the intensity ([HALO-6]).
+
+use crate::document::Problem;
+use crate::document::check::Check;
+use crate::document::declare::keys;
+use crate::document::describe::{Kind, Section, Shape, Table};
+use crate::document::item::Item;
+use crate::document::kind::{Bounds, Colors, ListOf, Number, TableOf};
+use crate::document::out::Out;
+use serde::Serialize;
+use serde_json::Value as Json;
+
+/// A node of a halo's profile.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ProfileNode {
+    /// The intensity H, in [0, 1].
+    pub at: f64,
+    /// Linear straight colour.
+    pub rgb: [f64; 3],
+    /// Opacity: per reference length if emissive, else a weight of mixing.
+    pub opacity: f64,
+}
+
+/// A number from 0 to 1.
+const UNIT: Number = Number { bounds: Bounds::UNIT, unit: "" };
+
+/// The description of a node. A colour's opacity multiplies `opacity`, so `color` is read after it.
+static NODE: Table<ProfileNode> = Table::new(
+    "a node of a profile",
+    "Colour and opacity of a halo at one intensity.",
+    || ProfileNode { at: 0.0, rgb: [0.0; 3], opacity: 1.0 },
+    keys! { ProfileNode {
+        /// The intensity, from 0 to 1.
+        at: key("HALO-6", UNIT).required();
+        /// Opacity: of an emissive halo for a `sampling.reference_length`, of an occlusive one the share of the halo's
+        /// colour in what it tints.
+        opacity: key("HALO-6", UNIT);
+        /// The colour. Its own opacity multiplies `opacity`.
+        color: key("VAL-3", Colors,
+            |n| { let [r, g, b] = n.rgb; Some([r, g, b, 1.0]) },
+            |n, [r, g, b, a]| {
+                n.rgb = [r, g, b];
+                n.opacity *= a;
+            }).required();
+    } },
+);
+
+/// Nodes in non-decreasing order of `at`.
+pub(super) struct Profile;
+
+/// The nodes, whatever their order.
+const NODES: ListOf<TableOf<ProfileNode>> = ListOf { what: "a list of nodes", each: TableOf(&NODE) };
+
+impl Shape for Profile {
+    fn expected(&self) -> String {
+        NODES.expected()
+    }
+
+    fn schema(&self) -> Json {
+        NODES.schema()
+    }
+
+    fn item_section(&self) -> Option<Section> {
+        NODES.item_section()
+    }
+}
+
+impl Kind for Profile {
+    type Of = Vec<ProfileNode>;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Vec<ProfileNode>> {
+        in_order(NODES.read(item, check)?, check)
+    }
+
+    fn read_over(&self, item: &Item, supplied: Vec<ProfileNode>, check: &mut Check) -> Option<Vec<ProfileNode>> {
+        in_order(NODES.read_over(item, supplied, check)?, check)
+    }
+
+    fn write(&self, value: &Vec<ProfileNode>) -> Out {
+        NODES.write(value)
+    }
+}
+
+/// The nodes, if they are in order.
+fn in_order(nodes: Vec<ProfileNode>, check: &mut Check) -> Option<Vec<ProfileNode>> {
+    match nodes.windows(2).position(|pair| pair[1].at < pair[0].at) {
+        None => Some(nodes),
+        Some(i) => {
+            let [before, after] = [nodes[i].at, nodes[i + 1].at];
+            let what = format!("node {} at {after} stands after node {i} at {before}", i + 1);
+            let remedy = "put the nodes in non-decreasing order of `at`".into();
+            check.fault_in_list(&format!("[{}].at", i + 1), Problem::Contradiction { what, remedy });
+            None
+        }
+    }
+}
