@@ -7,10 +7,16 @@ use drypoint_reference::ray::{Picked, Renderer};
 use drypoint_scene::tables::VolumeTable;
 use drypoint_scene::volume::labels::LabelNames;
 
+/// Returns the point of the picture, in pixels from the top left corner, that a pixel stands for. Pixels are numbered
+/// from 0, and whole numbers mean centres: pixel [0, 0] is the point [½, ½].
+pub(crate) fn point_of_pixel(pixel: [f64; 2]) -> [f64; 2] {
+    pixel.map(|n| n + 0.5)
+}
+
 /// Returns the first visible structure at the centre of a pixel, column x from the left and row y from the top. Returns
 /// none if nothing is seen there, or if the pixel is outside the picture.
 pub fn pick_pixel(renderer: &Renderer<'_>, [x, y]: [usize; 2]) -> Option<Picked> {
-    renderer.pick([x as f64 + 0.5, y as f64 + 0.5])
+    renderer.pick(point_of_pixel([x as f64, y as f64]))
 }
 
 /// Checks that a pixel lies in the picture of a size. `place` names the pixel in the failure.

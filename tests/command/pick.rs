@@ -130,3 +130,33 @@ fn wrong_pixels_are_refused() {
     let marks = "pick ball.toml --pixel 1,2 --set transfer=off --set outlines.iso=1";
     assert!(folder.refused(marks).starts_with("error: the volume itself is not drawn\n"));
 }
+
+/// `seed.focus.pixels` of a halo means the places that `pick` tells, whatever the halo looks like.
+#[test]
+fn a_focus_in_pixels_is_picked() {
+    let folder = ball();
+    let halo = |pixels: &str| {
+        let rest = "profile = [{ at = 1, color = \"#000000\" }]\nseed.focus = { pixels = ";
+        folder.write("halo.toml", format!("{BALL}[[halo]]\n{rest}{pixels}, inner = 2 }}\n"));
+    };
+    halo("[[15, 15], [20, 12]]");
+    let written = folder.good("-q plan halo.toml --full");
+    let places = picked(&folder, "ball.toml --pixel 15,15 --pixel 20,12");
+    let points = [0, 1].map(|i| three(&places[i]["world"]).map(|c| c.to_string()).join(", "));
+    assert!(written.contains(&format!("at = [[{}], [{}]]", points[0], points[1])), "{written}\n{points:?}");
+    assert!(!written.contains("pixels = "), "{written}");
+    // A halo that shows nothing picks nothing, and its pixels stay.
+    let hidden = folder.good("-q plan halo.toml --full --set halo[0].opacity=0");
+    assert!(hidden.contains("pixels = [[15, 15], [20, 12]]"), "{hidden}");
+
+    halo("[[0, 31], [15, 15], [32, 3]]");
+    let at = "  at: halo.toml:17:16, key halo[0].seed.focus.pixels\n  try: give a pixel that shows the volume; `drypoint pick` tells \
+              what is seen at one\n";
+    assert_eq!(
+        folder.refused("plan halo.toml --full"),
+        format!(
+            "error: nothing is seen at the pixel [0, 31], so it gives the halo no focus\n{at}error: the pixel [32, 3] lies \
+             outside the picture of 32 × 32 pixels\n{at}"
+        )
+    );
+}
