@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod focus;
 mod iso;
 mod load;
 mod room;
@@ -60,7 +61,8 @@ use std::sync::Arc;
 
 /// A scene with everything that it names.
 pub struct Job {
-    /// The scene. A transfer function without nodes has those suggested from the data.
+    /// The scene. A transfer function without nodes has those suggested from the data, and foci of halos are points of the
+    /// world.
     pub scene: Scene,
     /// The plan of the scene as given.
     pub plan: Plan,
@@ -222,7 +224,9 @@ impl Job {
             return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
         }
         let (function, labels) = (function.map(Arc::new), labels.volume);
-        Ok(Self { scene, plan, volume, counts, target, view, function, labels, further, styles, background })
+        let mut job = Self { scene, plan, volume, counts, target, view, function, labels, further, styles, background };
+        job.pick_foci()?;
+        Ok(job)
     }
 
     /// Whether the volume itself is drawn, by rays.

@@ -11,6 +11,7 @@
 //! | everything that it names | [`job::Job::load`], [`job::Job::with_volume`] |
 //! | a picture, and what it took | [`job::Job::renderer`], then [`reference::ray::Renderer::frame`] |
 //! | a file | [`job::Job::write`] |
+//! | the place that is seen at a pixel | [`picking::pick_pixel`] |
 //! | points and lines, and frames of all of it | [`marking::Marking`], [`drawing::Drawing`] |
 //! | what its accuracy costs | [`cost::sweep`] |
 //!
@@ -23,6 +24,7 @@ pub mod format;
 pub mod job;
 pub mod labels;
 pub mod marking;
+pub mod picking;
 pub mod stippling;
 pub mod stroking;
 pub mod tone_plot;

@@ -15,7 +15,7 @@ pub use ladder::Limit;
 pub(crate) use ladder::{Ladder, Settings};
 pub use need::{IdleKey, Need, PassNeed, Plan, PointsPlan, Samples};
 pub use pass::Pass;
-pub(crate) use rules::halos_in_effect;
+pub use rules::halos_in_effect;
 
 use crate::tables::{GradientEstimator, Kernel, Scene};
 use asks::Drawn;

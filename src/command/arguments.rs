@@ -1,4 +1,4 @@
-//! The command line around `clap`: the default verb, unbuilt verbs, points that begin with a minus, and usage errors in
+//! The command line around `clap`: the default verb, unbuilt verbs, points and pixels that begin with a minus, and usage errors in
 //! three lines.
 
 use super::Cli;
@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 /// Verbs of the specification that this version lacks, with their tags.
-const LATER: &[(&str, &str)] = &[("validate", "GPU-1"), ("pick", "HALO-12"), ("paint", "VS-6"), ("halo", "HALO-4")];
+const LATER: &[(&str, &str)] = &[("validate", "GPU-1"), ("paint", "VS-6"), ("halo", "HALO-4")];
 
 /// The verb of a command line that names none.
 const DEFAULT: &str = "render";
@@ -39,7 +39,7 @@ impl Arguments {
         }
         let own = ["help", "-h", "--help", "-V", "--version"].contains(&&*first);
         if own || Cli::command().find_subcommand(&first).is_some() || is_word(&first) {
-            if first == "probe" {
+            if first == "probe" || first == "pick" {
                 protect_points(&mut words[at..]);
             }
             return Ok(Self { words, verb: first });
@@ -74,7 +74,7 @@ fn is_word(first: &str) -> bool {
     !first.is_empty() && first.bytes().all(|b| b.is_ascii_alphabetic()) && !Path::new(first).exists()
 }
 
-/// Protects points that begin with a minus, which `clap` takes for an option. A leading blank does not change a number.
+/// Protects points and pixels that begin with a minus, which `clap` takes for an option. A leading blank does not change a number.
 fn protect_points(words: &mut [OsString]) {
     for word in words {
         let text = word.to_str().unwrap_or_default();
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn what_is_not_built_says_so() {
-        for line in ["drypoint validate a.toml", "drypoint -q pick"] {
+        for line in ["drypoint validate a.toml", "drypoint -q paint"] {
             let failure = Arguments::new(line.split(' ').map(OsString::from)).err().unwrap();
             assert!(failure.what.contains("is not built yet (["), "{failure}");
         }

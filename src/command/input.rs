@@ -254,6 +254,18 @@ fn suggested(
     Ok(scene)
 }
 
+/// Returns the flag of `--size`, such as `800x600`.
+pub(super) fn size_flag(size: &str) -> Result<KeyFlag, Failure> {
+    let typed = format!("--size {size}");
+    let number = |n: &str| n.parse::<u64>().ok();
+    let pixels = size.split_once('x').and_then(|(width, height)| Some([number(width)?, number(height)?]));
+    let [width, height] = pixels.ok_or_else(|| {
+        let remedy = "write width and height in pixels, such as 800x600";
+        Failure::new(format!("{size:?} is no size"), &typed, remedy)
+    })?;
+    Ok(KeyFlag { key: "picture.size", value: format!("[{width}, {height}]"), typed })
+}
+
 /// Returns the flags of `--preset`. A bare volume drawn as dots or outlines alone gets a page, unless a size is given.
 pub(super) fn preset_flags(preset: &str, input: Option<&Path>, set: &SetArgs, has_size: bool) -> Vec<KeyFlag> {
     let is_bare = input.is_some_and(|input| !is_scene(input));

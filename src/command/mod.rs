@@ -12,6 +12,7 @@ mod limits;
 mod output_path;
 mod page;
 mod phantom;
+mod pick;
 mod plan;
 mod points;
 mod probe;
@@ -67,6 +68,8 @@ enum Verb {
     Info(info::InfoArgs),
     /// Print value, derivatives and curvature at points
     Probe(probe::ProbeArgs),
+    /// Say what is seen at a pixel, and where it is in the volume
+    Pick(pick::PickArgs),
     /// Write a phantom with known truth as a volume
     Phantom(phantom::PhantomArgs),
     /// Say what a scene calls for, and why
@@ -146,6 +149,7 @@ impl Cli {
             Verb::Render(verb) => verb.run(talk),
             Verb::Info(verb) => verb.run(talk),
             Verb::Probe(verb) => verb.run(talk),
+            Verb::Pick(verb) => verb.run(talk),
             Verb::Phantom(verb) => verb.run(talk),
             Verb::Plan(verb) => verb.run(talk),
             Verb::Points(verb) => verb.run(talk),

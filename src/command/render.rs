@@ -82,15 +82,7 @@ impl RenderArgs {
     fn flags(&self) -> Result<Vec<KeyFlag>, Failure> {
         let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
         if let Some(size) = &self.size {
-            let typed = format!("--size {size}");
-            let [w, h] = pixels(size).ok_or_else(|| {
-                Failure::new(
-                    format!("{size:?} is no size"),
-                    &typed,
-                    "write width and height in pixels, such as 800x600",
-                )
-            })?;
-            flags.push(KeyFlag { key: "picture.size", value: format!("[{w}, {h}]"), typed });
+            flags.push(input::size_flag(size)?);
         }
         if let Some(preset) = &self.preset {
             flags.extend(input::preset_flags(preset, self.input.as_deref(), &self.set, self.size.is_some()));
@@ -101,10 +93,4 @@ impl RenderArgs {
         }
         Ok(flags)
     }
-}
-
-/// Parses width and height of `800x600`.
-fn pixels(size: &str) -> Option<[u64; 2]> {
-    let (w, h) = size.split_once('x')?;
-    Some([w.parse().ok()?, h.parse().ok()?])
 }

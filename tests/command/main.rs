@@ -14,6 +14,7 @@ mod interrupt;
 mod output;
 mod overrides;
 mod phantom;
+mod pick;
 mod plan;
 mod points;
 mod probe;

@@ -12,6 +12,7 @@ mod marks;
 mod orbit;
 mod order;
 mod over_two;
+mod picking;
 mod planes;
 mod scenes;
 mod skipping;

@@ -234,6 +234,11 @@ impl<'v, R: Real> Field<'v, R> {
         }
     }
 
+    /// Whether samplers give gradients. All do, except by a `regression` that was not prepared for.
+    pub(crate) fn has_gradient(&self) -> bool {
+        self.how.gradient != GradientEstimator::Regression || self.regression.is_some()
+    }
+
     /// [`Sampler::has_one_gradient`].
     #[inline(always)]
     pub(crate) fn has_one_gradient(&self) -> bool {

@@ -9,6 +9,7 @@ mod lanes;
 pub mod lattice;
 mod merged;
 pub mod opacity;
+mod pick;
 mod prepare;
 mod prepared;
 mod prepared_halos;
@@ -18,4 +19,5 @@ mod sample;
 mod tile_work;
 
 pub use inputs::{Backdrop, Inputs, RenderError};
+pub use pick::{Picked, VISIBLE};
 pub use render::Renderer;

@@ -6,10 +6,12 @@ use super::inputs::{Backdrop, Inputs, RenderError};
 use super::lanes;
 use super::lattice::samples_in;
 use super::merged;
+use super::pick::{Picked, pick};
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
 use super::tile_work::TileWork;
 use crate::field::{Exact, Sampler};
+use crate::labels::Labels;
 use crate::number::Real;
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
@@ -30,6 +32,8 @@ const BAND: usize = 1 << 20;
 pub struct Renderer<'a> {
     ready: Ready<'a>,
     background: Backdrop<'a>,
+    /// The labels at the volume's positions, for picking; none if there are none.
+    labels: Option<Labels<'a>>,
     counts: Counts,
     tile: usize,
     band: usize,
@@ -66,7 +70,7 @@ impl<'a> Renderer<'a> {
             Number::F64 => Ready::F64(Box::new(prepare(shot, &inputs, &mut counts)?)),
             Number::F32 => Ready::F32(Box::new(prepare(shot, &inputs, &mut counts)?)),
         };
-        Ok(Self::of(ready, &inputs, counts, start))
+        Ok(Self::of(ready, shot, &inputs, counts, start))
     }
 
     /// Prepares the picture that reconstructions converge to: of a phantom's own formula and its derivatives in place of
@@ -90,10 +94,10 @@ impl<'a> Renderer<'a> {
         if let Some(range) = object.gradient_range {
             prepared.object.gradient_range = Some(gradient_range(&exact, field, range, object, &mut counts));
         }
-        Ok(Self::of(Ready::Exact(Box::new(prepared), phantom), &inputs, counts, start))
+        Ok(Self::of(Ready::Exact(Box::new(prepared), phantom), shot, &inputs, counts, start))
     }
 
-    fn of(ready: Ready<'a>, inputs: &Inputs<'a>, mut counts: Counts, start: Instant) -> Self {
+    fn of(ready: Ready<'a>, shot: &Shot, inputs: &Inputs<'a>, mut counts: Counts, start: Instant) -> Self {
         counts.bytes.insert("volume".into(), inputs.volume.voxels().bytes() as u64);
         if let Some(mask) = inputs.volume.mask() {
             counts.bytes.insert("mask".into(), mask.bytes() as u64);
@@ -103,7 +107,10 @@ impl<'a> Renderer<'a> {
             Ready::F64(p) if p.halos.is_none() && lanes::serve(p) => Order::Lanes,
             _ => Order::Rays,
         };
-        Self { ready, background: inputs.background, counts, tile: TILE, band: BAND, order }
+        let ([object], volume) = (&shot.objects, inputs.volume);
+        let labels =
+            inputs.labels.map(|labels| Labels::new(labels, volume.grid(), volume.anatomy(), object.label_lookup));
+        Self { ready, background: inputs.background, labels, counts, tile: TILE, band: BAND, order }
     }
 
     /// Sets the side of tiles, from 1 to 1024 pixels. It shows nowhere ([RAY-3]).
@@ -180,15 +187,27 @@ impl<'a> Renderer<'a> {
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
             Ready::F32(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
-            Ready::Exact(p, phantom) => {
-                let exact = Exact::new(*phantom, p.object.volume.grid(), p.object.field.scale_exponent());
-                self.draw(p, &exact, progress)
-            }
+            Ready::Exact(p, phantom) => self.draw(p, &exact_sampler(p, *phantom), progress),
         };
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
         let channels: usize = picture.layers.iter().map(|l| l.channels.len()).sum();
         counts.bytes.insert("picture".into(), (channels * picture.width * picture.height * 8) as u64);
         (picture, counts)
+    }
+
+    /// Picks the first visible structure on the ray through a point of the picture, in pixels from the top left corner. The
+    /// centre of pixel (i, j) is (i + ½, j + ½).
+    ///
+    /// It is the first sample at which the accumulated opacity reaches [`VISIBLE`](super::VISIBLE), so haze and noise in front
+    /// are passed over. If the ray stays below, it is the sample with the largest weight. The iso-surface counts as a sample
+    /// at its own depth; lines inside the picture are passed over. Returns none where nothing is seen and outside the picture.
+    pub fn pick(&self, point: [f64; 2]) -> Option<Picked> {
+        let labels = self.labels.as_ref();
+        match &self.ready {
+            Ready::F64(p) => with_sampler!(p.object.field, |s| pick(p, s, labels, point)),
+            Ready::F32(p) => with_sampler!(p.object.field, |s| pick(p, s, labels, point)),
+            Ready::Exact(p, phantom) => pick(p, &exact_sampler(p, *phantom), labels, point),
+        }
     }
 
     /// Casts the rays of a frame in the renderer's order.
@@ -222,4 +241,10 @@ impl<'a> Renderer<'a> {
             })),
         }
     }
+}
+
+/// The sampler of a phantom's own formula.
+fn exact_sampler<'a>(prepared: &'a Prepared<'_, f64>, phantom: &'a dyn Phantom) -> Exact<'a> {
+    let object = &prepared.object;
+    Exact::new(phantom, object.volume.grid(), object.field.scale_exponent())
 }

@@ -112,7 +112,7 @@ impl fmt::Display for Info {
 }
 
 /// Six significant digits at the most, no zeros at the end.
-fn short(number: f64) -> String {
+pub fn short(number: f64) -> String {
     let magnitude = number.abs();
     if magnitude != 0.0 && !(1e-4..1e9).contains(&magnitude) {
         return format!("{number:.5e}");

@@ -14,3 +14,5 @@ mod waiting_tile;
 
 pub(super) use cast::Cast;
 pub(super) use layers::{Sums, pooled};
+pub(super) use path::Step;
+pub(super) use ray_state::RayState;

@@ -18,6 +18,12 @@ pub(crate) enum Step<'l> {
 }
 
 impl Step<'_> {
+    /// Splits the step into steps of one sample each.
+    pub(crate) fn one_by_one(self) -> impl Iterator<Item = Self> {
+        let planes = if let Self::Samples([first, last]) = self { first..=last } else { self.plane()..=self.plane() };
+        planes.map(move |k| if let Self::Samples(_) = self { Self::Samples([k, k]) } else { self })
+    }
+
     /// The first sample plane that it belongs to.
     pub(crate) fn plane(&self) -> i64 {
         match *self {

@@ -8,6 +8,7 @@ use crate::ray::brick_occupancy::RayIntervals;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need, Needs};
 use crate::ray::tile_work::TileWork;
+use drypoint_scene::fragments::Fragment;
 
 /// Casts rays of a tile one by one.
 pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {
@@ -36,8 +37,17 @@ fn cast_with<N: Need, R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sample
 impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
     /// Appends the steps of the ray, which goes through a point of the picture.
     pub(crate) fn path(&self, point: [f64; 2], boxes: Option<&mut RayIntervals>, steps: &mut Vec<Step<'p>>) {
+        self.path_among(self.prepared.lines_at(point), boxes, steps);
+    }
+
+    /// Appends the steps of the ray among lines that lie on it.
+    pub(crate) fn path_among(
+        &self,
+        lines: &'p [Fragment],
+        boxes: Option<&mut RayIntervals>,
+        steps: &mut Vec<Step<'p>>,
+    ) {
         let (prepared, ray) = (self.prepared, &self.evaluator.ray);
-        let lines = prepared.lines_at(point);
         let Some(surface) = &prepared.surface else {
             return path::steps(ray, ray.visits(prepared.object.ends, ray.intervals(boxes)), lines, None, steps);
         };

@@ -149,9 +149,14 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.correction.apply(alpha)
     }
 
+    /// A.
+    pub(crate) fn opacity(&self) -> R {
+        self.front.accumulator.opacity
+    }
+
     /// Whether what lies behind would be seen.
     pub(crate) fn is_open(&self) -> bool {
-        self.front.accumulator.opacity < self.prepared.stop_at
+        self.opacity() < self.prepared.stop_at
     }
 
     /// Composites the iso-surface, of opacity 1, at its own depth.

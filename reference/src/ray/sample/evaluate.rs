@@ -184,7 +184,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
     }
 
     /// The index position at a depth, moved into the box where rounding leaves it.
-    fn inside(&self, depth: f64) -> Vec3<R> {
+    pub(crate) fn inside(&self, depth: f64) -> Vec3<R> {
         let (p, [lo, hi]) = (self.at(depth), self.object.ends);
         Vec3::new(p.x.max(lo.x).min(hi.x), p.y.max(lo.y).min(hi.y), p.z.max(lo.z).min(hi.z))
     }

@@ -47,7 +47,7 @@ pub(super) const RULES: Rules = Rules {
 };
 
 /// The halos that change the picture or are shown by a layer, with their places in the list.
-pub(crate) fn halos_in_effect(scene: &Scene) -> impl Iterator<Item = (usize, &Halo)> {
+pub fn halos_in_effect(scene: &Scene) -> impl Iterator<Item = (usize, &Halo)> {
     let is_seen = |halo: &Halo| halo.opacity > 0.0 && halo.profile.iter().any(|node| node.opacity > 0.0);
     let layers = &scene.picture.layers;
     scene.halos.iter().enumerate().filter(move |(i, halo)| is_seen(halo) || layers.contains(&LayerKind::Halo(*i)))

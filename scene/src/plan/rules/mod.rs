@@ -17,7 +17,7 @@ mod surface;
 mod transfer;
 mod volume;
 
-pub(crate) use halo::halos_in_effect;
+pub use halo::halos_in_effect;
 
 use super::{Asks, At, Idle, Ladder, Pass, Plan, Settings};
 use crate::tables::Scene;

@@ -23,7 +23,7 @@ pub struct HaloFocus {
 pub enum FocusPoints {
     /// In world space.
     World(Vec<DVec3>),
-    /// In pixels of the picture, x to the right and y down, each to be picked on the first surface behind it ([HALO-12]).
+    /// In pixels of the picture, column and row from 0, to be picked ([HALO-12]). A whole number is a pixel's centre.
     Pixels(Vec<[f64; 2]>),
 }
 
@@ -87,8 +87,8 @@ pub(super) static TABLE: Table<HaloFocus> = Table {
                 },
                 |f, v| f.points = FocusPoints::World(v.into_iter().map(DVec3::from_array).collect()))
                 .absent("`pixels`");
-            /// Points of the picture in place of `at`, from its upper left corner: each is the first visible place on the
-            /// ray through it.
+            /// Pixels of the picture in place of `at`: column and row from the upper left corner, from 0. A whole number is
+            /// the centre of a pixel. Each is the first visible place on its ray, as `drypoint pick` tells it.
             pixels: key("HALO-12", PIXELS,
                 |f| f.pixels().map(<[_]>::to_vec),
                 |f, v| f.points = FocusPoints::Pixels(v)).absent("`at`");

@@ -1,0 +1,126 @@
+//! Picking: the first visible structure on the ray through a point of the picture ([HALO-12]).
+
+use super::composite::{RayState, Step};
+use super::prepared::Prepared;
+use super::sample::need::Anything;
+use crate::field::Sampler;
+use crate::labels::Labels;
+use crate::number::{Real, Vec3};
+use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec3;
+
+/// The accumulated opacity from which something counts as a visible structure. Fainter haze and noise in front of it is
+/// passed over.
+pub const VISIBLE: f64 = 1.0 / 16.0;
+
+/// A place in the volume that was picked in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Picked {
+    /// The position in world space: that of the sample, or of the point on the iso-surface.
+    pub world: DVec3,
+    /// The position in the volume's index space.
+    pub index: DVec3,
+    /// Eye depth, as in the layers of depth.
+    pub depth: f64,
+    /// The value there; the iso-value on the iso-surface.
+    pub value: f64,
+    /// The normal that shades ([NORM-1]), of length 1, in world space. None where the gradient is negligible ([PREC-3]), and
+    /// for gradients by regression that nothing in the picture reads.
+    pub normal: Option<DVec3>,
+    /// A, the accumulated opacity, with this place included.
+    pub opacity: f64,
+    /// The label there; none if the renderer was given no labels.
+    pub label: Option<u32>,
+    /// Whether the place is on the opaque iso-surface.
+    pub on_surface: bool,
+}
+
+/// A candidate on a ray.
+#[derive(Clone, Copy)]
+enum Candidate {
+    /// Sample k.
+    Sample(i64),
+    /// The iso-surface at an eye depth.
+    Surface(f64),
+}
+
+impl Candidate {
+    /// The candidate that a step of one sample meets. Returns none for a line.
+    fn of(step: &Step<'_>) -> Option<Self> {
+        match *step {
+            Step::Samples([k, _]) | Step::Share { k, .. } => Some(Self::Sample(k)),
+            Step::Surface { depth, .. } => Some(Self::Surface(depth)),
+            Step::Line { .. } => None,
+        }
+    }
+}
+
+/// Picks the first visible structure on the ray through a point, in pixels from the top left corner.
+///
+/// That is the first sample at which the accumulated opacity A reaches [`VISIBLE`]. If the whole ray stays below, it is the
+/// sample with the largest weight, and of equal ones the first. The iso-surface is a sample at its own depth. Both rules
+/// converge to a place on the ray as the step becomes smaller.
+///
+/// Lines inside the picture are passed over. Returns none if the ray sees nothing, or if the point is outside the picture.
+pub(super) fn pick<R: Real, S: Sampler<R>>(
+    prepared: &Prepared<'_, R>,
+    sampler: &S,
+    labels: Option<&Labels<'_>>,
+    point: [f64; 2],
+) -> Option<Picked> {
+    let is_inside = |axis: usize| (0.0..=prepared.view.size[axis] as f64).contains(&point[axis]);
+    if !(is_inside(0) && is_inside(1)) {
+        return None;
+    }
+    let mut state = RayState::new(prepared, sampler, point);
+    let mut steps = Vec::new();
+    state.path_among(&[], None, &mut steps);
+    let mut counts = Counts::default();
+    // The heaviest candidate so far: its weight, and A after it.
+    let mut heaviest: Option<(Candidate, [f64; 2])> = None;
+    for step in steps.into_iter().flat_map(Step::one_by_one) {
+        let before = state.opacity().to_f64();
+        let is_open = state.take::<Anything>(&step, None, &mut counts);
+        let opacity = state.opacity().to_f64();
+        let weight = opacity - before;
+        if let Some(candidate) = Candidate::of(&step)
+            && weight > 0.0
+            && (opacity >= VISIBLE || heaviest.is_none_or(|(_, [most, _])| weight > most))
+        {
+            heaviest = Some((candidate, [weight, opacity]));
+        }
+        if !is_open || opacity >= VISIBLE {
+            break;
+        }
+    }
+    heaviest.map(|(candidate, [_, opacity])| state.picked(candidate, opacity, labels))
+}
+
+impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
+    /// Describes a candidate.
+    fn picked(&self, candidate: Candidate, opacity: f64, labels: Option<&Labels<'_>>) -> Picked {
+        let (object, evaluator) = (&self.prepared.object, &self.evaluator);
+        let (position, depth) = match candidate {
+            Candidate::Sample(k) => (evaluator.ray.position(k), evaluator.ray.depth(k).to_f64()),
+            Candidate::Surface(depth) => (evaluator.inside(depth), depth),
+        };
+        let at = evaluator.sampler.place(position);
+        let value = match (candidate, &self.prepared.surface) {
+            (Candidate::Surface(_), Some(surface)) => surface.roots.iso(),
+            _ => evaluator.sampler.value_at(at).to_f64(),
+        };
+        let gradient = object.field.has_gradient().then(|| evaluator.sampler.gradient_at(at));
+        let normal = gradient.and_then(|g| object.normal(g, evaluator.dirs.v));
+        let index = position.to_glam();
+        Picked {
+            world: object.volume.grid().to_world(index),
+            index,
+            depth,
+            value,
+            normal: normal.map(Vec3::to_glam),
+            opacity,
+            label: labels.map(|labels| labels.id_at(position)),
+            on_surface: matches!(candidate, Candidate::Surface(_)),
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The verb `pick`: what is seen at a pixel, and where it is in the volume.
+
+use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
+use super::raw::RawArgs;
+use super::report::{Progress, print, print_json};
+use super::{Outcome, Talk};
+use clap::Args;
+use drypoint::picking::{pick_pixel, pixel_inside};
+use drypoint::reference::ray::Picked;
+use drypoint::scene::glam::DVec3;
+use drypoint::scene::space::Grid;
+use drypoint::scene::volume::info::short;
+use drypoint::scene::volume::labels::LabelNames;
+use drypoint::{Failure, Failures};
+use serde_json::json;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Say what is seen at a pixel: position, value and label of the first visible structure on its ray.
+///
+/// A structure is visible where the opacity accumulated from the eye reaches 1/16, so haze and noise in front of it are
+/// passed over. If all is fainter, the sample that adds most to the pixel is told. Points and lines are passed over.
+/// Where nothing is seen, the text says so and --json has null; the exit code is 0 in either case. With [orbit] the
+/// picture is its first frame.
+#[derive(Debug, Args)]
+pub(super) struct PickArgs {
+    /// A scene or a volume; without either, the embedded scene
+    #[arg(value_name = "SCENE|VOLUME")]
+    input: Option<PathBuf>,
+    /// A pixel: its column from the left and its row from the top, both from 0. The ray goes through its centre. The option
+    /// can be given several times
+    #[arg(long = "pixel", value_name = "X,Y", required = true, value_parser = pixel)]
+    pixels: Vec<[i64; 2]>,
+    /// Print one JSON array: an object for each pixel, or null
+    #[arg(long)]
+    json: bool,
+    /// Pixels of the picture, as `render` takes them
+    #[arg(long, value_name = "WxH")]
+    size: Option<String>,
+    /// The preset of a bare volume, as `render` takes it
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    #[command(flatten)]
+    raw: RawArgs,
+    #[command(flatten)]
+    set: SetArgs,
+}
+
+impl PickArgs {
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        let mut over = SceneOverrides::new(&self.set, self.flags()?)?;
+        over.beauty_only = true;
+        let _working = Progress::new(talk, "picking");
+        let mut job = input::load(self.input.as_deref(), &over)?;
+        let size = job.scene.picture.size;
+        let inside: Vec<_> =
+            self.pixels.iter().map(|&[x, y]| pixel_inside([x, y], size, &format!("--pixel {x},{y}"))).collect();
+        Failures::check(inside.iter().filter_map(|pixel| pixel.as_ref().err().cloned()))?;
+        let names = job.load_labels()?;
+        let renderer = job.renderer()?;
+        let pixels = inside.into_iter().filter_map(Result::ok);
+        let picked: Vec<_> = pixels.map(|pixel| (pixel, pick_pixel(&renderer, pixel))).collect();
+        if self.json {
+            let of_pixel = |(pixel, picked): &([usize; 2], Option<Picked>)| picked.map(|p| object(*pixel, &p, &names));
+            let objects: Vec<_> = picked.iter().map(of_pixel).collect();
+            return print_json(serde_json::to_string_pretty(&objects));
+        }
+        print(&text(&picked, &names, job.volume.grid()))
+    }
+
+    /// Returns the flags that stand for scene keys.
+    fn flags(&self) -> Result<Vec<KeyFlag>, Failure> {
+        let mut flags: Vec<KeyFlag> = self.raw.flag().into_iter().collect();
+        if let Some(size) = &self.size {
+            flags.push(input::size_flag(size)?);
+        }
+        if let Some(preset) = &self.preset {
+            flags.extend(input::preset_flags(preset, self.input.as_deref(), &self.set, self.size.is_some()));
+        }
+        Ok(flags)
+    }
+}
+
+/// Parses a pixel: two whole numbers, separated by a comma.
+fn pixel(text: &str) -> Result<[i64; 2], &'static str> {
+    let whole = |text: &str| text.trim().parse().ok();
+    let pixel = text.split_once(',').and_then(|(x, y)| Some([whole(x)?, whole(y)?]));
+    pixel.ok_or("a pixel is two whole numbers, as X,Y")
+}
+
+/// Returns a picked place as JSON.
+fn object([x, y]: [usize; 2], picked: &Picked, names: &LabelNames) -> serde_json::Value {
+    let three = |v: DVec3| json!([v.x, v.y, v.z]);
+    let mut object = json!({
+        "pixel": [x, y],
+        "world": three(picked.world),
+        "index": three(picked.index),
+        "depth": picked.depth,
+        "value": picked.value,
+        "normal": picked.normal.map(three),
+        "opacity": picked.opacity,
+        "on_surface": picked.on_surface,
+    });
+    if let (Some(id), Some(object)) = (picked.label, object.as_object_mut()) {
+        object.insert("label".into(), json!(id));
+        object.insert("label_name".into(), json!(names.name(id)));
+    }
+    object
+}
+
+/// Returns picked places as text: a block for each pixel, then the line that focuses a halo on the places.
+fn text(picked: &[([usize; 2], Option<Picked>)], names: &LabelNames, grid: &Grid) -> String {
+    let mut text = String::new();
+    for ([x, y], picked) in picked {
+        match picked {
+            Some(picked) => text += &block([*x, *y], picked, names, grid.voxel()),
+            None => _ = writeln!(text, "pixel      {x},{y}: nothing is seen there"),
+        }
+        text.push('\n');
+    }
+    let places: Vec<String> =
+        picked.iter().filter_map(|(_, picked)| Some(toml(picked.as_ref()?.world, grid.voxel()))).collect();
+    if places.is_empty() {
+        text.pop();
+        return text;
+    }
+    // The halo is full within an eighth of the volume's radius, and gone at three eighths.
+    let [inner, falloff] = [8.0, 4.0].map(|part| rounded(grid.radius() / part));
+    let places = places.join(", ");
+    let _ = writeln!(text, "[[halo]]   seed.focus = {{ at = [{places}], inner = {inner}, falloff = {falloff} }}");
+    text
+}
+
+fn block([x, y]: [usize; 2], picked: &Picked, names: &LabelNames, voxel: f64) -> String {
+    let row = |v: DVec3, unit: f64| v.to_array().map(|x| coordinate(x, unit)).join("  ");
+    let normal = picked.normal.map_or("none".into(), |n| row(n, 1.0));
+    let surface = if picked.on_surface { ", on the iso-surface" } else { "" };
+    let mut text = format!(
+        "pixel      {x},{y}\nworld      {}\nindex      {}\nvalue      {}{surface}\neye depth  {}\nnormal     {normal}\n\
+         opacity    {} up to here\n",
+        row(picked.world, voxel),
+        row(picked.index, 1.0),
+        short(picked.value),
+        coordinate(picked.depth, voxel),
+        short(picked.opacity),
+    );
+    if let Some(id) = picked.label {
+        let name = names.name(id).map(|name| format!(", {name}")).unwrap_or_default();
+        let _ = writeln!(text, "label      {id}{name}");
+    }
+    text
+}
+
+/// Returns a position as an array of TOML.
+fn toml(v: DVec3, voxel: f64) -> String {
+    format!("[{}]", v.to_array().map(|x| coordinate(x, voxel)).join(", "))
+}
+
+/// Returns a coordinate with six digits if they tell a hundredth of a unit, else with all. A coordinate of less than
+/// 10⁻⁹ units is 0.
+fn coordinate(x: f64, unit: f64) -> String {
+    if x.abs() < 1e-9 * unit {
+        return "0".into();
+    }
+    let text = short(x);
+    let is_near = text.parse().is_ok_and(|near: f64| (near - x).abs() <= unit / 100.0);
+    if is_near { text } else { format!("{x:?}") }
+}
+
+/// Returns a length with two digits.
+fn rounded(length: f64) -> String {
+    format!("{length:.1e}").parse().map_or_else(|_| short(length), short)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_are_whole_numbers() {
+        assert_eq!((pixel("3,4"), pixel(" -1, 2")), (Ok([3, 4]), Ok([-1, 2])));
+        for wrong in ["3", "3.5,4", "3,4,5", "", "a,b", "99999999999999999999,0"] {
+            assert!(pixel(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn coordinates_tell_voxels_apart() {
+        assert_eq!((coordinate(12.25, 1.0), coordinate(1.0 / 3.0, 1.0)), ("12.25".into(), "0.333333".into()));
+        assert_eq!((coordinate(1e6 + 0.123, 1.0), coordinate(1e-7, 1e-7)), ("1000000.123".into(), "1.00000e-7".into()));
+        assert_eq!((coordinate(-1e-17, 1.0), coordinate(-0.0, 1.0)), ("0".into(), "0".into()));
+        assert_eq!((rounded(21.65), rounded(0.001234)), ("22".into(), "0.0012".into()));
+    }
+}

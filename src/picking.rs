@@ -1,0 +1,70 @@
+//! Picking: the places in the volume that are seen at pixels ([HALO-12]).
+
+use crate::job::Job;
+use crate::labels::SceneLabels;
+use crate::{Failure, Failures};
+use drypoint_reference::ray::{Picked, Renderer};
+use drypoint_scene::tables::VolumeTable;
+use drypoint_scene::volume::labels::LabelNames;
+
+/// Returns the point of the picture, in pixels from the top left corner, that a pixel stands for. Pixels are numbered
+/// from 0, and whole numbers mean centres: pixel [0, 0] is the point [½, ½].
+pub(crate) fn point_of_pixel(pixel: [f64; 2]) -> [f64; 2] {
+    pixel.map(|n| n + 0.5)
+}
+
+/// Returns the first visible structure at the centre of a pixel, column x from the left and row y from the top. Returns
+/// none if nothing is seen there, or if the pixel is outside the picture.
+pub fn pick_pixel(renderer: &Renderer<'_>, [x, y]: [usize; 2]) -> Option<Picked> {
+    renderer.pick(point_of_pixel([x as f64, y as f64]))
+}
+
+/// Checks that a pixel lies in the picture of a size. `place` names the pixel in the failure.
+///
+/// # Errors
+/// A pixel outside.
+pub fn pixel_inside([x, y]: [i64; 2], size: [usize; 2], place: &str) -> Result<[usize; 2], Failure> {
+    let inside = |n: i64, size: usize| usize::try_from(n).ok().filter(|n| *n < size);
+    match (inside(x, size[0]), inside(y, size[1])) {
+        (Some(x), Some(y)) => Ok([x, y]),
+        _ => {
+            let what = format!("the pixel {x},{y} lies outside the picture of {} × {} pixels", size[0], size[1]);
+            let [right, bottom] = size.map(|n| n.saturating_sub(1));
+            let remedy = format!("X goes from 0 at the left to {right}, and Y from 0 at the top to {bottom}");
+            Err(Failure::new(what, place, remedy))
+        }
+    }
+}
+
+impl Job {
+    /// Loads the scene's labels even if no effect reads them, so that a [`Picked`] has one. Returns their names.
+    ///
+    /// # Errors
+    /// Labels or names that cannot be read.
+    pub fn load_labels(&mut self) -> Result<LabelNames, Failures> {
+        let table = &self.scene.volume;
+        let unread = table.labels.clone().filter(|_| self.labels.is_none());
+        let mut failures = Vec::new();
+        let labels = SceneLabels::load(&VolumeTable { labels: unread, ..table.clone() }, &mut failures);
+        Failures::check(failures)?;
+        self.labels = labels.volume.or(self.labels.take());
+        Ok(labels.names)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_outside_are_told_with_the_size() {
+        assert_eq!(pixel_inside([23, 0], [24, 16], "here"), Ok([23, 0]));
+        let what = |pixel| pixel_inside(pixel, [24, 16], "here").unwrap_err().to_string();
+        let expected = "error: the pixel 24,-1 lies outside the picture of 24 × 16 pixels\n  at: here\n  try: X goes from 0 at \
+            the left to 23, and Y from 0 at the top to 15";
+        assert_eq!(what([24, -1]), expected);
+        assert!(
+            what([i64::MAX, i64::MIN]).starts_with("error: the pixel 9223372036854775807,-9223372036854775808 lies")
+        );
+    }
+}
