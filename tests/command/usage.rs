@@ -32,6 +32,7 @@ fn help_and_version_are_no_errors() {
         "compare",
         "cost",
         "sheet",
+        "halo",
         "wedge",
         "schema",
         "completions",
@@ -80,7 +81,7 @@ fn wrong_use_is_told_in_three_lines() {
 #[test]
 fn what_is_not_built_yet_says_so() {
     let folder = Folder::new();
-    let verbs = "the verbs of this version are render, info, probe, phantom, plan, points, strokes, styles, compare, cost, sheet, wedge, schema, completions";
+    let verbs = "the verbs of this version are render, info, probe, phantom, plan, points, strokes, styles, compare, cost, sheet, halo, wedge, schema, completions";
     for (line, verb, tag) in
         [("pick scene.toml --pixel 1,2", "pick", "HALO-12"), ("-q validate scene.toml", "validate", "GPU-1")]
     {
