@@ -1,9 +1,11 @@
 //! `halo`: the halo of a picture of seeds, in numbers ([HALO-4], [HALO-5], [HALO-10]).
 
 use crate::folder::Folder;
+use drypoint::output::exr::encode_exr;
 use drypoint::output::png::encode_grey_png;
 use drypoint::output::read::{decode, read_image};
 use drypoint::scene::color::linear_to_srgb;
+use drypoint::scene::picture::{Layer, LayerKind, Picture, Provenance};
 
 /// Writes a grey picture.
 fn write(folder: &Folder, name: &str, size: [usize; 2], bits: u8, values: &[f64]) {
@@ -66,18 +68,17 @@ fn one_pass_by_hand_in_every_format() {
     assert_eq!(folder.read("again.exr"), folder.read("c.exr"));
 }
 
-/// The intensity of a pixel is the luminance of its codes times α; a grey is its code.
+/// The intensity of a pixel is its luminance times α; a grey is its number.
 #[test]
-fn intensities_are_codes() {
+fn intensities_are_luminances() {
     let folder = Folder::new();
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, 4, 1);
-    encoder.set_color(png::ColorType::Rgba);
-    let pixels = [[100, 100, 100, 255], [255, 0, 0, 255], [0, 255, 0, 255], [255, 255, 255, 51]];
-    encoder.write_header().unwrap().write_image_data(pixels.as_flattened()).unwrap();
-    folder.write("seeds.png", file);
-    folder.good("halo seeds.png --from seeds --filter none -q -o same.exr");
-    let expected = [100.0 / 255.0, 0.2126, 0.7152, 0.2];
+    let pixels = [[0.4, 0.4, 0.4, 1.0], [1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.2, 0.2, 0.2, 0.2]];
+    let channels = (0..4).map(|c| pixels.iter().map(|p| p[c]).collect()).collect();
+    let layers = vec![Layer { kind: LayerKind::Beauty, channels }];
+    let picture = Picture { width: 4, height: 1, layers };
+    folder.write("seeds.exr", encode_exr(&picture, &Provenance::default()).unwrap());
+    folder.good("halo seeds.exr --from seeds --filter none -q -o same.exr");
+    let expected = [0.4, 0.2126, 0.7152, 0.2];
     let found = intensities(&folder, "same.exr");
     assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-7), "{found:?}");
 }

@@ -5,7 +5,7 @@ use crate::files::{self, in_docs};
 use drypoint::halo::{HaloFigure, IntensityMap};
 use drypoint::output::encode::{quantize, straight_srgb};
 use drypoint::reference::volumetric_halos::{Border, SpreadParams};
-use drypoint::scene::math::{cos, hypot, sin};
+use drypoint::scene::math::{atan2, cos, hypot, sin};
 use drypoint::scene::picture::{LayerKind, Picture};
 use std::f64::consts::PI;
 
@@ -68,8 +68,10 @@ fn intensity(p: [f64; 2]) -> f64 {
     // Large: a disc with a hole off its middle, and a bud with petals.
     add(disc([58.0, 60.0], 40.0).min(1.0 - disc([68.0, 52.0], 17.0)));
     let [x, y] = [p[0] - 190.0, p[1] - 62.0];
-    let angle = drypoint::scene::math::atan2(y, x);
-    add(cover(hypot(x, y) - (27.0 + 13.0 * cos(5.0 * angle + 0.6))));
+    let (angle, rho) = (atan2(y, x), hypot(x, y));
+    let (r, dr) = (27.0 + 13.0 * cos(5.0 * angle + 0.6), -65.0 * sin(5.0 * angle + 0.6));
+    // The distance to r(θ) to first order: along the radius, by the slope of the outline.
+    add(cover((rho - r) / hypot(1.0, dr / rho.max(1.0))));
     // A square of 32 pixels, and smaller ones.
     add(square([22.0, 120.0], 32.0));
     for (x, side) in [(62.0, 16.0), (86.0, 8.0), (102.0, 4.0), (114.0, 2.0)] {
@@ -78,8 +80,8 @@ fn intensity(p: [f64; 2]) -> f64 {
     // Dots of 1, 2 and 3 pixels in rows, from sparse to close.
     for (row, side) in [1.0, 2.0, 3.0].into_iter().enumerate() {
         for i in 0..9 {
-            let x = 140.0 + (f64::from(i) * (18.0 - f64::from(i))).floor() * 1.35;
-            add(square([x.floor(), 118.0 + 12.0 * row as f64], side));
+            let x = 138.0 + (1.4 * f64::from(i * (18 - i))).floor();
+            add(square([x, 118.0 + 12.0 * row as f64], side));
         }
     }
     // A fan of lines of 1 to 3 pixels.
