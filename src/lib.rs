@@ -21,6 +21,7 @@ pub mod cost;
 pub mod drawing;
 pub mod failure;
 pub mod format;
+pub mod halo;
 pub mod job;
 pub mod labels;
 pub mod marking;

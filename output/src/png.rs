@@ -54,6 +54,38 @@ pub fn encode_png(picture: &Picture, bits: u8, provenance: &Provenance) -> Resul
     Ok(bytes)
 }
 
+/// Writes numbers in [0, 1] as a grey PNG of 8 or 16 bits: a map that is no colour, so that codes are the numbers and no
+/// chunk names a colour space. Row 0 is the top. The file appears whole or not at all.
+///
+/// # Errors
+/// [`OutputError::Bits`], [`OutputError::Layer`] for numbers that do not fit the size, [`OutputError::Io`].
+pub fn write_grey_png(size: [usize; 2], values: &[f64], bits: u8, path: &Path) -> Result<(), OutputError> {
+    atomic::write(path, &encode_grey_png(size, values, bits)?)
+}
+
+/// Returns the bytes of [`write_grey_png`].
+///
+/// # Errors
+/// Same errors as [`write_grey_png`], except those of the file.
+pub fn encode_grey_png(size: [usize; 2], values: &[f64], bits: u8) -> Result<Vec<u8>, OutputError> {
+    if size[0].checked_mul(size[1]) != Some(values.len()) {
+        let text = format!("{} numbers for {}x{} pixels", values.len(), size[0], size[1]);
+        return Err(fault(LayerKind::Beauty, text));
+    }
+    let codes = |largest: u16| values.iter().map(move |v| quantize(v.clamp(0.0, 1.0), largest));
+    let (depth, data): (_, Vec<u8>) = match bits {
+        8 => (png::BitDepth::Eight, codes(255).map(|code| code as u8).collect()),
+        16 => (png::BitDepth::Sixteen, codes(65535).flat_map(u16::to_be_bytes).collect()),
+        _ => return Err(OutputError::Bits { bits }),
+    };
+    let mut info = png::Info::with_size(side(size[0], LayerKind::Beauty)?, side(size[1], LayerKind::Beauty)?);
+    info.color_type = png::ColorType::Grayscale;
+    info.bit_depth = depth;
+    let mut bytes = Vec::new();
+    write_chunks(&mut bytes, info, &data).map_err(|error| fault(LayerKind::Beauty, error.to_string()))?;
+    Ok(bytes)
+}
+
 fn write_chunks(bytes: &mut Vec<u8>, info: png::Info<'_>, data: &[u8]) -> Result<(), png::EncodingError> {
     let mut writer = png::Encoder::with_info(bytes, info)?.write_header()?;
     writer.write_image_data(data)?;
@@ -103,6 +135,23 @@ mod tests {
         assert_eq!(info.bit_depth, png::BitDepth::Sixteen);
         let words: Vec<_> = data.chunks(2).map(|w| u16::from_be_bytes([w[0], w[1]])).collect();
         assert_eq!(words, [65535, 48192, 0, 32768, 0, 0, 0, 0, 0, 65535, 32896, 65535]);
+    }
+
+    #[test]
+    fn grey_codes_are_the_numbers() {
+        let values = [0.0, 0.5, 1.0, -1.0, 2.0, 0.25];
+        let (names, info, data) = read(&encode_grey_png([3, 2], &values, 8).unwrap());
+        assert_eq!(names, ["IHDR", "IDAT", "IEND"]);
+        assert_eq!((info.bit_depth, info.color_type), (png::BitDepth::Eight, png::ColorType::Grayscale));
+        assert_eq!(data, [0, 128, 255, 0, 255, 64]);
+        let (_, info, data) = read(&encode_grey_png([3, 2], &values, 16).unwrap());
+        assert_eq!(info.bit_depth, png::BitDepth::Sixteen);
+        let words: Vec<_> = data.chunks(2).map(|w| u16::from_be_bytes([w[0], w[1]])).collect();
+        assert_eq!(words, [0, 32768, 65535, 0, 65535, 16384]);
+        assert!(matches!(encode_grey_png([3, 2], &values, 4), Err(OutputError::Bits { bits: 4 })));
+        for size in [[2, 2], [0, 0], [usize::MAX, 2]] {
+            assert!(matches!(encode_grey_png(size, &values, 8), Err(OutputError::Layer { .. })));
+        }
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 /// Verbs of the specification that this version lacks, with their tags.
-const LATER: &[(&str, &str)] = &[("validate", "GPU-1"), ("paint", "VS-6"), ("halo", "HALO-4")];
+const LATER: &[(&str, &str)] = &[("validate", "GPU-1"), ("paint", "VS-6")];
 
 /// The verb of a command line that names none.
 const DEFAULT: &str = "render";

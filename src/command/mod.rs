@@ -6,6 +6,7 @@ mod completions;
 mod cost;
 mod empty;
 mod frames;
+mod halo;
 mod info;
 mod input;
 mod limits;
@@ -86,6 +87,8 @@ enum Verb {
     Cost(cost::CostArgs),
     /// Write a contact sheet of volumes, scenes or pictures
     Sheet(sheet::SheetArgs),
+    /// Make the halo of a picture of seeds
+    Halo(halo::HaloArgs),
     /// Write a step wedge of a pen to be printed and measured, or plot what was measured
     Wedge(wedge::WedgeArgs),
     /// Print the JSON Schema of scene files
@@ -158,6 +161,7 @@ impl Cli {
             Verb::Compare(verb) => verb.run(talk),
             Verb::Cost(verb) => verb.run(talk),
             Verb::Sheet(verb) => verb.run(talk),
+            Verb::Halo(verb) => verb.run(talk),
             Verb::Wedge(verb) => verb.run(talk),
             Verb::Schema(verb) => verb.run(),
             Verb::Completions(verb) => verb.run(),

@@ -9,6 +9,7 @@ mod extract;
 mod folder;
 mod frames;
 mod generated;
+mod halo;
 mod info;
 mod interrupt;
 mod output;

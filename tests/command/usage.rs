@@ -33,6 +33,7 @@ fn help_and_version_are_no_errors() {
         "compare",
         "cost",
         "sheet",
+        "halo",
         "wedge",
         "schema",
         "completions",
@@ -81,7 +82,7 @@ fn wrong_use_is_told_in_three_lines() {
 #[test]
 fn what_is_not_built_yet_says_so() {
     let folder = Folder::new();
-    let verbs = "the verbs of this version are render, info, probe, pick, phantom, plan, points, strokes, styles, compare, cost, sheet, wedge, schema, completions";
+    let verbs = "the verbs of this version are render, info, probe, pick, phantom, plan, points, strokes, styles, compare, cost, sheet, halo, wedge, schema, completions";
     for (line, verb, tag) in [("paint scene.toml", "paint", "VS-6"), ("-q validate scene.toml", "validate", "GPU-1")] {
         let expected = format!("error: `{verb}` is not built yet ([{tag}])\n  at: drypoint {verb}\n  try: {verbs}\n");
         assert_eq!(folder.refused(line), expected);

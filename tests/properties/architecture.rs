@@ -58,7 +58,8 @@ fn scene_and_output_and_reference_know_none_above_them() {
 
 #[test]
 fn a_paper_imports_no_other_paper() {
-    let papers = ["style_transfer_functions", "volume_stippling", "interactive_volume_illustration"];
+    let papers =
+        ["style_transfer_functions", "volume_stippling", "interactive_volume_illustration", "volumetric_halos"];
     for paper in papers {
         let others: Vec<String> =
             papers.iter().filter(|other| **other != paper).map(|other| format!("crate::{other}")).collect();

@@ -6,6 +6,7 @@ mod called_for;
 mod cost;
 mod figures;
 mod files;
+mod halos;
 mod integrator;
 #[cfg(test)]
 mod pages;
@@ -29,6 +30,7 @@ const PAGES: &[Page] = &[
     ("cost", cost::write),
     ("figure-1", painting::figure::write),
     ("figures", figures::write),
+    ("halos", halos::write),
     ("integrator", integrator::write),
     ("painting", painting::write),
     ("reference", reference::write),

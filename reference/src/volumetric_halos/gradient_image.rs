@@ -16,6 +16,9 @@ pub(super) fn gradient_magnitude(s: &SpanImage, q: Taps, border: Border, zeros: 
         let around = TappedRows::new(s, y, q, border, zeros);
         let (middle, inside) = around.middle;
         let span = inside.dilated(reach, width).union(around.span);
+        if span.is_empty() {
+            return span;
+        }
         let (scratch, dy) = scratch.split_at_mut(padded);
         widely(|| {
             let range = span.start..span.end;

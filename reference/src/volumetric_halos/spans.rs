@@ -12,6 +12,7 @@ pub(super) struct Span {
 impl Span {
     pub(super) const EMPTY: Self = Self { start: 0, end: 0 };
 
+    /// Number of pixels.
     pub(super) fn len(self) -> usize {
         self.end - self.start
     }
@@ -40,10 +41,10 @@ impl Span {
     /// Returns the least part of the range outside which a row is zero.
     pub(super) fn trimmed(self, row: &[f64]) -> Self {
         let values = &row[self.start..self.end];
-        // Blocks of zeros first: the compiler compares a block in vectors.
+        // Blocks of zeros first: without an early end the compiler joins the bits of a block in vectors.
         const BLOCK: usize = 32;
-        let zero = |block: &[f64]| block.iter().all(|v| *v == 0.0);
-        let skipped = values.chunks(BLOCK).take_while(|block| block.iter().fold(0, |any, v| any | v.to_bits()) == 0);
+        let zero = |block: &[f64]| block.iter().fold(0, |any, v| any | v.to_bits()) == 0;
+        let skipped = values.chunks(BLOCK).take_while(|block| zero(block));
         let before = (skipped.count() * BLOCK).min(values.len());
         let Some(first) = values[before..].iter().position(|v| *v != 0.0) else { return Self::EMPTY };
         let start = before + first;
@@ -103,7 +104,9 @@ impl SpanImage {
         let (values, spans) = (&self.values, &mut self.spans);
         let find = |(span, row): (&mut Span, &[f64])| *span = Span { start: 0, end: width }.trimmed(row);
         if width == 0 {
-        } else if values.len() >= 8 * SHARED_WORK {
+            return;
+        }
+        if values.len() >= 8 * SHARED_WORK {
             spans.par_iter_mut().zip(values.par_chunks(width)).with_min_len(8 * ROWS).for_each(find);
         } else {
             spans.iter_mut().zip(values.chunks(width)).for_each(find);
@@ -158,14 +161,16 @@ impl SpanImage {
             let mut space = vec![0.0; scratch];
             for (y, (row, span)) in (rows.start + first..).zip(values.chunks_mut(width).zip(spans)) {
                 let (old, new) = (*span, write(y, row, &mut space));
-                // What an earlier image has left outside the new range.
+                // Remains of an earlier image outside the new range.
                 row[old.start..old.end.min(new.start.max(old.start))].fill(0.0);
                 row[old.start.max(new.end.min(old.end))..old.end].fill(0.0);
                 *span = new;
             }
         };
         if width == 0 {
-        } else if work < SHARED_WORK {
+            return;
+        }
+        if work < SHARED_WORK {
             block(0, values, spans);
         } else {
             let blocks = values.par_chunks_mut(ROWS * width).zip(spans.par_chunks_mut(ROWS)).enumerate();

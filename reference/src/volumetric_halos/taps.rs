@@ -75,8 +75,10 @@ impl<'a> PaddedRow<'a> {
         width + 2 * pad
     }
 
-    /// Makes a row in a space of [`len`](Self::len) numbers: zeros from `pad` before to `pad` behind a range of `width`
-    /// pixels, and in the range what `fill` writes. Other pixels are never read by taps whose result is not zero.
+    /// Makes a row in a space of [`len`](Self::len) numbers. `fill` writes the range outside which the row is zero.
+    ///
+    /// Pixels farther than twice `pad` from the range keep earlier numbers. They are not to be read: a filter's values
+    /// differ from zero up to `pad` beyond the range, and its taps go `pad` farther.
     #[inline(always)]
     pub(super) fn new(
         values: &'a mut [f64],
@@ -86,7 +88,6 @@ impl<'a> PaddedRow<'a> {
         fill: impl FnOnce(&mut [f64]),
     ) -> Self {
         let width = values.len() - 2 * pad;
-        // The filter's range is `span` and `pad` on each side, and its taps go `pad` beyond that.
         let begin = span.start.saturating_sub(pad);
         let end = (span.end + 3 * pad).min(values.len());
         values[begin..span.start + pad].fill(0.0);
