@@ -473,11 +473,12 @@ pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Count
     suggest::scene(VolumeSource::File { path, raw: None }, volume, size, counts)
 }
 
-/// Returns a scene for a bare volume with the tables of a preset: a function, an iso-surface, or the camera alone.
+/// Returns a scene for a bare volume with the tables of a preset: a function, an iso-surface, or the camera alone,
+/// before the background of the preset.
 pub fn bare_for(preset: &Scene, path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     let source = VolumeSource::File { path, raw: None };
-    let (transfer, surface) = (preset.transfer.clone(), preset.surface.clone());
-    suggest::fill(Scene { transfer, surface, ..Scene::for_volume(source) }, volume, size, counts)
+    let (transfer, surface, picture) = (preset.transfer.clone(), preset.surface.clone(), preset.picture.clone());
+    suggest::fill(Scene { transfer, surface, picture, ..Scene::for_volume(source) }, volume, size, counts)
 }
 
 /// Returns the plan of a part of a scene.

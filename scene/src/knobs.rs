@@ -159,7 +159,7 @@ mod tests {
     /// Rules name keys that stand elsewhere, so that a slip would go unseen.
     #[test]
     fn every_knob_is_a_key_of_its_table() {
-        let scene = scene("[[pen]]\nname = \"a\"\n");
+        let scene = scene("[[pen]]\nname = \"a\"\n[[halo]]\n");
         for (at, rules) in rules(&scene) {
             for (key, _) in rules.knobs {
                 let steps = steps(&at.inner(key)).unwrap();

@@ -52,7 +52,7 @@ pub enum LayerKind {
     FirstCurvatureAlongView,
     /// Samples evaluated on the ray: `counts.SAMPLES`.
     Counts,
-    /// The intensity of halo n of the scene: `halo0.H` of the first.
+    /// The largest intensity of halo n of the scene on the ray, before its profile: `halo0.H` of the first.
     Halo(usize),
 }
 
@@ -154,4 +154,24 @@ pub struct Provenance {
     pub scene_hash: String,
     /// The plan, as text.
     pub plan: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_have_names_and_channels_of_their_own() {
+        for kind in LayerKind::ALL.into_iter().chain([LayerKind::Halo(0), LayerKind::Halo(12)]) {
+            assert_eq!(LayerKind::from_name(&kind.name()), Some(kind));
+            assert!(!kind.channels().is_empty());
+        }
+        assert_eq!(
+            (LayerKind::Halo(3).name(), &LayerKind::Halo(3).channels()[..]),
+            ("halo3".into(), &["halo3.H".into()][..])
+        );
+        for none in ["halo", "halo01", "halo+1", "halo-1", "halo1.H", "halo99999999999999999999", "Halo0"] {
+            assert_eq!(LayerKind::from_name(none), None, "{none}");
+        }
+    }
 }

@@ -193,7 +193,8 @@ fn every_need_is_one_that_the_description_of_its_key_lists() {
         "[contours]\nfade = [0, 1]\n[style_mipmaps]\n[picture]\nlayers = [\"normal\", \"gradient\", \"curvature\"]\n";
     let firsts = "[picture]\nlayers = [\"first.normal\", \"first.curvature\"]\n[transfer]\nkind = \"regular\"\n";
     let exact = "[style_mipmaps]\n[contours]\nkappa = \"exact\"\n";
-    for rest in [everything, firsts, exact, "[shading]\n[transfer]\nkind = \"regular\"\n"] {
+    let halos = "[[halo]]\nseed.by = \"curvature\"\n[transfer]\nkind = \"regular\"\n";
+    for rest in [everything, firsts, exact, halos, "[shading]\n[transfer]\nkind = \"regular\"\n"] {
         for need in plan(rest).needs {
             let key = need.key.split('[').next().unwrap();
             let (_, needs) = listed.iter().find(|(name, _)| name == key).unwrap_or_else(|| panic!("{key}"));

@@ -7,6 +7,7 @@
 pub mod camera;
 pub mod contours;
 pub mod halo;
+mod halo_presets;
 pub mod hatching;
 pub mod nodes;
 pub mod orbit;

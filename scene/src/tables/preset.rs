@@ -1,5 +1,6 @@
 //! Presets: whole tables for a scene that lacks them ([SCN-3]).
 
+use super::halo_presets::HaloPreset;
 use super::hatching::HatchPreset;
 use super::stipples::StipplePreset;
 use super::toon_presets::ToonPreset;
@@ -19,6 +20,8 @@ pub(super) enum Preset {
     Outline,
     /// Tables `[surface]` and `[shading]`.
     Toon(ToonPreset),
+    /// Tables `[[halo]]`, `[transfer]`, and what belongs to them.
+    Halo(HaloPreset),
 }
 
 /// Presets by name.
@@ -81,8 +84,23 @@ pub(super) const PRESETS: Choice<Preset> = Choice {
             Preset::Toon(ToonPreset::Fig2),
             "The same in two tones, with the half-level lighting of Nagy et al., Fig. 2.",
         ),
+        ChoiceOption::new(
+            "halo",
+            Preset::Halo(HaloPreset::Dark),
+            "A lit function of colours with dark halos before what lies behind.",
+        ),
+        ChoiceOption::new(
+            "halo-glow",
+            Preset::Halo(HaloPreset::Glow),
+            "A lit function of colours in a bright halo; the background is dark in a scene without `[picture]`.",
+        ),
+        ChoiceOption::new(
+            "halo-lines",
+            Preset::Halo(HaloPreset::Lines),
+            "Black lines and white gaps by halos alone, as in Fig. 10 (d) of Bruckner and Gröller.",
+        ),
     ],
-    later: &[("halo", "HALO-1")],
+    later: &[],
 };
 
 impl Preset {
@@ -103,6 +121,7 @@ impl Preset {
                 let (surface, shading) = preset.tables();
                 (scene.surface, scene.shading) = (Some(surface), Some(shading));
             }
+            Self::Halo(preset) => preset.supply(scene),
         }
     }
 }

@@ -121,3 +121,168 @@ fn passes(halo: &Halo) -> Settings {
 pub(super) fn is_in_millimetres(halo: &Halo) -> bool {
     matches!(halo.spread.reach, Some(Length::Millimetres(_)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::file::{Overrides, parse};
+    use crate::knobs::knobs;
+    use crate::quantity::Quantity::{
+        Distance, FurtherVolume, Gradient, GradientMagnitudeRange, Hessian, Label, PreviousNormal, Value,
+    };
+    use std::path::Path;
+
+    const REGULAR: &str = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \"red\" }]\n";
+
+    /// The plan of an unshaded scene with these lines in its `[[halo]]`.
+    fn plan(halo: &str) -> Plan {
+        Plan::new(&scene(&format!("{REGULAR}[[halo]]\n{halo}")))
+    }
+
+    fn scene(rest: &str) -> Scene {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\nlabels = \"l.nrrd\"\n{rest}");
+        parse(&text, Path::new("scene.toml"), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"))
+    }
+
+    fn at_seeds(plan: &Plan) -> Vec<Quantity> {
+        let at_seeds = plan.needs.iter().filter(|need| need.samples == Samples::Seeds);
+        at_seeds.map(|need| need.quantity).collect()
+    }
+
+    #[test]
+    fn seeds_need_what_they_are_made_of_and_visible_samples_nothing() {
+        let exact = "[contours]\nkappa = \"exact\"\n";
+        for (halo, expected) in [
+            ("", &[Gradient, GradientMagnitudeRange][..]),
+            ("exponents = [0, 4]\n", &[Gradient]),
+            ("exponents = [0, 4]\nseed.labels = [1]\n", &[Gradient, Label]),
+            ("exponents = [0, 4]\nseed.direction = {}\n", &[Gradient]),
+            ("seed.by = \"curvature\"\n", &[Gradient, PreviousNormal, GradientMagnitudeRange]),
+            (&format!("seed.by = \"curvature\"\n{exact}"), &[Gradient, Hessian, GradientMagnitudeRange]),
+            (
+                "seed.by = \"curvature\"\n[contours]\nkappa = \"none\"\n",
+                &[Gradient, PreviousNormal, GradientMagnitudeRange],
+            ),
+            (exact, &[Gradient, GradientMagnitudeRange]),
+            ("opacity = 0\n", &[]),
+            ("opacity = 0\n[picture]\nlayers = [\"halo0\"]\n", &[Gradient, GradientMagnitudeRange]),
+        ] {
+            let plan = plan(halo);
+            assert_eq!(at_seeds(&plan), expected, "{halo}");
+            let visible = plan.needs.iter().filter(|need| need.samples != Samples::Seeds);
+            assert_eq!(visible.map(|need| need.quantity).collect::<Vec<_>>(), [Value], "{halo}");
+            let has = [Pass::HaloSeeds, Pass::HaloSpreading].map(|pass| plan.has_pass(pass));
+            assert_eq!(has, [!expected.is_empty(); 2], "{halo}");
+            // What only halos read is measured too.
+            let reads = [plan.has_pass(Pass::GradientRange), plan.reads_gradients(), plan.reads_labels()];
+            let expects = [GradientMagnitudeRange, Gradient, Label].map(|quantity| expected.contains(&quantity));
+            assert_eq!(reads, expects, "{halo}");
+            assert_eq!(plan.has_pass(Pass::SmoothedCoefficients), expected.contains(&Hessian), "{halo}");
+        }
+    }
+
+    /// The opacity of a function over two quantities needs them at seeds too.
+    #[test]
+    fn seeds_by_opacity_need_the_quantities_of_the_function() {
+        let over = |axis: &str, seed: &str| {
+            let rows = "rows = [{ at = 1, nodes = [{ at = 1, color = \"red\" }] }]\n";
+            let transfer = format!("[transfer]\nkind = \"regular\"\nover = [\"value\", {axis}]\n{rows}");
+            at_seeds(&Plan::new(&scene(&format!("{transfer}[[halo]]\nexponents = [0, 1]\n{seed}"))))
+        };
+        assert_eq!(over("\"label\"", ""), [Gradient, Label]);
+        assert_eq!(over("\"label\"", "seed.value = [[1, 1]]\n"), [Gradient]);
+        assert_eq!(over("\"k1\"", ""), [Gradient, Hessian]);
+        assert_eq!(over("\"kv\"", ""), [Gradient, PreviousNormal]);
+        assert_eq!(over("{ distance = [1, 2, 3] }", ""), [Gradient, Distance]);
+        assert_eq!(over("{ volume = \"b.nrrd\" }", ""), [Gradient, FurtherVolume]);
+    }
+
+    #[test]
+    fn a_person_reads_what_a_halo_costs_and_which_line_asked() {
+        let told: Vec<String> = plan("seed.labels = [1]\n[[halo]]\nopacity = 0\n")
+            .to_string()
+            .lines()
+            .filter(|line| line.starts_with("halo"))
+            .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "))
+            .collect();
+        assert_eq!(
+            told,
+            [
+                "halo 0 gradient one gradient a seed sample halo[0] (line 8)",
+                "halo 0 |g| a norm and a division a seed sample halo[0].exponents (line 8)",
+                "halo 0 label one look at the labels a seed sample halo[0].seed.labels (line 9)",
+                "halo 0 range of |g| one gradient a voxel volume.gradient_range (line 2)",
+                "halo 0 halo seeds one look at each sample whose value may seed, seen or not; a number a ray halo[0].seed \
+                 (line 9)",
+                "halo 0 halo spreading a filter of all rays a pass, once a group of planes; two numbers a ray \
+                 halo[0].spread (line 8)",
+            ]
+        );
+    }
+
+    #[test]
+    fn keys_without_effect_are_told() {
+        let others = |plan: Plan| plan.idle_keys.into_iter().filter(|idle| idle.key != "volume.labels");
+        let idle = |halo: &str| others(plan(halo)).map(|idle| idle.key).collect::<Vec<_>>().join(" ");
+        assert_eq!(idle("seed.thickness = 1\n"), "halo[0].seed.thickness");
+        assert_eq!(idle("seed.by = \"curvature\"\nseed.thickness = 1\nexponents = [1, 2]\n"), "halo[0].exponents");
+        assert_eq!(idle("seed.direction = { width = 360, softness = 3 }\n"), "halo[0].seed.direction.softness");
+        assert_eq!(
+            idle("spread = { passes = 0, delta = 1, reach = \"9 px\" }\n"),
+            "halo[0].spread.delta halo[0].spread.reach"
+        );
+        assert_eq!(idle("spread = { passes = 0, median = true }\n"), "");
+        assert_eq!(idle("accumulate = \"mean\"\n"), "halo[0].accumulate");
+        assert_eq!(idle("accumulate = \"mean\"\nevery = 2\n"), "");
+        assert_eq!(idle("opacity = 0\n"), "halo[0].opacity");
+        assert_eq!(idle("profile = [{ at = 0, color = \"red\", opacity = 0 }]\n"), "halo[0].profile");
+        let glow = "[[halo]]\nname = \"glow\"\nkind = \"emissive\"\n";
+        assert_eq!(idle(&format!("kind = \"emissive\"\ntints = [\"glow\"]\n{glow}")), "halo[0].tints");
+        assert_eq!(idle(&format!("tints = [\"glow\"]\n{glow}")), "");
+        // What other tables say for halos.
+        assert_eq!(idle("[picture]\ndpi = 72\n"), "picture.dpi");
+        assert_eq!(idle("spread.reach = \"3 mm\"\n[picture]\ndpi = 72\n"), "");
+        assert_eq!(idle("[sampling]\ngradient = \"sobel\"\nnormal = \"facing\"\n"), "sampling.normal");
+        assert_eq!(idle("seed.by = \"curvature\"\n[sampling]\nnormal = \"facing\"\n"), "");
+        let contours = others(plan("seed.by = \"curvature\"\n[contours]\nkappa = \"exact\"\n"));
+        let why = "contours act on styles, and the function is regular; only halos read its kappa";
+        assert_eq!(contours.map(|idle| idle.why).collect::<Vec<_>>(), [why]);
+        let no_rays = others(Plan::new(&scene("[stipples]\n[[halo]]\n")));
+        assert_eq!(no_rays.map(|idle| idle.key).collect::<Vec<_>>(), ["halo[0]"]);
+    }
+
+    /// The outward side of normals matters to a direction, to the inside of a surface, and to a signed curvature.
+    #[test]
+    fn the_outside_is_read_where_it_matters() {
+        let is_idle = |rest: &str| {
+            let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\noutside = \"high\"\n{rest}");
+            let scene = parse(&text, Path::new("s"), &Overrides::default()).unwrap();
+            Plan::new(&scene).idle_keys.iter().any(|idle| idle.key == "volume.outside")
+        };
+        assert!(is_idle(REGULAR) && is_idle(&format!("{REGULAR}[[halo]]\n")));
+        assert!(!is_idle(&format!("{REGULAR}[[halo]]\nseed.direction = {{}}\n")));
+        assert!(is_idle("[surface]\niso = 1\n") && !is_idle("[surface]\niso = 1\n[[halo]]\n"));
+        let exact = "[[halo]]\nseed.by = \"curvature\"\n[contours]\nkappa = \"exact\"\n";
+        assert!(!is_idle(&format!("{REGULAR}{exact}")));
+    }
+
+    #[test]
+    fn knobs_are_those_of_halos_in_effect() {
+        let keys = |halo: &str| {
+            let scene = scene(&format!("{REGULAR}{halo}"));
+            let knobs = knobs(&scene, &Plan::new(&scene)).into_iter();
+            knobs.filter(|knob| knob.key.starts_with("halo")).map(|knob| knob.key).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(keys("[[halo]]\n[[halo]]\nopacity = 0\n[[halo]]\n"), "halo[0].every halo[2].every");
+        assert_eq!(keys("[[halo]]\nevery = 4\n"), "halo[0].every halo[0].accumulate");
+        assert_eq!(keys("[[halo]]\nspread.reach = \"3 %\"\n"), "halo[0].every halo[0].spread.passes");
+        let scene = scene(&format!("{REGULAR}[[halo]]\nevery = 4\nspread.reach = \"3 %\"\n[[halo]]\nname = \"b\"\n"));
+        for knob in knobs(&scene, &Plan::new(&scene)).into_iter().filter(|knob| knob.key.starts_with("halo")) {
+            for setting in knob.settings {
+                let other = knob.set(&scene, setting).unwrap_or_else(|faults| panic!("{faults}"));
+                assert_eq!(knob.of(&other).as_deref(), Some(*setting), "{}", knob.key);
+                assert_eq!(knob.set(&other, &knob.of(&scene).unwrap()).unwrap(), scene, "{}", knob.key);
+            }
+        }
+    }
+}

@@ -5,6 +5,8 @@ mod profile;
 mod seed;
 mod spread;
 mod table;
+#[cfg(test)]
+mod tests;
 
 pub use focus::{FocusPoints, HaloFocus};
 pub use profile::ProfileNode;
