@@ -1,11 +1,7 @@
 //! Picking: the places in the volume that are seen at pixels ([HALO-12]).
 
-use crate::job::Job;
-use crate::labels::SceneLabels;
-use crate::{Failure, Failures};
+use crate::Failure;
 use drypoint_reference::ray::{Picked, Renderer};
-use drypoint_scene::tables::VolumeTable;
-use drypoint_scene::volume::labels::LabelNames;
 
 /// Returns the point of the picture, in pixels from the top left corner, that a pixel stands for. Pixels are numbered
 /// from 0, and whole numbers mean centres: pixel [0, 0] is the point [½, ½].
@@ -33,22 +29,6 @@ pub fn pixel_inside([x, y]: [i64; 2], size: [usize; 2], place: &str) -> Result<[
             let remedy = format!("X goes from 0 at the left to {right}, and Y from 0 at the top to {bottom}");
             Err(Failure::new(what, place, remedy))
         }
-    }
-}
-
-impl Job {
-    /// Loads the scene's labels even if no effect reads them, so that a [`Picked`] has one. Returns their names.
-    ///
-    /// # Errors
-    /// Labels or names that cannot be read.
-    pub fn load_labels(&mut self) -> Result<LabelNames, Failures> {
-        let table = &self.scene.volume;
-        let unread = table.labels.clone().filter(|_| self.labels.is_none());
-        let mut failures = Vec::new();
-        let labels = SceneLabels::load(&VolumeTable { labels: unread, ..table.clone() }, &mut failures);
-        Failures::check(failures)?;
-        self.labels = labels.volume.or(self.labels.take());
-        Ok(labels.names)
     }
 }
 

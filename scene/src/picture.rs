@@ -52,7 +52,7 @@ pub enum LayerKind {
     FirstCurvatureAlongView,
     /// Samples evaluated on the ray: `counts.SAMPLES`.
     Counts,
-    /// The intensity of halo n of the scene: `halo0.H` of the first.
+    /// The largest intensity of halo n of the scene on the ray, before its profile: `halo0.H` of the first.
     Halo(usize),
 }
 

@@ -95,6 +95,8 @@ impl SceneOverrides {
     /// Returns the extra list for an override that must be known before there is a scene.
     fn part(&mut self, key: &str) -> Option<&mut Overrides> {
         match key {
+            // Layers say nothing of the frame, and may name halos.
+            _ if key.starts_with("picture.layers") => None,
             _ if key.starts_with("picture.") => Some(&mut self.picture),
             _ if key.starts_with("volume.raw") => Some(&mut self.raw),
             _ if key.starts_with("preset") => Some(&mut self.preset),

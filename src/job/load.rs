@@ -1,7 +1,8 @@
 //! Loading of a job's data: the volume and further ones, styles, and a picture behind.
 
-use super::{RenderTarget, room};
-use crate::Failure;
+use super::{Job, RenderTarget, room};
+use crate::labels::SceneLabels;
+use crate::{Failure, Failures};
 use drypoint_output::OutputError;
 use drypoint_output::read::read_background;
 use drypoint_scene::color::Rgba;
@@ -25,6 +26,22 @@ pub(super) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, 
             };
             Failure::new(error, given.position("volume.phantom"), remedy)
         }),
+    }
+}
+
+impl Job {
+    /// Loads the scene's labels even if no effect reads them, so that each picked place has one. Returns their names.
+    ///
+    /// # Errors
+    /// Labels or names that cannot be read.
+    pub fn load_labels(&mut self) -> Result<LabelNames, Failures> {
+        let table = &self.scene.volume;
+        let unread = table.labels.clone().filter(|_| self.labels.is_none());
+        let mut failures = Vec::new();
+        let labels = SceneLabels::load(&VolumeTable { labels: unread, ..table.clone() }, &mut failures);
+        Failures::check(failures)?;
+        self.labels = labels.volume.or(self.labels.take());
+        Ok(labels.names)
     }
 }
 

@@ -154,7 +154,7 @@ fn every_fault_of_a_scene_is_told_at_once() {
     folder.write(
         "scene.toml",
         "drypoint = 1\n[volume]\nfile = \"gone.nrrd\"\nrang = [0, 1]\n[camera]\nfov = \"wide\"\n[picture]\nbackground = \
-         \"behind.png\"\n[transfer]\nnodes = [{ at = 1, style = \"metall\" }]\n[[halo]]\nname = \"rim\"\n",
+         \"behind.png\"\n[transfer]\nnodes = [{ at = 1, style = \"metall\" }]\n[[mesh]]\nfile = \"plate.ply\"\n",
     );
     let expected = "\
 error: gone.nrrd is not there
@@ -172,8 +172,8 @@ error: behind.png is not there
 error: there is no style \"metall\"
   at: scene.toml:10:28, key transfer.nodes[0].style
   try: write \"metal\"; there is bone, brain, cartoon, cartoon-2, chalk, constant, copper, engraving, gall, glass, gut, ink, kidney, liver, lung, metal, muscle, nerve, pencil, porcelain, skin, spleen, tone, vein, vessel, watercolour, wax, xray
-error: [[halo]] is not built yet ([HALO-1])
-  at: scene.toml:11:3, key halo
+error: [[mesh]] is not built yet ([VS-12])
+  at: scene.toml:11:3, key mesh
   try: remove it: this version cannot draw it, and would not ignore it
 ";
     assert_eq!(folder.refused("render scene.toml -o out.png"), expected);

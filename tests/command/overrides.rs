@@ -61,7 +61,7 @@ fn what_leads_nowhere_is_refused() {
         ),
         (
             "--set conturs=off",
-            "error: a scene has no key \"conturs\"\n  at: --set conturs=off, key conturs\n  try: write \"contours\"; the keys here are drypoint, preset, light, volume, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, stipples, hatching, outlines, surface\n",
+            "error: a scene has no key \"conturs\"\n  at: --set conturs=off, key conturs\n  try: write \"contours\"; the keys here are drypoint, preset, light, volume, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, halo, stipples, hatching, outlines, surface\n",
         ),
         (
             "--set camera.fov=x --set a --set b",
@@ -79,13 +79,10 @@ fn what_leads_nowhere_is_refused() {
             "--size 99999999999x99999999999",
             "error: picture.size cannot be [99999999999, 99999999999]\n  at: --size 99999999999x99999999999\n  try: write a size [width, height], each a whole number from 1 to 1048576, at most 1073741824 pixels in all\n",
         ),
-        (
-            "--preset halo",
-            "error: preset = \"halo\" is not built yet ([HALO-1])\n  at: --preset halo\n  try: remove it: this version cannot draw it, and would not ignore it\n",
-        ),
+        ("--layers halo0", "error: there is no halo \"halo0\"\n  at: --layers halo0\n  try: there is no halo at all\n"),
         (
             "--preset stlye",
-            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\", \"stipple-fig9\", \"hatch\", \"hatch-fig4\", \"hatch-fig5\", \"hatch-fig6-left\", \"hatch-fig6-right\", \"outline\", \"toon\" or \"hatch-fig2\"\n",
+            "error: preset cannot be \"stlye\"\n  at: --preset stlye\n  try: write \"style\"; expected is \"style\", \"stipple\", \"stipple-fig1\", \"stipple-fig4\", \"stipple-fig5\", \"stipple-fig6\", \"stipple-fig7\", \"stipple-fig8\", \"stipple-fig9\", \"hatch\", \"hatch-fig4\", \"hatch-fig5\", \"hatch-fig6-left\", \"hatch-fig6-right\", \"outline\", \"toon\", \"hatch-fig2\", \"halo\", \"halo-glow\" or \"halo-lines\"\n",
         ),
     ] {
         assert_eq!(folder.refused(&format!("render scene.toml {line}")), expected, "{line}");

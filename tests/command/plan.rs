@@ -95,7 +95,7 @@ fn the_full_scene_is_a_scene_and_gives_the_same_picture() {
 fn a_preset_of_a_bare_volume() {
     let folder = Folder::new();
     folder.good("phantom torus --size 16 --type u8 -o torus.nrrd -q");
-    for preset in ["toon", "stipple", "outline", "hatch"] {
+    for preset in ["toon", "stipple", "outline", "hatch", "halo", "halo-glow", "halo-lines"] {
         let said = folder.good(&format!("plan torus.nrrd --preset {preset} --full"));
         folder.write("said.toml", said);
         folder.good(&format!("render torus.nrrd --preset {preset} -o a.png -q"));
@@ -107,6 +107,29 @@ fn a_preset_of_a_bare_volume() {
     }
     let refused = folder.refused("plan torus.nrrd --preset gone");
     assert!(refused.contains("--preset gone"), "{refused}");
+}
+
+/// Labels that seed halos are looked up by their names.
+#[test]
+fn names_of_labels_that_seed_halos_become_ids() {
+    let folder = Folder::new();
+    folder.torus();
+    folder.good("-q phantom torus --size 16 --type u8 -o labels.nrrd");
+    folder.write("names.csv", "id,name\n5,liver\n6,spleen\n");
+    let scene = |labels: &str| {
+        let files = "volume = { file = \"torus.nrrd\", labels = \"labels.nrrd\", label_names = \"names.csv\" }";
+        folder.write("scene.toml", format!("drypoint = 1\n{files}\n[[halo]]\nseed.labels = {labels}\n"));
+    };
+    scene("[\"spleen\", 7]");
+    let shot: serde_json::Value = serde_json::from_str(&folder.good("plan scene.toml --json")).unwrap();
+    assert_eq!(shot["halos"]["list"][0]["seed"]["labels"], serde_json::json!([6, 7]));
+    scene("[5, \"splen\"]");
+    let told = folder.refused("plan scene.toml --json");
+    let expected = "error: there is no label \"splen\"\n  at: scene.toml:4:19, key halo[0].seed.labels[1]\n  try: write \"spleen\"\n";
+    assert_eq!(told, expected);
+    folder.write("scene.toml", "drypoint = 1\nvolume.file = \"torus.nrrd\"\n[[halo]]\nseed.focus.pixels = [[3, 4]]\n");
+    let told = folder.refused("plan scene.toml --json");
+    assert!(told.starts_with("error: the focus of halo 0 is given in pixels, and was not picked\n"), "{told}");
 }
 
 /// The shot has nothing left to decide: lengths are numbers of the world, `auto` is what the volume made of it.
@@ -139,6 +162,16 @@ fn json_is_the_picture_with_nothing_left_to_decide() {
     let keys = |value: &serde_json::Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
     let fields = keys(&plain).into_iter().chain(keys(object).into_iter().map(|key| format!(".{key}")));
     assert_eq!(fields.filter(|field| !page.contains(&format!("`{field}`"))).collect::<Vec<_>>(), [""; 0]);
+    // Halos: of the table, with the reach in rays, or of a preset for a bare volume.
+    assert_eq!(plain["halos"]["list"], serde_json::json!([]));
+    let halo = &shot("[[halo]]\nspread.reach = \"30 px\"\n", "")["halos"];
+    assert_eq!([&halo["list"][0]["name"], &halo["list"][0]["seed"]["value"]], ["halo 0", "opacity"]);
+    assert_eq!(halo["list"][0]["spread"]["stretch"], 2.0);
+    assert_eq!(halo["query"]["gradient"], true);
+    let text = folder.good("plan torus.nrrd --preset halo --json --set picture.layers=[\"beauty\",\"halo1\"]");
+    let preset: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(preset["halos"]["list"].as_array().unwrap().len(), 2);
+    assert_eq!(preset["layers"], serde_json::json!(["beauty", "halo1"]));
     // A step twice as long, in a world twice as large a voxel, and contours by the Hessian.
     let exact =
         shot("[sampling]\nstep = \"0.5 voxels\"\n[contours]\nkappa = \"exact\"\nthickness = \"2 voxels\"\n", "");

@@ -132,10 +132,15 @@ pub(super) const FAMILIES: [Family; 18] = [
     },
     Family {
         letters: "HALO",
-        subject: "Volumetric halos (Bruckner and Gröller 2007), not built yet",
+        subject: "Volumetric halos (Bruckner and Gröller 2007)",
         rules: &[
             (1, "Any number of halos is composited plane by plane, each with its own table."),
+            (2, "A sample seeds a halo by its value, the direction of its normal in the picture, its distance to a focus and its label; a factor that a scene does not give is 1."),
+            (3, "Seeds are strong where boundaries are strong and seen from the side, by two exponents or in a band of the depth that contours have."),
             (4, "A halo's seeds are spread as an image, by their gradient or as they are."),
+            (5, "Seeds are spread in passes whose taps come closer; a reach on the page gives the same halo at every resolution."),
+            (6, "A profile turns intensities into colours and opacities; intensity 0 is transparent."),
+            (7, "An emissive halo is a fog of its own; an occlusive one tints what lies behind, and nothing else."),
             (8, "Planes come in groups, and the halo of one group is composited with the next one."),
             (12, "A pixel picks the first visible structure along its ray."),
         ],
