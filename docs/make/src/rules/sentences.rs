@@ -141,7 +141,7 @@ pub(super) const FAMILIES: [Family; 17] = [
             (5, "H_i = δF_i + (1 − δF_i)H₀ in N passes of a 3×3 filter whose taps come closer by half each pass; lengths for print stretch them."),
             (6, "A profile maps intensity to colour and opacity, intensity 0 is transparent, and intensities below a floor are 0."),
             (7, "Emissive halos are composited behind the plane's own sample; occlusive halos mix a colour into later samples and change no opacity."),
-            (8, "Seeds may accumulate over M planes before one generation; M = 1 is the truth."),
+            (8, "Planes come in groups of M: seeds accumulate over a group, and their halo is composited with the next one; M = 1 is the truth."),
             (9, "Buffers are few for each halo, the counts say how many, and a scene without halos has neither planes nor buffers."),
             (10, "A picture of seeds goes through every stage of the paper's test images, and numbers beside a dot and a square are those worked out."),
             (11, "Without shading, halos alone make a drawing."),
