@@ -14,15 +14,13 @@ use std::path::PathBuf;
 /// Passes at the most: 4095 pixels of reach.
 const MAX_PASSES: u64 = 12;
 
-/// Make the halo of a picture: intensities spread from its seeds, without the loss of small features.
-///
-/// The picture is a map of seed intensities and no colour: its numbers are taken as they are encoded, code/(2ⁿ − 1), and
-/// the luminance times α is the intensity. The output is such a map too, a grey PNG or an EXR of the numbers.
+/// Make the halo of a picture of seeds: intensities that spread from them, without the loss of small features.
 #[derive(Debug, Args)]
 pub(super) struct HaloArgs {
-    /// The picture of seeds, PNG, JPEG or OpenEXR
+    /// The picture of seeds, PNG, JPEG or OpenEXR: a map of intensities. Numbers are taken as they are encoded,
+    /// code/(2ⁿ − 1), and luminance times alpha is the intensity
     picture: PathBuf,
-    /// Output file; the suffix chooses PNG or EXR
+    /// Output file, such a map too; the suffix chooses a grey PNG or an EXR of the numbers
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Amount of spreading, 0 to 1: at 0 nothing is spread
@@ -40,7 +38,7 @@ pub(super) struct HaloArgs {
     /// Filter that is applied to it
     #[arg(long, value_enum, default_value_t = Filter::Spread)]
     filter: Filter,
-    /// Take single pixels away from the seeds first, by a median of 3×3
+    /// Remove single pixels from the seeds first, by a median of 3×3
     #[arg(long)]
     median: bool,
     /// Write a contact sheet in place of one halo, as PNG
@@ -73,7 +71,7 @@ enum Filter {
     Spread,
     /// Passes of the low-pass filter alone
     LowPass,
-    /// None: the image itself
+    /// No filter: the image itself
     None,
 }
 

