@@ -46,32 +46,32 @@ fn a_crop_is_the_picture_of_the_crop() {
     }
 }
 
-/// With a reach in the picture's height H is that of a picture of four times the pixels, averaged over its pixels. Seeds have
-/// to be as deep as pixels are wide: those by curvature are.
+/// With a reach in the picture's height H is that of a picture of four times the pixels, averaged over its pixels, but where
+/// the first and last planes of a tube cut slivers of its seeds that are thinner than a pixel. Several rays a pixel see these.
 #[test]
 fn a_reach_is_the_same_at_every_resolution() {
-    let with = |side: usize, samples: usize, by: SeedBy| {
+    let with = |side: usize, samples: usize| {
         let stage = tubes().with(|s| {
             s.picture.size = [side; 2];
             s.picture.samples = samples;
             s.halos.truncate(1);
             s.halos[0].spread.reach = Some(Length::Percent(6.0));
-            s.halos[0].seed.by = by;
+            s.halos[0].seed.by = SeedBy::Curvature;
         });
         stage.layers(&[LayerKind::Halo(0)]).render().one(LayerKind::Halo(0))
     };
-    for by in [SeedBy::Curvature, SeedBy::Power] {
-        let fine = with(1024, 1, by);
-        for (side, samples) in [(256, 1), (256, 2), (512, 1)] {
-            let n = 1024 / side;
-            let mean = |x: usize, y: usize| {
-                let parts = (0..n * n).map(|i| fine[(n * y + i / n) * 1024 + n * x + i % n]);
-                parts.sum::<f64>() / (n * n) as f64
-            };
-            let h = with(side, samples, by);
-            let apart = (0..side * side).map(|i| (h[i] - mean(i % side, i / side)).abs());
-            println!("{by:?} {side} {samples} |ΔH| {:.4}", apart.fold(0.0, f64::max));
-        }
+    let fine = with(1024, 1);
+    let mean = |x: usize, y: usize| (0..16).map(|i| fine[(4 * y + i / 4) * 1024 + 4 * x + i % 4]).sum::<f64>() / 16.0;
+    for (samples, most, most_rms) in [(1, 131, 0.003), (2, 6, 0.0012)] {
+        let h = with(256, samples);
+        let apart: Vec<f64> = (0..256 * 256).map(|i| (h[i] - mean(i % 256, i / 256)).abs()).collect();
+        let rms = (apart.iter().map(|x| x * x).sum::<f64>() / apart.len() as f64).sqrt();
+        let over = apart.iter().filter(|apart| **apart > 0.03).count();
+        let largest = apart.iter().copied().fold(0.0, f64::max);
+        println!("{samples}×{samples} rays: |ΔH| {largest:.4}, RMS {rms:.5}, {over} pixels over 0.03");
+        // 0.2 % and 0.01 % of the pixels.
+        assert!(over < most && rms < most_rms, "{over} {rms}");
+        assert!(h.iter().copied().fold(0.0, f64::max) > 0.3);
     }
 }
 

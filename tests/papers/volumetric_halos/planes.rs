@@ -60,8 +60,8 @@ fn a_glow_is_as_opaque_as_its_length() {
         shot.objects[0].function = std::sync::Arc::new(drypoint::scene::transfer::Function::nothing());
         let shown = stage.render_shot(&shot, |renderer| renderer);
         let largest = shown.pixels().iter().map(|p| p[3]).fold(0.0, f64::max);
-        // The rod ends at 29: planes with y from 0 to 28 are whole, and the next one may be.
-        let [least, most] = [28.0 - step * every as f64, 29.0 + step * every as f64].map(|l| corrected(0.01, l));
+        // Voxels of the rod end at 28, and gradients turn towards its end from 27 on.
+        let [least, most] = [27.0 - step * every as f64, 29.0 + step * every as f64].map(|l| corrected(0.01, l));
         assert!(least < largest && largest < most, "Δ = {step}, M = {every}: {largest}, from {least} to {most}");
         // A constant profile has a sharp border: all of it or nothing, but where H fades at the ends of the rod.
         let all = shown.pixels().iter().filter(|p| p[3] > 0.9 * largest).count();
