@@ -168,6 +168,7 @@ fn json_is_the_picture_with_nothing_left_to_decide() {
     assert_eq!([&halo["list"][0]["name"], &halo["list"][0]["seed"]["value"]], ["halo 0", "opacity"]);
     assert_eq!(halo["list"][0]["spread"]["stretch"], 2.0);
     assert_eq!(halo["query"]["gradient"], true);
+    folder.torus();
     let text = folder.good("plan torus.nrrd --preset halo --json --set picture.layers=[\"beauty\",\"halo1\"]");
     let preset: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(preset["halos"]["list"].as_array().unwrap().len(), 2);

@@ -202,7 +202,7 @@ fn ids(labels: &[LabelKey], halo: usize) -> Result<Vec<u32>, ShotError> {
     labels.iter().enumerate().map(id).collect()
 }
 
-/// h_v. The opacity of a scene without [transfer] is that of its iso-surface: 1 inside, 0 outside.
+/// h_v. The opacity of a scene without `[transfer]` is that of its iso-surface: 1 inside, 0 outside.
 fn seed_value(seed: &Seeding, scene: &Scene) -> Result<Option<SeedValue>, ShotError> {
     if !seed.is_by_opacity() {
         return Ok(seed.value.clone());

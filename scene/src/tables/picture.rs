@@ -201,7 +201,7 @@ struct LayerName;
 
 impl Shape for LayerName {
     fn expected(&self) -> String {
-        format!("{}, or such as \"halo0\" for the first of [[halo]]", LAYER.expected())
+        format!("{}, or \"haloN\", N the place of one of [[halo]], from 0", LAYER.expected())
     }
 
     fn schema(&self) -> Json {
