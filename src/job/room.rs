@@ -18,6 +18,16 @@ pub(super) fn room_for_table(scene: &Scene) -> Result<(), Failure> {
     })
 }
 
+/// Checks that the memory budget allows the rays and images of a frame with halos.
+pub(super) fn room_for_halos(scene: &Scene, bytes: u64) -> Result<(), Failure> {
+    memory::room(bytes).map_err(|no_room| {
+        let what = format!("the rays and images of halos need {no_room}");
+        let remedy =
+            "make the picture narrower, picture.samples smaller, or spread.reach or spread.passes of halos shorter";
+        Failure::new(what, scene.given.position("halo"), remedy)
+    })
+}
+
 /// Checks that the memory budget allows `bytes` bytes a pixel.
 pub(crate) fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
     let [width, height] = scene.picture.size;

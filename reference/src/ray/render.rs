@@ -145,6 +145,22 @@ impl<'a> Renderer<'a> {
         }
     }
 
+    /// Bytes that a frame with halos needs beside its picture; 0 without halos.
+    pub fn bytes_of_halos(&self) -> u64 {
+        fn of<R: Real, S: Sampler<R>>(p: &Prepared<'_, R>, _: &S, [tile, band]: [usize; 2]) -> u64 {
+            let Some(halos) = &p.halos else { return 0 };
+            let [width, height] = p.view.size.map(|side| side * p.rays_across);
+            let rows = (band / width).max(tile * p.rays_across).min(height);
+            plane_order::bytes_with_halos::<R, S>(halos, [width, rows])
+        }
+        let sides = [self.tile, self.band];
+        match &self.ready {
+            Ready::F64(p) => with_sampler!(p.object.field, |s| of(p, s, sides)),
+            Ready::F32(p) => with_sampler!(p.object.field, |s| of(p, s, sides)),
+            Ready::Exact(p, phantom) => of(p, &exact_sampler(p, *phantom), sides),
+        }
+    }
+
     /// Whether rays are cast in lanes, eight at a time.
     pub fn in_lanes(&self) -> bool {
         self.order == Order::Lanes

@@ -104,6 +104,9 @@ impl Tint {
 }
 
 impl<'p> HaloPlanes<'p> {
+    /// Bytes of a pixel of the images of one halo: S, H₀, H, working memory and O ([HALO-9]).
+    pub(crate) const BYTES_OF_PIXEL: u64 = 8 * (HaloField::BUFFERS + 1);
+
     /// Images for so many rays across and down, without the guard band.
     pub(crate) fn new(halos: &'p [PreparedHalo], [width, height]: [usize; 2]) -> Self {
         let guard = guard(halos);

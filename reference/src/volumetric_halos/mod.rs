@@ -19,6 +19,6 @@ mod taps;
 pub use direction::DirectionInfluence;
 pub use focus::FocusInfluence;
 pub use halo_field::{HaloField, Process, SpreadParams};
-pub(crate) use halo_planes::{HaloPlanes, PreparedHalo, SeedStrip, Tint};
+pub(crate) use halo_planes::{HaloPlanes, PreparedHalo, SeedStrip, Tint, guard};
 pub use profile::HaloProfile;
 pub use taps::Border;

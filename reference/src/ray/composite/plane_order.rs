@@ -10,12 +10,23 @@ use crate::ray::draw::Region;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_halos::PreparedHalos;
 use crate::ray::tile_work::TileRays;
-use crate::volumetric_halos::HaloPlanes;
+use crate::volumetric_halos::{HaloPlanes, guard};
 use drypoint_scene::counts::Counts;
 use rayon::prelude::*;
 
 /// The results of the rays of each tile, in their order.
 type Casts = Vec<(Vec<Cast>, Counts)>;
+
+/// Bytes for the rays of a region with halos, at the most: their states with a short path each, those of the seed rays, and
+/// the images.
+pub(crate) fn bytes_with_halos<R: Real, S: Sampler<R>>(halos: &PreparedHalos<'_>, [width, height]: [usize; 2]) -> u64 {
+    let with_guard = |side: usize| (side as u64).saturating_add(2u64.saturating_mul(guard(&halos.list) as u64));
+    let inside = (width as u64).saturating_mul(height as u64);
+    let images = HaloPlanes::BYTES_OF_PIXEL * halos.list.len() as u64;
+    let of_band = with_guard(width).saturating_mul(with_guard(height));
+    let rays = inside.saturating_mul(WaitingTile::<'_, '_, R, S>::BYTES_OF_RAY);
+    rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R, S>::BYTES_OF_RAY + images))
+}
 
 /// Casts the rays of tiles plane by plane. The state of a tile's rays alone is in memory.
 pub(crate) fn cast_tiles<R: Real, S: Sampler<R>>(

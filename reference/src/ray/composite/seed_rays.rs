@@ -38,7 +38,9 @@ pub(super) struct SeedRays<'p, 'v, R: Real, S> {
 /// Seed rays of one tile.
 struct SeedTile<'p, 'v, R: Real, S> {
     rays: Vec<SeedRay<'p, 'v, R, S>>,
-    /// The nearest plane of any of its rays.
+    /// The plane that comes next on each ray: apart from the rays, which most chunks then need not touch.
+    planes: Vec<i64>,
+    /// The nearest of them.
     next: i64,
 }
 
@@ -51,11 +53,12 @@ struct SeedRay<'p, 'v, R: Real, S> {
     visits: Box<[[i64; 2]]>,
     /// The range that comes next.
     at: usize,
-    /// The plane that comes next.
-    next: i64,
 }
 
 impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
+    /// Bytes of a ray with two ranges of samples.
+    pub(super) const BYTES_OF_RAY: u64 = (size_of::<SeedRay<'_, '_, R, S>>() + 2 * size_of::<[i64; 2]>() + 8) as u64;
+
     /// Aims the rays of a region; `size` is that of the images, with the guard band.
     pub(super) fn new(
         prepared: &'p Prepared<'v, R>,
@@ -95,7 +98,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
         }
         for (tile, near) in self.strips.iter_mut().flatten().zip(near) {
             if !near {
-                *tile = SeedTile { rays: Vec::new(), next: ENDED };
+                *tile = SeedTile { rays: Vec::new(), planes: Vec::new(), next: ENDED };
             }
         }
         self.open = open;
@@ -108,11 +111,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
         let visit = |(tiles, mut strip): (&mut Vec<SeedTile<'_, '_, R, S>>, SeedStrip<'_>)| {
             let (mut counts, mut scratch) = (Counts::default(), vec![0.0; halos.list.len()]);
             for tile in tiles.iter_mut().filter(|tile| tile.next <= last) {
-                tile.next = ENDED;
-                for ray in &mut tile.rays {
-                    ray.visit(last, (prepared, halos), &mut strip, &mut scratch, &mut counts);
-                    tile.next = tile.next.min(ray.next);
+                for (next, ray) in tile.planes.iter_mut().zip(&mut tile.rays).filter(|(next, _)| **next <= last) {
+                    *next = ray.visit([*next, last], (prepared, halos), &mut strip, &mut scratch, &mut counts);
                 }
+                tile.next = tile.planes.iter().copied().min().unwrap_or(ENDED);
             }
             (strip.seeded(), counts)
         };
@@ -127,7 +129,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
     pub(super) fn bytes(&self) -> u64 {
         let of = |tile: &SeedTile<'_, '_, R, S>| {
             let visits: usize = tile.rays.iter().map(|ray| size_of_val(&*ray.visits)).sum();
-            (size_of_val(tile.rays.as_slice()) + visits) as u64
+            (size_of_val(tile.rays.as_slice()) + size_of_val(tile.planes.as_slice()) + visits) as u64
         };
         self.strips.iter().flatten().map(of).sum()
     }
@@ -159,9 +161,9 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
             let corners = [corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom)];
             skip.boxes_in(&Beam::new(corners))
         });
-        let mut rays = Vec::new();
+        let (mut rays, mut planes) = (Vec::new(), Vec::new());
         if boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
-            return Self { rays, next: ENDED };
+            return Self { rays, planes, next: ENDED };
         }
         for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
             let [i, j] = ray_point(prepared.rays_across, ray_at([first[0] + x, first[1] + y]));
@@ -172,35 +174,37 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
             let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
             let dirs = prepared.object.shader.view_dirs(v, v_eye);
             let evaluator = Evaluator { object: &prepared.object, sampler, ray, dirs, previous: Previous::None };
-            rays.push(SeedRay { evaluator, place: y * size[0] + first[0] + x, visits, at: 0, next });
+            rays.push(SeedRay { evaluator, place: y * size[0] + first[0] + x, visits, at: 0 });
+            planes.push(next);
         }
-        let next = rays.iter().map(|ray| ray.next).min().unwrap_or(ENDED);
-        Self { rays, next }
+        let next = planes.iter().copied().min().unwrap_or(ENDED);
+        Self { rays, planes, next }
     }
 }
 
 impl<R: Real, S: Sampler<R>> SeedRay<'_, '_, R, S> {
-    /// Adds the seeds of its samples on planes up to `last`. `scratch` has a place for each halo.
+    /// Adds the seeds of its samples on planes up to `last`, of which the next is given. Returns the plane that comes then.
+    /// `scratch` has a place for each halo.
     fn visit(
         &mut self,
-        last: i64,
+        [mut next, last]: [i64; 2],
         by: (&Prepared<'_, R>, &PreparedHalos<'_>),
         strip: &mut SeedStrip<'_>,
         scratch: &mut [f64],
         counts: &mut Counts,
-    ) {
-        while self.next <= last {
+    ) -> i64 {
+        while next <= last {
             let [_, end] = self.visits[self.at];
-            for k in self.next..=end.min(last) {
+            for k in next..=end.min(last) {
                 self.seed(k, by, strip, scratch, counts);
             }
             if last < end {
-                self.next = last + 1;
-                return;
+                return last + 1;
             }
             self.at += 1;
-            self.next = self.visits.get(self.at).map_or(ENDED, |&[first, _]| first);
+            next = self.visits.get(self.at).map_or(ENDED, |&[first, _]| first);
         }
+        next
     }
 
     /// Adds the seeds of sample k.

@@ -17,9 +17,10 @@ pub(super) const ENDED: i64 = i64::MAX;
 /// Rays of one tile.
 pub(super) struct WaitingTile<'p, 'v, R: Real, S> {
     rays: Vec<WaitingRay<'p, 'v, R, S>>,
-    /// Rays that have steps left.
-    open: Vec<usize>,
-    /// The nearest plane of any of its rays.
+    /// Rays that have steps left: the plane of the next one, and the ray. It stands apart from the rays, which most chunks then
+    /// need not touch.
+    open: Vec<(i64, usize)>,
+    /// The nearest of these planes.
     pub(super) next: i64,
     /// Whether anything behind one of its rays would be seen.
     pub(super) is_open: bool,
@@ -34,13 +35,15 @@ struct WaitingRay<'p, 'v, R: Real, S> {
     path: Vec<Step<'p>>,
     /// The step that comes next.
     at: usize,
-    /// The plane that comes next; the largest number where the ray has ended.
-    next: i64,
     /// The largest intensities of the halos that layers show.
     intensities: Box<[f64]>,
 }
 
 impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
+    /// Bytes of a ray with a path of two steps.
+    pub(super) const BYTES_OF_RAY: u64 =
+        (size_of::<WaitingRay<'_, '_, R, S>>() + 2 * size_of::<Step<'_>>() + 32) as u64;
+
     /// Aims the rays of a tile, with so many halos that layers show.
     pub(super) fn new(prepared: &'p Prepared<'v, R>, sampler: &'p S, mut tile: TileRays, watched: usize) -> Self {
         let rays = tile.points.iter().zip(&tile.places).map(|(&point, &place)| {
@@ -48,50 +51,44 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
             let mut path = Vec::new();
             state.path(point, tile.boxes.as_mut(), &mut path);
             path.shrink_to_fit();
-            let next = path.first().map_or(ENDED, Step::plane);
-            WaitingRay { state, place, path, at: 0, next, intensities: vec![0.0; watched].into() }
+            WaitingRay { state, place, path, at: 0, intensities: vec![0.0; watched].into() }
         });
         let rays: Vec<_> = rays.collect();
-        let next = rays.iter().map(|ray| ray.next).min().unwrap_or(ENDED);
-        let open = (0..rays.len()).filter(|&i| rays[i].next != ENDED).collect();
-        Self { rays, open, next, is_open: true, counts: Counts::default() }
+        let open: Vec<_> =
+            rays.iter().enumerate().filter_map(|(i, ray)| Some((ray.path.first()?.plane(), i))).collect();
+        Self { next: nearest(&open), rays, open, is_open: true, counts: Counts::default() }
     }
 
     /// Visits the planes of its rays up to `last`, without halos.
     pub(super) fn visit(&mut self, last: i64) {
-        let mut next = ENDED;
-        self.open.retain(|&i| {
-            let ray = &mut self.rays[i];
-            if ray.next <= last {
-                ray.visit(last, None, &mut self.counts);
-            }
-            next = next.min(ray.next);
-            ray.next != ENDED
-        });
-        self.next = next;
+        self.visit_with(last, |_| None);
     }
 
     /// Visits the planes of its rays up to `last` under the tints of the groups before.
     pub(super) fn visit_tinted(&mut self, last: i64, halos: &HaloPlanes<'_>) {
-        let mut next = ENDED;
-        self.open.retain(|&i| {
-            let ray = &mut self.rays[i];
-            if ray.next <= last {
-                let tint = halos.tint(halos.place(ray.place));
-                ray.visit(last, tint.as_ref(), &mut self.counts);
-            }
-            next = next.min(ray.next);
-            ray.next != ENDED
-        });
-        self.next = next;
+        self.visit_with(last, |place| halos.tint(halos.place(place)));
         self.is_open = self.rays.iter().any(|ray| ray.state.is_open());
+    }
+
+    /// Visits the planes of its rays up to `last` under the tint of each.
+    fn visit_with(&mut self, last: i64, tint: impl Fn([usize; 2]) -> Option<Tint>) {
+        self.open.retain_mut(|(next, i)| {
+            if *next <= last {
+                let ray = &mut self.rays[*i];
+                *next = ray.visit([*next, last], tint(ray.place).as_ref(), &mut self.counts);
+            }
+            *next != ENDED
+        });
+        self.next = nearest(&self.open);
     }
 
     /// Visits the planes first..=last of its rays under the tints of the groups before, each plane followed by the glow of
     /// the group before.
     pub(super) fn visit_glowing(&mut self, [first, last]: [i64; 2], halos: &HaloPlanes<'_>) {
-        self.next = ENDED;
-        for ray in &mut self.rays {
+        let mut open = std::mem::take(&mut self.open).into_iter().peekable();
+        for (i, ray) in self.rays.iter_mut().enumerate() {
+            // Rays stand in their order in both lists.
+            let mut next = open.next_if(|(_, ray)| *ray == i).map_or(ENDED, |(next, _)| next);
             if !ray.state.is_open() {
                 continue;
             }
@@ -99,12 +96,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
             for (largest, h) in ray.intensities.iter_mut().zip(halos.watched(place)) {
                 *largest = largest.max(h);
             }
-            let tint = if ray.next <= last { halos.tint(place) } else { None };
+            let tint = if next <= last { halos.tint(place) } else { None };
             match halos.glow(place, |alpha| ray.state.corrected(alpha)) {
-                None => ray.visit(last, tint.as_ref(), &mut self.counts),
+                None => next = ray.visit([next, last], tint.as_ref(), &mut self.counts),
                 Some(glow) => {
                     for k in first..=last {
-                        ray.visit(k, tint.as_ref(), &mut self.counts);
+                        next = ray.visit([next, k], tint.as_ref(), &mut self.counts);
                         if !ray.state.is_open() {
                             break;
                         }
@@ -112,13 +109,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
                     }
                 }
             }
-            if !ray.state.is_open() {
-                // What lies in front hides all that follows.
-                ray.next = ENDED;
+            // What lies in front hides all that follows.
+            if ray.state.is_open() && next != ENDED {
+                self.open.push((next, i));
             }
-            self.next = self.next.min(ray.next);
         }
-        self.open.retain(|&i| self.rays[i].next != ENDED);
+        self.next = nearest(&self.open);
         self.is_open = self.rays.iter().any(|ray| ray.state.is_open());
     }
 
@@ -149,25 +145,30 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 }
 
 impl<R: Real, S: Sampler<R>> WaitingRay<'_, '_, R, S> {
-    /// Takes all its steps on the planes up to `last`.
-    fn visit(&mut self, last: i64, tint: Option<&Tint>, counts: &mut Counts) {
-        while self.next <= last {
+    /// Takes all its steps on the planes up to `last`, of which the next is given. Returns the plane that comes then.
+    fn visit(&mut self, [mut next, last]: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> i64 {
+        while next <= last {
             let whole = self.path[self.at];
             let step = match whole {
-                Step::Samples([_, end]) => Step::Samples([self.next, end.min(last)]),
+                Step::Samples([_, end]) => Step::Samples([next, end.min(last)]),
                 other => other,
             };
             if !self.state.take::<Anything>(&step, tint, counts) {
-                self.next = ENDED;
-                return;
+                return ENDED;
             }
             match whole {
-                Step::Samples([_, end]) if last < end => self.next = last + 1,
+                Step::Samples([_, end]) if last < end => return last + 1,
                 _ => {
                     self.at += 1;
-                    self.next = self.path.get(self.at).map_or(ENDED, Step::plane);
+                    next = self.path.get(self.at).map_or(ENDED, Step::plane);
                 }
             }
         }
+        next
     }
+}
+
+/// The nearest of the next planes of rays.
+fn nearest(open: &[(i64, usize)]) -> i64 {
+    open.iter().map(|(next, _)| *next).min().unwrap_or(ENDED)
 }

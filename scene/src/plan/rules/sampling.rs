@@ -1,6 +1,6 @@
 //! Rules of `[sampling]`: needs, keys without effect, knobs.
 
-use super::{Ladder, Pass, Rules, Settings};
+use super::{Ladder, Pass, Rules, Settings, halos_in_effect};
 use crate::plan::Plan;
 use crate::quantity::Quantity;
 use crate::tables::{HessianEstimator, Kernel, Projection, Scene};
@@ -51,7 +51,9 @@ pub(super) const RULES: Rules = Rules {
         if !(lines || draws && plan.reads_gradients()) {
             idle.key("sampling.gradient", if draws { "nothing needs a gradient" } else { NOT_DRAWN });
         }
-        if draws && !plan.shows_gradients() && !plan.needs_at_seeds(Quantity::PreviousNormal) {
+        // A seed's direction and κ along its ray are those of shading normals.
+        let by_direction = halos_in_effect(scene).any(|(_, halo)| halo.seed.direction.is_some());
+        if draws && !plan.shows_gradients() && !plan.needs_at_seeds(Quantity::PreviousNormal) && !by_direction {
             idle.key("sampling.normal", "nothing needs a normal of that side");
         }
         if !reads_hessians(scene, plan) {
