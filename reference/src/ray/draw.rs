@@ -125,8 +125,11 @@ pub(super) fn draw<R: Real>(
         } else {
             batch.into_par_iter().zip(&mut cast_before).map(|(t, casts)| draw(t, Some(casts))).collect()
         };
+        // The buffers of a band take the place of the last one's.
+        let mut of_batch = Counts::default();
+        tiles.iter().for_each(|tile| of_batch.add(&tile.counts));
+        counts.add_frame(&of_batch);
         for tile in &tiles {
-            counts.add(&tile.counts);
             let blocks = blocks_of(tile.size, &whole);
             for ([i, j], pixel) in blocks.iter().zip(tile.pixels.chunks_exact(per_pixel)) {
                 let at = (tile.y + j) * width + tile.x + i;

@@ -89,6 +89,9 @@ impl<'a> Renderer<'a> {
         if let Some(surface) = &mut prepared.surface {
             surface.roots.look_everywhere();
         }
+        if let Some(halos) = &mut prepared.halos {
+            halos.skip = None;
+        }
         let exact = Exact::new(phantom, inputs.volume.grid(), prepared.object.field.scale_exponent());
         let ([object], field) = (&shot.objects, &prepared.object.field);
         if let Some(range) = object.gradient_range {

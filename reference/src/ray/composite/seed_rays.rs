@@ -19,6 +19,7 @@ use crate::volumetric_halos::{HaloPlanes, SeedStrip};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Rays along the side of a tile.
 const SIDE: usize = 8;
@@ -38,9 +39,12 @@ pub(super) struct SeedRays<'p, 'v, R: Real, S> {
 /// Seed rays of one tile.
 struct SeedTile<'p, 'v, R: Real, S> {
     rays: Vec<SeedRay<'p, 'v, R, S>>,
-    /// The plane that comes next on each ray: apart from the rays, which most chunks then need not touch.
-    planes: Vec<i64>,
-    /// The nearest of them.
+    /// The next plane of each ray and the last one of the range that it is in: apart from the rays, which most chunks then
+    /// need not touch.
+    planes: Vec<[i64; 2]>,
+    /// Ranges of samples in bricks that can seed, ray after ray, of each nearest first.
+    ranges: Vec<[i64; 2]>,
+    /// The nearest of all next planes.
     next: i64,
 }
 
@@ -49,15 +53,13 @@ struct SeedRay<'p, 'v, R: Real, S> {
     evaluator: Evaluator<'p, 'v, R, S>,
     /// Its place in the strip.
     place: usize,
-    /// Ranges of samples in bricks that can seed, those that are done at the front.
-    visits: Box<[[i64; 2]]>,
-    /// The range that comes next.
-    at: usize,
+    /// The ranges of the tile that come after the one it is in.
+    ranges: Range<usize>,
 }
 
 impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
     /// Bytes of a ray with two ranges of samples.
-    pub(super) const BYTES_OF_RAY: u64 = (size_of::<SeedRay<'_, '_, R, S>>() + 2 * size_of::<[i64; 2]>() + 8) as u64;
+    pub(super) const BYTES_OF_RAY: u64 = (size_of::<SeedRay<'_, '_, R, S>>() + 3 * size_of::<[i64; 2]>()) as u64;
 
     /// Aims the rays of a region; `size` is that of the images, with the guard band.
     pub(super) fn new(
@@ -98,7 +100,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
         }
         for (tile, near) in self.strips.iter_mut().flatten().zip(near) {
             if !near {
-                *tile = SeedTile { rays: Vec::new(), planes: Vec::new(), next: ENDED };
+                *tile = SeedTile::ended();
             }
         }
         self.open = open;
@@ -111,10 +113,20 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
         let visit = |(tiles, mut strip): (&mut Vec<SeedTile<'_, '_, R, S>>, SeedStrip<'_>)| {
             let (mut counts, mut scratch) = (Counts::default(), vec![0.0; halos.list.len()]);
             for tile in tiles.iter_mut().filter(|tile| tile.next <= last) {
-                for (next, ray) in tile.planes.iter_mut().zip(&mut tile.rays).filter(|(next, _)| **next <= last) {
-                    *next = ray.visit([*next, last], (prepared, halos), &mut strip, &mut scratch, &mut counts);
+                for (planes, ray) in tile.planes.iter_mut().zip(&mut tile.rays).filter(|(planes, _)| planes[0] <= last)
+                {
+                    while planes[0] <= last {
+                        for k in planes[0]..=planes[1].min(last) {
+                            ray.seed(k, (prepared, halos), &mut strip, &mut scratch, &mut counts);
+                        }
+                        *planes = if last < planes[1] {
+                            [last + 1, planes[1]]
+                        } else {
+                            ray.ranges.next().map_or([ENDED; 2], |range| tile.ranges[range])
+                        };
+                    }
                 }
-                tile.next = tile.planes.iter().copied().min().unwrap_or(ENDED);
+                tile.next = nearest(&tile.planes);
             }
             (strip.seeded(), counts)
         };
@@ -128,8 +140,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
     /// Bytes of the states of all rays.
     pub(super) fn bytes(&self) -> u64 {
         let of = |tile: &SeedTile<'_, '_, R, S>| {
-            let visits: usize = tile.rays.iter().map(|ray| size_of_val(&*ray.visits)).sum();
-            (size_of_val(tile.rays.as_slice()) + size_of_val(tile.planes.as_slice()) + visits) as u64
+            let planes = size_of_val(tile.planes.as_slice()) + size_of_val(tile.ranges.as_slice());
+            (size_of_val(tile.rays.as_slice()) + planes) as u64
         };
         self.strips.iter().flatten().map(of).sum()
     }
@@ -161,53 +173,36 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
             let corners = [corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom)];
             skip.boxes_in(&Beam::new(corners))
         });
-        let (mut rays, mut planes) = (Vec::new(), Vec::new());
+        let mut tile = Self::ended();
         if boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
-            return Self { rays, planes, next: ENDED };
+            return tile;
         }
         for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
             let [i, j] = ray_point(prepared.rays_across, ray_at([first[0] + x, first[1] + y]));
             let pixel = view.ray(i, j);
             let ray = IndexRay::<R>::new(&pixel, view, &prepared.lattice, grid);
-            let visits: Box<[_]> = ray.visits(prepared.object.ends, ray.intervals(boxes.as_mut())).collect();
-            let Some(&[next, _]) = visits.first() else { continue };
+            let from = tile.ranges.len();
+            tile.ranges.extend(ray.visits(prepared.object.ends, ray.intervals(boxes.as_mut())));
+            let mut ranges = from..tile.ranges.len();
+            let Some(first_range) = ranges.next() else { continue };
+            tile.planes.push(tile.ranges[first_range]);
             let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
             let dirs = prepared.object.shader.view_dirs(v, v_eye);
             let evaluator = Evaluator { object: &prepared.object, sampler, ray, dirs, previous: Previous::None };
-            rays.push(SeedRay { evaluator, place: y * size[0] + first[0] + x, visits, at: 0 });
-            planes.push(next);
+            tile.rays.push(SeedRay { evaluator, place: y * size[0] + first[0] + x, ranges });
         }
-        let next = planes.iter().copied().min().unwrap_or(ENDED);
-        Self { rays, planes, next }
+        tile.next = nearest(&tile.planes);
+        tile
+    }
+
+    /// A tile without rays.
+    fn ended() -> Self {
+        Self { rays: Vec::new(), planes: Vec::new(), ranges: Vec::new(), next: ENDED }
     }
 }
 
 impl<R: Real, S: Sampler<R>> SeedRay<'_, '_, R, S> {
-    /// Adds the seeds of its samples on planes up to `last`, of which the next is given. Returns the plane that comes then.
-    /// `scratch` has a place for each halo.
-    fn visit(
-        &mut self,
-        [mut next, last]: [i64; 2],
-        by: (&Prepared<'_, R>, &PreparedHalos<'_>),
-        strip: &mut SeedStrip<'_>,
-        scratch: &mut [f64],
-        counts: &mut Counts,
-    ) -> i64 {
-        while next <= last {
-            let [_, end] = self.visits[self.at];
-            for k in next..=end.min(last) {
-                self.seed(k, by, strip, scratch, counts);
-            }
-            if last < end {
-                return last + 1;
-            }
-            self.at += 1;
-            next = self.visits.get(self.at).map_or(ENDED, |&[first, _]| first);
-        }
-        next
-    }
-
-    /// Adds the seeds of sample k.
+    /// Adds the seeds of sample k. `h` has a place for each halo.
     #[inline]
     fn seed(
         &mut self,
@@ -288,4 +283,9 @@ impl<R: Real, S: Sampler<R>> SeedRay<'_, '_, R, S> {
         };
         over_two.locate(&here).map_or(0.0, |patch| patch.alpha_u.to_f64())
     }
+}
+
+/// The nearest of the next planes of rays.
+fn nearest(planes: &[[i64; 2]]) -> i64 {
+    planes.iter().map(|&[next, _]| next).min().unwrap_or(ENDED)
 }
