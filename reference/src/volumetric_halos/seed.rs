@@ -105,7 +105,7 @@ impl Seeding {
         }
     }
 
-    /// h_v·h_l·h_p, which need no gradient.
+    /// h_v·h_l·h_p, which need no gradient; 0 where s is below the floor whatever the gradient is.
     #[inline]
     pub fn before_gradient(&self, at: &SeedPlace) -> f64 {
         let h_v = match &self.value {
@@ -116,7 +116,9 @@ impl Seeding {
         if h_v <= 0.0 || self.labels.as_ref().is_some_and(|labels| !labels.contains(&at.label)) {
             return 0.0;
         }
-        self.focus.as_ref().map_or(h_v, |focus| h_v * focus.at(at.world))
+        let h = self.focus.as_ref().map_or(h_v, |focus| h_v * focus.at(at.world));
+        // The other factors are at most 1.
+        if h < self.floor { 0.0 } else { h }
     }
 
     /// s = clamp₀₁(h·|g|^a·(1 − |n·v|)^b), or with clamp₀₁(1 − |n·v|/τ) in place of the power; 0 below the floor.
