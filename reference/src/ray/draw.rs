@@ -126,7 +126,8 @@ pub(super) fn draw<R: Real>(
             batch.into_par_iter().zip(&mut cast_before).map(|(t, casts)| draw(t, Some(casts))).collect()
         };
         for tile in &tiles {
-            counts.add(&tile.counts);
+            // Buffers of a band take the place of those of the band before.
+            counts.add_frame(&tile.counts);
             let blocks = blocks_of(tile.size, &whole);
             for ([i, j], pixel) in blocks.iter().zip(tile.pixels.chunks_exact(per_pixel)) {
                 let at = (tile.y + j) * width + tile.x + i;
