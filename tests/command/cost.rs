@@ -323,3 +323,27 @@ fn what_cannot_be_done_is_told_before_work() {
     assert!(refused.contains("gone"), "{refused}");
     assert!(folder.refused("cost gone.toml -o a.csv").contains("gone.toml"));
 }
+
+/// Halos have knobs of their own, each by its place in the list: groups of planes, how their seeds come together, and passes
+/// where the reach is given.
+#[test]
+fn halos_are_swept_by_their_places() {
+    let folder = Folder::new();
+    let halos = "[[halo]]\nevery = 2\n[[halo]]\nkind = \"emissive\"\nspread.reach = \"3 px\"\n[[halo]]\nopacity = 0\n";
+    folder.write("scene.toml", format!("{REGULAR}{halos}"));
+    let rows = rows(&folder, "cost scene.toml --runs 1");
+    let halos: Vec<(&str, usize)> =
+        rows.iter().filter(|(knob, _)| knob.starts_with("halo")).map(|(knob, rows)| (knob.as_str(), rows.len())).collect();
+    let expected =
+        [("halo[0].accumulate", 2), ("halo[0].every", 4), ("halo[1].every", 4), ("halo[1].spread.passes", 6)];
+    assert_eq!(halos, expected);
+    let every = &rows["halo[1].every"];
+    assert_eq!(every.iter().map(|row| row.setting.as_str()).collect::<Vec<_>>(), ["8", "4", "2", "1"]);
+    for row in every {
+        assert_eq!(row.truth, "finest: 1");
+        assert_eq!(row.samples, every[0].samples, "groups change no sample: {row:?}");
+    }
+    // One plane to a group is the truth, and ever larger groups are farther from it.
+    assert_eq!((every[3].rms, every[3].max), (0.0, 0.0));
+    assert!(every[0].rms > every[2].rms && every[2].rms > 0.0, "{every:?}");
+}

@@ -11,6 +11,7 @@ mod counts;
 mod degenerate;
 mod empty;
 mod eye;
+mod halos;
 mod hash;
 mod layers;
 mod masks;

@@ -65,6 +65,7 @@ static THEMES: &[&Theme] = &[
     &crate::stipples::THEME,
     &crate::toon::THEME,
     &crate::strokes::THEME,
+    &crate::halos::THEME,
 ];
 
 /// What makes the page be written.

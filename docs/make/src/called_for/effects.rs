@@ -29,6 +29,21 @@ pub(super) struct Effect {
     pub(super) others: &'static [&'static str],
 }
 
+/// What every picture with halos has: states of its rays and of those that ask for seeds, images, and the range of |g|.
+const OF_HALOS: &[&str] = &[
+    "halo_samples",
+    "halo_passes",
+    "gradients",
+    "preprocess.gradients",
+    "bytes.halos",
+    "bytes.rays",
+    "bytes.seed_rays",
+    "bytes.skip_seeds",
+];
+
+/// A halo by opacity.
+const HALO: Settings = &[("halo", "[{ kind = \"occlusive\" }]")];
+
 /// An effect over [`STYLE`] that adds nothing which is counted.
 const NOTHING: Effect = Effect {
     name: "",
@@ -471,6 +486,58 @@ pub(super) const EFFECTS: &[Effect] = &[
         only: &["bytes.lines on rays", "preprocess.places of lines on rays"],
         // A ray ends at an opaque stroke.
         fewer: &["samples"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a halo, seeded by the opacity",
+        asked_by: "`[[halo]]`",
+        base: REGULAR,
+        with: HALO,
+        only: OF_HALOS,
+        ..NOTHING
+    },
+    Effect {
+        name: "four halos in place of one",
+        asked_by: "`[[halo]]`",
+        base: REGULAR,
+        without: HALO,
+        with: &[("halo", "[{ kind = \"occlusive\" }, {}, {}, {}]")],
+        more: &["halo_passes", "bytes.halos"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a halo over groups of four planes",
+        asked_by: "`halo.every`",
+        base: REGULAR,
+        without: HALO,
+        with: &[("halo", "[{ kind = \"occlusive\", every = 4 }]")],
+        fewer: &["halo_passes"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a halo, seeded by curvature",
+        asked_by: "`halo.seed.by`",
+        base: REGULAR,
+        without: HALO,
+        with: &[("halo", "[{ kind = \"occlusive\", seed = { by = \"curvature\" } }]")],
+        // A second normal on each ray, and seeds on other planes.
+        more: &["gradients"],
+        others: &["halo_passes"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a halo of one label",
+        asked_by: "`halo.seed.labels`",
+        base: REGULAR,
+        without: HALO,
+        with: &[
+            ("volume.labels", "{folder}/labels.nrrd"),
+            ("halo", "[{ kind = \"occlusive\", seed = { value = \"opacity\", labels = [1] } }]"),
+        ],
+        only: &["bytes.labels"],
+        // Seeds outside of the label are looked for no further.
+        fewer: &["gradients"],
+        others: &["halo_samples", "halo_passes", "bytes.seed_rays", "bytes.skip_seeds"],
         ..NOTHING
     },
 ];
