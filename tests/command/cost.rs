@@ -332,8 +332,11 @@ fn halos_are_swept_by_their_places() {
     let halos = "[[halo]]\nevery = 2\n[[halo]]\nkind = \"emissive\"\nspread.reach = \"3 px\"\n[[halo]]\nopacity = 0\n";
     folder.write("scene.toml", format!("{REGULAR}{halos}"));
     let rows = rows(&folder, "cost scene.toml --runs 1");
-    let halos: Vec<(&str, usize)> =
-        rows.iter().filter(|(knob, _)| knob.starts_with("halo")).map(|(knob, rows)| (knob.as_str(), rows.len())).collect();
+    let halos: Vec<(&str, usize)> = rows
+        .iter()
+        .filter(|(knob, _)| knob.starts_with("halo"))
+        .map(|(knob, rows)| (knob.as_str(), rows.len()))
+        .collect();
     let expected =
         [("halo[0].accumulate", 2), ("halo[0].every", 4), ("halo[1].every", 4), ("halo[1].spread.passes", 6)];
     assert_eq!(halos, expected);

@@ -5,6 +5,7 @@
 
 pub(crate) mod lattice;
 pub(crate) mod random;
+pub(crate) mod rod;
 pub(crate) mod strip;
 
 use drypoint::reference::ray::{Backdrop, Inputs, Renderer};

@@ -50,7 +50,8 @@ pub(super) fn by_two(number: Number) -> f64 {
     let here = scene(1.0, 1.0).in_number(number).render();
     assert!(beauty(&here) != beauty(&scene(1.0, 1.0).in_number(number).with(|s| s.halos.clear()).render()));
     let scales = [-most, -7, most].map(|k| scale_by_power_of_two(1.0, k));
-    let other = |value: f64, length: f64| differing(&here.bits(), &scene(value, length).in_number(number).render().bits());
+    let other =
+        |value: f64, length: f64| differing(&here.bits(), &scene(value, length).in_number(number).render().bits());
     scales.into_iter().map(|scale| other(scale, 1.0) + other(1.0, scale)).sum()
 }
 

@@ -98,8 +98,7 @@ pub(super) fn focus() -> f64 {
     let focused = |at: &[[f64; 3]], inner: f64, falloff: f64| {
         let points = FocusPoints::World(at.iter().copied().map(DVec3::from_array).collect());
         let mut halo = of_the_surface(dark());
-        halo.seed.focus =
-            Some(HaloFocus { points, inner: Length::World(inner), falloff: Length::World(falloff) });
+        halo.seed.focus = Some(HaloFocus { points, inner: Length::World(inner), falloff: Length::World(falloff) });
         halo
     };
     // Of the seeds of the first tube none is 4 from its axis or 9 from its middle; those of the other one are 11 away.

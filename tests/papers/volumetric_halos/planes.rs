@@ -1,58 +1,17 @@
-//! Halos over many planes: closed forms that depend neither on the step nor on the size of groups ([HALO-7], [HALO-8]).
+//! Halos over many planes: closed forms that depend neither on the step nor on the size of groups ([HALO-7], [HALO-8]). The
+//! tint of a wall is a hard case, in `tests/hard_cases/halos`.
 
-use crate::common::{Stage, corrected, orthographic, volume};
+use crate::common::rod::{of_the_rod, rod_before_a_wall};
+use crate::common::{Stage, corrected, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Halo, HaloKind, Length, ProfileNode, SeedValue};
-
-/// A rod of radius 6 along y, towards which the camera looks, and a wall behind it; the rod's values end at 100, the
-/// wall has 200.
-fn rod_before_a_wall(step: f64, halo: Halo) -> Stage {
-    let field = volume([49, 40, 49], |p: DVec3| {
-        let rod = 50.0 + 25.0 * (6.0 - (p - DVec3::new(24.0, p.y, 24.0)).length());
-        let wall = 200.0 * (p.y - 29.5).clamp(0.0, 1.0);
-        if p.y < 29.0 { rod.clamp(0.0, 100.0) } else { wall }
-    });
-    let nodes = [(120.0, [0.5, 0.5, 0.5], 0.0), (120.0, [0.5, 0.5, 0.5], 1.0)];
-    Stage::regular(field, &nodes).with(|s| {
-        s.camera = orthographic(Some(48.0));
-        s.camera.direction = DVec3::Y;
-        s.picture.size = [48, 48];
-        s.sampling.step = Length::World(step);
-        s.sampling.reference_length = Length::World(1.0);
-        s.volume.gradient_range = drypoint::scene::tables::GradientRange::Fixed([0.0, 25.0]);
-        s.halos = vec![halo];
-    })
-}
-
-fn halo(kind: HaloKind, every: u64) -> Halo {
-    let node = |at, opacity| ProfileNode { at, rgb: [1.0, 0.0, 0.0], opacity };
-    let mut halo = Halo { kind, every, profile: vec![node(0.0, 0.0), node(1.0, 1.0)], ..Halo::default() };
-    // The rod alone: the wall's edge is passed between two voxels, and faces the camera.
-    halo.seed.value = Some(SeedValue::Nodes(vec![[20.0, 0.0], [30.0, 1.0], [70.0, 1.0], [80.0, 0.0]]));
-    halo.accumulate = kind.accumulation();
-    halo
-}
-
-/// The tint of the wall is that of the rod's H, whatever the step and the size of groups.
-#[test]
-fn the_tint_of_a_wall_depends_on_no_step() {
-    let tint = |step: f64, every: u64| rod_before_a_wall(step, halo(HaloKind::Occlusive, every)).render();
-    let truth = tint(1.0, 1).pixels();
-    assert!(truth.iter().any(|p| p[0] > 0.8) && truth.iter().any(|p| p[0] == 0.5));
-    for (step, every) in [(0.5, 1), (0.25, 1), (0.0625, 1), (0.5, 4), (0.25, 8)] {
-        let pixels = tint(step, every).pixels();
-        let apart = pixels.iter().zip(&truth).flat_map(|(a, b)| (0..4).map(move |c| (a[c] - b[c]).abs()));
-        let worst = apart.fold(0.0, f64::max);
-        assert!(worst < 1e-3, "Δ = {step}, M = {every}: {worst}");
-    }
-}
+use drypoint::scene::tables::{Halo, HaloKind, ProfileNode};
 
 /// Beside the rod the glow is as opaque as its H over the length of the rod, less the group that begins it.
 #[test]
 fn a_glow_is_as_opaque_as_its_length() {
     for (step, every) in [(1.0, 1), (0.5, 1), (0.5, 4), (0.25, 8)] {
-        let mut glow = halo(HaloKind::Emissive, every);
+        let mut glow = of_the_rod(HaloKind::Emissive, every);
         glow.profile = vec![ProfileNode { at: 0.0, rgb: [1.0, 0.0, 0.0], opacity: 0.01 }];
         let stage = rod_before_a_wall(step, glow);
         // Nothing but the glow: the function shows nothing.
@@ -83,7 +42,7 @@ fn pixels_that_a_halo_cannot_reach() {
     };
     let plain = stage(None).render();
     let (before, covered) = (plain.bits(), plain.covered());
-    let mut dark = halo(HaloKind::Occlusive, 1);
+    let mut dark = of_the_rod(HaloKind::Occlusive, 1);
     dark.seed.value = None;
     dark.spread.passes = 3;
     let shown = stage(Some(dark.clone())).layers(&[LayerKind::Halo(0)]).render();
