@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod failures;
 mod focus;
 mod iso;
 mod load;
@@ -33,7 +34,6 @@ mod room;
 use crate::labels::SceneLabels;
 use crate::{Failure, Failures, Format};
 use drypoint_output::{exr, png};
-use drypoint_reference::field::FieldError;
 use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
@@ -43,7 +43,7 @@ use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use drypoint_scene::plan::{Pass, Plan, Quantity};
-use drypoint_scene::shot::{Shot, ShotError, VolumeFacts};
+use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{Background, Ids, Length, Scene, StepAlong, VolumeSource};
@@ -51,6 +51,8 @@ use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
+pub(crate) use failures::render_failure;
+use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
 use load::{background, function_failure, further, halo_labels, load_volume, named, styles};
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
@@ -413,50 +415,6 @@ impl Job {
         };
         written.map_err(|error| Failure::picture(&error, path.display()))
     }
-}
-
-/// Returns the failure of a camera, at the key that causes it.
-fn view_failure(error: ViewError, scene: &Scene) -> Failure {
-    let (key, remedy) = match error {
-        ViewError::HeightOnPage => ("camera.height", "give it in world units or in voxels"),
-        ViewError::NoDirection => ("camera", "move camera.eye away from camera.target, or give camera.direction"),
-    };
-    Failure::new(error, scene.given.position(key), remedy)
-}
-
-/// Returns the failure of a shot, at the key that causes it.
-fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
-    let (key, remedy) = match error {
-        ShotError::NotSmooth(_) => (NOT_SMOOTH.0.to_owned(), NOT_SMOOTH.1),
-        ShotError::Length { key } => ((*key).to_owned(), "give it in world units or in voxels"),
-        ShotError::NoIso => ("surface.iso".to_owned(), "give it a value"),
-        ShotError::FocusInPixels { halo } => {
-            (format!("halo[{halo}].seed.focus.pixels"), "give points of the world in its place: at = [[x, y, z]]")
-        }
-        ShotError::LabelName { halo, label } => (format!("halo[{halo}].seed.labels[{label}]"), "write the label's id"),
-    };
-    Failure::new(error, scene.given.position(&key), remedy)
-}
-
-/// The key and the remedy of a Hessian that its kernel does not have.
-const NOT_SMOOTH: (&str, &str) = ("sampling.hessian", "choose another sampling.kernel or sampling.hessian");
-
-/// Returns the failure of a renderer, at the key that causes it.
-pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
-    let (key, remedy) = match error {
-        RenderError::Field(FieldError::NotSmooth(_)) => NOT_SMOOTH,
-        RenderError::Field(FieldError::TooLarge { .. }) => ("sampling.number", "write \"f64\""),
-        RenderError::Field(FieldError::Scale { .. }) => ("sampling.scale", "make it smaller, or leave it out"),
-        RenderError::TooManyPlanes { .. } => ("sampling.step", "make it longer, or move the camera nearer"),
-        RenderError::Endless { .. } => ("sampling.step", "make it longer, or the picture or picture.samples smaller"),
-        RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
-        RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
-        RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
-        RenderError::NoSuchLabel { .. } => ("transfer.over", "name a label that the label volume has"),
-        RenderError::Material => ("transfer", "hand over the material of its kind"),
-        RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
-    };
-    Failure::new(error, scene.given.position(key), remedy)
 }
 
 /// Returns the provenance of a scene ([IO-2]).

@@ -358,7 +358,7 @@ mod tests {
     }
 
     fn can_be_visible(at: &[f64], opacity: &[f64], range: [f64; 2]) -> bool {
-        super::can_be_visible(at, opacity, range, |a| a)
+        super::can_be_above_zero(at, opacity, range, |a| a)
     }
 
     #[test]
@@ -366,7 +366,7 @@ mod tests {
         // 1000.1 is 1000.0999756 in f32, up to where a brick can reach.
         let (at, opacity, range) = ([1000.1, 1000.1], [0.0, 0.5], [1000.0, f64::from(1000.1f32)]);
         assert!(!can_be_visible(&at, &opacity, range));
-        assert!(super::can_be_visible(&at, &opacity, range, |a| f64::from(a as f32)));
+        assert!(super::can_be_above_zero(&at, &opacity, range, |a| f64::from(a as f32)));
     }
 
     #[test]
