@@ -29,6 +29,7 @@ mod failures;
 mod focus;
 mod iso;
 mod load;
+mod provenance;
 mod room;
 
 use crate::labels::SceneLabels;
@@ -38,10 +39,9 @@ use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
 use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
-use drypoint_scene::file::identity;
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::phantom::Phantom;
-use drypoint_scene::picture::{LayerKind, Picture, Provenance};
+use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
@@ -55,9 +55,9 @@ pub(crate) use failures::render_failure;
 use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
 use load::{background, function_failure, further, halo_labels, load_volume, named, styles};
+pub(crate) use provenance::provenance;
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
 use room::{room_for_halos, room_for_table};
-use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -387,22 +387,6 @@ impl Job {
         })
     }
 
-    /// Returns the provenance of this job's picture ([IO-2]). Two files of the same scene give the same provenance.
-    pub fn provenance(&self) -> Provenance {
-        self.provenance_of(0)
-    }
-
-    /// Returns the provenance of a frame. That of frame 0 equals the scene's without `[orbit]`, byte for byte.
-    pub fn provenance_of(&self, frame: usize) -> Provenance {
-        let plan = self.plan_of(&self.scene);
-        if frame == 0 {
-            return provenance(&Scene { orbit: None, ..self.scene.clone() }, &plan);
-        }
-        let mut provenance = provenance(&self.scene, &plan);
-        provenance.plan.push_str(&format!("orbit: frame {frame}\n"));
-        provenance
-    }
-
     /// Writes a picture of this job as PNG or EXR, by the suffix. The file appears whole or not at all.
     ///
     /// # Errors
@@ -414,15 +398,6 @@ impl Job {
             _ => png::write_png(picture, self.scene.picture.bits, &provenance, path),
         };
         written.map_err(|error| Failure::picture(&error, path.display()))
-    }
-}
-
-/// Returns the provenance of a scene ([IO-2]).
-pub(crate) fn provenance(scene: &Scene, plan: &Plan) -> Provenance {
-    Provenance {
-        software: concat!("drypoint ", env!("CARGO_PKG_VERSION")).into(),
-        scene_hash: Sha256::digest(identity(scene)).iter().map(|byte| format!("{byte:02x}")).collect(),
-        plan: plan.summary(),
     }
 }
 
