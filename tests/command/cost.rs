@@ -329,7 +329,8 @@ fn what_cannot_be_done_is_told_before_work() {
 #[test]
 fn halos_are_swept_by_their_places() {
     let folder = Folder::new();
-    let halos = "[[halo]]\nevery = 2\n[[halo]]\nkind = \"emissive\"\nspread.reach = \"3 px\"\n[[halo]]\nopacity = 0\n";
+    let halos = "[[halo]]\nevery = 2\n[[halo]]\nkind = \"emissive\"\nfloor = 0\nseed.by = \"curvature\"\n\
+                 spread.reach = \"3 px\"\n[[halo]]\nopacity = 0\n";
     folder.write("scene.toml", format!("{REGULAR}{halos}"));
     let rows = rows(&folder, "cost scene.toml --runs 1");
     let halos: Vec<(&str, usize)> = rows
