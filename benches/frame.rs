@@ -6,7 +6,7 @@
 
 use divan::Bencher;
 use drypoint::job::Job;
-use drypoint::reference::ray::{PlaneEffect, RayOnPlane, Renderer, SampleOnPlane};
+use drypoint::reference::ray::Renderer;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::phantom;
 use drypoint::scene::tables::VolumeSource;
@@ -124,43 +124,7 @@ fn style_with_contours_plane_by_plane(bencher: Bencher) {
     frame_in_order(bencher, &[STYLES, "[contours]\n"], |renderer| renderer.plane_by_plane());
 }
 
-/// An effect that does nothing, over groups of so many planes.
-struct Nothing(i64);
-
-impl PlaneEffect for Nothing {
-    fn numbers(&self) -> usize {
-        1
-    }
-
-    fn planes_per_group(&self) -> i64 {
-        self.0
-    }
-
-    fn before(&self, _: &SampleOnPlane<'_>, rgb: [f64; 3]) -> [f64; 3] {
-        rgb
-    }
-
-    fn after(&self, _: &SampleOnPlane<'_>, _: &mut [f64]) {}
-
-    fn lays_behind(&self, _: i64) -> bool {
-        false
-    }
-
-    fn behind(&self, _: i64, _: RayOnPlane<'_>) {}
-
-    fn end_of_group(&mut self, _: i64, _: &mut dyn Iterator<Item = RayOnPlane<'_>>) -> bool {
-        false
-    }
-}
-
-#[divan::bench(args = [1, 4], sample_count = 15)]
-fn phong_with_an_effect(bencher: Bencher, planes: i64) {
-    let job = job(&[COLOURS, "[shading]\n"]);
-    let renderer = job.renderer().expect("the scene above");
-    bencher.bench_local(|| renderer.frame_with(&mut Nothing(planes), &|_| ()));
-}
-
-/// A picture with so many halos. In one of M planes to a group, seeds are spread once a group.
+/// A picture with so many halos over groups of M planes, beside `phong_plane_by_plane` without halos.
 fn halos(bencher: Bencher, count: usize, every: u64) {
     let halo = format!("[[halo]]\nseed.value = [[150, 0], [180, 1]]\nevery = {every}\n");
     frame(bencher, &[COLOURS, "[shading]\n", &halo.repeat(count)]);
