@@ -53,8 +53,8 @@ use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
 use iso::find_iso_values;
 use load::{background, function_failure, further, halo_labels, load_volume, named, styles};
-use room::room_for_table;
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
+use room::{room_for_halos, room_for_table};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -363,6 +363,7 @@ impl Job {
         room_for_passes(self, plan)?;
         room_for_table(scene)?;
         let renderer = make(shot, inputs).map_err(|error| render_failure(&error, scene))?;
+        room_for_halos(scene, renderer.bytes_of_halos())?;
         // The picture's channels, and as much again for encoding them, must fit in the remaining memory.
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
         room(scene, 2 * 8 * channels)?;

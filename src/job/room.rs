@@ -18,6 +18,15 @@ pub(super) fn room_for_table(scene: &Scene) -> Result<(), Failure> {
     })
 }
 
+/// Checks that the memory budget allows the images of halos. Their guard band can be much larger than the picture.
+pub(super) fn room_for_halos(scene: &Scene, bytes: u64) -> Result<(), Failure> {
+    memory::room(bytes).map_err(|no_room| {
+        let what = format!("the images of the halos need {no_room}");
+        let remedy = "make spread.passes or spread.reach of the halos smaller, or the picture";
+        Failure::new(what, scene.given.position("halo"), remedy)
+    })
+}
+
 /// Checks that the memory budget allows `bytes` bytes a pixel.
 pub(crate) fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
     let [width, height] = scene.picture.size;

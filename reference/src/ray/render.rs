@@ -1,7 +1,7 @@
 //! Pictures of a shot, any number of them.
 
 use super::composite::{plane_order, ray_order};
-use super::draw::{Band, Casting, draw, rays_of_tiles};
+use super::draw::{Band, Casting, draw, largest_band, rays_of_tiles};
 use super::inputs::{Backdrop, Inputs, RenderError};
 use super::lanes;
 use super::lattice::samples_in;
@@ -9,10 +9,12 @@ use super::merged;
 use super::pick::{Picked, pick};
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
+use super::prepared_halos::PreparedHalos;
 use super::tile_work::TileWork;
 use crate::field::{Exact, Sampler};
 use crate::labels::Labels;
 use crate::number::Real;
+use crate::volumetric_halos::HaloPlanes;
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
@@ -142,6 +144,18 @@ impl<'a> Renderer<'a> {
         match &self.ready {
             Ready::F64(p) | Ready::Exact(p, _) => of(p),
             Ready::F32(p) => of(p),
+        }
+    }
+
+    /// Bytes of the images of halos while a frame is rendered; 0 without halos.
+    pub fn bytes_of_halos(&self) -> u64 {
+        fn of<R: Real>(p: &Prepared<'_, R>, [tile, band]: [usize; 2]) -> u64 {
+            let of = |halos: &PreparedHalos<'_>| HaloPlanes::bytes_for(&halos.list, largest_band(p, tile, band));
+            p.halos.as_ref().map_or(0, of)
+        }
+        match &self.ready {
+            Ready::F64(p) | Ready::Exact(p, _) => of(p, [self.tile, self.band]),
+            Ready::F32(p) => of(p, [self.tile, self.band]),
         }
     }
 

@@ -104,6 +104,18 @@ impl Tint {
 }
 
 impl<'p> HaloPlanes<'p> {
+    /// Bytes of the images for so many rays across and down, without the guard band. Large sizes give the largest number.
+    pub(crate) fn bytes_for(halos: &[PreparedHalo], rays: [usize; 2]) -> u64 {
+        let guard = guard(halos);
+        let size = rays.map(|rays| rays.saturating_add(guard.saturating_mul(2)));
+        let pixels = (size[0] as u64).saturating_mul(size[1] as u64).saturating_mul(8);
+        let of = |halo: &PreparedHalo| {
+            let occlusion = if halo.kind == HaloKind::Occlusive { pixels } else { 0 };
+            HaloField::bytes_of(size).saturating_add(occlusion)
+        };
+        halos.iter().map(of).fold(0, u64::saturating_add)
+    }
+
     /// Images for so many rays across and down, without the guard band.
     pub(crate) fn new(halos: &'p [PreparedHalo], [width, height]: [usize; 2]) -> Self {
         let guard = guard(halos);
