@@ -49,6 +49,18 @@ fn pages_in_pixels() {
     folder.good("points torus.nrrd --set picture.dpi=2000 -o a.svg --memory 1GiB");
 }
 
+/// A guard band of 4097 pixels on each side of a picture of 12 × 8.
+#[test]
+fn images_of_halos() {
+    let folder = Folder::new();
+    folder.scene("[[halo]]\nspread.passes = 12\n");
+    let line = "render scene.toml --set picture.size=[12,8] -o a.png";
+    let said = folder.refused(&format!("{line} --memory 1GiB"));
+    assert!(said.starts_with("error: the images of the halos need 2.5"), "{said}");
+    assert!(said.contains("key halo\n  try: make spread.passes or spread.reach of the halos smaller"), "{said}");
+    folder.good(&format!("{line} --memory 1GiB --set halo.0.spread.passes=5"));
+}
+
 #[test]
 fn dashes_and_step_wedges() {
     let folder = Folder::new();

@@ -66,6 +66,17 @@ impl Region {
     }
 }
 
+/// Rows of tiles in a band of about so many rays, of a picture of a width and n² rays a pixel.
+fn tile_rows([width, n]: [usize; 2], tile: usize, band: usize) -> usize {
+    (band / (width * n * n * tile)).clamp(1, 1 << 20)
+}
+
+/// Rays across and down of the largest band of a picture.
+pub(super) fn largest_band<R: Real>(prepared: &Prepared<'_, R>, tile: usize, band: usize) -> [usize; 2] {
+    let ([width, height], n) = (prepared.view.size, prepared.rays_across);
+    [width * n, tile_rows([width, n], tile, band).saturating_mul(tile).min(height) * n]
+}
+
 /// Casts all rays of a picture, in tiles of a side in pixels and bands of about so many rays. Each pixel is a function of its place alone, so neither threads nor the order of tiles
 /// show ([RAY-3]).
 pub(super) fn draw<R: Real>(
@@ -80,7 +91,7 @@ pub(super) fn draw<R: Real>(
     let n = prepared.rays_across;
     let batch = match casting {
         Casting::ByTile(_) => BATCH / (tile * tile),
-        Casting::ByBand(_) => across * (band / (width * n * n * tile)).max(1),
+        Casting::ByBand(_) => across * tile_rows([width, n], tile, band),
     };
     let done = std::sync::atomic::AtomicUsize::new(0);
     let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();

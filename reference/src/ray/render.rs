@@ -1,7 +1,7 @@
 //! Pictures of a shot, any number of them.
 
 use super::composite::{plane_order, ray_order};
-use super::draw::{Band, Casting, draw, rays_of_tiles};
+use super::draw::{Band, Casting, draw, largest_band, rays_of_tiles};
 use super::inputs::{Backdrop, Inputs, RenderError};
 use super::lanes;
 use super::lattice::samples_in;
@@ -152,9 +152,7 @@ impl<'a> Renderer<'a> {
     pub fn bytes_of_halos(&self) -> u64 {
         fn of<R: Real, S: Sampler<R>>(p: &Prepared<'_, R>, _: &S, [tile, band]: [usize; 2]) -> u64 {
             let Some(halos) = &p.halos else { return 0 };
-            let [width, height] = p.view.size.map(|side| side * p.rays_across);
-            let rows = (band / width).max(tile * p.rays_across).min(height);
-            plane_order::bytes_with_halos::<R, S>(halos, [width, rows])
+            plane_order::bytes_with_halos::<R, S>(halos, largest_band(p, tile, band))
         }
         let sides = [self.tile, self.band];
         match &self.ready {

@@ -182,7 +182,7 @@ pub(super) fn not_seen() -> f64 {
 }
 
 pub(super) fn far_apart() -> f64 {
-    let a = 0.25;
+    let a = 0.25_f64;
     let light = Halo { profile: constant(a), opacity: 1.0, ..glow() };
     let mut off = 0.0f64;
     // A plane through the ball, and none in the box.
@@ -196,7 +196,7 @@ pub(super) fn far_apart() -> f64 {
             let h = shown.one(H);
             assert_eq!(h.iter().any(|h| *h > 0.0), moved == 0.0, "{moved} {every}");
             // A group of one seeded plane glows behind each of the planes of the next one.
-            let behind = 1.0 - (1.0 - a as f64).powi(every);
+            let behind = 1.0 - (1.0 - a).powi(every);
             let pairs = shown.pixels().into_iter().zip(plain.pixels()).zip(h);
             off = off.max(worst(pairs.map(|((with, plain), h)| {
                 let expected = if h > 0.0 { 1.0 - (1.0 - plain[3]) * (1.0 - behind) } else { plain[3] };

@@ -54,11 +54,20 @@ fn seven_images_a_halo_and_none_a_plane() {
     }
 }
 
-/// Of bands of rays one at a time is in memory.
+/// Of bands of rays one at a time is in memory, and the renderer tells its bytes before.
 #[test]
 fn bands_of_rays_take_the_memory_of_one() {
     let stage = stage(&four()).with(|s| s.picture.size = [40, 120]);
-    let bytes = |band: usize| stage.render_by(|renderer| renderer.with_band(band)).counts.bytes["halos"];
+    let bytes = |band: usize| {
+        let mut foretold = 0;
+        let shown = stage.render_by(|renderer| {
+            let renderer = renderer.with_band(band);
+            foretold = renderer.bytes_of_halos();
+            renderer
+        });
+        assert_eq!(shown.counts.bytes["halos"], foretold);
+        foretold
+    };
     let (whole, bands) = (bytes(1 << 20), bytes(1));
     assert!(2 * bands < whole, "{bands} {whole}");
 }
