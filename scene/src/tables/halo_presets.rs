@@ -102,9 +102,10 @@ fn halo(kind: HaloKind, voxels: f64, [r, g, b, _]: Rgba, profile: [(f64, f64); 2
     }
 }
 
-/// A line's width, in a share of the picture's height.
+/// A line's width, in a share of the picture's height. Two passes, because four fall to fewer in small pictures and to other
+/// ones in large pictures, and lines would be thinner there.
 fn fine() -> Spreading {
-    Spreading { reach: Some(Length::Percent(1.0)), ..Spreading::default() }
+    Spreading { passes: 2, reach: Some(Length::Percent(1.0)), ..Spreading::default() }
 }
 
 /// A soft halo whose reach is so many per cent of the picture's height. Six passes, because the taps of four would lie some
