@@ -2,7 +2,8 @@
 
 use crate::color::{Rgba, opaque};
 use crate::tables::{
-    Background, Exponents, Halo, HaloKind, Length, ProfileNode, Scene, Shading, Spreading, Transfer, TransferKind,
+    Background, Exponents, Halo, HaloKind, Length, ProfileNode, Scene, SeedBy, SeedDirection, Seeding, Shading, Spreading,
+    Transfer, TransferKind,
 };
 
 /// A preset that supplies `[[halo]]`, an automatic function of colours, and what belongs to them.
@@ -38,15 +39,20 @@ impl HaloPreset {
 
 /// A thin dark line where one surface lies before another.
 fn rim() -> Halo {
-    Halo { name: "rim".into(), ..halo(HaloKind::Occlusive, 0.8, opaque([0.0; 3]), [(0.15, 0.0), (0.4, 0.9)]) }
+    Halo {
+        name: "rim".into(),
+        floor: 0.02,
+        spread: fine(),
+        ..halo(HaloKind::Occlusive, 1.0, opaque([0.0; 3]), [(0.05, 0.0), (0.25, 0.85)])
+    }
 }
 
 /// A soft shade on what lies behind.
 fn shade() -> Halo {
     Halo {
         name: "shade".into(),
-        exponents: Exponents::Numbers([0.125, 8.0]),
-        ..halo(HaloKind::Occlusive, 8.0, opaque([0.0; 3]), [(0.0, 0.0), (0.7, 0.7)])
+        spread: wide(0.97, 8.0),
+        ..halo(HaloKind::Occlusive, 2.0, opaque([0.0; 3]), [(0.01, 0.0), (0.15, 0.45)])
     }
 }
 
@@ -54,36 +60,58 @@ fn shade() -> Halo {
 fn glow() -> Halo {
     Halo {
         name: "glow".into(),
-        exponents: Exponents::Numbers([0.125, 8.0]),
-        ..halo(HaloKind::Emissive, 8.0, opaque([255.0, 226.0, 168.0]), [(0.0, 0.0), (0.7, 0.15)])
+        spread: wide(0.98, 8.0),
+        ..halo(HaloKind::Emissive, 2.0, opaque([255.0, 226.0, 168.0]), [(0.02, 0.0), (0.2, 0.05)])
     }
 }
 
-/// Black contours, before the background too.
+/// Black contours, before the background too. Strong boundaries seed them whatever their opacity, so that glass has
+/// contours, too: a full circle of directions is a factor of 1. The high power of the gradient leaves noise out.
 fn lines() -> Halo {
-    Halo { name: "lines".into(), ..halo(HaloKind::Emissive, 0.8, opaque([0.0; 3]), [(0.15, 0.0), (0.4, 0.9)]) }
+    let mut lines = Halo {
+        name: "lines".into(),
+        exponents: Exponents::Numbers([2.0, 32.0]),
+        floor: 0.05,
+        spread: fine(),
+        ..halo(HaloKind::Emissive, 2.0, opaque([0.0; 3]), [(0.06, 0.0), (0.2, 1.0)])
+    };
+    lines.seed.direction = Some(SeedDirection { width: 360.0, ..SeedDirection::default() });
+    lines
 }
 
-/// Paper between the contours of what is near and the lines of what lies behind.
+/// Paper between the contours of what is near and the colours of what lies behind.
 fn gap() -> Halo {
     Halo {
         name: "gap".into(),
-        exponents: Exponents::Numbers([0.125, 8.0]),
-        tints: vec!["lines".into()],
-        ..halo(HaloKind::Occlusive, 6.0, opaque([255.0; 3]), [(0.0, 0.0), (0.5, 0.9)])
+        floor: 0.03,
+        spread: wide(0.97, 6.0),
+        ..halo(HaloKind::Occlusive, 1.5, opaque([255.0; 3]), [(0.05, 0.0), (0.25, 0.8)])
     }
 }
 
-/// A halo of one colour, whose reach is so many per cent of the picture's height, and whose opacity goes through two points
-/// over the intensity.
-fn halo(kind: HaloKind, reach: f64, [r, g, b, _]: Rgba, profile: [(f64, f64); 2]) -> Halo {
+/// A halo of one colour, whose seeds lie in a band so many voxels deep, and whose opacity goes through two points over the
+/// intensity.
+fn halo(kind: HaloKind, voxels: f64, [r, g, b, _]: Rgba, profile: [(f64, f64); 2]) -> Halo {
     Halo {
         kind,
         accumulate: kind.accumulation(),
-        spread: Spreading { reach: Some(Length::Percent(reach)), ..Spreading::default() },
+        seed: Seeding { by: SeedBy::Curvature, thickness: Length::Voxels(voxels), ..Seeding::default() },
+        exponents: Exponents::Numbers([1.0, 32.0]),
         profile: profile.map(|(at, opacity)| ProfileNode { at, rgb: [r, g, b], opacity }).into(),
         ..Halo::default()
     }
+}
+
+/// A line's width, in a share of the picture's height. Two passes, because four fall to fewer in small pictures and to other
+/// ones in large pictures, and lines would be thinner there.
+fn fine() -> Spreading {
+    Spreading { passes: 2, reach: Some(Length::Percent(1.0)), ..Spreading::default() }
+}
+
+/// A soft halo whose reach is so many per cent of the picture's height. Six passes, because the taps of four would lie some
+/// pixels apart and show as dots around what is small.
+fn wide(delta: f64, reach: f64) -> Spreading {
+    Spreading { delta, passes: 6, reach: Some(Length::Percent(reach)), ..Spreading::default() }
 }
 
 #[cfg(test)]
