@@ -33,7 +33,7 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Layers of an EXR, separated by commas: beauty, Z, depth, normal, gradient, curvature, curvature.KV, first,
-    /// first.normal, first.curvature, first.curvature.KV, counts. The default name then ends in .exr
+    /// first.normal, first.curvature, first.curvature.KV, counts, halo0, halo1, …. The default name then ends in .exr
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     layers: Vec<String>,
     #[command(flatten)]

@@ -56,8 +56,8 @@ fn images_of_halos() {
     folder.scene("[[halo]]\nspread.passes = 12\n");
     let line = "render scene.toml --set picture.size=[12,8] -o a.png";
     let said = folder.refused(&format!("{line} --memory 1GiB"));
-    assert!(said.starts_with("error: the images of the halos need 2.5"), "{said}");
-    assert!(said.contains("key halo\n  try: make spread.passes or spread.reach of the halos smaller"), "{said}");
+    assert!(said.starts_with("error: the rays and images of halos need "), "{said}");
+    assert!(said.contains("key halo\n  try: make the picture narrower"), "{said}");
     folder.good(&format!("{line} --memory 1GiB --set halo.0.spread.passes=5"));
 }
 

@@ -129,13 +129,14 @@ fn names_of_labels_that_seed_halos_become_ids() {
     assert_eq!(told, expected);
     folder.write("scene.toml", "drypoint = 1\nvolume.file = \"torus.nrrd\"\n[[halo]]\nseed.focus.pixels = [[3, 4]]\n");
     let told = folder.refused("plan scene.toml --json");
-    assert!(told.starts_with("error: the focus of halo 0 is given in pixels, and was not picked\n"), "{told}");
+    assert!(told.starts_with("error: nothing is seen at the pixel [3, 4]"), "{told}");
 }
 
 /// The shot has nothing left to decide: lengths are numbers of the world, `auto` is what the volume made of it.
 #[test]
 fn json_is_the_picture_with_nothing_left_to_decide() {
     let folder = Folder::new();
+    folder.torus();
     let shot = |more: &str, set: &str| -> serde_json::Value {
         folder.scene(more);
         let text = folder.good(&format!("plan scene.toml --json {set}"));

@@ -2,8 +2,8 @@
 
 use crate::color::{Rgba, opaque};
 use crate::tables::{
-    Background, Exponents, Halo, HaloKind, Length, ProfileNode, Scene, SeedBy, SeedDirection, Seeding, Shading, Spreading,
-    Transfer, TransferKind,
+    Background, Exponents, Halo, HaloKind, Length, ProfileNode, Scene, SeedBy, SeedDirection, Seeding, Shading,
+    Spreading, Transfer, TransferKind,
 };
 
 /// A preset that supplies `[[halo]]`, an automatic function of colours, and what belongs to them.

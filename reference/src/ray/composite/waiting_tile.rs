@@ -102,10 +102,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
                 Some(glow) => {
                     for k in first..=last {
                         next = ray.visit([next, k], tint.as_ref(), &mut self.counts);
+                        if ray.state.is_open() {
+                            ray.state.lay_glow(glow);
+                        }
                         if !ray.state.is_open() {
                             break;
                         }
-                        ray.state.lay_glow(glow);
                     }
                 }
             }
