@@ -28,8 +28,8 @@ pub(super) struct RenderArgs {
     /// The renderer
     #[arg(long, value_enum, default_value_t = Backend::Reference)]
     backend: Backend,
-    /// The preset of a bare volume: style, toon, hatch, outline, stipple, or a figure: hatch-fig2, hatch-fig4, hatch-fig5,
-    /// hatch-fig6-left, hatch-fig6-right, stipple-fig1, stipple-fig4 … stipple-fig9
+    /// The preset of a bare volume: style, toon, halo, halo-glow, halo-lines, hatch, outline, stipple, or a figure: hatch-fig2,
+    /// hatch-fig4, hatch-fig5, hatch-fig6-left, hatch-fig6-right, stipple-fig1, stipple-fig4 … stipple-fig9
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Layers of an EXR, separated by commas: beauty, Z, depth, normal, gradient, curvature, curvature.KV, first,

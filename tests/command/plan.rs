@@ -136,7 +136,6 @@ fn names_of_labels_that_seed_halos_become_ids() {
 #[test]
 fn json_is_the_picture_with_nothing_left_to_decide() {
     let folder = Folder::new();
-    folder.torus();
     let shot = |more: &str, set: &str| -> serde_json::Value {
         folder.scene(more);
         let text = folder.good(&format!("plan scene.toml --json {set}"));
