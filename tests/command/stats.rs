@@ -4,11 +4,12 @@ use crate::folder::Folder;
 use serde_json::Value;
 
 /// Every count of the contract.
-const NUMBERS: [&str; 12] = [
+const NUMBERS: [&str; 13] = [
     "samples",
     "gradients",
     "hessians",
     "style_lookups",
+    "halo_samples",
     "halo_passes",
     "rays",
     "rays_skipped",
@@ -37,7 +38,7 @@ fn every_count_is_there_and_nothing_else() {
     expected.sort_unstable();
     assert_eq!(names, expected);
     assert!(NUMBERS.iter().all(|name| stats[name].is_u64()));
-    for name in ["halo_passes", "points", "strokes", "directions", "hessians", "masked"] {
+    for name in ["halo_samples", "halo_passes", "points", "strokes", "directions", "hessians", "masked"] {
         assert_eq!(stats[name], 0, "{name}");
     }
     assert_eq!(stats["rays"], 24 * 16);

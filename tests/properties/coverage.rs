@@ -7,11 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use toml::Value;
 
 /// Keys that the generator does not draw, each with why: a key with all below it.
-const NOT_DRAWN: [(&str, &str); 9] = [
+const NOT_DRAWN: [(&str, &str); 10] = [
     ("drypoint", "it has one value"),
     ("preset", "it fills in tables that a drawn scene has itself"),
     ("picture.width", "another word for size, which is drawn"),
     ("picture.height", "another word for size, which is drawn"),
+    ("halo", "planes.rs adds halos to drawn scenes"),
     ("hatching", "marks/ draws every key of it"),
     ("outlines", "marks/ draws every key of them"),
     ("stipples", "marks/ draws every key of them"),

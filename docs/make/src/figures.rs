@@ -15,7 +15,7 @@ use drypoint::scene::tables::{Background, Scene};
 use std::path::{Path, PathBuf};
 
 /// What makes a file of a picture.
-type Encode = fn(&Picture) -> Result<Vec<u8>, png::EncodingError>;
+pub(crate) type Encode = fn(&Picture) -> Result<Vec<u8>, png::EncodingError>;
 
 /// The most bytes of a picture in `docs`.
 const LARGEST: usize = 300_000;
@@ -65,7 +65,9 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
         Ok(read.map_err(|e| format!("{}: {e}", folder.display()))?.iter().map(|entry| entry.path()).collect())
     };
     let mut scenes = Vec::new();
-    for paper in entries(&root)?.iter().filter(|path| path.is_dir()) {
+    // Figures of halos are sheets (`halo_figures`).
+    let of_a_page = |path: &&PathBuf| path.is_dir() && !path.ends_with("volumetric_halos");
+    for paper in entries(&root)?.iter().filter(of_a_page) {
         let styles = paper.ends_with("style_transfer_functions");
         scenes.extend(entries(paper)?.into_iter().filter(|path| {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -79,7 +81,7 @@ fn scenes() -> Result<Vec<PathBuf>, String> {
 }
 
 /// The picture of a scene, and how it becomes a file.
-fn picture(scene: &Path) -> Result<(Picture, Encode), String> {
+pub(crate) fn picture(scene: &Path) -> Result<(Picture, Encode), String> {
     let mut scene = load(scene, &Overrides::default()).map_err(|e| e.to_string())?;
     let is_map = scene.picture.layers.contains(&LayerKind::CurvatureAlongView);
     if is_map {
@@ -151,7 +153,7 @@ fn inks_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
 }
 
 /// An opaque picture as 8 bits of sRGB without alpha, the smallest file.
-fn opaque_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
+pub(crate) fn opaque_png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     let mut data = Vec::with_capacity(3 * picture.width * picture.height);
     if let Some([r, g, b, ..]) = picture.layer(LayerKind::Beauty).map(|layer| layer.channels.as_slice()) {
         for ((&r, &g), &b) in r.iter().zip(g).zip(b) {

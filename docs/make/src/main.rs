@@ -6,6 +6,7 @@ mod called_for;
 mod cost;
 mod figures;
 mod files;
+mod halo_figures;
 mod halos;
 mod integrator;
 #[cfg(test)]
@@ -30,6 +31,7 @@ const PAGES: &[Page] = &[
     ("cost", cost::write),
     ("figure-1", painting::figure::write),
     ("figures", figures::write),
+    ("halo-figures", halo_figures::write),
     ("halos", halos::write),
     ("integrator", integrator::write),
     ("painting", painting::write),

@@ -158,6 +158,6 @@ mod tests {
         assert_eq!(set(("halo", "off")), []);
         let every = set(("halo.1.every", "4"));
         assert_eq!((every[0].every, every[1].every, &every[1].name), (1, 4, &"shade".to_owned()));
-        assert_eq!(set(("halo[1].profile[0].at", "0.5"))[1].profile[0].at, 0.5);
+        assert_eq!(set(("halo[1].profile[0].at", "0.005"))[1].profile[0].at, 0.005);
     }
 }

@@ -65,8 +65,9 @@ fn bands_of_rays_take_the_memory_of_one() {
             foretold = renderer.bytes_of_halos();
             renderer
         });
-        assert_eq!(shown.counts.bytes["halos"], foretold);
-        foretold
+        let found: u64 = ["halos", "rays", "seed_rays"].iter().map(|buffer| shown.counts.bytes[*buffer]).sum();
+        assert!(found <= foretold && foretold < 3 * found, "{found} {foretold}");
+        found
     };
     let (whole, bands) = (bytes(1 << 20), bytes(1));
     assert!(2 * bands < whole, "{bands} {whole}");

@@ -81,9 +81,8 @@ fn needs(halo: &Halo, scene: &Scene, effect: &str, asks: &mut Asks) {
 fn idle_keys(halo: &Halo, idle: &mut Idle) {
     let at = idle.at.clone();
     let mut key = |key: &str, why: &str| idle.key(&at.inner(key), why);
-    match halo.seed.by {
-        SeedBy::Power => key("seed.thickness", "seed.by is \"power\": exponents count"),
-        SeedBy::Curvature => key("exponents", "seed.by is \"curvature\": of the two exponents only a counts"),
+    if halo.seed.by == SeedBy::Power {
+        key("seed.thickness", "seed.by is \"power\": exponents count");
     }
     if halo.seed.direction.is_some_and(|direction| direction.width >= 360.0) {
         key("seed.direction.toward", "seed.direction.width has every direction");
