@@ -224,7 +224,8 @@ mod tests {
         let others = |plan: Plan| plan.idle_keys.into_iter().filter(|idle| idle.key != "volume.labels");
         let idle = |halo: &str| others(plan(halo)).map(|idle| idle.key).collect::<Vec<_>>().join(" ");
         assert_eq!(idle("seed.thickness = 1\n"), "halo[0].seed.thickness");
-        assert_eq!(idle("seed.by = \"curvature\"\nseed.thickness = 1\nexponents = [1, 2]\n"), "halo[0].exponents");
+        // Of the exponents a counts.
+        assert_eq!(idle("seed.by = \"curvature\"\nseed.thickness = 1\nexponents = [1, 2]\n"), "");
         assert_eq!(idle("seed.direction = { width = 360, softness = 3 }\n"), "halo[0].seed.direction.softness");
         assert_eq!(
             idle("spread = { passes = 0, delta = 1, reach = \"9 px\" }\n"),
