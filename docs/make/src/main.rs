@@ -4,14 +4,15 @@ mod accuracy;
 mod blue_noise;
 mod called_for;
 mod cost;
-mod figures;
+
 mod files;
-mod halo_figures;
+
 mod halos;
 mod integrator;
 #[cfg(test)]
 mod pages;
 mod painting;
+mod pictures;
 mod reference;
 mod rings;
 mod rules;
@@ -30,11 +31,10 @@ const PAGES: &[Page] = &[
     ("called-for", called_for::write),
     ("cost", cost::write),
     ("figure-1", painting::figure::write),
-    ("figures", figures::write),
-    ("halo-figures", halo_figures::write),
     ("halos", halos::write),
     ("integrator", integrator::write),
     ("painting", painting::write),
+    ("pictures", pictures::write),
     ("reference", reference::write),
     ("rings", rings::write),
     ("rules", rules::write),
