@@ -3,10 +3,9 @@
 mod accuracy;
 mod blue_noise;
 mod called_for;
+mod commands;
 mod cost;
-
 mod files;
-
 mod halos;
 mod integrator;
 #[cfg(test)]
@@ -29,6 +28,7 @@ const PAGES: &[Page] = &[
     ("accuracy", accuracy::write),
     ("blue-noise", blue_noise::write),
     ("called-for", called_for::write),
+    ("commands", commands::run),
     ("cost", cost::write),
     ("figure-1", painting::figure::write),
     ("halos", halos::write),
