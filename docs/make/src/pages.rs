@@ -85,10 +85,9 @@ fn anchors(text: &str) -> Vec<String> {
 
 /// The targets of a page's links and pictures: `[text](target)` and `src="target"`.
 fn links(text: &str) -> impl Iterator<Item = &str> {
-    let ends = |line, start, end| str::split(line, start).skip(1).filter_map(move |rest| rest.split(end).next());
-    text.lines()
-        .flat_map(move |line| ends(line, "](", ')').chain(ends(line, "src=\"", '"')))
-        .filter(|t| !t.contains("://"))
+    let starts = text.lines().flat_map(|line| line.split("](").skip(1).map(|rest| (rest, ')')));
+    let sources = text.lines().flat_map(|line| line.split("src=\"").skip(1).map(|rest| (rest, '"')));
+    starts.chain(sources).filter_map(|(rest, end)| rest.split(end).next()).filter(|t| !t.contains("://"))
 }
 
 #[test]
