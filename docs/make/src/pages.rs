@@ -7,14 +7,18 @@ use drypoint::output::read::Image;
 use drypoint::scene::file::{Overrides, parse};
 use std::path::{Path, PathBuf};
 
-/// Every page: README and all Markdown under `docs/`, with its text.
+/// Folders that hold no pages: build outputs, data from elsewhere, and templates, whose links start in `docs/`.
+const WITHOUT_PAGES: [&str; 3] = ["target", "shared", "make"];
+
+/// Every page: all Markdown of the repository, with its text.
 fn pages() -> Vec<(PathBuf, String)> {
-    let mut folders = vec![in_docs("")];
-    let mut files = vec![in_docs("../README.md")];
+    let mut folders = vec![in_docs("..")];
+    let mut files = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).unwrap() {
             let path = entry.unwrap().path();
-            if path.is_dir() && !path.ends_with("make") {
+            let name = path.file_name().unwrap().to_string_lossy();
+            if path.is_dir() && !name.starts_with('.') && !WITHOUT_PAGES.contains(&&*name) {
                 folders.push(path);
             } else if path.extension().is_some_and(|e| e == "md") {
                 files.push(path);
@@ -79,12 +83,11 @@ fn anchors(text: &str) -> Vec<String> {
     text.lines().filter(|line| line.starts_with('#')).map(anchor).map(|a: String| a.replace(' ', "-")).collect()
 }
 
-/// Where the links and the pictures of a page lead: `[text](target)`.
+/// The targets of a page's links and pictures: `[text](target)` and `src="target"`.
 fn links(text: &str) -> impl Iterator<Item = &str> {
-    text.lines()
-        .flat_map(|line| line.split("](").skip(1))
-        .filter_map(|rest| rest.split(')').next())
-        .filter(|t| !t.contains("://"))
+    let starts = text.lines().flat_map(|line| line.split("](").skip(1).map(|rest| (rest, ')')));
+    let sources = text.lines().flat_map(|line| line.split("src=\"").skip(1).map(|rest| (rest, '"')));
+    starts.chain(sources).filter_map(|(rest, end)| rest.split(end).next()).filter(|t| !t.contains("://"))
 }
 
 #[test]
@@ -104,4 +107,49 @@ fn links_lead_to_files_and_headings_that_are_there() {
         }
     }
     assert!(followed >= 30, "only {followed} links were found");
+}
+
+/// The items that a page names behind a link to a Rust file: ``[`file.rs`](path/file.rs): `item`, `Type::item` ``.
+fn items(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    let after_links = text.lines().flat_map(|line| line.split("](").skip(1)).filter_map(|rest| rest.split_once(')'));
+    after_links.filter(|(file, _)| file.ends_with(".rs")).flat_map(|(file, rest)| {
+        let mut names = Vec::new();
+        let mut rest = rest.strip_prefix(": `");
+        while let Some((name, more)) = rest.and_then(|rest| rest.split_once('`')) {
+            names.push((file, name));
+            rest = more.strip_prefix(", `");
+        }
+        names
+    })
+}
+
+/// Whether a Rust file declares an item, or for `Type::item` the item beside a mention of the type.
+fn declares(source: &str, item: &str) -> bool {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let words: Vec<&str> = source.split(|c| !is_name(c)).filter(|word| !word.is_empty()).collect();
+    let (of, name) = item.rsplit_once("::").unwrap_or(("", item));
+    let keyword = |word: &str| ["fn", "struct", "enum", "trait", "const", "static", "type"].contains(&word);
+    (of.is_empty() || words.contains(&of)) && words.windows(2).any(|pair| keyword(pair[0]) && pair[1] == name)
+}
+
+#[test]
+fn items_behind_links_to_rust_files_are_declared_there() {
+    let mut found = 0;
+    for (page, text) in pages() {
+        for (file, item) in items(&text) {
+            let source = std::fs::read_to_string(page.parent().unwrap().join(file)).unwrap();
+            assert!(declares(&source, item), "{}: {file} declares no {item}", page.display());
+            found += 1;
+        }
+    }
+    assert!(found >= 50, "only {found} items were found");
+}
+
+#[test]
+fn items_are_read_from_links_and_found_in_sources() {
+    let line = "| x | [`a.rs`](b/a.rs): `Ray::cast`, `END` and [`c.md`](c.md): `no`, [`d.rs`](d.rs) |";
+    assert_eq!(items(line).collect::<Vec<_>>(), [("b/a.rs", "Ray::cast"), ("b/a.rs", "END")]);
+    let source = "/// cast\nstruct Ray; impl Ray { fn cast_all() {} } const END: u8 = 0;";
+    let declared = ["Ray", "Ray::cast_all", "END", "cast", "Ray::cast", "Path::cast_all"].map(|i| declares(source, i));
+    assert_eq!(declared, [true, true, true, false, false, false]);
 }

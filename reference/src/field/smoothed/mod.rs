@@ -2,7 +2,8 @@
 //!
 //! The grid is smoothed as for the `gaussian` Hessian. Its derivatives are central differences and central differences
 //! of those, interpolated linearly. They respond less to detail finer than the grid than a spline through the smoothed
-//! samples does: at σ = 1 voxel the root sum of squares of their weights is 0.066, the spline's 0.158.
+//! samples does: at σ = 1 voxel the root sum of squares of their weights is 0.066, the spline's 0.158. With the
+//! spline's an oblique plane of bytes has principal directions at 17 % of its voxels.
 //!
 //! Smoothing is separable. Along an axis each sample is one sum over its line, whose weights include the continuation
 //! beyond the border. The samples around any cell can therefore be computed on their own, in any order.

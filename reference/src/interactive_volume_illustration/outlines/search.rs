@@ -5,6 +5,9 @@
 //! Their places are then moved onto the curve of the reconstruction itself. N·v is computed as g·v, with v towards
 //! the eye at each place. So it contains no norm, and its zeros are those of the gradient that the scene samples.
 //!
+//! With a trilinear kernel and its analytic gradient N·v jumps at the faces of cells, and most places have no root
+//! nearby: of a sphere's circle 38 % is found, in eleven pieces. Every other pair of kernel and gradient closes it.
+//!
 //! A grid with an axis of one voxel has no cells and no outline.
 
 use super::box_intersection::rim;
