@@ -7,10 +7,10 @@ use drypoint::output::read::Image;
 use drypoint::scene::file::{Overrides, parse};
 use std::path::{Path, PathBuf};
 
-/// Every page: README and all Markdown under `docs/`, with its text.
+/// Every page: README, that of the data, and all Markdown under `docs/`, with its text.
 fn pages() -> Vec<(PathBuf, String)> {
     let mut folders = vec![in_docs("")];
-    let mut files = vec![in_docs("../README.md")];
+    let mut files = vec![in_docs("../README.md"), in_docs("../data/README.md")];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).unwrap() {
             let path = entry.unwrap().path();
