@@ -260,7 +260,12 @@ mod tests {
         }
         for (name, rest, what, remedy) in [
             ("a_#.png", "", "a # stands for", "add a table [orbit], or give a name without #"),
-            ("a.gif", "", ".gif is for the frames of [orbit]", "add --set orbit.frames=36, or give a name that ends in .png"),
+            (
+                "a.gif",
+                "",
+                ".gif is for the frames of [orbit]",
+                "add --set orbit.frames=36, or give a name that ends in .png",
+            ),
             ("a_#.apng", orbit, ".apng has all frames in one file", "give a name without #"),
             ("a.png", orbit, "[orbit] has 36 frames, and the name has no ###", "write a_###.png"),
             ("a.svg", orbit, "[orbit] has 36 frames", "write a_###.svg"),

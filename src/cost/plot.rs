@@ -25,7 +25,7 @@ const LEAST: f64 = 1e-9;
 
 /// Most panels in a row, and width and height of a panel in the plot's units.
 const COLUMNS: usize = 3;
-const PANEL: [f64; 2] = [400.0, 290.0];
+const PANEL: [f64; 2] = [400.0, 330.0];
 
 /// Pixels of the PNG in a unit of the plot.
 const SCALE: f32 = 1.25;
@@ -66,8 +66,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     let of_picture = shown.iter().any(|row| row.subject == ErrorSubject::Picture);
     let [width, height] = sweep.size;
     let what = if of_picture { "a frame" } else { "a page, from the voxels on," };
-    let title =
-        format!("{name}: RMS error ({against}) over the time of {what} of {width} × {height} pixels");
+    let title = format!("{name}: RMS error ({against}) over the time of {what} of {width} × {height} pixels");
     let figure = Figure::new(rows, columns)
         .with_structure((0..knobs.len()).map(|i| vec![i]).collect())
         .with_plots(plots)

@@ -125,7 +125,8 @@ fn gif_frames(bytes: &[u8]) -> Vec<(u16, Vec<u8>)> {
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
     let mut decoder = options.read_info(bytes).unwrap();
-    std::iter::from_fn(|| decoder.read_next_frame().unwrap().map(|frame| (frame.delay, frame.buffer.to_vec()))).collect()
+    std::iter::from_fn(|| decoder.read_next_frame().unwrap().map(|frame| (frame.delay, frame.buffer.to_vec())))
+        .collect()
 }
 
 /// An APNG has the pixels of the frames' own PNG, and a GIF colours near them.

@@ -8,7 +8,7 @@ use drypoint::scene::counts::Counts;
 use drypoint::scene::file::load;
 
 /// The settings beside the scene's own.
-const OVER: [(&str, &str); 3] = [("picture.size", "[320, 320]"), ("orbit.frames", "36"), ("orbit.fps", "12")];
+const OVER: [(&str, &str); 3] = [("picture.size", "[280, 280]"), ("orbit.frames", "36"), ("orbit.fps", "12")];
 
 /// The most bytes of the animation.
 const LARGEST: u64 = 1_500_000;
@@ -18,7 +18,8 @@ const LARGEST: u64 = 1_500_000;
 /// # Errors
 /// Errors of the renderer and of the system, and a file that is too large for a page.
 pub(crate) fn write() -> Result<(), String> {
-    let scene = load(&in_docs("../data/scenes/default.toml"), &OVER.into_iter().collect()).map_err(|e| e.to_string())?;
+    let scene =
+        load(&in_docs("../data/scenes/default.toml"), &OVER.into_iter().collect()).map_err(|e| e.to_string())?;
     let job = Job::load(scene).map_err(|e| e.to_string())?;
     let mut counts = Counts::default();
     let draw = |counts: &mut Counts| {

@@ -25,14 +25,14 @@ struct ColorBox {
 impl Palette {
     /// Returns a palette of at most `most` ≤ 256 colours. If the picture has no more colours, these are its own. Else
     /// the box of colours with the largest spread is cut at its mean until there are `most` boxes, whose mean colours
-    /// are the palette.
+    /// are the palette. A colour of the picture gets the nearest colour of the palette.
     pub(super) fn new(pixels: impl Iterator<Item = [u8; 3]>, most: usize) -> Self {
         let counted = counts(pixels);
         let cut = counted.len() > most;
         let mut boxes: Vec<ColorBox> = if cut {
-            vec![ColorBox::new(counted)]
+            vec![ColorBox::new(counted.clone())]
         } else {
-            counted.into_iter().map(|color| ColorBox::new(vec![color])).collect()
+            counted.iter().map(|&color| ColorBox::new(vec![color])).collect()
         };
         while cut && boxes.len() < most {
             // Of equal spreads the first box.
@@ -43,13 +43,8 @@ impl Palette {
             let [low, high] = boxes.swap_remove(i).halves();
             boxes.extend([low, high]);
         }
-        let colors = boxes.iter().map(ColorBox::mean).collect();
-        let mut places: Vec<([u8; 3], u8)> = boxes
-            .iter()
-            .zip(0..=u8::MAX)
-            .flat_map(|(part, place)| part.colors.iter().map(move |&(color, _)| (color, place)))
-            .collect();
-        places.sort_unstable();
+        let colors: Vec<[u8; 3]> = boxes.iter().map(ColorBox::mean).collect();
+        let places = counted.iter().map(|&(color, _)| (color, nearest(&colors, color))).collect();
         Self { colors, places }
     }
 
@@ -97,6 +92,14 @@ impl ColorBox {
     }
 }
 
+/// Returns the place of the nearest of at most 256 colours, of equally near ones the first.
+fn nearest(colors: &[[u8; 3]], color: [u8; 3]) -> u8 {
+    let squared =
+        |other: &[u8; 3]| -> u32 { other.iter().zip(color).map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum() };
+    let place = colors.iter().zip(0..=u8::MAX).min_by_key(|&(other, place)| (squared(other), place));
+    place.map_or(0, |(_, place)| place)
+}
+
 /// Returns the colours in order, each with the number of its pixels.
 fn counts(pixels: impl Iterator<Item = [u8; 3]>) -> Vec<Counted> {
     let mut all: Vec<[u8; 3]> = pixels.collect();
@@ -142,7 +145,8 @@ mod tests {
         let palette = Palette::new((0..=255).map(|g| [g; 3]), 16);
         assert_eq!(palette.colors.len(), 16);
         for g in 0..=255u8 {
-            assert!(palette.colors[palette.index([g; 3]) as usize][0].abs_diff(g) <= 8, "{g}");
+            let found = palette.colors[palette.index([g; 3]) as usize][0].abs_diff(g);
+            assert!(found <= 8 && palette.colors.iter().all(|color| found <= color[0].abs_diff(g)), "{g}");
         }
     }
 }
