@@ -6,6 +6,7 @@ use divan::{Bencher, black_box};
 use drypoint::reference::volume_stippling::{
     DotCandidate, FrameDots, FrameInputs, Frames, Preprocess, StippleInputs, eliminate,
 };
+use drypoint::scene::clip::NO_PLANES;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3, IVec3};
 use drypoint::scene::marks::Page;
@@ -138,6 +139,7 @@ fn frame_of_two_millions(bencher: Bencher<'_, '_>) {
             size: 0.35,
             nib: None,
             surface: None,
+            clip: &NO_PLANES,
             tone: None,
         });
         let (page, mut drawn) = (Page::in_pixels(inputs.view.size, 0.0, 300.0), FrameDots::default());

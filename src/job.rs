@@ -43,7 +43,7 @@ use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{Pass, Plan, Quantity};
-use drypoint_scene::shot::{Shot, VolumeFacts};
+use drypoint_scene::shot::{Clipping, Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{Background, Ids, Length, Scene, StepAlong, VolumeSource};
@@ -80,7 +80,7 @@ pub struct Job {
     /// The label volume, if something reads it.
     pub(crate) labels: Option<LabelVolume>,
     further: [Option<Volume>; 2],
-    /// The styles that the function names.
+    /// The styles that the function names, then those of caps.
     pub(crate) styles: Vec<Style>,
     /// The premultiplied picture behind the volume, if the scene has one.
     pub(crate) background: Option<Vec<Rgba>>,
@@ -213,11 +213,16 @@ impl Job {
             });
         }
         // Everything else that the scene names; all faults are reported together.
-        let styles = match &function {
-            Some(Function::Style { names, .. }) => styles(&scene, names.iter().map(String::as_str), &mut failures),
-            None if calls_for_function => styles(&scene, scene.transfer.iter().flat_map(named), &mut failures),
+        let mut styles_of = |names: &mut dyn Iterator<Item = &str>| styles(&scene, names, &mut failures);
+        let mut styles = match &function {
+            Some(Function::Style { names, .. }) => styles_of(&mut names.iter().map(String::as_str)),
+            None if calls_for_function => styles_of(&mut scene.transfer.iter().flat_map(named)),
             Some(Function::Regular(_)) | None => Vec::new(),
         };
+        if plan.has_pass(Pass::Rays) {
+            // Those of caps come last.
+            styles.extend(styles_of(&mut Clipping::new(&scene, volume.grid()).styles.iter().map(String::as_str)));
+        }
         let background = background(&scene, target, &mut failures);
         let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
         Failures::check(failures)?;

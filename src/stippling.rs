@@ -11,11 +11,13 @@ use drypoint_reference::volume_stippling::{
     CurveVoxels, FrameDots, FrameInputs, Frames, PenTone, Preprocess, StippleError, StippleInputs, choose_on_page,
     joined, seen,
 };
+use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
 use drypoint_scene::memory;
 use drypoint_scene::plan::PointsPlan;
 use drypoint_scene::points::Points;
+use drypoint_scene::shot::Clipping;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Even, Ink, Iso, Length, PointsPerPixel, Scene, Stipples};
 use drypoint_scene::tone::Tone;
@@ -34,6 +36,8 @@ pub struct Stippling<'a> {
     edges: Option<CurveVoxels>,
     /// Grid of the voxels of points and edges.
     grid: Grid,
+    /// Planes that cut points and edges away.
+    clip: ClipPlanes,
     /// λa of dots of S_max in a face seen from the front, and the number of voxels behind each other in it ([STIP-17]).
     ink: [f64; 2],
     /// Field and iso-value of the surface that hides points ([STIP-15]).
@@ -124,7 +128,8 @@ impl<'a> Stippling<'a> {
         let (layers, line_pen) = pens.deal(job, points)?;
         let hiding = hiding(job, scene, counts)?;
         counts.seconds.insert("points".into(), start.elapsed().as_secs_f64());
-        Ok(Self { setting, layers, line_pen, edges, grid, ink, hiding })
+        let clip = Clipping::new(scene, job.volume.grid()).planes;
+        Ok(Self { setting, layers, line_pen, edges, grid, clip, ink, hiding })
     }
 
     /// Returns the number of points before they are made.
@@ -147,13 +152,14 @@ impl<'a> Stippling<'a> {
     pub fn frames(&self) -> DotFrames<'_> {
         let StippleSetup { job, scene, stipples, first, near, size, .. } = &self.setting;
         let (near, size, light, grid, reference) = (*near, *size, scene.light, job.volume.grid(), first);
-        let surface = self.hiding.as_ref().map(|(field, iso)| Arc::new(IsoSurface::new(field, *iso)));
+        let surface =
+            self.hiding.as_ref().map(|(field, iso)| Arc::new(IsoSurface::new(field, *iso).clipped(&self.clip)));
         let [ink, layers] = self.ink;
         let measured = self.setting.tone.as_ref().filter(|_| self.setting.pen_tone().is_some());
         let tone = measured.map(|tone| PenTone { tone, ink, layers });
         let layers = self.layers.iter().map(|&PenDots { nib, ref points, .. }| {
-            let surface = surface.clone();
-            Frames::new(FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone })
+            let (surface, clip) = (surface.clone(), &self.clip);
+            Frames::new(FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, clip, tone })
         });
         let layers: Vec<_> = layers.collect();
         let drawn = vec![FrameDots::default(); layers.len()];
@@ -166,7 +172,7 @@ impl DotFrames<'_> {
     /// curves.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Marks {
         let start = Instant::now();
-        let Stippling { setting, line_pen, edges, grid, .. } = self.stippling;
+        let Stippling { setting, line_pen, edges, grid, clip, .. } = self.stippling;
         let StippleSetup { page, near, stipples, .. } = setting;
         // Dots of each pen, thinned evenly over all pens if the scene asks for that.
         let mut layers = Vec::with_capacity(self.layers.len());
@@ -191,6 +197,9 @@ impl DotFrames<'_> {
         // Silhouette curves, without what the surface hides.
         if let (Some(curves), Some(edges)) = (&stipples.curves, edges) {
             let mut segments = edges.segments(curves, view);
+            if !clip.is_empty() {
+                segments = segments.into_iter().filter_map(|segment| segment.clipped(clip)).collect();
+            }
             if let Some(surface) = &self.surface {
                 segments = seen(segments, surface, view, *near, grid);
             }

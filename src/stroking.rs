@@ -12,9 +12,11 @@ use crate::job::{Job, in_world, near, pen_named, render_failure};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::interactive_volume_illustration::Sight;
 use drypoint_reference::surface::IsoSurface;
+use drypoint_scene::clip::{ClipPlanes, NO_PLANES};
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
+use drypoint_scene::shot::Clipping;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Iso, Length, Scene};
 use drypoint_scene::view::View;
@@ -31,6 +33,8 @@ pub struct Stroking<'a> {
     near: f64,
     /// Iso-value of the surface that hides all strokes, if there is one.
     hides: Option<f64>,
+    /// Planes on which strokes end.
+    clip: ClipPlanes,
     hatching: Option<HatchingSetup<'a>>,
     outlining: Option<Outlining>,
 }
@@ -48,6 +52,7 @@ struct StrokeCamera<'a> {
     view: &'a View,
     page: &'a Page,
     near: f64,
+    clip: &'a ClipPlanes,
     /// Surface that hides strokes; none: nothing hides them.
     hides: Option<&'a IsoSurface<'a, 'a>>,
 }
@@ -55,7 +60,8 @@ struct StrokeCamera<'a> {
 impl<'a> StrokeCamera<'a> {
     /// Returns the camera for visibility tests of points at `offset` in front of the surface.
     fn sight(&self, offset: f64) -> Sight<'a> {
-        Sight { view: self.view, page: self.page, near: self.near, surface: self.hides, offset }
+        let &Self { view, page, near, hides: surface, clip } = self;
+        Sight { view, page, near, surface, clip, offset }
     }
 }
 
@@ -117,7 +123,8 @@ impl<'a> Stroking<'a> {
             None => None,
         };
         counts.seconds.insert("strokes".into(), start.elapsed().as_secs_f64());
-        Ok(Self { field, page, near, hides, hatching, outlining })
+        let clip = Clipping::new(scene, grid).planes;
+        Ok(Self { field, page, near, hides, clip, hatching, outlining })
     }
 
     /// Measures the ranges of the field, once for each iso-value, and grows the strokes of hatching.
@@ -135,7 +142,7 @@ impl<'a> Stroking<'a> {
         let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
         for iso in [cut.and_then(|hatching| hatching.iso), outlined, hides].into_iter().flatten() {
             if !surfaces.iter().any(|surface| surface.iso() == iso) {
-                surfaces.push(IsoSurface::new(&self.field, iso));
+                surfaces.push(IsoSurface::new(&self.field, iso).clipped(&self.clip));
             }
         }
         surfaces
@@ -148,13 +155,13 @@ impl StrokeFrames<'_> {
     /// # Errors
     /// Dashes that the memory budget does not allow.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Result<[Vec<Layer>; 2], Failure> {
-        let Stroking { field, page, near, hides, hatching, outlining } = self.stroking;
+        let Stroking { field, page, near, hides, clip, hatching, outlining } = self.stroking;
         // Each iso-value has its surface.
         let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
         let mut layers = Vec::new();
         if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref()) {
             let hides = hides.or(hatching.iso).and_then(surface).filter(|_| hatching.is_cut());
-            layers = hatched.draw(&StrokeCamera { view, page, near: *near, hides }, counts);
+            layers = hatched.draw(&StrokeCamera { view, page, near: *near, clip, hides }, counts);
         }
         let hatched = layers.len();
         if let Some(outlining) = outlining
@@ -162,7 +169,13 @@ impl StrokeFrames<'_> {
         {
             let voxel = field.volume().grid().voxel();
             let hides = Some(hides);
-            layers.push(outlining.draw(&StrokeCamera { view, page, near: *near, hides }, own, voxel, counts));
+            // The planes have cut them already.
+            layers.push(outlining.draw(
+                &StrokeCamera { view, page, near: *near, clip: &NO_PLANES, hides },
+                own,
+                voxel,
+                counts,
+            ));
         }
         if let Some(hatching) = hatching {
             hatching.cut(&mut layers, hatched, view, counts)?;

@@ -6,6 +6,7 @@
 
 pub mod atomic;
 pub mod blue_noise;
+pub mod clip;
 pub mod color;
 pub mod counts;
 pub(crate) mod document;

@@ -38,12 +38,12 @@ impl Stroking<'_> {
         let surfaces = self.surfaces();
         let hides = self.hatching.as_ref().and_then(|hatching| self.hides.or(hatching.iso));
         let surface = hides.and_then(|iso| surfaces.iter().find(|surface| surface.iso() == iso));
-        let sight = Sight { view, page: &self.page, near: self.near, surface, offset: 0.0 };
+        let sight = Sight { view, page: &self.page, near: self.near, surface, clip: &self.clip, offset: 0.0 };
         let grid = self.field.volume().grid();
         let dot = |&(cell, p): &([usize; 3], f64)| {
             let world = grid.to_world(DVec3::from_array(cell.map(|i| i as f64 + 0.5)));
             let eye = if view.perspective { (view.eye - world).normalize_or_zero() } else { -view.forward };
-            let at = sight.place(world)?;
+            let at = sight.place(world).filter(|_| !self.clip.cut_in_world(world))?;
             let depth = if view.perspective { -view.to_eye(world).z } else { 1.0 };
             let pixel = (self.page.size.x - 2.0 * self.page.margin) / view.size[0] as f64;
             let radius = 0.5 * 3f64.sqrt() * grid.voxel() * pixel / (view.pixel * depth);

@@ -225,13 +225,12 @@ impl Stage {
     /// The picture of a shot of this scene that may have been changed.
     pub(crate) fn render_shot(&self, shot: &Shot, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
         let function = self.function();
-        let named: Vec<Style> = match &function {
-            Function::Regular(_) => Vec::new(),
-            Function::Style { names, .. } => {
-                let find = |name: &String| self.styles.iter().find(|s| &s.name == name).unwrap().clone();
-                names.iter().map(find).collect()
-            }
+        let find = |name: &String| self.styles.iter().find(|s| &s.name == name).unwrap().clone();
+        let names: &[String] = match &function {
+            Function::Regular(_) => &[],
+            Function::Style { names, .. } => names,
         };
+        let named: Vec<Style> = names.iter().chain(&shot.clipping.styles).map(find).collect();
         let background = match (&self.behind, &self.scene.picture.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
             (None, Background::Color(c)) => Backdrop::Color(*c),

@@ -7,6 +7,7 @@ mod anisotropy;
 mod blending;
 mod borders;
 mod camera;
+mod clips;
 mod counts;
 mod degenerate;
 mod empty;

@@ -3,6 +3,7 @@
 use crate::common::{ball, volume};
 use crate::stability::{Case, Theme, differing, worst};
 use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, Preprocess, StippleInputs};
+use drypoint::scene::clip::NO_PLANES;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
@@ -118,6 +119,7 @@ fn drawn(points: &Points, stipples: &Stipples, view: &View) -> Vec<Dot> {
         size: 0.5,
         nib: None,
         surface: None,
+        clip: &NO_PLANES,
         tone: None,
     });
     let mut drawn = FrameDots::default();

@@ -21,7 +21,7 @@ const NOT_DRAWN: [(&str, &str); 10] = [
 ];
 
 /// The names of colours, each of which stands for numbers, which are drawn and written.
-const COLORS: [&str; 2] = [".color = ", ".tones[][] = "];
+const COLORS: [&str; 3] = [".color = ", ".tones[][] = ", ".cap = "];
 
 /// What there is to draw: keys such as `camera.fov`, `transfer.nodes[].at` and `styles.*`, and for keys that are one of
 /// some names `sampling.kernel = bspline`.

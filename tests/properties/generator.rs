@@ -1,5 +1,6 @@
 //! Scenes at random: every effect, kernel, camera and odd volume that the caster knows, small enough for hundreds.
 
+use super::clips::clips;
 use super::over_two::over_two;
 use crate::common::random::Random;
 use crate::common::{LAYERS, Stage, perspective, plain, style};
@@ -154,7 +155,7 @@ pub(crate) fn opacity(r: &mut Random) -> f64 {
     }
 }
 
-fn styles() -> Vec<Style> {
+pub(super) fn styles() -> Vec<Style> {
     vec![
         plain("grey", [0.4, 0.5, 0.6, 1.0]),
         plain("clear", [1.0, 0.0, 0.0, 0.0]),
@@ -424,6 +425,9 @@ pub(crate) fn scene(seed: u64) -> Stage {
     }
     if r.once_in(4) {
         iso_surface(r, &mut shot);
+    }
+    if r.once_in(4) {
+        clips(r, &mut shot);
     }
     // Of an orbit the first frame is drawn.
     shot.scene.orbit = r.pick(&[None, None, None, Some(Orbit { frames: 7, degrees: -90.0, ..Orbit::default() })]);

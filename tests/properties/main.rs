@@ -5,6 +5,7 @@ mod common;
 
 mod along_ray;
 mod architecture;
+mod clips;
 mod coverage;
 mod generator;
 mod lanes;

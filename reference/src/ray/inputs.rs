@@ -17,7 +17,8 @@ pub struct Inputs<'a> {
     pub labels: Option<&'a LabelVolume>,
     /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
     pub further: [Option<&'a Volume>; 2],
-    /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names).
+    /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names),
+    /// then those that caps name, in the order of [`Clipping::styles`](drypoint_scene::shot::Clipping::styles).
     pub styles: &'a [Style],
     /// The background.
     pub background: Backdrop<'a>,

@@ -2,6 +2,7 @@
 
 use super::brick_occupancy::RayIntervals;
 use crate::number::{Real, Vec3};
+use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::shot::{Lattice, StepAlong};
 use drypoint_scene::space::Grid;
@@ -101,7 +102,7 @@ impl<R: Real> IndexRay<R> {
         [first, last]
     }
 
-    /// The samples that can lie in visible bricks, whose depths are [`RayIntervals::intervals`]; without those all samples. Closed
+    /// The samples that no plane cuts away and that can lie in visible bricks, whose depths are [`RayIntervals::intervals`]; without those all samples. Closed
     /// ranges first..=last, in order.
     ///
     /// Bounds of neighbouring intervals are rounded outwards to samples and can overlap: no sample is in two ranges, and
@@ -110,10 +111,12 @@ impl<R: Real> IndexRay<R> {
     pub(super) fn visits<'b>(
         &self,
         ends: [Vec3<R>; 2],
+        clip: &ClipPlanes,
         intervals: Option<&'b [[f64; 2]]>,
     ) -> impl Iterator<Item = [i64; 2]> + use<'b, R> {
         let (whole, intervals) = (intervals.is_none(), intervals.unwrap_or(&[]));
-        let [first, last] = if whole || !intervals.is_empty() { self.inside(ends) } else { [1, 0] };
+        let is_met = whole || !intervals.is_empty();
+        let [first, last] = if is_met { self.left_by(clip, ends, self.inside(ends)) } else { [1, 0] };
         whole
             .then_some([first, last])
             .into_iter()

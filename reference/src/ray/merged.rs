@@ -1,10 +1,12 @@
-//! Lines inside a translucent volume ([HATCH-14] d): rays with lines on them are cast alone, the others side by side.
+//! Lines inside a translucent volume ([HATCH-14] d), and cuts ([RAY-8]): rays with either are cast alone, the others side
+//! by side.
 
+use super::lattice::IndexRay;
 use super::prepared::Prepared;
 use super::tile_work::{CastAll, TileWork};
 use crate::number::Real;
 
-/// Casts rays with lines on them alone, and those without side by side; what comes out of each is appended in the order of the
+/// Casts rays with lines or a cut on them alone, and the others side by side; what comes out of each is appended in the order of the
 /// points.
 pub(super) fn cast_apart<R: Real>(
     prepared: &Prepared<'_, R>,
@@ -12,12 +14,26 @@ pub(super) fn cast_apart<R: Real>(
     work: TileWork<'_>,
 ) {
     let TileWork { points, mut boxes, counts, casts } = work;
-    let (with, without): (Vec<_>, Vec<_>) = points.iter().partition(|&&point| !prepared.lines_at(point).is_empty());
+    let is_alone: Vec<bool> = points.iter().map(|&point| is_alone(prepared, point)).collect();
+    let of = |alone: bool| {
+        let points = points.iter().zip(&is_alone).filter(move |(_, is_alone)| **is_alone == alone);
+        points.map(|(point, _)| *point).collect()
+    };
+    let [with, without]: [Vec<[f64; 2]>; 2] = [of(true), of(false)];
     let mut found = [Vec::with_capacity(with.len()), Vec::with_capacity(without.len())];
     let [casts_with, casts_without] = &mut found;
     alone(TileWork { points: &with, boxes: boxes.as_deref_mut(), counts, casts: casts_with });
     together(TileWork { points: &without, boxes, counts, casts: casts_without });
     let [mut with, mut without] = found.map(Vec::into_iter);
-    let next = |point: &[f64; 2]| if prepared.lines_at(*point).is_empty() { without.next() } else { with.next() };
-    casts.extend(points.iter().filter_map(next));
+    let next = |is_alone: &bool| if *is_alone { with.next() } else { without.next() };
+    casts.extend(is_alone.iter().filter_map(next));
+}
+
+/// Whether the ray through a point has lines on it, or a cut.
+fn is_alone<R: Real>(prepared: &Prepared<'_, R>, point: [f64; 2]) -> bool {
+    let (view, object) = (&prepared.view, &prepared.object);
+    !prepared.lines_at(point).is_empty() || {
+        let ray = || IndexRay::<R>::new(&view.ray(point[0], point[1]), view, &prepared.lattice, object.volume.grid());
+        !object.clip.planes.is_empty() && ray().cut_sample(&object.clip.planes, object.ends).is_some()
+    }
 }

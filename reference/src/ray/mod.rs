@@ -2,6 +2,7 @@
 
 pub mod brick_occupancy;
 mod cell_mask;
+mod clipped_samples;
 mod composite;
 mod draw;
 mod inputs;

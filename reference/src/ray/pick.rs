@@ -6,6 +6,7 @@ use super::sample::need::Anything;
 use crate::field::Sampler;
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
+use crate::surface::SurfaceHit;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
 
@@ -24,7 +25,7 @@ pub struct Picked {
     pub depth: f64,
     /// The value there; the iso-value on the iso-surface.
     pub value: f64,
-    /// The normal that shades ([NORM-1]), of length 1, in world space. None where the gradient is negligible ([PREC-3]), and
+    /// The normal that shades ([NORM-1]), of length 1, in world space; on a cut that of the plane ([RAY-8]). None where the gradient is negligible ([PREC-3]), and
     /// for gradients by regression that nothing in the picture reads.
     pub normal: Option<DVec3>,
     /// A, the accumulated opacity, with this place included.
@@ -40,8 +41,8 @@ pub struct Picked {
 enum Candidate {
     /// Sample k.
     Sample(i64),
-    /// The iso-surface at an eye depth.
-    Surface(f64),
+    /// The iso-surface or a cut of it.
+    Surface(SurfaceHit),
 }
 
 impl Candidate {
@@ -49,7 +50,7 @@ impl Candidate {
     fn of(step: &Step<'_>) -> Option<Self> {
         match *step {
             Step::Samples([k, _]) | Step::Share { k, .. } => Some(Self::Sample(k)),
-            Step::Surface { depth, .. } => Some(Self::Surface(depth)),
+            Step::Surface { hit, .. } => Some(Self::Surface(hit)),
             Step::Line { .. } => None,
         }
     }
@@ -102,7 +103,7 @@ impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
         let (object, evaluator) = (&self.prepared.object, &self.evaluator);
         let (position, depth) = match candidate {
             Candidate::Sample(k) => (evaluator.ray.position(k), evaluator.ray.depth(k).to_f64()),
-            Candidate::Surface(depth) => (evaluator.inside(depth), depth),
+            Candidate::Surface(hit) => (evaluator.inside(hit.t), hit.t),
         };
         let at = evaluator.sampler.place(position);
         let value = match (candidate, &self.prepared.surface) {
@@ -110,7 +111,14 @@ impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
             _ => evaluator.sampler.value_at(at).to_f64(),
         };
         let gradient = object.field.has_gradient().then(|| evaluator.sampler.gradient_at(at));
+        let cut = match candidate {
+            Candidate::Sample(k) => evaluator.cut_at(k),
+            Candidate::Surface(hit) => {
+                hit.cut.map(|plane| object.clip.face(plane, &evaluator.dirs, &self.prepared.eye_axes))
+            }
+        };
         let normal = gradient.and_then(|g| object.normal(g, evaluator.dirs.v));
+        let normal = cut.map_or(normal, |cut| Some(cut.normal));
         let index = position.to_glam();
         Picked {
             world: object.volume.grid().to_world(index),

@@ -8,7 +8,7 @@ use super::prepared::Prepared;
 use super::prepared_halos::PreparedHalos;
 use super::prepared_surface::PreparedSurface;
 use super::sample::need::Needs;
-use super::sample::{EyeAxes, Lit, OverTwo, PreparedObject, Shader};
+use super::sample::{EyeAxes, Lit, OverTwo, PreparedClip, PreparedObject, Shader};
 use crate::field::{Field, Sampler, quantile_of_norms};
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
@@ -63,7 +63,10 @@ pub(super) fn prepare<'a, R: Real>(
     if let Some(table) = &table {
         counts.bytes.insert("table".into(), table.bytes() as u64);
     }
-    let shader = Shader::new(shot, inputs.styles, volume.grid().voxel())?;
+    // The styles of caps follow those of the function.
+    let of_function = inputs.styles.len().saturating_sub(shot.clipping.styles.len());
+    let (styles, of_caps) = inputs.styles.split_at(of_function);
+    let shader = Shader::new(shot, styles, volume.grid().voxel())?;
     if let Some(bytes) = shader.mipmap_bytes() {
         counts.bytes.insert("style_mipmaps".into(), bytes as u64);
     }
@@ -81,6 +84,7 @@ pub(super) fn prepare<'a, R: Real>(
     let object = PreparedObject {
         volume,
         ends: volume.grid().index_box().map(Vec3::from_glam),
+        clip: PreparedClip::new(&shot.clipping, of_caps)?,
         function: over_value,
         table,
         over_two,

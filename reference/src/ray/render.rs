@@ -245,7 +245,7 @@ impl<'a> Renderer<'a> {
             }));
         }
         match (&self.ready, self.order) {
-            (Ready::F64(p), Order::Lanes) if p.lines.is_none() => {
+            (Ready::F64(p), Order::Lanes) if p.lines.is_none() && p.object.clip.planes.is_empty() => {
                 draw(Casting::ByTile(&|work: TileWork<'_>| lanes::cast_all(p, work)))
             }
             (Ready::F64(p), Order::Lanes) => {

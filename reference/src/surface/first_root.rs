@@ -5,6 +5,7 @@ use super::cubic::{BernsteinCubic, bracketed, mix};
 use super::traversal::{CellBox, CellTraversal, IndexLine};
 use crate::field::{Field, Place, Sampler};
 use crate::number::Real;
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::volume::{Bricks, Mask};
 
@@ -53,6 +54,11 @@ impl RootFinder {
     /// The bricks that can contain the value. Returns none if their ranges are unknown.
     pub(super) fn bricks(&self) -> Option<Vec<[usize; 3]>> {
         self.active.as_ref().map(ActiveBricks::all)
+    }
+
+    /// Whether the field's box contains a place in index space.
+    pub(super) fn holds(&self, index: DVec3) -> bool {
+        self.bounds.holds(index)
     }
 
     /// Drops the ranges of bricks, for a sampler that they do not bound.

@@ -12,17 +12,20 @@
 //! Cells that touch a masked voxel contain no surface ([PREC-2]).
 
 mod active;
+mod clipped;
 mod cubic;
 mod first_root;
 mod foot;
 mod traversal;
 mod visibility;
 
+pub(crate) use clipped::{Clipped, SurfaceHit};
 pub(crate) use cubic::bracketed;
 pub(crate) use first_root::RootFinder;
 
 use crate::field::{Field, Sampler};
 use crate::with_sampler;
+use drypoint_scene::clip::{ClipPlanes, NO_PLANES};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::BRICK;
 
@@ -47,19 +50,32 @@ use drypoint_scene::volume::BRICK;
 pub struct IsoSurface<'f, 'v> {
     field: &'f Field<'v, f64>,
     roots: RootFinder,
+    /// Planes that cut parts of the surface away.
+    clip: &'f ClipPlanes,
 }
 
 impl<'f, 'v> IsoSurface<'f, 'v> {
     /// The surface of a field. The field must be prepared for gradients if feet are needed. The ranges of the field's
     /// bricks are computed at once, so that lines skip bricks that exclude the value.
     pub fn new(field: &'f Field<'v, f64>, iso: f64) -> Self {
-        Self { field, roots: RootFinder::new(field, iso, Some(&field.bricks())) }
+        Self { field, roots: RootFinder::new(field, iso, Some(&field.bricks())), clip: &NO_PLANES }
     }
 
     /// Like [`new`](Self::new), but without the bricks' ranges: every cell on a line is tested. Results are the same
     /// ([RAY-2]).
     pub fn without_skipping(field: &'f Field<'v, f64>, iso: f64) -> Self {
-        Self { field, roots: RootFinder::new(field, iso, None) }
+        Self { field, roots: RootFinder::new(field, iso, None), clip: &NO_PLANES }
+    }
+
+    /// Cuts the surface by planes ([RAY-8]). What is cut away hides nothing, and where the inside is cut open, the cut
+    /// hides what is behind it. Roots and feet are those of the whole surface.
+    pub fn clipped(self, clip: &'f ClipPlanes) -> Self {
+        Self { clip, ..self }
+    }
+
+    /// The planes that cut the surface.
+    pub fn clip(&self) -> &'f ClipPlanes {
+        self.clip
     }
 
     /// The value of the surface.

@@ -25,6 +25,13 @@ impl CellBox {
     }
 }
 
+impl CellBox {
+    /// Whether the box contains a place in index space.
+    pub(super) fn holds(&self, index: DVec3) -> bool {
+        self.ends.iter().zip(index.to_array()).all(|([lo, hi], x)| (*lo..=*hi).contains(&x))
+    }
+}
+
 /// The state of a line's traversal of the cells of a box.
 ///
 /// The line crosses face i of axis a at t = (i − origin)/along, computed anew for each face, in the order of (t,

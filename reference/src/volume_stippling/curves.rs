@@ -4,6 +4,7 @@ use super::StippleError;
 use crate::field::{Field, HessianEstimator, Reconstruction, Rung, Sampler};
 use crate::number::Vec3;
 use crate::with_sampler;
+use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::points::PointVoxel;
 use drypoint_scene::space::Grid;
@@ -50,6 +51,17 @@ pub struct CurveSegment {
     pub normal: DVec3,
     /// The segment's ends in the world.
     pub ends: [DVec3; 2],
+}
+
+impl CurveSegment {
+    /// The part of the segment that planes leave ([RAY-8]); none if they cut it away.
+    pub fn clipped(self, clip: &ClipPlanes) -> Option<Self> {
+        let [a, b] = self.ends;
+        let [from, to] = clip.segment(self.ends)?;
+        let start = if from == 0.0 { a } else { a.lerp(b, from) };
+        let end = if to == 1.0 { b } else { a.lerp(b, to) };
+        Some(Self { ends: [start, end], ..self })
+    }
 }
 
 impl CurveVoxels {

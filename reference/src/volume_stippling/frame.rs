@@ -6,6 +6,7 @@ use super::elimination::{DotCandidate, eliminate};
 use super::factors::{CameraFactors, FixedFactors, VolumeExtent};
 use super::hidden::HiddenPoints;
 use crate::surface::IsoSurface;
+use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::{DMat3, DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Page};
 use drypoint_scene::points::Points;
@@ -36,6 +37,7 @@ pub struct Frames<'a> {
     size: f64,
     nib: Option<f64>,
     surface: Option<Arc<IsoSurface<'a, 'a>>>,
+    clip: &'a ClipPlanes,
     tone: Option<PenTone<'a>>,
 }
 
@@ -82,6 +84,8 @@ pub struct FrameInputs<'a> {
     pub nib: Option<f64>,
     /// The surface that hides points; none if points are transparent ([STIP-15]).
     pub surface: Option<Arc<IsoSurface<'a, 'a>>>,
+    /// Planes that cut points away ([RAY-8]).
+    pub clip: &'a ClipPlanes,
     /// The pen's tone curve, if it was measured ([STIP-17]).
     pub tone: Option<PenTone<'a>>,
 }
@@ -138,7 +142,7 @@ impl FrameDots {
 impl<'a> Frames<'a> {
     /// Computes the camera-independent factors.
     pub fn new(inputs: FrameInputs<'a>) -> Self {
-        let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, tone } = inputs;
+        let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, clip, tone } = inputs;
         let centre = grid.centre();
         Self {
             stipples,
@@ -152,6 +156,7 @@ impl<'a> Frames<'a> {
             size,
             nib,
             surface,
+            clip,
             tone,
         }
     }
@@ -229,6 +234,9 @@ impl<'a> Frames<'a> {
             let o = DVec3::from_array(offset.map(f64::from));
             if let Some(on_page) = place.on_page(at + place.to_eye * o, self.near) {
                 let world = place.world(centre + o);
+                if self.clip.cut_in_world(world) {
+                    continue;
+                }
                 if hidden.is_some_and(|hidden| hidden.hides(world, voxel.normal)) {
                     part.hidden += 1;
                     continue;

@@ -33,6 +33,8 @@ pub enum Pass {
     StillFactor,
     /// The rays themselves.
     Rays,
+    /// The ends of rays, points and lines at clip planes ([RAY-8]).
+    Clip,
     /// The seeds of halos on the planes of samples ([HALO-2], [HALO-3]).
     HaloSeeds,
     /// From seeds to the intensities of halos, group of planes by group ([HALO-4], [HALO-5]).
@@ -94,6 +96,7 @@ impl Pass {
             Self::DotColors => "colours of dots",
             Self::StillFactor => "factor, once",
             Self::Rays => "rays",
+            Self::Clip => "clip planes",
             Self::HaloSeeds => "halo seeds",
             Self::HaloSpreading => "halo spreading",
             Self::Factor => "factor, a frame",
@@ -134,6 +137,7 @@ impl Pass {
             Self::DotColors => "one colour a voxel with points",
             Self::StillFactor => "one number a voxel with points",
             Self::Rays => "samples² rays a pixel",
+            Self::Clip => "one look at the planes a ray, a point and a vertex of a line",
             Self::HaloSeeds => "one look at each sample whose value may seed, seen or not; a number a ray",
             Self::HaloSpreading => "a filter of all rays a pass, once a group of planes; two numbers a ray",
             Self::Factor => "one number a voxel with points",
@@ -172,7 +176,7 @@ impl Pass {
             // Made of few voxels, or known once those are ([`PointsPlan`](super::PointsPlan)).
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
-            Self::HaloSeeds | Self::HaloSpreading => 0,
+            Self::Clip | Self::HaloSeeds | Self::HaloSpreading => 0,
             Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes | Self::Gaps => 0,
             // At most a cell a voxel: where it is, its p, and once more if a stroke begins there.
             Self::SeenCells => 56,

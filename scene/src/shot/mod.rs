@@ -4,6 +4,7 @@
 //! value. A renderer reads the shot and the data that it names (voxels, labels, styles, pixels behind), and nothing else of a
 //! scene. Quantities that only voxels can tell, such as a quantile of ‖g‖, are named here and measured by the renderer.
 
+mod clipping;
 mod halo;
 mod lattice;
 mod material;
@@ -18,6 +19,7 @@ pub use crate::tables::{
     HessianEstimator, Kappa, Kernel, LabelLookup, Mix, Number, Outside, ProfileNode, SeedDirection, SeedValue,
     SphereFrame, StepAlong, Tone, Transparency,
 };
+pub use clipping::{Cap, Clipping};
 pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, SeedFocus, SeedSide};
 pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
@@ -50,6 +52,8 @@ pub struct Shot {
     pub objects: [Object; 1],
     /// The opaque iso-surface; none: none ([HATCH-14]).
     pub surface: Option<OpaqueSurface>,
+    /// Clip planes ([RAY-8]).
+    pub clipping: Clipping,
     /// Volumetric halos ([HALO-1]).
     pub halos: Halos,
     /// Which numbers are composited ([VAL-3]).
@@ -202,6 +206,7 @@ impl Shot {
             lattice: Lattice { step, along: sampling.step_along, near },
             rays_across: scene.picture.samples,
             number: sampling.number,
+            clipping: Clipping::new(scene, facts.grid),
             halos: Halos::new(scene, plan, facts.grid, &object.function)?,
             objects: [object],
             surface,

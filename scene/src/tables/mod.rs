@@ -5,6 +5,7 @@
 //! beside the plan (`plan::rules`), since they read the whole scene.
 
 pub mod camera;
+pub mod clip;
 pub mod contours;
 pub mod halo;
 mod halo_presets;
@@ -33,6 +34,7 @@ pub mod volume;
 
 pub use crate::length::Length;
 pub use camera::{Camera, Projection};
+pub use clip::{Clip, ClipSpace, ClipTarget};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use halo::{
     Exponents, FocusPoints, Halo, HaloAccumulation, HaloFocus, HaloKind, HaloSource, ProfileNode, SeedBy,

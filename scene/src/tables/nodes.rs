@@ -183,7 +183,7 @@ impl Kind for AtKind {
 }
 
 /// The name of a style, which must be known once the whole scene is read.
-struct StyleName;
+pub(super) struct StyleName;
 
 const STYLE_NAME: Text = Text { what: "the name of a style" };
 

@@ -2,7 +2,7 @@
 
 use super::preset::PRESETS;
 use super::{
-    Halo, Scene, VolumeSource, camera, contours, halo, hatching, orbit, outlines, page, pen, picture, sampling,
+    Halo, Scene, VolumeSource, camera, clip, contours, halo, hatching, orbit, outlines, page, pen, picture, sampling,
     shading, stipples, style_mipmaps, styles, surface, transfer, volume,
 };
 use crate::document::check::Check;
@@ -80,6 +80,10 @@ pub(crate) static ROOT: Table<Scene> = Table {
             light: key("STF-11", shading::Light);
             /// The data that is seen.
             volume: key("IO-1", TableOf(&volume::TABLE)).required();
+            /// Planes that cut parts of the volume away.
+            clip: key("RAY-8", ListOf { what: "a list of clips", each: TableOf(&clip::TABLE) },
+                |s| (!s.clips.is_empty()).then(|| s.clips.clone()),
+                |s, v| s.clips = v).absent("none");
             /// The view of the volume.
             camera: key("RAY-5", TableOf(&camera::TABLE));
             /// Several frames about the volume.

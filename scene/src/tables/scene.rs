@@ -1,9 +1,9 @@
 //! The scene: all tables of a scene file ([SCN-1], [SCN-3]).
 
 use super::{
-    Axis, Background, Camera, Contours, Halo, Hatching, LightDirection, Orbit, Outlines, PageSettings, PenSettings,
-    PictureSettings, Sampling, Shading, Stipples, StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook, Transfer,
-    TransferKind, VolumeSource, VolumeTable,
+    Axis, Background, Camera, Clip, Contours, Halo, Hatching, LightDirection, Orbit, Outlines, PageSettings,
+    PenSettings, PictureSettings, Sampling, Shading, Stipples, StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook,
+    Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use crate::document::Given;
 use std::path::{Path, PathBuf};
@@ -16,6 +16,8 @@ pub struct Scene {
     pub light: LightDirection,
     /// The data that is seen.
     pub volume: VolumeTable,
+    /// Planes that cut parts of the volume away.
+    pub clips: Vec<Clip>,
     /// The view.
     pub camera: Camera,
     /// Several frames; none: one.
@@ -104,6 +106,7 @@ impl Scene {
         Self {
             light: LightDirection::Head,
             volume: VolumeTable::new(source),
+            clips: Vec::new(),
             camera: Camera::default(),
             orbit: None,
             picture: PictureSettings::default(),

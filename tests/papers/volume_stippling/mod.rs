@@ -13,6 +13,7 @@ mod tone;
 
 use crate::common;
 use drypoint::reference::volume_stippling::{FrameInputs, Preprocess, StippleInputs, viewing_distance};
+use drypoint::scene::clip::NO_PLANES;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::points::Points;
@@ -82,7 +83,19 @@ fn drawn_from<'a>(
     size: f64,
 ) -> FrameInputs<'a> {
     let light = LightDirection::Head;
-    FrameInputs { stipples, points, light, grid, reference, near: 0.5, size, nib: None, surface: None, tone: None }
+    FrameInputs {
+        stipples,
+        points,
+        light,
+        grid,
+        reference,
+        near: 0.5,
+        size,
+        nib: None,
+        surface: None,
+        clip: &NO_PLANES,
+        tone: None,
+    }
 }
 
 /// A flat tone in opaque ink: T_r is one number for all voxels, and has `tone` points of each drawn.

@@ -5,6 +5,7 @@ mod chain;
 mod curve_refinement;
 mod iso_difference;
 mod search;
+mod section;
 mod simplification;
 mod tetrahedra;
 

@@ -46,8 +46,8 @@ const BACK: f64 = 0.3;
 /// The outlines of a surface for one camera, hidden parts included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutlineStrokes {
-    /// Strokes in world space. Those where the surface turns away come before those on the box, each group in the
-    /// order of their cells.
+    /// Strokes in world space. Those where the surface turns away come before those on the box and those on clip planes,
+    /// each group in the order of their cells.
     pub strokes: Vec<Stroke>,
     /// Number of places on curves of the linear functions.
     pub places: u64,
@@ -67,7 +67,11 @@ pub fn outlines(surface: &IsoSurface<'_, '_>, view: &View) -> OutlineStrokes {
         outside: field.reconstruction().outside,
         no_normal_below: field.no_normal_below(),
     };
-    with_sampler!(field, |sampler| search.outlines(sampler, &surface.bricks()))
+    with_sampler!(field, |sampler| {
+        let bricks = surface.bricks();
+        let found = search.outlines(sampler, &bricks);
+        search.clipped(sampler, &bricks, surface.clip(), found)
+    })
 }
 
 /// The inputs of a search for outlines, except the field.
@@ -89,28 +93,38 @@ impl OutlineSearch<'_> {
         if self.grid.dims().contains(&1) {
             return OutlineStrokes::default();
         }
-        let in_bricks = |brick: &[usize; 3]| self.in_brick(sampler, *brick);
+        let facing_at = |voxel| self.facing(position(voxel), sampler.voxel_gradient(voxel));
+        let facing = |at: DVec3| self.facing(at, sampler.gradient(Vec3::from_glam(at)));
+        let mut found = self.curves(sampler, bricks, &facing_at, &facing);
+
+        let (chains, on_box) = joined(rim(self, sampler));
+        let at = |key: u64| Some(on_box[on_box.partition_point(|place| place.0 < key)].1);
+        let on_box = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 3, &at, &|_| None));
+        found.strokes.par_extend(on_box);
+        found
+    }
+
+    /// Finds the curves f = iso, q = 0 in bricks, from q at voxels and anywhere.
+    pub(super) fn curves<S: Sampler<f64>>(
+        &self,
+        sampler: &S,
+        bricks: &[[usize; 3]],
+        at_voxel: &(dyn Fn([usize; 3]) -> f64 + Sync),
+        q: &(dyn Fn(DVec3) -> f64 + Sync),
+    ) -> OutlineStrokes {
+        let in_bricks = |brick: &[usize; 3]| self.in_brick(sampler, *brick, at_voxel);
         let segments: Vec<[CurvePoint; 2]> = bricks.par_iter().flat_map_iter(in_bricks).collect();
         let (chains, found) = joined(segments);
-        let refine = CurveRefinement {
-            sampler,
-            over: &|value| self.level.over(value),
-            q: |at: DVec3| self.facing(at, sampler.gradient(Vec3::from_glam(at))),
-            bounds: self.grid.index_box(),
-        };
+        let refine =
+            CurveRefinement { sampler, over: &|value| self.level.over(value), q, bounds: self.grid.index_box() };
         let onto_curve =
             |place: &CurvePoint| refine.onto_curve(place.1).filter(|at| self.normal(sampler, *at).is_some());
         let moved: Vec<Option<DVec3>> = found.par_iter().map(onto_curve).collect();
         let middle = |at: DVec3| refine.onto_curve(at);
         let (places, lost) = (found.len(), moved.iter().filter(|at| at.is_none()).count());
         let at = |key: u64| moved[found.partition_point(|place| place.0 < key)];
-        let turning = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 6, &at, &middle));
-        let mut strokes: Vec<Stroke> = turning.collect();
-
-        let (chains, on_box) = joined(rim(self, sampler));
-        let at = |key: u64| Some(on_box[on_box.partition_point(|place| place.0 < key)].1);
-        strokes.par_extend(chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 3, &at, &|_| None)));
-        OutlineStrokes { strokes, places: places as u64, lost: lost as u64 }
+        let strokes = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 6, &at, &middle));
+        OutlineStrokes { strokes: strokes.collect(), places: places as u64, lost: lost as u64 }
     }
 
     /// g·v at a place in index space, v of length 1 towards the eye.
@@ -134,7 +148,12 @@ impl OutlineSearch<'_> {
     }
 
     /// Segments of curves in the cells of a brick.
-    fn in_brick<S: Sampler<f64>>(&self, sampler: &S, brick: [usize; 3]) -> Vec<[CurvePoint; 2]> {
+    fn in_brick<S: Sampler<f64>>(
+        &self,
+        sampler: &S,
+        brick: [usize; 3],
+        at_voxel: &(dyn Fn([usize; 3]) -> f64 + Sync),
+    ) -> Vec<[CurvePoint; 2]> {
         const SIDE: usize = BRICK + 1;
         let first = brick.map(|b| b * BRICK);
         let cells: [usize; 3] = std::array::from_fn(|a| BRICK.min(self.grid.dims()[a] - 1 - first[a]));
@@ -146,8 +165,8 @@ impl OutlineSearch<'_> {
             let index: [usize; 3] = std::array::from_fn(|a| first[a] + voxel[a]);
             over[local(voxel)] = self.level.over(sampler.value(Vec3::from_glam(position(index))));
         });
-        // g·v is computed only at corners of cells in which f − iso changes its sign; NaN marks the others.
-        let mut facing = [f64::NAN; SIDE * SIDE * SIDE];
+        // q is computed only at corners of cells in which f − iso changes its sign; NaN marks the others.
+        let mut second = [f64::NAN; SIDE * SIDE * SIDE];
         let mut segments = Vec::new();
         for_each(cells, |cell| {
             let corner = |steps: usize| over[local(at(cell, steps))];
@@ -161,11 +180,10 @@ impl OutlineSearch<'_> {
             }
             let corners: [ValuePair; 8] = std::array::from_fn(|steps| {
                 let i = local(at(cell, steps));
-                if facing[i].is_nan() {
-                    let voxel = at(index, steps);
-                    facing[i] = self.facing(position(voxel), sampler.voxel_gradient(voxel));
+                if second[i].is_nan() {
+                    second[i] = at_voxel(at(index, steps));
                 }
-                [over[i], facing[i]]
+                [over[i], second[i]]
             });
             let turns = is_above(corners[0][1]);
             if corners.iter().any(|corner| is_above(corner[1]) != turns) {
@@ -337,7 +355,7 @@ fn split(places: Vec<DVec3>, closed: bool) -> Vec<(Vec<DVec3>, bool)> {
 }
 
 /// Sets u: the arc length as a share of the whole length.
-fn measure(stroke: &mut Stroke) {
+pub(super) fn measure(stroke: &mut Stroke) {
     let mut along = 0.0;
     let mut before: Option<DVec3> = None;
     for vertex in &mut stroke.vertices {

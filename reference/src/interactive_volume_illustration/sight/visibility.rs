@@ -6,6 +6,7 @@
 use super::projection::{ClippedSegment, PageProjection};
 use super::styled::StyledStroke;
 use crate::surface::IsoSurface;
+use drypoint_scene::clip::{ClipPlanes, ClippedParts};
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Page, Polyline, Vertex, color_between};
@@ -30,6 +31,8 @@ pub struct Sight<'a> {
     pub near: f64,
     /// The surface that hides strokes; none if nothing does.
     pub surface: Option<&'a IsoSurface<'a, 'a>>,
+    /// Planes on which strokes end ([RAY-8]). Outlines are cut before they come here.
+    pub clip: &'a ClipPlanes,
     /// Offset of visibility tests along a stroke's normal, in world units. It is δ of [HATCH-7] for strokes on the
     /// surface, and 0 for strokes that already lie in front of it.
     pub offset: f64,
@@ -126,12 +129,42 @@ struct PennedVertex {
     pen: PenState,
 }
 
+impl PennedVertex {
+    /// The vertex at a share of the way from one to the next.
+    fn between(a: &Self, b: &Self, t: f64) -> Self {
+        let mix = |x: f64, y: f64| x + (y - x) * t;
+        Self {
+            vertex: StrokeVertex {
+                world: a.vertex.world.lerp(b.vertex.world, t),
+                normal: a.vertex.normal.lerp(b.vertex.normal, t).normalize_or_zero(),
+                u: mix(a.vertex.u, b.vertex.u),
+            },
+            pen: PenState {
+                radius: mix(a.pen.radius, b.pen.radius),
+                opacity: mix(a.pen.opacity, b.pen.opacity),
+                color: color_between(a.pen.color, b.pen.color, t),
+            },
+        }
+    }
+}
+
 impl VisibilityTrace<'_, '_> {
     fn lines(&mut self, mut ends: Vec<PennedVertex>, closed: bool) -> Vec<Polyline> {
         // A closed stroke repeats its first vertex.
         if let (true, Some(first)) = (closed, ends.first().copied()) {
             ends.push(PennedVertex { vertex: StrokeVertex { u: 1.0, ..first.vertex }, ..first });
         }
+        if self.sight.clip.is_empty() {
+            return self.seen_parts(&ends, closed);
+        }
+        match self.sight.clip.cut_line(ends, closed, |end| end.vertex.world, PennedVertex::between) {
+            ClippedParts::Whole(ends) => self.seen_parts(&ends, closed),
+            ClippedParts::Parts(parts) => parts.iter().flat_map(|ends| self.seen_parts(ends, false)).collect(),
+        }
+    }
+
+    /// The visible parts of a line that no plane cuts. A closed one repeats its first vertex.
+    fn seen_parts(&mut self, ends: &[PennedVertex], closed: bool) -> Vec<Polyline> {
         let mut parts: Vec<Vec<Vertex>> = Vec::new();
         // Whether the last part ends where the next segment begins, and the visibility at that place if it is known.
         let (mut joins, mut known) = (false, None);

@@ -146,7 +146,7 @@ impl StrokeGrower<'_, '_> {
         let place = self.on_surface(cell, [x, y, z]).ok()?;
         let ground = self.ground();
         let (normal, _) = normal(ground, inside(ground, place.0)?)?;
-        let at = sight.place(place.0)?;
+        let at = sight.place(place.0).filter(|_| !sight.clip.cut_in_world(place.0))?;
         let tone = tone(normal);
         let front = place.0 + normal * (BEFORE * ground.grid().voxel());
         (tone > 0.0 && sight.sees(front)).then_some(StrokeCandidate { order, cell, place, at, tone })

@@ -2,6 +2,7 @@
 
 use crate::number::Real;
 use crate::ray::lattice::IndexRay;
+use crate::surface::SurfaceHit;
 use drypoint_scene::fragments::Fragment;
 
 /// One step of a ray.
@@ -13,8 +14,8 @@ pub(crate) enum Step<'l> {
     Share { k: i64, steps: f64, again: bool },
     /// A line, between samples or between shares of sample k.
     Line { k: i64, line: &'l Fragment },
-    /// The iso-surface at a depth, where the ray ends; k is the first plane behind it.
-    Surface { k: i64, depth: f64 },
+    /// The iso-surface or a cut of it, where the ray ends; k is the first plane behind it.
+    Surface { k: i64, hit: SurfaceHit },
 }
 
 impl Step<'_> {
@@ -46,9 +47,11 @@ pub(crate) fn steps<'l, R: Real>(
     ray: &IndexRay<R>,
     visits: impl Iterator<Item = [i64; 2]>,
     lines: &'l [Fragment],
-    surface: Option<f64>,
+    hit: Option<SurfaceHit>,
     steps: &mut Vec<Step<'l>>,
 ) {
+    // The depth at which the ray ends.
+    let surface = hit.map(|hit| hit.t);
     if lines.is_empty() && surface.is_none() {
         steps.extend(visits.map(Step::Samples));
         return;
@@ -96,5 +99,5 @@ pub(crate) fn steps<'l, R: Real>(
         }
     }
     steps.extend(lines.iter().map(|line| Step::Line { k: plane(line.depth), line }));
-    steps.extend(surface.map(|depth| Step::Surface { k: last_of_all + 1, depth }));
+    steps.extend(hit.map(|hit| Step::Surface { k: last_of_all + 1, hit }));
 }

@@ -8,6 +8,7 @@ use crate::ray::brick_occupancy::RayIntervals;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need, Needs};
 use crate::ray::tile_work::TileWork;
+use crate::surface::Clipped;
 use drypoint_scene::fragments::Fragment;
 
 /// Casts rays of a tile one by one.
@@ -48,8 +49,10 @@ impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
         steps: &mut Vec<Step<'p>>,
     ) {
         let (prepared, ray) = (self.prepared, &self.evaluator.ray);
+        let object = &prepared.object;
+        let visits = |boxes| ray.visits(object.ends, &object.clip.planes, ray.intervals(boxes));
         let Some(surface) = &prepared.surface else {
-            return path::steps(ray, ray.visits(prepared.object.ends, ray.intervals(boxes)), lines, None, steps);
+            return path::steps(ray, visits(boxes), lines, None, steps);
         };
         let near = match prepared.view.perspective {
             // Of shells near is the radius.
@@ -57,11 +60,13 @@ impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
             false => f64::NEG_INFINITY,
         };
         let mask = prepared.object.volume.mask();
-        let root = surface.roots.first(self.evaluator.sampler, mask, ray.line(), [near, f64::INFINITY]);
+        let clipped = Clipped { clip: &object.clip.planes, outside: object.outside };
+        let (sampler, range) = (self.evaluator.sampler, [near, f64::INFINITY]);
+        let hit = surface.roots.first_left(sampler, mask, ray.line(), range, clipped);
         if surface.alone {
-            path::steps(ray, std::iter::empty(), lines, root, steps);
+            path::steps(ray, std::iter::empty(), lines, hit, steps);
         } else {
-            path::steps(ray, ray.visits(prepared.object.ends, ray.intervals(boxes)), lines, root, steps);
+            path::steps(ray, visits(boxes), lines, hit, steps);
         }
     }
 }

@@ -12,6 +12,7 @@ use crate::ray::opacity::Correction;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need};
 use crate::ray::sample::{Evaluator, OverTwo, Previous, Sample, SampleAttributes};
+use crate::surface::SurfaceHit;
 use crate::transfer;
 use crate::transfer::over::SampleQuantities;
 use crate::volumetric_halos::Tint;
@@ -58,13 +59,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         Self {
             prepared,
             correction: Correction::new(ray.step / object.reference_length),
-            evaluator: Evaluator {
-                object,
-                sampler,
-                ray,
-                dirs: object.shader.view_dirs(v, v_eye),
-                previous: Previous::None,
-            },
+            evaluator: Evaluator::new(object, sampler, ray, object.shader.view_dirs(v, v_eye), &prepared.eye_axes),
             before_shares: Previous::None,
             front: Front { accumulator: Accumulator::empty(R::ZERO), corrected: [R::ZERO; 2] },
             of_samples: R::ZERO,
@@ -94,8 +89,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             Step::Samples(range) => self.run::<N>(range, tint, counts),
             Step::Share { k, steps, again } => self.run_share::<N>((k, steps, again), tint, counts),
             Step::Line { line, .. } => self.meet_line(line, tint),
-            Step::Surface { depth, .. } => {
-                self.meet_surface(depth, tint, counts);
+            Step::Surface { hit, .. } => {
+                self.meet_surface(hit, tint, counts);
                 false
             }
         }
@@ -159,20 +154,25 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.opacity() < self.prepared.stop_at
     }
 
-    /// Composites the iso-surface, of opacity 1, at its own depth.
+    /// Composites the iso-surface, of opacity 1, at its own depth or on a cut.
     #[inline(never)]
-    fn meet_surface(&mut self, depth: f64, tint: Option<&Tint>, counts: &mut Counts) {
+    fn meet_surface(&mut self, hit: SurfaceHit, tint: Option<&Tint>, counts: &mut Counts) {
         let prepared = self.prepared;
         let Some(surface) = &prepared.surface else { return };
         let query = if self.sums.is_none() { surface.query.and(surface.first) } else { surface.query };
-        let attributes = self.evaluator.evaluate_at_depth(depth, query, prepared.view.perspective, counts);
+        let mut attributes = self.evaluator.evaluate_at_depth(hit.t, query, prepared.view.perspective, counts);
         counts.without_normal += u64::from(query.gradient && attributes.normal.is_none());
+        let cut = hit.cut.map(|plane| prepared.object.clip.face(plane, &self.evaluator.dirs, &prepared.eye_axes));
+        if let Some(cut) = &cut {
+            attributes = cut.attributes(attributes);
+        }
         let v = self.evaluator.dirs.v;
         let rgb = surface.lit.color(surface.rgb, attributes.normal, [v, surface.lit.half_vector(v)]);
+        let rgb = cut.map_or(rgb, |cut| cut.over(rgb));
         let rgb = tinted(self.in_blend_space(rgb), tint);
         self.front.accumulator.end(rgb);
         if prepared.collects {
-            self.add_to_layers(R::ONE, depth, surface.roots.iso(), &attributes);
+            self.add_to_layers(R::ONE, hit.t, surface.roots.iso(), &attributes);
         }
     }
 
@@ -277,11 +277,13 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let query = N::query(object);
         let attributes = self.evaluator.evaluate(sample, query, SampleAttributes::neutral(), counts);
         counts.without_normal += u64::from(query.gradient && attributes.normal.is_none());
-        let dirs = &self.evaluator.dirs;
+        let (dirs, cut) = (&self.evaluator.dirs, self.evaluator.cut_at(sample.k));
+        let seen = cut.map_or(attributes, |cut| cut.attributes(attributes));
         let shaded = match &object.table {
-            Some(table) if N::MORE => object.shader.shade(table.between_nodes(place), attributes, dirs, counts),
-            _ => object.shader.shade(*place, attributes, dirs, counts),
+            Some(table) if N::MORE => object.shader.shade(table.between_nodes(place), seen, dirs, counts),
+            _ => object.shader.shade(*place, seen, dirs, counts),
         };
+        let shaded = cut.map_or(shaded, |cut| cut.shade(shaded));
         self.composite::<N>(sample, shaded, attributes, front, tint, counts);
     }
 
@@ -310,7 +312,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let Some(patch) = over_two.locate(&here) else { return };
         let attributes = self.evaluator.evaluate(sample, over_two.rest, attributes, counts);
         counts.without_normal += u64::from(object.query.gradient && attributes.normal.is_none());
-        let shaded = object.shader.shade(patch, attributes, &self.evaluator.dirs, counts);
+        let cut = self.evaluator.cut_at(sample.k);
+        let seen = cut.map_or(attributes, |cut| cut.attributes(attributes));
+        let shaded = object.shader.shade(patch, seen, &self.evaluator.dirs, counts);
+        let shaded = cut.map_or(shaded, |cut| cut.shade(shaded));
         self.composite::<need::Anything>(sample, shaded, attributes, front, tint, counts);
     }
 
@@ -343,6 +348,9 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         if let (Some(first), true) = (self.prepared.object.first, self.sums.is_none()) {
             attributes = self.evaluator.evaluate(sample, first, attributes, counts);
             counts.without_normal += u64::from(first.gradient && attributes.normal.is_none());
+        }
+        if let Some(cut) = self.evaluator.cut_at(sample.k) {
+            attributes = cut.attributes(attributes);
         }
         self.add_to_layers(alpha, self.evaluator.ray.depth(sample.k).to_f64(), sample.s.to_f64(), &attributes);
     }

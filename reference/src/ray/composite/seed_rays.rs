@@ -11,7 +11,7 @@ use crate::ray::draw::{Region, ray_point};
 use crate::ray::lattice::IndexRay;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_halos::PreparedHalos;
-use crate::ray::sample::{Evaluator, Previous, Sample, SampleAttributes};
+use crate::ray::sample::{Evaluator, Sample, SampleAttributes};
 use crate::style_transfer_functions::contour;
 use crate::transfer::over::SampleQuantities;
 use crate::volumetric_halos::seed::{SeedNormal, SeedPlace};
@@ -162,7 +162,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
         let [columns, rows] = [0, 1].map(|a| SIDE.min(size[a] - first[a]));
         // The first ray among those of the picture; those of the guard band stand before 0 or beyond the last.
         let ray_at = |place: [usize; 2]| [0, 1].map(|a| (place[a] + region.first[a]) as i64 - guard as i64);
-        let (view, grid) = (&prepared.view, prepared.object.volume.grid());
+        let (view, object) = (&prepared.view, &prepared.object);
+        let grid = object.volume.grid();
         let mut boxes = halos.skip.as_ref().map(|skip| {
             let [left, top] = ray_at(first);
             let corner = |x: i64, y: i64| {
@@ -182,13 +183,13 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
             let pixel = view.ray(i, j);
             let ray = IndexRay::<R>::new(&pixel, view, &prepared.lattice, grid);
             let from = tile.ranges.len();
-            tile.ranges.extend(ray.visits(prepared.object.ends, ray.intervals(boxes.as_mut())));
+            tile.ranges.extend(ray.visits(object.ends, &object.clip.planes, ray.intervals(boxes.as_mut())));
             let mut ranges = from..tile.ranges.len();
             let Some(first_range) = ranges.next() else { continue };
             tile.planes.push(tile.ranges[first_range]);
             let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
-            let dirs = prepared.object.shader.view_dirs(v, v_eye);
-            let evaluator = Evaluator { object: &prepared.object, sampler, ray, dirs, previous: Previous::None };
+            let dirs = object.shader.view_dirs(v, v_eye);
+            let evaluator = Evaluator::new(object, sampler, ray, dirs, &prepared.eye_axes);
             tile.rays.push(SeedRay { evaluator, place: y * size[0] + first[0] + x, ranges });
         }
         tile.next = nearest(&tile.planes);
@@ -241,6 +242,11 @@ impl<R: Real, S: Sampler<R>> SeedRay<'_, '_, R, S> {
         // s, of samples that have a normal.
         let rest = if halos.reads_opacity { halos.rest } else { halos.query };
         let attributes = self.evaluator.evaluate(sample, rest, attributes, counts);
+        if attributes.normal.is_none() {
+            return;
+        }
+        let cut = self.evaluator.cut_at(k);
+        let attributes = cut.map_or(attributes, |cut| cut.attributes(attributes));
         let Some(n) = attributes.normal else { return };
         let eye = prepared.eye_axes.normal(&attributes, &self.evaluator.dirs);
         let mut normal = SeedNormal {

@@ -257,15 +257,17 @@ impl<'p, 'v> Packet<'p, 'v> {
             intervals::intervals(simd, boxes, &rays, points.len(), intervals);
         }
         for (lane, intervals) in intervals.iter_mut().enumerate().take(points.len()) {
-            let ray = self.ray(lane);
+            let (ray, clip) = (self.ray(lane), &prepared.object.clip.planes);
             let before = self.visits.len();
             match boxes {
-                None => self.visits.extend(ray.visits(prepared.object.ends, None)),
+                None => self.visits.extend(ray.visits(prepared.object.ends, clip, None)),
                 Some(_) if intervals.is_empty() => continue,
                 Some((_, inside)) => {
                     merge(intervals);
                     let inside = if inside { ray.all_beyond_near() } else { None };
-                    let range = inside.unwrap_or_else(|| ray.inside(prepared.object.ends));
+                    let range = inside.filter(|_| clip.is_empty());
+                    let ends = prepared.object.ends;
+                    let range = range.unwrap_or_else(|| ray.left_by(clip, ends, ray.inside(ends)));
                     self.visits.extend(ray.parts(range, intervals));
                 }
             }

@@ -1,6 +1,6 @@
 //! The attributes of the samples of one ray.
 
-use super::{PreparedObject, SampleAttributes, ViewDirs};
+use super::{CutFace, CutSample, EyeAxes, PreparedObject, SampleAttributes, ViewDirs};
 use crate::field::{Place, Sampler, curvature};
 use crate::number::{Real, Sym3, Vec3};
 use crate::ray::lattice::IndexRay;
@@ -37,12 +37,36 @@ pub(crate) struct Evaluator<'p, 'v, R: Real, S> {
     pub(crate) ray: IndexRay<R>,
     pub(crate) dirs: ViewDirs<R>,
     pub(crate) previous: Previous<R>,
+    /// The first sample behind a cut ([RAY-8]); none: no cut.
+    cut: Option<CutSample<R>>,
 }
 
-impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
+impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
+    /// An evaluator of the samples of a ray with these directions.
+    #[inline(always)]
+    pub(crate) fn new(
+        object: &'p PreparedObject<'v, R>,
+        sampler: &'p S,
+        ray: IndexRay<R>,
+        dirs: ViewDirs<R>,
+        eye_axes: &EyeAxes<R>,
+    ) -> Self {
+        let clip = &object.clip;
+        let cut = ray.cut_sample(&clip.planes, object.ends);
+        let cut = cut.map(|(k, plane)| CutSample { k, face: clip.face(plane, &dirs, eye_axes) });
+        Self { object, sampler, ray, dirs, previous: Previous::None, cut }
+    }
+
+    /// The cut on which sample k lies; none: on none.
+    #[inline(always)]
+    pub(crate) fn cut_at(&self, k: i64) -> Option<CutFace<R>> {
+        self.cut.filter(|cut| cut.k == k).map(|cut| cut.face)
+    }
+
     /// Adds what is asked for to the attributes of a sample that are known.
     ///
-    /// Attributes go in and out as values, so that those of a scene that needs few of them stay in registers.
+    /// Attributes go in and out as values, so that those of a scene that needs few of them stay in registers. On a cut
+    /// they are the field's, except κ, which is 0 there.
     #[inline(always)]
     pub(crate) fn evaluate(
         &mut self,
@@ -73,7 +97,9 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
                 let known = (attributes.kappa, attributes.principal);
                 (attributes.kappa, attributes.principal) = self.curvatures(second, query, known, counts);
             }
-            if query.kappa == KappaSource::AlongRay {
+            if self.cut.is_some_and(|cut| cut.k == k) {
+                attributes.kappa = R::ZERO;
+            } else if query.kappa == KappaSource::AlongRay {
                 attributes.kappa = self.kappa_along_ray(k, n, counts);
             }
         }

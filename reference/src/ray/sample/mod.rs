@@ -1,6 +1,7 @@
 //! A sample: what it is asked for, what is found, and which colour and opacity that gives. Nothing here composites.
 
 mod attributes;
+mod cut;
 mod evaluate;
 mod lit;
 pub(super) mod need;
@@ -9,6 +10,7 @@ mod over_two;
 mod shader;
 
 pub(super) use attributes::{EyeAxes, SampleAttributes, ViewDirs};
+pub(super) use cut::{CutFace, CutSample, PreparedClip};
 pub(super) use evaluate::{Evaluator, Previous, Sample};
 pub(super) use lit::Lit;
 pub(super) use object::{PreparedObject, turned};

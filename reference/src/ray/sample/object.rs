@@ -1,7 +1,7 @@
 //! An object prepared for its samples: everything that is decided once a picture.
 
 use super::need::Needs;
-use super::{OverTwo, Shader};
+use super::{OverTwo, PreparedClip, Shader};
 use crate::field::Field;
 use crate::number::{Arithmetic, Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise};
@@ -14,6 +14,8 @@ pub(crate) struct PreparedObject<'v, R> {
     pub(crate) field: Field<'v, R>,
     /// Lowest and highest index position ([SPACE-1]).
     pub(crate) ends: [Vec3<R>; 2],
+    /// Planes that cut parts of the object away ([RAY-8]).
+    pub(crate) clip: PreparedClip<R>,
     /// α_u over the value; with two quantities, the values at which it can be above 0.
     pub(crate) function: Piecewise<R>,
     /// From entries to nodes, where the function is read from a table.

@@ -15,6 +15,7 @@ const RAW: [(&str, &str); 2] = [("volume.raw.size", "[4, 5, 6]"), ("volume.raw.t
 const HALO: (&str, &str) = ("halo", "[{ profile = [{ at = 0, color = \"red\" }] }]");
 const GLOW: (&str, &str) = ("halo", "[{ kind = \"emissive\" }, { kind = \"emissive\", name = \"glow\" }]");
 const FOCUS: (&str, &str) = ("halo", "[{ seed = { focus = { at = [[1, 2, 3]] } } }]");
+const CLIP: (&str, &str) = ("clip", "[{ point = [1, 2, 3], normal = [0, 0, 1] }]");
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
 const HATCHING: (&str, &str) = ("hatching", "{}");
@@ -47,6 +48,14 @@ const SAMPLES: &[Sample] = &[
     ("volume.range", &[], "[-1000, 3000]"),
     ("volume.gradient_range", &[], "[0, 60]"),
     ("volume.outside", &[], "high"),
+    ("clip", &[], "[{ box = [[0, 1], [2, 3], [4, 5]] }]"),
+    ("clip[0].point", &[CLIP], "[3, 2, 1]"),
+    ("clip[0].normal", &[CLIP], "[1, 0, 0]"),
+    ("clip[0].box", &[CLIP], "[[0, 1], [2, 3], [4, 5]]"),
+    ("clip[0].space", &[CLIP], "index"),
+    ("clip[0].applies", &[CLIP], "[\"background\"]"),
+    ("clip[0].cap", &[CLIP], "#c0303080"),
+    ("clip[0].style", &[CLIP], "wax"),
     ("camera", &[], "{ fov = 45 }"),
     ("camera.projection", &[], "orthographic"),
     ("camera.fov", &[], "45"),

@@ -1,5 +1,6 @@
 //! Tests of the walk, the descriptions and what is made from them.
 
+mod clips;
 mod drift;
 mod faults;
 mod over;

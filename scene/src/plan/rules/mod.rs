@@ -1,6 +1,7 @@
 //! The rules of the tables of a scene for its plan, one file a table: needs, keys without effect, knobs.
 
 mod camera;
+mod clip;
 mod contours;
 mod halo;
 mod hatching;
@@ -46,9 +47,10 @@ impl Rules {
 }
 
 /// The rules of all tables that ask something, in the order of the file.
-static ALL: [Rules; 16] = [
+static ALL: [Rules; 17] = [
     scene::RULES,
     volume::RULES,
+    clip::RULES,
     camera::RULES,
     picture::RULES,
     pen::RULES,

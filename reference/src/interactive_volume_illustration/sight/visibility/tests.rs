@@ -1,5 +1,6 @@
 use super::*;
 use crate::field::{Field, Kernel, Reconstruction, Rung};
+use drypoint_scene::clip::NO_PLANES;
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Camera, Projection};
@@ -64,7 +65,8 @@ fn circles_of_latitude_on_a_ball() {
             };
             let view = View::new(&camera, field.volume().grid(), [1000, 1000]).unwrap();
             let page = Page::in_pixels([1000, 1000], 0.0, 100.0);
-            let sight = Sight { view: &view, page: &page, near: 0.0, surface: Some(&surface), offset };
+            let sight =
+                Sight { view: &view, page: &page, near: 0.0, surface: Some(&surface), clip: &NO_PLANES, offset };
             let stroke = latitude(centre, radius, lambda.to_radians());
             let seen = sight.seen(std::slice::from_ref(&stroke), |_, _| INK);
             let whole = length(&sight_without(&sight).seen(&[stroke], |_, _| INK).lines);
@@ -88,7 +90,7 @@ fn what_nothing_hides() {
     let camera = Camera { projection: Projection::Orthographic { height: None }, ..Camera::default() };
     let view = View::new(&camera, &grid, [100, 100]).unwrap();
     let page = Page::in_pixels([100, 100], 0.0, 100.0);
-    let sight = Sight { view: &view, page: &page, near: 0.0, surface: None, offset: 0.15 };
+    let sight = Sight { view: &view, page: &page, near: 0.0, surface: None, clip: &NO_PLANES, offset: 0.15 };
     let stroke = latitude(grid.centre(), 10.0, 0.3);
     let seen = sight.seen(&[stroke.clone(), Stroke { closed: false, ..stroke.clone() }], |_, vertex| PenState {
         radius: 0.1 + vertex.u,
@@ -121,7 +123,7 @@ fn an_eye_amid_strokes() {
     let camera = Camera { eye: Some(eye), target: Some(centre), ..Camera::default() };
     let view = View::new(&camera, volume.grid(), [300, 200]).unwrap();
     let page = Page::in_pixels([300, 200], 2.0, 100.0);
-    let sight = Sight { view: &view, page: &page, near: 0.5, surface: Some(&surface), offset: 0.15 };
+    let sight = Sight { view: &view, page: &page, near: 0.5, surface: Some(&surface), clip: &NO_PLANES, offset: 0.15 };
     let circle = latitude(eye, 1.0, 0.2);
     let vertex = |x: f64, u: f64| StrokeVertex { world: eye + DVec3::new(x, 1e-9, 0.0), normal: DVec3::X, u };
     let through =

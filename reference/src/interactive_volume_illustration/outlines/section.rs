@@ -1,0 +1,73 @@
+//! Outlines at clip planes: they end there, and the section of the iso-surface with a plane is one itself ([HATCH-18],
+//! [RAY-8]).
+
+use super::search::{OutlineSearch, OutlineStrokes, measure, position};
+use crate::field::Sampler;
+use drypoint_scene::clip::{ClipPlane, ClipPlanes, ClippedParts};
+use drypoint_scene::strokes::{Stroke, StrokeVertex};
+
+impl OutlineSearch<'_> {
+    /// Cuts outlines by planes, and adds the curves in which the planes cut the surface.
+    pub(super) fn clipped<S: Sampler<f64>>(
+        &self,
+        sampler: &S,
+        bricks: &[[usize; 3]],
+        clip: &ClipPlanes,
+        whole: OutlineStrokes,
+    ) -> OutlineStrokes {
+        if clip.is_empty() || self.grid.dims().contains(&1) {
+            return whole;
+        }
+        let strokes = whole.strokes.into_iter().flat_map(|stroke| cut(stroke, clip)).collect();
+        let mut left = OutlineStrokes { strokes, ..whole };
+        for (i, plane) in clip.0.iter().enumerate() {
+            let found = self.curves(sampler, bricks, &|voxel| plane.beyond(position(voxel)), &|at| plane.beyond(at));
+            // A section lies on its own plane, so the other planes alone cut it.
+            let others = clip.0.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, plane)| plane.clone());
+            let others = ClipPlanes(others.collect());
+            let on_plane = found.strokes.into_iter().map(|stroke| on_plane(stroke, plane));
+            left.strokes.extend(on_plane.flat_map(|stroke| cut(stroke, &others)));
+            left.places += found.places;
+            left.lost += found.lost;
+        }
+        left
+    }
+}
+
+/// Puts a section onto its plane to the last bits. Its normals become the direction in which its visibility is tested:
+/// halfway between out of the surface and out of the plane, where neither hides it.
+fn on_plane(mut stroke: Stroke, plane: &ClipPlane) -> Stroke {
+    for StrokeVertex { world, normal, .. } in &mut stroke.vertices {
+        *world -= plane.normal * plane.beyond_in_world(*world);
+        let along = (*normal - plane.normal * normal.dot(plane.normal)).normalize_or_zero();
+        *normal = (along + plane.normal).normalize();
+    }
+    stroke
+}
+
+/// The parts of a stroke that planes leave.
+fn cut(stroke: Stroke, clip: &ClipPlanes) -> Vec<Stroke> {
+    let Stroke { mut vertices, closed, key } = stroke;
+    if closed {
+        vertices.extend(vertices.first().copied());
+    }
+    let between = |a: &StrokeVertex, b: &StrokeVertex, t: f64| StrokeVertex {
+        world: a.world.lerp(b.world, t),
+        normal: a.normal.lerp(b.normal, t).normalize_or_zero(),
+        u: 0.0,
+    };
+    match clip.cut_line(vertices, closed, |vertex| vertex.world, between) {
+        ClippedParts::Whole(mut vertices) => {
+            vertices.truncate(vertices.len() - usize::from(closed));
+            vec![Stroke { vertices, closed, key }]
+        }
+        ClippedParts::Parts(parts) => {
+            let part = |vertices| {
+                let mut part = Stroke { vertices, closed: false, key };
+                measure(&mut part);
+                part
+            };
+            parts.into_iter().map(part).collect()
+        }
+    }
+}
