@@ -19,7 +19,10 @@ use drypoint::scene::plan::Plan;
 use drypoint::scene::shot::{Shot, VolumeFacts};
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::Style;
-use drypoint::scene::tables::{Background, Camera, GradientRange, Iso, Length, Node, NodeColor, Number, Projection, RaysPerPixel, Scene, Transfer, TransferKind, VolumeSource};
+use drypoint::scene::tables::{
+    Background, Camera, GradientRange, Iso, Length, Node, NodeColor, Number, Projection, RaysPerPixel, Scene, Transfer,
+    TransferKind, VolumeSource,
+};
 use drypoint::scene::transfer::Function;
 use drypoint::scene::view::View;
 use drypoint::scene::volume::labels::LabelVolume;

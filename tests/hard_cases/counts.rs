@@ -7,7 +7,9 @@ use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::plan::Pass;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, RaysPerPixel, Shading, Transparency};
+use drypoint::scene::tables::{
+    Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, RaysPerPixel, Shading, Transparency,
+};
 use drypoint::scene::volume::{Volume, Voxels};
 
 /// A ball with a constant outside, of which more than the ball is visible: samples with and without a normal, none of

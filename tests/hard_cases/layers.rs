@@ -3,7 +3,10 @@
 use crate::common::{LAYERS, Stage, ball, orthographic, perspective, plain, quadratic_ball, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Contours, GradientEstimator, HessianEstimator, Kappa, Kernel, Length, NormalSide, RaysPerPixel, StepAlong, Transparency};
+use drypoint::scene::tables::{
+    Contours, GradientEstimator, HessianEstimator, Kappa, Kernel, Length, NormalSide, RaysPerPixel, StepAlong,
+    Transparency,
+};
 
 const RADIUS: f64 = 8.0;
 const STEP: f64 = 0.3;

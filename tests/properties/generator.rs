@@ -9,7 +9,13 @@ use drypoint::scene::phantom::{self, Allowed};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::{self as styles_of, Style, Theme};
-use drypoint::scene::tables::{Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Iso, Kappa, Kernel, Length, LightDirection, Mix, NormalSide, Number, Orbit, Outside, PageSettings, PenSettings, PhantomSource, Projection, RaysPerPixel, Scene, Shading, ShadingModel, SignFlip, SilhouetteShading, SphereFrame, StepAlong, StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook, Table, Tone, ToonShading, Transparency, Unit, VolumeSource};
+use drypoint::scene::tables::{
+    Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Iso, Kappa,
+    Kernel, Length, LightDirection, Mix, NormalSide, Number, Orbit, Outside, PageSettings, PenSettings, PhantomSource,
+    Projection, RaysPerPixel, Scene, Shading, ShadingModel, SignFlip, SilhouetteShading, SphereFrame, StepAlong,
+    StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook, Table, Tone, ToonShading, Transparency, Unit,
+    VolumeSource,
+};
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
 pub(crate) const KERNELS: [Kernel; 5] =
@@ -269,7 +275,8 @@ fn paper(r: &mut Random, scene: &mut Scene) {
 fn picture(r: &mut Random, shot: &mut Stage) {
     let p = &mut shot.scene.picture;
     p.size = r.pick(&[[9, 7], [7, 9], [8, 8], [1, 1], [17, 2]]);
-    p.samples = r.pick(&[RaysPerPixel::Across(1), RaysPerPixel::Across(1), RaysPerPixel::Auto, RaysPerPixel::Across(2)]);
+    p.samples =
+        r.pick(&[RaysPerPixel::Across(1), RaysPerPixel::Across(1), RaysPerPixel::Auto, RaysPerPixel::Across(2)]);
     p.blend_space = r.pick(&[BlendSpace::Linear, BlendSpace::Linear, BlendSpace::Srgb]);
     p.background = r.pick(&[
         Background::None,

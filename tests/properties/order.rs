@@ -7,7 +7,9 @@ use crate::common::strip::ramp;
 use crate::common::{LAYERS, Stage, plain};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{Contours, GradientEstimator, Kappa, Kernel, Length, Projection, RaysPerPixel, SphereFrame, StepAlong, Unit};
+use drypoint::scene::tables::{
+    Contours, GradientEstimator, Kappa, Kernel, Length, Projection, RaysPerPixel, SphereFrame, StepAlong, Unit,
+};
 use drypoint::scene::volume::{Volume, Voxels};
 
 /// An orthographic picture with more rows above and below and the same pixels has the same bits in the middle ([RAY-6]: X

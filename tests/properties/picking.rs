@@ -10,7 +10,9 @@ use drypoint::scene::fragments::{Fragment, Fragments};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::phantom;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Camera, GradientEstimator, Iso, Kernel, Length, Number, RaysPerPixel, StepAlong, Surface, SurfaceLook};
+use drypoint::scene::tables::{
+    Camera, GradientEstimator, Iso, Kernel, Length, Number, RaysPerPixel, StepAlong, Surface, SurfaceLook,
+};
 use drypoint::scene::volume::labels::LabelVolume;
 use std::collections::BTreeMap;
 

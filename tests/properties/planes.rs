@@ -7,7 +7,9 @@ use crate::common::random::Random;
 use drypoint::reference::ray::Renderer;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::fragments::{Fragment, Fragments};
-use drypoint::scene::tables::{Exponents, Halo, HaloAccumulation, HaloKind, SeedBy, SeedValue, StepAlong, RaysPerPixel};
+use drypoint::scene::tables::{
+    Exponents, Halo, HaloAccumulation, HaloKind, RaysPerPixel, SeedBy, SeedValue, StepAlong,
+};
 use std::collections::BTreeMap;
 
 /// The counts of samples and rays.

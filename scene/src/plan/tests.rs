@@ -171,7 +171,11 @@ fn edges_are_refined_where_a_layer_shows_it_and_no_halo_needs_as_many_rays_every
     for none in ["[picture]\nsamples = 2\n", "[picture]\nlayers = [\"Z\", \"counts\"]\n", "[[halo]]\n"] {
         assert!(!refines(none), "{none}");
         let (head, rest) = none.split_once('\n').unwrap();
-        let picture = if head == "[picture]" { format!("{head}\ncontrast = 0.1\n{rest}") } else { format!("[picture]\ncontrast = 0.1\n{none}") };
+        let picture = if head == "[picture]" {
+            format!("{head}\ncontrast = 0.1\n{rest}")
+        } else {
+            format!("[picture]\ncontrast = 0.1\n{none}")
+        };
         let idle = plan(&format!("{REGULAR}{picture}")).idle_keys;
         assert_eq!(idle.iter().map(|idle| &*idle.key).collect::<Vec<_>>(), ["picture.contrast"], "{none}");
     }

@@ -7,7 +7,9 @@ use crate::stability::{differing, worst};
 use drypoint::scene::fragments::{Fragment, Fragments};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Background, Halo, HaloKind, Iso, Length, Orbit, RaysPerPixel, SeedValue, Surface, SurfaceLook};
+use drypoint::scene::tables::{
+    Background, Halo, HaloKind, Iso, Length, Orbit, RaysPerPixel, SeedValue, Surface, SurfaceLook,
+};
 
 /// A slab of value −50 in front on the left, and a capsule of radius 4 behind it, of values up to 9, whose end is half
 /// a voxel from the slab's edge.

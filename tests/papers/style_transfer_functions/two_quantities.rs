@@ -5,7 +5,10 @@ use crate::common::{Shown, Stage, on, orthographic, plain, positions, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{Axis, Camera, GradientRange, LabelKey, Mix, Node, NodeColor, Number, Over, RaysPerPixel, Row, RowAt, Shading, Transfer, TransferKind, Transparency, Unit};
+use drypoint::scene::tables::{
+    Axis, Camera, GradientRange, LabelKey, Mix, Node, NodeColor, Number, Over, RaysPerPixel, Row, RowAt, Shading,
+    Transfer, TransferKind, Transparency, Unit,
+};
 use drypoint::scene::volume::labels::LabelVolume;
 use drypoint::scene::volume::{Volume, Voxels};
 

@@ -56,9 +56,15 @@ pub(super) const RULES: Rules = Rules {
             idle.key("picture.dpi", "nothing is in mm: size is in pixels");
         }
     },
-    knobs: &[("samples", Ladder::to_finest(|scene, plan, _| samples(scene, plan)))],
+    knobs: &[
+        ("samples", Ladder::to_finest(|scene, plan, _| samples(scene, plan))),
+        ("contrast", Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Refinement) { CONTRASTS } else { &[] })),
+    ],
     ..Rules::new("picture")
 };
+
+/// Settings of `contrast`.
+const CONTRASTS: Settings = &["0.25", "0.125", "0.0625", "0.03125", "0"];
 
 /// Settings of `samples`.
 fn samples(scene: &Scene, plan: &Plan) -> Settings {
