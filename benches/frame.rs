@@ -1,4 +1,4 @@
-//! A frame: 256³ voxels, 512×512 pixels, steps of half a voxel; unshaded, Phong, style, and style with contours; and the
+//! A frame: 256³ voxels, 512×512 pixels of one ray, steps of half a voxel; unshaded, Phong, style, and style with contours; and the
 //! same ray by ray and plane by plane, without lanes; and halos, over groups of 1, 2, 4 and 8 planes. Table 1 of Bruckner and
 //! Gröller 2007 has 15.9, 26.3, 35.0 and 42.9 % of the frame rate without halos for these groups.
 //!
@@ -54,8 +54,9 @@ nodes = [
 ]
 "##;
 
-fn job(effects: &[&str]) -> Job {
-    let text = [SCENE, &effects.concat()].concat();
+/// The scene with effects, with one ray a pixel or other `samples`.
+fn job(effects: &[&str], samples: &str) -> Job {
+    let text = format!("{SCENE}[picture]\nsamples = {samples}\n{}", effects.concat());
     let scene = parse(&text, Path::new("bench.toml"), &Overrides::default()).expect("the scene above");
     // The phantom takes longer than a frame: it is made once.
     static VOLUME: OnceLock<Volume> = OnceLock::new();
@@ -69,7 +70,7 @@ fn frame(bencher: Bencher, effects: &[&str]) {
 }
 
 fn frame_in_order(bencher: Bencher, effects: &[&str], order: fn(Renderer<'_>) -> Renderer<'_>) {
-    let job = job(effects);
+    let job = job(effects, "1");
     let renderer = order(job.renderer().expect("the scene above"));
     bencher.bench_local(|| renderer.frame(&|_| ()));
 }
@@ -92,6 +93,14 @@ fn style(bencher: Bencher) {
 #[divan::bench(sample_count = 15)]
 fn style_with_contours(bencher: Bencher) {
     frame(bencher, &[STYLES, "[contours]\n"]);
+}
+
+/// One ray a pixel, and 3×3 at edges.
+#[divan::bench(sample_count = 15)]
+fn style_with_contours_auto(bencher: Bencher) {
+    let job = job(&[STYLES, "[contours]\n"], "\"auto\"");
+    let renderer = job.renderer().expect("the scene above");
+    bencher.bench_local(|| renderer.frame(&|_| ()));
 }
 
 #[divan::bench(sample_count = 15)]

@@ -95,7 +95,7 @@ impl<'a> Drawing<'a> {
                 let [over, merged] = frames.draw_apart(&view, &mut counts)?;
                 inside = mark_counts(&merged.layers)[1];
                 if inside > 0 {
-                    let lines = fragments(&merged, &view, scene.picture.samples);
+                    let lines = fragments(&merged, &view, renderer.rays_across());
                     counts.preprocess.insert("places of lines on rays".into(), lines.len() as u64);
                     counts.bytes.insert("lines on rays".into(), lines.bytes() as u64);
                     renderer.merge(Some(lines));

@@ -372,7 +372,7 @@ impl Job {
         let renderer = make(shot, inputs).map_err(|error| render_failure(&error, scene))?;
         // The picture's channels, and as much again for encoding them, must fit in the remaining memory.
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
-        room(scene, 2 * 8 * channels)?;
+        room(scene, 2 * 8 * channels + renderer.bytes_of_refinement())?;
         room_for_halos(scene, renderer.bytes_of_halos())?;
         Ok(renderer)
     }

@@ -20,6 +20,8 @@ pub struct Counts {
     pub halo_passes: u64,
     /// Rays cast.
     pub rays: u64,
+    /// Pixels that got 3×3 rays in place of one ([RAY-7]).
+    pub refined_pixels: u64,
     /// Rays that evaluated no sample.
     pub rays_skipped: u64,
     /// Visible samples without a normal ([PREC-3]).
@@ -53,6 +55,7 @@ impl Counts {
         self.halo_samples += other.halo_samples;
         self.halo_passes += other.halo_passes;
         self.rays += other.rays;
+        self.refined_pixels += other.refined_pixels;
         self.rays_skipped += other.rays_skipped;
         self.without_normal += other.without_normal;
         self.masked += other.masked;

@@ -101,8 +101,9 @@ mod tests {
     }
 
     /// Knobs of every scene that draws its volume.
-    const ALWAYS: [&str; 6] = [
+    const ALWAYS: [&str; 7] = [
         "picture.samples",
+        "picture.contrast",
         "sampling.step",
         "sampling.kernel",
         "sampling.number",

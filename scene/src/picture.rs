@@ -111,6 +111,12 @@ impl LayerKind {
         Self::ALL.into_iter().find(|kind| kind.name() == name).or_else(of_halo)
     }
 
+    /// Whether a pixel of several rays has the mean over all of them, weighted by opacity. Other layers but the beauty
+    /// have one ray's numbers ([RAY-6]).
+    pub fn is_mean(self) -> bool {
+        matches!(self, Self::Normal | Self::Gradient | Self::Curvature | Self::CurvatureAlongView)
+    }
+
     /// Full channel names as an EXR file has them.
     pub fn channels(self) -> Vec<Cow<'static, str>> {
         let names: &[&str] = match self {

@@ -9,6 +9,9 @@
 //! the rest is due to the voxels. Other knobs (rays a pixel, number type, early termination, biases of mip-maps) are
 //! compared with the same scene at the finest setting. So is every knob of a field that is not known.
 //!
+//! With `picture.samples = "auto"` a setting can change which pixels are refined at edges, which is then part of its error.
+//! Scenes of one ray a pixel measure a knob alone.
+//!
 //! **Error** of a knob's output, by its subject ([`ErrorSubject`]):
 //! - A picture as written, with its background, in linear premultiplied light: RMS and largest difference over R, G, B
 //!   and A, and the mean of FLIP.

@@ -49,6 +49,7 @@ const REGULAR: &str = r##"drypoint = 1
 phantom = { name = "torus", size = 14, type = "f64" }
 [picture]
 size = [12, 10]
+samples = 1
 [transfer]
 kind = "regular"
 nodes = [{ at = -1.5, color = "#f80", opacity = 0 }, { at = 1, color = "#fff", opacity = 0.8 }]
@@ -65,7 +66,8 @@ fn every_setting_of_every_knob_has_a_row() {
     let counts: Vec<(&str, usize)> = rows.iter().map(|(knob, rows)| (knob.as_str(), rows.len())).collect();
     let expected = [
         ("contours.kappa", 2),
-        ("picture.samples", 3),
+        ("picture.contrast", 5),
+        ("picture.samples", 5),
         ("sampling.gradient", 4),
         // `auto`, what the scene has, is none of the settings.
         ("sampling.hessian", 3),
@@ -146,7 +148,7 @@ fn slab(nodes: &str) -> String {
     format!(
         "drypoint = 1\n[volume]\nphantom = {{ name = \"plane\", size = 64, type = \"f64\" }}\n\
          [camera]\nprojection = \"orthographic\"\nheight = 20\ndirection = [0.3, 0.1, -1]\nup = [0, 1, 0]\n\
-         [picture]\nsize = [24, 24]\n[transfer]\nkind = \"regular\"\nnodes = [{nodes}]\n"
+         [picture]\nsize = [24, 24]\nsamples = 1\n[transfer]\nkind = \"regular\"\nnodes = [{nodes}]\n"
     )
 }
 
@@ -211,7 +213,7 @@ fn what_fine_steps_leave_is_the_voxels() {
             "scene.toml",
             format!(
                 "drypoint = 1\n[volume]\n{volume}, type = \"f64\", param = {{ w = 3 }} }}\n[sampling]\nreference_length = 1\n\
-                 [picture]\nsize = [24, 24]\n[transfer]\nkind = \"regular\"\nnodes = [{{ at = 90, color = \"#f80\", \
+                 [picture]\nsize = [24, 24]\nsamples = 1\n[transfer]\nkind = \"regular\"\nnodes = [{{ at = 90, color = \"#f80\", \
                  opacity = 0 }}, {{ at = 200, color = \"#08f\", opacity = 0.5 }}]\n"
             ),
         );

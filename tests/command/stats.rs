@@ -4,7 +4,7 @@ use crate::folder::Folder;
 use serde_json::Value;
 
 /// Every count of the contract.
-const NUMBERS: [&str; 13] = [
+const NUMBERS: [&str; 14] = [
     "samples",
     "gradients",
     "hessians",
@@ -12,6 +12,7 @@ const NUMBERS: [&str; 13] = [
     "halo_samples",
     "halo_passes",
     "rays",
+    "refined_pixels",
     "rays_skipped",
     "without_normal",
     "masked",
@@ -41,7 +42,9 @@ fn every_count_is_there_and_nothing_else() {
     for name in ["halo_samples", "halo_passes", "points", "strokes", "directions", "hessians", "masked"] {
         assert_eq!(stats[name], 0, "{name}");
     }
-    assert_eq!(stats["rays"], 24 * 16);
+    let refined = stats["refined_pixels"].as_u64().unwrap();
+    assert!(refined > 0);
+    assert_eq!(stats["rays"], 24 * 16 + 8 * refined);
     assert_eq!(stats["bytes"]["volume"], 20 * 20 * 20);
     assert_eq!(stats["bytes"]["picture"], 4 * 8 * 24 * 16);
     assert_eq!(stats["preprocess"]["gradients"], 20 * 20 * 20);

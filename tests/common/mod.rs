@@ -20,8 +20,8 @@ use drypoint::scene::shot::{Shot, VolumeFacts};
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::Style;
 use drypoint::scene::tables::{
-    Background, Camera, GradientRange, Iso, Length, Node, NodeColor, Number, Projection, Scene, Transfer, TransferKind,
-    VolumeSource,
+    Background, Camera, GradientRange, Iso, Length, Node, NodeColor, Number, Projection, RaysPerPixel, Scene, Transfer,
+    TransferKind, VolumeSource,
 };
 use drypoint::scene::transfer::Function;
 use drypoint::scene::view::View;
@@ -104,12 +104,13 @@ impl Stage {
         Self::new(volume, TransferKind::Style, nodes.iter().map(node).collect(), styles)
     }
 
-    /// An orthographic view of 16 × 16 pixels along +y, before nothing.
+    /// An orthographic view of 16 × 16 pixels along +y, one ray each, before nothing.
     fn new(volume: Volume, kind: TransferKind, nodes: Vec<Node>, styles: Vec<Style>) -> Self {
         let mut scene = Scene::for_volume(VolumeSource::File { path: "test".into(), raw: None });
         scene.transfer = Some(Transfer { nodes: Some(nodes), ..Transfer::automatic(kind) });
         scene.camera = Camera { direction: DVec3::Y, ..orthographic(None) };
         scene.picture.size = [16, 16];
+        scene.picture.samples = RaysPerPixel::Across(1);
         scene.picture.background = Background::None;
         scene.volume.gradient_range = GradientRange::Fixed([0.0, 1.0]);
         Self { scene, volume, styles, labels: None, further: [None, None], behind: None }

@@ -4,7 +4,7 @@ use crate::common::{Stage, ball, in_a_texture, orthographic, plain, volume};
 use drypoint::scene::color::{linear_to_srgb, srgb_to_linear};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Background, BlendSpace, Length};
+use drypoint::scene::tables::{Background, BlendSpace, Length, RaysPerPixel};
 
 /// A slab of two voxels, y from 0 to 1, that planes 1 apart at half depths meet once (at its middle) or twice (at its
 /// faces), and its two values.
@@ -120,7 +120,7 @@ fn samples_average_the_parts_of_a_pixel() {
                     s.camera.projection = orthographic(Some(20.0)).projection;
                 }
             });
-            let small = shot.with(|s| s.picture.samples = n).render();
+            let small = shot.with(|s| s.picture.samples = RaysPerPixel::Across(n)).render();
             let large = shot.with(|s| s.picture.size = [16 * n, 16 * n]);
             let opacity = large.with(|s| s.picture.background = Background::None).render().pixels();
             let large = large.render();

@@ -8,7 +8,7 @@ use drypoint::scene::picture::LayerKind;
 use drypoint::scene::plan::Pass;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, Shading, Transparency,
+    Contours, GradientEstimator, GradientRange, HessianEstimator, Kappa, Kernel, RaysPerPixel, Shading, Transparency,
 };
 use drypoint::scene::volume::{Volume, Voxels};
 
@@ -183,7 +183,7 @@ fn rays_that_see_nothing_evaluate_nothing() {
     let nothing = regular().with_transfer(|t| t.nodes.as_mut().unwrap()[1].opacity = 0.0);
     let c = counts(&nothing);
     assert_eq!((c.samples, c.rays_skipped, c.rays), (0, 256, 256));
-    let n = counts(&nothing.with(|s| s.picture.samples = 3));
+    let n = counts(&nothing.with(|s| s.picture.samples = RaysPerPixel::Across(3)));
     assert_eq!((n.samples, n.rays_skipped, n.rays), (0, 9 * 256, 9 * 256));
     let all = counts(&nothing.with(|s| s.sampling.skip_empty = false));
     assert!(all.samples > 0);

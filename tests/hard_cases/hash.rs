@@ -4,7 +4,7 @@
 use crate::common::{Stage, perspective, style};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Contours, GradientRange, Kappa, Kernel, Length, Number, Shading};
+use drypoint::scene::tables::{Contours, GradientRange, Kappa, Kernel, Length, Number, RaysPerPixel, Shading};
 use drypoint::scene::{phantom, space::Grid, volume::VoxelType};
 
 /// FNV-1a over the bytes of every number, lowest first.
@@ -76,7 +76,7 @@ fn a_lit_picture() {
     let shot = framed(Stage::regular(torus(), &nodes)).layers(&[LayerKind::Normal]).with(|s| {
         s.sampling.kernel = Kernel::CatmullRom;
         s.shading = Some(Shading { shininess: 17.5, ..Shading::default() });
-        s.picture.samples = 2;
+        s.picture.samples = RaysPerPixel::Across(2);
     });
     let shown = shot.render();
     assert!(shown.covered() > 150);

@@ -4,7 +4,8 @@ use crate::common::{LAYERS, Stage, ball, orthographic, perspective, plain, quadr
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{
-    Contours, GradientEstimator, HessianEstimator, Kappa, Kernel, Length, NormalSide, StepAlong, Transparency,
+    Contours, GradientEstimator, HessianEstimator, Kappa, Kernel, Length, NormalSide, RaysPerPixel, StepAlong,
+    Transparency,
 };
 
 const RADIUS: f64 = 8.0;
@@ -245,7 +246,7 @@ fn means_of_a_pixel_of_several_rays_by_hand() {
         .step(5.0)
         .with(|s| {
             s.picture.size = [1, 1];
-            s.picture.samples = 2;
+            s.picture.samples = RaysPerPixel::Across(2);
             s.camera = orthographic(Some(2.0));
             s.camera.direction = DVec3::Y;
             s.camera.direction_given = true;

@@ -13,8 +13,9 @@ use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
     Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Iso, Kappa,
     Kernel, Length, LightDirection, Mix, NormalSide, Number, Orbit, Outside, PageSettings, PenSettings, PhantomSource,
-    Projection, Scene, Shading, ShadingModel, SignFlip, SilhouetteShading, SphereFrame, StepAlong, StyleMipmaps,
-    StyleSource, Styles, Surface, SurfaceLook, Table, Tone, ToonShading, Transparency, Unit, VolumeSource,
+    Projection, RaysPerPixel, Scene, Shading, ShadingModel, SignFlip, SilhouetteShading, SphereFrame, StepAlong,
+    StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook, Table, Tone, ToonShading, Transparency, Unit,
+    VolumeSource,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
 
@@ -275,7 +276,8 @@ fn paper(r: &mut Random, scene: &mut Scene) {
 fn picture(r: &mut Random, shot: &mut Stage) {
     let p = &mut shot.scene.picture;
     p.size = r.pick(&[[9, 7], [7, 9], [8, 8], [1, 1], [17, 2]]);
-    p.samples = r.pick(&[1, 1, 1, 2]);
+    p.samples =
+        r.pick(&[RaysPerPixel::Across(1), RaysPerPixel::Across(1), RaysPerPixel::Auto, RaysPerPixel::Across(2)]);
     p.blend_space = r.pick(&[BlendSpace::Linear, BlendSpace::Linear, BlendSpace::Srgb]);
     p.background = r.pick(&[
         Background::None,

@@ -3,8 +3,8 @@
 use super::generator::{resized, scene};
 use crate::common::{Shown, Stage};
 use drypoint::scene::tables::{
-    BlendSpace, GradientEstimator, HessianEstimator, Kappa, Kernel, NormalSide, Number, Sampling, ShadingModel,
-    StepAlong, Table, TransferKind,
+    BlendSpace, GradientEstimator, HessianEstimator, Kappa, Kernel, NormalSide, Number, RaysPerPixel, Sampling,
+    ShadingModel, StepAlong, Table, TransferKind,
 };
 use std::collections::BTreeMap;
 
@@ -74,7 +74,9 @@ fn lanes_show_nowhere() {
         let Some(together) = compared(seed, &shot) else { continue };
         in_lanes += 1;
         shaded += usize::from(together.counts.gradients > 0);
-        ended += usize::from(together.pixels().iter().any(|p| p[3] >= 1.0) && shot.scene.picture.samples == 1);
+        ended += usize::from(
+            together.pixels().iter().any(|p| p[3] >= 1.0) && shot.scene.picture.samples == RaysPerPixel::Across(1),
+        );
         along_rays += usize::from(shot.scene.sampling.step_along == StepAlong::Ray && together.counts.samples > 0);
     }
     println!("{in_lanes} scenes in lanes, {shaded} shaded, {ended} with rays that end, {along_rays} along rays");
@@ -148,7 +150,9 @@ fn nor_with_other_kernels() {
             *estimators.entry(format!("{:?}", sampling.gradient)).or_insert(0) += 1;
         }
         skipped += usize::from(counts.bytes.contains_key("cells"));
-        ended += usize::from(together.pixels().iter().any(|p| p[3] >= 1.0) && shot.scene.picture.samples == 1);
+        ended += usize::from(
+            together.pixels().iter().any(|p| p[3] >= 1.0) && shot.scene.picture.samples == RaysPerPixel::Across(1),
+        );
         exact += usize::from(counts.hessians > 0);
         short += usize::from(shot.volume.dims().iter().any(|&n| n < 4));
     }

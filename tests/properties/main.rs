@@ -15,5 +15,6 @@ mod order;
 mod over_two;
 mod picking;
 mod planes;
+mod refinement;
 mod scenes;
 mod skipping;

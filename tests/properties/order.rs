@@ -8,7 +8,7 @@ use crate::common::{LAYERS, Stage, plain};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Contours, GradientEstimator, Kappa, Kernel, Length, Projection, SphereFrame, StepAlong, Unit,
+    Contours, GradientEstimator, Kappa, Kernel, Length, Projection, RaysPerPixel, SphereFrame, StepAlong, Unit,
 };
 use drypoint::scene::volume::{Volume, Voxels};
 
@@ -18,13 +18,15 @@ use drypoint::scene::volume::{Volume, Voxels};
 fn more_rows_above_and_below_change_no_pixel() {
     let mut checked = 0;
     for seed in 3000..3060 {
-        // A background picture is stretched to the frame, so another frame shows another one.
+        // A background picture is stretched to the frame, so another frame shows another one. Edges are found with the
+        // rows beyond.
         let shot = Stage { behind: None, ..scene(seed) };
         let [width, height] = shot.scene.picture.size;
         let Projection::Orthographic { .. } = shot.scene.camera.projection else { continue };
         // A pixel of exactly ½, so that neither height rounds it.
         let with = |rows: usize| {
             shot.with(|s| {
+                s.picture.samples = RaysPerPixel::Across(s.picture.samples.across(false));
                 s.picture.size = [width, rows];
                 s.camera.projection = crate::common::orthographic(Some(0.5 * rows as f64)).projection;
             })

@@ -11,7 +11,7 @@ use drypoint::scene::glam::DVec3;
 use drypoint::scene::phantom;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{
-    Camera, GradientEstimator, Iso, Kernel, Length, Number, StepAlong, Surface, SurfaceLook,
+    Camera, GradientEstimator, Iso, Kernel, Length, Number, RaysPerPixel, StepAlong, Surface, SurfaceLook,
 };
 use drypoint::scene::volume::labels::LabelVolume;
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ fn picks(stage: &Stage, lines: Option<Fragments>, points: &[[f64; 2]]) -> Vec<Op
 
 /// The points that the first rays of all pixels go through.
 fn first_rays(stage: &Stage) -> Vec<[f64; 2]> {
-    let ([width, height], n) = (stage.scene.picture.size, stage.scene.picture.samples);
+    let ([width, height], n) = (stage.scene.picture.size, stage.scene.picture.samples.across(false));
     let at = |i: usize| i as f64 + 0.5 / n as f64;
     (0..width * height).map(|t| [at(t % width), at(t / width)]).collect()
 }
@@ -59,7 +59,7 @@ fn picks_on_a_sphere_in_closed_form() {
         (perspective(50.0), 3, StepAlong::Plane),
     ] {
         let stage = opaque_ball().layers(&[LayerKind::Depth]).with(|s| {
-            (s.picture.samples, s.sampling.step_along) = (samples, along);
+            (s.picture.samples, s.sampling.step_along) = (RaysPerPixel::Across(samples), along);
             s.camera = Camera { direction: s.camera.direction, ..camera };
         });
         let (view, centre) = (stage.view(), stage.volume.grid().centre());
@@ -233,10 +233,10 @@ fn picks_agree_with_the_layers() {
         let (values, normals) = (shown.one(LayerKind::First), shown.layer::<3>(LayerKind::FirstNormal));
         let points = first_rays(&stage);
         let picked = picks(&stage, None, &points);
-        let rays = 63 * stage.scene.picture.samples.pow(2);
+        let across = stage.scene.picture.samples.across(false);
         let line = Fragment { depth: 1.0, rgb: [0.9, 0.2, 0.1], opacity: 0.9 };
-        let lines: Vec<(usize, Fragment)> = (0..rays).map(|ray| (ray, line)).collect();
-        let lines = Fragments::new([9, 7], stage.scene.picture.samples, &lines);
+        let lines: Vec<(usize, Fragment)> = (0..63 * across * across).map(|ray| (ray, line)).collect();
+        let lines = Fragments::new([9, 7], across, &lines);
         assert_eq!(picks(&stage, Some(lines), &points), picked, "seed {seed}");
         let view = stage.view();
         let rounding = if stage.scene.sampling.number == Number::F32 { 1e-4 } else { 1e-9 };

@@ -7,19 +7,22 @@ use crate::common::random::Random;
 use drypoint::reference::ray::Renderer;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::fragments::{Fragment, Fragments};
-use drypoint::scene::tables::{Exponents, Halo, HaloAccumulation, HaloKind, SeedBy, SeedValue, StepAlong};
+use drypoint::scene::tables::{
+    Exponents, Halo, HaloAccumulation, HaloKind, RaysPerPixel, SeedBy, SeedValue, StepAlong,
+};
 use std::collections::BTreeMap;
 
 /// The counts of samples and rays.
-fn counted(counts: &Counts) -> [u64; 8] {
+pub(super) fn counted(counts: &Counts) -> Vec<u64> {
     let c = counts;
-    [c.samples, c.gradients, c.hessians, c.style_lookups, c.without_normal, c.rays, c.rays_skipped, c.masked]
+    let of_samples = [c.samples, c.gradients, c.hessians, c.style_lookups, c.without_normal, c.masked];
+    [of_samples.as_slice(), &[c.rays, c.rays_skipped, c.refined_pixels]].concat()
 }
 
 /// Random lines before, in and behind a scene's box, more than one on some rays and equal depths among them.
-fn lines(shot: &Stage, seed: u64) -> Fragments {
+pub(super) fn lines(shot: &Stage, seed: u64) -> Fragments {
     let r = &mut Random(seed ^ 0x9e37);
-    let (size, samples) = (shot.scene.picture.size, shot.scene.picture.samples);
+    let (size, samples) = (shot.scene.picture.size, shot.scene.picture.samples.across(false));
     let view = shot.view();
     let depths = shot.volume.grid().world_corners().map(|corner| view.to_eye(corner).z.abs());
     let (near, far) = depths.iter().fold((f64::INFINITY, 0.0f64), |(a, b), d| (a.min(*d), b.max(*d)));
@@ -90,7 +93,10 @@ fn halos(seed: u64) -> Vec<Halo> {
 fn halos_that_are_not_seen_change_no_bit() {
     let mut seeded = 0;
     for seed in 7000..7200 {
-        let stage = resized(&scene(seed), [21, 13]).with(|s| s.sampling.step_along = StepAlong::Plane);
+        let stage = resized(&scene(seed), [21, 13]).with(|s| {
+            s.sampling.step_along = StepAlong::Plane;
+            s.picture.samples = RaysPerPixel::Across(s.picture.samples.across(false));
+        });
         let lines = (seed % 3 == 0).then(|| lines(&stage, seed));
         let plain = stage.render_by(|mut renderer| {
             renderer.merge(lines.clone());

@@ -7,7 +7,7 @@ use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
-use drypoint::scene::picture::Picture;
+use drypoint::scene::picture::{LayerKind, Picture};
 use drypoint::scene::plan::Quantity;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
@@ -146,6 +146,43 @@ fn the_embedded_scene_needs_no_file() {
     let embedded = all().into_iter().find(|path| path.ends_with("default.toml")).unwrap();
     let scene = load(&embedded, &Overrides::default()).unwrap();
     assert!(matches!(scene.volume.source, VolumeSource::Phantom(_)));
+}
+
+/// Root mean square difference of two pictures over R, G, B and A, in linear premultiplied light.
+fn rms(a: &Picture, b: &Picture) -> f64 {
+    let [a, b] = [a, b].map(|picture| picture.layer(LayerKind::Beauty).unwrap().channels.concat());
+    (a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt()
+}
+
+/// Edges that are refined bring a picture at least as near to 36 rays a pixel as four rays everywhere ([RAY-7]), on every
+/// scene without lines and halos that needs no file, and on some of real data.
+#[test]
+fn rays_at_edges_are_no_worse_than_four_rays_everywhere() {
+    let real = ["engine.toml", "head.toml", "skull.toml"];
+    let mut seen = 0;
+    for path in all() {
+        let is_real = real.iter().any(|name| path.ends_with(name)) && data().is_some();
+        if !is_of_a_phantom(&path) && !is_real {
+            continue;
+        }
+        let with = |samples| {
+            let small = [("picture.size", "[96, 80]"), ("picture.samples", samples)];
+            Job::load(load(&path, &small.into_iter().collect()).unwrap()).unwrap()
+        };
+        let job = with("\"auto\"");
+        if !job.scene.halos.is_empty() || !job.draws_volume() {
+            continue;
+        }
+        let drawn = |job: &Job| job.renderer().unwrap().frame(&|_| ());
+        let (auto, counts) = drawn(&job);
+        let [four, truth] = ["2", "6"].map(|samples| drawn(&with(samples)).0);
+        let [auto, four] = [auto, four].map(|picture| rms(&picture, &truth));
+        let rays = counts.rays as f64 / (96.0 * 80.0);
+        println!("{}: {auto:.5} with {rays:.2} rays a pixel, {four:.5} with four", path.display());
+        assert!(auto <= four, "{}: {auto} and {four}", path.display());
+        seen += 1;
+    }
+    assert!(seen >= if data().is_some() { 11 } else { 8 }, "{seen}");
 }
 
 /// Every scene that draws the volume, with its lines and surfaces: plane by plane to the bits and the counts of ray by ray.

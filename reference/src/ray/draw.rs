@@ -1,12 +1,12 @@
 //! The rays of a picture, tile by tile.
 
 use super::brick_occupancy::{Beam, RayIntervals};
-use super::composite::{Cast, Sums, pooled};
+use super::composite::{Cast, Sums};
 use super::inputs::Backdrop;
 use super::lattice::IndexRay;
+use super::pixel_sum::PixelSum;
 use super::prepared::Prepared;
 use super::tile_work::{CastAll, TileRays, TileWork};
-use crate::accumulator::Accumulator;
 use crate::number::Real;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
@@ -17,7 +17,7 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 /// Pixels that are drawn before they are gathered, so that a huge picture is not in memory twice.
-const BATCH: usize = 1 << 20;
+pub(super) const BATCH: usize = 1 << 20;
 
 /// The channels of a tile, pixel by pixel as [`in_blocks`] orders them.
 struct TilePixels {
@@ -25,7 +25,16 @@ struct TilePixels {
     y: usize,
     size: [usize; 2],
     pixels: Vec<f64>,
+    /// The sums of each pixel's rays, if they are kept.
+    sums: Vec<Option<Box<Sums>>>,
     counts: Counts,
+}
+
+/// Layers of a picture that are drawn, and what is kept beside them.
+pub(super) struct Drawn<'l> {
+    pub(super) layers: &'l [LayerKind],
+    /// Whether the sums of each pixel's rays are kept.
+    pub(super) keeps_sums: bool,
 }
 
 /// How the rays of a picture are cast.
@@ -77,15 +86,17 @@ pub(super) fn largest_band<R: Real>(prepared: &Prepared<'_, R>, tile: usize, ban
     [width * n, tile_rows([width, n], tile, band).saturating_mul(tile).min(height) * n]
 }
 
-/// Casts all rays of a picture, in tiles of a side in pixels and bands of about so many rays. Each pixel is a function of its place alone, so neither threads nor the order of tiles
-/// show ([RAY-3]).
+/// Casts all rays of a picture, in tiles of a side in pixels and bands of about so many rays. Each pixel is a function of
+/// its place alone, so neither threads nor the order of tiles show ([RAY-3]). Beside the picture it returns the kept sums
+/// of all pixels, row by row.
 pub(super) fn draw<R: Real>(
     prepared: &Prepared<'_, R>,
+    drawn: &Drawn<'_>,
     casting: &Casting<'_>,
     background: Backdrop<'_>,
     [tile, band]: [usize; 2],
     progress: &(dyn Fn(f64) + Sync),
-) -> (Picture, Counts) {
+) -> (Picture, Vec<Option<Box<Sums>>>, Counts) {
     let [width, height] = prepared.view.size;
     let [across, down] = tiles_across(prepared, tile);
     let n = prepared.rays_across;
@@ -94,9 +105,11 @@ pub(super) fn draw<R: Real>(
         Casting::ByBand(_) => across * tile_rows([width, n], tile, band),
     };
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let per_pixel: usize = prepared.layers.iter().map(|l| l.channels().len()).sum();
+    let per_pixel: usize = drawn.layers.iter().map(|l| l.channels().len()).sum();
     let mut counts = Counts::default();
     let mut channels = vec![vec![0.0; width * height]; per_pixel];
+    let mut sums = Vec::new();
+    sums.resize_with(if drawn.keeps_sums { width * height } else { 0 }, || None);
     let whole = in_blocks([tile; 2]);
     for first in (0..across * down).step_by(batch) {
         let batch = first..(first + batch).min(across * down);
@@ -113,7 +126,7 @@ pub(super) fn draw<R: Real>(
             let place = TilePlace::new(prepared, t, tile);
             match (casting, cast_before) {
                 (Casting::ByTile(cast_all), None) => {
-                    let drawn = draw_tile(prepared, *cast_all, background, place, &whole);
+                    let drawn = draw_tile(prepared, drawn, *cast_all, background, place, &whole);
                     let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                     progress(n as f64 / (across * down) as f64);
                     drawn
@@ -125,7 +138,7 @@ pub(super) fn draw<R: Real>(
                         let mut casts = casts.lock().unwrap_or_else(PoisonError::into_inner);
                         work.casts.extend(casts.by_ref().take(work.points.len()));
                     };
-                    let mut drawn = draw_tile(prepared, &take, background, place, &whole);
+                    let mut drawn = draw_tile(prepared, drawn, &take, background, place, &whole);
                     drawn.counts.add(&counts);
                     drawn
                 }
@@ -140,8 +153,11 @@ pub(super) fn draw<R: Real>(
         let mut of_batch = Counts::default();
         tiles.iter().for_each(|tile| of_batch.add(&tile.counts));
         counts.add_frame(&of_batch);
-        for tile in &tiles {
+        for mut tile in tiles {
             let blocks = blocks_of(tile.size, &whole);
+            for ([i, j], kept) in blocks.iter().zip(tile.sums.drain(..)) {
+                sums[(tile.y + j) * width + tile.x + i] = kept;
+            }
             for ([i, j], pixel) in blocks.iter().zip(tile.pixels.chunks_exact(per_pixel)) {
                 let at = (tile.y + j) * width + tile.x + i;
                 for (channel, value) in channels.iter_mut().zip(pixel) {
@@ -151,34 +167,28 @@ pub(super) fn draw<R: Real>(
         }
     }
     let mut channels = channels.into_iter();
-    let layers = prepared
+    let layers = drawn
         .layers
         .iter()
         .map(|&kind| Layer { kind, channels: channels.by_ref().take(kind.channels().len()).collect() })
         .collect();
-    (Picture { width, height, layers }, counts)
+    (Picture { width, height, layers }, sums, counts)
 }
 
 /// Casts the rays of one tile.
 fn draw_tile<R: Real>(
     prepared: &Prepared<'_, R>,
+    drawn: &Drawn<'_>,
     cast_all: &dyn CastAll,
     background: Backdrop<'_>,
     place: TilePlace,
     whole: &[[usize; 2]],
 ) -> TilePixels {
     let TilePlace { at: [x, y], size } = place;
-    let mut tile = TilePixels { x, y, size, pixels: Vec::new(), counts: Counts::default() };
+    let mut tile = TilePixels { x, y, size, pixels: Vec::new(), sums: Vec::new(), counts: Counts::default() };
     let mut boxes = place.boxes(prepared);
     let blocks = blocks_of(size, whole);
-    let everywhere = match background {
-        Backdrop::Color(c) => color::premultiply(c),
-        Backdrop::None | Backdrop::Pixels(_) => [0.0; 4],
-    };
-    let behind = |[i, j]: [usize; 2]| match background {
-        Backdrop::Pixels(pixels) => pixels[(y + j) * prepared.view.size[0] + x + i],
-        Backdrop::Color(_) | Backdrop::None => everywhere,
-    };
+    let behind = behind(background, prepared.view.size[0]);
     let n = prepared.rays_across;
     let mut sums: Vec<PixelSum> = blocks.iter().map(|_| PixelSum::default()).collect();
     let (mut points, mut casts) = (Vec::with_capacity(blocks.len()), Vec::with_capacity(blocks.len()));
@@ -188,14 +198,29 @@ fn draw_tile<R: Real>(
         let (boxes, counts) = (boxes.as_mut(), &mut tile.counts);
         cast_all(TileWork { points: &points, boxes, counts, casts: &mut casts });
         for ((sum, cast), place) in sums.iter_mut().zip(casts.drain(..)).zip(&*blocks) {
-            sum.add(prepared, cast, behind(*place));
+            sum.add(prepared, cast, behind([x + place[0], y + place[1]]), n);
         }
     }
-    tile.pixels.reserve_exact(blocks.len() * prepared.layers.iter().map(|l| l.channels().len()).sum::<usize>());
-    for sum in sums {
-        sum.append(prepared, &mut tile.pixels);
+    tile.pixels.reserve_exact(blocks.len() * drawn.layers.iter().map(|l| l.channels().len()).sum::<usize>());
+    for sum in &sums {
+        sum.append(prepared, drawn.layers, &mut tile.pixels);
+    }
+    if drawn.keeps_sums {
+        tile.sums = sums.into_iter().map(|sum| sum.all).collect();
     }
     tile
+}
+
+/// The premultiplied background at a pixel of a picture so wide.
+pub(super) fn behind(background: Backdrop<'_>, width: usize) -> impl Fn([usize; 2]) -> Rgba {
+    let everywhere = match background {
+        Backdrop::Color(c) => color::premultiply(c),
+        Backdrop::None | Backdrop::Pixels(_) => [0.0; 4],
+    };
+    move |[i, j]| match background {
+        Backdrop::Pixels(pixels) => pixels[j * width + i],
+        Backdrop::Color(_) | Backdrop::None => everywhere,
+    }
 }
 
 /// The rays of the tiles of a band, each tile's in the order in which [`draw`] asks for them.
@@ -235,21 +260,21 @@ fn part_centre(pixel: f64, part: usize, n: usize) -> f64 {
 }
 
 /// Tiles across and down.
-fn tiles_across<R: Real>(prepared: &Prepared<'_, R>, side: usize) -> [usize; 2] {
+pub(super) fn tiles_across<R: Real>(prepared: &Prepared<'_, R>, side: usize) -> [usize; 2] {
     prepared.view.size.map(|n| n.div_ceil(side))
 }
 
 /// The place of a tile in the picture.
 #[derive(Clone, Copy)]
-struct TilePlace {
+pub(super) struct TilePlace {
     /// Its first pixel.
-    at: [usize; 2],
+    pub(super) at: [usize; 2],
     /// Pixels across and down.
     size: [usize; 2],
 }
 
 impl TilePlace {
-    fn new<R: Real>(prepared: &Prepared<'_, R>, index: usize, side: usize) -> Self {
+    pub(super) fn new<R: Real>(prepared: &Prepared<'_, R>, index: usize, side: usize) -> Self {
         let [across, _] = tiles_across(prepared, side);
         let at = [index % across * side, index / across * side];
         Self { at, size: [0, 1].map(|a| side.min(prepared.view.size[a] - at[a])) }
@@ -257,12 +282,17 @@ impl TilePlace {
 
     /// The point of a part of a pixel. The n×n rays of a pixel go through the centres of its parts ([RAY-6]); the first parts
     /// of all pixels are cast, then the second ones, and so on.
-    fn point(&self, [i, j]: [usize; 2], part: usize, n: usize) -> [f64; 2] {
+    pub(super) fn point(&self, [i, j]: [usize; 2], part: usize, n: usize) -> [f64; 2] {
         [part_centre((self.at[0] + i) as f64, part % n, n), part_centre((self.at[1] + j) as f64, part / n, n)]
     }
 
+    /// Its pixels, from its first one, as [`in_blocks`] orders them.
+    pub(super) fn pixels(&self) -> Vec<[usize; 2]> {
+        in_blocks(self.size)
+    }
+
     /// The boxes of visible bricks that its rays can meet; none where nothing is skipped.
-    fn boxes<R: Real>(&self, prepared: &Prepared<'_, R>) -> Option<RayIntervals> {
+    pub(super) fn boxes<R: Real>(&self, prepared: &Prepared<'_, R>) -> Option<RayIntervals> {
         prepared.skip.as_ref().map(|skip| {
             let corner = |i: usize, j: usize| {
                 let ray = prepared.view.ray(i as f64, j as f64);
@@ -294,86 +324,4 @@ fn in_blocks([width, height]: [usize; 2]) -> Vec<[usize; 2]> {
         }
     }
     pixels
-}
-
-/// The rays of a pixel so far ([RAY-6]).
-#[derive(Default)]
-struct PixelSum {
-    /// Σ of the beauty, each ray with its share.
-    beauty: Rgba,
-    /// The sums and the number of samples of the first ray.
-    first: Option<(Option<Box<Sums>>, u64)>,
-    /// The sums of all rays.
-    all: Option<Box<Sums>>,
-    /// Mean intensities of halos, each ray with its share.
-    intensities: Vec<f64>,
-}
-
-impl PixelSum {
-    /// Adds a ray that has `behind` as its background.
-    fn add<R: Real>(&mut self, prepared: &Prepared<'_, R>, cast: Cast, behind: Rgba) {
-        let share = 1.0 / (prepared.rays_across * prepared.rays_across) as f64;
-        for (mean, c) in self.beauty.iter_mut().zip(over(cast.rgba, behind, prepared.encode)) {
-            *mean += c * share;
-        }
-        if let Some(sums) = &cast.sums {
-            self.all.get_or_insert_with(|| Box::new(Sums::new())).pool(sums);
-        }
-        self.intensities.resize(cast.intensities.len(), 0.0);
-        for (mean, h) in self.intensities.iter_mut().zip(&cast.intensities) {
-            *mean += h * share;
-        }
-        self.first.get_or_insert((cast.sums, cast.samples));
-    }
-
-    /// Appends the channels of the pixel: of the beauty the mean; of the layers that are means themselves the mean over all
-    /// samples of the pixel; of the others the first ray's.
-    fn append<R: Real>(self, prepared: &Prepared<'_, R>, pixels: &mut Vec<f64>) {
-        // A pixel has at least one ray.
-        let (first, samples) = self.first.unwrap_or_default();
-        let none = Sums::new();
-        let [first, all] = [&first, &self.all].map(|sums| sums.as_deref().unwrap_or(&none));
-        for &kind in &prepared.layers {
-            if kind == LayerKind::Beauty {
-                pixels.extend(self.beauty);
-            } else if let LayerKind::Halo(halo) = kind {
-                let place = prepared.halos.as_ref().and_then(|halos| halos.watched_place(halo));
-                pixels.push(place.and_then(|place| self.intensities.get(place).copied()).unwrap_or(0.0));
-            } else {
-                let sums = if pooled(kind) { all } else { first };
-                sums.channels(kind, samples, prepared.object.field.scale_exponent(), pixels);
-            }
-        }
-    }
-}
-
-/// A ray's colour over the background ([IO-6]). With encoded compositing the colour comes in encoded; the background's
-/// straight colour is encoded and premultiplied, and the result is decoded ([VAL-3]).
-fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
-    let add = |behind: Rgba| {
-        let mut front = Accumulator { rgb: [r, g, b], opacity: a };
-        front.over_premultiplied(behind);
-        let Accumulator { rgb: [r, g, b], opacity } = front;
-        [r, g, b, opacity]
-    };
-    if !encode {
-        return add(behind);
-    }
-    let map = |[r, g, b, a]: Rgba, f: fn(f64) -> f64| [f(r), f(g), f(b), a];
-    let behind = color::premultiply(map(color::unpremultiply(behind), color::linear_to_srgb));
-    color::premultiply(map(color::unpremultiply(add(behind)), color::srgb_to_linear))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn over_by_hand() {
-        assert_eq!(over([0.25, 0.0, 0.0, 0.5], [1.0; 4], false), [0.75, 0.5, 0.5, 1.0]);
-        assert_eq!(over([0.25, 0.0, 0.0, 0.5], [0.0; 4], false), [0.25, 0.0, 0.0, 0.5]);
-        // Half black over white, encoded: ½ in sRGB is 0.2140 in linear light.
-        let got = over([0.0, 0.0, 0.0, 0.5], [1.0; 4], true);
-        assert!((got[0] - 0.214_041_140_5).abs() < 1e-9 && got[3] == 1.0, "{got:?}");
-    }
 }

@@ -115,6 +115,7 @@ pub(super) fn prepare<'a, R: Real>(
         layers: shot.layers.clone(),
         eye_axes: EyeAxes::new(&shot.view),
         rays_across: shot.rays_across,
+        refine_above: shot.refine_above,
     })
 }
 

@@ -34,6 +34,8 @@ pub(super) struct Prepared<'v, R> {
     pub(super) eye_axes: EyeAxes<R>,
     /// n of the n×n rays of a pixel.
     pub(super) rays_across: usize,
+    /// Contrast to a neighbour above which a pixel gets 3×3 rays; none: no pixel is refined.
+    pub(super) refine_above: Option<f64>,
 }
 
 impl<R> Prepared<'_, R> {

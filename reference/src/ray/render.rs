@@ -1,7 +1,7 @@
 //! Pictures of a shot, any number of them.
 
 use super::composite::{plane_order, ray_order};
-use super::draw::{Band, Casting, draw, largest_band, rays_of_tiles};
+use super::draw::{Band, Casting, Drawn, draw, largest_band, rays_of_tiles};
 use super::inputs::{Backdrop, Inputs, RenderError};
 use super::lanes;
 use super::lattice::samples_in;
@@ -9,6 +9,7 @@ use super::merged;
 use super::pick::{Picked, pick};
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
+use super::refinement::{bytes_a_pixel, draw_refined};
 use super::tile_work::TileWork;
 use crate::field::{Exact, Sampler};
 use crate::labels::Labels;
@@ -137,7 +138,26 @@ impl<'a> Renderer<'a> {
         Self { order: Order::Planes, ..self }
     }
 
-    /// The number of samples of a frame, roughly, if none is skipped.
+    /// Bytes a pixel that rays at edges need beside the picture; 0 without them.
+    pub fn bytes_of_refinement(&self) -> usize {
+        fn of<R>(p: &Prepared<'_, R>) -> usize {
+            p.refine_above.map_or(0, |_| bytes_a_pixel(&p.layers))
+        }
+        match &self.ready {
+            Ready::F64(p) | Ready::Exact(p, _) => of(p),
+            Ready::F32(p) => of(p),
+        }
+    }
+
+    /// n of the n×n rays of a pixel, before it is refined.
+    pub fn rays_across(&self) -> usize {
+        match &self.ready {
+            Ready::F64(p) | Ready::Exact(p, _) => p.rays_across,
+            Ready::F32(p) => p.rays_across,
+        }
+    }
+
+    /// The number of samples of a frame, roughly, if none is skipped and no pixel is refined.
     pub fn samples(&self) -> f64 {
         fn of<R: Real>(p: &Prepared<'_, R>) -> f64 {
             samples_in(&p.lattice, &p.view, p.object.volume.grid()) * (p.rays_across * p.rays_across) as f64
@@ -235,7 +255,15 @@ impl<'a> Renderer<'a> {
         progress: &(dyn Fn(f64) + Sync),
     ) -> (Picture, Counts) {
         let alone = |work: TileWork<'_>| ray_order::cast_all(prepared, sampler, work);
-        let draw = |casting: Casting<'_>| draw(prepared, &casting, self.background, [self.tile, self.band], progress);
+        let draw = |casting: Casting<'_>| {
+            if let (Some(contrast), Casting::ByTile(cast_all)) = (prepared.refine_above, &casting) {
+                return draw_refined(prepared, contrast, *cast_all, self.background, self.tile, progress);
+            }
+            let drawn = Drawn { layers: &prepared.layers, keeps_sums: false };
+            let (picture, _, counts) =
+                draw(prepared, &drawn, &casting, self.background, [self.tile, self.band], progress);
+            (picture, counts)
+        };
         if let Some(halos) = &prepared.halos {
             return draw(Casting::ByBand(&|band: Band| {
                 let [from, to] = band.share;
@@ -253,9 +281,9 @@ impl<'a> Renderer<'a> {
                 draw(Casting::ByTile(&|work: TileWork<'_>| merged::cast_apart(p, [&alone, &together], work)))
             }
             (_, Order::Lanes | Order::Rays) => draw(Casting::ByTile(&alone)),
-            (_, Order::Planes) => draw(Casting::ByBand(&|band: Band| {
-                plane_order::cast_tiles(prepared, sampler, rays_of_tiles(prepared, self.tile, &band))
-            })),
+            (_, Order::Planes) => {
+                draw(Casting::ByTile(&|work: TileWork<'_>| plane_order::cast_all(prepared, sampler, work)))
+            }
         }
     }
 }

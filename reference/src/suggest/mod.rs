@@ -126,10 +126,6 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], 
     if scene.transfer.is_some() || scene.surface.is_some() {
         scene.sampling.gradient = GradientEstimator::Sobel;
     }
-    if scene.surface.is_some() {
-        // Steps between tones are as hard as the silhouette.
-        scene.picture.samples = 2;
-    }
     if scene.transfer.is_none() {
         return;
     }

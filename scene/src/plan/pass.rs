@@ -35,6 +35,8 @@ pub enum Pass {
     Rays,
     /// The ends of rays, points and lines at clip planes ([RAY-8]).
     Clip,
+    /// Further rays at edges ([RAY-7]).
+    Refinement,
     /// The seeds of halos on the planes of samples ([HALO-2], [HALO-3]).
     HaloSeeds,
     /// From seeds to the intensities of halos, group of planes by group ([HALO-4], [HALO-5]).
@@ -97,6 +99,7 @@ impl Pass {
             Self::StillFactor => "factor, once",
             Self::Rays => "rays",
             Self::Clip => "clip planes",
+            Self::Refinement => "rays at edges",
             Self::HaloSeeds => "halo seeds",
             Self::HaloSpreading => "halo spreading",
             Self::Factor => "factor, a frame",
@@ -136,8 +139,9 @@ impl Pass {
             Self::DotLabels => "one look at the labels a voxel with points",
             Self::DotColors => "one colour a voxel with points",
             Self::StillFactor => "one number a voxel with points",
-            Self::Rays => "samples² rays a pixel",
+            Self::Rays => "samples² rays a pixel; \"auto\": one, with halos four",
             Self::Clip => "one look at the planes a ray, a point and a vertex of a line",
+            Self::Refinement => "eight rays a pixel that differs from a neighbour by more than contrast",
             Self::HaloSeeds => "one look at each sample whose value may seed, seen or not; a number a ray",
             Self::HaloSpreading => "a filter of all rays a pass, once a group of planes; two numbers a ray",
             Self::Factor => "one number a voxel with points",
@@ -170,7 +174,8 @@ impl Pass {
             Self::SmoothedCoefficients => 16,
             // Norms are counted row by row.
             Self::GradientRange => 0,
-            Self::AutomaticTransfer | Self::AutomaticIso | Self::Bricks | Self::StyleMipmaps | Self::Rays => 0,
+            Self::AutomaticTransfer | Self::AutomaticIso | Self::Bricks | Self::StyleMipmaps => 0,
+            Self::Rays | Self::Refinement => 0,
             // A norm each, and what a fit smooths.
             Self::StippleGradients => 16,
             // Made of few voxels, or known once those are ([`PointsPlan`](super::PointsPlan)).

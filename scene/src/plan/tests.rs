@@ -138,9 +138,9 @@ fn a_range_of_gradients_that_is_given_is_not_computed() {
 #[test]
 fn passes_are_those_that_are_called_for() {
     let passes = |rest: &str| plan(rest).passes.iter().map(|need| need.pass).collect::<Vec<_>>();
-    assert_eq!(passes(REGULAR), [Pass::Bricks, Pass::Rays]);
-    assert_eq!(passes(&format!("{REGULAR}[sampling]\nskip_empty = false\n")), [Pass::Rays]);
-    let automatic = [Pass::GradientRange, Pass::AutomaticTransfer, Pass::Rays];
+    assert_eq!(passes(REGULAR), [Pass::Bricks, Pass::Rays, Pass::Refinement]);
+    assert_eq!(passes(&format!("{REGULAR}[picture]\nsamples = 1\n[sampling]\nskip_empty = false\n")), [Pass::Rays]);
+    let automatic = [Pass::GradientRange, Pass::AutomaticTransfer, Pass::Rays, Pass::Refinement];
     assert_eq!(passes("[sampling]\nskip_empty = false\n"), automatic);
     for (kernel, prefiltered) in
         [("trilinear", false), ("bspline", true), ("bspline5", true), ("bspline-smooth", false), ("catmull-rom", false)]
@@ -161,6 +161,24 @@ fn passes_are_those_that_are_called_for() {
     }
     assert!(plan(&format!("{PLAIN}[style_mipmaps]\n")).has_pass(Pass::StyleMipmaps));
     assert!(![PLAIN, &format!("{REGULAR}[style_mipmaps]\n")].iter().any(|s| plan(s).has_pass(Pass::StyleMipmaps)));
+}
+
+#[test]
+fn edges_are_refined_where_a_layer_shows_it_and_no_halo_needs_as_many_rays_everywhere() {
+    let refines = |rest: &str| plan(&format!("{REGULAR}{rest}")).has_pass(Pass::Refinement);
+    assert!(refines("") && refines("[picture]\nlayers = [\"Z\", \"normal\"]\n"));
+    assert!(refines("[[halo]]\nopacity = 0\n"), "a halo that is not seen");
+    for none in ["[picture]\nsamples = 2\n", "[picture]\nlayers = [\"Z\", \"counts\"]\n", "[[halo]]\n"] {
+        assert!(!refines(none), "{none}");
+        let (head, rest) = none.split_once('\n').unwrap();
+        let picture = if head == "[picture]" {
+            format!("{head}\ncontrast = 0.1\n{rest}")
+        } else {
+            format!("[picture]\ncontrast = 0.1\n{none}")
+        };
+        let idle = plan(&format!("{REGULAR}{picture}")).idle_keys;
+        assert_eq!(idle.iter().map(|idle| &*idle.key).collect::<Vec<_>>(), ["picture.contrast"], "{none}");
+    }
 }
 
 #[test]
@@ -333,11 +351,12 @@ fn a_person_reads_effect_need_price_and_reason() {
     let mut plan = Plan::new(&parse(text, "s.toml".as_ref(), &settings).unwrap());
     plan.warnings.push("a warning".into());
     let expected = "\
-effect                       needs         adds                           because of
-transfer function            value         one reconstruction a sample    transfer (line 5)
-shading                      gradient      one gradient a visible sample  shading (--set)
-skipping what shows nothing  brick ranges  one look at each voxel         sampling.skip_empty (default)
-picture                      rays          samples² rays a pixel          picture.samples (default)
+effect                       needs          adds                                                                    because of
+transfer function            value          one reconstruction a sample                                             transfer (line 5)
+shading                      gradient       one gradient a visible sample                                           shading (--set)
+skipping what shows nothing  brick ranges   one look at each voxel                                                  sampling.skip_empty (default)
+picture                      rays           samples² rays a pixel; \"auto\": one, with halos four                     picture.samples (default)
+antialiasing                 rays at edges  eight rays a pixel that differs from a neighbour by more than contrast  picture.samples (default)
 
 without effect
   volume.range (line 4): only transfer.unit = \"normalized\" is measured in it
@@ -363,6 +382,7 @@ fn every_file_that_says_the_same_scene_has_the_same_summary() {
     assert_eq!(
         Plan::new(&scene).summary(),
         "transfer function: value, because of transfer\nshading: gradient, because of shading\nskipping what shows \
-         nothing: brick ranges, because of sampling.skip_empty\npicture: rays, because of picture.samples\n"
+         nothing: brick ranges, because of sampling.skip_empty\npicture: rays, because of picture.samples\nantialiasing: \
+         rays at edges, because of picture.samples\n"
     );
 }

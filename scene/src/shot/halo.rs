@@ -232,7 +232,7 @@ impl HaloSpread {
                 fits.map_or((0, 1.0), |passes| (passes, reach / reached(passes)))
             }
         };
-        let stretch = stretch * picture.samples as f64;
+        let stretch = stretch * picture.samples.across(true) as f64;
         Self { from: spread.from, passes, delta: spread.delta, stretch, median: spread.median }
     }
 }
@@ -263,7 +263,8 @@ mod tests {
             None => ("", rest),
         };
         let files = "file = \"a.nrrd\"\nlabels = \"l.nrrd\"\nlabel_names = \"l.csv\"\n";
-        let picture = "[picture]\nsize = [200, 100]\ndpi = 254\n";
+        let samples = if rest.starts_with("samples") { "" } else { "samples = 1\n" };
+        let picture = format!("[picture]\nsize = [200, 100]\ndpi = 254\n{samples}");
         let text = format!("drypoint = 1\n[volume]\n{files}{volume}\n{picture}{rest}");
         let mut scene = parse(&text, Path::new("s"), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
         for halo in &mut scene.halos {
@@ -357,14 +358,15 @@ mod tests {
         assert_eq!(spread("spread.reach = \"0.5 px\"\n"), (0, 1.0));
         assert_eq!(spread("spread = { passes = 0, reach = \"9 px\" }\n"), (0, 1.0));
         assert_eq!(spread("spread.passes = 12\n"), (12, 1.0));
-        let finer = |rest: &str| {
-            let text = format!("samples = 3\n{REGULAR}[[halo]]\n{rest}");
+        let finer = |samples: &str, rest: &str| {
+            let text = format!("samples = {samples}\n{REGULAR}[[halo]]\n{rest}");
             let HaloSpread { passes, stretch, .. } = halos(&text).unwrap().list[0].spread;
             (passes, stretch)
         };
-        assert_eq!(finer(""), (4, 3.0));
-        assert_eq!(finer("spread.reach = \"30 px\"\n"), (4, 6.0));
-        assert_eq!(finer("spread.reach = \"0.5 px\"\n"), (0, 3.0));
+        assert_eq!(finer("3", ""), (4, 3.0));
+        assert_eq!(finer("3", "spread.reach = \"30 px\"\n"), (4, 6.0));
+        assert_eq!(finer("3", "spread.reach = \"0.5 px\"\n"), (0, 3.0));
+        assert_eq!(finer("\"auto\"", "spread.reach = \"30 px\"\n"), (4, 4.0));
     }
 
     /// Without [transfer] the inside of the iso-surface seeds, the iso-value included.

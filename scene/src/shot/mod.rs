@@ -44,8 +44,10 @@ pub struct Shot {
     pub view: View,
     /// The planes of samples ([RAY-1]).
     pub lattice: Lattice,
-    /// n of the n×n rays of a pixel ([RAY-6]).
+    /// n of the n×n rays of a pixel ([RAY-6]), before it is refined.
     pub rays_across: usize,
+    /// Contrast to a neighbour above which a pixel of one ray gets 3×3 ([RAY-7]); none: no pixel is refined.
+    pub refine_above: Option<f64>,
     /// The number type of samples.
     pub number: Number,
     /// The volumes that are drawn.
@@ -201,13 +203,15 @@ impl Shot {
             function,
         };
         let surface = OpaqueSurface::new(scene, plan, &view)?;
+        let halos = Halos::new(scene, plan, facts.grid, &object.function)?;
         let layers = &scene.picture.layers;
         Ok(Self {
             lattice: Lattice { step, along: sampling.step_along, near },
-            rays_across: scene.picture.samples,
+            rays_across: scene.picture.samples.across(!halos.list.is_empty()),
+            refine_above: plan.has_pass(Pass::Refinement).then_some(scene.picture.contrast),
             number: sampling.number,
             clipping: Clipping::new(scene, facts.grid),
-            halos: Halos::new(scene, plan, facts.grid, &object.function)?,
+            halos,
             objects: [object],
             surface,
             blend_space: scene.picture.blend_space,

@@ -50,7 +50,7 @@ pub use outlines::Outlines;
 pub use over::{Axis, LabelKey, Over};
 pub use page::PageSettings;
 pub use pen::PenSettings;
-pub use picture::{Background, BlendSpace, PictureSettings};
+pub use picture::{Background, BlendSpace, PictureSettings, RaysPerPixel};
 pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Number, Sampling, StepAlong};
 pub use scene::Scene;
 pub use shading::{LightDirection, Shading, ShadingModel};

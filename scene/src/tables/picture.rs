@@ -4,7 +4,7 @@ use crate::document::check::Check;
 use crate::document::declare::{choices, keys};
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
-use crate::document::item::Item;
+use crate::document::item::{Item, Value};
 use crate::document::kind::{
     Bounds, Choice, ChoiceOption, Colors, Lengths, ListOf, Number, On, Whole, Wholes, nearest_color, parse_color,
 };
@@ -27,8 +27,10 @@ pub struct PictureSettings {
     pub lengths: [Option<Length>; 2],
     /// Pixels per inch, which turns mm into px.
     pub dpi: f64,
-    /// n of the n×n rays a pixel ([RAY-6]).
-    pub samples: usize,
+    /// Rays of each pixel.
+    pub samples: RaysPerPixel,
+    /// Largest difference between neighbours that `samples = "auto"` leaves at one ray a pixel ([RAY-7]).
+    pub contrast: f64,
     /// Background of the picture.
     pub background: Background,
     /// Light that is composited ([VAL-3]).
@@ -37,6 +39,26 @@ pub struct PictureSettings {
     pub bits: u8,
     /// Layers of an EXR ([IO-6]).
     pub layers: Vec<LayerKind>,
+}
+
+/// Rays of each pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RaysPerPixel {
+    /// One, and 3×3 where the picture has edges ([RAY-7]).
+    Auto,
+    /// n×n ([RAY-6]).
+    Across(usize),
+}
+
+impl RaysPerPixel {
+    /// The number n of the n×n rays that each pixel begins with. A picture with halos is not refined at edges: its
+    /// planes have as many rays in every pixel.
+    pub fn across(self, with_halos: bool) -> usize {
+        match self {
+            Self::Across(n) => n,
+            Self::Auto => 1 + usize::from(with_halos),
+        }
+    }
 }
 
 /// Background of the picture.
@@ -68,7 +90,8 @@ impl Default for PictureSettings {
             size: [512, 512],
             lengths: [None; 2],
             dpi: 300.0,
-            samples: 1,
+            samples: RaysPerPixel::Auto,
+            contrast: 0.0625,
             background: Background::Color([1.0; 4]),
             blend_space: BlendSpace::Linear,
             bits: 8,
@@ -162,8 +185,10 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
             height: key("IO-7", EXTENT,
                 |p| p.extent().map(|[_, length]| length),
                 |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
-            /// n of the n×n rays a pixel.
-            samples: key("RAY-6", Whole { lo: 1, hi: 1024 });
+            /// Rays a pixel: n×n, or "auto", one and 3×3 at edges (with halos 2×2 everywhere).
+            samples: key("RAY-6", RaysPerPixelKind);
+            /// Edges of samples = "auto": places where neighbours differ by more in R, G, B as displayed, or in opacity.
+            contrast: key("RAY-7", Number { bounds: Bounds::UNIT, unit: "" });
             /// Background: a colour, "none", or the path of a picture that is stretched to the frame.
             background: key("IO-6", Behind);
             /// Encoding of the numbers that are composited.
@@ -239,6 +264,44 @@ fn check_layers(layers: &[LayerKind], check: &mut Check) {
             };
             let remedy = "leave one of them out".into();
             check.fault_in(&format!("layers[{i}]"), Problem::Contradiction { what, remedy });
+        }
+    }
+}
+
+/// n of n×n rays, or `"auto"`.
+struct RaysPerPixelKind;
+
+/// n of n×n rays.
+const ACROSS: Whole = Whole { lo: 1, hi: 1024 };
+
+/// The word in place of n.
+const AUTO: &str = "auto";
+
+impl Shape for RaysPerPixelKind {
+    fn expected(&self) -> String {
+        format!("{}, or {AUTO:?}", ACROSS.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [ACROSS.schema(), { "const": AUTO }] })
+    }
+}
+
+impl Kind for RaysPerPixelKind {
+    type Of = RaysPerPixel;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<RaysPerPixel> {
+        let read = match &item.value {
+            Value::Text(text) => (text == AUTO).then_some(RaysPerPixel::Auto),
+            _ => ACROSS.of(item).map(|n| RaysPerPixel::Across(n as usize)),
+        };
+        read.or_else(|| check.wrong(item, self.expected()))
+    }
+
+    fn write(&self, value: &RaysPerPixel) -> Out {
+        match value {
+            RaysPerPixel::Across(n) => Out::Whole(*n as u64),
+            RaysPerPixel::Auto => Out::Text(AUTO.into()),
         }
     }
 }

@@ -7,7 +7,9 @@ use crate::stability::{differing, worst};
 use drypoint::scene::fragments::{Fragment, Fragments};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Background, Halo, HaloKind, Iso, Length, Orbit, SeedValue, Surface, SurfaceLook};
+use drypoint::scene::tables::{
+    Background, Halo, HaloKind, Iso, Length, Orbit, RaysPerPixel, SeedValue, Surface, SurfaceLook,
+};
 
 /// A slab of value −50 in front on the left, and a capsule of radius 4 behind it, of values up to 9, whose end is half
 /// a voxel from the slab's edge.
@@ -178,7 +180,7 @@ pub(super) fn several_rays() -> f64 {
         halos.iter_mut().for_each(|halo| halo.spread.reach = Some(Length::Pixels(reach)));
         let stage = crossing().halos(&halos).with(|s| {
             s.picture.size = [size; 2];
-            s.picture.samples = samples;
+            s.picture.samples = RaysPerPixel::Across(samples);
         });
         stage.render()
     };

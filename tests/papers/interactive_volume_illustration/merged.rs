@@ -11,7 +11,7 @@ use drypoint::scene::fragments::{Fragment, Fragments};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{BlendSpace, Camera, Iso, Length, StepAlong, Surface, SurfaceLook};
+use drypoint::scene::tables::{BlendSpace, Camera, Iso, Length, RaysPerPixel, StepAlong, Surface, SurfaceLook};
 use drypoint::scene::volume::{Volume, Voxels};
 use std::path::Path;
 
@@ -182,7 +182,7 @@ fn layers_and_parts_of_pixels() {
     assert!(plain[0] == -7.75 && plain[0] < plain[2]);
     assert_eq!(depths(&[line(0.0, 0.9)]).layer::<3>(LayerKind::Depth)[0], plain);
     // Half the rays of each pixel end at a line before the slab.
-    let shot = slab().with(|s| s.picture.samples = 2);
+    let shot = slab().with(|s| s.picture.samples = RaysPerPixel::Across(2));
     let rays: Vec<_> = (0..1024).step_by(2).map(|ray| (ray, line(-9.0, 1.0))).collect();
     let fog = composite(&[(16.0, None)]);
     let wanted = [0, 1, 2, 3].map(|i| 0.5 * fog[i] + 0.5 * [INK[0], INK[1], INK[2], 1.0][i]);

@@ -8,7 +8,7 @@ use drypoint::scene::philox::uniforms;
 use drypoint::scene::picture::LayerKind::{Beauty, CurvatureAlongView, Gradient, Normal, Z};
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::Style;
-use drypoint::scene::tables::{Contours, GradientRange, Kappa, Length, StyleMipmaps, Transparency};
+use drypoint::scene::tables::{Contours, GradientRange, Kappa, Length, RaysPerPixel, StyleMipmaps, Transparency};
 
 /// Opaque noise: each texel three numbers of its own.
 fn grain(side: usize) -> Style {
@@ -57,7 +57,7 @@ fn a_grainy_ball_is_as_quiet_as_sixteen_times_sixteen_rays_make_it() {
             s.camera.projection = orthographic(Some(10.0)).projection;
             s.picture.size = [10, 10];
         });
-        let whole = shot.with(|s| s.picture.samples = 16).render().pixels();
+        let whole = shot.with(|s| s.picture.samples = RaysPerPixel::Across(16)).render().pixels();
         for ((mipmaps, contours), distance) in ways.iter().zip(&mut distances) {
             let shown = shot.with(|s| (s.style_mipmaps, s.contours) = (mipmaps.clone(), contours.clone())).render();
             for (a, b) in shown.pixels().into_iter().zip(&whole).filter(|(_, b)| b[3] > 1.0 - 1e-12) {
@@ -180,7 +180,7 @@ fn rays_of_a_divided_pixel_have_the_level_of_a_larger_picture() {
         s.camera = perspective(45.0);
     });
     let n = 3;
-    let small = shot.with(|s| s.picture.samples = n).render().pixels();
+    let small = shot.with(|s| s.picture.samples = RaysPerPixel::Across(n)).render().pixels();
     let large = shot.with(|s| s.picture.size = [16 * n, 16 * n]).render().pixels();
     for (t, pixel) in small.into_iter().enumerate() {
         let (x, y) = (t % 16 * n, t / 16 * n);

@@ -6,8 +6,8 @@ use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Axis, Camera, GradientRange, LabelKey, Mix, Node, NodeColor, Number, Over, Row, RowAt, Shading, Transfer,
-    TransferKind, Transparency, Unit,
+    Axis, Camera, GradientRange, LabelKey, Mix, Node, NodeColor, Number, Over, RaysPerPixel, Row, RowAt, Shading,
+    Transfer, TransferKind, Transparency, Unit,
 };
 use drypoint::scene::volume::labels::LabelVolume;
 use drypoint::scene::volume::{Volume, Voxels};
@@ -297,7 +297,7 @@ fn each_label_has_a_function_of_its_own() {
     let shot = planes(&shot, 0.25).with(|s| {
         s.camera = Camera { direction: DVec3::Y, ..orthographic(Some(31.0)) };
         s.picture.size = [62, 62];
-        s.picture.samples = 1;
+        s.picture.samples = RaysPerPixel::Across(1);
     });
     let seen = |low: f64, color: fn(f64) -> [f64; 4]| {
         let shown = over(&shot, [Axis::Value, Axis::Label], rows(low)).render();

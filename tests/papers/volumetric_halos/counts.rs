@@ -2,7 +2,7 @@
 
 use crate::common::{Stage, orthographic, volume};
 use drypoint::scene::glam::DVec3;
-use drypoint::scene::tables::{GradientRange, Halo, HaloKind, Length, SeedValue};
+use drypoint::scene::tables::{GradientRange, Halo, HaloKind, Length, RaysPerPixel, SeedValue};
 
 /// A ball in 20³ voxels and 40 × 30 pixels.
 fn stage(halos: &[Halo]) -> Stage {
@@ -34,7 +34,7 @@ fn seven_images_a_halo_and_none_a_plane() {
             let bytes = |step: f64| {
                 let shown = stage(&four()[..count]).with(|s| {
                     s.sampling.step = Length::World(step);
-                    s.picture.samples = samples;
+                    s.picture.samples = RaysPerPixel::Across(samples);
                 });
                 shown.render().counts.bytes
             };

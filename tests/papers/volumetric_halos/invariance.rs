@@ -3,7 +3,7 @@
 use crate::common::{Stage, largest_difference, orthographic, perspective, volume};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{Halo, HaloKind, Length, SeedBy};
+use drypoint::scene::tables::{Halo, HaloKind, Length, RaysPerPixel, SeedBy};
 
 /// Crossing tubes.
 fn tubes() -> Stage {
@@ -27,7 +27,7 @@ fn tubes() -> Stage {
 fn a_crop_is_the_picture_of_the_crop() {
     for samples in [1, 2] {
         let layers = [LayerKind::Halo(0), LayerKind::Halo(1)];
-        let whole = tubes().with(|s| s.picture.samples = samples).layers(&layers);
+        let whole = tubes().with(|s| s.picture.samples = RaysPerPixel::Across(samples)).layers(&layers);
         let crop = whole.with(|s| {
             // A quarter of the height at the same pixel pitch, a power of two.
             s.camera = orthographic(Some(8.0));
@@ -53,7 +53,7 @@ fn a_reach_is_the_same_at_every_resolution() {
     let with = |side: usize, samples: usize| {
         let stage = tubes().with(|s| {
             s.picture.size = [side; 2];
-            s.picture.samples = samples;
+            s.picture.samples = RaysPerPixel::Across(samples);
             s.halos.truncate(1);
             s.halos[0].spread.reach = Some(Length::Percent(6.0));
             s.halos[0].seed.by = SeedBy::Curvature;

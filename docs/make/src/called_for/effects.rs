@@ -296,6 +296,15 @@ pub(super) const EFFECTS: &[Effect] = &[
         ..NOTHING
     },
     Effect {
+        name: "nine rays in a pixel at an edge",
+        asked_by: "`picture.samples = \"auto\"`, the default",
+        base: REGULAR,
+        with: &[("picture.samples", "auto")],
+        only: &["refined_pixels", "bytes.refinement"],
+        more: &["rays", "rays_skipped", "samples"],
+        ..NOTHING
+    },
+    Effect {
         name: "an opaque iso-surface",
         asked_by: "`[surface]`",
         base: REGULAR,

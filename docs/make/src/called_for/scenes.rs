@@ -1,6 +1,6 @@
 //! The scenes that effects are added to.
 
-/// A phantom of bytes, seen from aside, with more tables.
+/// A phantom of bytes, seen from aside by one ray a pixel, with more tables.
 macro_rules! specimen {
     ($tables:literal) => {
         concat!(
@@ -12,6 +12,7 @@ phantom = { name = "specimen", size = 96 }
 direction = [0.3, 1, -0.6]
 [picture]
 size = [256, 256]
+samples = 1
 "#,
             $tables
         )

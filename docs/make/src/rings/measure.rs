@@ -74,7 +74,7 @@ impl Ball {
             "drypoint = 1\n\
              [volume]\nphantom = {{ name = \"sphere\", size = {voxels}, type = \"{voxel_type}\", param = {{ R = {}, w = {w} }} }}\n\
              [camera]\nprojection = \"orthographic\"\ndirection = [-0.5, 0.7, -0.4]\nheight = {}\n\
-             [picture]\nsize = [{side}, {side}]\nbackground = \"none\"\nlayers = [\"beauty\", \"normal\", \"curvature.KV\"]\n\
+             [picture]\nsize = [{side}, {side}]\nsamples = 1\nbackground = \"none\"\nlayers = [\"beauty\", \"normal\", \"curvature.KV\"]\n\
              [sampling]\nstep = {}\nkernel = \"{kernel}\"\ngradient = \"{gradient}\"\n\
              [transfer]\nkind = \"style\"\nnodes = [{{ at = {at}, style = \"ink\", opacity = 0 }}, {{ at = {at}, style = \"ink\" }}]\n\
              [contours]\nthickness = {THICKNESS}\nkappa = \"{kappa}\"\n",

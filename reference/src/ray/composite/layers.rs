@@ -104,11 +104,6 @@ impl Sums {
     }
 }
 
-/// Whether a layer of a pixel of n×n rays is a mean over all of them; the others are the first ray's ([RAY-6]).
-pub(crate) fn pooled(kind: LayerKind) -> bool {
-    matches!(kind, LayerKind::Normal | LayerKind::Gradient | LayerKind::Curvature | LayerKind::CurvatureAlongView)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

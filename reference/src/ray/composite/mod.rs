@@ -13,6 +13,6 @@ mod seed_rays;
 mod waiting_tile;
 
 pub(super) use cast::Cast;
-pub(super) use layers::{Sums, pooled};
+pub(super) use layers::Sums;
 pub(super) use path::Step;
 pub(super) use ray_state::RayState;

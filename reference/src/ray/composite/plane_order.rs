@@ -9,7 +9,7 @@ use crate::number::Real;
 use crate::ray::draw::Region;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_halos::PreparedHalos;
-use crate::ray::tile_work::TileRays;
+use crate::ray::tile_work::{TileRays, TileWork};
 use crate::volumetric_halos::{HaloPlanes, guard};
 use drypoint_scene::counts::Counts;
 use rayon::prelude::*;
@@ -28,20 +28,18 @@ pub(crate) fn bytes_with_halos<R: Real, S: Sampler<R>>(halos: &PreparedHalos<'_>
     rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R, S>::BYTES_OF_RAY + images))
 }
 
-/// Casts the rays of tiles plane by plane. The state of a tile's rays alone is in memory.
-pub(crate) fn cast_tiles<R: Real, S: Sampler<R>>(
-    prepared: &Prepared<'_, R>,
-    sampler: &S,
-    tiles: impl IndexedParallelIterator<Item = TileRays>,
-) -> Casts {
-    let alone = |tile| {
-        let mut tile = WaitingTile::new(prepared, sampler, tile, 0);
-        while tile.next != ENDED {
-            tile.visit(tile.next);
-        }
-        tile.finish()
-    };
-    tiles.map(alone).collect()
+/// Casts rays of a tile plane by plane, without halos.
+pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {
+    let TileWork { points, boxes, counts, casts } = work;
+    // Only halos ask for the rays' places.
+    let rays = TileRays { points: points.to_vec(), places: vec![[0; 2]; points.len()], boxes: boxes.cloned() };
+    let mut tile = WaitingTile::new(prepared, sampler, rays, 0);
+    while tile.next != ENDED {
+        tile.visit(tile.next);
+    }
+    let (found, own) = tile.finish();
+    casts.extend(found);
+    counts.add(&own);
 }
 
 /// Casts the rays of a region with halos, chunk of planes by chunk of planes. A chunk ends with a group of some halo.

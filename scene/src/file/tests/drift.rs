@@ -74,6 +74,7 @@ const SAMPLES: &[Sample] = &[
     ("picture.height", &[("picture.width", "180 mm")], "120 mm"),
     ("picture.dpi", &[], "72"),
     ("picture.samples", &[], "3"),
+    ("picture.contrast", &[], "0.1"),
     ("picture.background", &[], "none"),
     ("picture.blend_space", &[], "srgb"),
     ("picture.bits", &[], "16"),

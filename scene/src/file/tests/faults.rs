@@ -90,8 +90,12 @@ fn a_wrong_value_says_what_may_stand_there() {
         ),
         ("[sampling]\nnumber = 64\n", "sampling.number cannot be 64", "write \"f64\" or \"f32\""),
         ("[picture]\nbits = 12\n", "picture.bits cannot be 12", "write 8 or 16"),
-        ("[picture]\nsamples = 0\n", "picture.samples cannot be 0", "write a whole number from 1 to 1024"),
-        ("[picture]\nsamples = 1.5\n", "picture.samples cannot be 1.5", "write a whole number from 1 to 1024"),
+        ("[picture]\nsamples = 0\n", "picture.samples cannot be 0", "write a whole number from 1 to 1024, or \"auto\""),
+        (
+            "[picture]\nsamples = 1.5\n",
+            "picture.samples cannot be 1.5",
+            "write a whole number from 1 to 1024, or \"auto\"",
+        ),
         ("[picture]\ndpi = 0\n", "picture.dpi cannot be 0", "write a number above 0"),
         (
             "[picture]\nsize = [100000, 100000]\n",

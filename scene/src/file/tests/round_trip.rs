@@ -122,7 +122,8 @@ up = [0, 0, 1]
 [picture]
 size = [512, 512]
 dpi = 300
-samples = 1
+samples = "auto"
+contrast = 0.0625
 background = "white"
 blend_space = "linear"
 bits = 8

@@ -1,17 +1,21 @@
 //! Rules of `[picture]`: needs, keys without effect, knobs.
 
 use super::halo::{halos_in_effect, is_in_millimetres};
-use super::{Ladder, Pass, Rules};
+use super::{Ladder, Pass, Rules, Settings};
 use crate::picture::LayerKind;
-use crate::plan::Samples;
+use crate::plan::{Plan, Samples};
 use crate::quantity::Quantity;
 use crate::tables::contours::{Measured, measured_curvature};
+use crate::tables::{RaysPerPixel, Scene};
 
 /// The rules of `[picture]`.
 pub(super) const RULES: Rules = Rules {
     asks: |scene, asks| {
         if !asks.casts_rays() {
             return;
+        }
+        if is_refined(scene) {
+            asks.pass(Pass::Refinement, "antialiasing", "picture.samples");
         }
         for (i, layer) in scene.picture.layers.iter().enumerate() {
             let effect = format!("layer {layer}");
@@ -36,18 +40,49 @@ pub(super) const RULES: Rules = Rules {
     },
     idle: |scene, plan, idle| {
         if !plan.has_pass(Pass::Rays) {
-            for key in ["picture.samples", "picture.layers"] {
+            for key in ["picture.samples", "picture.contrast", "picture.layers"] {
                 idle.key(key, "the volume itself is not drawn");
             }
+        } else if !plan.has_pass(Pass::Refinement) {
+            let why = match scene.picture.samples {
+                RaysPerPixel::Across(_) => "only samples = \"auto\" looks for edges",
+                RaysPerPixel::Auto if has_halos(scene) => "with halos every pixel has 2×2 rays",
+                RaysPerPixel::Auto => "no layer is a mean over the rays of a pixel",
+            };
+            idle.key("picture.contrast", why);
         }
         let halos_in_millimetres = halos_in_effect(scene).any(|(_, halo)| is_in_millimetres(halo));
         if !idle.says("picture.width") && !scene.has_marks() && !halos_in_millimetres {
             idle.key("picture.dpi", "nothing is in mm: size is in pixels");
         }
     },
-    knobs: &[(
-        "samples",
-        Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Rays) { &["1", "2", "4"] } else { &[] }),
-    )],
+    knobs: &[
+        ("samples", Ladder::to_finest(|scene, plan, _| samples(scene, plan))),
+        ("contrast", Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Refinement) { CONTRASTS } else { &[] })),
+    ],
     ..Rules::new("picture")
 };
+
+/// Settings of `contrast`.
+const CONTRASTS: Settings = &["0.25", "0.125", "0.0625", "0.03125", "0"];
+
+/// Settings of `samples`.
+fn samples(scene: &Scene, plan: &Plan) -> Settings {
+    match plan.has_pass(Pass::Rays) {
+        false => &[],
+        // "auto" is 2 there.
+        true if has_halos(scene) => &["1", "2", "3", "4"],
+        true => &["1", "2", "auto", "3", "4"],
+    }
+}
+
+/// Whether pixels get further rays at edges, and some layer shows them.
+fn is_refined(scene: &Scene) -> bool {
+    let layers = &scene.picture.layers;
+    let shows = layers.is_empty() || layers.iter().any(|layer| *layer == LayerKind::Beauty || layer.is_mean());
+    scene.picture.samples == RaysPerPixel::Auto && shows && !has_halos(scene)
+}
+
+fn has_halos(scene: &Scene) -> bool {
+    halos_in_effect(scene).next().is_some()
+}

@@ -1,0 +1,96 @@
+//! The mean of a pixel over its rays ([RAY-6]).
+
+use super::composite::{Cast, Sums};
+use super::prepared::Prepared;
+use crate::accumulator::Accumulator;
+use crate::number::Real;
+use drypoint_scene::color::{self, Rgba};
+use drypoint_scene::picture::LayerKind;
+
+/// The rays of a pixel so far.
+#[derive(Default)]
+pub(super) struct PixelSum {
+    /// Σ of the beauty, each ray with its share.
+    pub(super) beauty: Rgba,
+    /// The sums and the number of samples of the first ray.
+    first: Option<(Option<Box<Sums>>, u64)>,
+    /// The sums of all rays.
+    pub(super) all: Option<Box<Sums>>,
+    /// Mean intensities of halos, each ray with its share.
+    intensities: Vec<f64>,
+}
+
+impl PixelSum {
+    /// Adds a ray of n×n that has `behind` as its background.
+    pub(super) fn add<R: Real>(&mut self, prepared: &Prepared<'_, R>, cast: Cast, behind: Rgba, n: usize) {
+        self.add_means(over(cast.rgba, behind, prepared.encode), cast.sums.as_deref(), n);
+        let share = 1.0 / (n * n) as f64;
+        self.intensities.resize(cast.intensities.len(), 0.0);
+        for (mean, h) in self.intensities.iter_mut().zip(&cast.intensities) {
+            *mean += h * share;
+        }
+        self.first.get_or_insert((cast.sums, cast.samples));
+    }
+
+    /// Adds a ray of n×n to the beauty and to the layers that are means: its colour over the background, and its sums.
+    pub(super) fn add_means(&mut self, color: Rgba, sums: Option<&Sums>, n: usize) {
+        let share = 1.0 / (n * n) as f64;
+        for (mean, c) in self.beauty.iter_mut().zip(color) {
+            *mean += c * share;
+        }
+        if let Some(sums) = sums {
+            self.all.get_or_insert_with(|| Box::new(Sums::new())).pool(sums);
+        }
+    }
+
+    /// Appends the channels of layers: of the beauty the mean; of the layers that are means themselves the mean over all
+    /// samples of the pixel; of the others the first ray's.
+    pub(super) fn append<R: Real>(&self, prepared: &Prepared<'_, R>, layers: &[LayerKind], pixels: &mut Vec<f64>) {
+        // A pixel has at least one ray, and a refined one no layers of its first.
+        let (first, samples) = self.first.as_ref().map_or((None, 0), |(sums, samples)| (sums.as_deref(), *samples));
+        let none = Sums::new();
+        let [first, all] = [first, self.all.as_deref()].map(|sums| sums.unwrap_or(&none));
+        for &kind in layers {
+            if kind == LayerKind::Beauty {
+                pixels.extend(self.beauty);
+            } else if let LayerKind::Halo(halo) = kind {
+                let place = prepared.halos.as_ref().and_then(|halos| halos.watched_place(halo));
+                pixels.push(place.and_then(|place| self.intensities.get(place).copied()).unwrap_or(0.0));
+            } else {
+                let sums = if kind.is_mean() { all } else { first };
+                sums.channels(kind, samples, prepared.object.field.scale_exponent(), pixels);
+            }
+        }
+    }
+}
+
+/// A ray's colour over the background ([IO-6]). With encoded compositing the colour comes in encoded; the background's
+/// straight colour is encoded and premultiplied, and the result is decoded ([VAL-3]).
+fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
+    let add = |behind: Rgba| {
+        let mut front = Accumulator { rgb: [r, g, b], opacity: a };
+        front.over_premultiplied(behind);
+        let Accumulator { rgb: [r, g, b], opacity } = front;
+        [r, g, b, opacity]
+    };
+    if !encode {
+        return add(behind);
+    }
+    let map = |[r, g, b, a]: Rgba, f: fn(f64) -> f64| [f(r), f(g), f(b), a];
+    let behind = color::premultiply(map(color::unpremultiply(behind), color::linear_to_srgb));
+    color::premultiply(map(color::unpremultiply(add(behind)), color::srgb_to_linear))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn over_by_hand() {
+        assert_eq!(over([0.25, 0.0, 0.0, 0.5], [1.0; 4], false), [0.75, 0.5, 0.5, 1.0]);
+        assert_eq!(over([0.25, 0.0, 0.0, 0.5], [0.0; 4], false), [0.25, 0.0, 0.0, 0.5]);
+        // Half black over white, encoded: ½ in sRGB is 0.2140 in linear light.
+        let got = over([0.0, 0.0, 0.0, 0.5], [1.0; 4], true);
+        assert!((got[0] - 0.214_041_140_5).abs() < 1e-9 && got[3] == 1.0, "{got:?}");
+    }
+}

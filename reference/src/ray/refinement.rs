@@ -1,0 +1,220 @@
+//! Adaptive antialiasing ([RAY-7]): one ray a pixel, then 3×3 at edges.
+//!
+//! The first picture has one ray a pixel. Which pixels are refined follows from it alone, so neither threads nor tiles
+//! show. The ray of the first picture is the middle one of the nine of a refined pixel and is not cast again. All rays
+//! have the level of detail and the share of a line of one ray a pixel.
+
+use super::composite::Sums;
+use super::draw::{BATCH, Casting, Drawn, TilePlace, behind, draw, tiles_across};
+use super::inputs::Backdrop;
+use super::pixel_sum::PixelSum;
+use super::prepared::Prepared;
+use super::tile_work::{CastAll, TileWork};
+use crate::number::Real;
+use drypoint_scene::color::{Rgba, linear_to_srgb};
+use drypoint_scene::counts::Counts;
+use drypoint_scene::picture::{LayerKind, Picture};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Rays across a refined pixel.
+const ACROSS: usize = 3;
+
+/// The part of a refined pixel whose centre is the pixel's.
+const MIDDLE: usize = ACROSS * ACROSS / 2;
+
+/// Bytes a pixel that refinement takes beside the picture, at the most.
+pub(super) fn bytes_a_pixel(layers: &[LayerKind]) -> usize {
+    let beauty = if layers.contains(&LayerKind::Beauty) { 0 } else { size_of::<Rgba>() };
+    let sums = if keeps_sums(layers) { size_of::<Option<Box<Sums>>>() + size_of::<Sums>() } else { 0 };
+    size_of::<bool>() + beauty + sums
+}
+
+/// Draws a picture whose pixels are refined where neighbours differ by more than `contrast`, in tiles of a side in pixels.
+pub(super) fn draw_refined<R: Real>(
+    prepared: &Prepared<'_, R>,
+    contrast: f64,
+    cast_all: &dyn CastAll,
+    background: Backdrop<'_>,
+    side: usize,
+    progress: &(dyn Fn(f64) + Sync),
+) -> (Picture, Counts) {
+    // The first picture, half of the progress. It has a beauty, by which edges are found.
+    let mut layers = prepared.layers.clone();
+    if !layers.contains(&LayerKind::Beauty) {
+        layers.push(LayerKind::Beauty);
+    }
+    let drawn = Drawn { layers: &layers, keeps_sums: keeps_sums(&layers) };
+    let half = |share: f64| progress(0.5 * share);
+    let (mut picture, sums, mut counts) =
+        draw(prepared, &drawn, &Casting::ByTile(cast_all), background, [side, 0], &half);
+    // The pixels at edges.
+    let beauty = picture.layer(LayerKind::Beauty).map_or(&[][..], |layer| &layer.channels);
+    let refined = pixels_at_edges(beauty, prepared.view.size, contrast);
+    let kept = sums.iter().flatten().count() * size_of::<Sums>() + size_of_val(sums.as_slice());
+    let own_beauty = if layers.len() > prepared.layers.len() { refined.len() * size_of::<Rgba>() } else { 0 };
+    counts.bytes.insert("refinement".into(), (refined.len() + kept + own_beauty) as u64);
+    counts.refined_pixels = refined.iter().filter(|&&is| is).count() as u64;
+    // Their further rays, tile by tile.
+    layers.retain(|&layer| is_refined(layer));
+    let [across, down] = tiles_across(prepared, side);
+    let tiles = across * down;
+    let done = AtomicUsize::new(0);
+    let batch = BATCH / (side * side);
+    for from in (0..tiles).step_by(batch) {
+        let first = FirstPicture {
+            beauty: picture.layer(LayerKind::Beauty).map_or(&[][..], |layer| &layer.channels),
+            sums: &sums,
+            refined: &refined,
+        };
+        let refine = |tile: usize| {
+            let refined = first.refine(prepared, &layers, cast_all, background, TilePlace::new(prepared, tile, side));
+            progress(0.5 + 0.5 * (1 + done.fetch_add(1, Ordering::Relaxed)) as f64 / tiles as f64);
+            refined
+        };
+        let refined: Vec<RefinedTile> = (from..tiles.min(from + batch)).into_par_iter().map(refine).collect();
+        for tile in refined {
+            counts.add(&tile.counts);
+            let channels = picture.layers.iter_mut().filter(|layer| is_refined(layer.kind));
+            let mut channels: Vec<_> = channels.flat_map(|layer| &mut layer.channels).collect();
+            for (at, values) in tile.pixels.into_iter().zip(tile.values.chunks_exact(channels.len())) {
+                for (channel, value) in channels.iter_mut().zip(values) {
+                    channel[at] = *value;
+                }
+            }
+        }
+    }
+    picture.layers.truncate(prepared.layers.len());
+    (picture, counts)
+}
+
+/// Whether a refined pixel has new numbers in a layer; in others it keeps those of the middle ray.
+fn is_refined(layer: LayerKind) -> bool {
+    layer == LayerKind::Beauty || layer.is_mean()
+}
+
+/// Whether layers need the sums of the first picture's rays.
+fn keeps_sums(layers: &[LayerKind]) -> bool {
+    layers.iter().any(|layer| layer.is_mean())
+}
+
+/// The picture of one ray a pixel.
+struct FirstPicture<'p> {
+    /// R, G, B and A.
+    beauty: &'p [Vec<f64>],
+    /// The sums of each ray, if they are kept.
+    sums: &'p [Option<Box<Sums>>],
+    /// Which pixels are refined.
+    refined: &'p [bool],
+}
+
+/// The refined pixels of a tile.
+struct RefinedTile {
+    /// Their places in the picture, counted row by row.
+    pixels: Vec<usize>,
+    /// The channels of their layers, pixel by pixel.
+    values: Vec<f64>,
+    counts: Counts,
+}
+
+impl FirstPicture<'_> {
+    /// Casts the eight further rays of the refined pixels of a tile. The nine rays are summed in the order of their parts,
+    /// so that the pixel is that of 3×3 rays everywhere, bit for bit.
+    fn refine<R: Real>(
+        &self,
+        prepared: &Prepared<'_, R>,
+        layers: &[LayerKind],
+        cast_all: &dyn CastAll,
+        background: Backdrop<'_>,
+        place: TilePlace,
+    ) -> RefinedTile {
+        let width = prepared.view.size[0];
+        let in_picture = |[i, j]: [usize; 2]| [place.at[0] + i, place.at[1] + j];
+        let index = |pixel| {
+            let [x, y] = in_picture(pixel);
+            y * width + x
+        };
+        let mut tile = RefinedTile { pixels: Vec::new(), values: Vec::new(), counts: Counts::default() };
+        let mut pixels = place.pixels();
+        pixels.retain(|&pixel| self.refined[index(pixel)]);
+        if pixels.is_empty() {
+            return tile;
+        }
+        // The eight rays of a pixel follow each other, so that they are cast side by side.
+        let further = || (0..ACROSS * ACROSS).filter(|&part| part != MIDDLE);
+        let points: Vec<[f64; 2]> =
+            pixels.iter().flat_map(|&pixel| further().map(move |part| place.point(pixel, part, ACROSS))).collect();
+        let mut casts = Vec::with_capacity(points.len());
+        let (mut boxes, counts) = (place.boxes(prepared), &mut tile.counts);
+        cast_all(TileWork { points: &points, boxes: boxes.as_mut(), counts, casts: &mut casts });
+        let behind = behind(background, width);
+        let mut casts = casts.into_iter();
+        for pixel in pixels {
+            let at = index(pixel);
+            let mut sum = PixelSum::default();
+            for part in 0..ACROSS * ACROSS {
+                if part == MIDDLE {
+                    let sums = self.sums.get(at).and_then(|sums| sums.as_deref());
+                    sum.add_means(color_at(self.beauty, at), sums, ACROSS);
+                } else if let Some(cast) = casts.next() {
+                    sum.add(prepared, cast, behind(in_picture(pixel)), ACROSS);
+                }
+            }
+            sum.append(prepared, layers, &mut tile.values);
+            tile.pixels.push(at);
+        }
+        tile
+    }
+}
+
+/// R, G, B and A of a pixel.
+fn color_at(beauty: &[Vec<f64>], at: usize) -> Rgba {
+    std::array::from_fn(|c| beauty[c][at])
+}
+
+/// A pixel as it is displayed: R, G and B in [0, 1] and encoded to sRGB, and α. Colours are premultiplied, so a picture
+/// without a background is displayed over black.
+fn displayed([r, g, b, alpha]: Rgba) -> [f64; 4] {
+    let [r, g, b] = [r, g, b].map(|c| linear_to_srgb(c.clamp(0.0, 1.0)));
+    [r, g, b, alpha]
+}
+
+/// Whether two displayed pixels differ by more than `contrast` in a channel.
+fn part(a: &[f64; 4], b: &[f64; 4], contrast: f64) -> bool {
+    a.iter().zip(b).any(|(a, b)| (a - b).abs() > contrast)
+}
+
+/// Whether each pixel of a picture parts from one of its eight neighbours, row by row.
+fn pixels_at_edges(beauty: &[Vec<f64>], [width, height]: [usize; 2], contrast: f64) -> Vec<bool> {
+    /// Pixels that a thread looks at, in whole rows.
+    const CHUNK: usize = 1 << 14;
+    let rows = (CHUNK / width).max(1);
+    let mut at_edges = vec![false; width * height];
+    at_edges.par_chunks_mut(rows * width).enumerate().for_each(|(chunk, at_edges)| {
+        // The rows of the chunk, and one more above and below.
+        let top = (chunk * rows).saturating_sub(1);
+        let bottom = (chunk * rows + rows + 1).min(height);
+        let mut last = [[0.0; 4]; 2];
+        let pixels = (top * width..bottom * width).map(|at| {
+            // Pixels of the background are all alike.
+            let color = color_at(beauty, at);
+            if last[0] != color {
+                last = [color, displayed(color)];
+            }
+            last[1]
+        });
+        let pixels: Vec<[f64; 4]> = pixels.collect();
+        for (i, is_at_edge) in at_edges.iter_mut().enumerate() {
+            let [x, y] = [i % width, chunk * rows + i / width - top];
+            let own = &pixels[y * width + x];
+            let columns = x.saturating_sub(1)..(x + 2).min(width);
+            let mut near = (y.saturating_sub(1)..(y + 2).min(bottom - top))
+                .flat_map(|y| pixels[y * width..][columns.clone()].iter());
+            *is_at_edge = near.any(|other| part(own, other, contrast));
+        }
+    });
+    at_edges
+}
+
+#[cfg(test)]
+mod tests;
