@@ -94,9 +94,9 @@ pub enum RenderTarget {
     Picture,
     /// Points and lines alone, on their page. The volume itself is not drawn, and needs nothing.
     Marks,
-    /// Stipples alone, on their page.
+    /// Stipples and outlines, on their page.
     Points,
-    /// Strokes alone, on their page.
+    /// Hatching and outlines, on their page.
     Strokes,
 }
 
@@ -106,8 +106,8 @@ impl RenderTarget {
         self != Self::Strokes
     }
 
-    /// Whether the scene's strokes are drawn.
-    pub fn has_strokes(self) -> bool {
+    /// Whether the scene's hatching is drawn.
+    pub fn has_hatching(self) -> bool {
         self != Self::Points
     }
 }
@@ -417,7 +417,11 @@ pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Count
 pub fn bare_for(preset: &Scene, path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     let source = VolumeSource::File { path, raw: None };
     let (transfer, surface, picture) = (preset.transfer.clone(), preset.surface.clone(), preset.picture.clone());
-    suggest::fill(Scene { transfer, surface, picture, ..Scene::for_volume(source) }, volume, size, counts)
+    // Stipples and their outlines lie on one surface of the volume.
+    let stipples = preset.stipples.clone().filter(|stipples| stipples.iso.is_some());
+    let outlines = preset.outlines.clone().filter(|_| stipples.is_some());
+    let scene = Scene { transfer, surface, picture, stipples, outlines, ..Scene::for_volume(source) };
+    suggest::fill(scene, volume, size, counts)
 }
 
 /// Returns the plan of a part of a scene.

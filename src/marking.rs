@@ -34,7 +34,8 @@ impl<'a> Marking<'a> {
         let (scene, target) = (&job.scene, job.target());
         let shown = target != RenderTarget::Picture || job.shows_beauty();
         let stippled = shown && target.has_points() && scene.stipples.is_some();
-        let stroked = shown && target.has_strokes() && scene.has_strokes();
+        let hatched = target.has_hatching() && scene.hatching.is_some();
+        let stroked = shown && (hatched || scene.outlines.is_some());
         Ok(Self {
             page: Page::of(scene),
             stippling: if stippled { Some(Stippling::new(job, counts, progress)?) } else { None },

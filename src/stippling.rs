@@ -5,7 +5,6 @@ mod pens;
 use crate::Failure;
 use crate::job::{Job, near};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
-use drypoint_reference::suggest;
 use drypoint_reference::surface::IsoSurface;
 use drypoint_reference::volume_stippling::{
     CurveVoxels, FrameDots, FrameInputs, Frames, PenTone, Preprocess, StippleError, StippleInputs, choose_on_page,
@@ -126,7 +125,7 @@ impl<'a> Stippling<'a> {
         // Points are dealt to the pens; a surface may hide them.
         let ink = [preprocess.ink, preprocess.layers];
         let (layers, line_pen) = pens.deal(job, points)?;
-        let hiding = hiding(job, scene, counts)?;
+        let hiding = hiding(job, scene)?;
         counts.seconds.insert("points".into(), start.elapsed().as_secs_f64());
         let clip = Clipping::new(scene, job.volume.grid()).planes;
         Ok(Self { setting, layers, line_pen, edges, grid, clip, ink, hiding })
@@ -266,7 +265,7 @@ impl<'a> StippleSetup<'a> {
 }
 
 /// Returns the field as the scene samples it and the iso-value of the surface that hides points, if any.
-fn hiding<'a>(job: &'a Job, scene: &Scene, counts: &mut Counts) -> Result<Option<(Field<'a, f64>, f64)>, Failure> {
+fn hiding<'a>(job: &'a Job, scene: &Scene) -> Result<Option<(Field<'a, f64>, f64)>, Failure> {
     let volume = &job.volume;
     let Some(iso) = scene.stipples.as_ref().and_then(|stipples| stipples.hide_behind) else { return Ok(None) };
     let how = Reconstruction {
@@ -278,8 +277,11 @@ fn hiding<'a>(job: &'a Job, scene: &Scene, counts: &mut Counts) -> Result<Option
     let field = Field::new(volume, how, Rung::Gradient)
         .map_err(|error| Failure::new(error, scene.given.position("volume"), "convert the volume"))?;
     let iso = match iso {
-        Iso::Auto => suggest::iso(volume, &scene.volume, counts),
         Iso::Value(value) => value,
+        Iso::Auto => {
+            let place = scene.given.position("stipples.hide_behind");
+            return Err(Failure::new("the iso-value was not found", place, "give a number"));
+        }
     };
     Ok(Some((field, iso)))
 }
@@ -296,6 +298,7 @@ pub fn tone(path: &Path) -> Result<Tone, Failure> {
 fn failure(job: &Job, error: &StippleError) -> Failure {
     let (key, remedy) = match error {
         StippleError::Field(_) => ("volume", "convert the volume"),
+        StippleError::Iso => ("stipples.iso", "give a number"),
         StippleError::Length { key } => (*key, "give it in voxels or world units"),
         StippleError::TooMany { .. } => ("stipples.threshold", "make it larger"),
         StippleError::TooDense { .. } if job.scene.stipples.as_ref().is_some_and(|s| s.box_side.is_some()) => {

@@ -106,7 +106,8 @@ impl<'a> Stroking<'a> {
             scale: in_world(scene, scene.sampling.scale, "sampling.scale", volume.grid())?,
             outside: scene.volume.outside,
         };
-        let reads_hessians = scene.hatching.as_ref().is_some_and(|hatching| hatching.reads_hessians());
+        let hatching = scene.hatching.as_ref().filter(|_| job.target().has_hatching());
+        let reads_hessians = hatching.is_some_and(|hatching| hatching.reads_hessians());
         let rung = if reads_hessians { Rung::Hessian } else { Rung::Gradient };
         let field = Field::new(volume, how, rung).map_err(|error| render_failure(&error.into(), scene))?;
         let hides = scene.surface.as_ref().map(|surface| value(scene, surface.iso, "surface.iso")).transpose()?;
@@ -115,7 +116,7 @@ impl<'a> Stroking<'a> {
         }
         let outlining = scene.outlines.as_ref().map(|table| Outlining::new(scene, table, &page)).transpose()?;
         let grid = volume.grid();
-        let hatching = match &scene.hatching {
+        let hatching = match hatching {
             Some(table) => {
                 let scale = largest_scale(&job.view()?, &page, near, grid);
                 Some(HatchingSetup::new((scene, job.function()), table, grid, (&page, scale), job.draws_volume())?)

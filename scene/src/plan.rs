@@ -33,12 +33,12 @@ impl Plan {
         Self::of(scene, Drawn { volume: false, points: true, strokes: true })
     }
 
-    /// The plan of a scene's stipples alone.
+    /// The plan of a scene's stipples and outlines alone.
     pub fn of_points(scene: &Scene) -> Self {
         Self::of(scene, Drawn { volume: false, points: true, strokes: false })
     }
 
-    /// The plan of a scene's strokes alone.
+    /// The plan of a scene's strokes alone, outlines among them.
     pub fn of_strokes(scene: &Scene) -> Self {
         Self::of(scene, Drawn { volume: false, points: false, strokes: true })
     }

@@ -16,8 +16,10 @@ pub(super) fn find_iso_values(scene: &mut Scene, plan: &Plan, volume: &Volume, c
         HatchIso::Surface(iso) => Some(iso),
         HatchIso::Transfer => None,
     });
-    let asked: Vec<&mut Iso> =
-        surface.into_iter().chain(outlines).chain(hatching).filter(|iso| **iso == Iso::Auto).collect();
+    let stipples = scene.stipples.as_mut().filter(|_| plan.has_pass(Pass::StipplePoints));
+    let stipples = stipples.into_iter().flat_map(|stipples| [&mut stipples.iso, &mut stipples.hide_behind]).flatten();
+    let strokes = surface.into_iter().chain(outlines).chain(hatching);
+    let asked: Vec<&mut Iso> = strokes.chain(stipples).filter(|iso| **iso == Iso::Auto).collect();
     if !asked.is_empty() {
         let found = suggest::iso(volume, &scene.volume, counts);
         asked.into_iter().for_each(|iso| *iso = Iso::Value(found));

@@ -112,7 +112,12 @@ fn a_plotter_s_page() {
     let folder = Folder::new();
     let pens =
         "[page]\nmargin = \"5 mm\"\nplotter = true\n[[pen]]\nname = \"red\"\nwidth = \"0.3 mm\"\ncolor = \"red\"\n";
-    folder.write("ball.toml", format!("{SCENE}{pens}[stipples]\npen = \"red\"\n[stipples.curves]\n"));
+    folder.write(
+        "ball.toml",
+        format!(
+            "{SCENE}{pens}[stipples]\npen = \"red\"\nsize = \"0.5 mm\"\n[stipples.curves]\n[outlines]\npen = \"red\"\n"
+        ),
+    );
     let said = folder.line("points ball.toml -o ball.svg --stats");
     let told = &said.err;
     assert!(told.contains("1-red 0.3: ") && told.contains(" touches, "), "{told}");

@@ -43,8 +43,9 @@ pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &m
     fill(Scene::for_volume(source), volume, size, counts)
 }
 
-/// Fills a scene that has tables of its own. A transfer function gets nodes and contours, an iso-surface the value of
-/// the outermost boundary. A scene with neither gets the camera alone. The number of voxels read goes to `counts`.
+/// Fills a scene that has tables of its own. A transfer function gets nodes and contours, an iso-surface or the
+/// surface of stipples the value of the outermost boundary. A scene without them gets the camera alone. The number of
+/// voxels read goes to `counts`.
 pub fn fill(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
     if labels::are_ids(volume) {
         of_labels(scene, &volume.present(), size)
@@ -87,11 +88,16 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(surface_styles::nodes(&boundary, Palette::of(volume, &boundary), transfer.kind, outside));
     }
-    if let Some(surface) = scene.surface.as_mut().filter(|surface| surface.iso == Iso::Auto) {
-        // Without the outermost surface, content inside it would float.
-        let outermost = boundary.outermost();
-        surface.iso = Iso::Value(surface_styles::short(outermost.value, outermost.step));
-    }
+    // Without the outermost surface, content inside it would float. Outlines of stipples are those of the same surface.
+    let outermost = boundary.outermost();
+    let outermost = Iso::Value(surface_styles::short(outermost.value, outermost.step));
+    let outlines = scene.outlines.as_mut().filter(|_| scene.stipples.is_some()).map(|outlines| &mut outlines.iso);
+    let stipples = scene.stipples.as_mut().map(|stipples| [&mut stipples.iso, &mut stipples.hide_behind]);
+    let surfaces = scene.surface.as_mut().map(|surface| &mut surface.iso).into_iter().chain(outlines);
+    surfaces
+        .chain(stipples.into_iter().flatten().flatten())
+        .filter(|iso| **iso == Iso::Auto)
+        .for_each(|iso| *iso = outermost);
     let [inside, seen] = [boundary.outermost().value, surface_styles::first_seen(&boundary, outside)];
     frame(&mut scene, volume, [inside, seen].map(|value| ContentRange { value, outside }), size);
     scene
@@ -123,7 +129,7 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], 
     };
     // Scans have terraces from slices, and noise has grain. Normals over 3³ voxels and curvatures of a smoothed grid
     // show neither.
-    if scene.transfer.is_some() || scene.surface.is_some() {
+    if scene.transfer.is_some() || scene.surface.is_some() || scene.stipples.is_some() {
         scene.sampling.gradient = GradientEstimator::Sobel;
     }
     if scene.transfer.is_none() {

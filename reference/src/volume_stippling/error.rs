@@ -15,6 +15,9 @@ pub enum StippleError {
         /// The key.
         key: &'static str,
     },
+    /// The iso-value of the points is still to be found. A job finds it.
+    #[error("the iso-value was not found")]
+    Iso,
     /// The volume has more voxels than the ordering of points can index.
     #[error("{voxels} voxels are above the threshold, and at most {most} can have points")]
     TooMany {

@@ -19,6 +19,7 @@ mod preprocess;
 mod resolution;
 mod ridge;
 mod slab;
+mod surface_layer;
 
 pub use curve_lines::joined;
 pub use curves::{CurveSegment, CurveVoxels, exhaustive};

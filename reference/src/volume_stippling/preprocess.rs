@@ -9,6 +9,7 @@ use super::norms::{norms, quantile_above};
 use super::order::{self, Sites};
 use super::resolution::boxes;
 use super::ridge::{Norms, step, to_edge};
+use super::surface_layer::SurfaceLayer;
 use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
@@ -16,13 +17,18 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::points::{PointVoxel, Points};
 use drypoint_scene::tables::{
-    GradientRange, Outside, PointsPerPixel, Snap, StippleGradient, StippleOrder, Stipples, Threshold, VolumeTable,
+    DotDensity, GradientRange, Iso, Outside, PointsPerPixel, Snap, StippleGradient, StippleOrder, Stipples, Threshold,
+    VolumeTable,
 };
 use drypoint_scene::tone::{FULL, Tone};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
 use std::borrow::Cow;
+
+/// Points of a voxel over those drawn at T = 1, for the density on the page. Dots of a face that turns away lie closer
+/// on the page in one direction, and even ones must be chosen from more ([STIP-21]).
+const SPARE: f64 = 2.0;
 
 /// The inputs from which points are made.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +64,7 @@ pub struct Preprocess<'a> {
     pub area: f64,
     /// m ([STIP-2]).
     pub box_side: usize,
-    /// Number of points of each voxel: `full`, rounded up.
+    /// Number of points of each voxel: `full`, rounded up, or [`SPARE`] times that for the density on the page.
     pub each: usize,
     /// Number of points drawn at T = 1 in a voxel that has the largest piece of a face. This is N_max of eq. 1 times
     /// the mean thickness of thin layers ([STIP-3], [STIP-4]). With `k_max = "auto"` it is the number that prints the
@@ -79,6 +85,9 @@ impl<'a> Preprocess<'a> {
     /// The volume makes no field, a length is in the wrong space, or there are too many voxels or points per voxel.
     pub fn new(inputs: StippleInputs<'a>) -> Result<Self, StippleError> {
         let StippleInputs { stipples, table, volume, view, near, square, tone } = inputs;
+        if stipples.iso == Some(Iso::Auto) {
+            return Err(StippleError::Iso);
+        }
         // 4.2: the resolution, adjusted to the projected area.
         let area = projected_area(volume.grid(), view, near) / (square * square);
         let m = stipples.box_side.map_or_else(|| box_side(area, volume.dims()), |m| m as usize);
@@ -101,7 +110,7 @@ impl<'a> Preprocess<'a> {
         // Eq. 1: points per voxel, or the number that prints the full tone.
         let full = match (stipples.k_max, tone) {
             (PointsPerPixel::Number(k_max), _) => {
-                let thickness = if stipples.thin { mean_thickness(volume.grid(), view, near) } else { 1.0 };
+                let thickness = if stipples.is_thin() { mean_thickness(volume.grid(), view, near) } else { 1.0 };
                 points_each(k_max, area, volume.dims()) as f64 * thickness
             }
             (PointsPerPixel::Auto, Some((tone, dot))) => tone.ink_of_layers(FULL, layers) / (density(layers) * dot),
@@ -109,7 +118,8 @@ impl<'a> Preprocess<'a> {
             (PointsPerPixel::Auto, None) => 1.0,
         };
         // `as` saturates. A number that exceeds memory is refused before any allocation.
-        let each = (full.ceil() as usize).max(1);
+        let spare = if stipples.density == DotDensity::Page { SPARE } else { 1.0 };
+        let each = ((spare * full).ceil() as usize).max(1);
         let ink = tone.map_or(0.0, |(_, dot)| full * density(layers) * dot);
         if voxels.len() > order::MOST_VOXELS {
             return Err(StippleError::TooMany { voxels: voxels.len(), most: order::MOST_VOXELS });
@@ -254,32 +264,39 @@ fn above<S: Sampler<f64>>(
         GradientRange::Quantile(q) => [0.0, quantile(q)],
     };
     let magnitude = |norm: f64| if hi > lo { ((norm - lo) / (hi - lo)).clamp(0.0, 1.0) } else { 0.0 };
-    let is_above: Box<dyn Fn(f64) -> bool + Sync> = match stipples.threshold {
+    let exceeds: Box<dyn Fn(f64) -> bool + Sync> = match stipples.threshold {
         Threshold::Magnitude(t) => Box::new(move |norm| magnitude(norm) > t),
         Threshold::Quantile(q) => {
             let t = quantile(q);
             Box::new(move |norm| norm > t)
         }
     };
-    // Voxels above the threshold. With `thin` only those on the ridge of ‖∇V‖ are kept.
+    // Voxels above the threshold, or at the surface. A thin layer keeps only those on the ridge.
     let grid = volume.grid();
-    let to_step = |normal: DVec3| step(grid, normal, stipples.thin);
+    let to_step = |normal: DVec3| step(grid, normal, stipples.is_thin());
     let outward = if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 };
-    let ridge = Norms { dims, all: &norms };
+    // The layer of one surface in place of all boundaries ([STIP-20]).
+    let layer = match stipples.iso {
+        Some(Iso::Value(iso)) => Some(SurfaceLayer { volume, iso }),
+        Some(Iso::Auto) | None => None,
+    };
+    let bells = layer.map(|layer| layer.bells(&norms, field.scale_exponent(), bound));
+    let ridge = Norms { dims, all: bells.as_ref().unwrap_or(&norms) };
+    let is_above = |cell, norm| norm > bound && layer.map_or_else(|| exceeds(norm), |layer| layer.crosses(cell));
     let voxel = |x: usize, y: usize, z: usize, norm: f64| {
         let cell = [x, y, z];
         let normal = (sampler.voxel_gradient(cell).to_glam() * (outward / norm)).normalize();
-        let keeps = !stipples.thin || ridge.is_largest(cell, to_step(normal));
+        let keeps = !stipples.is_thin() || ridge.is_largest(cell, to_step(normal));
         keeps.then(|| PointVoxel {
             cell: cell.map(|i| i as u32),
-            value: normalized(field.smoothed_value(cell), range),
-            magnitude: magnitude(norm),
+            value: if layer.is_some() { 1.0 } else { normalized(field.smoothed_value(cell), range) },
+            magnitude: if layer.is_some() { 1.0 } else { magnitude(norm) },
             normal,
         })
     };
     let rows = norms.par_chunks(dims[0]).enumerate().map(|(row, norms)| {
         let (y, z) = (row % dims[1], row / dims[1]);
-        let candidates = norms.iter().enumerate().filter(|&(_, &norm)| norm > bound && is_above(norm));
+        let candidates = norms.iter().enumerate().filter(|&(x, &norm)| is_above([x, y, z], norm));
         candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)).collect::<Vec<_>>()
     });
     let mut voxels = rows.collect::<Vec<_>>().concat();
@@ -287,19 +304,21 @@ fn above<S: Sampler<f64>>(
     let onto_edge = |v: &mut PointVoxel| {
         let cell = v.cell.map(|i| i as usize);
         let top = ridge.top(cell, to_step(v.normal));
-        let way = to_edge(grid, v.normal, stipples.thin) * top;
+        let way = to_edge(grid, v.normal, stipples.is_thin()) * top;
         // V is taken at the moved point. V at the voxel's centre would show the distance from the edge as terraces.
-        v.value = normalized(smoothed_at(field, cell, way), range);
-        v.magnitude = magnitude(ridge.at(cell, way));
+        if layer.is_none() {
+            v.value = normalized(smoothed_at(field, cell, way), range);
+            v.magnitude = magnitude(ridge.at(cell, way));
+        }
         way
     };
     let snaps = stipples.snap == Snap::Edge;
     let to_edge = if snaps { voxels.par_iter_mut().map(onto_edge).collect() } else { Vec::new() };
     // A thin face has one layer. Its voxels draw points in proportion to their pieces of the face.
-    let layers = if inputs.tone.is_some() && !stipples.thin {
+    let layers = if inputs.tone.is_some() && !stipples.is_thin() {
         let to_step = grid.inverse_axes() * grid.voxel();
         let steps: Vec<([u32; 3], DVec3)> = voxels.iter().map(|v| (v.cell, to_step * v.normal)).collect();
-        layers(dims, &norms, |norm| norm > bound && is_above(norm), &steps)
+        layers(dims, &norms, |norm| norm > bound && exceeds(norm), &steps)
     } else {
         1.0
     };

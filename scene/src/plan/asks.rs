@@ -83,7 +83,7 @@ impl Asks<'_> {
         self.drawn.points
     }
 
-    /// Whether strokes are drawn, if the scene has some.
+    /// Whether strokes of hatching are drawn, if the scene has some. Outlines go with dots and with strokes.
     pub(crate) fn draws_strokes(&self) -> bool {
         self.drawn.strokes
     }

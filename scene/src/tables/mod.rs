@@ -55,8 +55,8 @@ pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Numb
 pub use scene::Scene;
 pub use shading::{LightDirection, Shading, ShadingModel};
 pub use stipples::{
-    Boundary, Curves, CurvesTest, Distance, DotColor, Even, FactorRange, Ink, Interior, Lighting, PointsPerPixel,
-    Resolution, Silhouette, Snap, StippleGradient, StippleOrder, Stipples, Threshold,
+    Boundary, Curves, CurvesTest, Distance, DotColor, DotDensity, Even, FactorRange, Ink, Interior, Lighting,
+    PointsPerPixel, Resolution, Silhouette, Snap, StippleGradient, StippleOrder, Stipples, Threshold,
 };
 pub use style_mipmaps::StyleMipmaps;
 pub use styles::{StyleFile, StyleSource, Styles};

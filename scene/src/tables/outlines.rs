@@ -69,12 +69,13 @@ mod tests {
     }
 
     #[test]
-    fn points_and_strokes_are_wanted_apart() {
-        let both = scene("[outlines]\niso = 3\n[stipples]\n");
-        assert!(
-            passes(&Plan::of_points(&both)).iter().all(|pass| !matches!(pass, Pass::Outlines | Pass::HiddenStrokes))
-        );
-        assert_eq!(passes(&Plan::of_strokes(&both)), [Pass::Outlines, Pass::HiddenStrokes]);
+    fn outlines_go_with_points_and_with_strokes() {
+        let both = scene("[outlines]\niso = 3\n[stipples]\n[hatching]\niso = 3\n");
+        let points = passes(&Plan::of_points(&both));
+        assert!([Pass::Dots, Pass::Outlines, Pass::HiddenStrokes].iter().all(|pass| points.contains(pass)));
+        let strokes = passes(&Plan::of_strokes(&both));
+        assert!([Pass::Strokes, Pass::Outlines, Pass::HiddenStrokes].iter().all(|pass| strokes.contains(pass)));
+        assert!(!points.contains(&Pass::Strokes) && !strokes.contains(&Pass::Dots));
         assert_eq!(passes(&Plan::of_marks(&both)), passes(&Plan::new(&both)));
     }
 

@@ -12,7 +12,7 @@ use crate::document::kind::{Choice, ChoiceOption};
 pub(super) enum Preset {
     /// An automatic style transfer function.
     Style,
-    /// A table `[stipples]`.
+    /// A table `[stipples]`, and the outlines beside it.
     Stipples(StipplePreset),
     /// A table `[hatching]`, and what belongs to the picture.
     Hatch(HatchPreset),
@@ -31,7 +31,7 @@ pub(super) const PRESETS: Choice<Preset> = Choice {
         ChoiceOption::new(
             "stipple",
             Preset::Stipples(StipplePreset::Plain),
-            "Stipples on boundaries and silhouettes, one layer a face.",
+            "Stipples of a lit surface with outlines, without what is hidden.",
         ),
         ChoiceOption::new(
             "stipple-fig1",
@@ -108,7 +108,10 @@ impl Preset {
     pub(super) fn supply(self, scene: &mut Scene) {
         match self {
             Self::Style => scene.transfer = Some(Transfer::automatic(TransferKind::Style)),
-            Self::Stipples(preset) => scene.stipples = Some(preset.table()),
+            Self::Stipples(preset) => {
+                scene.stipples = Some(preset.table());
+                scene.outlines = preset.outlines();
+            }
             Self::Hatch(preset) => {
                 scene.hatching = Some(preset.table());
                 scene.outlines = preset.outlines();

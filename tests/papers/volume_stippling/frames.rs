@@ -129,6 +129,34 @@ fn resolution_keeps_the_density_on_the_page() {
     assert_eq!(count(0.9), count(1.0));
 }
 
+/// T_r = (D₀/D)^k scales the dots of a voxel by T_r and their areas by T_r². The page of a volume shrinks by (D₀/D)².
+/// So dots per screen area go as D^(2 − k), and ink per screen area as D^(2 − 3k) ([STIP-9]).
+#[test]
+fn exponents_of_density_and_ink_over_distance() {
+    let shown = Shown::new();
+    let distance = |times: f64| viewing_distance(&from_afar(&shown, times), shown.volume.grid().centre(), 0.5);
+    for k in [1.1, 2.0, 2.0 / 3.0] {
+        let stipples = Stipples { resolution: Some(Resolution { re: k, reference: None }), ..Stipples::default() };
+        // Logarithms of the distance, of dots and of ink per screen area.
+        let rows = [1.0, 2.0, 4.0].map(|times| {
+            let view = from_afar(&shown, times);
+            let dots = shown.draw(&stipples, &view, None);
+            let middle = dots.iter().map(|dot| dot.at).sum::<DVec2>() / dots.len() as f64;
+            // The mean square distance from the middle is a measure of the area that needs no outline.
+            let number: f64 = dots.iter().map(|dot| dot.opacity).sum();
+            let area: f64 = dots.iter().map(|dot| dot.opacity * (dot.at - middle).length_squared()).sum();
+            let ink: f64 = dots.iter().map(|dot| dot.opacity * dot.radius * dot.radius).sum();
+            let area = area / number;
+            [distance(times).ln(), (number / area).ln(), (ink / area).ln()]
+        });
+        let slope = |i: usize| (rows[2][i] - rows[0][i]) / (rows[2][0] - rows[0][0]);
+        println!("k_re {k:.2}: dots {:.3}, ink {:.3}", slope(1), slope(2));
+        // The near camera sees the front of the ball larger than its back.
+        assert!((slope(1) - (2.0 - k)).abs() < 0.1, "k_re {k}: dots {}", slope(1));
+        assert!((slope(2) - (2.0 - 3.0 * k)).abs() < 0.1, "k_re {k}: ink {}", slope(2));
+    }
+}
+
 #[test]
 fn dots_lie_where_the_camera_sees_their_points() {
     let shown = Shown::new();

@@ -1,6 +1,7 @@
 //! Volume stippling: what the paper and the specification say of the points and of what a frame draws.
 
 mod curves;
+mod drawing;
 mod even;
 mod faces;
 mod frames;

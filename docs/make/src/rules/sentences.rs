@@ -188,6 +188,8 @@ pub(super) const FAMILIES: [Family; 17] = [
             (17, "Tone is coverage, and pens are measured for it."),
             (18, "How even points are is measured: nearest neighbours and spectrum, beside white noise and a repeated tile."),
             (19, "For a still picture dots can be chosen evenly on the page."),
+            (20, "Points can lie on one iso-surface, in one layer of voxels, with V and ‖∇V‖ of 1."),
+            (21, "The density of dots can be counted on the page: |n·E| times as many, so that the factors alone make the tone."),
         ],
     },
     Family {

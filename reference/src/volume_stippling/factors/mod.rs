@@ -14,7 +14,7 @@ use super::ridge::across;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::points::PointVoxel;
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{FactorRange, LightDirection, Stipples};
+use drypoint_scene::tables::{DotDensity, FactorRange, LightDirection, Stipples};
 use drypoint_scene::view::View;
 
 /// Brings a factor into [0, 1] ([STIP-5]): clamped, or divided by its largest value if that exceeds 1. The largest
@@ -44,7 +44,7 @@ impl FixedFactors {
         Self {
             boundary: stipples.boundary.map_or(1.0, |t| boundary::boundary(&t, stipples.factors, value, magnitude)),
             interior: stipples.interior.filter(|t| t.te != 0.0).map_or(1.0, |t| interior::interior(&t, magnitude)),
-            piece: if stipples.thin { (grid.voxel() / across(grid, voxel.normal)).min(1.0) } else { 1.0 },
+            piece: if stipples.is_thin() { (grid.voxel() / across(grid, voxel.normal)).min(1.0) } else { 1.0 },
         }
     }
 }
@@ -77,7 +77,7 @@ pub(super) struct VolumeExtent {
 /// T of eq. 3, and its factors that enter eq. 4.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factors {
-    /// T, the share of the points.
+    /// T, the share of the points; with density = "page" times |n·E| ([STIP-21]).
     pub(super) count: f64,
     /// T_r·T_d·T_t, the share of the size apart from ‖∇V‖.
     pub(super) size: f64,
@@ -94,7 +94,7 @@ impl<'a> CameraFactors<'a> {
             resolution: stipples.resolution.map_or(1.0, |t| resolution::resolution(&t, whole.reference, distance())),
             depth: -view.to_eye(whole.centre).z,
             radius: whole.radius,
-            facing: lighting.is_some() || stipples.silhouette.is_some(),
+            facing: lighting.is_some() || stipples.silhouette.is_some() || stipples.density == DotDensity::Page,
         }
     }
 
@@ -107,7 +107,9 @@ impl<'a> CameraFactors<'a> {
         let distance = s.distance.map_or(1.0, |t| distance::distance(&t, (self.depth + at.z) / self.radius));
         let lighting = s.lighting.map_or(1.0, |t| lighting::lighting(&t, self.light.dot(voxel.normal), facing));
         let size = self.resolution * distance * still.interior;
-        Factors { count: still.boundary * silhouette * size * lighting, size }
+        // A piece of a face has |n·E| of its area on the page.
+        let area = if s.density == DotDensity::Page { facing.abs().min(1.0) } else { 1.0 };
+        Factors { count: still.boundary * silhouette * size * lighting * area, size }
     }
 
     /// n·E, E the unit vector from the voxel to the eye.

@@ -6,7 +6,7 @@ use crate::tables::{Iso, SurfaceLook};
 /// The rules of `[outlines]`.
 pub(super) const RULES: Rules = Rules {
     asks: |scene, asks| {
-        let Some(outlines) = scene.outlines.as_ref().filter(|_| asks.draws_strokes()) else { return };
+        let Some(outlines) = &scene.outlines else { return };
         asks.pass(Pass::Outlines, "outlines", "outlines");
         asks.pass(Pass::HiddenStrokes, "hidden strokes", if scene.surface.is_some() { "surface" } else { "outlines" });
         if outlines.iso == Iso::Auto {

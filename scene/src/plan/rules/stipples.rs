@@ -2,7 +2,7 @@
 
 use super::{Asks, Idle, Ladder, Pass, Rules, Settings};
 use crate::plan::Plan;
-use crate::tables::{CurvesTest, DotColor, Even, Iso, Scene};
+use crate::tables::{CurvesTest, DotColor, Even, Iso, Scene, Stipples};
 
 /// The rules of `[stipples]`.
 pub(super) const RULES: Rules = Rules {
@@ -12,7 +12,13 @@ pub(super) const RULES: Rules = Rules {
         ("gradient", Ladder::to_finest(|_, plan, _| of_points(plan, &["central", "regression"]))),
         ("order", Ladder::to_finest(|_, plan, _| of_points(plan, &["voxel", "neighbours"]))),
         ("snap", Ladder::to_finest(|_, plan, _| of_points(plan, &["none", "edge"]))),
-        ("thin", Ladder::to_finest(|_, plan, _| of_points(plan, &["false", "true"]))),
+        (
+            "thin",
+            Ladder::to_finest(|scene, plan, _| match &scene.stipples {
+                Some(Stipples { iso: Some(_), .. }) => &[],
+                _ => of_points(plan, &["false", "true"]),
+            }),
+        ),
         ("even", Ladder::to_finest(|_, plan, _| of_points(plan, &["none", "page"]))),
     ],
     ..Rules::new("stipples")
@@ -34,6 +40,9 @@ fn asks(scene: &Scene, asks: &mut Asks) {
     }
     if stipples.even == Even::Page {
         asks.pass(Pass::DotsOnPage, "even on the page", "stipples.even");
+    }
+    if stipples.iso == Some(Iso::Auto) {
+        asks.pass(Pass::AutomaticIso, "stipples", "stipples.iso");
     }
     if stipples.hide_behind == Some(Iso::Auto) {
         asks.pass(Pass::AutomaticIso, "hidden points", "stipples.hide_behind");
@@ -69,6 +78,10 @@ fn asks(scene: &Scene, asks: &mut Asks) {
 /// Keys that its own neighbours make idle.
 fn idle_keys(scene: &Scene, idle: &mut Idle) {
     let Some(stipples) = &scene.stipples else { return };
+    if stipples.iso.is_some() {
+        idle.key("stipples.threshold", "points lie on the surface of stipples.iso");
+        idle.key("stipples.thin", "the surface of stipples.iso has one layer");
+    }
     if stipples.pen.is_some() {
         idle.key("stipples.color", "stipples.pen says the colour");
     }

@@ -1,4 +1,4 @@
-//! `[stipples]`: volume stippling ([STIP-1] … [STIP-19]). Each factor is a table of its own; one that is absent is 1.
+//! `[stipples]`: volume stippling ([STIP-1] … [STIP-21]). Each factor is a table of its own; one that is absent is 1.
 
 mod curves;
 mod factors;
@@ -11,4 +11,4 @@ pub use factors::{Boundary, Distance, Interior, Lighting, Resolution, Silhouette
 pub use kinds::{DotColor, PointsPerPixel, Threshold};
 pub(crate) use presets::StipplePreset;
 pub(crate) use table::TABLE;
-pub use table::{Even, FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples};
+pub use table::{DotDensity, Even, FactorRange, Ink, Snap, StippleGradient, StippleOrder, Stipples};

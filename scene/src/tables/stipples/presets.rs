@@ -1,9 +1,11 @@
 //! The presets of stippling ([STIP-14]).
 
 use super::{
-    Boundary, Curves, CurvesTest, Distance, Interior, Lighting, PointsPerPixel, Resolution, Silhouette, Snap, Stipples,
+    Boundary, Curves, CurvesTest, Distance, DotDensity, Even, Interior, Lighting, PointsPerPixel, Resolution,
+    Silhouette, Snap, Stipples,
 };
-use crate::tables::Length;
+use crate::tables::{Iso, Length, LightDirection, Outlines};
+use glam::DVec3;
 
 /// A preset that supplies `[stipples]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +29,11 @@ pub(crate) enum StipplePreset {
 }
 
 impl StipplePreset {
+    /// The outlines around it.
+    pub(crate) fn outlines(self) -> Option<Outlines> {
+        (self == Self::Plain).then(|| Outlines { width: Length::Millimetres(0.3), ..Outlines::default() })
+    }
+
     /// The table. Of Fig. 4, 6, 7 and 8 the paper gives the numbers of one effect; the boundaries are those of Fig. 1.
     pub(crate) fn table(self) -> Stipples {
         let boundary = Some(Boundary { gc: 0.39, gs: 0.51, ge: 1.0 });
@@ -35,14 +42,19 @@ impl StipplePreset {
         let plain = Stipples { boundary, ..Stipples::default() };
         let fig1 = Stipples { silhouette, curves: Some(Curves::default()), ..plain.clone() };
         match self {
-            // Judged on real volumes, on a page of 160 mm: rims dark, faces light, one layer a face.
+            // Light makes the tone: of a scientific illustration, white in the light and three quarters black in the
+            // shadow.
             Self::Plain => Stipples {
-                k_max: PointsPerPixel::Number(6.0),
-                size: Length::Millimetres(0.5),
-                thin: true,
+                iso: Some(Iso::Auto),
+                hide_behind: Some(Iso::Auto),
+                k_max: PointsPerPixel::Auto,
+                size: Length::Millimetres(0.3),
+                box_side: Some(1),
                 snap: Snap::Edge,
-                boundary: Some(Boundary { gc: 0.1, gs: 0.51, ge: 1.0 }),
-                silhouette: Some(Silhouette { sc: 0.0, ss: 3.0, se: 3.0, literal: false }),
+                density: DotDensity::Page,
+                even: Even::Page,
+                boundary: Some(Boundary { gc: 0.75, gs: 0.0, ge: 1.0 }),
+                lighting: Some(Lighting { le: 1.0, light: Some(LightDirection::Eye(DVec3::new(-1.0, 1.5, 1.2))) }),
                 ..Stipples::default()
             },
             Self::Fig1 => fig1,

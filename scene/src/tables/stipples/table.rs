@@ -56,8 +56,13 @@ table! {
         factors: FactorRange = FactorRange::Clamp, key("STIP-5", FactorRange::KIND);
         /// Treatment of a fraction of a point.
         ink: Ink = Ink::Fade, key("STIP-5", Ink::KIND);
+        /// An iso-value, or "auto": points lie on that surface alone, whose V and ‖∇V‖ are 1, and `threshold` has no
+        /// effect.
+        iso: Option<Iso> = None, key("STIP-20", IsoKind).absent("points lie on all boundaries above `threshold`");
         /// An iso-value: points behind that surface are not drawn.
         hide_behind: Option<Iso> = None, key("STIP-15", IsoKind).absent("points are transparent");
+        /// The area that the density of dots is counted on.
+        density: DotDensity = DotDensity::Face, key("STIP-21", DotDensity::KIND);
         /// Which points are drawn where there is a choice.
         even: Even = Even::None, key("STIP-19", Even::KIND);
         /// T_b.
@@ -74,6 +79,13 @@ table! {
         lighting: Option<Lighting> = None, key("STIP-12", TableOf(&LIGHTING)).absent("1");
         /// Silhouette curves.
         curves: Option<Curves> = None, key("STIP-13", TableOf(&CURVES)).absent("no curves");
+    }
+}
+
+impl Stipples {
+    /// Whether a face has one layer of voxels with points. A surface of `iso` always has one.
+    pub fn is_thin(&self) -> bool {
+        self.thin || self.iso.is_some()
     }
 }
 
@@ -129,6 +141,17 @@ choices! {
         Fade = "fade",
         /// A whole point in that share of the voxels, for pens and 1-bit print.
         Opaque = "opaque",
+    }
+}
+
+choices! {
+    /// `density` ([STIP-21]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum DotDensity {
+        /// That of the face: the paper's. A face that turns away has its dots on less of the page, and becomes black.
+        Face = "face",
+        /// That of the face on the page: |n·E| times as many dots, so that the factors alone make the tone.
+        Page = "page",
     }
 }
 
