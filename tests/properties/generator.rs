@@ -276,8 +276,13 @@ fn paper(r: &mut Random, scene: &mut Scene) {
 fn picture(r: &mut Random, shot: &mut Stage) {
     let p = &mut shot.scene.picture;
     p.size = r.pick(&[[9, 7], [7, 9], [8, 8], [1, 1], [17, 2]]);
-    p.samples =
-        r.pick(&[RaysPerPixel::Across(1), RaysPerPixel::Across(1), RaysPerPixel::Auto, RaysPerPixel::Across(2)]);
+    // With a number of rays the contrast has no effect.
+    (p.samples, p.contrast) = r.pick(&[
+        (RaysPerPixel::Across(1), 0.0625),
+        (RaysPerPixel::Across(1), 0.0625),
+        (RaysPerPixel::Auto, 0.03),
+        (RaysPerPixel::Across(2), 0.0625),
+    ]);
     p.blend_space = r.pick(&[BlendSpace::Linear, BlendSpace::Linear, BlendSpace::Srgb]);
     p.background = r.pick(&[
         Background::None,

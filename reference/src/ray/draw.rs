@@ -198,7 +198,7 @@ fn draw_tile<R: Real>(
         let (boxes, counts) = (boxes.as_mut(), &mut tile.counts);
         cast_all(TileWork { points: &points, boxes, counts, casts: &mut casts });
         for ((sum, cast), place) in sums.iter_mut().zip(casts.drain(..)).zip(&*blocks) {
-            sum.add(prepared, cast, behind([x + place[0], y + place[1]]), n);
+            sum.add(prepared, cast, behind([x + place[0], y + place[1]]));
         }
     }
     tile.pixels.reserve_exact(blocks.len() * drawn.layers.iter().map(|l| l.channels().len()).sum::<usize>());

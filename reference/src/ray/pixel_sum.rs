@@ -10,37 +10,43 @@ use drypoint_scene::picture::LayerKind;
 /// The rays of a pixel so far.
 #[derive(Default)]
 pub(super) struct PixelSum {
-    /// Σ of the beauty, each ray with its share.
-    pub(super) beauty: Rgba,
+    /// How many they are.
+    rays: u32,
+    /// Σ of the beauty. It is divided by the number of rays at the end, so that a mean of opacities is at most 1.
+    beauty: Rgba,
     /// The sums and the number of samples of the first ray.
     first: Option<(Option<Box<Sums>>, u64)>,
     /// The sums of all rays.
     pub(super) all: Option<Box<Sums>>,
-    /// Mean intensities of halos, each ray with its share.
+    /// Σ of the intensities of halos.
     intensities: Vec<f64>,
 }
 
 impl PixelSum {
-    /// Adds a ray of n×n that has `behind` as its background.
-    pub(super) fn add<R: Real>(&mut self, prepared: &Prepared<'_, R>, cast: Cast, behind: Rgba, n: usize) {
-        self.add_means(over(cast.rgba, behind, prepared.encode), cast.sums.as_deref(), n);
-        let share = 1.0 / (n * n) as f64;
+    /// Adds a ray that has `behind` as its background.
+    pub(super) fn add<R: Real>(&mut self, prepared: &Prepared<'_, R>, cast: Cast, behind: Rgba) {
+        self.add_means(over(cast.rgba, behind, prepared.encode), cast.sums.as_deref());
         self.intensities.resize(cast.intensities.len(), 0.0);
-        for (mean, h) in self.intensities.iter_mut().zip(&cast.intensities) {
-            *mean += h * share;
+        for (sum, h) in self.intensities.iter_mut().zip(&cast.intensities) {
+            *sum += h;
         }
         self.first.get_or_insert((cast.sums, cast.samples));
     }
 
-    /// Adds a ray of n×n to the beauty and to the layers that are means: its colour over the background, and its sums.
-    pub(super) fn add_means(&mut self, color: Rgba, sums: Option<&Sums>, n: usize) {
-        let share = 1.0 / (n * n) as f64;
-        for (mean, c) in self.beauty.iter_mut().zip(color) {
-            *mean += c * share;
+    /// Adds a ray to the beauty and to the layers that are means: its colour over the background, and its sums.
+    pub(super) fn add_means(&mut self, color: Rgba, sums: Option<&Sums>) {
+        self.rays += 1;
+        for (sum, c) in self.beauty.iter_mut().zip(color) {
+            *sum += c;
         }
         if let Some(sums) = sums {
             self.all.get_or_insert_with(|| Box::new(Sums::new())).pool(sums);
         }
+    }
+
+    /// The beauty: the mean over the rays, of which there is at least one.
+    fn mean(&self) -> Rgba {
+        self.beauty.map(|sum| sum / f64::from(self.rays))
     }
 
     /// Appends the channels of layers: of the beauty the mean; of the layers that are means themselves the mean over all
@@ -52,10 +58,12 @@ impl PixelSum {
         let [first, all] = [first, self.all.as_deref()].map(|sums| sums.unwrap_or(&none));
         for &kind in layers {
             if kind == LayerKind::Beauty {
-                pixels.extend(self.beauty);
+                pixels.extend(self.mean());
             } else if let LayerKind::Halo(halo) = kind {
                 let place = prepared.halos.as_ref().and_then(|halos| halos.watched_place(halo));
-                pixels.push(place.and_then(|place| self.intensities.get(place).copied()).unwrap_or(0.0));
+                pixels.push(
+                    place.and_then(|place| self.intensities.get(place)).map_or(0.0, |sum| sum / f64::from(self.rays)),
+                );
             } else {
                 let sums = if kind.is_mean() { all } else { first };
                 sums.channels(kind, samples, prepared.object.field.scale_exponent(), pixels);
@@ -84,6 +92,16 @@ fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// 1/9 is rounded, and nine of it are more than 1.
+    #[test]
+    fn a_mean_of_opaque_rays_is_opaque() {
+        for n in 1..8 {
+            let mut sum = PixelSum::default();
+            (0..n * n).for_each(|_| sum.add_means([1.0, 0.5, 0.0, 1.0], None));
+            assert_eq!(sum.mean(), [1.0, 0.5, 0.0, 1.0]);
+        }
+    }
 
     #[test]
     fn over_by_hand() {

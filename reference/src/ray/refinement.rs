@@ -155,9 +155,9 @@ impl FirstPicture<'_> {
             for part in 0..ACROSS * ACROSS {
                 if part == MIDDLE {
                     let sums = self.sums.get(at).and_then(|sums| sums.as_deref());
-                    sum.add_means(color_at(self.beauty, at), sums, ACROSS);
+                    sum.add_means(color_at(self.beauty, at), sums);
                 } else if let Some(cast) = casts.next() {
-                    sum.add(prepared, cast, behind(in_picture(pixel)), ACROSS);
+                    sum.add(prepared, cast, behind(in_picture(pixel)));
                 }
             }
             sum.append(prepared, layers, &mut tile.values);
