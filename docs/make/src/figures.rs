@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 pub(crate) type Encode = fn(&Picture) -> Result<Vec<u8>, png::EncodingError>;
 
 /// The most bytes of a picture in `docs`.
-const LARGEST: usize = 300_000;
+const LARGEST: usize = 600_000;
 
 /// Scenes that are shown beside the figures.
 const OTHERS: [&str; 8] = [
