@@ -5,6 +5,7 @@
 
 mod boundary;
 mod content;
+mod debris;
 mod extent;
 mod framing;
 mod labels;
@@ -92,8 +93,11 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
         let outermost = boundary.outermost();
         surface.iso = Iso::Value(surface_styles::short(outermost.value, outermost.step));
     }
-    let [inside, seen] = [boundary.outermost().value, surface_styles::first_seen(&boundary, outside)];
-    frame(&mut scene, volume, [inside, seen].map(|value| ContentRange { value, outside }), size);
+    let [inside, seen] = [boundary.outermost().value, surface_styles::first_seen(&boundary, outside)]
+        .map(|value| ContentRange { value, outside });
+    let shown = surface_styles::short(seen.value, boundary.outermost().step);
+    scene.volume.parts = debris::without_debris(volume, ContentRange { value: shown, outside });
+    frame(&mut scene, volume, [inside, seen], size);
     scene
 }
 
