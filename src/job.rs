@@ -29,6 +29,7 @@ mod failures;
 mod focus;
 mod iso;
 mod load;
+mod parts;
 mod provenance;
 mod room;
 
@@ -141,7 +142,7 @@ impl Job {
             Err(failure) => {
                 // Other faults are reported together with the volume's.
                 let mut others = Vec::new();
-                if calls_for_function(&plan_for(&scene, target)) {
+                if calls_for_function(&plan_for(&scene, target), &scene) {
                     styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
                 }
                 background(&scene, target, &mut others);
@@ -186,8 +187,11 @@ impl Job {
         }
         something_is_drawn(&scene, target)?;
         let mut failures = Vec::new();
-        let labels =
-            if plan.reads_labels() { SceneLabels::load(&scene.volume, &mut failures) } else { SceneLabels::default() };
+        let labels = if plan.reads_labels() {
+            SceneLabels::load(&scene.volume, &volume, &mut failures)
+        } else {
+            SceneLabels::default()
+        };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
         if failures.is_empty() && plan.needs_at_seeds(Quantity::Label) {
             halo_labels(&mut scene, &labels.names, &mut failures);
@@ -195,7 +199,7 @@ impl Job {
         // Values that the scene leaves to the data: iso-values and the transfer function.
         let mut counts = Counts::default();
         find_iso_values(&mut scene, &plan, &volume, &mut counts);
-        let calls_for_function = calls_for_function(&plan);
+        let calls_for_function = calls_for_function(&plan, &scene);
         let range = scene.volume.range.unwrap_or_else(|| volume.range());
         // An iso-surface needs no transfer function.
         let mut function = scene.transfer.is_none().then(Function::nothing);
@@ -230,6 +234,7 @@ impl Job {
             let place = scene.given.position("transfer.nodes");
             return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
         }
+        let volume = parts::isolate(&scene, function.as_ref(), volume, &mut counts)?;
         let (function, labels) = (function.map(Arc::new), labels.volume);
         let mut job = Self { scene, plan, volume, counts, target, view, function, labels, further, styles, background };
         job.pick_foci()?;
@@ -434,9 +439,10 @@ fn plan_for(scene: &Scene, target: RenderTarget) -> Plan {
     }
 }
 
-/// Whether something reads the transfer function: rays, dots with its colours, or strokes in what it shows.
-fn calls_for_function(plan: &Plan) -> bool {
-    [Pass::Rays, Pass::DotColors, Pass::SeenCells].into_iter().any(|pass| plan.has_pass(pass))
+/// Whether something reads the transfer function: rays, dots with its colours, strokes in what it shows, or parts.
+fn calls_for_function(plan: &Plan, scene: &Scene) -> bool {
+    let passes = [Pass::Rays, Pass::DotColors, Pass::SeenCells];
+    passes.into_iter().any(|pass| plan.has_pass(pass)) || parts::reads_function(scene)
 }
 
 /// Checks that the scene draws something of the target.

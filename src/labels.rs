@@ -2,9 +2,10 @@
 
 use crate::Failure;
 use drypoint_reference::labels::Labels;
+use drypoint_scene::space::Grid;
 use drypoint_scene::tables::VolumeTable;
 use drypoint_scene::volume::labels::{LabelError, LabelNames, LabelVolume};
-use drypoint_scene::volume::{Volume, read};
+use drypoint_scene::volume::{Anatomy, KeptVoxels, Volume, read};
 use std::path::Path;
 
 /// Label volume and names of labels.
@@ -17,11 +18,12 @@ pub struct SceneLabels {
 }
 
 impl SceneLabels {
-    /// Loads the labels of a scene's `[volume]`. Errors go to `failures`. Call this only if an effect reads labels
-    /// ([PLAN-1]).
-    pub fn load(table: &VolumeTable, failures: &mut Vec<Failure>) -> Self {
+    /// Loads the labels of a scene's `[volume]`, whose data are given. Labels on the grid of the data's file are read
+    /// where the data are ([VOL-1]); those on another grid are read whole. Errors go to `failures`. Call this only if
+    /// an effect reads labels ([PLAN-1]).
+    pub fn load(table: &VolumeTable, data: &Volume, failures: &mut Vec<Failure>) -> Self {
         let mut wrong = |failure| failures.push(failure);
-        let volume = table.labels.as_ref().and_then(|path| volume(path).map_err(&mut wrong).ok());
+        let volume = table.labels.as_ref().and_then(|path| volume(path, table, data).map_err(&mut wrong).ok());
         let names = table.label_names.as_ref().and_then(|path| names(path).map_err(&mut wrong).ok());
         Self { volume, names: names.unwrap_or_default() }
     }
@@ -35,8 +37,14 @@ impl SceneLabels {
     }
 }
 
-fn volume(path: &Path) -> Result<LabelVolume, Failure> {
-    LabelVolume::new(&read::read(path, None)?).map_err(|error| {
+fn volume(path: &Path, table: &VolumeTable, data: &Volume) -> Result<LabelVolume, Failure> {
+    let beside_data = |grid: &Grid, anatomy| {
+        let kept = table.subset.of(grid.dims()).ok()?;
+        let grid = kept.grid(&Anatomy::between(grid, anatomy, data.anatomy())).ok()?;
+        grid.coincides(data.grid()).then_some(kept)
+    };
+    let choose = |grid: &Grid, anatomy| Ok(beside_data(grid, anatomy).unwrap_or(KeptVoxels::all(grid.dims())));
+    LabelVolume::new(&read::read_part(path, None, &choose)?).map_err(|error| {
         let LabelError::NotAnId { voxel: [x, y, z], .. } = error;
         let place = format!("{}, voxel ({x}, {y}, {z})", path.display());
         Failure::new(error, place, "name a volume of labels, not a scan, with volume.labels")
@@ -51,7 +59,6 @@ fn names(path: &Path) -> Result<LabelNames, Failure> {
 mod tests {
     use super::*;
     use drypoint_scene::glam::{DMat3, DVec3};
-    use drypoint_scene::space::Grid;
     use drypoint_scene::tables::VolumeSource;
     use drypoint_scene::volume::Voxels;
     use drypoint_scene::volume::write::write_nrrd;
@@ -69,7 +76,7 @@ mod tests {
         (table.labels, table.label_names) = (Some(labels.clone()), Some(names.clone()));
         let load = || {
             let mut failures = Vec::new();
-            let named = SceneLabels::load(&table, &mut failures);
+            let named = SceneLabels::load(&table, &row(0.0, Voxels::U8(vec![0; 3])), &mut failures);
             (named, failures)
         };
         write_nrrd(&row(0.0, Voxels::F32(vec![0.0, 2.0, 2.5])), &labels).unwrap();

@@ -30,6 +30,12 @@ pub struct Counts {
     pub masked: u64,
     /// Stipple points.
     pub points: u64,
+    /// Connected parts of the volume ([VOL-2]).
+    pub parts: u64,
+    /// Those of them that are kept.
+    pub parts_kept: u64,
+    /// Voxels of each part, the largest first, of a hundred parts at most.
+    pub part_sizes: Vec<u64>,
     /// Strokes.
     pub strokes: u64,
     /// Principal directions.
@@ -60,6 +66,9 @@ impl Counts {
         self.without_normal += other.without_normal;
         self.masked += other.masked;
         self.points += other.points;
+        self.parts += other.parts;
+        self.parts_kept += other.parts_kept;
+        self.part_sizes.extend(&other.part_sizes);
         self.strokes += other.strokes;
         self.directions += other.directions;
         for (mine, theirs) in [

@@ -115,6 +115,14 @@ impl Grid {
         Self { axes: flip * self.axes, inverse: self.inverse * flip, origin: signs * self.origin, ..self.clone() }
     }
 
+    /// Whether two grids have the same voxels at the same places, up to a thousandth of a voxel, as headers round them.
+    pub fn coincides(&self, other: &Self) -> bool {
+        const ROUNDED: f64 = 1e-3;
+        let close = |(a, b): (DVec3, DVec3)| (a - b).length() <= ROUNDED * self.smallest_singular;
+        let mut corners = self.world_corners().into_iter().zip(other.world_corners());
+        self.dims == other.dims && corners.all(close)
+    }
+
     /// Norms of the columns of D, in world units.
     pub fn spacing(&self) -> [f64; 3] {
         [self.axes.x_axis.length(), self.axes.y_axis.length(), self.axes.z_axis.length()]

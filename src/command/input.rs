@@ -45,6 +45,9 @@ impl KeyFlag {
     }
 }
 
+/// Keys of what is read of a file, which must be known before there is a scene.
+const READING: [&str; 3] = ["volume.raw", "volume.box", "volume.stride"];
+
 /// Everything on the command line that overrides a scene.
 #[derive(Default)]
 pub(super) struct SceneOverrides {
@@ -52,8 +55,8 @@ pub(super) struct SceneOverrides {
     overrides: Overrides,
     /// Overrides of `[picture]` alone.
     picture: Overrides,
-    /// Overrides of `volume.raw` alone.
-    raw: Overrides,
+    /// Overrides of the keys in [`READING`] alone.
+    reading: Overrides,
     /// Override of `preset` alone.
     preset: Overrides,
     /// Whether an override changes the kind of the transfer function.
@@ -98,7 +101,7 @@ impl SceneOverrides {
             // Layers say nothing of the frame, and may name halos.
             _ if key.starts_with("picture.layers") => None,
             _ if key.starts_with("picture.") => Some(&mut self.picture),
-            _ if key.starts_with("volume.raw") => Some(&mut self.raw),
+            _ if READING.iter().any(|read| key.starts_with(read)) => Some(&mut self.reading),
             _ if key.starts_with("preset") => Some(&mut self.preset),
             _ => None,
         }
@@ -176,12 +179,12 @@ pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInp
         let scene = file::load(path, &over.overrides);
         return Ok(found(scene.map_err(|faults| over.failures(faults))?));
     }
-    let described = file::parse(NOTHING, Path::new(""), &over.raw).map_err(|faults| over.failures(faults))?;
+    let described = file::parse(NOTHING, Path::new(""), &over.reading).map_err(|faults| over.failures(faults))?;
     let raw = layout(&described.volume.source);
     if raw.is_none() && !read::is_volume(path) {
         return Err(no_input(path).into());
     }
-    let volume = read::read(path, raw)?;
+    let volume = read::read_part(path, raw, &|grid, _| described.volume.subset.of(grid.dims()))?;
     let mut counts = Counts::default();
     let scene = finished(suggested(path, raw, &volume, over, &mut counts)?);
     let same = match &scene.volume.source {
@@ -309,6 +312,12 @@ pub(super) fn tell(talk: Talk, job: &Job) {
         );
     }
     if talk.verbose {
+        if job.scene.volume.parts.is_some() {
+            let Counts { parts, parts_kept, part_sizes, .. } = &job.counts;
+            let largest: Vec<String> = part_sizes.iter().take(5).map(u64::to_string).collect();
+            let more = if part_sizes.len() > 5 { ", …" } else { "" };
+            note(talk, format_args!("parts: {parts} of {}{more} voxels, {parts_kept} kept", largest.join(", ")));
+        }
         let [nx, ny, nz] = job.volume.dims();
         let voxels = job.volume.voxels();
         let source = match &job.scene.volume.source {

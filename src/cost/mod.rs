@@ -184,8 +184,11 @@ pub fn sweep(job: &Job, options: &SweepOptions, progress: &dyn Fn(f64)) -> Resul
         base = knob.set(&base, &own)?;
     }
     let phantom = match &base.volume.source {
-        VolumeSource::Phantom(source) => phantom::of_source(source).ok().map(|(phantom, _)| phantom),
-        VolumeSource::File { .. } => None,
+        // The formula has all parts.
+        VolumeSource::Phantom(source) if base.volume.parts.is_none() => {
+            phantom::of_source(source).ok().map(|(phantom, _)| phantom)
+        }
+        VolumeSource::Phantom(_) | VolumeSource::File { .. } => None,
     };
     // Each distinct scene is drawn once, whichever settings lead to it. `settings` has the index of its scene.
     let mut different: Vec<(ErrorSubject, KnobVariant)> = Vec::new();

@@ -12,13 +12,26 @@ use drypoint_scene::style::{Style, StyleError, load as load_styles};
 use drypoint_scene::tables::{Axis, Background, NodeColor, Scene, Transfer, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::FunctionError;
 use drypoint_scene::volume::labels::LabelNames;
+use drypoint_scene::volume::read::Fault;
 use drypoint_scene::volume::{Volume, read};
 
 /// Reads or generates a scene's volume.
 pub(super) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
     match &table.source {
-        VolumeSource::File { path, raw } => read::read(path, raw.as_ref()).map_err(Failure::from),
-        VolumeSource::Phantom(source) => phantom::generate(source).map_err(|error| {
+        VolumeSource::File { path, raw } => read::read_part(path, raw.as_ref(), &|grid, _| {
+            table.subset.of(grid.dims())
+        })
+        .map_err(|error| match *error.fault {
+            Fault::NotInVolume(_) => {
+                let what = format!("{}: {}", path.display(), error.what());
+                Failure::new(what, given.position("volume.box"), error.remedy())
+            }
+            _ => Failure::from(error),
+        }),
+        VolumeSource::Phantom(source) => phantom::generate_part(source, &table.subset).map_err(|error| {
+            if let PhantomError::NotInVolume(_) = error {
+                return Failure::new(error, given.position("volume.box"), "give ranges within the phantom's size");
+            }
             let remedy = match &error {
                 PhantomError::Memory { .. } => "ask for fewer voxels with volume.phantom.size",
                 PhantomError::Space(_) => "give other numbers as volume.phantom.size or spacing",
@@ -38,7 +51,7 @@ impl Job {
         let table = &self.scene.volume;
         let unread = table.labels.clone().filter(|_| self.labels.is_none());
         let mut failures = Vec::new();
-        let labels = SceneLabels::load(&VolumeTable { labels: unread, ..table.clone() }, &mut failures);
+        let labels = SceneLabels::load(&VolumeTable { labels: unread, ..table.clone() }, &self.volume, &mut failures);
         Failures::check(failures)?;
         self.labels = labels.volume.or(self.labels.take());
         Ok(labels.names)

@@ -4,7 +4,7 @@ use crate::folder::Folder;
 use serde_json::Value;
 
 /// Every count of the contract.
-const NUMBERS: [&str; 14] = [
+const NUMBERS: [&str; 16] = [
     "samples",
     "gradients",
     "hessians",
@@ -17,10 +17,13 @@ const NUMBERS: [&str; 14] = [
     "without_normal",
     "masked",
     "points",
+    "parts",
+    "parts_kept",
     "strokes",
     "directions",
 ];
 const OBJECTS: [&str; 4] = ["stops", "preprocess", "bytes", "seconds"];
+const LISTS: [&str; 1] = ["part_sizes"];
 
 fn stats(folder: &Folder, more: &str) -> Value {
     let out = folder.good(&format!("render scene.toml --stats {more}"));
@@ -34,7 +37,7 @@ fn every_count_is_there_and_nothing_else() {
     folder.scene("[contours]\n");
     let stats = stats(&folder, "");
     let mut names: Vec<&str> = stats.as_object().unwrap().keys().map(String::as_str).collect();
-    let mut expected: Vec<&str> = NUMBERS.into_iter().chain(OBJECTS).collect();
+    let mut expected: Vec<&str> = NUMBERS.into_iter().chain(OBJECTS).chain(LISTS).collect();
     names.sort_unstable();
     expected.sort_unstable();
     assert_eq!(names, expected);

@@ -112,6 +112,37 @@ fn the_scene_of_a_label_volume_is_a_scene_file() {
     assert_eq!(picture(given), picture(loaded));
 }
 
+/// 48³ voxels of about 200 where `inside` holds, in 10: ids of labels would not ripple.
+fn solid(inside: impl Fn([f64; 3]) -> bool) -> Volume {
+    let value = |i: usize| if inside([i % 48, i / 48 % 48, i / 2304].map(|i| i as f64)) { 200 } else { 10 };
+    let voxels = Voxels::U8((0..48 * 48 * 48).map(|i| value(i) + (i * 7919 % 6) as u8).collect());
+    Volume::new(Grid::with_spacing([48; 3], [1.0; 3]).unwrap(), voxels, 1.0, 0.0).unwrap()
+}
+
+#[test]
+fn a_head_is_shown_without_its_rest_and_vessels_with_all_their_pieces() {
+    // A ball, with a slab beside it that has a hundredth of its voxels, and a speck.
+    let ball = |[x, y, z]: [f64; 3]| (x - 23.0).powi(2) + (y - 20.0).powi(2) + (z - 24.0).powi(2) < 196.0;
+    let slab = |[x, y, z]: [f64; 3]| (18.0..28.0).contains(&x) && y == 42.0 && (20.0..31.0).contains(&z);
+    let head = solid(|p| ball(p) || slab(p) || p == [2.0; 3]);
+    let suggested = bare("head.nrrd".into(), &head, [24, 24], &mut Counts::default());
+    // The scene says so, in a table that can be changed.
+    let full = write_full(&suggested);
+    assert!(full.contains("[volume.parts]") || full.contains("parts = {"), "{full}");
+    assert_eq!(parse(&full, Path::new("head.toml"), &Overrides::default()).unwrap(), suggested);
+    let job = Job::with_volume(suggested, head).unwrap();
+    assert_eq!((job.counts.parts, job.counts.parts_kept, &job.counts.part_sizes[1..]), (3, 1, &[110, 1][..]));
+    assert_eq!([[20, 42, 25], [2, 2, 2]].map(|p| job.volume.value(p)), [10.0; 2]);
+    assert!(job.volume.value([23, 20, 24]) >= 200.0);
+
+    // One vessel, and 60 pieces of others, each a hundredth of it.
+    let piece = |[x, y, z]: [f64; 3]| x % 8.0 < 3.0 && y % 8.0 == 2.0 && z % 24.0 == 2.0 && x > 8.0;
+    let vessels = solid(|p| piece(p) || (p[1] - 24.0).abs() < 2.0 && (p[2] - 24.0).abs() < 2.0);
+    for content in [vessels, phantom("tube-tree")] {
+        assert_eq!(bare("vessels.nrrd".into(), &content, [24, 24], &mut Counts::default()).volume.parts, None);
+    }
+}
+
 #[test]
 fn the_camera_frames_what_is_shown_in_pictures_of_any_shape() {
     for size in [[90, 60], [60, 90]] {

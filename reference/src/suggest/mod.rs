@@ -5,6 +5,7 @@
 
 mod boundary;
 mod content;
+mod debris;
 mod extent;
 mod framing;
 mod labels;
@@ -15,6 +16,7 @@ mod surface_styles;
 use boundary::FirstSurfaces;
 use content::{ContentRange, VolumeContent};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{
     Camera, Contours, GradientEstimator, HessianEstimator, Ids, Iso, Kappa, Kernel, Length, Outside, Projection, Scene,
     Transfer, Unit, VolumeSource, VolumeTable,
@@ -33,6 +35,9 @@ const LINE: f64 = 0.005;
 /// Least width of content in voxels, for sampling: smaller content is sampled as finely, and is as opaque, as content
 /// of this width.
 const FINE: f64 = 8.0;
+
+/// Ratio of the largest spacing to the smallest above which slices are thick. Their terraces comb contours.
+const THICK: f64 = 1.5;
 
 /// Largest number of voxels of which a smoothed copy in f64 is worth its memory, a quarter of a GiB.
 const SMOOTHED: usize = 1 << 25;
@@ -98,8 +103,11 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
         .chain(stipples.into_iter().flatten().flatten())
         .filter(|iso| **iso == Iso::Auto)
         .for_each(|iso| *iso = outermost);
-    let [inside, seen] = [boundary.outermost().value, surface_styles::first_seen(&boundary, outside)];
-    frame(&mut scene, volume, [inside, seen].map(|value| ContentRange { value, outside }), size);
+    let [inside, seen] = [boundary.outermost().value, surface_styles::first_seen(&boundary, outside)]
+        .map(|value| ContentRange { value, outside });
+    let shown = surface_styles::short(seen.value, boundary.outermost().step);
+    scene.volume.parts = debris::without_debris(volume, ContentRange { value: shown, outside });
+    frame(&mut scene, volume, [inside, seen], size);
     scene
 }
 
@@ -135,6 +143,11 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], 
     if scene.transfer.is_none() {
         return;
     }
+    let thick = has_thick_slices(volume.grid());
+    if thick && scene.surface.is_none() {
+        // Terraces are as high as a slice. A smoothing kernel rounds them off.
+        scene.sampling.kernel = Kernel::BsplineSmooth;
+    }
     // Small content gets finer steps, and a reference length that keeps it as opaque.
     let finer = fit.extent / (FINE * volume.grid().voxel());
     if finer < 1.0 {
@@ -145,7 +158,7 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], 
     let smoothed = volume.grid().len() <= SMOOTHED;
     if smoothed {
         scene.sampling.hessian = HessianEstimator::Gaussian;
-        scene.sampling.scale = Length::Voxels(2.0);
+        scene.sampling.scale = Length::Voxels(if thick { 3.0 } else { 2.0 });
     }
     scene.contours = Some(Contours {
         kappa: if smoothed { Kappa::Exact } else { Kappa::Ray },
@@ -153,6 +166,12 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], 
         fade: Some([0.02, 0.1]),
         ..Contours::default()
     });
+}
+
+/// Whether one spacing is much larger than another, as between the slices of a scan. Axes of one voxel do not count.
+fn has_thick_slices(grid: &Grid) -> bool {
+    let smallest = grid.voxel();
+    grid.spacing().into_iter().zip(grid.dims()).any(|(spacing, n)| n > 1 && spacing > THICK * smallest)
 }
 
 /// Rounds a length to three digits, as a person would write it. Multiplication and division alone make the power of
@@ -173,7 +192,6 @@ fn three_digits(length: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drypoint_scene::space::Grid;
     use drypoint_scene::volume::{VoxelType, Voxels};
 
     /// 32³ voxels of a type.
@@ -248,6 +266,19 @@ mod tests {
         let stage = fill(stage, &ball, [64, 64], &mut Counts::default());
         assert_eq!(stage.camera, suggested(&ball).camera);
         assert_eq!((stage.transfer, stage.contours), (None, None));
+    }
+
+    #[test]
+    fn thick_slices_are_smoothed() {
+        let ball = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
+        for (spacing, thick) in [([1.0, 1.0, 1.4], false), ([1.0, 1.0, 2.0], true), ([3.0, 1.0, 1.0], true)] {
+            let grid = Grid::with_spacing([32; 3], spacing).unwrap();
+            let sampling = suggested(&Volume::new(grid, ball.voxels().clone(), 1.0, 0.0).unwrap()).sampling;
+            assert_eq!(sampling.kernel == Kernel::BsplineSmooth, thick, "{spacing:?}");
+            assert_eq!(sampling.scale, Length::Voxels(if thick { 3.0 } else { 2.0 }), "{spacing:?}");
+        }
+        // One slice has no neighbour.
+        assert!(!has_thick_slices(&Grid::with_spacing([9, 9, 1], [1.0, 1.0, 5.0]).unwrap()));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::memory::NoRoom;
 use crate::space::SpaceError;
-use crate::volume::VolumeError;
+use crate::volume::{NotInVolume, VolumeError};
 
 /// A phantom that cannot be.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -57,6 +57,9 @@ pub enum PhantomError {
         /// The parameters, and the condition that they must meet.
         fault: String,
     },
+    /// Voxels that the phantom does not have.
+    #[error(transparent)]
+    NotInVolume(#[from] NotInVolume),
     /// The phantom's grid cannot be.
     #[error(transparent)]
     Space(#[from] SpaceError),

@@ -4,7 +4,7 @@ use super::PhantomSource;
 use super::{Phantom, PhantomError, of_source};
 use crate::memory;
 use crate::space::Grid;
-use crate::volume::{Volume, VoxelType, Voxels};
+use crate::volume::{KeptVoxels, Subset, Volume, VoxelType, Voxels};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -15,13 +15,24 @@ use rayon::prelude::*;
 /// # Errors
 /// A volume that does not fit in memory, or one without a finite value (world coordinates beyond 10¹⁵⁰ or so).
 pub fn sample(phantom: &dyn Phantom, grid: Grid, voxel_type: VoxelType) -> Result<Volume, PhantomError> {
+    let all = KeptVoxels::all(grid.dims());
+    sample_kept(phantom, &grid, &all, voxel_type)
+}
+
+/// Like [`sample`], at the kept voxels of a grid alone.
+fn sample_kept(
+    phantom: &dyn Phantom,
+    grid: &Grid,
+    kept: &KeptVoxels,
+    voxel_type: VoxelType,
+) -> Result<Volume, PhantomError> {
     let value = |p: DVec3| phantom.value(p);
     macro_rules! stored {
         ($variant:ident, $type:ty, rounded) => {
-            Voxels::$variant(fill(&grid, |p| value(p).round_ties_even() as $type)?)
+            Voxels::$variant(fill(grid, kept, |p| value(p).round_ties_even() as $type)?)
         };
         ($variant:ident, $type:ty) => {
-            Voxels::$variant(fill(&grid, |p| value(p) as $type)?)
+            Voxels::$variant(fill(grid, kept, |p| value(p) as $type)?)
         };
     }
     let voxels = match voxel_type {
@@ -36,7 +47,7 @@ pub fn sample(phantom: &dyn Phantom, grid: Grid, voxel_type: VoxelType) -> Resul
         VoxelType::F32 => stored!(F32, f32),
         VoxelType::F64 => stored!(F64, f64),
     };
-    Ok(Volume::new(grid, voxels, 1.0, 0.0)?)
+    Ok(Volume::new(kept.grid(grid)?, voxels, 1.0, 0.0)?)
 }
 
 /// A volume of f64 voxels: the value of a formula at each voxel centre, in world space.
@@ -53,7 +64,7 @@ pub fn from_fn(grid: Grid, value: impl Fn(DVec3) -> f64 + Sync) -> Result<Volume
 /// # Errors
 /// A volume that does not fit in memory.
 pub fn sample_labels(phantom: &dyn Phantom, grid: Grid) -> Result<Volume, PhantomError> {
-    let voxels = Voxels::U16(fill(&grid, |p| phantom.label(p))?);
+    let voxels = Voxels::U16(fill(&grid, &KeptVoxels::all(grid.dims()), |p| phantom.label(p))?);
     Ok(Volume::new(grid, voxels, 1.0, 0.0)?)
 }
 
@@ -62,18 +73,26 @@ pub fn sample_labels(phantom: &dyn Phantom, grid: Grid) -> Result<Volume, Phanto
 /// # Errors
 /// The errors of [`of_source`] and [`sample`].
 pub fn generate(source: &PhantomSource) -> Result<Volume, PhantomError> {
-    let (phantom, grid) = of_source(source)?;
-    sample(phantom.as_ref(), grid, source.voxel_type)
+    generate_part(source, &Subset::default())
 }
 
-/// One number a voxel, x fastest.
-fn fill<T: Send>(grid: &Grid, at: impl Fn(DVec3) -> T + Sync) -> Result<Vec<T>, PhantomError> {
-    let [nx, ny, _] = grid.dims();
+/// Like [`generate`], at the voxels of a subset alone ([VOL-1]).
+///
+/// # Errors
+/// The errors of [`generate`], and voxels that the phantom does not have.
+pub fn generate_part(source: &PhantomSource, subset: &Subset) -> Result<Volume, PhantomError> {
+    let (phantom, grid) = of_source(source)?;
+    let kept = subset.of(grid.dims())?;
+    sample_kept(phantom.as_ref(), &grid, &kept, source.voxel_type)
+}
+
+/// One number a kept voxel, x fastest.
+fn fill<T: Send>(grid: &Grid, kept: &KeptVoxels, at: impl Fn(DVec3) -> T + Sync) -> Result<Vec<T>, PhantomError> {
     let mut voxels = Vec::new();
-    memory::room_for(grid.len() as u64, size_of::<T>() as u64)
+    memory::room_for(kept.len() as u64, size_of::<T>() as u64)
         .map_err(|no_room| PhantomError::Memory { dims: grid.dims(), no_room })?;
-    voxels.reserve_exact(grid.len());
-    let index = |i: usize| DVec3::new((i % nx) as f64, (i / nx % ny) as f64, (i / nx / ny) as f64);
-    (0..grid.len()).into_par_iter().map(|i| at(grid.to_world(index(i)))).collect_into_vec(&mut voxels);
+    voxels.reserve_exact(kept.len());
+    let index = |i: usize| DVec3::from(kept.index(i).map(|n| n as f64));
+    (0..kept.len()).into_par_iter().map(|i| at(grid.to_world(index(i)))).collect_into_vec(&mut voxels);
     Ok(voxels)
 }

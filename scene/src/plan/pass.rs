@@ -3,6 +3,8 @@
 /// A pass over the volume or the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Pass {
+    /// The connected parts of the volume, of which some are kept ([VOL-2]).
+    Parts,
     /// Coefficients of a prefiltered B-spline ([REC-1]).
     Coefficients,
     /// Coefficients of the B-spline of the smoothed grid ([REC-3]).
@@ -83,6 +85,7 @@ impl Pass {
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Parts => "connected parts",
             Self::Coefficients => "B-spline coefficients",
             Self::SmoothedCoefficients => "smoothed coefficients",
             Self::GradientRange => "range of |g|",
@@ -126,6 +129,7 @@ impl Pass {
     /// The work that the pass adds to a picture.
     pub fn adds(self) -> &'static str {
         match self {
+            Self::Parts => "two looks at each voxel, three numbers a run of voxels along x",
             Self::Coefficients => "one filter along each axis, one number a voxel",
             Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
             Self::GradientRange => "one gradient a voxel",
@@ -172,6 +176,8 @@ impl Pass {
             Self::Coefficients | Self::LabelDistances => 8,
             // A filter reads one copy and writes another.
             Self::SmoothedCoefficients => 16,
+            // Runs are counted before they are kept.
+            Self::Parts => 0,
             // Norms are counted row by row.
             Self::GradientRange => 0,
             Self::AutomaticTransfer | Self::AutomaticIso | Self::Bricks | Self::StyleMipmaps => 0,

@@ -63,4 +63,6 @@ pub use styles::{StyleFile, StyleSource, Styles};
 pub use surface::{Iso, Surface, SurfaceLook};
 pub use toon::{SilhouetteShading, Tone, ToonShading};
 pub use transfer::{Mix, Node, NodeColor, SphereFrame, Table, Transfer, TransferKind, Transparency, Unit};
-pub use volume::{GradientRange, Ids, LabelLookup, Outside, PhantomSource, RawLayout, VolumeSource, VolumeTable};
+pub use volume::{
+    GradientRange, Ids, Keep, LabelLookup, Outside, PartsTable, PhantomSource, RawLayout, VolumeSource, VolumeTable,
+};

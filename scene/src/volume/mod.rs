@@ -10,14 +10,17 @@ pub mod histogram;
 pub mod info;
 pub mod labels;
 mod mask;
+pub mod parts;
 pub mod quantile;
 mod raw_layout;
 pub mod read;
+mod subset;
 pub mod write;
 
 pub use bricks::{BRICK, BrickRow, Bricks};
 pub use mask::Mask;
 pub use raw_layout::RawLayout;
+pub use subset::{KeptVoxels, NotInVolume, Subset};
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 
 use crate::space::Grid;
@@ -156,6 +159,13 @@ impl Volume {
         let voxels = Voxels::U8(present);
         let range = voxels.range();
         Self { grid: self.grid.clone(), voxels, slope: 1.0, intercept: 0.0, mask: self.mask.clone(), range, ..*self }
+    }
+
+    /// Takes the least value in the volume as that of some voxels, or the greatest. Slope, range and mask stay.
+    fn flatten(&mut self, is_flat: impl Fn(usize) -> bool + Sync, to_highest: bool) {
+        // A negative slope turns the order of the stored numbers round.
+        let highest = to_highest == (self.slope > 0.0);
+        self.voxels.flatten(is_flat, highest);
     }
 
     /// The grid of the voxels.

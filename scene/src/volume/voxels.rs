@@ -1,5 +1,7 @@
 //! Voxels in the type that the file has: a u8 stays one byte.
 
+use rayon::prelude::*;
+
 /// A number that a voxel can be.
 pub trait Voxel: Copy + Send + Sync + PartialOrd + 'static {
     /// The value in f64; 64-bit integers are rounded to the nearest.
@@ -206,6 +208,27 @@ impl Voxels {
     /// Whether there is no voxel.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Puts the lowest stored number, or the highest, in the place of those whose linear index is flat.
+    pub(super) fn flatten(&mut self, is_flat: impl Fn(usize) -> bool + Sync, to_highest: bool) {
+        fn put<V: Voxel>(v: &mut [V], is_flat: impl Fn(usize) -> bool + Sync, to_highest: bool) {
+            let outermost = |a: V, b: V| if (b > a) == to_highest { b } else { a };
+            let Some(value) = v.iter().copied().reduce(outermost) else { return };
+            v.par_iter_mut().enumerate().filter(|(i, _)| is_flat(*i)).for_each(|(_, voxel)| *voxel = value);
+        }
+        match self {
+            Self::U8(v) => put(v, is_flat, to_highest),
+            Self::I8(v) => put(v, is_flat, to_highest),
+            Self::U16(v) => put(v, is_flat, to_highest),
+            Self::I16(v) => put(v, is_flat, to_highest),
+            Self::U32(v) => put(v, is_flat, to_highest),
+            Self::I32(v) => put(v, is_flat, to_highest),
+            Self::U64(v) => put(v, is_flat, to_highest),
+            Self::I64(v) => put(v, is_flat, to_highest),
+            Self::F32(v) => put(v, is_flat, to_highest),
+            Self::F64(v) => put(v, is_flat, to_highest),
+        }
     }
 
     /// Bytes in memory.

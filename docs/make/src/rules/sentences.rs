@@ -9,7 +9,7 @@ pub(super) struct Family {
 
 /// Every family, in the order of the page; a line a rule.
 #[rustfmt::skip]
-pub(super) const FAMILIES: [Family; 17] = [
+pub(super) const FAMILIES: [Family; 18] = [
     Family {
         letters: "SPACE",
         subject: "Spaces",
@@ -79,6 +79,14 @@ pub(super) const FAMILIES: [Family; 17] = [
             (2, "A voxel that is not finite is counted, filled from the nearest valid one and masked; samples whose cell touches it are transparent."),
             (3, "A gradient that is no more than the rounding of the data gives no normal: N = v, no contour, κ = 0, and such samples are counted."),
             (4, "The same bits on every machine: basic operations, one module of transcendental functions, nothing fused, sums in a fixed order."),
+        ],
+    },
+    Family {
+        letters: "VOL",
+        subject: "Less of a volume",
+        rules: &[
+            (1, "A box of indices and a stride read a volume as if the file held just those voxels, each at its place in the world."),
+            (2, "Parts are voxels that are shown and touch with their faces; those that are not kept take the outside value, as do the voxels around them that touch no kept part."),
         ],
     },
     Family {

@@ -7,6 +7,14 @@ use crate::tables::{GradientRange, NormalSide, Unit, VolumeSource};
 
 /// The rules of `[volume]`.
 pub(super) const RULES: Rules = Rules {
+    asks: |scene, asks| {
+        let Some(parts) = &scene.volume.parts else { return };
+        asks.pass(Pass::Parts, "parts", "volume.parts");
+        let is_automatic = scene.transfer.as_ref().is_some_and(|transfer| transfer.is_automatic());
+        if parts.at_least.is_none() && is_automatic && !asks.casts_rays() {
+            asks.pass(Pass::AutomaticTransfer, "parts", "transfer.nodes");
+        }
+    },
     serves: |scene, asks| {
         if let (GradientRange::Quantile(_), Some(need)) =
             (scene.volume.gradient_range, asks.first(Quantity::GradientMagnitudeRange))
@@ -42,7 +50,8 @@ pub(super) const RULES: Rules = Rules {
         let seeds = plan.needs_at_seeds(Quantity::Hessian)
             || halos().any(|(_, halo)| halo.seed.direction.is_some())
             || scene.transfer.is_none() && halos().any(|(_, halo)| halo.seed.is_by_opacity());
-        if !(stippled || scene.has_strokes() || turned && plan.shows_gradients() || seeds) {
+        let keeps_parts = scene.volume.parts.is_some();
+        if !(stippled || keeps_parts || scene.has_strokes() || turned && plan.shows_gradients() || seeds) {
             idle.key("volume.outside", "nothing reads an outward normal or a signed curvature");
         }
     },

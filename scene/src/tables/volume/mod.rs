@@ -2,11 +2,14 @@
 
 mod gradient_range;
 mod layout;
+mod parts;
 mod phantom;
 mod raw;
+mod subset;
 
 pub use gradient_range::GradientRange;
 pub(crate) use gradient_range::quantile;
+pub use parts::{Keep, PartsTable};
 pub use phantom::PhantomSource;
 pub use raw::RawLayout;
 
@@ -15,10 +18,12 @@ use crate::document::describe::{Instead, Table};
 use crate::document::fault::Problem;
 use crate::document::kind::{Bounds, Numbers, PathTo, Rule, TableOf};
 use crate::quantity::Quantity;
+use crate::volume::Subset;
 use gradient_range::Quantile;
 use phantom::PHANTOM;
 use raw::RAW;
 use std::path::PathBuf;
+use subset::{IndexBox, Strides};
 
 /// The table `[volume]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +44,10 @@ pub struct VolumeTable {
     pub gradient_range: GradientRange,
     /// Which values lie outside a surface ([NORM-1]).
     pub outside: Outside,
+    /// The voxels that are read ([VOL-1]).
+    pub subset: Subset,
+    /// The connected parts that are kept ([VOL-2]); none: everything.
+    pub parts: Option<PartsTable>,
 }
 
 /// Source of the voxels.
@@ -100,6 +109,8 @@ impl VolumeTable {
             range: None,
             gradient_range: GradientRange::Quantile(0.999),
             outside: Outside::Low,
+            subset: Subset::default(),
+            parts: None,
         }
     }
 }
@@ -161,6 +172,14 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
             gradient_range: key("VAL-2", Quantile);
             /// Which values lie outside a surface.
             outside: key("NORM-1", Outside::KIND);
+            /// The voxels to read: first and last index along x, y, z, from 0 and both included. The picture is that of a file
+            /// with just these voxels, each at its place in the world.
+            box_ranges: key("VOL-1", IndexBox, |t| t.subset.ranges, |t, v| t.subset.ranges = Some(v))
+                .named("box").absent("the whole volume");
+            /// Steps between the voxels to read: one for all axes, or three for x, y, z. 2 reads every second voxel.
+            stride: key("VOL-1", Strides, |t| Some(t.subset.stride), |t, v| t.subset.stride = v);
+            /// Connected parts that are kept.
+            parts: key("VOL-2", TableOf(&parts::TABLE)).absent("everything is kept");
         } },
     )
 };

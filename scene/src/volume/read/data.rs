@@ -5,7 +5,7 @@ use super::header::open;
 use super::limits::{Encoding, make_room};
 use crate::memory::NoRoom;
 use crate::volume::bytes::Stored;
-use crate::volume::{VoxelType, Voxels};
+use crate::volume::{KeptVoxels, VoxelType, Voxels};
 use bzip2::bufread::MultiBzDecoder;
 use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
 use std::fs::File;
@@ -57,12 +57,13 @@ struct Part<'a> {
 }
 
 impl Payload<'_> {
-    /// Reads the voxels. No memory is asked for before the length of every file has been found to allow it.
-    pub(super) fn read(&self) -> Result<Voxels, ReadError> {
+    /// Reads the voxels that are kept. No memory is asked for before the length of every file has been found to allow
+    /// all voxels.
+    pub(super) fn read(&self, kept: &KeptVoxels) -> Result<Voxels, ReadError> {
         macro_rules! by_type {
             ($($variant:ident)*) => {
                 match self.voxel_type {
-                    $(VoxelType::$variant => Voxels::$variant(self.decode()?),)*
+                    $(VoxelType::$variant => Voxels::$variant(self.decode(kept)?),)*
                 }
             };
         }
@@ -143,12 +144,12 @@ impl Payload<'_> {
         Ok(bytes)
     }
 
-    fn decode<T: Stored>(&self) -> Result<Vec<T>, ReadError> {
+    fn decode<T: Stored>(&self, kept: &KeptVoxels) -> Result<Vec<T>, ReadError> {
         let share = self.share()?;
         let parts: Vec<Part> = self.files.iter().map(|path| self.check(path, share)).collect::<Result<_, _>>()?;
-        let mut voxels: Vec<T> = Vec::new();
+        let mut sink = Sink { payload: self, kept, arrived: 0, chunk: Vec::new(), voxels: Vec::new() };
         if self.encoding == Encoding::Raw {
-            make_room(&mut voxels, self.count, self.count).map_err(|no_room| self.no_memory(no_room))?;
+            sink.make_room(kept.len())?;
         }
         for part in &parts {
             let failed = |e| ReadError::io(part.path, e);
@@ -156,27 +157,27 @@ impl Payload<'_> {
             file.seek(SeekFrom::Start(part.offset)).map_err(failed)?;
             let mut reader = BufReader::with_capacity(CHUNK, file);
             match self.encoding {
-                Encoding::Raw => self.stream(part, &mut reader, share, &mut voxels)?,
-                Encoding::Text => self.text(part, &mut reader, share, &mut voxels)?,
+                Encoding::Raw => self.stream(part, &mut reader, share, &mut sink)?,
+                Encoding::Text => self.text(part, &mut reader, share, &mut sink)?,
                 Encoding::Zlib if !reader.fill_buf().map_err(failed)?.starts_with(&[0x1f, 0x8b]) => {
                     let mut decoder = ZlibDecoder::new(reader);
-                    self.stream(part, &mut decoder, share, &mut voxels)?;
+                    self.stream(part, &mut decoder, share, &mut sink)?;
                     if !decoder.into_inner().fill_buf().map_err(failed)?.is_empty() {
                         let after = "bytes follow the end of the compressed stream".to_string();
                         return Err(ReadError::new(part.path, Fault::Damaged(after)));
                     }
                 }
                 Encoding::Zlib | Encoding::Gzip => {
-                    self.stream(part, &mut MultiGzDecoder::new(reader), share, &mut voxels)?;
+                    self.stream(part, &mut MultiGzDecoder::new(reader), share, &mut sink)?;
                 }
-                Encoding::Bzip2 => self.stream(part, &mut MultiBzDecoder::new(reader), share, &mut voxels)?,
+                Encoding::Bzip2 => self.stream(part, &mut MultiBzDecoder::new(reader), share, &mut sink)?,
             }
         }
-        Ok(voxels)
+        Ok(sink.voxels)
     }
 
-    fn no_memory(&self, no_room: NoRoom) -> ReadError {
-        self.misfit(self.header, Fault::Memory { voxels: self.count, no_room })
+    fn no_memory(&self, voxels: usize, no_room: NoRoom) -> ReadError {
+        self.misfit(self.header, Fault::Memory { voxels, no_room })
     }
 
     /// Takes `share` numbers from a stream of bytes, which must end behind them.
@@ -185,7 +186,7 @@ impl Payload<'_> {
         part: &Part,
         reader: &mut dyn Read,
         share: usize,
-        voxels: &mut Vec<T>,
+        sink: &mut Sink<T>,
     ) -> Result<(), ReadError> {
         let mut source = Source { path: part.path, reader, cut: false };
         let expected = share as u128 * size_of::<T>() as u128;
@@ -209,8 +210,7 @@ impl Payload<'_> {
             if n < piece.len() {
                 return Err(short(found));
             }
-            make_room(voxels, n / size_of::<T>(), self.count).map_err(|no_room| self.no_memory(no_room))?;
-            T::append(piece, self.big_endian, voxels);
+            sink.take(piece)?;
         }
         // Reading to the end also lets the decoder check its sums.
         loop {
@@ -239,7 +239,7 @@ impl Payload<'_> {
         part: &Part,
         reader: &mut BufReader<File>,
         share: usize,
-        voxels: &mut Vec<T>,
+        sink: &mut Sink<T>,
     ) -> Result<(), ReadError> {
         // Numbers found so far, the line for messages, and the digits of the number being read.
         let mut found = 0;
@@ -264,8 +264,7 @@ impl Payload<'_> {
                             let expected = format!("a number of type {}", self.voxel_type.name());
                             ReadError::new(part.path, Fault::Value { found: quoted(&text), expected }).line(line)
                         })?;
-                        make_room(voxels, 1, self.count).map_err(|no_room| self.no_memory(no_room))?;
-                        voxels.push(number);
+                        sink.take_number(number)?;
                     }
                     found += 1;
                     word.clear();
@@ -286,6 +285,50 @@ impl Payload<'_> {
                 Err(self.misfit(part.path, Fault::Long { expected, found, at_least: false, unit: "numbers" }))
             }
         }
+    }
+}
+
+/// The kept voxels of those that have arrived.
+struct Sink<'a, T> {
+    payload: &'a Payload<'a>,
+    kept: &'a KeptVoxels,
+    /// Number of voxels that have arrived, kept or not.
+    arrived: usize,
+    /// Voxels of which not all are kept.
+    chunk: Vec<T>,
+    voxels: Vec<T>,
+}
+
+impl<T: Stored> Sink<'_, T> {
+    /// Takes the bytes of the next voxels, a whole number of them.
+    fn take(&mut self, bytes: &[u8]) -> Result<(), ReadError> {
+        let n = bytes.len() / size_of::<T>();
+        if self.kept.is_all() {
+            self.make_room(n)?;
+            T::append(bytes, self.payload.big_endian, &mut self.voxels);
+        } else {
+            self.chunk.clear();
+            T::append(bytes, self.payload.big_endian, &mut self.chunk);
+            // A kept voxel is at most each of those that arrived, and at most each that is still to come.
+            self.make_room(n.min(self.kept.len() - self.voxels.len()))?;
+            self.kept.append(&self.chunk, self.arrived, &mut self.voxels);
+        }
+        self.arrived += n;
+        Ok(())
+    }
+
+    /// Takes the next voxel.
+    fn take_number(&mut self, number: T) -> Result<(), ReadError> {
+        self.make_room(1.min(self.kept.len() - self.voxels.len()))?;
+        self.kept.append(&[number], self.arrived, &mut self.voxels);
+        self.arrived += 1;
+        Ok(())
+    }
+
+    /// Makes room for `more` kept voxels.
+    fn make_room(&mut self, more: usize) -> Result<(), ReadError> {
+        let total = self.kept.len();
+        make_room(&mut self.voxels, more, total).map_err(|no_room| self.payload.no_memory(total, no_room))
     }
 }
 

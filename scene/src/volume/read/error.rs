@@ -2,7 +2,7 @@
 
 use crate::memory::NoRoom;
 use crate::space::SpaceError;
-use crate::volume::VolumeError;
+use crate::volume::{NotInVolume, VolumeError};
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -143,6 +143,9 @@ pub enum Fault {
         /// The need, and the memory that is free.
         no_room: NoRoom,
     },
+    /// Voxels to keep that the volume does not have.
+    #[error(transparent)]
+    NotInVolume(#[from] NotInVolume),
     /// Sizes or axes that make no grid.
     #[error(transparent)]
     Space(#[from] SpaceError),
@@ -226,7 +229,8 @@ impl ReadError {
             }
             Fault::Damaged(_) => "get the file again".into(),
             Fault::Shares { .. } => "correct the list of data files".into(),
-            Fault::Memory { .. } => "crop or downsample the volume first".into(),
+            Fault::Memory { .. } => "read less of it with volume.box or volume.stride".into(),
+            Fault::NotInVolume(_) => "give ranges [first, last] within the volume as volume.box".into(),
             Fault::Space(_) if self.has_layout => "correct the sizes or the spacing in the layout".into(),
             Fault::Space(_) => "correct the sizes or the axis directions in the header".into(),
             Fault::Volume(VolumeError::Scaling { .. }) => "correct slope and intercept in the header".into(),

@@ -8,7 +8,7 @@ use super::data::Payload;
 use super::error::{Fault, ReadError, quoted};
 use super::header::{Field, Header, Lines};
 use super::limits::Encoding;
-use super::{grid_of, header, series, volume_of};
+use super::{Choose, grid_of, header, series, volume_of};
 use crate::volume::{Anatomy, Volume, VoxelType};
 use glam::{DMat3, DVec3};
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ const KEYS: [&str; 22] = [
 const MOST_AXES: usize = 10;
 
 /// Reads an `.mhd` or `.mha` file.
-pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
+pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
     let mut lines = Lines::open(file)?;
     let header = fields(file, &mut lines)?;
     let sizes = sizes(&header)?;
@@ -98,7 +98,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
         number_or(&header, "ElementToIntensityFunctionSlope", 1.0)?,
         number_or(&header, "ElementToIntensityFunctionOffset", 0.0)?,
     ];
-    volume_of(file, grid, payload.read()?, scaling, Some(Anatomy::LeftPosteriorSuperior))
+    volume_of(file, &grid, &payload, scaling, Some(Anatomy::LeftPosteriorSuperior), choose)
 }
 
 /// Reads `Key = value` lines up to `ElementDataFile`, which is the last.

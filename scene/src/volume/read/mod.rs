@@ -19,9 +19,10 @@ mod tests;
 pub(super) use error::quoted;
 pub use error::{Fault, ReadError};
 
-use super::{Anatomy, Volume, VolumeError, Voxels};
+use super::{Anatomy, KeptVoxels, NotInVolume, Volume, VolumeError};
 use crate::space::{Grid, SpaceError};
 use crate::volume::RawLayout;
+use data::Payload;
 use glam::{DMat3, DVec3};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -46,15 +47,27 @@ pub fn is_volume(path: &Path) -> bool {
 /// A file that cannot be opened, is not what its suffix says, lies about its length, has axes that do not span space,
 /// has more than one number a voxel, or no finite value. See [`Fault`].
 pub fn read(path: &Path, raw: Option<&RawLayout>) -> Result<Volume, ReadError> {
+    read_part(path, raw, &|grid, _| Ok(KeptVoxels::all(grid.dims())))
+}
+
+/// Chooses the voxels to keep of a volume, by its grid and its anatomical space.
+pub type Choose<'a> = dyn Fn(&Grid, Option<Anatomy>) -> Result<KeptVoxels, NotInVolume> + 'a;
+
+/// Reads a volume file like [`read`](fn@read), as if it held just the voxels that `choose` keeps ([VOL-1]). The others
+/// take no memory.
+///
+/// # Errors
+/// Those of [`read`](fn@read), and voxels that the file does not have.
+pub fn read_part(path: &Path, raw: Option<&RawLayout>, choose: &Choose<'_>) -> Result<Volume, ReadError> {
     if let Some(layout) = raw {
-        return raw::read(path, layout, None);
+        return raw::read(path, layout, None, choose);
     }
     refuse_dicom(path)?;
     match suffix(path) {
-        Some("nrrd" | "nhdr") => nrrd::read(path),
-        Some("nii" | "nii.gz" | "hdr" | "hdr.gz" | "img" | "img.gz") => nifti::read(path),
-        Some("mhd" | "mha") => metaimage::read(path),
-        known => raw::read_described(path, known.is_some()),
+        Some("nrrd" | "nhdr") => nrrd::read(path, choose),
+        Some("nii" | "nii.gz" | "hdr" | "hdr.gz" | "img" | "img.gz") => nifti::read(path, choose),
+        Some("mhd" | "mha") => metaimage::read(path, choose),
+        known => raw::read_described(path, known.is_some(), choose),
     }
 }
 
@@ -108,15 +121,18 @@ fn grid_of(
     })
 }
 
-/// The volume of voxels that have been read.
+/// Reads the voxels that `choose` keeps, and makes their volume.
 fn volume_of(
     file: &Path,
-    grid: Grid,
-    voxels: Voxels,
+    whole: &Grid,
+    payload: &Payload,
     [slope, intercept]: [f64; 2],
     anatomy: Option<Anatomy>,
+    choose: &Choose<'_>,
 ) -> Result<Volume, ReadError> {
-    match Volume::new(grid, voxels, slope, intercept) {
+    let kept = choose(whole, anatomy).map_err(|error| ReadError::new(file, error))?;
+    let grid = kept.grid(whole).map_err(|error| ReadError::new(file, error))?;
+    match Volume::new(grid, payload.read(&kept)?, slope, intercept) {
         Ok(volume) => Ok(volume.with_anatomy(anatomy)),
         Err(error @ VolumeError::Scaling { .. }) => Err(ReadError::new(file, error).field("slope and intercept")),
         Err(error) => Err(ReadError::new(file, error)),

@@ -11,7 +11,7 @@
 use super::data::Payload;
 use super::error::{Fault, ReadError};
 use super::limits::Encoding;
-use super::{grid_of, header, volume_of, with_suffix};
+use super::{Choose, grid_of, header, volume_of, with_suffix};
 use crate::volume::RawLayout;
 use crate::volume::{Volume, VoxelType};
 use glam::{DMat3, DVec3};
@@ -29,7 +29,12 @@ pub(super) fn sidecar(file: &Path) -> PathBuf {
 
 /// Reads voxels in a given layout. `described` is the file that gives the layout, none where flags do. A name that
 /// ends in `.gz` says that the file is compressed.
-pub(super) fn read(file: &Path, layout: &RawLayout, described: Option<&Path>) -> Result<Volume, ReadError> {
+pub(super) fn read(
+    file: &Path,
+    layout: &RawLayout,
+    described: Option<&Path>,
+    choose: &Choose<'_>,
+) -> Result<Volume, ReadError> {
     let (described, [size, spacing]) = match described {
         Some(description) => (description, ["size", "spacing"]),
         None => (file, ["size of its layout", "spacing of its layout"]),
@@ -52,19 +57,19 @@ pub(super) fn read(file: &Path, layout: &RawLayout, described: Option<&Path>) ->
         encoding: if compressed { Encoding::Gzip } else { Encoding::Raw },
         inside: layout.skip,
     };
-    volume_of(file, grid, payload.read().map_err(ReadError::of_layout)?, [1.0, 0.0], None)
+    volume_of(file, &grid, &payload, [1.0, 0.0], None, choose).map_err(ReadError::of_layout)
 }
 
 /// Reads voxels in the layout of a sidecar. Without one it is an error, whose advice depends on whether the suffix is
 /// a known one.
-pub(super) fn read_described(file: &Path, known_suffix: bool) -> Result<Volume, ReadError> {
+pub(super) fn read_described(file: &Path, known_suffix: bool, choose: &Choose<'_>) -> Result<Volume, ReadError> {
     header::open(file)?;
     let description = sidecar(file);
     if !description.is_file() {
         return Err(ReadError::new(file, if known_suffix { Fault::NoLayout } else { Fault::Suffix }));
     }
     let layout = parse(&description).map_err(ReadError::of_layout)?;
-    read(file, &layout, Some(&description))
+    read(file, &layout, Some(&description), choose)
 }
 
 #[derive(Deserialize)]

@@ -9,7 +9,7 @@ mod fields;
 use super::data::Payload;
 use super::error::{Fault, ReadError};
 use super::limits::Encoding;
-use super::{grid_of, header, suffix, volume_of};
+use super::{Choose, grid_of, header, suffix, volume_of};
 use crate::volume::{Anatomy, Volume, VoxelType};
 use fields::Fields;
 use flate2::bufread::MultiGzDecoder;
@@ -17,7 +17,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 /// Reads a NIfTI file, or the pair that an `.hdr` or `.img` file belongs to.
-pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
+pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
     let (header, data) = pair(file);
     let (bytes, header_encoding) = start_of(&header)?;
     let fields = Fields::parse(&header, &bytes)?;
@@ -51,7 +51,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
         inside,
     };
     let anatomy = placed.anatomical.then_some(Anatomy::RightAnteriorSuperior);
-    volume_of(&header, grid, payload.read()?, scaling, anatomy)
+    volume_of(&header, &grid, &payload, scaling, anatomy, choose)
 }
 
 /// The header that a path belongs to, and the data file beside it, which only a pair has.

@@ -10,12 +10,12 @@ use super::data::Payload;
 use super::error::{Fault, ReadError, quoted};
 use super::header::{Field, Header, Lines};
 use super::limits::Encoding;
-use super::{series, volume_of};
+use super::{Choose, series, volume_of};
 use crate::volume::{Volume, VoxelType};
 use std::path::{Path, PathBuf};
 
 /// Reads an `.nrrd` or `.nhdr` file.
-pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
+pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
     let mut lines = Lines::open(file)?;
     let header = fields::read(file, &mut lines)?;
     let (voxel_type, big_endian) = number(&header)?;
@@ -41,7 +41,7 @@ pub(super) fn read(file: &Path) -> Result<Volume, ReadError> {
         encoding,
         inside: skips.bytes,
     };
-    volume_of(file, grid, payload.read()?, [1.0, 0.0], axes.anatomy)
+    volume_of(file, &grid, &payload, [1.0, 0.0], axes.anatomy, choose)
 }
 
 /// Type and byte order of a voxel.

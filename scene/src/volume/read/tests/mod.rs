@@ -5,6 +5,7 @@ mod hostile;
 mod places;
 mod round_trip;
 mod shared;
+mod subset;
 mod types;
 mod wording;
 
