@@ -18,6 +18,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
 use drypoint_scene::shot::Clipping;
 use drypoint_scene::space::Grid;
+use drypoint_scene::strokes::Stroke;
 use drypoint_scene::tables::{Iso, Length, Scene};
 use drypoint_scene::view::View;
 use hatching::{GrownHatching, HatchingSetup};
@@ -45,6 +46,8 @@ pub struct StrokeFrames<'a> {
     /// Surfaces that strokes lie on, and that hide them.
     surfaces: Vec<IsoSurface<'a, 'a>>,
     hatched: Option<GrownHatching<'a>>,
+    /// Creases of the surface of outlines.
+    creases: Vec<Stroke>,
 }
 
 /// View of a frame, and the surface that hides strokes.
@@ -132,7 +135,10 @@ impl<'a> Stroking<'a> {
     pub fn frames(&self, counts: &mut Counts) -> StrokeFrames<'_> {
         let surfaces = self.surfaces();
         let hatched = self.hatching.as_ref().map(|hatching| hatching.grow(&self.field, counts));
-        StrokeFrames { stroking: self, surfaces, hatched }
+        let outlined = self.outlining.as_ref();
+        let own = outlined.and_then(|own| Some((own, surfaces.iter().find(|surface| surface.iso() == own.iso)?)));
+        let creases = own.map_or_else(Vec::new, |(own, surface)| own.creases(surface, counts));
+        StrokeFrames { stroking: self, surfaces, hatched, creases }
     }
 
     /// Returns the surfaces that strokes lie on, and that hide them.
@@ -168,15 +174,11 @@ impl StrokeFrames<'_> {
         if let Some(outlining) = outlining
             && let Some((own, hides)) = surface(outlining.iso).zip(surface(hides.unwrap_or(outlining.iso)))
         {
-            let voxel = field.volume().grid().voxel();
-            let hides = Some(hides);
+            let grid = field.volume().grid();
+            let (hides, reach) = (Some(hides), grid.voxel() * largest_scale(view, page, *near, grid));
             // The planes have cut them already.
-            layers.push(outlining.draw(
-                &StrokeCamera { view, page, near: *near, clip: &NO_PLANES, hides },
-                own,
-                voxel,
-                counts,
-            ));
+            let camera = StrokeCamera { view, page, near: *near, clip: &NO_PLANES, hides };
+            layers.push(outlining.draw(&camera, (own, &self.creases), reach, counts));
         }
         if let Some(hatching) = hatching {
             hatching.cut(&mut layers, hatched, view, counts)?;

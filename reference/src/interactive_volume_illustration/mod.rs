@@ -19,10 +19,10 @@ pub use directions::{
     DirectionEstimator, DirectionInterpolation, DirectionStorage, PrincipalDirections, ReferenceField, Thresholds,
     deviation, longest_axis,
 };
-pub use outlines::{OutlineStrokes, outlines};
+pub use outlines::{CreaseStrokes, OutlineStrokes, before_cusps, creases, outlines};
 pub use seeds::{LargestMeasure, Pyramid, Seed, SeedRule, Seeds, VoxelMeasure, gradient_range};
 pub use sight::{
-    GappedLines, PenState, Sight, StrokePoint, StyledStroke, VisibleLines, dash_vertices, dashed, drawn, gapped, grain,
+    GappedLines, Joining, PenState, Sight, StrokePoint, StyledStroke, VisibleLines, dash_vertices, dashed, drawn, gapped, grain, joined, without_doubles,
 };
 pub use strokes::{
     CurvatureFamily, DirectionCounts, GrownStrokes, HatchCounts, HatchParams, NoDirection, NormalCone, PackedStrokes,

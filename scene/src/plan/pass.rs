@@ -53,6 +53,8 @@ pub enum Pass {
     DotsOnPage,
     /// The silhouette curves of a frame.
     Curves,
+    /// The creases of an iso-surface ([HATCH-22]).
+    Creases,
     /// The outlines of a frame ([HATCH-18]).
     Outlines,
     /// The ranges that lead to the cells of an iso-surface ([HATCH-5]).
@@ -110,6 +112,7 @@ impl Pass {
             Self::HiddenPoints => "hidden points",
             Self::DotsOnPage => "choice on the page",
             Self::Curves => "curves",
+            Self::Creases => "creases",
             Self::Outlines => "outlines",
             Self::Pyramid => "pyramid",
             Self::SeenCells => "cells that are seen",
@@ -153,6 +156,7 @@ impl Pass {
             Self::HiddenPoints => "one look at each voxel, once; a search and a line towards the eye a point",
             Self::DotsOnPage => "four candidates a dot, each with its neighbours",
             Self::Curves => "one test a voxel of curves",
+            Self::Creases => "smoothed grids and a curvature a voxel of the surface, two searches a place of a crease",
             Self::Outlines => "a value and a gradient a voxel of the surface, a search a place of an outline",
             Self::Pyramid => "one look at each voxel, two bytes every eight",
             Self::SeenCells => "one look at the function a cell of the blocks that may be seen",
@@ -188,7 +192,7 @@ impl Pass {
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
             Self::Clip | Self::HaloSeeds | Self::HaloSpreading => 0,
-            Self::HiddenPoints | Self::DotsOnPage | Self::Outlines | Self::HiddenStrokes | Self::Gaps => 0,
+            Self::HiddenPoints | Self::DotsOnPage | Self::Creases | Self::Outlines | Self::HiddenStrokes | Self::Gaps => 0,
             // At most a cell a voxel: where it is, its p, and once more if a stroke begins there.
             Self::SeenCells => 56,
             // Of the cells of a surface alone.

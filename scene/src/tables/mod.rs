@@ -46,7 +46,7 @@ pub use hatching::{
 };
 pub use nodes::{Row, RowAt, Stand};
 pub use orbit::Orbit;
-pub use outlines::Outlines;
+pub use outlines::{Crease, Outlines};
 pub use over::{Axis, LabelKey, Over};
 pub use page::PageSettings;
 pub use pen::PenSettings;

@@ -119,7 +119,7 @@ impl Preset {
                     (scene.surface, scene.shading) = (Some(surface), Some(shading));
                 }
             }
-            Self::Outline => scene.outlines = Some(Outlines::default()),
+            Self::Outline => scene.outlines = Some(Outlines::for_print()),
             Self::Toon(preset) => {
                 let (surface, shading) = preset.tables();
                 (scene.surface, scene.shading) = (Some(surface), Some(shading));

@@ -1,6 +1,6 @@
 //! The effects, each with the counts that it alone makes. A paper adds its own lines.
 
-use super::scenes::{LABEL_ROWS, REGULAR, ROWS, STIPPLES, STROKES, STYLE};
+use super::scenes::{LABEL_ROWS, OUTLINES, REGULAR, ROWS, STIPPLES, STROKES, STYLE};
 
 /// Keys of a scene and their values, as `--set` takes them; `{folder}` is where `labels.nrrd` is.
 pub(super) type Settings = &'static [(&'static str, &'static str)];
@@ -397,6 +397,16 @@ pub(super) const EFFECTS: &[Effect] = &[
         with: &[("outlines.iso", "120"), ("outlines.min_length", "2 px")],
         only: &["strokes", "bytes.surface", "preprocess.looks for what hides", "preprocess.outline places"],
         perhaps: &["preprocess.outline places without a root", "preprocess.short strokes"],
+        ..NOTHING
+    },
+    Effect {
+        name: "creases",
+        asked_by: "`outlines.crease`",
+        base: OUTLINES,
+        with: &[("outlines.crease", "20 deg")],
+        only: &["bytes.smoothed bricks of creases", "preprocess.crease places"],
+        perhaps: &["preprocess.crease places without a crest"],
+        more: &["strokes", "preprocess.looks for what hides"],
         ..NOTHING
     },
     Effect {

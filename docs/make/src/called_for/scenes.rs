@@ -62,6 +62,14 @@ seeds = "dense"
 "#
 );
 
+/// Outlines alone.
+pub(super) const OUTLINES: &str = specimen!(
+    r#"[outlines]
+iso = 120
+min_length = "2 px"
+"#
+);
+
 /// Rows of [`REGULAR`]'s nodes, all alike: what the second quantity measures changes the work and not the picture.
 pub(super) const ROWS: &str = r#"[
   { at = -1e9, nodes = [

@@ -225,6 +225,7 @@ pub(super) const FAMILIES: [Family; 18] = [
             (19, "Lines of one width are as far apart as the tone asks."),
             (20, "Lines have gaps where nearer ones cross."),
             (21, "What a pen cannot draw is dropped in plotter mode, and the plan says so."),
+            (22, "Creases are lines of extremal curvature where the normal turns fast; where one coincides with an outline, the outline stays."),
         ],
     },
     Family {

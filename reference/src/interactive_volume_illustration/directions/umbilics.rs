@@ -115,6 +115,17 @@ impl<'f, 'v> PrincipalDirections<'f, 'v> {
         Self { scaled: None }
     }
 
+    /// The derivatives at the finest scale; none under the rule `raw`.
+    pub(in super::super) fn finest(&self) -> Option<&Smoothed<'f, 'v>> {
+        self.scaled.as_ref().map(|scaled| &scaled.pairs[0][0])
+    }
+
+    /// Returns the curvatures and directions at a place, if the finest scale is certain of them.
+    pub(in super::super) fn at_finest(&self, at: DVec3) -> Option<Curvature<f64>> {
+        let place = QueryPoint::Between(Vec3::from_glam(at));
+        self.scaled.as_ref()?.estimate(0, at, place, &SmoothedRegions::default()).ok()
+    }
+
     /// Size of the smoothed bricks and the mask's margins in bytes.
     pub fn bytes(&self) -> u64 {
         let Some(scaled) = &self.scaled else { return 0 };

@@ -1,6 +1,6 @@
 //! The intersection of an iso-surface with the faces of the volume's box ([HATCH-18]).
 
-use super::search::{CurvePoint, OutlineSearch, position};
+use super::search::{CurvePoint, CurveSearch, position};
 use super::tetrahedra::is_above;
 use crate::field::Sampler;
 use crate::number::Vec3;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Returns the segments of f = iso in the faces of the box. Each cell face is split into the two triangles that its
 /// tetrahedra have there. Ends are roots along the triangles' edges. An edge's key is its first voxel and the step to
 /// the other one.
-pub(super) fn rim<S: Sampler<f64>>(search: &OutlineSearch<'_>, sampler: &S) -> Vec<[CurvePoint; 2]> {
+pub(super) fn rim<S: Sampler<f64>>(search: &CurveSearch<'_>, sampler: &S) -> Vec<[CurvePoint; 2]> {
     let dims = search.grid.dims();
     let side = |i: usize| {
         let (axis, far) = (i / 2, i % 2 == 1);
@@ -39,7 +39,7 @@ pub(super) fn rim<S: Sampler<f64>>(search: &OutlineSearch<'_>, sampler: &S) -> V
 
 /// Adds the segment in a triangle. The triangle's corners are given as steps from a voxel.
 fn in_triangle<S: Sampler<f64>>(
-    search: &OutlineSearch<'_>,
+    search: &CurveSearch<'_>,
     sampler: &S,
     first: [usize; 3],
     corners: [usize; 3],

@@ -1,12 +1,19 @@
-//! Outlines of an iso-surface for a camera ([HATCH-18]).
+//! Outlines of an iso-surface for a camera ([HATCH-18]), and its creases ([HATCH-22]).
 
 mod box_intersection;
 mod chain;
+mod corners;
+mod creases;
 mod curve_refinement;
+mod cusps;
+mod facing;
 mod iso_difference;
 mod search;
 mod section;
+mod second_function;
 mod simplification;
 mod tetrahedra;
 
+pub use creases::{CreaseStrokes, creases};
+pub use cusps::before_cusps;
 pub use search::{OutlineStrokes, outlines};

@@ -1,19 +1,16 @@
-//! Outlines ([HATCH-18]): the curves on which an iso-surface turns away from the eye, f = iso and N·v = 0, and its
-//! intersection with the volume's box.
+//! Curves on an iso-surface on which a second function q is 0: outlines ([HATCH-18]) and creases ([HATCH-22]).
 //!
-//! Both functions are taken as linear in the tetrahedra of each cell, which gives closed curves without branches.
-//! Their places are then moved onto the curve of the reconstruction itself. N·v is computed as g·v, with v towards
-//! the eye at each place. So it contains no norm, and its zeros are those of the gradient that the scene samples.
+//! Both functions are taken as linear in the tetrahedra of each cell, which gives curves without branches. Their
+//! places are then moved onto the curve of the reconstruction itself.
 //!
-//! With a trilinear kernel and its analytic gradient N·v jumps at the faces of cells, and most places have no root
-//! nearby: of a sphere's circle 38 % is found, in eleven pieces. Every other pair of kernel and gradient closes it.
-//!
-//! A grid with an axis of one voxel has no cells and no outline.
+//! A grid with an axis of one voxel has no cells and no curves.
 
 use super::box_intersection::rim;
 use super::chain::{Chain, chains};
 use super::curve_refinement::CurveRefinement;
+use super::facing::Facing;
 use super::iso_difference::IsoDifference;
+use super::second_function::SecondFunction;
 use super::simplification::kept;
 use super::tetrahedra::{FACES, TETRAHEDRA, ValuePair, crossed, is_above, weights};
 use crate::field::Sampler;
@@ -43,12 +40,14 @@ const LONGEST: f64 = 2.0;
 /// uncertain.
 const BACK: f64 = 0.3;
 
-/// The outlines of a surface for one camera, hidden parts included.
+/// Curves on a surface, hidden parts included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutlineStrokes {
     /// Strokes in world space. Those where the surface turns away come before those on the box and those on clip planes,
     /// each group in the order of their cells.
     pub strokes: Vec<Stroke>,
+    /// Number of strokes that are neither on the box nor on a clip plane.
+    pub inside: usize,
     /// Number of places on curves of the linear functions.
     pub places: u64,
     /// Number of places that were lost, because the reconstruction has no root or no normal nearby.
@@ -57,29 +56,19 @@ pub struct OutlineStrokes {
 
 /// Finds the outlines of a surface, whose field is prepared for gradients, for a camera.
 pub fn outlines(surface: &IsoSurface<'_, '_>, view: &View) -> OutlineStrokes {
-    let field = surface.field();
-    let volume = field.volume();
-    let search = OutlineSearch {
-        grid: volume.grid(),
-        mask: volume.mask(),
-        level: IsoDifference::new(volume, surface.iso()),
-        view,
-        outside: field.reconstruction().outside,
-        no_normal_below: field.no_normal_below(),
-    };
-    with_sampler!(field, |sampler| {
+    let search = CurveSearch::new(surface);
+    with_sampler!(surface.field(), |sampler| {
         let bricks = surface.bricks();
-        let found = search.outlines(sampler, &bricks);
+        let found = search.outlines(sampler, view, &bricks);
         search.clipped(sampler, &bricks, surface.clip(), found)
     })
 }
 
-/// The inputs of a search for outlines, except the field.
-pub(super) struct OutlineSearch<'a> {
+/// The inputs of a search for curves, except the field and the second function.
+pub(super) struct CurveSearch<'a> {
     pub(super) grid: &'a Grid,
     pub(super) mask: Option<&'a Mask>,
     pub(super) level: IsoDifference,
-    pub(super) view: &'a View,
     pub(super) outside: Outside,
     /// Gradient length that is rounding error ([PREC-3]).
     pub(super) no_normal_below: f64,
@@ -88,53 +77,61 @@ pub(super) struct OutlineSearch<'a> {
 /// A place on a curve in index space, with the key of the face or edge on which it lies.
 pub(super) type CurvePoint = (u64, DVec3);
 
-impl OutlineSearch<'_> {
-    pub(super) fn outlines<S: Sampler<f64>>(&self, sampler: &S, bricks: &[[usize; 3]]) -> OutlineStrokes {
+impl<'a> CurveSearch<'a> {
+    pub(super) fn new(surface: &IsoSurface<'_, 'a>) -> Self {
+        let field = surface.field();
+        let volume = field.volume();
+        Self {
+            grid: volume.grid(),
+            mask: volume.mask(),
+            level: IsoDifference::new(volume, surface.iso()),
+            outside: field.reconstruction().outside,
+            no_normal_below: field.no_normal_below(),
+        }
+    }
+
+    pub(super) fn outlines<S: Sampler<f64>>(
+        &self,
+        sampler: &S,
+        view: &View,
+        bricks: &[[usize; 3]],
+    ) -> OutlineStrokes {
         if self.grid.dims().contains(&1) {
             return OutlineStrokes::default();
         }
-        let facing_at = |voxel| self.facing(position(voxel), sampler.voxel_gradient(voxel));
-        let facing = |at: DVec3| self.facing(at, sampler.gradient(Vec3::from_glam(at)));
-        let mut found = self.curves(sampler, bricks, &facing_at, &facing);
-
+        let mut found = self.curves(sampler, &Facing { view, grid: self.grid, sampler }, bricks);
         let (chains, on_box) = joined(rim(self, sampler));
         let at = |key: u64| Some(on_box[on_box.partition_point(|place| place.0 < key)].1);
-        let on_box = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 3, &at, &|_| None));
-        found.strokes.par_extend(on_box);
+        let rims = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 3, &at, &|_| None));
+        found.strokes.par_extend(rims);
         found
     }
 
-    /// Finds the curves f = iso, q = 0 in bricks, from q at voxels and anywhere.
-    pub(super) fn curves<S: Sampler<f64>>(
+    /// The curves f = iso, q = 0 in some bricks.
+    pub(super) fn curves<S: Sampler<f64>, Q: SecondFunction>(
         &self,
         sampler: &S,
+        function: &Q,
         bricks: &[[usize; 3]],
-        at_voxel: &(dyn Fn([usize; 3]) -> f64 + Sync),
-        q: &(dyn Fn(DVec3) -> f64 + Sync),
     ) -> OutlineStrokes {
-        let in_bricks = |brick: &[usize; 3]| self.in_brick(sampler, *brick, at_voxel);
+        if self.grid.dims().contains(&1) {
+            return OutlineStrokes::default();
+        }
+        let in_bricks = |brick: &[usize; 3]| self.in_brick(sampler, function, *brick);
         let segments: Vec<[CurvePoint; 2]> = bricks.par_iter().flat_map_iter(in_bricks).collect();
         let (chains, found) = joined(segments);
-        let refine =
-            CurveRefinement { sampler, over: &|value| self.level.over(value), q, bounds: self.grid.index_box() };
-        let onto_curve =
-            |place: &CurvePoint| refine.onto_curve(place.1).filter(|at| self.normal(sampler, *at).is_some());
-        let moved: Vec<Option<DVec3>> = found.par_iter().map(onto_curve).collect();
-        let middle = |at: DVec3| refine.onto_curve(at);
+        let onto_curve = |start: DVec3| {
+            let over = &|value| self.level.over(value);
+            let refine = CurveRefinement { sampler, over, q: function.near(start)?, bounds: self.grid.index_box() };
+            refine.onto_curve(start)
+        };
+        let holds = |at: &DVec3| self.normal(sampler, *at).is_some() && function.holds(*at);
+        let moved: Vec<Option<DVec3>> = found.par_iter().map(|place| onto_curve(place.1).filter(holds)).collect();
         let (places, lost) = (found.len(), moved.iter().filter(|at| at.is_none()).count());
         let at = |key: u64| moved[found.partition_point(|place| place.0 < key)];
-        let strokes = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 6, &at, &middle));
-        OutlineStrokes { strokes: strokes.collect(), places: places as u64, lost: lost as u64 }
-    }
-
-    /// g·v at a place in index space, v of length 1 towards the eye.
-    fn facing(&self, at: DVec3, g: Vec3<f64>) -> f64 {
-        let v = if self.view.perspective {
-            (self.view.eye - self.grid.to_world(at)).normalize_or_zero()
-        } else {
-            -self.view.forward
-        };
-        g.to_glam().dot(v)
+        let turning = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 6, &at, &onto_curve));
+        let strokes: Vec<Stroke> = turning.collect();
+        OutlineStrokes { inside: strokes.len(), strokes, places: places as u64, lost: lost as u64 }
     }
 
     fn normal<S: Sampler<f64>>(&self, sampler: &S, at: DVec3) -> Option<DVec3> {
@@ -148,11 +145,11 @@ impl OutlineSearch<'_> {
     }
 
     /// Segments of curves in the cells of a brick.
-    fn in_brick<S: Sampler<f64>>(
+    fn in_brick<S: Sampler<f64>, Q: SecondFunction>(
         &self,
         sampler: &S,
+        function: &Q,
         brick: [usize; 3],
-        at_voxel: &(dyn Fn([usize; 3]) -> f64 + Sync),
     ) -> Vec<[CurvePoint; 2]> {
         const SIDE: usize = BRICK + 1;
         let first = brick.map(|b| b * BRICK);
@@ -165,8 +162,8 @@ impl OutlineSearch<'_> {
             let index: [usize; 3] = std::array::from_fn(|a| first[a] + voxel[a]);
             over[local(voxel)] = self.level.over(sampler.value(Vec3::from_glam(position(index))));
         });
-        // q is computed only at corners of cells in which f − iso changes its sign; NaN marks the others.
-        let mut second = [f64::NAN; SIDE * SIDE * SIDE];
+        // q is computed only at corners of cells in which f − iso changes its sign.
+        let mut second: Vec<Option<Q::Corner>> = vec![None; SIDE * SIDE * SIDE];
         let mut segments = Vec::new();
         for_each(cells, |cell| {
             let corner = |steps: usize| over[local(at(cell, steps))];
@@ -178,28 +175,32 @@ impl OutlineSearch<'_> {
             if self.mask.is_some_and(|mask| mask.touches_cell(index)) {
                 return;
             }
-            let corners: [ValuePair; 8] = std::array::from_fn(|steps| {
-                let i = local(at(cell, steps));
-                if second[i].is_nan() {
-                    second[i] = at_voxel(at(index, steps));
-                }
-                [over[i], second[i]]
+            let corners: [Q::Corner; 8] = std::array::from_fn(|steps| {
+                *second[local(at(cell, steps))].get_or_insert_with(|| function.at_voxel(at(index, steps)))
             });
-            let turns = is_above(corners[0][1]);
-            if corners.iter().any(|corner| is_above(corner[1]) != turns) {
-                self.in_cell(index, &corners, &mut segments);
+            if function.may_vanish(&corners) {
+                self.in_cell(function, index, &std::array::from_fn(corner), &corners, &mut segments);
             }
         });
         segments
     }
 
     /// Adds the segments in the tetrahedra of a cell, from the functions at its corners.
-    fn in_cell(&self, cell: [usize; 3], corners: &[ValuePair; 8], segments: &mut Vec<[CurvePoint; 2]>) {
+    fn in_cell<Q: SecondFunction>(
+        &self,
+        function: &Q,
+        cell: [usize; 3],
+        over: &[f64; 8],
+        second: &[Q::Corner; 8],
+        segments: &mut Vec<[CurvePoint; 2]>,
+    ) {
         for tetrahedron in TETRAHEDRA {
-            let Some(faces) = crossed(tetrahedron.map(|steps| corners[steps])) else { continue };
+            let Some(q) = function.values(tetrahedron.map(|steps| second[steps])) else { continue };
+            let pairs: [ValuePair; 4] = std::array::from_fn(|k| [over[tetrahedron[k]], q[k]]);
+            let Some(faces) = crossed(pairs) else { continue };
             segments.push(faces.map(|face| {
                 let [a, b, c] = FACES[face].map(|k| tetrahedron[k]);
-                let w = weights([a, b, c].map(|steps| corners[steps]));
+                let w = weights(FACES[face].map(|k| pairs[k]));
                 let from: [usize; 3] = std::array::from_fn(|axis| cell[axis] + (a >> axis & 1));
                 let at = [a, b, c].map(|steps| position(std::array::from_fn(|axis| cell[axis] + (steps >> axis & 1))));
                 // A face's key: its first voxel, and the steps from it to the other two.
@@ -243,7 +244,7 @@ impl OutlineSearch<'_> {
     }
 }
 
-impl OutlineSearch<'_> {
+impl CurveSearch<'_> {
     /// Adds places to a curve where its segments are too far from `onto_curve`.
     fn bent(
         &self,

@@ -1,37 +1,74 @@
 //! Outlines at clip planes: they end there, and the section of the iso-surface with a plane is one itself ([HATCH-18],
 //! [RAY-8]).
 
-use super::search::{OutlineSearch, OutlineStrokes, measure, position};
+use super::search::{CurveSearch, OutlineStrokes, measure, position};
+use super::second_function::SecondFunction;
+use super::tetrahedra::any_sign_change;
 use crate::field::Sampler;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes, ClippedParts};
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 
-impl OutlineSearch<'_> {
+impl CurveSearch<'_> {
     /// Cuts outlines by planes, and adds the curves in which the planes cut the surface.
     pub(super) fn clipped<S: Sampler<f64>>(
         &self,
         sampler: &S,
         bricks: &[[usize; 3]],
         clip: &ClipPlanes,
-        whole: OutlineStrokes,
+        mut whole: OutlineStrokes,
     ) -> OutlineStrokes {
         if clip.is_empty() || self.grid.dims().contains(&1) {
             return whole;
         }
-        let strokes = whole.strokes.into_iter().flat_map(|stroke| cut(stroke, clip)).collect();
-        let mut left = OutlineStrokes { strokes, ..whole };
+        let on_box = whole.strokes.split_off(whole.inside);
+        let strokes: Vec<Stroke> = cut_all(whole.strokes, clip);
+        let mut left = OutlineStrokes { inside: strokes.len(), strokes, ..whole };
+        left.strokes.extend(cut_all(on_box, clip));
         for (i, plane) in clip.0.iter().enumerate() {
-            let found = self.curves(sampler, bricks, &|voxel| plane.beyond(position(voxel)), &|at| plane.beyond(at));
+            let found = self.curves(sampler, &PlaneSection(plane), bricks);
             // A section lies on its own plane, so the other planes alone cut it.
             let others = clip.0.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, plane)| plane.clone());
             let others = ClipPlanes(others.collect());
-            let on_plane = found.strokes.into_iter().map(|stroke| on_plane(stroke, plane));
-            left.strokes.extend(on_plane.flat_map(|stroke| cut(stroke, &others)));
+            let on_plane = found.strokes.into_iter().map(|stroke| on_plane(stroke, plane)).collect();
+            left.strokes.extend(cut_all(on_plane, &others));
             left.places += found.places;
             left.lost += found.lost;
         }
         left
     }
+}
+
+/// The second function of a section: the distance beyond a plane.
+struct PlaneSection<'a>(&'a ClipPlane);
+
+impl SecondFunction for PlaneSection<'_> {
+    type Corner = f64;
+
+    fn at_voxel(&self, voxel: [usize; 3]) -> f64 {
+        self.0.beyond(position(voxel))
+    }
+
+    fn may_vanish(&self, corners: &[f64; 8]) -> bool {
+        any_sign_change(corners)
+    }
+
+    fn values(&self, corners: [f64; 4]) -> Option<[f64; 4]> {
+        Some(corners)
+    }
+
+    fn near(&self, _start: DVec3) -> Option<impl Fn(DVec3) -> f64> {
+        Some(|at: DVec3| self.0.beyond(at))
+    }
+
+    fn holds(&self, _at: DVec3) -> bool {
+        true
+    }
+}
+
+/// The parts of strokes that planes leave.
+pub(super) fn cut_all(strokes: Vec<Stroke>, clip: &ClipPlanes) -> Vec<Stroke> {
+    strokes.into_iter().flat_map(|stroke| cut(stroke, clip)).collect()
 }
 
 /// Puts a section onto its plane to the last bits. Its normals become the direction in which its visibility is tested:

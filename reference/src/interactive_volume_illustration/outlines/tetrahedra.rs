@@ -31,6 +31,12 @@ pub(super) fn is_above(value: f64) -> bool {
     value >= 0.0
 }
 
+/// Whether values at the corners of a cell lie on both sides of 0.
+pub(super) fn any_sign_change(corners: &[f64; 8]) -> bool {
+    let above = is_above(corners[0]);
+    corners.iter().any(|&corner| is_above(corner) != above)
+}
+
 /// Whether the determinant of two pairs is above 0. The first pair belongs to the voxel that comes first in the
 /// volume.
 fn turns_left(a: ValuePair, b: ValuePair) -> bool {

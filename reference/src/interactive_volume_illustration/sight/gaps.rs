@@ -1,4 +1,5 @@
-//! Gaps where a nearer line crosses (Appel, Rohlf and Stein 1979; [HATCH-20]).
+//! Parts of lines beside other lines: gaps where a nearer line crosses (Appel, Rohlf and Stein 1979; [HATCH-20]), and
+//! creases that coincide with outlines ([HATCH-22]).
 
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Polyline, Vertex};
@@ -23,7 +24,52 @@ pub struct GappedLines {
 pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, deeper: f64) -> GappedLines {
     let all: Vec<PageSegment> =
         lines.iter().chain(others).enumerate().flat_map(|(number, line)| segments(line, number, view)).collect();
-    let grid = SegmentRaster::new(&all, gap);
+    cut(lines, &all, view, gap, CutBy::Nearer(deeper))
+}
+
+/// Removes the parts of lines that lie within `gap` mm on the page of another line. Where both are closest, their
+/// depths must differ by at most `depth`, in world units along the view.
+pub fn without_doubles(
+    lines: &[Polyline],
+    others: &[Polyline],
+    view: &View,
+    gap: f64,
+    depth: f64,
+) -> GappedLines {
+    let numbered = others.iter().zip(lines.len()..);
+    let all: Vec<PageSegment> = numbered.flat_map(|(line, number)| segments(line, number, view)).collect();
+    cut(lines, &all, view, gap, CutBy::Equal(depth))
+}
+
+/// The lines that cut, by their depths.
+#[derive(Clone, Copy)]
+enum CutBy {
+    /// Lines nearer by more than this.
+    Nearer(f64),
+    /// Lines whose depths differ by at most this.
+    Equal(f64),
+}
+
+impl CutBy {
+    /// Whether a segment may cut another one.
+    fn may(self, own: &PageSegment, other: &PageSegment) -> bool {
+        match self {
+            Self::Nearer(deeper) => own.depths[0].max(own.depths[1]) - other.depths[0].min(other.depths[1]) > deeper,
+            Self::Equal(_) => true,
+        }
+    }
+
+    /// Whether a place cuts another one, which is deeper by `deeper`.
+    fn cuts(self, deeper: f64) -> bool {
+        match self {
+            Self::Nearer(least) => deeper > least,
+            Self::Equal(most) => deeper.abs() <= most,
+        }
+    }
+}
+
+fn cut(lines: &[Polyline], all: &[PageSegment], view: &View, gap: f64, by: CutBy) -> GappedLines {
+    let grid = SegmentRaster::new(all, gap);
     let each: Vec<(Vec<Polyline>, u64)> = lines
         .par_iter()
         .enumerate()
@@ -33,7 +79,7 @@ pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, de
                 .iter()
                 .map(|segment| {
                     let near = grid.near(segment, gap).map(|i| &all[i]).filter(|other| other.line != number);
-                    segment.behind_each(near, gap, deeper)
+                    segment.beside_each(near, gap, by)
                 })
                 .collect();
             let cuts = out.iter().filter(|out| !out.is_empty()).count() as u64;
@@ -45,13 +91,13 @@ pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, de
 }
 
 /// A straight segment of a line.
-struct PageSegment {
-    ends: [Vertex; 2],
-    depths: [f64; 2],
-    line: usize,
+pub(super) struct PageSegment {
+    pub(super) ends: [Vertex; 2],
+    pub(super) depths: [f64; 2],
+    pub(super) line: usize,
 }
 
-fn segments<'a>(line: &'a Polyline, number: usize, view: &'a View) -> impl Iterator<Item = PageSegment> + 'a {
+pub(super) fn segments<'a>(line: &'a Polyline, number: usize, view: &'a View) -> impl Iterator<Item = PageSegment> + 'a {
     let again = line.vertices.first().filter(|_| line.closed).map(|first| Vertex { t: 1.0, ..*first });
     let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(again).collect();
     let depth = |vertex: &Vertex| -view.to_eye(vertex.world).z;
@@ -62,16 +108,16 @@ fn segments<'a>(line: &'a Polyline, number: usize, view: &'a View) -> impl Itera
 }
 
 impl PageSegment {
-    fn at(&self, s: f64) -> DVec2 {
+    pub(super) fn at(&self, s: f64) -> DVec2 {
         self.ends[0].at.lerp(self.ends[1].at, s)
     }
 
-    fn depth(&self, s: f64) -> f64 {
+    pub(super) fn depth(&self, s: f64) -> f64 {
         self.depths[0] + (self.depths[1] - self.depths[0]) * s
     }
 
     /// Parameter of the place on the segment that is nearest to a point of the page.
-    fn nearest(&self, to: DVec2) -> f64 {
+    pub(super) fn nearest(&self, to: DVec2) -> f64 {
         let along = self.ends[1].at - self.ends[0].at;
         let square = along.length_squared();
         if square == 0.0 { 0.0 } else { ((to - self.ends[0].at).dot(along) / square).clamp(0.0, 1.0) }
@@ -91,14 +137,13 @@ impl PageSegment {
         own.into_iter().chain(its).min_by(|&p, &q| square(p).total_cmp(&square(q))).unwrap_or_default()
     }
 
-    /// Parts of this segment that lie within `gap` of nearer ones. The search stops when the whole segment is cut
-    /// out.
-    fn behind_each<'a>(&self, others: impl Iterator<Item = &'a Self>, gap: f64, deeper: f64) -> Vec<[f64; 2]> {
-        let deepest = self.depths[0].max(self.depths[1]);
+    /// Parts of this segment that lie within `gap` of others that cut it. The search stops when the whole segment is
+    /// cut out.
+    fn beside_each<'a>(&self, others: impl Iterator<Item = &'a Self>, gap: f64, by: CutBy) -> Vec<[f64; 2]> {
         let mut out = Vec::new();
         // Most segments nearby belong to the same surface and have the same depth.
-        for other in others.filter(|other| deepest - other.depths[0].min(other.depths[1]) > deeper) {
-            out.extend(self.behind(other, gap, deeper));
+        for other in others.filter(|other| by.may(self, other)) {
+            out.extend(self.beside(other, gap, by));
             if out.last() == Some(&[0.0, 1.0]) {
                 break;
             }
@@ -106,11 +151,11 @@ impl PageSegment {
         out
     }
 
-    /// Part of this segment that lies within `gap` of a nearer one.
-    fn behind(&self, other: &Self, gap: f64, deeper: f64) -> Option<[f64; 2]> {
+    /// Part of this segment that lies within `gap` of another that cuts it.
+    fn beside(&self, other: &Self, gap: f64, by: CutBy) -> Option<[f64; 2]> {
         let range = self.within(other, gap)?;
         let [s, t] = self.closest(other);
-        (self.depth(s) - other.depth(t) > deeper).then_some(range)
+        by.cuts(self.depth(s) - other.depth(t)).then_some(range)
     }
 
     /// Part of this segment whose distance from another is at most `gap`. The neighbourhood of a segment is convex,
@@ -191,7 +236,7 @@ fn left(segments: &[PageSegment], out: &[Vec<[f64; 2]>], closed: bool) -> Vec<Po
 const MOST: f64 = 1024.0;
 
 /// A raster over the page that lists the segments touching each square.
-struct SegmentRaster {
+pub(super) struct SegmentRaster {
     first: DVec2,
     side: f64,
     dims: [usize; 2],
@@ -201,7 +246,7 @@ struct SegmentRaster {
 }
 
 impl SegmentRaster {
-    fn new(segments: &[PageSegment], gap: f64) -> Self {
+    pub(super) fn new(segments: &[PageSegment], gap: f64) -> Self {
         let places = || segments.iter().flat_map(|segment| segment.ends.map(|end| end.at));
         let first = places().reduce(DVec2::min).unwrap_or_default();
         let size = places().reduce(DVec2::max).unwrap_or_default() - first;
@@ -234,7 +279,7 @@ impl SegmentRaster {
     }
 
     /// Segments that may be within `gap` of a segment, possibly with repetitions.
-    fn near(&self, segment: &PageSegment, gap: f64) -> impl Iterator<Item = usize> {
+    pub(super) fn near(&self, segment: &PageSegment, gap: f64) -> impl Iterator<Item = usize> {
         self.touched(segment, gap)
             .flat_map(|square| &self.numbers[self.starts[square]..self.starts[square + 1]])
             .copied()

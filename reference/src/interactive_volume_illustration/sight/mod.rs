@@ -1,12 +1,14 @@
-//! Strokes on the page (4.3.2): projection, hidden parts, pens, dashes and gaps.
+//! Strokes on the page (4.3.2): projection, hidden parts, pens, dashes, gaps and joints.
 
 mod dashes;
 mod gaps;
+mod joining;
 mod projection;
 mod styled;
 mod visibility;
 
 pub use dashes::{dash_vertices, dashed};
-pub use gaps::{GappedLines, gapped};
+pub use gaps::{GappedLines, gapped, without_doubles};
+pub use joining::{Joining, joined};
 pub use styled::{StrokePoint, StyledStroke, drawn, grain};
 pub use visibility::{PenState, Sight, VisibleLines};

@@ -1,13 +1,16 @@
 //! Rules of `[outlines]`: needs, keys without effect, knobs.
 
 use super::{Pass, Rules};
-use crate::tables::{Iso, SurfaceLook};
+use crate::tables::{Crease, Iso, SurfaceLook};
 
 /// The rules of `[outlines]`.
 pub(super) const RULES: Rules = Rules {
     asks: |scene, asks| {
         let Some(outlines) = &scene.outlines else { return };
         asks.pass(Pass::Outlines, "outlines", "outlines");
+        if outlines.crease != Crease::Off {
+            asks.pass(Pass::Creases, "creases", "outlines.crease");
+        }
         asks.pass(Pass::HiddenStrokes, "hidden strokes", if scene.surface.is_some() { "surface" } else { "outlines" });
         if outlines.iso == Iso::Auto {
             asks.pass(Pass::AutomaticIso, "outlines", "outlines.iso");

@@ -23,7 +23,7 @@ pub(crate) enum HatchPreset {
 impl HatchPreset {
     /// The outlines around it.
     pub(crate) fn outlines(self) -> Option<Outlines> {
-        (self == Self::Plain).then(Outlines::default)
+        (self == Self::Plain).then(Outlines::for_print)
     }
 
     /// The surface under it, with its shading.

@@ -22,15 +22,14 @@ fn exact(phantom: &dyn Phantom, grid: &Grid, iso: f64, view: &View) -> OutlineSt
     let mut bricks = Vec::new();
     for_each(dims, |brick| bricks.push(brick));
     let volume = Volume::new(grid.clone(), Voxels::F64(vec![1.0; grid.len()]), 1.0, 0.0).unwrap();
-    let search = OutlineSearch {
+    let search = CurveSearch {
         grid,
         mask: None,
         level: IsoDifference::new(&volume, iso),
-        view,
         outside: Outside::Low,
         no_normal_below: 1e-9,
     };
-    search.outlines(&Exact::new(phantom, grid, 0), &bricks)
+    search.outlines(&Exact::new(phantom, grid, 0), view, &bricks)
 }
 
 /// Ends and middles of the pieces of strokes.

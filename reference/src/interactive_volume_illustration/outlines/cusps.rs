@@ -1,0 +1,98 @@
+//! Cusps of outlines ([HATCH-18]): places where an outline passes behind its own surface.
+//!
+//! Along the line of sight through an outline f − iso touches 0. The outline is seen where the surface bends away from
+//! that line on both sides, that is, where f has an extremum from outside (Koenderink, *What does the occluding contour
+//! tell us about solid shape?*, Perception 13, 1984). Behind a cusp the surface lies before its own outline, at first
+//! by less than any distance at which visibility is tested: hooks of the hidden part would be drawn.
+
+use super::facing::Facing;
+use crate::field::Sampler;
+use crate::field::Outside;
+use crate::number::Vec3;
+use crate::surface::IsoSurface;
+use crate::with_sampler;
+use drypoint_scene::strokes::{Stroke, StrokeVertex};
+use drypoint_scene::view::View;
+use rayon::prelude::*;
+
+/// Distance of the two places of a difference along the line of sight from their middle, in voxels.
+const APART: f64 = 1.0;
+
+/// Accuracy of a cusp, in voxels.
+const CHANGE: f64 = 0.05;
+
+/// Returns the parts of outlines before which the surface does not bend towards the eye. `strokes` lie where the surface
+/// turns away.
+pub fn before_cusps(surface: &IsoSurface<'_, '_>, view: &View, strokes: &[Stroke]) -> Vec<Stroke> {
+    let field = surface.field();
+    let grid = field.volume().grid();
+    let outside = if field.reconstruction().outside == Outside::Low { 1.0 } else { -1.0 };
+    let sign = outside * surface.front(view);
+    let [lo, hi] = grid.index_box();
+    with_sampler!(field, |sampler| {
+        let facing = Facing { view, grid, sampler };
+        let is_seen = |vertex: &StrokeVertex| {
+            let towards = if view.perspective { (view.eye - vertex.world).normalize_or_zero() } else { -view.forward };
+            let slope = |s: f64| {
+                let at = grid.to_index(vertex.world + towards * (s * APART * grid.voxel())).clamp(lo, hi);
+                facing.product(at, sampler.gradient(Vec3::from_glam(at)))
+            };
+            (slope(1.0) - slope(-1.0)) * sign <= 0.0
+        };
+        strokes.par_iter().flat_map_iter(|stroke| parts(stroke, grid.voxel(), &is_seen)).collect()
+    })
+}
+
+/// The parts of a stroke on which a condition holds, asked for every `step` and narrowed down to a share of it.
+fn parts(stroke: &Stroke, step: f64, holds: &dyn Fn(&StrokeVertex) -> bool) -> Vec<Stroke> {
+    let between = |a: &StrokeVertex, b: &StrokeVertex, t: f64| StrokeVertex {
+        world: a.world.lerp(b.world, t),
+        normal: a.normal.lerp(b.normal, t).normalize_or(a.normal),
+        u: a.u + (b.u - a.u) * t,
+    };
+    let again = stroke.vertices.first().filter(|_| stroke.closed).map(|first| StrokeVertex { u: 1.0, ..*first });
+    let vertices: Vec<StrokeVertex> = stroke.vertices.iter().copied().chain(again).collect();
+    let Some(first) = vertices.first() else { return Vec::new() };
+    let (mut before, mut is_whole) = (holds(first), true);
+    let begins = before;
+    let mut parts: Vec<Vec<StrokeVertex>> = if before { vec![vec![*first]] } else { Vec::new() };
+    for pair in vertices.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let length = a.world.distance(b.world);
+        let steps = (length / step).ceil().max(1.0) as u32;
+        let mut last = 0.0;
+        for k in 1..=steps {
+            let t = f64::from(k) / f64::from(steps);
+            let now = holds(&between(&a, &b, t));
+            if now != before {
+                let (mut lo, mut hi) = (last, t);
+                while (hi - lo) * length > CHANGE * step {
+                    let middle = 0.5 * (lo + hi);
+                    if holds(&between(&a, &b, middle)) == before { lo = middle } else { hi = middle }
+                }
+                let change = between(&a, &b, 0.5 * (lo + hi));
+                match parts.last_mut().filter(|_| before) {
+                    Some(part) => part.push(change),
+                    None => parts.push(vec![change]),
+                }
+                is_whole = false;
+            }
+            (before, last) = (now, t);
+        }
+        if let Some(part) = parts.last_mut().filter(|_| before) {
+            part.push(b);
+        }
+    }
+    if is_whole {
+        return if begins { vec![stroke.clone()] } else { Vec::new() };
+    }
+    if stroke.closed && begins && before && parts.len() > 1 {
+        // The last part continues in the first.
+        let mut last = parts.pop().unwrap_or_default();
+        last.pop();
+        last.append(&mut parts[0]);
+        parts[0] = last;
+    }
+    parts.retain(|part| part.len() > 1);
+    parts.into_iter().map(|vertices| Stroke { vertices, closed: false, key: stroke.key }).collect()
+}

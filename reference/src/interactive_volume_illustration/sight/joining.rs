@@ -1,0 +1,172 @@
+//! Joints of outlines and creases on the page ([HATCH-22]): ends that all but meet are joined, stubs are left out.
+
+use super::gaps::{PageSegment, SegmentRaster, segments};
+use drypoint_scene::glam::DVec2;
+use drypoint_scene::marks::{Polyline, Vertex};
+use drypoint_scene::view::View;
+
+/// Cosine of the largest turn from a line's last direction to the end that it is joined with.
+const TURN: f64 = 0.5;
+
+/// Length over which the direction of an end is taken, in reaches: the last segments may be short and turn.
+const TAIL: f64 = 1.5;
+
+/// Settings of joints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joining {
+    /// The largest distance of two ends on the page, in mm.
+    pub reach: f64,
+    /// The distance at which ends meet whatever their directions, in mm: ink covers it.
+    pub touch: f64,
+    /// The largest difference of their depths, in world units.
+    pub depth: f64,
+    /// The least length of a line with a loose end, in mm.
+    pub min_length: f64,
+}
+
+/// One of the two ends of an open line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct LineEnd {
+    line: usize,
+    is_last: bool,
+    vertex: Vertex,
+    depth: f64,
+    /// Direction on the page, away from the line.
+    out: DVec2,
+}
+
+/// Joins the ends of lines: nearest pairs first, then the remaining ends to the lines beside them. Leaves out lines
+/// shorter than the least length, unless both ends meet other lines.
+pub fn joined(lines: Vec<Polyline>, view: &View, how: &Joining) -> Vec<Polyline> {
+    let ends = ends(&lines, view, how);
+    let lines = chained(lines, &ends, &pairs(&ends, how));
+    let (mut lines, meets) = met(lines, view, how);
+    let mut meets = meets.into_iter();
+    lines.retain(|line| meets.next() == Some([true; 2]) || line.length() >= how.min_length);
+    lines
+}
+
+/// The ends of all open lines, first and last of each in turn.
+fn ends(lines: &[Polyline], view: &View, how: &Joining) -> Vec<LineEnd> {
+    let of = |(line, polyline): (usize, &Polyline)| {
+        let vertices = &polyline.vertices;
+        let sides = if polyline.closed || vertices.len() < 2 { Vec::new() } else { vec![false, true] };
+        let end = |is_last: bool| {
+            let inward: Vec<&Vertex> = if is_last { vertices.iter().rev().collect() } else { vertices.iter().collect() };
+            let from = inward.iter().find(|vertex| vertex.at.distance(inward[0].at) >= TAIL * how.reach);
+            let from = from.unwrap_or(&inward[inward.len() - 1]);
+            let (vertex, depth) = (*inward[0], -view.to_eye(inward[0].world).z);
+            LineEnd { line, is_last, vertex, depth, out: (vertex.at - from.at).normalize_or_zero() }
+        };
+        sides.into_iter().map(end).collect::<Vec<_>>()
+    };
+    lines.iter().enumerate().flat_map(of).collect()
+}
+
+/// Pairs of ends to be joined, each end at most once.
+fn pairs(ends: &[LineEnd], how: &Joining) -> Vec<[usize; 2]> {
+    let mut by_x: Vec<usize> = (0..ends.len()).collect();
+    by_x.sort_by(|&i, &j| ends[i].vertex.at.x.total_cmp(&ends[j].vertex.at.x));
+    let mut found: Vec<(f64, [usize; 2])> = Vec::new();
+    for (k, &i) in by_x.iter().enumerate() {
+        let near = by_x[k + 1..].iter().take_while(|&&j| ends[j].vertex.at.x - ends[i].vertex.at.x <= how.reach);
+        found.extend(near.filter_map(|&j| {
+            let distance = ends[i].vertex.at.distance(ends[j].vertex.at);
+            fits(&ends[i], &ends[j], distance, how).then_some((distance, [i.min(j), i.max(j)]))
+        }));
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut is_taken = vec![false; ends.len()];
+    found.retain(|(_, [i, j])| {
+        let free = !is_taken[*i] && !is_taken[*j];
+        (is_taken[*i], is_taken[*j]) = (is_taken[*i] || free, is_taken[*j] || free);
+        free
+    });
+    found.into_iter().map(|(_, pair)| pair).collect()
+}
+
+/// Whether two ends may be joined: each line goes on towards the other.
+fn fits(a: &LineEnd, b: &LineEnd, distance: f64, how: &Joining) -> bool {
+    let between = (b.vertex.at - a.vertex.at).normalize_or_zero();
+    let onwards = a.out.dot(between) >= TURN && b.out.dot(-between) >= TURN;
+    let touches = distance <= how.touch && a.out.dot(b.out) < TURN;
+    distance <= how.reach && (a.depth - b.depth).abs() <= how.depth && (onwards || touches)
+}
+
+/// Lines whose paired ends are joined, in the order of their first line.
+fn chained(lines: Vec<Polyline>, ends: &[LineEnd], pairs: &[[usize; 2]]) -> Vec<Polyline> {
+    // For each end of a line the end that follows it: the line and whether it is that line's last.
+    let mut follows: Vec<[Option<(usize, bool)>; 2]> = vec![[None; 2]; lines.len()];
+    for &[i, j] in pairs {
+        let [a, b] = [ends[i], ends[j]];
+        follows[a.line][usize::from(a.is_last)] = Some((b.line, b.is_last));
+        follows[b.line][usize::from(b.is_last)] = Some((a.line, a.is_last));
+    }
+    let mut rest: Vec<Option<Polyline>> = lines.into_iter().map(Some).collect();
+    let mut chained = Vec::new();
+    for start in 0..rest.len() {
+        if rest[start].is_none() {
+            continue;
+        }
+        // Goes back to the first line of the chain; a ring begins with the smallest line.
+        let (mut line, mut enters_last) = (start, false);
+        while let Some((before, is_last)) = follows[line][usize::from(enters_last)] {
+            (line, enters_last) = (before, !is_last);
+            if line == start {
+                break;
+            }
+        }
+        let mut whole: Option<Polyline> = None;
+        while let Some(mut next) = rest[line].take() {
+            if enters_last {
+                next.vertices.reverse();
+            }
+            match &mut whole {
+                Some(whole) => whole.vertices.append(&mut next.vertices),
+                None => whole = Some(next),
+            }
+            match follows[line][usize::from(!enters_last)] {
+                Some((after, is_last)) if rest[after].is_some() => (line, enters_last) = (after, is_last),
+                // The chain closes to a ring.
+                Some(_) => whole.iter_mut().for_each(|whole| whole.closed = true),
+                None => {}
+            }
+        }
+        chained.extend(whole);
+    }
+    chained
+}
+
+/// Extends loose ends to the lines beside them. Returns for each line whether its ends meet others; a ring's do.
+fn met(mut lines: Vec<Polyline>, view: &View, how: &Joining) -> (Vec<Polyline>, Vec<[bool; 2]>) {
+    let all: Vec<PageSegment> =
+        lines.iter().enumerate().flat_map(|(number, line)| segments(line, number, view)).collect();
+    let grid = SegmentRaster::new(&all, how.reach);
+    let mut meets: Vec<[bool; 2]> = lines.iter().map(|line| [line.closed; 2]).collect();
+    let mut added: Vec<(LineEnd, Vertex)> = Vec::new();
+    for end in ends(&lines, view, how) {
+        let own = PageSegment { ends: [end.vertex; 2], depths: [end.depth; 2], line: end.line };
+        let place = |i: usize| {
+            let other = &all[i];
+            let s = other.nearest(end.vertex.at);
+            let between = other.at(s) - end.vertex.at;
+            let distance = between.length();
+            let onwards = distance <= how.touch || end.out.dot(between / distance) >= TURN;
+            let fits = distance <= how.reach && (other.depth(s) - end.depth).abs() <= how.depth && onwards;
+            (other.line != end.line && fits).then_some((distance, i, s))
+        };
+        let nearest = grid.near(&own, how.reach).filter_map(place).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        if let Some((distance, i, s)) = nearest {
+            meets[end.line][usize::from(end.is_last)] = true;
+            if distance > 0.0 {
+                let on_line = all[i].ends[0].between(&all[i].ends[1], s);
+                added.push((end, Vertex { at: on_line.at, world: on_line.world, ..end.vertex }));
+            }
+        }
+    }
+    for (end, vertex) in added {
+        let vertices = &mut lines[end.line].vertices;
+        vertices.insert(if end.is_last { vertices.len() } else { 0 }, vertex);
+    }
+    (lines, meets)
+}
