@@ -55,7 +55,7 @@ fn sample_kept(
 /// # Errors
 /// Same errors as [`sample`].
 pub fn from_fn(grid: Grid, value: impl Fn(DVec3) -> f64 + Sync) -> Result<Volume, PhantomError> {
-    let voxels = Voxels::F64(fill(&grid, value)?);
+    let voxels = Voxels::F64(fill(&grid, &KeptVoxels::all(grid.dims()), value)?);
     Ok(Volume::new(grid, voxels, 1.0, 0.0)?)
 }
 
