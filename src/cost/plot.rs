@@ -27,6 +27,9 @@ const LEAST: f64 = 1e-9;
 const COLUMNS: usize = 3;
 const PANEL: [f64; 2] = [400.0, 330.0];
 
+/// The unit of settings that are lengths, behind their numbers.
+const VOXELS: &str = " voxels";
+
 /// Pixels of the PNG in a unit of the plot.
 const SCALE: f32 = 1.25;
 
@@ -82,6 +85,7 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
 fn layout(sweep: &Sweep, knob: &[&CostRow], [times, errors]: [[f64; 2]; 2], is_named: bool) -> Layout {
     let first = knob[0];
     let star = if first.truth == Truth::Analytic { "" } else { " *" };
+    let unit = if knob.iter().any(|row| row.setting.ends_with(VOXELS)) { " in voxels" } else { "" };
     let mut layout = Layout::new((times[0], times[1]), (errors[0], errors[1]))
         .with_log_scale()
         .with_x_axis_min(times[0] / 1.5)
@@ -90,7 +94,7 @@ fn layout(sweep: &Sweep, knob: &[&CostRow], [times, errors]: [[f64; 2]; 2], is_n
         .with_y_axis_max(errors[1] * 2.5)
         .with_x_tick_format(TickFormat::Custom(Arc::new(time)))
         .with_y_tick_format(TickFormat::Custom(Arc::new(|error| format!("{error:.0e}"))))
-        .with_title(format!("{}{star}{}", first.knob, of(first.subject)))
+        .with_title(format!("{}{unit}{star}{}", first.knob, of(first.subject)))
         .with_title_size(14)
         .with_label_size(12)
         .with_body_size(11)
@@ -117,9 +121,13 @@ fn panel(sweep: &Sweep, shown: &[&CostRow], knob: &[&CostRow]) -> Vec<Plot> {
     plots.push(Plot::Line(LinePlot::new().with_data(places(&best)).with_color(FRONT).with_stroke_width(7.0)));
     let others: Vec<&CostRow> = shown.iter().copied().filter(|row| row.knob != first.knob).collect();
     plots.push(Plot::Scatter(ScatterPlot::new().with_data(places(&others)).with_color(OTHERS).with_size(2.5)));
-    // The knob's own settings, coarse to fine, with their spreads and names.
+    // The knob's own settings, coarse to fine, with their spreads and names. The unit stands in the title, and brackets
+    // mark what the scene says.
     plots.push(Plot::Line(LinePlot::new().with_data(places(knob)).with_color(OWN).with_stroke_width(1.2)));
-    let names = knob.iter().map(|row| if row.own { format!("{} (scene)", row.setting) } else { row.setting.clone() });
+    let names = knob.iter().map(|row| {
+        let name = row.setting.trim_end_matches(VOXELS).trim_end_matches(" voxel");
+        if row.own { format!("[{name}]") } else { name.into() }
+    });
     let settings = ScatterPlot::new()
         .with_data(places(knob))
         .with_x_err(knob.iter().map(|row| row.spread / 2.0))
@@ -196,10 +204,10 @@ mod tests {
         ];
         let text = svg(&sweep(rows), "a <scene>").unwrap();
         for (part, times) in [
-            ("sampling.step *", 1),
+            ("sampling.step in voxels *", 1),
             ("sampling.kernel *", 1),
-            (">4 voxels (scene)<", 1),
-            (">1 voxel<", 1),
+            (">[4]<", 1),
+            (">1<", 1),
             (">slow and bad<", 1),
             (">f32<", 1),
             ("its own truth", 0),

@@ -73,6 +73,9 @@ pub(crate) fn write() -> Result<(), String> {
         let place = files::in_docs(page);
         std::fs::read_to_string(&place).map_err(|error| format!("{}: {error}", place.display()))
     };
+    if is_wanted("errors") {
+        picture("errors.png", &errors::png()?)?;
+    }
     // The tables of the scenes, under their headings.
     let mut tables = TABLES.to_owned();
     for scene in &SCENES {
@@ -94,9 +97,6 @@ pub(crate) fn write() -> Result<(), String> {
         let before = before("cost.md")?;
         format!("| for |{}", part(&before, "\n| for |", "\n\n")?)
     };
-    if is_wanted("errors") {
-        picture("errors.png", &errors::png()?)?;
-    }
     files::write("cost-tables.md", format!("{}\n", tables.trim_end()).as_bytes())?;
     files::write("cost.md", PAGE.replace("{choices}", choices.trim_end()).as_bytes())
 }
