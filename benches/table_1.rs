@@ -50,7 +50,10 @@ fn main() -> Result<(), String> {
 fn job(name: &str, changes: &[&str]) -> Result<Job, String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/style_transfer_functions").join(name);
     let mut overrides = Overrides::default();
-    for change in ["picture.size=[512, 512]", "sampling.stop_below=0.00392156862745098"].iter().chain(changes) {
+    for change in ["picture.size=[512, 512]", "picture.samples=1", "sampling.stop_below=0.00392156862745098"]
+        .iter()
+        .chain(changes)
+    {
         overrides.push_argument(change).map_err(|e| e.to_string())?;
     }
     let scene = load(&file.with_extension("toml"), &overrides).map_err(|e| e.to_string())?;

@@ -45,8 +45,7 @@ impl Outlining {
         let Crease::Degrees(angle) = self.crease else { return Vec::new() };
         let start = Instant::now();
         let field = surface.field();
-        let noise =
-            deviation(field.volume(), &Pyramid::new(field.volume()), self.iso, field.reconstruction().outside);
+        let noise = deviation(field.volume(), &Pyramid::new(field.volume()), self.iso, field.reconstruction().outside);
         let creases = creases(surface, angle, noise);
         counts.bytes.insert("smoothed bricks of creases".into(), creases.bytes);
         counts.preprocess.insert("crease places".into(), creases.found.places);

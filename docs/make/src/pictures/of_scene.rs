@@ -1,20 +1,28 @@
 //! The picture of a scene, and the encoding that suits it.
 
 use super::encode::{ink_png, inks_png, opaque_png};
-use drypoint::Failures;
 use drypoint::drawing::Drawing;
 use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
+use drypoint::output::read::Image;
+use drypoint::output::sheet::{Layout, sheet};
 use drypoint::scene::color::srgb_to_linear;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::picture::{Layer, LayerKind, Picture};
 use drypoint::scene::tables::{Background, Scene};
+use drypoint::{Failure, Failures};
 
 /// Makes a file of a picture.
 pub(super) type Encode = fn(&Picture) -> Result<Vec<u8>, png::EncodingError>;
 
 /// The darkest κ_v of a map of curvature, per world unit.
 const BLACK: f64 = 1.0;
+
+/// Frames of an orbit in a row of a sheet.
+const FRAMES_IN_A_ROW: usize = 4;
+
+/// Pixels along the longer side of a frame on a sheet.
+const FRAME: usize = 260;
 
 /// The picture of a scene, and how it becomes a file.
 ///
@@ -46,13 +54,23 @@ pub(super) fn picture(mut scene: Scene) -> Result<(Picture, Encode), String> {
     Ok((picture, opaque_png))
 }
 
-/// Dots and lines, on their page, or where they have colours over the volume.
+/// Dots and lines, on their page, or where they have colours over the volume. The frames of an orbit stand side by side.
 fn marks(scene: Scene, colored: bool) -> Result<Picture, Failures> {
     let job = Job::load_for(scene, if colored { RenderTarget::Picture } else { RenderTarget::Marks })?;
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ())?;
-    let (frame, _) = Drawing::new(&job, &marking, &mut counts)?.frame(0, &|_| ())?;
-    Ok(frame.painted(&job)?)
+    let mut drawing = Drawing::new(&job, &marking, &mut counts)?;
+    let mut frames = Vec::new();
+    for frame in 0..drawing.frames() {
+        frames.push(drawing.frame(frame, &|_| ())?.0.painted(&job)?);
+    }
+    if frames.len() == 1 {
+        return Ok(frames.remove(0));
+    }
+    let named: Vec<(String, Image)> =
+        frames.iter().enumerate().map(|(i, frame)| (i.to_string(), Image::from(frame))).collect();
+    let layout = Layout { columns: Some(FRAMES_IN_A_ROW), cell: FRAME };
+    Ok(sheet(&named, layout).map_err(|error| Failure::picture(&error, "the frames of an orbit"))?)
 }
 
 /// |κ_v| as grey on white: the darker, the more curved; as faint as the picture is.

@@ -29,7 +29,8 @@ pub(super) fn with_corners(surface: &IsoSurface<'_, '_>, mut strokes: Vec<Stroke
     let mut ends = ends(&strokes, TAIL * grid.voxel());
     ends.sort_by(|a, b| a.at.x.total_cmp(&b.at.x));
     for group in groups(&ends, reach) {
-        let mean = |of: fn(&CreaseEnd) -> DVec3| group.iter().map(|&i| of(&ends[i])).sum::<DVec3>() / group.len() as f64;
+        let mean =
+            |of: fn(&CreaseEnd) -> DVec3| group.iter().map(|&i| of(&ends[i])).sum::<DVec3>() / group.len() as f64;
         let (middle, normal) = (grid.to_index(mean(|end| end.at)), mean(|end| end.normal).normalize_or_zero());
         let Some(foot) = surface.foot(middle, normal, reach) else { continue };
         let Some(normal) = surface.normal(foot) else { continue };

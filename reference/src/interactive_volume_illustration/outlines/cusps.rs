@@ -6,8 +6,8 @@
 //! by less than any distance at which visibility is tested: hooks of the hidden part would be drawn.
 
 use super::facing::Facing;
-use crate::field::Sampler;
 use crate::field::Outside;
+use crate::field::Sampler;
 use crate::number::Vec3;
 use crate::surface::IsoSurface;
 use crate::with_sampler;

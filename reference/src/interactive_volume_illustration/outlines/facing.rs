@@ -6,8 +6,8 @@
 //! With a trilinear kernel and its analytic gradient N·v jumps at the faces of cells, and most places have no root
 //! nearby: of a sphere's circle 38 % is found, in eleven pieces. Every other pair of kernel and gradient closes it.
 
-use super::second_function::SecondFunction;
 use super::search::position;
+use super::second_function::SecondFunction;
 use super::tetrahedra::any_sign_change;
 use crate::field::Sampler;
 use crate::number::Vec3;

@@ -9,8 +9,8 @@ mod cusps;
 mod facing;
 mod iso_difference;
 mod search;
-mod section;
 mod second_function;
+mod section;
 mod simplification;
 mod tetrahedra;
 

@@ -29,13 +29,7 @@ pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, de
 
 /// Removes the parts of lines that lie within `gap` mm on the page of another line. Where both are closest, their
 /// depths must differ by at most `depth`, in world units along the view.
-pub fn without_doubles(
-    lines: &[Polyline],
-    others: &[Polyline],
-    view: &View,
-    gap: f64,
-    depth: f64,
-) -> GappedLines {
+pub fn without_doubles(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, depth: f64) -> GappedLines {
     let numbered = others.iter().zip(lines.len()..);
     let all: Vec<PageSegment> = numbered.flat_map(|(line, number)| segments(line, number, view)).collect();
     cut(lines, &all, view, gap, CutBy::Equal(depth))
@@ -97,7 +91,11 @@ pub(super) struct PageSegment {
     pub(super) line: usize,
 }
 
-pub(super) fn segments<'a>(line: &'a Polyline, number: usize, view: &'a View) -> impl Iterator<Item = PageSegment> + 'a {
+pub(super) fn segments<'a>(
+    line: &'a Polyline,
+    number: usize,
+    view: &'a View,
+) -> impl Iterator<Item = PageSegment> + 'a {
     let again = line.vertices.first().filter(|_| line.closed).map(|first| Vertex { t: 1.0, ..*first });
     let vertices: Vec<Vertex> = line.vertices.iter().copied().chain(again).collect();
     let depth = |vertex: &Vertex| -view.to_eye(vertex.world).z;

@@ -52,7 +52,8 @@ fn ends(lines: &[Polyline], view: &View, how: &Joining) -> Vec<LineEnd> {
         let vertices = &polyline.vertices;
         let sides = if polyline.closed || vertices.len() < 2 { Vec::new() } else { vec![false, true] };
         let end = |is_last: bool| {
-            let inward: Vec<&Vertex> = if is_last { vertices.iter().rev().collect() } else { vertices.iter().collect() };
+            let inward: Vec<&Vertex> =
+                if is_last { vertices.iter().rev().collect() } else { vertices.iter().collect() };
             let from = inward.iter().find(|vertex| vertex.at.distance(inward[0].at) >= TAIL * how.reach);
             let from = from.unwrap_or(&inward[inward.len() - 1]);
             let (vertex, depth) = (*inward[0], -view.to_eye(inward[0].world).z);
@@ -155,7 +156,8 @@ fn met(mut lines: Vec<Polyline>, view: &View, how: &Joining) -> (Vec<Polyline>, 
             let fits = distance <= how.reach && (other.depth(s) - end.depth).abs() <= how.depth && onwards;
             (other.line != end.line && fits).then_some((distance, i, s))
         };
-        let nearest = grid.near(&own, how.reach).filter_map(place).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let nearest =
+            grid.near(&own, how.reach).filter_map(place).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         if let Some((distance, i, s)) = nearest {
             meets[end.line][usize::from(end.is_last)] = true;
             if distance > 0.0 {

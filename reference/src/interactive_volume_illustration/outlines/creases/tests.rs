@@ -62,7 +62,9 @@ fn a_rounded_cube_has_twelve_edges() {
         }
         // Middles of the arcs between faces, along the part where only two faces meet.
         let out = half - r + r / 2f64.sqrt();
-        for (axis, signs) in (0..3).flat_map(|axis| [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(|s| (axis, s))) {
+        for (axis, signs) in
+            (0..3).flat_map(|axis| [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(|s| (axis, s)))
+        {
             for k in 0..=20 {
                 let mut edge = DVec3::ZERO;
                 edge[axis] = (half - r) * (f64::from(k) / 10.0 - 1.0);
@@ -71,7 +73,8 @@ fn a_rounded_cube_has_twelve_edges() {
                 assert!(nearest <= OFF, "{r}: {edge} {nearest}");
             }
         }
-        let ends: Vec<DVec3> = strokes.iter().flat_map(|s| [s.vertices[0], s.vertices[s.vertices.len() - 1]]).map(|v| v.world).collect();
+        let ends: Vec<DVec3> =
+            strokes.iter().flat_map(|s| [s.vertices[0], s.vertices[s.vertices.len() - 1]]).map(|v| v.world).collect();
         for end in &ends {
             assert_eq!(ends.iter().filter(|other| *other == end).count(), 3, "{r}: {end}");
         }
@@ -106,7 +109,8 @@ fn round_bodies_have_none() {
         let phantom = by_name(name, &grid, &params).unwrap();
         let exact = sampled(grid.clone(), |p| phantom.value(p));
         assert_eq!(found(&exact, 0.0), [], "{name}");
-        let values: Vec<u8> = (0..grid.len()).map(|i| (exact.voxels().get(i) * 30.0 + 128.0).clamp(0.0, 255.0) as u8).collect();
+        let values: Vec<u8> =
+            (0..grid.len()).map(|i| (exact.voxels().get(i) * 30.0 + 128.0).clamp(0.0, 255.0) as u8).collect();
         let bytes = Volume::new(grid.clone(), Voxels::U8(values), 1.0, 0.0).unwrap();
         assert_eq!(found(&bytes, 128.0), [], "{name}");
     }
