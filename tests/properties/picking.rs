@@ -32,7 +32,7 @@ fn picks(stage: &Stage, lines: Option<Fragments>, points: &[[f64; 2]]) -> Vec<Op
 
 /// The points that the first rays of all pixels go through.
 fn first_rays(stage: &Stage) -> Vec<[f64; 2]> {
-    let ([width, height], n) = (stage.scene.picture.size, stage.scene.picture.samples.across(false));
+    let ([width, height], n) = (stage.scene.picture.size, stage.resolved(stage.view()).rays_across);
     let at = |i: usize| i as f64 + 0.5 / n as f64;
     (0..width * height).map(|t| [at(t % width), at(t / width)]).collect()
 }
@@ -233,7 +233,7 @@ fn picks_agree_with_the_layers() {
         let (values, normals) = (shown.one(LayerKind::First), shown.layer::<3>(LayerKind::FirstNormal));
         let points = first_rays(&stage);
         let picked = picks(&stage, None, &points);
-        let across = stage.scene.picture.samples.across(false);
+        let across = stage.resolved(stage.view()).rays_across;
         let line = Fragment { depth: 1.0, rgb: [0.9, 0.2, 0.1], opacity: 0.9 };
         let lines: Vec<(usize, Fragment)> = (0..63 * across * across).map(|ray| (ray, line)).collect();
         let lines = Fragments::new([9, 7], across, &lines);

@@ -22,7 +22,7 @@ pub(super) fn counted(counts: &Counts) -> Vec<u64> {
 /// Random lines before, in and behind a scene's box, more than one on some rays and equal depths among them.
 pub(super) fn lines(shot: &Stage, seed: u64) -> Fragments {
     let r = &mut Random(seed ^ 0x9e37);
-    let (size, samples) = (shot.scene.picture.size, shot.scene.picture.samples.across(false));
+    let (size, samples) = (shot.scene.picture.size, shot.resolved(shot.view()).rays_across);
     let view = shot.view();
     let depths = shot.volume.grid().world_corners().map(|corner| view.to_eye(corner).z.abs());
     let (near, far) = depths.iter().fold((f64::INFINITY, 0.0f64), |(a, b), d| (a.min(*d), b.max(*d)));

@@ -1,8 +1,7 @@
 //! Adaptive antialiasing ([RAY-7]): one ray a pixel, then 3×3 at edges.
 //!
 //! The first picture has one ray a pixel. Which pixels are refined follows from it alone, so neither threads nor tiles
-//! show. The ray of the first picture is the middle one of the nine of a refined pixel and is not cast again. All rays
-//! have the level of detail and the share of a line of one ray a pixel.
+//! show. The ray of the first picture is the middle one of the nine of a refined pixel and is not cast again.
 
 use super::composite::Sums;
 use super::draw::{BATCH, Casting, Drawn, TilePlace, behind, draw, tiles_across};

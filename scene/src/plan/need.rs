@@ -122,6 +122,11 @@ impl Plan {
         self.needs_at(quantity, &[Samples::Visible, Samples::First, Samples::Seeds])
     }
 
+    /// Whether all pixels have equally many rays, whatever they show ([RAY-7]).
+    pub fn has_equal_rays(&self) -> bool {
+        Pass::OF_EQUAL_RAYS.into_iter().any(|pass| self.has_pass(pass))
+    }
+
     fn needs_at(&self, quantity: Quantity, samples: &[Samples]) -> bool {
         self.needs.iter().any(|need| need.quantity == quantity && samples.contains(&need.samples))
     }

@@ -84,6 +84,9 @@ pub enum Pass {
 }
 
 impl Pass {
+    /// Passes that depend on the distance between rays, so that all pixels have equally many.
+    pub(crate) const OF_EQUAL_RAYS: [Self; 3] = [Self::HaloSeeds, Self::StyleMipmaps, Self::MergedStrokes];
+
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
@@ -146,7 +149,7 @@ impl Pass {
             Self::DotLabels => "one look at the labels a voxel with points",
             Self::DotColors => "one colour a voxel with points",
             Self::StillFactor => "one number a voxel with points",
-            Self::Rays => "samples² rays a pixel; \"auto\": one, with halos four",
+            Self::Rays => "samples² rays a pixel; \"auto\": one, or four everywhere",
             Self::Clip => "one look at the planes a ray, a point and a vertex of a line",
             Self::Refinement => "eight rays a pixel that differs from a neighbour by more than contrast",
             Self::HaloSeeds => "one look at each sample whose value may seed, seen or not; a number a ray",

@@ -164,10 +164,12 @@ fn passes_are_those_that_are_called_for() {
 }
 
 #[test]
-fn edges_are_refined_where_a_layer_shows_it_and_no_halo_needs_as_many_rays_everywhere() {
+fn edges_are_refined_where_a_layer_shows_it_and_pixels_need_not_have_equal_rays() {
     let refines = |rest: &str| plan(&format!("{REGULAR}{rest}")).has_pass(Pass::Refinement);
     assert!(refines("") && refines("[picture]\nlayers = [\"Z\", \"normal\"]\n"));
     assert!(refines("[[halo]]\nopacity = 0\n"), "a halo that is not seen");
+    assert!(refines("[style_mipmaps]\n"), "a regular function has no styles");
+    assert!(!plan(&format!("{PLAIN}[style_mipmaps]\n")).has_pass(Pass::Refinement));
     for none in ["[picture]\nsamples = 2\n", "[picture]\nlayers = [\"Z\", \"counts\"]\n", "[[halo]]\n"] {
         assert!(!refines(none), "{none}");
         let (head, rest) = none.split_once('\n').unwrap();
@@ -355,7 +357,7 @@ effect                       needs          adds                                
 transfer function            value          one reconstruction a sample                                             transfer (line 5)
 shading                      gradient       one gradient a visible sample                                           shading (--set)
 skipping what shows nothing  brick ranges   one look at each voxel                                                  sampling.skip_empty (default)
-picture                      rays           samples² rays a pixel; \"auto\": one, with halos four                     picture.samples (default)
+picture                      rays           samples² rays a pixel; \"auto\": one, or four everywhere                  picture.samples (default)
 antialiasing                 rays at edges  eight rays a pixel that differs from a neighbour by more than contrast  picture.samples (default)
 
 without effect

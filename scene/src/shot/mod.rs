@@ -207,7 +207,7 @@ impl Shot {
         let layers = &scene.picture.layers;
         Ok(Self {
             lattice: Lattice { step, along: sampling.step_along, near },
-            rays_across: scene.picture.samples.across(!halos.list.is_empty()),
+            rays_across: scene.picture.samples.across(plan.has_equal_rays()),
             refine_above: plan.has_pass(Pass::Refinement).then_some(scene.picture.contrast),
             number: sampling.number,
             clipping: Clipping::new(scene, facts.grid),

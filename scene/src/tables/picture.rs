@@ -51,12 +51,12 @@ pub enum RaysPerPixel {
 }
 
 impl RaysPerPixel {
-    /// The number n of the n×n rays that each pixel begins with. A picture with halos is not refined at edges: its
-    /// planes have as many rays in every pixel.
-    pub fn across(self, with_halos: bool) -> usize {
+    /// The number n of the n×n rays that each pixel begins with. Where halos, style mip-maps or lines inside the volume need
+    /// equally many rays in all pixels, "auto" is 2×2.
+    pub fn across(self, equal_rays: bool) -> usize {
         match self {
             Self::Across(n) => n,
-            Self::Auto => 1 + usize::from(with_halos),
+            Self::Auto => 1 + usize::from(equal_rays),
         }
     }
 }
@@ -185,7 +185,7 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
             height: key("IO-7", EXTENT,
                 |p| p.extent().map(|[_, length]| length),
                 |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
-            /// Rays a pixel: n×n, or "auto", one and 3×3 at edges (with halos 2×2 everywhere).
+            /// Rays a pixel: n×n, or "auto", one and 3×3 at edges. With halos, style mip-maps or strokes inside the volume "auto" is 2×2 everywhere.
             samples: key("RAY-6", RaysPerPixelKind);
             /// Edges of samples = "auto": places where neighbours differ by more in R, G, B as displayed, or in opacity.
             contrast: key("RAY-7", Number { bounds: Bounds::UNIT, unit: "" });

@@ -14,9 +14,6 @@ pub(super) const RULES: Rules = Rules {
         if !asks.casts_rays() {
             return;
         }
-        if is_refined(scene) {
-            asks.pass(Pass::Refinement, "antialiasing", "picture.samples");
-        }
         for (i, layer) in scene.picture.layers.iter().enumerate() {
             let effect = format!("layer {layer}");
             let key = format!("picture.layers[{i}]");
@@ -38,6 +35,12 @@ pub(super) const RULES: Rules = Rules {
             needs.iter().for_each(|&quantity| asks.need_at(quantity, samples, &effect, &key));
         }
     },
+    serves: |scene, asks| {
+        let has_equal_rays = Pass::OF_EQUAL_RAYS.into_iter().any(|pass| asks.has_pass(pass));
+        if asks.casts_rays() && scene.picture.samples == RaysPerPixel::Auto && shows_edges(scene) && !has_equal_rays {
+            asks.pass(Pass::Refinement, "antialiasing", "picture.samples");
+        }
+    },
     idle: |scene, plan, idle| {
         if !plan.has_pass(Pass::Rays) {
             for key in ["picture.samples", "picture.contrast", "picture.layers"] {
@@ -46,7 +49,9 @@ pub(super) const RULES: Rules = Rules {
         } else if !plan.has_pass(Pass::Refinement) {
             let why = match scene.picture.samples {
                 RaysPerPixel::Across(_) => "only samples = \"auto\" looks for edges",
-                RaysPerPixel::Auto if has_halos(scene) => "with halos every pixel has 2×2 rays",
+                RaysPerPixel::Auto if plan.has_equal_rays() => {
+                    "with halos, style mip-maps or strokes inside the volume every pixel has 2×2 rays"
+                }
                 RaysPerPixel::Auto => "no layer is a mean over the rays of a pixel",
             };
             idle.key("picture.contrast", why);
@@ -57,7 +62,7 @@ pub(super) const RULES: Rules = Rules {
         }
     },
     knobs: &[
-        ("samples", Ladder::to_finest(|scene, plan, _| samples(scene, plan))),
+        ("samples", Ladder::to_finest(|_, plan, _| samples(plan))),
         ("contrast", Ladder::to_finest(|_, plan, _| if plan.has_pass(Pass::Refinement) { CONTRASTS } else { &[] })),
     ],
     ..Rules::new("picture")
@@ -67,22 +72,17 @@ pub(super) const RULES: Rules = Rules {
 const CONTRASTS: Settings = &["0.25", "0.125", "0.0625", "0.03125", "0"];
 
 /// Settings of `samples`.
-fn samples(scene: &Scene, plan: &Plan) -> Settings {
+fn samples(plan: &Plan) -> Settings {
     match plan.has_pass(Pass::Rays) {
         false => &[],
         // "auto" is 2 there.
-        true if has_halos(scene) => &["1", "2", "3", "4"],
+        true if plan.has_equal_rays() => &["1", "2", "3", "4"],
         true => &["1", "2", "auto", "3", "4"],
     }
 }
 
-/// Whether pixels get further rays at edges, and some layer shows them.
-fn is_refined(scene: &Scene) -> bool {
+/// Whether some layer shows further rays at edges.
+fn shows_edges(scene: &Scene) -> bool {
     let layers = &scene.picture.layers;
-    let shows = layers.is_empty() || layers.iter().any(|layer| *layer == LayerKind::Beauty || layer.is_mean());
-    scene.picture.samples == RaysPerPixel::Auto && shows && !has_halos(scene)
-}
-
-fn has_halos(scene: &Scene) -> bool {
-    halos_in_effect(scene).next().is_some()
+    layers.is_empty() || layers.iter().any(|layer| *layer == LayerKind::Beauty || layer.is_mean())
 }
