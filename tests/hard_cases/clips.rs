@@ -152,8 +152,7 @@ fn caps_and_contours() {
         (Clip { cap: Some([0.25, 0.5, 1.0, 0.5]), ..clip.clone() }, [0.25, 0.5, 1.0, 0.5]),
         (Clip { style: Some("ramp".into()), ..clip }, {
             // N in eye space: right is x, up is z.
-            let [r, g, b, a] = in_a_texture([0.5, 0.5 + 0.5 * facing.z, 0.3, 0.75]);
-            [r, g, b, a]
+            in_a_texture([0.5, 0.5 + 0.5 * facing.z, 0.3, 0.75])
         }),
     ] {
         for (capped, own) in stage(cap).render().pixels().into_iter().zip(&without) {
@@ -166,44 +165,44 @@ fn caps_and_contours() {
     }
 }
 
+/// κ is 0 on a cut. A sample behind it looks back at the field's own normal there, so its κ is that without the plane.
 #[test]
 fn a_cut_has_no_curvature_and_changes_none_behind_it() {
-    let facing = DVec3::new(0.1, -0.9, 0.2).normalize();
+    // Opaque from ρ = 4 on, whose front is at y = 4. Samples lie at y = 4¼, 4¾, …
+    let solid = (36.0 - 16.0) / 12.0;
     for kappa in [Kappa::Ray, Kappa::Exact] {
         let stage = |clips: Vec<Clip>| {
-            let volume = quadratic_ball(17, 6.0);
-            let styles = vec![style("plain", 1, |_, _| [1.0, 1.0, 1.0, 1.0])];
-            Stage::styled(volume, styles, &[(-100.0, "plain", 0.1)])
-                .layers(&[LayerKind::FirstCurvatureAlongView, LayerKind::CurvatureAlongView])
+            let styles = vec![style("plain", 1, |_, _| [1.0; 4])];
+            let nodes = [(solid, "plain", 0.0), (solid, "plain", 1.0)];
+            Stage::styled(quadratic_ball(17, 6.0), styles, &nodes)
+                .layers(&[LayerKind::FirstCurvatureAlongView, LayerKind::Depth])
                 .with(|s| {
+                    s.camera = orthographic(Some(9.0));
                     s.camera.direction = DVec3::Y;
+                    s.picture.size = [48, 48];
                     s.sampling.step = Length::World(0.5);
                     s.contours = Some(Contours { kappa, ..Contours::default() });
                     s.clips = clips;
                 })
         };
-        let clip = plane(DVec3::new(8.0, 6.1, 8.0), facing);
-        let shown = stage(vec![clip]).render();
-        let first = shown.one(LayerKind::FirstCurvatureAlongView);
-        let covered = shown.pixels().iter().filter(|p| p[3] > 0.0).count();
-        assert!(covered > 100 && first.iter().all(|kappa| *kappa == 0.0), "{kappa:?} {first:?}");
-        assert!(shown.one(LayerKind::CurvatureAlongView).iter().any(|kappa| *kappa != 0.0));
-        // Two planes that cut at the same samples but one step apart in the list of samples: what lies behind the
-        // second sample has the same κ with and without the first one.
-        let one = stage(vec![plane(DVec3::new(8.0, 6.1, 8.0), DVec3::NEG_Y)]).render();
-        let two = stage(vec![plane(DVec3::new(8.0, 5.6, 8.0), DVec3::NEG_Y)]).render();
-        let kappas = |shown: &crate::common::Shown| {
-            let alphas = shown.pixels().into_iter().map(|p| p[3]);
-            let means = shown.one(LayerKind::CurvatureAlongView).into_iter();
-            // Σ w κ, of weights (1 − A)α: one sample more in front scales all others by 1 − α.
-            means.zip(alphas).map(|(mean, alpha)| mean * alpha).collect::<Vec<f64>>()
-        };
-        let step = 1.0 - 0.9f64.powf(0.5);
-        for (one, two) in kappas(&one).into_iter().zip(kappas(&two)) {
-            // The sample at the cut of `one` has κ = 0; in `two` it is the second one, with its own κ, so that the sums
-            // differ by that sample alone: both are 0, or the second is larger in magnitude.
-            assert!(two.abs() >= (1.0 - step) * one.abs() - 1e-12, "{kappa:?}: {one} {two}");
+        let cut = stage(vec![plane(DVec3::new(8.0, 4.1, 8.0), DVec3::NEG_Y)]).render();
+        let whole = stage(vec![]).render();
+        let kappas = [&cut, &whole].map(|shown| shown.one(LayerKind::FirstCurvatureAlongView));
+        let (mut on_cut, mut next, mut farther) = (0, 0, 0);
+        for (i, [first, ..]) in whole.layer::<3>(LayerKind::Depth).into_iter().enumerate() {
+            // Depth 0 is y = 8.
+            let y = 8.0 + first;
+            if y == 4.25 {
+                assert_eq!(kappas[0][i], 0.0);
+                assert!(kappas[1][i] != 0.0);
+                on_cut += 1;
+            } else if y.is_finite() {
+                assert_eq!(kappas[0][i].to_bits(), kappas[1][i].to_bits());
+                assert!(kappas[0][i] != 0.0);
+                (next, farther) = (next + usize::from(y == 4.75), farther + usize::from(y > 4.75));
+            }
         }
+        assert!(on_cut > 50 && next > 50 && farther > 50, "{kappa:?} {on_cut} {next} {farther}");
     }
 }
 
@@ -252,7 +251,7 @@ fn a_cut_iso_surface_is_hit_on_the_plane() {
                     behind += usize::from(whole.one_of_depth()[t] == depth);
                 }
             }
-            assert!(on_plane > 100 && behind > 20, "{on_plane} {behind}");
+            assert!(on_plane > 100 && behind > 10, "{on_plane} {behind}");
             // A cap of half an opacity lies over the surface's own colour.
             let capped = stage(vec![Clip { cap: Some([1.0, 0.0, 0.0, 0.5]), ..plane(point, normal) }]).render();
             let at = 15 + 31 * 14;
@@ -280,7 +279,11 @@ fn what_is_cut_away_seeds_nothing() {
             s.halos = halos;
         })
     };
-    let halo = || vec![Halo { name: "halo".into(), kind: HaloKind::Emissive, ..Halo::default() }];
+    let halo = || {
+        let mut halo = Halo { name: "halo".into(), kind: HaloKind::Emissive, ..Halo::default() };
+        halo.spread.passes = 1;
+        vec![halo]
+    };
     let all = vec![plane(DVec3::splat(-1.0), DVec3::Y)];
     let nothing = stage(all, halo()).render();
     assert_eq!((nothing.covered(), nothing.counts.halo_samples), (0, 0));
@@ -289,7 +292,7 @@ fn what_is_cut_away_seeds_nothing() {
     assert!(seeds[0].counts.halo_samples > seeds[1].counts.halo_samples && seeds[1].counts.halo_samples > 0);
     // The left half of the picture has the same halo up to the reach of the other half.
     let columns = |shown: &crate::common::Shown| -> Vec<[f64; 4]> {
-        shown.pixels().chunks(16).flat_map(|row| row[..3].to_vec()).collect()
+        shown.pixels().chunks(16).flat_map(|row| row[..5].to_vec()).collect()
     };
     assert_eq!(columns(&seeds[0]), columns(&seeds[1]));
 }
@@ -321,7 +324,7 @@ fn outlines_end_on_planes_and_the_cut_hides() {
     for stroke in &found.strokes {
         for vertex in &stroke.vertices {
             assert!(planes.iter().all(|plane| distance(plane, vertex.world) < 1e-9));
-            assert!(((vertex.world - middle).length() - radius).abs() < 0.03, "{}", vertex.world);
+            assert!(((vertex.world - middle).length() - radius).abs() < 0.05, "{}", vertex.world);
         }
         for (count, plane) in on_section.iter_mut().zip(planes) {
             let is_on = stroke.vertices.iter().all(|vertex| distance(plane, vertex.world).abs() < 1e-9);
@@ -334,14 +337,14 @@ fn outlines_end_on_planes_and_the_cut_hides() {
             }
         }
     }
-    assert!(on_section == [1, 1] && ends >= 4, "{on_section:?} {ends}");
+    assert!(on_section.iter().all(|n| *n >= 1) && ends >= 4, "{on_section:?} {ends}");
     // In front of the cut, on it, and behind it; and behind the sphere where nothing is left in front.
     let sees = |at: DVec3| !surface.hides(at, &view, 0.1);
     let on_cut = middle + facing * 3.0;
     assert!(sees(on_cut + facing * 0.1) && !sees(on_cut - facing * 0.1));
     let before = middle - DVec3::Y * 8.0;
     assert!(sees(before) && whole.hides(before, &view, 0.1));
-    let beside = middle + along * 4.2 + DVec3::Y * 12.0;
+    let beside = middle + DVec3::new(6.0, 12.0, 0.0);
     assert!(sees(beside) && whole.hides(beside, &view, 0.1), "{beside}");
 }
 
@@ -382,14 +385,14 @@ fn dots_on_the_kept_side_stay() {
     let facing = "[[clip]]\npoint = [15.5, 15.5, 15.5]\nnormal = [0, -1, 0]\n";
     let hidden = dots(&format!("[stipples]\nhide_behind = \"auto\"\n{facing}"));
     let transparent = dots(&format!("[stipples]\n{facing}"));
-    assert!(transparent.len() > 400 && hidden.len() * 8 < transparent.len(), "{} {}", hidden.len(), transparent.len());
+    assert!(transparent.len() > 400 && hidden.len() * 3 < transparent.len(), "{} {}", hidden.len(), transparent.len());
     assert!(hidden.iter().all(|at| at.y < 15.5 + 4.0), "{hidden:?}");
 }
 
 /// Strokes end on the plane to 10⁻⁹, and their other vertices are as they were.
 #[test]
 fn strokes_end_on_planes() {
-    let hatching = "[hatching]\nhidden = \"drawn\"\nseed = 3\n";
+    let hatching = "[hatching]\nhidden = \"drawn\"\nspacing = \"random\"\nseed = 3\n";
     let vertices = |marks: &Marks| -> Vec<Vec<DVec3>> {
         let lines = marks.layers.iter().flat_map(|layer| &layer.lines);
         lines.map(|line| line.vertices.iter().map(|vertex| vertex.world).collect()).collect()
