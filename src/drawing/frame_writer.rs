@@ -37,6 +37,9 @@ impl From<io::Error> for AnimationError {
     }
 }
 
+/// Writes the picture and the marks of one frame of an animation.
+type ShowFrame<'f> = &'f mut dyn FnMut(Option<Picture>, &Marks) -> Result<(), Failure>;
+
 /// Writer of a scene's frames.
 pub(super) struct FrameWriter<'a> {
     pub(super) scene: &'a Scene,
@@ -100,7 +103,7 @@ impl<'a> FrameWriter<'a> {
         let written = atomic::write(path, |out| {
             let nothing = Marks { page: Page::of(self.scene), layers: Vec::new() };
             // Draws all frames; `show` writes one with its marks.
-            let mut each = |show: &mut dyn FnMut(Option<Picture>, &Marks) -> Result<(), Failure>| {
+            let mut each = |show: ShowFrame<'_>| {
                 (0..frames).try_for_each(|i| {
                     let frame = draw(i)?;
                     let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing))?;

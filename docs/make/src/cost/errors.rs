@@ -14,8 +14,8 @@ const SCENE: Measured = Measured { name: "default", file: "default.toml", over: 
 const ERRORS: [f64; 3] = [1e-1, 1e-2, 1e-3];
 
 /// Upper left corner and side of the crop, and the side that it is enlarged to.
-const CROP: [usize; 3] = [104, 84, 112];
-const CELL: usize = 224;
+const CROP: [usize; 3] = [112, 92, 96];
+const CELL: usize = 192;
 
 /// A setting that goes from coarse to exact: its key, the ends of its range, the coarse one first, and its unit.
 struct Dial {
