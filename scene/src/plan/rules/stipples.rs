@@ -139,6 +139,11 @@ mod tests {
             };
             assert_eq!((idle(&off), idle(&on)), (format!("stipples.factors{read}"), "stipples.factors".into()));
         }
+        // Points of one surface have no threshold, and one layer.
+        assert_eq!(
+            idle(&plan("iso = 3\nthreshold = 0.2\nthin = true\n")),
+            "stipples.factors stipples.threshold stipples.thin"
+        );
         // One that can leave [0, 1] is what `factors` is for.
         for (gs, said) in [("0.6", "stipples.factors"), ("0.7", "")] {
             assert_eq!(idle(&plan(&format!("[stipples.boundary]\ngc = 0.4\ngs = {gs}\nge = 1\n"))), said, "{gs}");

@@ -78,12 +78,27 @@ impl StipplePreset {
 #[cfg(test)]
 mod tests {
     use crate::file::{Overrides, parse};
-    use crate::tables::{Curves, CurvesTest, Stipples};
+    use crate::tables::{Curves, CurvesTest, Iso, Stipples};
     use std::path::Path;
 
     fn preset(name: &str) -> Stipples {
         let text = format!("drypoint = 1\npreset = \"{name}\"\n[volume]\nfile = \"a\"\n");
         parse(&text, Path::new("test.toml"), &Overrides::default()).unwrap().stipples.unwrap()
+    }
+
+    /// Dots, what hides them and outlines are of one surface; the paper's figures have boundaries and no outlines.
+    #[test]
+    fn the_plain_preset_is_a_drawing_of_one_surface() {
+        let scene = |name: &str| {
+            let text = format!("drypoint = 1\npreset = \"{name}\"\n[volume]\nfile = \"a\"\n");
+            parse(&text, Path::new("test.toml"), &Overrides::default()).unwrap()
+        };
+        let plain = scene("stipple");
+        let stipples = plain.stipples.unwrap();
+        assert_eq!((stipples.iso, stipples.hide_behind), (Some(Iso::Auto), Some(Iso::Auto)));
+        assert_eq!(plain.outlines.unwrap().iso, Iso::Auto);
+        let figure = scene("stipple-fig1");
+        assert!(figure.outlines.is_none() && figure.stipples.unwrap().iso.is_none());
     }
 
     /// k_gc, k_gs, k_ge; k_sc, k_ss, k_se; k_re, k_de, k_te, k_le; Th_eye, Th_grad, Th_LOG of the literal test.
