@@ -13,22 +13,27 @@ const DEBRIS: f64 = 0.02;
 /// content.
 const TOGETHER: f64 = 0.03;
 
-/// Returns the parts to keep, by the value at which they are first seen; none if no part is debris, if debris is too
-/// much to be left out, or if there is no memory to find parts.
+/// Least share of the debris in its largest part. Many pieces of one kind are content, such as the legs of a lobster and
+/// the leaves of a tree. A head rest is one piece with specks around it.
+const ONE: f64 = 0.4;
+
+/// Returns the parts to keep, by the value at which they are first seen. None if no part is debris, if debris may be
+/// content, or if there is no memory to find parts.
 pub(super) fn without_debris(volume: &Volume, seen: ContentRange) -> Option<PartsTable> {
     let parts = match seen.outside {
         Outside::Low => Parts::find(volume, &|value| value >= seen.value),
         Outside::High => Parts::find(volume, &|value| value <= seen.value),
     };
-    is_debris_little(parts.ok()?.all()).then_some(PartsTable { keep: Keep::Share(DEBRIS), at_least: Some(seen.value) })
+    has_debris(parts.ok()?.all()).then_some(PartsTable { keep: Keep::Share(DEBRIS), at_least: Some(seen.value) })
 }
 
-/// Whether some parts are debris, and all debris together is little. Parts are in the order of their sizes.
-fn is_debris_little(parts: &[Part]) -> bool {
+/// Whether some parts are debris that can be left out. Parts are in the order of their sizes.
+fn has_debris(parts: &[Part]) -> bool {
     let least = DEBRIS * parts.first().map_or(0.0, |part| part.size as f64);
     let debris = &parts[parts.partition_point(|part| part.size as f64 >= least)..];
     let sum = |parts: &[Part]| parts.iter().map(|part| part.size as f64).sum::<f64>();
-    !debris.is_empty() && sum(debris) <= TOGETHER * sum(parts)
+    let (all, largest) = (sum(debris), debris.first().map_or(0.0, |part| part.size as f64));
+    !debris.is_empty() && all <= TOGETHER * sum(parts) && largest >= ONE * all
 }
 
 #[cfg(test)]
@@ -54,12 +59,13 @@ mod tests {
     #[test]
     fn scattered_content_stays() {
         let sizes =
-            |sizes: &[usize]| is_debris_little(&sizes.iter().map(|&size| Part { size, first: 0 }).collect::<Vec<_>>());
+            |sizes: &[usize]| has_debris(&sizes.iter().map(|&size| Part { size, first: 0 }).collect::<Vec<_>>());
         // One body, or bodies of one kind.
         assert!(!sizes(&[]) && !sizes(&[1000]) && !sizes(&[1000, 900, 25, 20]));
         // A head with its rest and specks.
         assert!(sizes(&[100_000, 1600, 180, 40, 5, 5, 1]));
-        // Vessels: 70 pieces of a thousandth and more.
+        // Vessels: 70 pieces of a thousandth. Legs: ten of them.
         assert!(!sizes(&[&[50_000][..], &[50; 70]].concat()));
+        assert!(!sizes(&[&[50_000][..], &[50; 10]].concat()));
     }
 }
