@@ -30,7 +30,7 @@ fn at_edges(one: &Shown, contrast: f64) -> Vec<bool> {
 
 /// Lines inside the picture of every third scene.
 fn lines_of(stage: &Stage, seed: u64) -> Option<Fragments> {
-    (seed % 3 == 0).then(|| lines(stage, seed))
+    seed.is_multiple_of(3).then(|| lines(stage, seed))
 }
 
 /// A random scene with edges to refine.
@@ -61,11 +61,14 @@ fn each_pixel_is_that_of_one_ray_or_of_nine() {
         let at_edges = at_edges(&one, stage.scene.picture.contrast);
         let edges = at_edges.iter().filter(|is| **is).count();
         for layer in &auto.picture.layers {
-            let has_nine = match layer.kind {
-                LayerKind::Beauty | LayerKind::Normal | LayerKind::Gradient => true,
-                LayerKind::Curvature | LayerKind::CurvatureAlongView => true,
-                _ => false,
-            };
+            let has_nine = matches!(
+                layer.kind,
+                LayerKind::Beauty
+                    | LayerKind::Normal
+                    | LayerKind::Gradient
+                    | LayerKind::Curvature
+                    | LayerKind::CurvatureAlongView
+            );
             let [one, nine] = [&one, &nine].map(|shown| &shown.picture.layer(layer.kind).unwrap().channels);
             for ((auto, one), nine) in layer.channels.iter().zip(one).zip(nine) {
                 for (at, value) in auto.iter().enumerate() {
