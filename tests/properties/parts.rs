@@ -36,7 +36,8 @@ fn scene(more: &str) -> Scene {
 fn drawn(mut scene: Scene, parts: Option<PartsTable>, volume: &Volume) -> (Picture, Job) {
     scene.volume.parts = parts;
     let job = Job::with_volume(scene, volume.clone()).unwrap();
-    (job.renderer().unwrap().frame(&|_| ()).0, job)
+    let picture = job.renderer().unwrap().frame(&|_| ()).0;
+    (picture, job)
 }
 
 fn keep(keep: Keep) -> Option<PartsTable> {
