@@ -1,11 +1,13 @@
 //! Voxels from data files: lengths checked first, then decoded in steps.
 
+use super::Choose;
 use super::error::{Fault, ReadError, quoted};
 use super::header::open;
 use super::limits::{Encoding, make_room};
 use crate::memory::NoRoom;
+use crate::space::Grid;
 use crate::volume::bytes::Stored;
-use crate::volume::{KeptVoxels, VoxelType, Voxels};
+use crate::volume::{Anatomy, KeptVoxels, Volume, VolumeError, VoxelType, Voxels};
 use bzip2::bufread::MultiBzDecoder;
 use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
 use std::fs::File;
@@ -329,6 +331,24 @@ impl<T: Stored> Sink<'_, T> {
     fn make_room(&mut self, more: usize) -> Result<(), ReadError> {
         let total = self.kept.len();
         make_room(&mut self.voxels, more, total).map_err(|no_room| self.payload.no_memory(total, no_room))
+    }
+}
+
+/// Reads the voxels that `choose` keeps, and makes their volume.
+pub(super) fn volume_of(
+    file: &Path,
+    whole: &Grid,
+    payload: &Payload,
+    [slope, intercept]: [f64; 2],
+    anatomy: Option<Anatomy>,
+    choose: &Choose<'_>,
+) -> Result<Volume, ReadError> {
+    let kept = choose(whole, anatomy).map_err(|error| ReadError::new(file, error))?;
+    let grid = kept.grid(whole).map_err(|error| ReadError::new(file, error))?;
+    match Volume::new(grid, payload.read(&kept)?, slope, intercept) {
+        Ok(volume) => Ok(volume.with_anatomy(anatomy)),
+        Err(error @ VolumeError::Scaling { .. }) => Err(ReadError::new(file, error).field("slope and intercept")),
+        Err(error) => Err(ReadError::new(file, error)),
     }
 }
 

@@ -4,11 +4,11 @@
 //! of the voxels, and so on; voxel (0, 0, 0) lies at `Offset`. The world is LPS, as in MetaImage's own library.
 //! `AnatomicalOrientation` names the voxels' axes, not the world's. It repeats the matrix and is not read.
 
-use super::data::Payload;
+use super::data::{Payload, volume_of};
 use super::error::{Fault, ReadError, quoted};
 use super::header::{Field, Header, Lines};
 use super::limits::Encoding;
-use super::{Choose, grid_of, header, series, volume_of};
+use super::{Choose, grid_of, header, series};
 use crate::volume::{Anatomy, Volume, VoxelType};
 use glam::{DMat3, DVec3};
 use std::path::{Path, PathBuf};

@@ -19,10 +19,9 @@ mod tests;
 pub(super) use error::quoted;
 pub use error::{Fault, ReadError};
 
-use super::{Anatomy, KeptVoxels, NotInVolume, Volume, VolumeError};
+use super::{Anatomy, KeptVoxels, NotInVolume, Volume};
 use crate::space::{Grid, SpaceError};
 use crate::volume::RawLayout;
-use data::Payload;
 use glam::{DMat3, DVec3};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -119,22 +118,4 @@ fn grid_of(
         };
         ReadError::new(file, error).field(field)
     })
-}
-
-/// Reads the voxels that `choose` keeps, and makes their volume.
-fn volume_of(
-    file: &Path,
-    whole: &Grid,
-    payload: &Payload,
-    [slope, intercept]: [f64; 2],
-    anatomy: Option<Anatomy>,
-    choose: &Choose<'_>,
-) -> Result<Volume, ReadError> {
-    let kept = choose(whole, anatomy).map_err(|error| ReadError::new(file, error))?;
-    let grid = kept.grid(whole).map_err(|error| ReadError::new(file, error))?;
-    match Volume::new(grid, payload.read(&kept)?, slope, intercept) {
-        Ok(volume) => Ok(volume.with_anatomy(anatomy)),
-        Err(error @ VolumeError::Scaling { .. }) => Err(ReadError::new(file, error).field("slope and intercept")),
-        Err(error) => Err(ReadError::new(file, error)),
-    }
 }

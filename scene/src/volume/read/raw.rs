@@ -8,10 +8,10 @@
 //! | `spacing` | world units between voxels along x, y, z | `[1, 1, 1]` |
 //! | `skip` | bytes before the first voxel; of a gzip file, decoded ones | 0 |
 
-use super::data::Payload;
+use super::data::{Payload, volume_of};
 use super::error::{Fault, ReadError};
 use super::limits::Encoding;
-use super::{Choose, grid_of, header, volume_of, with_suffix};
+use super::{Choose, grid_of, header, with_suffix};
 use crate::volume::RawLayout;
 use crate::volume::{Volume, VoxelType};
 use glam::{DMat3, DVec3};

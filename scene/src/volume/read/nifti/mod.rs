@@ -6,10 +6,10 @@
 mod affine;
 mod fields;
 
-use super::data::Payload;
+use super::data::{Payload, volume_of};
 use super::error::{Fault, ReadError};
 use super::limits::Encoding;
-use super::{Choose, grid_of, header, suffix, volume_of};
+use super::{Choose, grid_of, header, suffix};
 use crate::volume::{Anatomy, Volume, VoxelType};
 use fields::Fields;
 use flate2::bufread::MultiGzDecoder;

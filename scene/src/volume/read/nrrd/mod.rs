@@ -6,11 +6,11 @@
 mod axes;
 mod fields;
 
-use super::data::Payload;
+use super::data::{Payload, volume_of};
 use super::error::{Fault, ReadError, quoted};
 use super::header::{Field, Header, Lines};
 use super::limits::Encoding;
-use super::{Choose, series, volume_of};
+use super::{Choose, series};
 use crate::volume::{Volume, VoxelType};
 use std::path::{Path, PathBuf};
 
