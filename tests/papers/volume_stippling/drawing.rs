@@ -82,6 +82,9 @@ fn wanted(lit: f64) -> f64 {
 
 const RADIUS: f64 = 18.0;
 
+/// Radius in mm of the windows in which a ball's tone is measured: a hundred dots or more in the shade.
+const WINDOW: f64 = 2.0;
+
 fn ball() -> Volume {
     let centre = DVec3::splat(23.5);
     common::volume([48; 3], |p| (RADIUS - p.distance(centre)).clamp(-3.0, 3.0))
@@ -97,18 +100,17 @@ fn a_ball_is_shaded_by_its_light_alone() {
         for j in -32..=32 {
             let off = DVec2::new(f64::from(i), f64::from(j));
             let share = off / (RADIUS * SCALE);
-            // Windows of 1 mm that lie within the ball.
-            if share.length() > 0.95 {
+            if share.length() > 1.0 - WINDOW / (RADIUS * SCALE) {
                 continue;
             }
             let n = DVec3::new(share.x, -share.y, (1.0 - share.length_squared()).sqrt());
-            let found = covered.around(middle + off, 1.0);
+            let found = covered.around(middle + off, WINDOW);
             darkest = darkest.max(found);
             rows.push((n.dot(light()), found));
         }
     }
-    // A window of 1 mm holds few dots, so its tone varies; nowhere is it black.
-    assert!(darkest < 0.9, "{darkest}");
+    // No place is darker than a full tone, beyond which the last gaps close.
+    assert!(darkest < FULL, "{darkest}");
     // The mean tone at each angle of the light: as wanted, and falling.
     let mut last = 1.0;
     for k in 0..10 {

@@ -27,7 +27,7 @@ snap = "edge"
 fn page(line: &str) -> (Vec<Dot>, Counts, DVec3) {
     let scene = parse(&format!("{SCENE}{line}\n"), Path::new("sphere.toml"), &Overrides::default()).unwrap();
     let job = Job::load_for(scene, RenderTarget::Marks).unwrap();
-    let mut counts = Counts::default();
+    let mut counts = job.counts.clone();
     let stippling = Stippling::new(&job, &mut counts, &|_| ()).unwrap();
     let marks = stippling.frames().draw(&job.view().unwrap(), &mut counts);
     (marks.layers[0].dots.clone(), counts, job.volume.grid().centre())
