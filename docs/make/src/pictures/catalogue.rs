@@ -14,6 +14,8 @@ pub(super) struct DocPicture {
 pub(super) enum Source {
     /// One scene.
     Scene(PathBuf),
+    /// The embedded scene, larger than it is drawn by itself.
+    Default(PathBuf),
     /// Scenes side by side.
     Sheet { parts: Vec<PathBuf>, layout: Layout },
 }
@@ -22,7 +24,7 @@ impl Source {
     /// The files of its scenes.
     pub(super) fn scenes(&self) -> &[PathBuf] {
         match self {
-            Self::Scene(path) => std::slice::from_ref(path),
+            Self::Scene(path) | Self::Default(path) => std::slice::from_ref(path),
             Self::Sheet { parts, .. } => parts,
         }
     }
@@ -59,7 +61,7 @@ const WITHOUT: [&str; 7] = [
 pub(super) fn all() -> Result<Vec<DocPicture>, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes");
     let mut pictures =
-        vec![DocPicture { file: "pictures/default.png".into(), source: Source::Scene(root.join("default.toml")) }];
+        vec![DocPicture { file: "pictures/default.png".into(), source: Source::Default(root.join("default.toml")) }];
     for folder in entries(&root)?.iter().filter(|path| path.is_dir() && !path.ends_with("cost")) {
         let room = folder.file_name().unwrap_or_default().display().to_string();
         for scene in entries(folder)?.into_iter().filter(|path| path.extension().is_some_and(|e| e == "toml")) {

@@ -19,6 +19,9 @@ use std::path::{Path, PathBuf};
 /// The most bytes of a picture in `docs`.
 const LARGEST: usize = 600_000;
 
+/// Width and height of the picture of the embedded scene.
+const DEFAULT_SIZE: [usize; 2] = [1000, 1000];
+
 /// Renders every picture that is older than its scene. Words after the command select pictures by a part of their path;
 /// those are rendered in any case.
 ///
@@ -49,6 +52,11 @@ impl DocPicture {
     fn png(&self) -> Result<Vec<u8>, String> {
         let (picture, encode) = match &self.source {
             Source::Scene(path) => of_scene::picture(scene(path)?)?,
+            Source::Default(path) => {
+                let mut scene = scene(path)?;
+                scene.picture.size = DEFAULT_SIZE;
+                of_scene::picture(scene)?
+            }
             Source::Sheet { parts, layout } => (contact_sheet(parts, *layout)?, encode::opaque_png as Encode),
         };
         let bytes = encode(&picture).map_err(|e| e.to_string())?;
