@@ -53,17 +53,17 @@ fn wrong_clips_say_what_is_wrong() {
         ),
         (
             "cap = \"red\"\n",
-            "clip[0].point is missing\n  at scene.toml:4:3, key clip[0].point\n  write point = [x, y, z] and normal = \
+            "clip[0].point is missing\n  at scene.toml:4:1, key clip[0].point\n  write point = [x, y, z] and normal = \
              [x, y, z], or box = [[x0, x1], [y0, y1], [z0, z1]]",
         ),
         (
             "point = [1, 2, 3]\n",
-            "clip[0].normal is missing\n  at scene.toml:4:3, key clip[0].normal\n  write normal = [x, y, z], which points \
+            "clip[0].normal is missing\n  at scene.toml:4:1, key clip[0].normal\n  write normal = [x, y, z], which points \
              to the side that is cut away",
         ),
         (
             "normal = [1, 2, 3]\n",
-            "clip[0].point is missing\n  at scene.toml:4:3, key clip[0].point\n  write point = [x, y, z], which lies on \
+            "clip[0].point is missing\n  at scene.toml:4:1, key clip[0].point\n  write point = [x, y, z], which lies on \
              the plane",
         ),
         (

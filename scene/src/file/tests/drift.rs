@@ -16,6 +16,7 @@ const HALO: (&str, &str) = ("halo", "[{ profile = [{ at = 0, color = \"red\" }] 
 const GLOW: (&str, &str) = ("halo", "[{ kind = \"emissive\" }, { kind = \"emissive\", name = \"glow\" }]");
 const FOCUS: (&str, &str) = ("halo", "[{ seed = { focus = { at = [[1, 2, 3]] } } }]");
 const CLIP: (&str, &str) = ("clip", "[{ point = [1, 2, 3], normal = [0, 0, 1] }]");
+const BOX: (&str, &str) = ("clip", "[{ box = [[0, 9], [0, 9], [0, 9]] }]");
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
 const HATCHING: (&str, &str) = ("hatching", "{}");
@@ -51,7 +52,7 @@ const SAMPLES: &[Sample] = &[
     ("clip", &[], "[{ box = [[0, 1], [2, 3], [4, 5]] }]"),
     ("clip[0].point", &[CLIP], "[3, 2, 1]"),
     ("clip[0].normal", &[CLIP], "[1, 0, 0]"),
-    ("clip[0].box", &[CLIP], "[[0, 1], [2, 3], [4, 5]]"),
+    ("clip[0].box", &[BOX], "[[0, 1], [2, 3], [4, 5]]"),
     ("clip[0].space", &[CLIP], "index"),
     ("clip[0].applies", &[CLIP], "[\"background\"]"),
     ("clip[0].cap", &[CLIP], "#c0303080"),
