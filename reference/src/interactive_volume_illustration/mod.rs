@@ -22,7 +22,8 @@ pub use directions::{
 pub use outlines::{CreaseStrokes, OutlineStrokes, before_cusps, creases, outlines};
 pub use seeds::{LargestMeasure, Pyramid, Seed, SeedRule, Seeds, VoxelMeasure, gradient_range};
 pub use sight::{
-    GappedLines, Joining, PenState, Sight, StrokePoint, StyledStroke, VisibleLines, dash_vertices, dashed, drawn, gapped, grain, joined, without_doubles,
+    GappedLines, Joining, PenState, Sight, StrokePoint, StyledStroke, VisibleLines, dash_vertices, dashed, drawn,
+    gapped, grain, joined, without_doubles,
 };
 pub use strokes::{
     CurvatureFamily, DirectionCounts, GrownStrokes, HatchCounts, HatchParams, NoDirection, NormalCone, PackedStrokes,

@@ -177,7 +177,12 @@ impl Pass {
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
             Self::HaloSeeds | Self::HaloSpreading => 0,
-            Self::HiddenPoints | Self::DotsOnPage | Self::Creases | Self::Outlines | Self::HiddenStrokes | Self::Gaps => 0,
+            Self::HiddenPoints
+            | Self::DotsOnPage
+            | Self::Creases
+            | Self::Outlines
+            | Self::HiddenStrokes
+            | Self::Gaps => 0,
             // At most a cell a voxel: where it is, its p, and once more if a stroke begins there.
             Self::SeenCells => 56,
             // Of the cells of a surface alone.

@@ -3,8 +3,8 @@
 //! N·v is computed as g·v, with v towards the eye at each place. So it contains no norm, and its zeros are those of the
 //! gradient that the scene samples.
 
-use super::second_function::SecondFunction;
 use super::search::position;
+use super::second_function::SecondFunction;
 use super::tetrahedra::is_above;
 use crate::field::Sampler;
 use crate::number::Vec3;

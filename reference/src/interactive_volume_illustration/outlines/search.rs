@@ -85,12 +85,7 @@ impl<'a> CurveSearch<'a> {
         }
     }
 
-    pub(super) fn outlines<S: Sampler<f64>>(
-        &self,
-        sampler: &S,
-        view: &View,
-        bricks: &[[usize; 3]],
-    ) -> OutlineStrokes {
+    pub(super) fn outlines<S: Sampler<f64>>(&self, sampler: &S, view: &View, bricks: &[[usize; 3]]) -> OutlineStrokes {
         if self.grid.dims().contains(&1) {
             return OutlineStrokes::default();
         }
