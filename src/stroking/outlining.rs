@@ -17,8 +17,17 @@ use std::time::Instant;
 /// of its own outline; with half a voxel lines continue around their ends as small hooks.
 const OFFSET: f64 = 0.3;
 
-/// Largest difference in depth of lines that are joined or coincide, in voxels.
-const DEPTH: f64 = 3.0;
+/// Largest difference in depth of lines that are joined or coincide, in voxels. The outline of an edge rounded by four
+/// voxels is that much behind its crease.
+const DEPTH: f64 = 5.0;
+
+/// Distance within which a crease runs along an outline, in voxels. The outline of an edge rounded by three voxels is up
+/// to one voxel beside its crease.
+const BESIDE: f64 = 1.25;
+
+/// Distance of ends that are joined, as a multiple of that distance: a crease that goes on from an outline is cut off
+/// at that distance from its end.
+const JOINED: f64 = 1.5;
 
 /// Settings of outlines.
 pub(super) struct Outlining {
@@ -77,11 +86,11 @@ impl Outlining {
         let sight = frame.sight(OFFSET * voxel);
         let [mut seen, edges] = [&strokes[..], creases].map(|strokes| sight.seen(strokes, |_, _| nib));
         *counts.preprocess.entry("looks for what hides".into()).or_default() += seen.looks + edges.looks;
-        // Creases within a pen's width, or half a voxel, of an outline are the outline.
-        let (apart, depth) = (self.pen.width.max(0.5 * reach), DEPTH * voxel);
+        // A crease that runs beside an outline is the same edge.
+        let (apart, depth) = (self.pen.width.max(BESIDE * reach), DEPTH * voxel);
         seen.lines.extend(without_doubles(&edges.lines, &seen.lines, frame.view, apart, depth).lines);
         let all = seen.lines.len();
-        let joining = Joining { reach: apart.max(reach), touch: self.pen.width, depth, min_length: self.min_length };
+        let joining = Joining { reach: JOINED * apart, touch: self.pen.width, depth, min_length: self.min_length };
         let lines = joined(seen.lines, frame.view, &joining);
         counts.preprocess.insert("short strokes".into(), (all - lines.len()) as u64);
         *counts.seconds.entry("hidden strokes".into()).or_default() += start.elapsed().as_secs_f64();

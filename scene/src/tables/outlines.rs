@@ -49,7 +49,7 @@ pub enum Crease {
 }
 
 impl Crease {
-    /// The angle of a first picture: a right angle between two faces turns by 65° over two voxels, a ball of eight
+    /// The angle of a first picture: a right angle between two faces turns by 51° over two voxels, a ball of eight
     /// voxels by 14°.
     pub(crate) const PRINT: Self = Self::Degrees(30.0);
 }

@@ -120,10 +120,11 @@ impl<'f, 'v> PrincipalDirections<'f, 'v> {
         self.scaled.as_ref().map(|scaled| &scaled.pairs[0][0])
     }
 
-    /// Returns the curvatures and directions at a place, if the finest scale is certain of them.
-    pub(in super::super) fn at_finest(&self, at: DVec3) -> Option<Curvature<f64>> {
+    /// Whether the finest scale is certain of the direction at a place.
+    pub(in super::super) fn is_certain_at_finest(&self, at: DVec3) -> bool {
         let place = QueryPoint::Between(Vec3::from_glam(at));
-        self.scaled.as_ref()?.estimate(0, at, place, &SmoothedRegions::default()).ok()
+        let estimate = |scaled: &ScaledRule<'_, '_>| scaled.estimate(0, at, place, &SmoothedRegions::default());
+        self.scaled.as_ref().is_some_and(|scaled| estimate(scaled).is_ok())
     }
 
     /// Size of the smoothed bricks and the mask's margins in bytes.

@@ -1,16 +1,26 @@
 //! Corners, at which creases meet ([HATCH-22]).
 //!
 //! At a corner both principal curvatures are equal, and no crease reaches it: edges rounded by r end r from each other.
+//! A crease that turns into another one beside the corner is cut there, and both parts end before it.
 
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 
 /// Cosine of the largest angle between a crease's last direction and the end of another crease that it meets.
-const TURN: f64 = 0.5;
+const TURN: f64 = 0.3;
 
-/// Length over which the direction of an end is taken, in voxels.
-const TAIL: f64 = 1.5;
+/// Length over which the direction of an end is taken, in voxels. The last voxel may bend towards the corner.
+const TAIL: f64 = 3.0;
+
+/// Length of the parts behind and before a corner, in voxels.
+const ARM: f64 = 3.0;
+
+/// Cosine of the turn of a crease at a corner, between the parts of [`ARM`] behind and before it.
+const CORNER: f64 = 0.5;
+
+/// Length left out on either side of a corner where a crease is cut, in voxels.
+const CUT: f64 = 1.0;
 
 /// An end of an open stroke.
 struct CreaseEnd {
@@ -26,9 +36,16 @@ struct CreaseEnd {
 /// place on the surface as a new end.
 pub(super) fn with_corners(surface: &IsoSurface<'_, '_>, mut strokes: Vec<Stroke>, reach: f64) -> Vec<Stroke> {
     let grid = surface.field().volume().grid();
+    strokes = strokes.iter().flat_map(|stroke| without_corners(stroke, grid.voxel())).collect();
     let mut ends = ends(&strokes, TAIL * grid.voxel());
     ends.sort_by(|a, b| a.at.x.total_cmp(&b.at.x));
+    let mut is_rest = vec![false; strokes.len()];
     for group in groups(&ends, reach) {
+        // A short piece between two ends of one corner is a rest of the corner itself.
+        let of = |stroke: usize| group.iter().filter(|&&i| ends[i].stroke == stroke).count();
+        let short = |stroke: usize| of(stroke) == 2 && strokes[stroke].length() <= reach;
+        let rests: Vec<usize> = group.iter().map(|&i| ends[i].stroke).filter(|&stroke| short(stroke)).collect();
+        rests.into_iter().for_each(|stroke| is_rest[stroke] = true);
         let mean =
             |of: fn(&CreaseEnd) -> DVec3| group.iter().map(|&i| of(&ends[i])).sum::<DVec3>() / group.len() as f64;
         let (middle, normal) = (grid.to_index(mean(|end| end.at)), mean(|end| end.normal).normalize_or_zero());
@@ -40,7 +57,69 @@ pub(super) fn with_corners(surface: &IsoSurface<'_, '_>, mut strokes: Vec<Stroke
             vertices.insert(at, StrokeVertex { world: grid.to_world(foot), normal, u });
         }
     }
+    let mut is_rest = is_rest.into_iter();
+    strokes.retain(|_| is_rest.next() == Some(false));
     strokes
+}
+
+/// A stroke's vertex at an arc length from its first vertex. The range ends with the stroke.
+fn along(vertices: &[StrokeVertex], lengths: &[f64], s: f64) -> StrokeVertex {
+    let i = lengths.partition_point(|&length| length < s).clamp(1, lengths.len() - 1);
+    let (a, b, whole) = (&vertices[i - 1], &vertices[i], lengths[i] - lengths[i - 1]);
+    let t = if whole > 0.0 { ((s - lengths[i - 1]) / whole).clamp(0.0, 1.0) } else { 0.0 };
+    let normal = a.normal.lerp(b.normal, t).normalize_or(a.normal);
+    StrokeVertex { world: a.world.lerp(b.world, t), normal, u: a.u + (b.u - a.u) * t }
+}
+
+/// Cuts a stroke where it turns sharply.
+fn without_corners(stroke: &Stroke, voxel: f64) -> Vec<Stroke> {
+    let again = stroke.vertices.first().filter(|_| stroke.closed).map(|first| StrokeVertex { u: 1.0, ..*first });
+    let vertices: Vec<StrokeVertex> = stroke.vertices.iter().copied().chain(again).collect();
+    let mut lengths = vec![0.0];
+    for pair in vertices.windows(2) {
+        lengths.push(lengths[lengths.len() - 1] + pair[0].world.distance(pair[1].world));
+    }
+    let whole = lengths[lengths.len() - 1];
+    let at = |s: f64| along(&vertices, &lengths, s).world;
+    let cosine = |s: f64| {
+        let [a, b, c] = [s - ARM * voxel, s, s + ARM * voxel].map(at);
+        (b - a).normalize_or_zero().dot((c - b).normalize_or_zero())
+    };
+    // The sharpest place of each stretch that turns by more than a corner, a quarter of a voxel apart.
+    let places = ((whole - ARM * voxel) / (0.25 * voxel)).max(0.0) as u32;
+    let (mut corners, mut sharpest): (Vec<f64>, Option<(f64, f64)>) = (Vec::new(), None);
+    for s in (0..=places).map(|k| f64::from(k) * 0.25 * voxel).filter(|&s| s >= ARM * voxel) {
+        let turn = cosine(s);
+        if turn < CORNER {
+            sharpest = sharpest.filter(|(least, _)| *least <= turn).or(Some((turn, s)));
+        } else {
+            corners.extend(sharpest.take().map(|(_, s)| s));
+        }
+    }
+    corners.extend(sharpest.map(|(_, s)| s));
+    if corners.is_empty() {
+        return vec![stroke.clone()];
+    }
+    let cut = CUT * voxel;
+    let from = [0.0].into_iter().chain(corners.iter().map(|s| s + cut));
+    let to = corners.iter().map(|s| s - cut).chain([whole]);
+    let part = |(from, to): (f64, f64)| {
+        let inside = vertices.iter().zip(&lengths).filter(|(_, s)| (from..to).contains(*s)).map(|(vertex, _)| *vertex);
+        let ends = [from, to].map(|s| along(&vertices, &lengths, s));
+        let vertices: Vec<StrokeVertex> =
+            [ends[0]].into_iter().chain(inside.skip_while(|v| v.world == ends[0].world)).chain([ends[1]]).collect();
+        (to > from).then_some(Stroke { vertices, closed: false, key: stroke.key })
+    };
+    let mut parts: Vec<Stroke> = from.zip(to).filter_map(part).collect();
+    if let (true, [first, .., last]) = (stroke.closed, parts.as_mut_slice())
+        && first.vertices[0].world == last.vertices[last.vertices.len() - 1].world
+    {
+        // The last part of a ring continues in the first.
+        last.vertices.pop();
+        last.vertices.append(&mut first.vertices);
+        parts.remove(0);
+    }
+    parts
 }
 
 fn ends(strokes: &[Stroke], tail: f64) -> Vec<CreaseEnd> {

@@ -27,12 +27,12 @@ pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, de
     cut(lines, &all, view, gap, CutBy::Nearer(deeper))
 }
 
-/// Removes the parts of lines that lie within `gap` mm on the page of another line. Where both are closest, their
-/// depths must differ by at most `depth`, in world units along the view.
+/// Removes the parts of lines that run within `gap` mm on the page along another line, at an angle of at most 45°. Where
+/// both are closest, their depths must differ by at most `depth`, in world units along the view.
 pub fn without_doubles(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, depth: f64) -> GappedLines {
     let numbered = others.iter().zip(lines.len()..);
     let all: Vec<PageSegment> = numbered.flat_map(|(line, number)| segments(line, number, view)).collect();
-    cut(lines, &all, view, gap, CutBy::Equal(depth))
+    cut(lines, &all, view, gap, CutBy::Along(depth))
 }
 
 /// The lines that cut, by their depths.
@@ -40,8 +40,8 @@ pub fn without_doubles(lines: &[Polyline], others: &[Polyline], view: &View, gap
 enum CutBy {
     /// Lines nearer by more than this.
     Nearer(f64),
-    /// Lines whose depths differ by at most this.
-    Equal(f64),
+    /// Lines of nearly the same direction whose depths differ by at most this.
+    Along(f64),
 }
 
 impl CutBy {
@@ -49,7 +49,10 @@ impl CutBy {
     fn may(self, own: &PageSegment, other: &PageSegment) -> bool {
         match self {
             Self::Nearer(deeper) => own.depths[0].max(own.depths[1]) - other.depths[0].min(other.depths[1]) > deeper,
-            Self::Equal(_) => true,
+            Self::Along(_) => {
+                let [a, b] = [own, other].map(|segment| segment.ends[1].at - segment.ends[0].at);
+                a.dot(b).abs() >= a.perp_dot(b).abs()
+            }
         }
     }
 
@@ -57,7 +60,7 @@ impl CutBy {
     fn cuts(self, deeper: f64) -> bool {
         match self {
             Self::Nearer(least) => deeper > least,
-            Self::Equal(most) => deeper.abs() <= most,
+            Self::Along(most) => deeper.abs() <= most,
         }
     }
 }

@@ -11,6 +11,10 @@ const TURN: f64 = 0.5;
 /// Length over which the direction of an end is taken, in reaches: the last segments may be short and turn.
 const TAIL: f64 = 1.5;
 
+/// The share of the least length that a line has whose ends both meet others. A short edge between two corners belongs to
+/// the drawing.
+const TIED: f64 = 0.75;
+
 /// Settings of joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joining {
@@ -36,13 +40,16 @@ struct LineEnd {
 }
 
 /// Joins the ends of lines: nearest pairs first, then the remaining ends to the lines beside them. Leaves out lines
-/// shorter than the least length, unless both ends meet other lines.
+/// shorter than the least length; three quarters of it are enough between two others.
 pub fn joined(lines: Vec<Polyline>, view: &View, how: &Joining) -> Vec<Polyline> {
     let ends = ends(&lines, view, how);
     let lines = chained(lines, &ends, &pairs(&ends, how));
     let (mut lines, meets) = met(lines, view, how);
     let mut meets = meets.into_iter();
-    lines.retain(|line| meets.next() == Some([true; 2]) || line.length() >= how.min_length);
+    lines.retain(|line| {
+        let is_tied = meets.next() == Some([true; 2]);
+        line.length() >= how.min_length * if is_tied { TIED } else { 1.0 }
+    });
     lines
 }
 
@@ -171,4 +178,72 @@ fn met(mut lines: Vec<Polyline>, view: &View, how: &Joining) -> (Vec<Polyline>, 
         vertices.insert(if end.is_last { vertices.len() } else { 0 }, vertex);
     }
     (lines, meets)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::glam::DVec3;
+    use drypoint_scene::space::Grid;
+    use drypoint_scene::tables::{Camera, Projection};
+
+    const HOW: Joining = Joining { reach: 1.0, touch: 0.2, depth: 3.0, min_length: 2.0 };
+
+    /// A line through places of the page, at a height towards the eye.
+    fn line(height: f64, places: &[[f64; 2]]) -> Polyline {
+        let vertex = |&[x, y]: &[f64; 2]| {
+            let (at, world) = (DVec2::new(x, y), DVec3::new(x, y, height));
+            Vertex { at, world, radius: 0.1, opacity: 1.0, t: 0.0, color: None }
+        };
+        Polyline { vertices: places.iter().map(vertex).collect(), closed: false }
+    }
+
+    fn places(lines: &[Polyline]) -> Vec<Vec<[f64; 2]>> {
+        lines.iter().map(|line| line.vertices.iter().map(|vertex| vertex.at.to_array()).collect()).collect()
+    }
+
+    fn join(lines: &[Polyline]) -> Vec<Polyline> {
+        let grid = Grid::with_spacing([3; 3], [1.0; 3]).unwrap();
+        let (projection, eye, target) =
+            (Projection::Orthographic { height: None }, Some(DVec3::new(0.0, 0.0, 50.0)), Some(DVec3::ZERO));
+        let camera = Camera { projection, eye, target, up: DVec3::Y, ..Camera::default() };
+        joined(lines.to_vec(), &View::new(&camera, &grid, [100, 100]).unwrap(), &HOW)
+    }
+
+    #[test]
+    fn ends_that_go_towards_each_other_are_joined() {
+        let [a, b] = [line(0.0, &[[0.0, 0.0], [5.0, 0.0]]), line(1.0, &[[10.0, 0.0], [5.8, 0.1]])];
+        let whole = join(&[a.clone(), b.clone()]);
+        assert_eq!(places(&whole), [[[0.0, 0.0], [5.0, 0.0], [5.8, 0.1], [10.0, 0.0]]]);
+        // Too far apart on the page, or in depth, or side by side: nothing changes.
+        for other in [
+            line(0.0, &[[10.0, 0.0], [6.1, 0.0]]),
+            line(4.0, &[[10.0, 0.0], [5.8, 0.1]]),
+            line(0.0, &[[0.0, 0.8], [5.0, 0.8]]),
+        ] {
+            let both = [a.clone(), other];
+            assert_eq!(join(&both), both);
+        }
+    }
+
+    #[test]
+    fn a_ring_of_parts_is_closed() {
+        let half = |sign: f64| line(0.0, &[[0.1 * sign, 0.0], [4.0 * sign, 0.0], [4.0 * sign, 8.0], [0.1 * sign, 8.0]]);
+        let ring = join(&[half(1.0), half(-1.0)]);
+        assert_eq!((ring.len(), ring[0].closed, ring[0].vertices.len()), (1, true, 8));
+    }
+
+    #[test]
+    fn ends_beside_a_line_are_drawn_up_to_it_and_stubs_are_left_out() {
+        let long = line(0.0, &[[0.0, 0.0], [10.0, 0.0]]);
+        let below = line(0.0, &[[5.0, 4.0], [5.0, 0.6]]);
+        let met = join(&[long.clone(), below]);
+        assert_eq!(places(&met)[1], [[5.0, 4.0], [5.0, 0.6], [5.0, 0.0]]);
+        // 1.2 mm with a loose end are too short, 1.6 mm between two lines are not.
+        let stub = line(0.0, &[[5.0, 1.4], [5.0, 0.2]]);
+        assert_eq!(join(&[long.clone(), stub]), [long.clone()]);
+        let other = line(0.0, &[[0.0, 1.8], [10.0, 1.8]]);
+        let tie = line(0.0, &[[5.0, 1.7], [5.0, 0.1]]);
+        assert_eq!(join(&[long, other, tie]).len(), 3);
+    }
 }
