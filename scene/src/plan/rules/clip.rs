@@ -19,7 +19,7 @@ pub(super) const RULES: Rules = Rules {
         if plan.has_pass(Pass::Clip) && !plan.has_pass(Pass::Rays) {
             for key in ["cap", "style"] {
                 let key = idle.at.inner(key);
-                idle.key(&key, "the volume itself is not drawn: points and lines have no cuts");
+                idle.key(&key, "the volume itself is not drawn");
             }
         }
     },
@@ -60,10 +60,7 @@ mod tests {
         assert_eq!(line(&rays, "clip[0].cap"), "");
         let strokes = plan("[outlines]\n", Plan::new);
         assert!(line(&strokes, "clip 0").ends_with("clip[0] (line 5)"), "{strokes}");
-        assert_eq!(
-            line(&strokes, "clip[0].cap"),
-            "clip[0].cap (line 8): the volume itself is not drawn: points and lines have no cuts"
-        );
+        assert_eq!(line(&strokes, "clip[0].cap"), "clip[0].cap (line 8): the volume itself is not drawn");
         // Of points alone nothing is drawn here, so nothing is cut.
         assert_eq!(line(&plan("[outlines]\n", Plan::of_points), "clip"), "");
     }
