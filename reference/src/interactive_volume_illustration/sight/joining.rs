@@ -8,6 +8,12 @@ use drypoint_scene::view::View;
 /// Cosine of the largest turn from a line's last direction to the end that it is joined with.
 const TURN: f64 = 0.5;
 
+/// Cosine of the largest turn from a line's last direction to the side of a line that it is drawn up to.
+const TURN_ASIDE: f64 = 0.7;
+
+/// Distance of an end from the line that it is drawn up to, in reaches: across a small hole there is another line, too.
+const BESIDE: f64 = 0.6;
+
 /// Length over which the direction of an end is taken, in reaches: the last segments may be short and turn.
 const TAIL: f64 = 1.5;
 
@@ -159,8 +165,8 @@ fn met(mut lines: Vec<Polyline>, view: &View, how: &Joining) -> (Vec<Polyline>, 
             let s = other.nearest(end.vertex.at);
             let between = other.at(s) - end.vertex.at;
             let distance = between.length();
-            let onwards = distance <= how.touch || end.out.dot(between / distance) >= TURN;
-            let fits = distance <= how.reach && (other.depth(s) - end.depth).abs() <= how.depth && onwards;
+            let onwards = distance <= how.touch || end.out.dot(between / distance) >= TURN_ASIDE;
+            let fits = distance <= BESIDE * how.reach && (other.depth(s) - end.depth).abs() <= how.depth && onwards;
             (other.line != end.line && fits).then_some((distance, i, s))
         };
         let nearest =
@@ -236,12 +242,12 @@ mod tests {
     #[test]
     fn ends_beside_a_line_are_drawn_up_to_it_and_stubs_are_left_out() {
         let long = line(0.0, &[[0.0, 0.0], [10.0, 0.0]]);
-        let below = line(0.0, &[[5.0, 4.0], [5.0, 0.6]]);
+        let below = line(0.0, &[[5.0, 4.0], [5.0, 0.4]]);
         let met = join(&[long.clone(), below]);
-        assert_eq!(places(&met)[1], [[5.0, 4.0], [5.0, 0.6], [5.0, 0.0]]);
+        assert_eq!(places(&met)[1], [[5.0, 4.0], [5.0, 0.4], [5.0, 0.0]]);
         // 1.2 mm with a loose end are too short, 1.6 mm between two lines are not.
         let stub = line(0.0, &[[5.0, 1.4], [5.0, 0.2]]);
-        assert_eq!(join(&[long.clone(), stub]), [long.clone()]);
+        assert_eq!(places(&join(&[long.clone(), stub])), [[[0.0, 0.0], [10.0, 0.0]]]);
         let other = line(0.0, &[[0.0, 1.8], [10.0, 1.8]]);
         let tie = line(0.0, &[[5.0, 1.7], [5.0, 0.1]]);
         assert_eq!(join(&[long, other, tie]).len(), 3);
