@@ -129,7 +129,7 @@ fn files_that_are_no_scene() {
         (
             "empty.toml",
             "error: drypoint is missing\n  at: empty.toml:1:1, key drypoint\n  try: write drypoint = 1, the version of the format that this program reads\n\
-             error: volume is missing\n  at: empty.toml:1:1, key volume\n  try: write [volume], a table with the keys file, phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside\n",
+             error: volume is missing\n  at: empty.toml:1:1, key volume\n  try: write [volume], a table with the keys file, phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside, box, stride, parts\n",
         ),
         (
             "broken.toml",
@@ -162,7 +162,7 @@ error: gone.nrrd is not there
   try: write another path; DRYPOINT_DATA lists no folder with it
 error: [volume] has no key \"rang\"
   at: scene.toml:4:1, key volume.rang
-  try: write \"range\"; the keys here are file, phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside
+  try: write \"range\"; the keys here are file, phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside, box, stride, parts
 error: camera.fov cannot be \"wide\"
   at: scene.toml:6:7, key camera.fov
   try: write a number above 0 and below 180, in degrees

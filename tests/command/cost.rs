@@ -66,7 +66,6 @@ fn every_setting_of_every_knob_has_a_row() {
     let counts: Vec<(&str, usize)> = rows.iter().map(|(knob, rows)| (knob.as_str(), rows.len())).collect();
     let expected = [
         ("contours.kappa", 2),
-        ("picture.contrast", 5),
         ("picture.samples", 5),
         ("sampling.gradient", 4),
         // `auto`, what the scene has, is none of the settings.

@@ -8,9 +8,9 @@ fn it_says_what_is_needed_and_which_line_asked() {
     folder.scene("[camera]\nprojection = \"orthographic\"\nfov = 30\n[contours]\n");
     let plan = folder.good("plan scene.toml");
     for line in [
-        "effect                       needs            adds                                               because of",
-        "styles                       gradient         one gradient a visible sample                      transfer.kind (line 6)",
-        "contours                     previous normal  one gradient where the sample before has none yet  contours.kappa (line 11)",
+        "effect                       needs            adds                                                                    because of",
+        "styles                       gradient         one gradient a visible sample                                           transfer.kind (line 6)",
+        "contours                     previous normal  one gradient where the sample before has none yet                       contours.kappa (line 11)",
         "  camera.fov (line 10): the camera is orthographic: height counts",
     ] {
         assert!(plan.lines().any(|l| l == line), "{line}\n{plan}");

@@ -42,22 +42,22 @@ const SCENES: &[(&str, &str)] = &[
 
 /// The files, what writes them, and the SHA-256 of their bytes.
 const FILES: &[(&str, &str, &str)] = &[
-    ("default.png", "render --size 48x36", "40e980049ac6450806f5362791233d3fddc1a6e41ce54314692f9acf8b6ab999"),
-    ("styles.exr", "render styles.toml", "e91927de1fcdb1e9dd2cecafedddf831526d46fd1f4bd2fde1ec5dc6169ef4fc"),
-    ("labels.exr", "render labels.toml", "4c140080bd17747e4aa6bb8d9df06d577ed9c5edcfaa3dd278d777acf8874397"),
-    ("phong.exr", "render phong.toml", "6850685d47654ad861b3aebd1b33068d76fa64450a13572db54bc1c456a17dc1"),
+    ("default.png", "render --size 48x36", "d8ed7f6472c87a9fadc040b80e00698a1a09a9a1bc8677d3f6cb0036dc1f5a59"),
+    ("styles.exr", "render styles.toml", "7531347b6b7787a75afc922c8a52ba80f1b4b123c8ea7ec057c74f50cfa2e366"),
+    ("labels.exr", "render labels.toml", "4488ca684501027ad7773b8834e905b3b3791643a1099bf629282d71e4b290f0"),
+    ("phong.exr", "render phong.toml", "fc2568480b0de89f94b930979d86ac20f7ce26a95f9a02a4c205de40e5f7714a"),
     (
         "phong.gif",
         "render phong.toml --set orbit.frames=3",
-        "0e5925c9844e3cbfa01ca20ecde6d3fb4e3b923d1a825f02d2568f02607a6f10",
+        "7c03179537c7c261cf78d86a6eafed5c93f79d26c5d25faacf795e2ebd474f69",
     ),
-    ("surface.png", "render surface.toml", "c1c6e2e4e7603045576bacd68fd1a0e238e4d08409eb0694f0703774628c8a76"),
-    ("stipples.svg", "points stipples.toml", "64c6415ee3291863c4e403bf913ad873eab34236cb75483e96704e04dabf5efb"),
+    ("surface.png", "render surface.toml", "47900a6245a86baf78ffb631b586d3009df2ca16f46cc1f06f316ecd9f253fac"),
+    ("stipples.svg", "points stipples.toml", "0d2de84835cc79f51db6b70057ad763963919d7ab6b59f14142f544c5d910319"),
     ("stipples.csv", "points stipples.toml", "e898c543bd9685d69982ed67389b58b7e4e52befd0d0d58e9254b68e91fc07c6"),
-    ("strokes.svg", "strokes strokes.toml", "c381178847f69d1a0bd98cb32c3afd39ba3af278a39f27335ee2241b40536144"),
-    ("strokes.pdf", "strokes strokes.toml", "80a58684d189c60a1562a88041e249fb737f6c6a17a954dc212fa83b61078010"),
-    ("strokes.png", "strokes strokes.toml", "3af9e698e561a22b5c9a1ea40b2de47278635ea941096372cdb411aeb6cc0cf3"),
-    ("strokes.jsonl", "strokes strokes.toml", "05f223ad0bbc7f7a2e5b2bedcb569e541336186e6b6999e412806362c4150ffc"),
+    ("strokes.svg", "strokes strokes.toml", "7cc4afa17539119adf1d5e73c830e5e8160761f85757427e179ce7f410299bcb"),
+    ("strokes.pdf", "strokes strokes.toml", "00e3e733672561bf229299ca3631e344f6065ea4f60821ba046157a26bf2a188"),
+    ("strokes.png", "strokes strokes.toml", "66192c6aa6e0376384c6ad554b8ca1bf6e1112a865bc4b6a2d3a23ad07102a4b"),
+    ("strokes.jsonl", "strokes strokes.toml", "a4328ee23f71973e17fdfc1b2f2493b5fc04c82f0c74423b4b661c6ebc426b5a"),
     (
         "phantom.nrrd",
         "phantom marschner-lobb --size 20 --type f32",
