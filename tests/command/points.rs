@@ -208,7 +208,7 @@ fn dots_over_the_volume() {
 fn a_bare_volume_in_dots() {
     let folder = Folder::new();
     folder.good("phantom sphere --size 24 --type u8 -o ball.nrrd -q");
-    let drawn = counts(&folder, "render ball.nrrd --preset stipple -o dots.png -q --stats --size 60x60");
+    let drawn = counts(&folder, "render ball.nrrd --preset stipple -o dots.png -q --stats --size 200x200");
     assert_eq!((drawn["rays"].as_u64(), drawn["gradients"].as_u64()), (Some(0), Some(0)));
     assert!(drawn["points"].as_u64() > Some(100));
     let plan = folder.good("plan ball.nrrd --set preset=stipple --set picture.size=[60,60]");
@@ -224,7 +224,7 @@ fn the_plan_of_stipples_has_what_is_called_for() {
     let folder = Folder::new();
     folder.write(
         "ball.toml",
-        SCENE.replace("dpi = 100", "dpi = 100\nsamples = 2")
+        SCENE.replace("dpi = 100", "dpi = 100\nsamples = 2").replace("preset = \"stipple\"", "")
             + "[sampling]\nkernel = \"bspline\"\n[stipples]\nk_max = 2.0\n[stipples.boundary]\n",
     );
     let plan = folder.good("plan ball.toml");
@@ -248,10 +248,11 @@ fn the_plan_of_stipples_has_what_is_called_for() {
 fn colours_of_the_transfer_function() {
     let folder = Folder::new();
     let stipples = "[stipples]\nk_max = 4.0\nink = \"opaque\"\ncolor = \"transfer\"\n";
+    let scene = SCENE.replace("preset = \"stipple\"", "");
     let pens = "[[pen]]\nname = \"warm\"\ncolor = \"#b04030\"\n[[pen]]\nname = \"cold\"\ncolor = \"#3040b0\"\n";
-    folder.write("plain.toml", format!("{SCENE}{}", stipples.replace("transfer", "black")));
-    folder.write("few.toml", format!("{SCENE}{VOLUME}{stipples}"));
-    folder.write("pens.toml", format!("{SCENE}{VOLUME}{stipples}{pens}"));
+    folder.write("plain.toml", format!("{scene}{}", stipples.replace("transfer", "black")));
+    folder.write("few.toml", format!("{scene}{VOLUME}{stipples}"));
+    folder.write("pens.toml", format!("{scene}{VOLUME}{stipples}{pens}"));
     for name in ["plain", "few", "pens"] {
         folder.good(&format!("points {name}.toml -o {name}.csv -q"));
         folder.good(&format!("points {name}.toml -o {name}.svg -q"));

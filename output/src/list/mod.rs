@@ -9,7 +9,7 @@
 //! | `radius` | of the dot, half the line's width | as `x` |
 //! | `opacity` | in (0, 1] | |
 //! | `color` | lines only, where a vertex has one of its own: `#rrggbb` | |
-//! | `pen` | name of the pen, where there are several layers | |
+//! | `pen` | name of the pen, where there are several layers of dots or lines | |
 //!
 //! A closed line repeats its first vertex at the end, and an open line that ends where it began is read as closed.
 //! Lists are read back bit for bit if the marks were rounded and on the page

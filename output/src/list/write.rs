@@ -27,7 +27,10 @@ pub fn write_lines(marks: &Marks, form: ListFormat, path: &Path) -> Result<(), O
 
 /// Returns the bytes of [`write_dots`].
 pub fn encode_dots(marks: &Marks, form: ListFormat) -> Vec<u8> {
-    let mut table = ListWriter::new(marks, form, &COLUMNS);
+    // Layers of outlines alone have no rows, and need no pen to be told apart.
+    let has_dots = |layer: &&Layer| !layer.dots.is_empty() || layer.lines.is_empty();
+    let several = marks.layers.iter().filter(has_dots).count() > 1;
+    let mut table = ListWriter::new(marks, form, several, &COLUMNS);
     for layer in &marks.layers {
         let end = table.end(layer);
         for dot in &layer.dots {
@@ -41,7 +44,7 @@ pub fn encode_dots(marks: &Marks, form: ListFormat) -> Vec<u8> {
 /// Returns the bytes of [`write_lines`].
 pub fn encode_lines(marks: &Marks, form: ListFormat) -> Vec<u8> {
     let columns: Vec<&'static str> = ["stroke", "t"].into_iter().chain(COLUMNS).collect();
-    let mut table = ListWriter::new(marks, form, &columns);
+    let mut table = ListWriter::new(marks, form, marks.layers.len() > 1, &columns);
     let colored = marks.layers.iter().flat_map(|layer| &layer.lines).flat_map(|line| &line.vertices);
     let colored = colored.into_iter().any(|vertex| vertex.color.is_some());
     if let (true, ListFormat::Csv) = (colored, form) {
@@ -80,8 +83,7 @@ struct ListWriter {
 }
 
 impl ListWriter {
-    fn new(marks: &Marks, form: ListFormat, columns: &[&'static str]) -> Self {
-        let several = marks.layers.len() > 1;
+    fn new(marks: &Marks, form: ListFormat, several: bool, columns: &[&'static str]) -> Self {
         let (out, before) = match form {
             ListFormat::Csv => {
                 let before = (0..columns.len()).map(|i| if i == 0 { "" } else { "," }.to_owned());
