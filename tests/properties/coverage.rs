@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use toml::Value;
 
 /// Keys that the generator does not draw, each with why: a key with all below it.
-const NOT_DRAWN: [(&str, &str); 10] = [
+const NOT_DRAWN: [(&str, &str); 13] = [
     ("drypoint", "it has one value"),
     ("preset", "it fills in tables that a drawn scene has itself"),
     ("picture.width", "another word for size, which is drawn"),
@@ -17,6 +17,9 @@ const NOT_DRAWN: [(&str, &str); 10] = [
     ("outlines", "marks/ draws every key of them"),
     ("stipples", "marks/ draws every key of them"),
     ("styles.*", "it names a file: styles are handed over decoded, themes are drawn"),
+    ("volume.box", "voxels are handed over: subset.rs draws it"),
+    ("volume.parts", "voxels are handed over: parts.rs draws every key of it"),
+    ("volume.stride", "voxels are handed over: subset.rs draws it"),
     ("volume.raw", "the layout of a file: voxels are handed over, of every type"),
 ];
 

@@ -230,7 +230,7 @@ fn strokes_of_a_scene_lie_where_their_surface_does() {
         format!(
             "drypoint = 1\n[volume]\nphantom = {{ name = \"torus\", size = 49, type = \"f64\", param = {{ R = 14, r = 6 }} }}\n\
              [camera]\nprojection = \"orthographic\"\ndirection = [0.2, 0.5, -0.8]\nheight = 48\n\
-             [picture]\nsize = [240, 240]\ndpi = 100\nbackground = \"none\"\n[sampling]\nreference_length = \"1 voxels\"\nstep = \"0.25 voxels\"\n\
+             [picture]\nsize = [240, 240]\ndpi = 100\nsamples = 1\nbackground = \"none\"\n[sampling]\nreference_length = \"1 voxels\"\nstep = \"0.25 voxels\"\n\
              [transfer]\nkind = \"regular\"\nnodes = [{{ at = -100, color = \"white\", opacity = {FAINT} }}, {{ at = 100, color = \"white\", opacity = {FAINT} }}]\n\
              [hatching]\niso = 0\nseeds = \"dense\"\nwidth = \"0.6 mm\"\nhidden = \"{hidden}\"\n[hatching.stroke]\ntone = 0\ntaper = 0\n"
         )

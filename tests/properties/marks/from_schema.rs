@@ -83,7 +83,10 @@ fn text(r: &mut Random, pattern: &str, default: &Json) -> String {
     } else if pattern.starts_with("^q") {
         format!("q{:.2}", r.between(0.05, 0.95))
     } else {
-        let unit = if pattern.contains("voxels") { "voxels" } else { r.pick(&["mm", "px"]) };
-        format!("{:.4} {unit}", about(r, default))
+        match pattern {
+            _ if pattern.contains("deg") => format!("{:.1} deg", r.between(5.0, 90.0)),
+            _ if pattern.contains("voxels") => format!("{:.4} voxels", about(r, default)),
+            _ => format!("{:.4} {}", about(r, default), r.pick(&["mm", "px"])),
+        }
     }
 }

@@ -301,7 +301,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         base: REGULAR,
         with: &[("picture.samples", "auto")],
         only: &["refined_pixels", "bytes.refinement"],
-        more: &["rays", "rays_skipped", "samples"],
+        more: &["rays", "samples"],
         ..NOTHING
     },
     Effect {

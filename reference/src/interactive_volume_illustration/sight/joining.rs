@@ -56,7 +56,19 @@ pub fn joined(lines: Vec<Polyline>, view: &View, how: &Joining) -> Vec<Polyline>
         let is_tied = meets.next() == Some([true; 2]);
         line.length() >= how.min_length * if is_tied { TIED } else { 1.0 }
     });
+    lines.iter_mut().for_each(measure);
     lines
+}
+
+/// Sets t to the share of a line's length on the page. The parts of a joined line have shares of their own.
+fn measure(line: &mut Polyline) {
+    let length = line.length();
+    let mut along = 0.0;
+    for i in 1..line.vertices.len() {
+        along += line.vertices[i - 1].at.distance(line.vertices[i].at);
+        line.vertices[i].t = if length > 0.0 { (along / length).min(1.0) } else { 0.0 };
+    }
+    line.vertices.iter_mut().take(1).for_each(|first| first.t = 0.0);
 }
 
 /// The ends of all open lines, first and last of each in turn.

@@ -292,6 +292,7 @@ const SAMPLES: &[Sample] = &[
     ("outlines.color", &[OUTLINES], "red"),
     ("outlines.pen", &[OUTLINES], "red"),
     ("outlines.min_length", &[OUTLINES], "0 px"),
+    ("outlines.crease", &[OUTLINES], "22.5 deg"),
     ("surface", &[], "{}"),
     ("surface.iso", &[SURFACE], "12.5"),
     ("surface.look", &[], "phong"),

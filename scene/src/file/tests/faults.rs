@@ -196,7 +196,8 @@ fn what_must_be_there() {
         text(""),
         "drypoint is missing\n  at s.toml:1:1, key drypoint\n  write drypoint = 1, the version of the format that this \
          program reads\nvolume is missing\n  at s.toml:1:1, key volume\n  write [volume], a table with the keys file, \
-         phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside"
+         phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside, box, \
+         stride, parts"
     );
     assert_eq!(
         text("drypoint = 2\n[volume]\n"),
