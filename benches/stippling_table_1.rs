@@ -78,7 +78,7 @@ fn frames(volume: &str, stipples: &str) -> Result<Measured, String> {
     let file =
         format!("drypoint = 1\n[volume]\nfile = \"{volume}\"\n[picture]\nsize = [500, 500]\n[stipples]\n{stipples}");
     let mut scene = parse(&file, Path::new("table_1.toml"), &Overrides::default()).map_err(|e| e.to_string())?;
-    scene.orbit = Some(Orbit { frames: 36, degrees: 360.0 });
+    scene.orbit = Some(Orbit { frames: 36, degrees: 360.0, ..Orbit::default() });
     let job = Job::load_for(scene, RenderTarget::Marks).map_err(|e| e.to_string())?;
     let mut counts = Counts::default();
     let start = Instant::now();

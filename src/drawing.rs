@@ -170,11 +170,11 @@ pub fn room_for_page(job: &Job, path: &Path) -> Result<(), Failure> {
     if job.draws_volume() { Ok(()) } else { FrameWriter::of(job, 0).room(path) }
 }
 
-/// Writes frames as one SVG that shows them in turn, repeatedly. `draw` makes a frame when it is due, so that only one
-/// is in memory.
+/// Writes frames as one GIF, APNG or SVG that shows them in turn, repeatedly. `draw` makes a frame when it is due, so
+/// that only one is in memory.
 ///
 /// # Errors
-/// Errors of `draw`, and of the operating system.
+/// A suffix of another format, errors of `draw`, and of the operating system.
 pub fn write_animation(
     job: &Job,
     frames: usize,

@@ -10,6 +10,10 @@ pub enum Format {
     Png,
     /// Every layer, in 32-bit float ([IO-6]).
     Exr,
+    /// All frames, each with its own palette and transparent or opaque pixels.
+    Gif,
+    /// All frames, each with the pixels of its PNG.
+    Apng,
     /// Points and lines as vectors, a millimetre a unit, over the picture ([IO-7]).
     Svg,
     /// Points and lines as PDF, over the picture ([IO-7]).
@@ -23,16 +27,25 @@ pub enum Format {
 impl Format {
     /// Formats of rendered pictures.
     pub const PICTURES: [Self; 2] = [Self::Png, Self::Exr];
+    /// Formats of all frames in one file, in pixels.
+    pub const ANIMATIONS: [Self; 2] = [Self::Gif, Self::Apng];
     /// Formats of points or lines, over a picture or alone.
     pub const SHEETS: [Self; 4] = [Self::Png, Self::Exr, Self::Svg, Self::Pdf];
+    /// Formats of a rendered scene.
+    pub const RENDERED: [Self; 6] = [Self::Png, Self::Exr, Self::Svg, Self::Pdf, Self::Gif, Self::Apng];
+    /// Formats of one page of points or lines.
+    pub const PAGES: [Self; 6] = [Self::Svg, Self::Pdf, Self::Png, Self::Exr, Self::Csv, Self::JsonLines];
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Svg, Self::Pdf, Self::Png, Self::Exr, Self::Csv, Self::JsonLines];
+    pub const ALL: [Self; 8] =
+        [Self::Svg, Self::Pdf, Self::Png, Self::Exr, Self::Gif, Self::Apng, Self::Csv, Self::JsonLines];
 
     /// Returns the suffix without its dot.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::Png => "png",
             Self::Exr => "exr",
+            Self::Gif => "gif",
+            Self::Apng => "apng",
             Self::Svg => "svg",
             Self::Pdf => "pdf",
             Self::Csv => "csv",
@@ -65,6 +78,7 @@ impl Format {
             Some(Self::Csv | Self::JsonLines) => {
                 format!(".{suffix} is for lists of points, which `drypoint points` writes")
             }
+            Some(Self::Gif | Self::Apng) => format!(".{suffix} is for the frames of [orbit], and this is one picture"),
             Some(_) if *may == [Self::Png] => "this picture is written as PNG".into(),
             Some(_) => format!("this picture is not written as .{suffix}"),
             None if suffix.is_empty() => "the name has no suffix, which chooses the format of the picture".into(),
@@ -90,6 +104,7 @@ mod tests {
         assert_eq!(of("b.exr"), Ok(Format::Exr));
         for (name, what) in [
             ("a.pdf", "this picture is not written as .pdf"),
+            ("a.gif", ".gif is for the frames of [orbit], and this is one picture"),
             ("a.csv", ".csv is for lists of points, which `drypoint points` writes"),
             ("a.jpg", ".jpg is the suffix of no picture format that is written"),
             ("png", "the name has no suffix, which chooses the format of the picture"),

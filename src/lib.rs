@@ -15,6 +15,9 @@
 //! | points and lines, and frames of all of it | [`marking::Marking`], [`drawing::Drawing`] |
 //! | what its accuracy costs | [`cost::sweep`] |
 //!
+//! The programs in `examples/` render into a buffer, write dots as SVG, make a volume from a formula, and compare two
+//! pictures.
+//!
 //! Every error is a [`Failure`]: what is wrong, where, and what to do.
 
 pub mod cost;

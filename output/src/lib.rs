@@ -1,9 +1,10 @@
-//! Files of pictures: PNG and EXR, written, read back, compared and laid out on contact sheets. Files of marks: PNG,
-//! SVG, PDF and lists, and the order in which a plotter draws them.
+//! Files of pictures: PNG and EXR, written, read back, compared and laid out on contact sheets; GIF and APNG of frames.
+//! Files of marks: PNG, SVG, PDF and lists, and the order in which a plotter draws them.
 //!
 //! This crate knows no volume. It writes a [`drypoint_scene::picture::Picture`] or [`drypoint_scene::marks::Marks`],
 //! and it reads an [`read::Image`] or a list. Comments cite rules of the specification by tags such as [VAL-3].
 
+pub mod animation;
 pub mod atomic;
 pub mod compare;
 mod disc;

@@ -27,31 +27,44 @@ pub fn write_png(picture: &Picture, bits: u8, provenance: &Provenance, path: &Pa
 /// # Errors
 /// Same errors as [`write_png`], except those of the file.
 pub fn encode_png(picture: &Picture, bits: u8, provenance: &Provenance) -> Result<Vec<u8>, OutputError> {
+    let data = rgba_codes(picture, bits)?;
+    let info = info([picture.width, picture.height], bits, provenance)?;
+    let mut bytes = Vec::new();
+    write_chunks(&mut bytes, info, &data).map_err(|error| fault(LayerKind::Beauty, error.to_string()))?;
+    Ok(bytes)
+}
+
+/// Returns the layer `beauty` as a PNG has it before compression: RGBA in straight sRGB, row by row from the top. Of 16
+/// bits the highest byte comes first.
+///
+/// # Errors
+/// Same errors as [`encode_png`].
+pub fn rgba_codes(picture: &Picture, bits: u8) -> Result<Vec<u8>, OutputError> {
+    let channels = &fitting(picture, LayerKind::Beauty)?.channels;
+    let pixels =
+        (0..channels[0].len()).map(|i| straight_srgb([channels[0][i], channels[1][i], channels[2][i], channels[3][i]]));
+    match bits {
+        8 => Ok(pixels.flat_map(|p| p.map(|c| quantize(c, 255) as u8)).collect()),
+        16 => Ok(pixels.flat_map(|p| p.map(|c| quantize(c, 65535).to_be_bytes())).flatten().collect()),
+        _ => Err(OutputError::Bits { bits }),
+    }
+}
+
+/// Returns what stands before the pixels: size and depth, the colour space and the provenance.
+pub(crate) fn info(size: [usize; 2], bits: u8, provenance: &Provenance) -> Result<png::Info<'static>, OutputError> {
     let depth = match bits {
         8 => png::BitDepth::Eight,
         16 => png::BitDepth::Sixteen,
         _ => return Err(OutputError::Bits { bits }),
     };
-    let channels = &fitting(picture, LayerKind::Beauty)?.channels;
-    let pixels =
-        (0..channels[0].len()).map(|i| straight_srgb([channels[0][i], channels[1][i], channels[2][i], channels[3][i]]));
-    let data: Vec<u8> = if bits == 8 {
-        pixels.flat_map(|p| p.map(|c| quantize(c, 255) as u8)).collect()
-    } else {
-        pixels.flat_map(|p| p.map(|c| quantize(c, 65535).to_be_bytes())).flatten().collect()
-    };
-
-    let [width, height] = [side(picture.width, LayerKind::Beauty)?, side(picture.height, LayerKind::Beauty)?];
-    let mut info = png::Info::with_size(width, height);
+    let mut info = png::Info::with_size(side(size[0], LayerKind::Beauty)?, side(size[1], LayerKind::Beauty)?);
     info.color_type = png::ColorType::Rgba;
     info.bit_depth = depth;
     info.srgb = Some(png::SrgbRenderingIntent::Perceptual);
     for (keyword, text) in KEYWORDS.into_iter().zip([&provenance.software, &provenance.scene_hash, &provenance.plan]) {
         info.utf8_text.push(ITXtChunk::new(keyword, text.as_str()));
     }
-    let mut bytes = Vec::new();
-    write_chunks(&mut bytes, info, &data).map_err(|error| fault(LayerKind::Beauty, error.to_string()))?;
-    Ok(bytes)
+    Ok(info)
 }
 
 /// Writes numbers in [0, 1] as a grey PNG of 8 or 16 bits: a map that is no colour, so that codes are the numbers and no

@@ -20,7 +20,7 @@ use std::time::Instant;
 pub(super) enum FrameFiles {
     /// One frame.
     One(PathBuf),
-    /// All frames in one SVG.
+    /// All frames in one file.
     Animated(PathBuf),
     /// A file a frame: the text before and after its number, and the number's digits.
     Numbered(PathBuf, [String; 2], usize),
@@ -31,8 +31,9 @@ impl FrameFiles {
     /// number of a frame.
     ///
     /// # Errors
-    /// `#` without `[orbit]`, or `[orbit]` without `#` if the format has no frames. Fewer digits than the last frame
-    /// needs, or more than one run. A file that the scene reads. A missing or read-only folder.
+    /// `#` without `[orbit]`, or `[orbit]` without `#` if the format has no frames. A format of frames without `[orbit]`,
+    /// or with `#`. Fewer digits than the last frame needs, or more than one run. A file that the scene reads. A missing
+    /// or read-only folder.
     pub(super) fn of(path: &Path, scene: &Scene) -> Result<Self, Failure> {
         let files = Self::named(path, scene)?;
         output_path::writable(&files.path(0))?;
@@ -48,7 +49,15 @@ impl FrameFiles {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let runs: Vec<&str> = name.split(|c| c != '#').filter(|run| !run.is_empty()).collect();
         let refused = |what: String, remedy: String| Err(Failure::new(what, path.display(), remedy));
+        let animation = Format::of(path).filter(|format| Format::ANIMATIONS.contains(format)).map(Format::suffix);
+        if let (Some(suffix), false) = (animation, runs.is_empty()) {
+            return refused(format!(".{suffix} has all frames in one file"), "give a name without #".into());
+        }
         let Some(orbit) = scene.orbit else {
+            if let Some(suffix) = animation {
+                let what = format!(".{suffix} is for the frames of [orbit], and the scene has no such table");
+                return refused(what, "add --set orbit.frames=36, or give a name that ends in .png".into());
+            }
             if runs.is_empty() {
                 return Ok(Self::One(path.into()));
             }
@@ -60,6 +69,7 @@ impl FrameFiles {
         let suffix = path.extension().unwrap_or_default().to_string_lossy();
         let example = || format!("write {stem}_{}.{suffix}", "#".repeat(digits.max(3)));
         match runs[..] {
+            [] if animation.is_some() => Ok(Self::Animated(path.into())),
             [] if Format::of(path) == Some(Format::Svg) && scene.has_marks() => {
                 if scene.page.as_ref().is_some_and(|page| page.plotter) {
                     let what = format!("a plotter draws one frame a page, and [orbit] has {}", orbit.frames);
@@ -245,9 +255,18 @@ mod tests {
         assert_eq!(numbered.path(7), Path::new("a#/turn_007.png"));
         assert_eq!(files("##.exr", orbit).unwrap().path(35), Path::new("35.exr"));
         assert_eq!(files("a.png", "").unwrap(), FrameFiles::One("a.png".into()));
-        assert_eq!(files("a.svg", "[stipples]\n[orbit]\n").unwrap(), FrameFiles::Animated("a.svg".into()));
+        for (name, rest) in [("a.svg", "[stipples]\n[orbit]\n"), ("a.gif", orbit), ("a.APNG", orbit)] {
+            assert_eq!(files(name, rest).unwrap(), FrameFiles::Animated(name.into()));
+        }
         for (name, rest, what, remedy) in [
             ("a_#.png", "", "a # stands for", "add a table [orbit], or give a name without #"),
+            (
+                "a.gif",
+                "",
+                ".gif is for the frames of [orbit]",
+                "add --set orbit.frames=36, or give a name that ends in .png",
+            ),
+            ("a_#.apng", orbit, ".apng has all frames in one file", "give a name without #"),
             ("a.png", orbit, "[orbit] has 36 frames, and the name has no ###", "write a_###.png"),
             ("a.svg", orbit, "[orbit] has 36 frames", "write a_###.svg"),
             ("a.pdf", "[stipples]\n[orbit]\n", "[orbit] has 36 frames", "write a_###.pdf"),

@@ -92,7 +92,7 @@ impl RenderOutput {
         let suffix = if layers { "exr" } else { "png" };
         let default = || format!("{}.{suffix}", input.map_or("drypoint".into(), stem)).into();
         let path = output.map_or_else(default, Path::to_path_buf);
-        let format = format(&path, &Format::SHEETS)?;
+        let format = format(&path, &Format::RENDERED)?;
         if layers && format != Format::Exr {
             let remedy = "give a name that ends in .exr, or leave --layers out";
             let what = format!("a {} has no layers, and --layers asks for some", format.suffix().to_uppercase());
@@ -106,7 +106,7 @@ impl RenderOutput {
     /// # Errors
     /// Same errors as [`FrameFiles::of`], and a vector file of a scene without points.
     pub(super) fn files(&self, scene: &Scene) -> Result<FrameFiles, Failure> {
-        if !Format::PICTURES.contains(&self.format) && !scene.has_marks() {
+        if matches!(self.format, Format::Svg | Format::Pdf) && !scene.has_marks() {
             let suffix = self.format.suffix();
             let what = format!(".{suffix} is for points and lines, and the scene has none");
             return Err(Failure::new(what, self.path.display(), "give a name that ends in .png or .exr"));

@@ -104,7 +104,7 @@ impl PageRequest {
                 return Err(Failure::new(what, flag, "leave it out").into());
             }
         }
-        output_path::picture(&self.output, &Format::ALL)?;
+        output_path::picture(&self.output, &Format::PAGES)?;
         let (mut counts, start) = (Counts::default(), Instant::now());
         let scene = input::settings(&self.set, Vec::new())?;
         output_path::check_not_read(&self.output, scene.files().into_iter().chain([&*self.input]))?;

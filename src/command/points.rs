@@ -15,7 +15,7 @@ pub(super) struct PointsArgs {
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
     /// Output file; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit];
-    /// an SVG without it shows all frames in turn
+    /// a GIF, an APNG or an SVG without it shows all frames in turn
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The preset of a bare volume: stipple, or stipple-fig1, stipple-fig4 … stipple-fig9 [default: stipple]

@@ -18,8 +18,8 @@ pub(super) struct RenderArgs {
     /// A scene (.toml) or a volume (.nrrd, .nhdr, .nii, .nii.gz, .mhd, .mha, .raw)
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Output file; the suffix chooses PNG or EXR, or SVG or PDF for points over the picture; ### is the number of a
-    /// frame of [orbit] [default: the input's name with .png, in the working directory]
+    /// Output file; the suffix chooses PNG or EXR, or SVG or PDF for points over the picture; GIF or APNG for all frames
+    /// of [orbit], or ### for the number of a frame [default: the input's name with .png, in the working directory]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels of the picture

@@ -16,7 +16,7 @@ pub(super) struct StrokesArgs {
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
     /// Output file; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit];
-    /// an SVG without it shows all frames in turn
+    /// a GIF, an APNG or an SVG without it shows all frames in turn
     #[arg(short, long, value_name = "FILE", required_unless_present = "seeds")]
     output: Option<PathBuf>,
     /// The preset of a bare volume: hatch, outline, or one of the figures' [default: hatch]

@@ -1,45 +1,37 @@
-//! Plots of sweeps ([COST-1]): error against time on two logarithmic axes. Each knob has a colour and a marker; the
-//! settings of the Pareto fronts are named.
+//! Plots of sweeps ([COST-1]): a panel a knob, error against time on two logarithmic axes that all panels share. Each
+//! setting is named; the other knobs and the Pareto front are pale behind it.
 
 use super::{CostRow, ErrorSubject, Sweep, Truth, front};
-use drypoint_scene::math::ln;
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::legend::LegendPosition;
-use kuva::plot::scatter::{MarkerShape, ScatterPlot};
+use kuva::plot::scatter::ScatterPlot;
 use kuva::plot::{LabelStyle, LinePlot};
 use kuva::render::annotations::ReferenceLine;
+use kuva::render::figure::Figure;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
-use kuva::render::render::{Scene, render_multiple};
+use kuva::render::render::Scene;
 use std::sync::Arc;
 
-/// Colours of knobs in order. The first are those of Okabe and Ito (2008), which most colour-blind people can tell
-/// apart; then follow darker variants with other markers.
-const COLORS: [&str; 12] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#7a4fbf", "#8c510a", "#003f63", "#7f3800",
-    "#005f45", "#7a4865",
-];
-
-const MARKS: [MarkerShape; 5] =
-    [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond, MarkerShape::TriangleDown];
+/// Colour of a panel's own settings.
+const OWN: &str = "#0072b2";
+/// Colour of the Pareto front.
+const FRONT: &str = "#d4d4d4";
+/// Colour of the settings of other knobs.
+const OTHERS: &str = "#c0c0c0";
 
 /// Smallest error and time that a logarithmic axis shows.
 const LEAST: f64 = 1e-9;
 
-/// Width of the names on the front, relative to that from the fastest setting to the slowest.
-const NAMES: f64 = 0.25;
+/// Most panels in a row, and width and height of a panel in the plot's units.
+const COLUMNS: usize = 3;
+const PANEL: [f64; 2] = [400.0, 330.0];
 
-/// Offsets of a name: from the middle of a front's disc left to the name's end, and down to its baseline. They clear
-/// the bar of its spread.
-const BELOW: [f64; 2] = [8.0, 13.0];
-
-/// Least span of the settings on the axes, and size of a letter, in the plot's units.
-const SPAN: [f64; 2] = [440.0, 440.0];
-const LETTER: [f64; 2] = [7.0, 15.0];
+/// The unit of settings that are lengths, behind their numbers.
+const VOXELS: &str = " voxels";
 
 /// Pixels of the PNG in a unit of the plot.
-const SCALE: f32 = 1.5;
+const SCALE: f32 = 1.25;
 
 /// Returns the plot as SVG, in the viewer's font.
 ///
@@ -62,64 +54,92 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     if shown.is_empty() {
         return Err("there is nothing to plot: no setting has an error".into());
     }
-    let mut knobs: Vec<&str> = sweep.rows.iter().map(|row| row.knob.as_str()).collect();
-    knobs.dedup();
-    let reaches = [reach(&shown, |row| row.seconds), reach(&shown, |row| row.rms)];
-    let [[fast, slow], [small, large]] = reaches;
-    // The fronts lie behind everything.
-    let (mut plots, names) = fronts(sweep, reaches);
-    // A line with markers for each knob.
-    for (i, knob) in knobs.iter().enumerate() {
-        let rows: Vec<&CostRow> = shown.iter().copied().filter(|row| row.knob == *knob).collect();
-        let Some(first) = rows.first() else { continue };
-        let truth = match first.truth {
-            Truth::Analytic => "",
-            Truth::Finest(_) => " *",
-        };
-        let color = COLORS[i % COLORS.len()];
-        let at: Vec<(f64, f64)> = rows.iter().map(|row| (row.seconds, row.rms)).collect();
-        plots.push(Plot::Line(LinePlot::new().with_data(at.clone()).with_color(color).with_stroke_width(1.2)));
-        let marks = ScatterPlot::new()
-            .with_data(at)
-            .with_x_err(rows.iter().map(|row| row.spread / 2.0))
-            .with_color(color)
-            .with_marker(MARKS[i % MARKS.len()])
-            .with_size(4.5)
-            .with_legend(format!("{knob}{truth}{}", of(first.subject)));
-        plots.push(Plot::Scatter(marks));
-    }
-    plots.push(names);
-    let [width, height] = sweep.size;
-    // Title, axes and legend.
-    let analytic = sweep.rows.iter().any(|row| row.truth == Truth::Analytic);
+    // Rows of a knob stand together.
+    let knobs: Vec<&[&CostRow]> = shown.chunk_by(|a, b| a.knob == b.knob).collect();
+    let columns = knobs.len().min(COLUMNS);
+    let rows = knobs.len().div_ceil(columns);
+    let axes = [reach(&shown, |row| row.seconds), reach(&shown, |row| row.rms)];
+    let plots = knobs.iter().map(|knob| panel(sweep, &shown, knob)).collect();
+    // The axes are named once, under the first panel of the last row and in the title.
+    let named = (rows - 1) * columns;
+    let layouts = knobs.iter().enumerate().map(|(i, knob)| layout(sweep, knob, axes, i == named)).collect();
+    let analytic = shown.iter().any(|row| row.truth == Truth::Analytic);
     let against =
         if analytic { "against the formula; *: against the finest setting" } else { "*: against the finest setting" };
-    let of_picture = sweep.rows.iter().any(|row| row.subject == ErrorSubject::Picture);
+    let of_picture = shown.iter().any(|row| row.subject == ErrorSubject::Picture);
+    let [width, height] = sweep.size;
     let what = if of_picture { "a frame" } else { "a page, from the voxels on," };
-    let mut layout = Layout::auto_from_plots(&plots)
-        .with_width(1000.0)
-        .with_height(640.0)
-        .with_log_scale()
-        .with_x_axis_min(fast / (slow / fast).max(2.0).powf(NAMES) / 1.2)
-        .with_x_axis_max(slow * 1.5)
-        .with_y_axis_min(small / 2.0)
-        .with_y_axis_max(large * 2.0)
-        .with_x_tick_format(TickFormat::Custom(Arc::new(time)))
-        .with_title(format!("{name}: RMS error, {against}"))
-        .with_x_label(format!("time of {what} of {width} × {height} pixels, median of {} runs", sweep.runs))
-        .with_legend_position(LegendPosition::OutsideRightTop)
-        .with_title_size(18)
-        .with_label_size(13)
-        .with_tick_size(11);
-    if let Some(own) = sweep.rows.iter().find(|row| row.own) {
-        layout = layout.with_reference_line(
-            ReferenceLine::vertical(own.seconds).with_label("the scene as it is").with_color("#888888"),
-        );
-    }
-    Ok(render_multiple(plots, layout))
+    let title = format!("{name}: RMS error ({against}) over the time of {what} of {width} × {height} pixels");
+    let figure = Figure::new(rows, columns)
+        .with_structure((0..knobs.len()).map(|i| vec![i]).collect())
+        .with_plots(plots)
+        .with_layouts(layouts)
+        .with_cell_size(PANEL[0], PANEL[1])
+        .with_spacing(10.0)
+        .with_title(title)
+        .with_title_size(17);
+    Ok(figure.render())
 }
 
-/// Returns the subject of an error for the legend, unless it is the picture.
+/// Returns the axes and the title of a knob's panel.
+fn layout(sweep: &Sweep, knob: &[&CostRow], [times, errors]: [[f64; 2]; 2], is_named: bool) -> Layout {
+    let first = knob[0];
+    let star = if first.truth == Truth::Analytic { "" } else { " *" };
+    let unit = if knob.iter().any(|row| row.setting.ends_with(VOXELS)) { " in voxels" } else { "" };
+    let mut layout = Layout::new((times[0], times[1]), (errors[0], errors[1]))
+        .with_log_scale()
+        .with_x_axis_min(times[0] / 1.5)
+        .with_x_axis_max(times[1] * 1.5)
+        .with_y_axis_min(errors[0] / 2.5)
+        .with_y_axis_max(errors[1] * 2.5)
+        .with_x_tick_format(TickFormat::Custom(Arc::new(time)))
+        .with_y_tick_format(TickFormat::Custom(Arc::new(|error| format!("{error:.0e}"))))
+        .with_title(format!("{}{unit}{star}{}", first.knob, of(first.subject)))
+        .with_title_size(14)
+        .with_label_size(12)
+        .with_body_size(11)
+        .with_tick_size(10);
+    if is_named {
+        layout = layout.with_x_label(format!("time, median of {} runs", sweep.runs));
+    }
+    if let Some(own) = sweep.rows.iter().find(|row| row.own) {
+        layout = layout.with_reference_line(ReferenceLine::vertical(own.seconds).with_color("#888888"));
+    }
+    layout
+}
+
+/// Returns the plots of a knob's panel, from back to front.
+fn panel(sweep: &Sweep, shown: &[&CostRow], knob: &[&CostRow]) -> Vec<Plot> {
+    let places = |rows: &[&CostRow]| rows.iter().map(|row| (row.seconds, row.rms)).collect::<Vec<_>>();
+    let first = knob[0];
+    let mut plots = Vec::new();
+    // The front of the knob's kind of error.
+    let best: Vec<&CostRow> = front(&sweep.rows, first.subject, first.truth == Truth::Analytic)
+        .into_iter()
+        .filter(|row| row.rms >= LEAST && row.seconds >= LEAST)
+        .collect();
+    plots.push(Plot::Line(LinePlot::new().with_data(places(&best)).with_color(FRONT).with_stroke_width(7.0)));
+    let others: Vec<&CostRow> = shown.iter().copied().filter(|row| row.knob != first.knob).collect();
+    plots.push(Plot::Scatter(ScatterPlot::new().with_data(places(&others)).with_color(OTHERS).with_size(2.5)));
+    // The knob's own settings, coarse to fine, with their spreads and names. The unit stands in the title, and brackets
+    // mark what the scene says.
+    plots.push(Plot::Line(LinePlot::new().with_data(places(knob)).with_color(OWN).with_stroke_width(1.2)));
+    let names = knob.iter().map(|row| {
+        let name = row.setting.trim_end_matches(VOXELS).trim_end_matches(" voxel");
+        if row.own { format!("[{name}]") } else { name.into() }
+    });
+    let settings = ScatterPlot::new()
+        .with_data(places(knob))
+        .with_x_err(knob.iter().map(|row| row.spread / 2.0))
+        .with_color(OWN)
+        .with_size(3.5)
+        .with_labels(names)
+        .with_label_style(LabelStyle::Repel);
+    plots.push(Plot::Scatter(settings));
+    plots
+}
+
+/// Returns the subject of an error for a title, unless it is the picture.
 fn of(subject: ErrorSubject) -> &'static str {
     match subject {
         ErrorSubject::Picture => "",
@@ -142,51 +162,6 @@ fn time(seconds: f64) -> String {
         _ if seconds >= 1e-3 => format!("{} ms", digits(seconds * 1e3)),
         _ => format!("{} µs", digits(seconds * 1e6)),
     }
-}
-
-/// Returns the fronts, wide and grey, which go behind everything, and the names of their settings, which go before
-/// everything.
-fn fronts(sweep: &Sweep, reaches: [[f64; 2]; 2]) -> (Vec<Plot>, Plot) {
-    let (mut lines, mut places, mut names) = (Vec::new(), Vec::new(), Vec::new());
-    let looks = [(true, "#bdbdbd", "Pareto front"), (false, "#e3e3e3", "Pareto front *")];
-    for (subject, (analytic, color, legend)) in
-        ErrorSubject::ALL.iter().flat_map(|subject| looks.map(|look| (*subject, look)))
-    {
-        let legend = format!("{legend}{}", of(subject));
-        let rows: Vec<&CostRow> =
-            front(&sweep.rows, subject, analytic).into_iter().filter(|row| row.rms >= LEAST).collect();
-        if rows.is_empty() {
-            continue;
-        }
-        let at: Vec<(f64, f64)> = rows.iter().map(|row| (row.seconds, row.rms)).collect();
-        places.extend_from_slice(&at);
-        names.extend(rows.iter().map(|row| {
-            let key = row.knob.rsplit('.').next().unwrap_or_default();
-            format!("{key} {}", row.setting.replace(" voxels", "").replace(" voxel", ""))
-        }));
-        let line = LinePlot::new().with_data(at.clone()).with_color(color).with_stroke_width(8.0).with_legend(legend);
-        let discs = ScatterPlot::new().with_data(at).with_color(color).with_size(9.0);
-        lines.extend([Plot::Line(line), Plot::Scatter(discs)]);
-    }
-    // No setting lies to the lower left of a front's point. Where fronts cross or are flat, names are pushed apart.
-    let (style, size) = if are_apart(&places, &names, reaches) {
-        // The marker is so large that no line leads from it to its name.
-        (LabelStyle::Arrow { offset_x: -BELOW[0], offset_y: -BELOW[1] }, BELOW[0].hypot(BELOW[1]))
-    } else {
-        (LabelStyle::Repel, 9.0)
-    };
-    let named = ScatterPlot::new().with_data(places).with_size(size).with_marker_opacity(0.0);
-    (lines, Plot::Scatter(named.with_labels(names).with_label_style(style)))
-}
-
-/// Whether names that end at points do not overlap, on axes with these ranges.
-fn are_apart(places: &[(f64, f64)], names: &[String], [times, errors]: [[f64; 2]; 2]) -> bool {
-    let units = |x: f64, [lo, hi]: [f64; 2], span: f64| ln(x / lo) / ln(hi / lo).max(ln(2.0)) * span;
-    let ends: Vec<f64> = places.iter().map(|place| units(place.0, times, SPAN[0])).collect();
-    let lines: Vec<f64> = places.iter().map(|place| units(place.1, errors, SPAN[1])).collect();
-    let starts: Vec<f64> = ends.iter().zip(names).map(|(end, n)| end - LETTER[0] * n.chars().count() as f64).collect();
-    (0..names.len())
-        .all(|i| (0..i).all(|j| starts[i] > ends[j] || starts[j] > ends[i] || (lines[i] - lines[j]).abs() > LETTER[1]))
 }
 
 #[cfg(test)]
@@ -218,31 +193,34 @@ mod tests {
     }
 
     #[test]
-    fn every_knob_has_a_place_and_the_front_has_names() {
+    fn every_setting_has_a_name_and_every_axis_one() {
         let rows = vec![
             row("sampling.step", "4 voxels", 0.01, 0.5),
             row("sampling.step", "1 voxel", 0.1, 0.05),
             row("sampling.kernel", "slow and bad", 0.2, 0.4),
             row("sampling.kernel", "its own truth", 0.3, 0.0),
+            row("sampling.number", "f32", 0.2, 1e-6),
+            row("picture.samples", "2", 0.9, 0.01),
         ];
         let text = svg(&sweep(rows), "a <scene>").unwrap();
-        for part in
-            ["sampling.step *", "sampling.kernel *", ">step 4<", ">step 1<", "Pareto front *", "a &lt;scene&gt;"]
-        {
-            assert!(text.contains(part), "{part}\n{text}");
+        for (part, times) in [
+            ("sampling.step in voxels *", 1),
+            ("sampling.kernel *", 1),
+            (">[4]<", 1),
+            (">1<", 1),
+            (">slow and bad<", 1),
+            (">f32<", 1),
+            ("its own truth", 0),
+            ("a &lt;scene&gt;: RMS error", 1),
+            ("time, median of 1 runs", 1),
+        ] {
+            assert_eq!(text.matches(part).count(), times, "{part}\n{text}");
         }
-        assert!(!text.contains("slow and bad") && !text.contains("its own truth"));
+        // One format of errors, with the same ticks in each of four panels.
+        assert_eq!(text.matches(">1e-3<").count(), 4, "{text}");
+        assert!(!text.contains(">0.1<") && !text.contains(">0.01<"));
         let bytes = png(&sweep(vec![row("sampling.step", "4 voxels", 0.01, 0.5)]), "a").unwrap();
         assert!(bytes.starts_with(b"\x89PNG"));
-    }
-
-    #[test]
-    fn names_stand_beside_their_places_where_there_is_room() {
-        let names = ["a name".to_owned(), "another".to_owned()];
-        let apart = |places: [(f64, f64); 2]| are_apart(&places, &names, [[1.0, 100.0], [0.01, 1.0]]);
-        // A steep front, names side by side, and names that would cover each other.
-        assert!(apart([(1.0, 1.0), (1.1, 0.01)]) && apart([(1.0, 1.0), (100.0, 1.0)]));
-        assert!(!apart([(1.0, 1.0), (1.1, 0.9)]) && !apart([(1.0, 1.0); 2]));
     }
 
     #[test]

@@ -3,19 +3,18 @@
 use super::{Frame, WriteReport};
 use crate::job::{Job, RenderTarget, background_color, no_room_for_pixels};
 use crate::{Failure, Format};
+use drypoint_output::animation::apng::ApngAnimation;
+use drypoint_output::animation::gif::GifAnimation;
 use drypoint_output::vector::{VectorPage, pdf, svg};
 use drypoint_output::{OutputError, exr, list, paint, plotter, png};
 use drypoint_scene::atomic;
 use drypoint_scene::marks::{Marks, Page, Vertex, mark_counts};
 use drypoint_scene::memory;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::tables::Scene;
+use drypoint_scene::tables::{Orbit, Scene};
 use std::borrow::Cow;
 use std::io;
 use std::path::Path;
-
-/// Seconds that an animation shows a frame, between the 4 and 15 frames a second of Lu et al.
-const FRAME_SECONDS: f64 = 0.1;
 
 /// Bytes of memory, until it is written, for a vertex of a stroke that fills a dot.
 const FILLING_VERTEX: u64 = 3 * size_of::<Vertex>() as u64;
@@ -38,6 +37,9 @@ impl From<io::Error> for AnimationError {
     }
 }
 
+/// Writes the picture and the marks of one frame of an animation.
+type ShowFrame<'f> = &'f mut dyn FnMut(Option<Picture>, &Marks) -> Result<(), Failure>;
+
 /// Writer of a scene's frames.
 pub(super) struct FrameWriter<'a> {
     pub(super) scene: &'a Scene,
@@ -58,7 +60,7 @@ impl<'a> FrameWriter<'a> {
 
     /// See [`Frame::write`].
     pub(super) fn write(&self, frame: Frame, path: &Path) -> Result<WriteReport, Failure> {
-        let format = Format::among(path, &Format::ALL)?;
+        let format = Format::among(path, &Format::PAGES)?;
         let wrong = |error: OutputError| Failure::picture(&error, path.display());
         let whole = frame.marks();
         if let (Some(form), Some(marks)) = (list::ListFormat::of(path), &frame.marks) {
@@ -95,14 +97,38 @@ impl<'a> FrameWriter<'a> {
         path: &Path,
         mut draw: impl FnMut(usize) -> Result<Frame, Failure>,
     ) -> Result<(), Failure> {
-        let nothing = Marks { page: Page::of(self.scene), layers: Vec::new() };
+        let format = Format::among(path, &[Format::Gif, Format::Apng, Format::Svg])?;
         let wrong = |error: OutputError| Failure::picture(&error, path.display());
+        let fps = self.scene.orbit.map_or(Orbit::default().fps, |orbit| orbit.fps);
         let written = atomic::write(path, |out| {
-            let mut animation = svg::Animation::new(out, frames, FRAME_SECONDS);
-            for i in 0..frames {
-                let frame = draw(i)?;
-                let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing))?;
-                animation.frame(&self.sheet(&planned.marks, frame.picture.as_ref()), path).map_err(wrong)?;
+            let nothing = Marks { page: Page::of(self.scene), layers: Vec::new() };
+            // Draws all frames; `show` writes one with its marks.
+            let mut each = |show: ShowFrame<'_>| {
+                (0..frames).try_for_each(|i| {
+                    let frame = draw(i)?;
+                    let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing))?;
+                    show(frame.picture, &planned.marks)
+                })
+            };
+            match format {
+                Format::Gif => {
+                    let mut gif = GifAnimation::new(out, self.pixels(), fps, &self.provenance, path).map_err(wrong)?;
+                    each(&mut |picture, marks| gif.frame(&self.painted(picture, Some(marks))?).map_err(wrong))?;
+                    gif.finish().map_err(wrong)?;
+                }
+                Format::Apng => {
+                    let (size, bits, times) = (self.pixels(), self.scene.picture.bits, [frames, fps]);
+                    let apng = ApngAnimation::new(out, size, bits, times, &self.provenance, path);
+                    let mut apng = apng.map_err(wrong)?;
+                    each(&mut |picture, marks| apng.frame(&self.painted(picture, Some(marks))?).map_err(wrong))?;
+                    apng.finish().map_err(wrong)?;
+                }
+                _ => {
+                    let mut animation = svg::Animation::new(out, frames, 1.0 / fps as f64);
+                    each(&mut |picture, marks| {
+                        animation.frame(&self.sheet(marks, picture.as_ref()), path).map_err(wrong)
+                    })?;
+                }
             }
             Ok(())
         });
@@ -128,7 +154,8 @@ impl<'a> FrameWriter<'a> {
 
     /// See [`super::room_for_page`].
     pub(super) fn room(&self, path: &Path) -> Result<(), Failure> {
-        if !Format::of(path).is_some_and(|format| Format::PICTURES.contains(&format)) {
+        let has_pixels = |format| Format::PICTURES.contains(&format) || Format::ANIMATIONS.contains(&format);
+        if !Format::of(path).is_some_and(has_pixels) {
             return Ok(());
         }
         paint::pixels(&self.window().1).map(drop).map_err(|error| self.refused(&error))
@@ -146,6 +173,11 @@ impl<'a> FrameWriter<'a> {
                 (paint::PageWindow::frame(&page, settings.size), Page::in_pixels(settings.size, 0.0, settings.dpi))
             }
         }
+    }
+
+    /// Returns width and height of a painted frame in pixels.
+    fn pixels(&self) -> [usize; 2] {
+        self.window().1.pixels()
     }
 
     /// Returns the failure of a page that cannot be painted in pixels.

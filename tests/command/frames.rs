@@ -106,6 +106,78 @@ fn an_animated_svg() {
     assert_eq!(folder.read("all.png"), folder.read("turn_0.png"));
 }
 
+/// Frames of an APNG file: delay, and RGBA codes.
+fn apng_frames(bytes: &[u8]) -> Vec<([u16; 2], Vec<u8>)> {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let frames = reader.info().animation_control.map_or(1, |control| control.num_frames);
+    (0..frames)
+        .map(|_| {
+            let mut data = vec![0; reader.output_buffer_size().unwrap()];
+            reader.next_frame(&mut data).unwrap();
+            let delay = reader.info().frame_control.map_or([0; 2], |control| [control.delay_num, control.delay_den]);
+            (delay, data)
+        })
+        .collect()
+}
+
+/// Frames of a GIF file: delay in hundredths of a second, and RGBA codes.
+fn gif_frames(bytes: &[u8]) -> Vec<(u16, Vec<u8>)> {
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(bytes).unwrap();
+    std::iter::from_fn(|| decoder.read_next_frame().unwrap().map(|frame| (frame.delay, frame.buffer.to_vec())))
+        .collect()
+}
+
+/// An APNG has the pixels of the frames' own PNG, and a GIF colours near them.
+#[test]
+fn all_frames_in_one_file() {
+    let folder = Folder::new();
+    folder.scene("[orbit]\nframes = 3\nfps = 25\n");
+    let told = folder.line("render scene.toml -o turn.apng");
+    assert_eq!((told.code, told.err.as_str()), (Some(0), "turn.apng: 3 frames\n"));
+    folder.good("render scene.toml -o turn.gif -q");
+    folder.good("render scene.toml -o turn_#.png -q");
+    let apng = apng_frames(&folder.read("turn.apng"));
+    let gif = gif_frames(&folder.read("turn.gif"));
+    assert_eq!((apng.len(), gif.len()), (3, 3));
+    for i in 0..3 {
+        let png = apng_frames(&folder.read(&format!("turn_{i}.png"))).remove(0).1;
+        assert_eq!(apng[i], ([1, 25], png.clone()));
+        assert_eq!(gif[i].0, 4);
+        let largest = gif[i].1.iter().zip(&png).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(largest <= Some(24), "{largest:?}");
+    }
+    assert_ne!(apng[0].1, apng[1].1);
+    // A still picture of programs without animation.
+    folder.good("compare turn_0.png turn.apng --max 0");
+    // 16 bits and transparency stay in an APNG.
+    let settings = "--set picture.bits=16 --set picture.background=none";
+    folder.good(&format!("render scene.toml {settings} -o deep.apng -q"));
+    folder.good(&format!("render scene.toml {settings} -o deep_#.png -q"));
+    let deep = apng_frames(&folder.read("deep.apng"));
+    assert_eq!(deep[2].1, apng_frames(&folder.read("deep_2.png")).remove(0).1);
+}
+
+/// Dots on a page, with its margin, and dots over a volume.
+#[test]
+fn dots_in_one_file() {
+    let folder = Folder::new();
+    folder.write("torus.toml", DOTS);
+    for (verb, more) in [("points", ""), ("render", "--set transfer.kind=regular")] {
+        folder.good(&format!("{verb} torus.toml -o all.apng -q {more}"));
+        folder.good(&format!("{verb} torus.toml -o one_#.png -q {more}"));
+        let frames = apng_frames(&folder.read("all.apng"));
+        assert_eq!(frames.len(), 4);
+        for (i, (_, codes)) in frames.iter().enumerate() {
+            assert_eq!(*codes, apng_frames(&folder.read(&format!("one_{i}.png"))).remove(0).1, "{verb} {i}");
+        }
+    }
+    // The time of an SVG is that of the same key.
+    folder.good("points torus.toml -o all.svg -q --set orbit.fps=20");
+    assert!(text(&folder, "all.svg").contains("dur=\"0.2s\""));
+}
+
 #[test]
 fn names_that_do_not_fit_are_refused_before_anything_is_drawn() {
     let folder = Folder::new();
@@ -123,6 +195,18 @@ fn names_that_do_not_fit_are_refused_before_anything_is_drawn() {
         (
             "render scene.toml -o turn.svg --set orbit.frames=4",
             "error: .svg is for points and lines, and the scene has none\n  at: turn.svg\n  try: give a name that ends in .png or .exr\n",
+        ),
+        (
+            "render scene.toml -o turn.gif",
+            "error: .gif is for the frames of [orbit], and the scene has no such table\n  at: turn.gif\n  try: add --set orbit.frames=36, or give a name that ends in .png\n",
+        ),
+        (
+            "points torus.toml -o turn_#.apng",
+            "error: .apng has all frames in one file\n  at: turn_#.apng\n  try: give a name without #\n",
+        ),
+        (
+            "sheet scene.toml -o sheet.gif",
+            "error: .gif is for the frames of [orbit], and this is one picture\n  at: sheet.gif\n  try: give a name that ends in .png\n",
         ),
         (
             "sheet scene.toml -o sheet_#.png",

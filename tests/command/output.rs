@@ -214,7 +214,7 @@ fn suffixes_choose_the_format() {
     let folder = Folder::new();
     folder.scene("");
     let (pictures, sheets) =
-        ("give a name that ends in .png or .exr", "give a name that ends in .png, .exr, .svg or .pdf");
+        ("give a name that ends in .png or .exr", "give a name that ends in .png, .exr, .svg, .pdf, .gif or .apng");
     for (name, what, remedy) in [
         ("out.svg", ".svg is for points and lines, and the scene has none", pictures),
         ("out.pdf", ".pdf is for points and lines, and the scene has none", pictures),

@@ -46,6 +46,11 @@ const FILES: &[(&str, &str, &str)] = &[
     ("styles.exr", "render styles.toml", "e91927de1fcdb1e9dd2cecafedddf831526d46fd1f4bd2fde1ec5dc6169ef4fc"),
     ("labels.exr", "render labels.toml", "4c140080bd17747e4aa6bb8d9df06d577ed9c5edcfaa3dd278d777acf8874397"),
     ("phong.exr", "render phong.toml", "6850685d47654ad861b3aebd1b33068d76fa64450a13572db54bc1c456a17dc1"),
+    (
+        "phong.gif",
+        "render phong.toml --set orbit.frames=3",
+        "0e5925c9844e3cbfa01ca20ecde6d3fb4e3b923d1a825f02d2568f02607a6f10",
+    ),
     ("surface.png", "render surface.toml", "c1c6e2e4e7603045576bacd68fd1a0e238e4d08409eb0694f0703774628c8a76"),
     ("stipples.svg", "points stipples.toml", "64c6415ee3291863c4e403bf913ad873eab34236cb75483e96704e04dabf5efb"),
     ("stipples.csv", "points stipples.toml", "e898c543bd9685d69982ed67389b58b7e4e52befd0d0d58e9254b68e91fc07c6"),

@@ -426,7 +426,7 @@ pub(crate) fn scene(seed: u64) -> Stage {
         iso_surface(r, &mut shot);
     }
     // Of an orbit the first frame is drawn.
-    shot.scene.orbit = r.pick(&[None, None, None, Some(Orbit { frames: 7, degrees: -90.0 })]);
+    shot.scene.orbit = r.pick(&[None, None, None, Some(Orbit { frames: 7, degrees: -90.0, ..Orbit::default() })]);
     if let Some(orbit) = &mut shot.scene.orbit {
         (orbit.frames, orbit.degrees) = (1 + r.below(40), r.pick(&[360.0, 90.0, -30.5]));
     }

@@ -13,7 +13,7 @@ fn a_camera_comes_back_to_its_picture() {
     for seed in 0..120 {
         let shot = scene(seed);
         let (first, grid) = (shot.view(), shot.volume.grid());
-        let orbit = Orbit { frames: 5, degrees: 200.0 };
+        let orbit = Orbit { frames: 5, degrees: 200.0, ..Orbit::default() };
         let away = orbit.view(&first, &shot.scene.camera, grid, 2);
         let still = shot.render();
         let turned = shot.render_turned(&[first.clone(), away, first]);
@@ -52,7 +52,7 @@ fn a_turned_camera_sees_a_turned_volume() {
             })
         };
         let (shot, other) = (shot(volume.clone()), shot(turned.clone()));
-        let orbit = Orbit { frames: 4, degrees: 360.0 };
+        let orbit = Orbit { frames: 4, degrees: 360.0, ..Orbit::default() };
         let view = orbit.view(&shot.view(), &shot.scene.camera, &grid, 1);
         let seen = shot.render_turned(&[view]).remove(0);
         let still = other.render();

@@ -1,6 +1,7 @@
 //! Pictures that nobody has set up: bare volumes, and the scenes that come with the program.
 
 mod bare;
+mod data_page;
 mod labels;
 mod measure;
 mod scenes;

@@ -18,6 +18,7 @@ mod rules;
 mod stability;
 mod styles;
 mod switches;
+mod turntable;
 
 use std::process::ExitCode;
 
@@ -41,6 +42,7 @@ const PAGES: &[Page] = &[
     ("stability", stability::write),
     ("styles", styles::write),
     ("switches", switches::write),
+    ("turntable", turntable::write),
 ];
 
 fn main() -> ExitCode {

@@ -53,7 +53,7 @@ pub use curvature::curvatures;
 pub use error::PhantomError;
 pub use jet::Jet;
 pub use params::{About, Allowed, Param, Preset};
-pub use sample::{generate, sample, sample_labels};
+pub use sample::{from_fn, generate, sample, sample_labels};
 pub use source::PhantomSource;
 
 use crate::space::Grid;

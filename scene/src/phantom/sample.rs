@@ -39,6 +39,15 @@ pub fn sample(phantom: &dyn Phantom, grid: Grid, voxel_type: VoxelType) -> Resul
     Ok(Volume::new(grid, voxels, 1.0, 0.0)?)
 }
 
+/// A volume of f64 voxels: the value of a formula at each voxel centre, in world space.
+///
+/// # Errors
+/// Same errors as [`sample`].
+pub fn from_fn(grid: Grid, value: impl Fn(DVec3) -> f64 + Sync) -> Result<Volume, PhantomError> {
+    let voxels = Voxels::F64(fill(&grid, value)?);
+    Ok(Volume::new(grid, voxels, 1.0, 0.0)?)
+}
+
 /// The phantom's label at each voxel centre, as u16; all 0 where it has none.
 ///
 /// # Errors

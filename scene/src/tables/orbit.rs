@@ -14,11 +14,16 @@ table! {
         ///
         /// In degrees.
         degrees: f64 = 360.0, key("STIP-4", Number { bounds: Bounds::ANY, unit: ", in degrees" });
+        /// Frames a second of a GIF, an APNG or an animated SVG.
+        fps: usize = 10, key("STIP-4", Whole { lo: 1, hi: MOST_FPS });
     }
 }
 
 /// The most frames: as many as six digits can number.
 const MOST_FRAMES: u64 = 1_000_000;
+
+/// The most frames a second. Viewers slow down a GIF whose frames take less than two hundredths.
+const MOST_FPS: u64 = 50;
 
 /// The description of `[orbit]`.
 pub(crate) static TABLE: Table<Orbit> = Orbit::description(

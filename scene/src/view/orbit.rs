@@ -87,7 +87,7 @@ mod tests {
     fn frame_0_is_the_camera_of_the_scene_and_so_is_a_full_turn() {
         let camera = Camera { direction: DVec3::new(0.2, 1.0, -0.3), ..Camera::default() };
         let (view, grid) = first(&camera);
-        let orbit = Orbit { frames: 4, degrees: 360.0 };
+        let orbit = Orbit { frames: 4, degrees: 360.0, ..Orbit::default() };
         assert_eq!(orbit.view(&view, &camera, &grid, 0), view);
         assert_eq!(orbit.view(&view, &camera, &grid, 4), view);
     }
@@ -98,7 +98,7 @@ mod tests {
         let target = DVec3::new(5.0, 10.0, 15.0);
         let camera = Camera { eye: Some(DVec3::new(5.0, -20.0, 15.0)), target: Some(target), ..Camera::default() };
         let (view, grid) = first(&camera);
-        let turned = Orbit { frames: 4, degrees: 360.0 }.view(&view, &camera, &grid, 1);
+        let turned = Orbit { frames: 4, degrees: 360.0, ..Orbit::default() }.view(&view, &camera, &grid, 1);
         assert_eq!(turned.eye, DVec3::new(35.0, 10.0, 15.0));
         assert_eq!((turned.forward, turned.right, turned.up), (DVec3::NEG_X, DVec3::Y, DVec3::Z));
     }
@@ -112,7 +112,7 @@ mod tests {
             let up = DVec3::new(0.1, -2.0, 5.0);
             let camera = Camera { projection, target: Some(target), up, ..Camera::default() };
             let (view, grid) = first(&camera);
-            let orbit = Orbit { frames: 7, degrees: -200.0 };
+            let orbit = Orbit { frames: 7, degrees: -200.0, ..Orbit::default() };
             for frame in 1..7 {
                 let turned = orbit.view(&view, &camera, &grid, frame);
                 // A handful of roundings of numbers below 100.

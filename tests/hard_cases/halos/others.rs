@@ -157,7 +157,7 @@ pub(super) fn lines() -> f64 {
 
 pub(super) fn orbit() -> f64 {
     let stage = crossing().halos(&[glow(), dark()]);
-    let orbit = Orbit { frames: 5, degrees: 200.0 };
+    let orbit = Orbit { frames: 5, degrees: 200.0, ..Orbit::default() };
     let views: Vec<_> =
         (0..5).map(|i| orbit.view(&stage.view(), &stage.scene.camera, stage.volume.grid(), i)).collect();
     let turned = stage.render_turned(&views);

@@ -160,7 +160,7 @@ fn turning_the_camera_adds_and_takes_points_and_moves_none() {
     let silhouette = Silhouette { sc: 0.1, ss: 0.9, se: 1.0, literal: false };
     let bits = |p: DVec3| p.to_array().map(f64::to_bits);
     let camera = Camera { direction: DVec3::new(0.2, 1.0, -0.3), ..Camera::default() };
-    let orbit = Orbit { frames: 36, degrees: 360.0 };
+    let orbit = Orbit { frames: 36, degrees: 360.0, ..Orbit::default() };
     let views = [0, 1, 2].map(|frame| orbit.view(&shown.reference, &camera, shown.volume.grid(), frame));
     for ink in [Ink::Opaque, Ink::Fade] {
         let stipples = Stipples { ink, silhouette: Some(silhouette), ..Stipples::default() };

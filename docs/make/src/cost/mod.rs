@@ -1,7 +1,11 @@
-//! `docs/cost.md`: what accuracy costs, measured by `drypoint cost` on two phantoms and four data sets.
+//! `docs/cost.md` and `docs/cost-tables.md`: what accuracy costs, measured by `drypoint cost` on two phantoms and four
+//! data sets.
+
+mod choices;
+mod errors;
 
 use crate::files;
-use drypoint::cost::{Sweep, SweepFormat, SweepOptions, markdown, sweep};
+use drypoint::cost::{SweepFormat, SweepOptions, markdown, sweep};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, load};
 use std::path::Path;
@@ -35,52 +39,84 @@ const SCENES: [Measured; 7] = [
 /// The most bytes of a picture in `docs`.
 const LARGEST: usize = 300_000;
 
-/// Measures all, or those that are named behind `cost`, and writes the page and its plots; what is not measured stays as the
-/// page has it.
+/// Scenes of the table of choices: pictures of volumes.
+const CHOSEN: [&str; 4] = ["torus", "engine", "head", "vessels"];
+
+/// The parts beside the scenes that can be named.
+const PARTS: [&str; 2] = ["choices", "errors"];
+
+/// Measures all, or the scenes and parts that are named behind `cost`, and writes the pages and their pictures. What is
+/// not measured stays as the pages have it.
 ///
 /// # Errors
-/// A name of none, a scan that is not there, what the renderer or the system says, and a plot that is too large for a page.
+/// An unknown name, a scan that is not there, errors of the renderer or the system, and a plot that is too large for a
+/// page.
 pub(crate) fn write() -> Result<(), String> {
     let only: Vec<String> = std::env::args().skip(2).collect();
-    if let Some(other) = only.iter().find(|only| SCENES.iter().all(|scene| scene.name != **only)) {
-        let names = SCENES.map(|scene| scene.name).join(", ");
-        return Err(format!("{other} is none of {names}"));
+    let known: Vec<&str> = SCENES.iter().map(|scene| scene.name).chain(PARTS).collect();
+    if let Some(other) = only.iter().find(|only| !known.contains(&only.as_str())) {
+        return Err(format!("{other} is none of {}", known.join(", ")));
     }
-    let place = files::in_docs("cost.md");
-    let before = std::fs::read_to_string(&place).map_err(|error| format!("{}: {error}", place.display()))?;
-    let mut page = PAGE.to_owned();
-    for Measured { name, file, over } in SCENES {
-        if !only.is_empty() && !only.iter().any(|only| only == name) {
-            page = page.replace(&format!("{{{name}}}"), table_of(&before, name)?);
-            continue;
-        }
-        let found = measured(file, over)?;
-        let plot = SweepFormat::Png.of_sweep(&found, name)?;
-        if plot.len() > LARGEST {
-            return Err(format!("the plot of {name} has {} bytes, more than {LARGEST}", plot.len()));
-        }
-        files::write(&format!("pictures/cost/{name}.png"), &plot)?;
-        page = page.replace(&format!("{{{name}}}"), &markdown(&found));
+    let is_wanted = |part: &str| only.is_empty() || only.iter().any(|only| only == part);
+    let before = |page: &str| {
+        let place = files::in_docs(page);
+        std::fs::read_to_string(&place).map_err(|error| format!("{}: {error}", place.display()))
+    };
+    if is_wanted("errors") {
+        picture("errors.png", &errors::png()?)?;
     }
-    files::write("cost.md", page.as_bytes())
+    // The tables of the scenes, under their headings.
+    let mut tables = TABLES.to_owned();
+    for scene in &SCENES {
+        let Measured { name, .. } = scene;
+        let table = if is_wanted(name) {
+            let found = sweep(&job(scene, &[])?, &SweepOptions { runs: RUNS, only: Vec::new() }, &|_| ());
+            let found = found.map_err(|e| e.to_string())?;
+            picture(&format!("{name}.png"), &SweepFormat::Png.of_sweep(&found, name)?)?;
+            markdown(&found)
+        } else {
+            part(&before("cost-tables.md")?, &format!("<a id=\"{name}\"></a>\n\n"), "\n## ")?
+        };
+        tables = tables.replace(&format!("{{{name}}}"), &table);
+    }
+    // The page itself.
+    let choices = if is_wanted("choices") {
+        choices::table(&SCENES.iter().filter(|scene| CHOSEN.contains(&scene.name)).collect::<Vec<_>>())?
+    } else {
+        let before = before("cost.md")?;
+        format!("| for |{}", part(&before, "\n| for |", "\n\n")?)
+    };
+    files::write("cost-tables.md", format!("{}\n", tables.trim_end()).as_bytes())?;
+    files::write("cost.md", PAGE.replace("{choices}", choices.trim_end()).as_bytes())
 }
 
-fn measured(file: &str, over: &[(&str, &str)]) -> Result<Sweep, String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes").join(file);
-    let scene = load(&path, &over.iter().copied().collect::<Overrides>()).map_err(|e| e.to_string())?;
-    let job = Job::load(scene).map_err(|e| e.to_string())?;
-    sweep(&job, &SweepOptions { runs: RUNS, only: Vec::new() }, &|_| ()).map_err(|e| e.to_string())
+/// Writes a picture of the page.
+fn picture(name: &str, png: &[u8]) -> Result<(), String> {
+    if png.len() > LARGEST {
+        return Err(format!("{name} has {} bytes, more than {LARGEST}", png.len()));
+    }
+    files::write(&format!("pictures/cost/{name}"), png)
 }
 
-/// The table under a plot, from its line of runs to its last row.
-fn table_of<'p>(page: &'p str, name: &str) -> Result<&'p str, String> {
-    let plot = format!("(pictures/cost/{name}.png)\n\n");
-    let table = page.split_once(&plot).and_then(|(_, rest)| rest.split_once("\n- **Preview**"));
-    table.map(|(table, _)| table).ok_or_else(|| format!("docs/cost.md has no table of {name}: measure it, too"))
+/// Loads a scene with further settings.
+fn job(scene: &Measured, settings: &[(&str, &str)]) -> Result<Job, String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes").join(scene.file);
+    let overrides: Overrides = scene.over.iter().chain(settings).copied().collect();
+    let scene = load(&path, &overrides).map_err(|e| e.to_string())?;
+    Job::load(scene).map_err(|e| e.to_string())
+}
+
+/// Returns the part of a page between two texts, or up to its end.
+fn part(page: &str, from: &str, to: &str) -> Result<String, String> {
+    let (_, rest) = page.split_once(from).ok_or_else(|| format!("the page has no {from:?}: measure it, too"))?;
+    Ok(rest.split(to).next().unwrap_or(rest).into())
 }
 
 /// How often each setting is timed.
 const RUNS: usize = 5;
 
-/// The page around its tables, which stand where their names are.
+/// The page around its table of choices.
 const PAGE: &str = include_str!("page.md");
+
+/// The page of tables, which stand where their names are.
+const TABLES: &str = include_str!("tables.md");
