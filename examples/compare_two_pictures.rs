@@ -1,4 +1,4 @@
-//! What a setting changes in a picture: one scene rendered with two kernels, and their difference.
+//! The change that a setting makes in a picture: one scene rendered with two kernels, and their difference.
 //!
 //! `cargo run --release --example compare_two_pictures -- smooth.png`
 

@@ -90,7 +90,7 @@ fn frames_of_an_apng_are_their_pngs() {
     }
 }
 
-/// Of at most 255 colours a frame loses none, and each frame has its own.
+/// A frame of at most 255 colours loses none, and each frame has a palette of its own.
 #[test]
 fn a_gif_of_few_colours_is_exact() {
     let frames: Vec<Picture> = (0..3).map(|i| picture(i, opaque)).collect();

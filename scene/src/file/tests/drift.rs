@@ -74,6 +74,7 @@ const SAMPLES: &[Sample] = &[
     ("orbit", &[], "{}"),
     ("orbit.frames", &[("orbit", "{}")], "12"),
     ("orbit.degrees", &[("orbit", "{}")], "-90"),
+    ("orbit.fps", &[("orbit", "{}")], "20"),
     ("picture", &[], "{ samples = 2 }"),
     ("picture.size", &[], "[640, 480]"),
     ("picture.width", &[("picture.height", "120 mm")], "180 mm"),
