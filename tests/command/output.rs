@@ -197,7 +197,8 @@ fn a_picture_for_which_there_is_no_memory_is_refused() {
         let said = command.current_dir(folder.path("")).env("DRYPOINT_DATA", "").output().unwrap();
         (said.status.code(), String::from_utf8(said.stderr).unwrap())
     };
-    let (code, err) = render("--size 32768x32768 --set picture.samples=1 --layers normal,curvature,depth,gradient -o a.exr");
+    let (code, err) =
+        render("--size 32768x32768 --set picture.samples=1 --layers normal,curvature,depth,gradient -o a.exr");
     let what = "error: a picture of 32768 × 32768 pixels needs 192.00 GiB of memory, ";
     assert!(code == Some(2) && err.starts_with(what) && err.contains("smaller, or ask for fewer layers: "), "{err}");
     let sides = [500, 1000, 1400, 1700, 2000, 2400, 3000, 4000];

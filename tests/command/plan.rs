@@ -166,7 +166,8 @@ fn json_is_the_picture_with_nothing_left_to_decide() {
     assert_eq!(plain["halos"]["list"], serde_json::json!([]));
     let halo = &shot("[[halo]]\nspread.reach = \"30 px\"\n", "")["halos"];
     assert_eq!([&halo["list"][0]["name"], &halo["list"][0]["seed"]["value"]], ["halo 0", "opacity"]);
-    assert_eq!(halo["list"][0]["spread"]["stretch"], 2.0);
+    // Each pixel has 2×2 rays.
+    assert_eq!(halo["list"][0]["spread"]["stretch"], 4.0);
     assert_eq!(halo["query"]["gradient"], true);
     folder.torus();
     let text = folder.good("plan torus.nrrd --preset halo --json --set picture.layers=[\"beauty\",\"halo1\"]");

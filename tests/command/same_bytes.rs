@@ -57,7 +57,7 @@ const FILES: &[(&str, &str, &str)] = &[
     ("strokes.svg", "strokes strokes.toml", "7cc4afa17539119adf1d5e73c830e5e8160761f85757427e179ce7f410299bcb"),
     ("strokes.pdf", "strokes strokes.toml", "00e3e733672561bf229299ca3631e344f6065ea4f60821ba046157a26bf2a188"),
     ("strokes.png", "strokes strokes.toml", "66192c6aa6e0376384c6ad554b8ca1bf6e1112a865bc4b6a2d3a23ad07102a4b"),
-    ("strokes.jsonl", "strokes strokes.toml", "a4328ee23f71973e17fdfc1b2f2493b5fc04c82f0c74423b4b661c6ebc426b5a"),
+    ("strokes.jsonl", "strokes strokes.toml", "596b5da7b0df44c5b896c1c6a88fe16c88a60acd019593a451c2f95cc0ab67a6"),
     (
         "phantom.nrrd",
         "phantom marschner-lobb --size 20 --type f32",

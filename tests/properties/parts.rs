@@ -92,5 +92,8 @@ fn what_cannot_be_kept_is_said_at_its_key() {
         &Overrides::default(),
     );
     let none = fault(stippled.unwrap(), keep(Keep::Largest(1)));
-    assert!(none.contains("nothing in the scene says which voxels are parts\n  at: scene.toml:4:9, key volume.parts"), "{none}");
+    assert!(
+        none.contains("nothing in the scene says which voxels are parts\n  at: scene.toml:4:9, key volume.parts"),
+        "{none}"
+    );
 }

@@ -66,7 +66,8 @@ fn every_scene_gives_a_picture_in_every_theme() {
         }
         let text = std::fs::read_to_string(&path).unwrap();
         let has = |table: &str| text.contains(&format!("\n[{table}]"));
-        let (has_dots, has_lines) = (has("stipples"), has("outlines") || has("hatching") || text.contains("\npreset = \"hatch"));
+        let (has_dots, has_lines) =
+            (has("stipples"), has("outlines") || has("hatching") || text.contains("\npreset = \"hatch"));
         if has_dots || has_lines {
             let ([dots, lines], ink) = drawn(&path);
             // A leg from afar is a few faint dots on so small a page.

@@ -406,7 +406,9 @@ pub(super) const EFFECTS: &[Effect] = &[
         with: &[("outlines.crease", "20 deg")],
         only: &["bytes.smoothed bricks of creases", "preprocess.crease places"],
         perhaps: &["preprocess.crease places without a crest"],
-        more: &["strokes", "preprocess.looks for what hides"],
+        more: &["preprocess.looks for what hides"],
+        // Creases join outlines to longer ones.
+        others: &["strokes"],
         ..NOTHING
     },
     Effect {
