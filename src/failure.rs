@@ -170,6 +170,6 @@ mod tests {
         let failure = Failure::picture(&OutputError::Io { path, action: "read", source }, "elsewhere");
         assert_eq!((&*failure.what, &*failure.place), ("the picture cannot be read: gone", "a/b.png"));
         let failure = Failure::picture(&OutputError::Bits { bits: 12 }, "elsewhere");
-        assert_eq!((&*failure.what, &*failure.place), ("picture.bits: 12 bits a channel", "elsewhere"));
+        assert_eq!((&*failure.what, &*failure.place), ("picture.bits: 12 bits per channel", "elsewhere"));
     }
 }

@@ -83,7 +83,7 @@ mod tests {
         std::fs::write(&names, "id,name\n1\n").unwrap();
         let (_, failures) = load();
         let said: Vec<String> = failures.iter().map(Failure::to_string).collect();
-        let voxel = "error: 2.5 is no label: an id is a whole number from 0 to 4294967295\n";
+        let voxel = "error: 2.5 is not a label: an id is a whole number from 0 to 4294967295\n";
         assert!(said[0].starts_with(voxel) && said[0].contains("parts.nrrd, voxel (2, 0, 0)\n"), "{said:?}");
         let line = "error: label 1 has no name\n";
         assert!(said.len() == 2 && said[1].starts_with(line) && said[1].contains("parts.csv, line 2\n"), "{said:?}");

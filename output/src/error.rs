@@ -76,7 +76,7 @@ pub enum OutputError {
         fault: String,
     },
     /// A bit depth that PNG does not have for colour pictures.
-    #[error("picture.bits: {bits} bits a channel")]
+    #[error("picture.bits: {bits} bits per channel")]
     Bits {
         /// The requested depth.
         bits: u8,
@@ -96,7 +96,7 @@ pub enum OutputError {
         pixels_per_degree: f64,
     },
     /// Two pictures without a channel of the same name.
-    #[error("no channel is in both pictures: the first has {}, the second {}", list(a), list(b))]
+    #[error("the pictures have no channel in common: the first has {}, the second {}", list(a), list(b))]
     NothingInCommon {
         /// Channels of the first.
         a: Vec<String>,

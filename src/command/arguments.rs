@@ -8,8 +8,8 @@ use drypoint::Failure;
 use std::ffi::OsString;
 use std::path::Path;
 
-/// Verbs of the specification that this version lacks, with their tags.
-const LATER: &[(&str, &str)] = &[("validate", "GPU-1"), ("paint", "VS-6")];
+/// Verbs of later versions.
+const LATER: [&str; 2] = ["validate", "paint"];
 
 /// The verb of a command line that names none.
 const DEFAULT: &str = "render";
@@ -34,8 +34,8 @@ impl Arguments {
         }
         let at = 1 + in_front(&words[1..]);
         let first = words.get(at).and_then(|word| word.to_str()).unwrap_or_default().to_owned();
-        if let Some((verb, tag)) = LATER.iter().find(|(verb, _)| *verb == first) {
-            return Err(not_built(verb, tag));
+        if LATER.contains(&&*first) {
+            return Err(not_built(&first));
         }
         let own = ["help", "-h", "--help", "-V", "--version"].contains(&&*first);
         if own || Cli::command().find_subcommand(&first).is_some() || is_word(&first) {
@@ -63,10 +63,10 @@ fn in_front(words: &[OsString]) -> usize {
     n.min(words.len())
 }
 
-fn not_built(verb: &str, tag: &str) -> Failure {
+fn not_built(verb: &str) -> Failure {
     let verbs: Vec<String> = Cli::command().get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
     let remedy = format!("the verbs of this version are {}", verbs.join(", "));
-    Failure::new(format!("`{verb}` is not built yet ([{tag}])"), format!("drypoint {verb}"), remedy)
+    Failure::new(format!("`{verb}` is not built yet"), format!("drypoint {verb}"), remedy)
 }
 
 /// Whether a word in place of a verb is more likely a misspelt verb than a file: letters only, and no such file.
@@ -145,7 +145,7 @@ mod tests {
     fn what_is_not_built_says_so() {
         for line in ["drypoint validate a.toml", "drypoint -q paint"] {
             let failure = Arguments::new(line.split(' ').map(OsString::from)).err().unwrap();
-            assert!(failure.what.contains("is not built yet (["), "{failure}");
+            assert!(failure.what.contains("is not built yet"), "{failure}");
         }
     }
 }

@@ -14,9 +14,9 @@ use std::path::PathBuf;
 /// Compare two pictures: largest and RMS difference of every layer, and FLIP of the colours.
 #[derive(Debug, Args)]
 pub(super) struct CompareArgs {
-    /// A picture, PNG or EXR
+    /// Picture, PNG or EXR
     a: PathBuf,
-    /// Another of the same size
+    /// Picture of the same size
     b: PathBuf,
     /// Print JSON
     #[arg(long)]
@@ -24,13 +24,13 @@ pub(super) struct CompareArgs {
     /// Write a picture of the difference (FLIP), as PNG
     #[arg(long, value_name = "FILE")]
     diff: Option<PathBuf>,
-    /// Exit with 1 where the largest difference exceeds this
+    /// Exit with 1 if the largest difference exceeds this
     #[arg(long, value_name = "X", value_parser = limit)]
     max: Option<f64>,
-    /// Exit with 1 where the RMS difference exceeds this
+    /// Exit with 1 if the RMS difference exceeds this
     #[arg(long, value_name = "X", value_parser = limit)]
     rms: Option<f64>,
-    /// Exit with 1 where the mean FLIP exceeds this
+    /// Exit with 1 if the mean FLIP exceeds this
     #[arg(long, value_name = "X", value_parser = limit)]
     flip: Option<f64>,
 }

@@ -9,25 +9,25 @@ use drypoint::Failure;
 use drypoint::cost::{SweepFormat, SweepOptions, csv, sweep};
 use std::path::PathBuf;
 
-/// Turn every knob of a scene from coarse to fine, and tell the error and the time of each setting.
+/// Measure the error and the time of every accuracy setting of a scene, from coarse to fine.
 ///
-/// A knob is a key that trades accuracy for time: the step, the kernel, early termination and others, as far as the
-/// scene uses them. One is turned at a time. The error is that of the picture in linear light: against the formula of a
-/// phantom, else against the knob's finest setting. Knobs of stipples are measured on the page of dots, blurred over a few
-/// distances between them; those of hatching on the strokes, as distances in voxels.
+/// A knob is a scene key that trades accuracy for time, such as the step, the kernel or early termination. Knobs are
+/// changed one at a time. The error compares the pictures in linear light. Its truth is the formula of a phantom, else the
+/// knob's finest setting. Knobs of stipples compare blurred pages of dots. Knobs of hatching compare strokes, as distances
+/// in voxels.
 #[derive(Debug, Args)]
 pub(super) struct CostArgs {
-    /// A scene or a volume; without either, the embedded scene
+    /// Scene or volume [default: the embedded scene]
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Output file, as often as wanted: .csv, .md for a Markdown table, .svg or .png for a plot of error against time
+    /// Output file: .csv or .md for a table, .svg or .png for a plot of error against time; can be repeated
     /// [default: CSV on standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Turn this knob alone, such as sampling.step; as often as wanted
+    /// Measure only this knob, such as sampling.step; can be repeated
     #[arg(long, value_name = "KEY")]
     knob: Vec<String>,
-    /// Number of times each setting is timed; the result is the median
+    /// Number of timed runs of each setting; the median is reported
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = RangedU64ValueParser::<usize>::new().range(1..=1000))]
     runs: usize,
     #[command(flatten)]

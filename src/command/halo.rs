@@ -14,16 +14,16 @@ use std::path::PathBuf;
 /// Passes at the most: 4095 pixels of reach.
 const MAX_PASSES: u64 = 12;
 
-/// Make the halo of a picture of seeds: intensities that spread from them, without the loss of small features.
+/// Spread a picture of seeds into a halo that keeps small features.
 #[derive(Debug, Args)]
 pub(super) struct HaloArgs {
-    /// The picture of seeds, PNG, JPEG or OpenEXR: a map of intensities. Numbers are taken as they are encoded,
-    /// code/(2ⁿ − 1), and luminance times alpha is the intensity
+    /// Picture of seeds, PNG, JPEG or OpenEXR. The intensity is luminance times alpha, of the encoded numbers
+    /// code/(2ⁿ − 1)
     picture: PathBuf,
-    /// Output file, such a map too; the suffix chooses a grey PNG or an EXR of the numbers
+    /// Output file. The suffix chooses a grey PNG or an EXR
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Amount of spreading, 0 to 1: at 0 nothing is spread
+    /// Amount of spreading δ, from 0 (none) to 1
     #[arg(long, value_name = "D", default_value_t = 0.8, value_parser = delta, allow_negative_numbers = true)]
     delta: f64,
     /// Number of passes N: intensities spread by up to 2^N − 1 pixels
@@ -35,13 +35,13 @@ pub(super) struct HaloArgs {
     /// Image that is spread
     #[arg(long, value_enum, default_value_t = From::Gradient)]
     from: From,
-    /// Filter that is applied to it
+    /// Filter of the spread image
     #[arg(long, value_enum, default_value_t = Filter::Spread)]
     filter: Filter,
-    /// Remove single pixels from the seeds first, by a median of 3×3
+    /// First remove single pixels from the seeds by a 3×3 median
     #[arg(long)]
     median: bool,
-    /// Write a contact sheet in place of one halo, as PNG
+    /// Write a contact sheet instead of a halo, as PNG
     #[arg(long, value_enum, conflicts_with_all = ["from", "filter"])]
     figure: Option<FigureChoice>,
     /// Bits of a pixel in a PNG
@@ -51,35 +51,35 @@ pub(super) struct HaloArgs {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum BorderChoice {
-    /// Zeros: the frame is the edge of what it cuts
+    /// Zero; content cut by the frame has an edge there
     Zero,
-    /// The nearest pixel: the frame is no edge
+    /// Nearest pixel; the frame is no edge
     Replicate,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum From {
-    /// Magnitude of the seeds' gradient: small and large features have halos alike
+    /// Gradient magnitude of the seeds; small and large features have equal halos
     Gradient,
-    /// The seeds themselves
+    /// Seeds
     Seeds,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Filter {
-    /// Passes that keep the image they began with
+    /// Passes that keep the original image
     Spread,
-    /// Passes of the low-pass filter alone
+    /// Passes of the low-pass filter only
     LowPass,
-    /// No filter: the image itself
+    /// No filter
     None,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum FigureChoice {
-    /// Seeds and gradient, each as they are, with the low-pass filter, and spread
+    /// Seeds and gradient: unfiltered, low-pass filtered and spread
     Stages,
-    /// Spread gradients for four amounts of spreading, 0.70 to 0.95
+    /// Spread gradients for four values of δ, 0.70 to 0.95
     Deltas,
 }
 

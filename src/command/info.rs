@@ -7,10 +7,10 @@ use clap::Args;
 use drypoint::scene::volume::info;
 use std::path::PathBuf;
 
-/// Say what a volume file holds: dims, type, spacing, range, invalid voxels, histogram.
+/// Describe a volume file: size, type, spacing, range, invalid voxels, histogram.
 #[derive(Debug, Args)]
 pub(super) struct InfoArgs {
-    /// A volume
+    /// Volume file
     #[arg(value_name = "VOLUME")]
     volume: PathBuf,
     #[command(flatten)]

@@ -7,10 +7,10 @@ use drypoint::scene::memory;
 /// Resource limits of every verb.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(super) struct LimitArgs {
-    /// Threads [default: one a processor]
+    /// Number of threads [default: one per processor]
     #[arg(long, global = true, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1024))]
     threads: Option<usize>,
-    /// Refuse what would need more memory than this, such as 4GiB [default: the memory that is free]
+    /// Memory limit, such as 4GiB; larger tasks are refused [default: free memory]
     #[arg(long, global = true, value_name = "SIZE", value_parser = bytes)]
     memory: Option<u64>,
 }

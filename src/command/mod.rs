@@ -35,10 +35,11 @@ use limits::LimitArgs;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Illustrations from volumes: CT, MRI and simulation data in lit-sphere styles with contours of controlled thickness.
+/// Draws illustrations of volumes from CT, MRI and simulation: lit-sphere styles, contours, halos, cutaways, stipples and
+/// hatching.
 ///
-/// Without a verb it renders: `drypoint head.nii.gz` is `drypoint render head.nii.gz`. Exit codes: 0 done, 1 a
-/// comparison failed, 2 bad use or bad input, 130 interrupted, 143 or 129 ended by SIGTERM or SIGHUP.
+/// The default verb is render: `drypoint head.nii.gz` does the same as `drypoint render head.nii.gz`. Exit codes: 0
+/// success, 1 a comparison failed, 2 bad use or bad input, 130 interrupted, 143 or 129 ended by SIGTERM or SIGHUP.
 #[derive(Debug, Parser)]
 #[command(name = "drypoint", version, propagate_version = true, subcommand_required = true)]
 struct Cli {
@@ -53,10 +54,10 @@ struct Cli {
 /// Verbosity of the command.
 #[derive(Clone, Copy, Debug, Default, Args)]
 struct Talk {
-    /// Say nothing but errors
+    /// Print errors only
     #[arg(short, long, global = true)]
     quiet: bool,
-    /// Say more: what was loaded, the plan, the counts
+    /// Print details: loaded files, the plan, counts
     #[arg(short, long, global = true, conflicts_with = "quiet")]
     verbose: bool,
 }
@@ -65,35 +66,35 @@ struct Talk {
 enum Verb {
     /// Render a scene or a bare volume to a picture (the default verb)
     Render(render::RenderArgs),
-    /// Say what a volume file holds
+    /// Describe a volume file: size, type, range, histogram
     Info(info::InfoArgs),
     /// Print value, derivatives and curvature at points
     Probe(probe::ProbeArgs),
-    /// Say what is seen at a pixel, and where it is in the volume
+    /// Print which part of a volume is visible at a pixel
     Pick(pick::PickArgs),
-    /// Write a phantom with known truth as a volume
+    /// Write a test volume with known values and curvatures
     Phantom(phantom::PhantomArgs),
-    /// Say what a scene calls for, and why
+    /// List the work that a scene needs, and the keys that ask for it
     Plan(plan::PlanArgs),
-    /// Stipple a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
+    /// Draw a scene or a volume in stipples, as SVG, PDF, PNG, EXR or a list of dots
     Points(points::PointsArgs),
-    /// Draw the strokes of a scene or a volume onto a page, as SVG, PDF, PNG, EXR or a list
+    /// Draw a scene or a volume in hatching or outlines, as SVG, PDF, PNG, EXR or a list of strokes
     Strokes(strokes::StrokesArgs),
     /// List the styles of a theme, write a preview sheet, or make a style from a picture
     Styles(styles::StylesArgs),
     /// Compare two pictures; exit code 1 when a bound is exceeded
     Compare(compare::CompareArgs),
-    /// Tell what accuracy costs: error and time of every knob of a scene
+    /// Measure error and time of every accuracy setting of a scene
     Cost(cost::CostArgs),
     /// Write a contact sheet of volumes, scenes or pictures
     Sheet(sheet::SheetArgs),
-    /// Make the halo of a picture of seeds
+    /// Spread a picture of seeds into a halo
     Halo(halo::HaloArgs),
-    /// Write a step wedge of a pen to be printed and measured, or plot what was measured
+    /// Write a step wedge to calibrate a pen, or plot its measured tones
     Wedge(wedge::WedgeArgs),
     /// Print the JSON Schema of scene files
     Schema(schema::SchemaArgs),
-    /// Print completions for a shell
+    /// Print shell completions
     Completions(completions::CompletionsArgs),
 }
 

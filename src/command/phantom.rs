@@ -12,25 +12,25 @@ use drypoint::scene::{atomic, phantom};
 use drypoint::{Failure, Failures};
 use std::path::{Path, PathBuf};
 
-/// Write a phantom as an NRRD volume.
+/// Write a test volume with known values and curvatures, as NRRD.
 #[derive(Debug, Args)]
 pub(super) struct PhantomArgs {
-    /// The phantom; `--list` shows all
+    /// Name of the phantom; see `--list`
     #[arg(required_unless_present = "list", value_parser = PossibleValuesParser::new(phantom::names()), hide_possible_values = true)]
     name: Option<String>,
     /// Output file (.nrrd)
     #[arg(short, long, value_name = "FILE", required_unless_present = "list")]
     output: Option<PathBuf>,
-    /// Voxels along each axis: one number, or three as X,Y,Z
+    /// Number of voxels along the axes: N, or X,Y,Z
     #[arg(long, value_name = "N", value_delimiter = ',', default_value = "128")]
     size: Vec<usize>,
-    /// World units between voxels: one number, or three as X,Y,Z
+    /// Voxel spacing in world units: one number, or X,Y,Z
     #[arg(long, value_name = "X", value_delimiter = ',', default_value = "1")]
     spacing: Vec<f64>,
-    /// Stored type
+    /// Stored voxel type
     #[arg(long = "type", value_name = "TYPE", default_value = "u8", value_parser = PossibleValuesParser::new(VoxelType::ALL.iter().map(|t| t.name())))]
     voxel_type: String,
-    /// A parameter of the phantom, such as R=40
+    /// Parameter of the phantom, such as R=40; can be repeated
     #[arg(long, value_name = "K=V", value_parser = parameter)]
     param: Vec<(String, f64)>,
     /// List the phantoms and their parameters

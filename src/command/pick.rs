@@ -16,28 +16,27 @@ use serde_json::json;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Say what is seen at a pixel: position, value and label of the first visible structure on its ray.
+/// Print position, value and label of the first visible structure at a pixel.
 ///
-/// A structure is visible where the opacity accumulated from the eye reaches 1/16, so haze and noise in front of it are
-/// passed over. If all is fainter, the sample that adds most to the pixel is told. Points and lines are passed over.
-/// Where nothing is seen, the text says so and --json has null; the exit code is 0 in either case. With [orbit] the
-/// picture is its first frame.
+/// A structure is visible where the opacity accumulated from the eye reaches 1/16. Fainter haze and noise in front of it
+/// is ignored. If the whole ray is fainter, the sample with the largest share of the pixel is printed. Points and lines
+/// are ignored. For an empty pixel the text says so, and --json prints null; the exit code is 0. [orbit] shows its first
+/// frame.
 #[derive(Debug, Args)]
 pub(super) struct PickArgs {
-    /// A scene or a volume; without either, the embedded scene
+    /// Scene or volume [default: the embedded scene]
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// A pixel: its column from the left and its row from the top, both from 0. The ray goes through its centre. The option
-    /// can be given several times
+    /// Column from the left and row from the top, both from 0; can be repeated. The ray goes through the pixel's centre
     #[arg(long = "pixel", value_name = "X,Y", required = true, value_parser = pixel)]
     pixels: Vec<[i64; 2]>,
-    /// Print one JSON array: an object for each pixel, or null
+    /// Print a JSON array with an object, or null, for each pixel
     #[arg(long)]
     json: bool,
-    /// Pixels of the picture, as `render` takes them
+    /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
-    /// The preset of a bare volume, as `render` takes it
+    /// Preset of a bare volume; see `render --help`
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     #[command(flatten)]

@@ -9,19 +9,19 @@ use drypoint::scene::file::write_full;
 use drypoint::stippling::Stippling;
 use std::path::PathBuf;
 
-/// Say what a scene calls for, and which line asked.
+/// List the work that a scene needs, and the keys that ask for it.
 #[derive(Debug, Args)]
 pub(super) struct PlanArgs {
-    /// A scene or a volume; without either, the embedded scene
+    /// Scene or volume [default: the embedded scene]
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Print the scene with every default filled in, as a valid scene; its paths are those from the working directory
+    /// Print the scene with every default written out, as a scene file. Paths are relative to the working directory
     #[arg(long)]
     full: bool,
-    /// Print the picture with nothing left to decide, as JSON: all that rays have to know of the scene beside its data
+    /// Print the resolved picture as JSON: everything a renderer needs besides the voxels
     #[arg(long, conflicts_with = "full")]
     json: bool,
-    /// The preset of a bare volume, as `render` takes it
+    /// Preset of a bare volume; see `render --help`
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     #[command(flatten)]

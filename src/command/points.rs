@@ -8,24 +8,24 @@ use clap::Args;
 use drypoint::job::RenderTarget;
 use std::path::PathBuf;
 
-/// Stipple a scene or a bare volume onto a page, or write a saved list of dots in another format.
+/// Draw a scene or a bare volume in stipples, or convert a saved list of dots.
 #[derive(Debug, Args)]
 pub(super) struct PointsArgs {
-    /// A scene (.toml) with [stipples], a volume, which is drawn 160 mm wide, or a list of dots (.csv, .jsonl), whose page --set says
+    /// Scene (.toml) with [stipples]; volume, drawn 160 mm wide; or list of dots (.csv, .jsonl), whose page --set gives
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
-    /// Output file; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit];
-    /// a GIF, an APNG or an SVG without it shows all frames in turn
+    /// Output file. The suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines. With [orbit], ### in the name is the
+    /// number of the frame; GIF, APNG and SVG can also hold all frames as an animation
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The preset of a bare volume: stipple, or stipple-fig1, stipple-fig4 … stipple-fig9 [default: stipple]
+    /// Preset of a bare volume: stipple, stipple-fig1, stipple-fig4 … stipple-fig9 [default: stipple]
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     #[command(flatten)]
     raw: RawArgs,
     #[command(flatten)]
     set: SetArgs,
-    /// Print the counts as one JSON object, alone on standard output
+    /// Print the counts to standard output, as one JSON object
     #[arg(long)]
     stats: bool,
 }

@@ -17,35 +17,35 @@ use std::path::PathBuf;
 
 /// Print value, gradient, Hessian, normal and curvatures at points, as one JSON array.
 ///
-/// Each object says in hessian_estimator which estimator made hessian, k1, k2, e1, e2, mean, gaussian and kv. Where
-/// there is no normal, normal, e1 and e2 are null and the curvatures 0.
+/// hessian_estimator names the estimator behind hessian, k1, k2, e1, e2, mean, gaussian and kv. At a point without a
+/// normal, normal, e1 and e2 are null and the curvatures are 0.
 #[derive(Debug, Args)]
 pub(super) struct ProbeArgs {
-    /// A volume
+    /// Volume file
     #[arg(value_name = "VOLUME")]
     volume: PathBuf,
-    /// Points; without one, they come from standard input, one a line
+    /// Points to evaluate [default: one on each line of standard input]
     #[arg(long, value_name = "X,Y,Z", num_args = 1.., value_parser = vector)]
     at: Vec<DVec3>,
-    /// The space of the points; derivatives are always in world units
+    /// Space of the points; derivatives are always in world units
     #[arg(long, value_enum, default_value_t = Space::World)]
     space: Space,
-    /// The direction towards the eye, in world space, for the curvature along it
+    /// Direction towards the eye in world space; adds kv, the curvature along it
     #[arg(long, value_name = "X,Y,Z", value_parser = direction)]
     view: Option<DVec3>,
-    /// trilinear, bspline, bspline-smooth, bspline5 or catmull-rom
+    /// Kernel: trilinear, bspline, bspline-smooth, bspline5 or catmull-rom
     #[arg(long, value_name = "NAME", default_value = "trilinear")]
     kernel: String,
-    /// central, analytic, sobel or regression
+    /// Gradient estimator: central, analytic, sobel or regression
     #[arg(long, value_name = "NAME", default_value = "central")]
     gradient: String,
-    /// auto, analytic, central or gaussian
+    /// Hessian estimator: auto, analytic, central or gaussian
     #[arg(long, value_name = "NAME", default_value = "auto")]
     hessian: String,
-    /// σ of the gaussian Hessian: a number in world units, or such as "2 voxels"
+    /// σ of the gaussian Hessian, in world units or with a unit, such as "2 voxels"
     #[arg(long, value_name = "LENGTH", default_value = "1 voxel")]
     scale: String,
-    /// The side of a surface that lies outside: low or high values
+    /// Values outside of surfaces: low or high
     #[arg(long, value_name = "NAME", default_value = "low")]
     outside: String,
     #[command(flatten)]
@@ -55,9 +55,9 @@ pub(super) struct ProbeArgs {
 /// The space of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Space {
-    /// The file's own coordinates
+    /// Coordinates of the volume file
     World,
-    /// Voxel centres at whole numbers from 0
+    /// Voxel indices from 0; integers are voxel centres
     Index,
 }
 

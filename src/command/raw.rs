@@ -12,7 +12,7 @@ pub(super) const KEY: &str = "volume.raw";
 /// The option `--raw` of verbs.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(super) struct RawArgs {
-    /// The layout of raw voxels, the keys of volume.raw: 'size = [256, 256, 113], type = "i16"'
+    /// Layout of raw voxels, the keys of volume.raw: 'size = [256, 256, 113], type = "i16"'
     #[arg(long = "raw", value_name = "KEYS")]
     keys: Option<String>,
 }

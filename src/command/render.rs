@@ -12,38 +12,39 @@ use clap::{Args, ValueEnum};
 use drypoint::{Failure, Format};
 use std::path::PathBuf;
 
-/// Render a scene or a bare volume to a picture; without either, the embedded scene.
+/// Render a scene or a bare volume to a picture.
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
-    /// A scene (.toml) or a volume (.nrrd, .nhdr, .nii, .nii.gz, .mhd, .mha, .raw)
+    /// Scene (.toml) or volume (.nrrd, .nhdr, .nii, .nii.gz, .mhd, .mha, .raw) [default: the embedded scene]
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
-    /// Output file; the suffix chooses PNG or EXR, or SVG or PDF for points over the picture; GIF or APNG for all frames
-    /// of [orbit], or ### for the number of a frame [default: the input's name with .png, in the working directory]
+    /// Output file. The suffix chooses PNG, EXR, SVG or PDF; the last two draw dots and strokes as vectors over the picture.
+    /// With [orbit], GIF and APNG hold all frames, and ### in the name is the number of the frame [default: the input's
+    /// name with .png, in the working directory]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Pixels of the picture
+    /// Width and height of the picture in pixels
     #[arg(long, value_name = "WxH")]
     size: Option<String>,
-    /// The renderer
+    /// Renderer
     #[arg(long, value_enum, default_value_t = Backend::Reference)]
     backend: Backend,
-    /// The preset of a bare volume: style, toon, halo, halo-glow, halo-lines, hatch, outline, stipple, or a figure: hatch-fig2,
+    /// Preset of a bare volume: style, toon, halo, halo-glow, halo-lines, hatch, outline, stipple, or a figure: hatch-fig2,
     /// hatch-fig4, hatch-fig5, hatch-fig6-left, hatch-fig6-right, stipple-fig1, stipple-fig4 … stipple-fig9
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Layers of an EXR, separated by commas: beauty, Z, depth, normal, gradient, curvature, curvature.KV, first,
-    /// first.normal, first.curvature, first.curvature.KV, counts, halo0, halo1, …. The default name then ends in .exr
+    /// first.normal, first.curvature, first.curvature.KV, counts, halo0, halo1, …; sets the default name's suffix to .exr
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     layers: Vec<String>,
     #[command(flatten)]
     raw: RawArgs,
     #[command(flatten)]
     set: SetArgs,
-    /// Print the counts of the render as one JSON object, alone on standard output
+    /// Print the counts to standard output, as one JSON object
     #[arg(long)]
     stats: bool,
-    /// Render N frames after loading, for timing: --stats then have median_s, min_s and cpu_s of a frame
+    /// Render N frames after loading, to measure time; --stats then have median_s, min_s and cpu_s of a frame
     #[arg(long, value_name = "N", value_parser = RangedU64ValueParser::<usize>::new().range(1..=1_000_000))]
     repeat: Option<usize>,
 }
@@ -51,9 +52,9 @@ pub(super) struct RenderArgs {
 /// The renderer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Backend {
-    /// The CPU, in f64: the truth
+    /// CPU, in f64, the ground truth
     Reference,
-    /// The GPU; not built yet
+    /// GPU; not built yet
     Gpu,
 }
 

@@ -13,7 +13,7 @@ use drypoint::scene::picture::Provenance;
 use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
 
-/// Write a contact sheet of volumes, scenes or pictures; volumes and scenes are rendered.
+/// Write a contact sheet of volumes, scenes or pictures. Volumes and scenes are rendered.
 #[derive(Debug, Args)]
 pub(super) struct SheetArgs {
     /// Volumes, scenes (.toml) or pictures (.png, .exr)
@@ -22,10 +22,10 @@ pub(super) struct SheetArgs {
     /// Output file (.png)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Pixels along the side of a cell
+    /// Side of a cell in pixels
     #[arg(long, default_value_t = 256, value_parser = RangedU64ValueParser::<usize>::new().range(16..=4096))]
     cell: usize,
-    /// Pictures in a row [default: about as many as there are rows]
+    /// Number of pictures in a row [default: a nearly square sheet]
     #[arg(long, value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
     columns: Option<usize>,
     #[command(flatten)]

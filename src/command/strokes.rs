@@ -9,28 +9,28 @@ use drypoint::Failure;
 use drypoint::job::RenderTarget;
 use std::path::PathBuf;
 
-/// Draw the strokes of a scene or a bare volume onto a page, without what is hidden, or write a saved list of strokes in another format.
+/// Draw the visible strokes of a scene or a bare volume, or convert a saved list of strokes.
 #[derive(Debug, Args)]
 pub(super) struct StrokesArgs {
-    /// A scene (.toml) with [hatching] or [outlines], a volume, which is drawn 160 mm wide, or a list of strokes (.csv, .jsonl), whose page --set says
+    /// Scene (.toml) with [hatching] or [outlines]; volume, drawn 160 mm wide; or list of strokes (.csv, .jsonl), whose page --set gives
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
-    /// Output file; the suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines; ### is the number of a frame of [orbit];
-    /// a GIF, an APNG or an SVG without it shows all frames in turn
+    /// Output file. The suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines. With [orbit], ### in the name is the
+    /// number of the frame; GIF, APNG and SVG can also hold all frames as an animation
     #[arg(short, long, value_name = "FILE", required_unless_present = "seeds")]
     output: Option<PathBuf>,
-    /// The preset of a bare volume: hatch, outline, or one of the figures' [default: hatch]
+    /// Preset of a bare volume: hatch, outline, or a figure of the paper; see `render --help` [default: hatch]
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// Write the cells that strokes can begin in, each with its probability p: rows x,y,z,p to CSV, or a picture, the darker the
-    /// more probable, to SVG, PDF, PNG or EXR
+    /// Write the cells that strokes can start in, with their probability p: rows x,y,z,p as CSV, or a picture, darker for a
+    /// higher probability, as SVG, PDF, PNG or EXR
     #[arg(long, value_name = "FILE")]
     seeds: Option<PathBuf>,
     #[command(flatten)]
     raw: RawArgs,
     #[command(flatten)]
     set: SetArgs,
-    /// Print the counts as one JSON object, alone on standard output
+    /// Print the counts to standard output, as one JSON object
     #[arg(long)]
     stats: bool,
 }

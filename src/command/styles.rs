@@ -18,7 +18,7 @@ use std::path::PathBuf;
 /// Pixels across a sphere of the sheet.
 const CELL: usize = 176;
 
-/// List the styles of a theme; with -o, write a sheet of spheres with their names.
+/// List the styles of a theme. With -o, write a sheet of labelled spheres.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
 pub(super) struct StylesArgs {

@@ -16,16 +16,16 @@ use drypoint::wedge::{template, wedge};
 use drypoint::{Failure, Failures, tone_plot};
 use std::path::{Path, PathBuf};
 
-/// Write a step wedge of a pen, to be printed and measured, with a table to fill in beside it; or plot such a table.
+/// Write a step wedge to calibrate a pen, with a table for its measured tones, or plot such a table.
 #[derive(Debug, Args)]
 pub(super) struct WedgeArgs {
-    /// Output file; the suffix chooses SVG, PDF, PNG or EXR, of a plot SVG or PNG
+    /// Output file. The suffix chooses SVG, PDF, PNG or EXR; plots are SVG or PNG
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The pen's name; where --set says none, one of 0.3 mm in black
+    /// Name of a pen given by --set [default: a black pen of 0.3 mm]
     #[arg(long, value_name = "NAME", required_unless_present = "measured")]
     pen: Option<String>,
-    /// Plot this measured table (.csv) and its inverse in place of a page
+    /// Plot this measured table (.csv) and its inverse instead of a page
     #[arg(long, value_name = "FILE", conflicts_with = "pen")]
     measured: Option<PathBuf>,
     #[command(flatten)]

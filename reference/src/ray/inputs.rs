@@ -42,13 +42,13 @@ pub enum RenderError {
     #[error(transparent)]
     Field(#[from] FieldError),
     /// Sample planes that fall together ([RAY-1]): k + ½ has no half from 2⁵² on.
-    #[error("the volume reaches {planes:.1e} steps from the eye, where sample planes are not told apart any more")]
+    #[error("the volume reaches {planes:.1e} steps from the eye; f64 cannot distinguish sample planes that far away")]
     TooManyPlanes {
         /// The largest distance from the eye, in steps.
         planes: f64,
     },
     /// More samples than can be evaluated in months.
-    #[error("the rays have some {samples:.1e} samples, more than {:.0e}, which would take months", MOST_SAMPLES)]
+    #[error("the rays have about {samples:.1e} samples, more than {:.0e}; the picture would take months", MOST_SAMPLES)]
     Endless {
         /// Samples of all rays, if none is skipped.
         samples: f64,
@@ -69,7 +69,7 @@ pub enum RenderError {
         id: u32,
     },
     /// The function and the material do not fit.
-    #[error("the material is of colours and the transfer function of styles, or the other way round")]
+    #[error("material and transfer function do not match: one has colours, the other styles")]
     Material,
     /// The function's nodes and the styles do not fit.
     #[error("the transfer function names {named} styles, {given} were loaded")]

@@ -69,7 +69,7 @@ pub enum NodesError {
     #[error("a transfer function needs at least one node")]
     Empty,
     /// The lists differ in length.
-    #[error("{at} positions and {opacity} opacities are not one of each per node")]
+    #[error("{at} positions and {opacity} opacities: each node needs one of each")]
     Lengths {
         /// Number of positions.
         at: usize,
@@ -77,7 +77,7 @@ pub enum NodesError {
         opacity: usize,
     },
     /// A node lies before its predecessor.
-    #[error("node {node} at {at} stands after a node at {before}; nodes stand in non-decreasing order")]
+    #[error("node {node} at {at} follows a node at {before}; nodes must be in non-decreasing order")]
     Order {
         /// Index of the node, from 0.
         node: usize,

@@ -10,7 +10,7 @@ pub enum StippleError {
     Field(#[from] FieldError),
     /// A length is in the wrong space: `stipples.slab` or `camera.near` on the page, or `stipples.size` in the world.
     /// A scene file cannot cause this error.
-    #[error("{key} is no length of its space")]
+    #[error("{key} has a unit that does not fit its space")]
     Length {
         /// The key.
         key: &'static str,

@@ -139,8 +139,8 @@ impl Check {
     }
 
     /// Reports a part of the format that this version does not have.
-    pub(crate) fn not_built<T>(&mut self, place: &Place, what: String, tag: &str) -> Option<T> {
-        self.fault(place, Problem::NotBuilt { what, tag: tag.into() });
+    pub(crate) fn not_built<T>(&mut self, place: &Place, what: String) -> Option<T> {
+        self.fault(place, Problem::NotBuilt { what });
         None
     }
 
@@ -226,14 +226,14 @@ impl Check {
             return;
         }
         for (name, entry) in others(table, entries) {
-            if let Some(later) = table.later.iter().find(|later| later.name == name) {
+            if table.later.iter().any(|later| later.name == name) {
                 let what = match (self.path.is_empty(), &entry.item.value) {
                     (true, Value::Table(_)) => format!("[{name}]"),
                     (true, Value::List(_)) => format!("[[{name}]]"),
                     _ => self.key_of(name),
                 };
                 let key = self.key_of(name);
-                self.fault_of(key, &entry.name, Problem::NotBuilt { what, tag: later.tag.into() });
+                self.fault_of(key, &entry.name, Problem::NotBuilt { what });
             } else {
                 let problem = unknown_key(table.title, name, table.keys.iter().map(|key| key.name), table.later);
                 let key = self.key_of(name);

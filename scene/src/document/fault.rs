@@ -45,8 +45,6 @@ pub enum Problem {
     NotBuilt {
         /// It, in words.
         what: String,
-        /// Rule of the specification.
-        tag: String,
     },
     /// A value of the wrong type, unit, range or name.
     Value {
@@ -114,7 +112,7 @@ impl Fault {
             Problem::Unreadable { reason } => format!("the scene cannot be read: {reason}"),
             Problem::Syntax { message } => format!("not TOML: {message}"),
             Problem::UnknownKey { table, name, .. } => format!("{table} has no key {name:?}"),
-            Problem::NotBuilt { what, tag } => format!("{what} is not built yet ([{tag}])"),
+            Problem::NotBuilt { what } => format!("{what} is not built yet"),
             Problem::Value { found, .. } => format!("{key} cannot be {found}"),
             Problem::Reference { what, name, .. } => format!("there is no {what} {name:?}"),
             Problem::Missing { .. } => format!("{key} is missing"),

@@ -47,7 +47,7 @@ choices! {
         /// In tones with hard steps between them.
         Toon = "toon",
     }
-    later &[("lighting-function", "VS-5")]
+    later &["lighting-function"]
 }
 
 /// Towards the light.

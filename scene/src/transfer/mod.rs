@@ -65,7 +65,7 @@ pub enum FunctionError {
         row: Option<usize>,
     },
     /// Two rows stand at one label, by its name and by its id or another name.
-    #[error("row {row} stands at label {id}, as another one does")]
+    #[error("row {row} is for label {id}, which has a row already")]
     LabelTwice {
         /// The later of the two.
         row: usize,

@@ -95,7 +95,7 @@ pub struct Volume {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum VolumeError {
     /// The grid and the voxels disagree.
-    #[error("{found} voxels where the dims {dims:?} ask for {expected}")]
+    #[error("{found} voxels, but the dims {dims:?} need {expected}")]
     Length {
         /// Voxels along x, y, z.
         dims: [usize; 3],

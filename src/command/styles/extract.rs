@@ -12,34 +12,33 @@ use drypoint::scene::style::{MAX_SIDE, SourcePicture};
 use drypoint::{Failure, Format};
 use std::path::{Path, PathBuf};
 
-/// Make a style from a sphere, an ellipsoid or any closed shape in a picture.
+/// Make a style from a sphere, an ellipsoid or another closed shape in a picture.
 ///
-/// Places are in pixels of the picture, x from the left and y from the top; fractions are allowed.
+/// Coordinates are in pixels, x from the left and y from the top; fractions are allowed.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("region").required(true))]
 pub(super) struct ExtractArgs {
-    /// The picture, PNG, JPEG or OpenEXR
+    /// Picture, PNG, JPEG or OpenEXR
     picture: PathBuf,
-    /// A sphere: its middle and its radius
+    /// Sphere: centre and radius
     #[arg(long, value_name = "X,Y,R", group = "region", allow_hyphen_values = true)]
     circle: Option<String>,
-    /// An ellipsoid: its middle, its half axes, and the degrees from the line to the right to the first of them,
-    /// anticlockwise
+    /// Ellipsoid: centre, semi-axes, and the angle of the first semi-axis from the right, anticlockwise in degrees
     #[arg(long, value_name = "X,Y,A,B,ANGLE", group = "region", allow_hyphen_values = true)]
     ellipse: Option<String>,
-    /// Any closed shape: the points of its outline as "X,Y X,Y …", or a file with a point on each line
+    /// Closed shape: the points of its outline as "X,Y X,Y …", or a file with a point on each line
     #[arg(long, value_name = "POINTS|FILE", group = "region", allow_hyphen_values = true)]
     outline: Option<String>,
-    /// Depth of the body towards the viewer, in pixels [default: that of its largest inner circle]
+    /// Depth of the shape towards the viewer, in pixels [default: the radius of its largest inscribed circle]
     #[arg(long, value_name = "PX", conflicts_with = "circle", allow_negative_numbers = true)]
     depth: Option<f64>,
     /// Output file of the style (.png)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Texels along the side of the style
+    /// Side of the style in texels
     #[arg(long, value_name = "S", default_value_t = 256, value_parser = RangedU64ValueParser::<usize>::new().range(1..=MAX_SIDE as u64))]
     size: usize,
-    /// Take the picture's numbers for linear light, not for sRGB
+    /// Read the picture as linear light instead of sRGB
     #[arg(long)]
     linear: bool,
 }

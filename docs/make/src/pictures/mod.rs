@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 const LARGEST: usize = 600_000;
 
 /// Width and height of the picture of the embedded scene.
-const DEFAULT_SIZE: [usize; 2] = [900, 900];
+const DEFAULT_SIZE: [usize; 2] = [880, 880];
 
 /// Renders every picture that is older than its scene. Words after the command select pictures by a part of their path;
 /// those are rendered in any case.

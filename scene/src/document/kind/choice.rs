@@ -10,8 +10,8 @@ use serde_json::{Value as Json, json};
 /// One of several names, each for a value.
 pub(crate) struct Choice<T: 'static> {
     pub(crate) options: &'static [ChoiceOption<T>],
-    /// Names that the format has and this version has not, with their rule.
-    pub(crate) later: &'static [(&'static str, &'static str)],
+    /// Names of later versions.
+    pub(crate) later: &'static [&'static str],
 }
 
 /// One name of a [`Choice`].
@@ -62,9 +62,9 @@ impl<T: Copy + PartialEq + Sync> Kind for Choice<T> {
         if let Some(option) = self.options.iter().find(|option| option.name == name) {
             return Some(option.value);
         }
-        if let Some((_, tag)) = self.later.iter().find(|(later, _)| *later == name) {
+        if self.later.contains(&name) {
             let what = format!("{} = {name:?}", check.key());
-            return check.not_built(&item.place, what, tag);
+            return check.not_built(&item.place, what);
         }
         check.wrong_name(item, self.expected(), nearest(name, self.names()).map(Into::into))
     }

@@ -27,7 +27,7 @@ enum Ids {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LabelError {
     /// A value that is no id.
-    #[error("{value} is no label: an id is a whole number from 0 to 4294967295")]
+    #[error("{value} is not a label: an id is a whole number from 0 to 4294967295")]
     NotAnId {
         /// The first voxel with such a value.
         voxel: [usize; 3],

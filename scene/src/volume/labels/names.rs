@@ -35,7 +35,7 @@ pub enum NamesFault {
     #[error("the line is not UTF-8")]
     NotText,
     /// A first column that holds no id.
-    #[error("{} is no label: an id is a whole number from 0 to 4294967295", quoted(.0))]
+    #[error("{} is not a label: an id is a whole number from 0 to 4294967295", quoted(.0))]
     NotAnId(String),
     /// A line without a second column, or with nothing in it.
     #[error("label {0} has no name")]
@@ -207,7 +207,7 @@ mod tests {
     fn a_fault_is_told_on_one_line() {
         let (line, fault) =
             LabelNames::parse(include_bytes!("../../../../fuzz/findings/labels/line-break.csv")).unwrap_err();
-        let what = r"`\0\n\u{1}` is no label: an id is a whole number from 0 to 4294967295";
+        let what = r"`\0\n\u{1}` is not a label: an id is a whole number from 0 to 4294967295";
         // A carriage return ends a record, and no line.
         assert_eq!((line, fault.to_string()), (Some(1), what.to_owned()));
         let (_, fault) = LabelNames::parse(b"1,\"a\nb\"\n1,c\n").unwrap_err();
@@ -217,9 +217,9 @@ mod tests {
     #[test]
     fn faults_have_their_line() {
         for (text, line, what) in [
-            ("id,name\n1,a\nliver,5\n", 3, "`liver` is no label: an id is a whole number from 0 to 4294967295"),
-            ("-1,a\n", 1, "`-1` is no label: an id is a whole number from 0 to 4294967295"),
-            ("4294967296,a\n", 1, "`4294967296` is no label: an id is a whole number from 0 to 4294967295"),
+            ("id,name\n1,a\nliver,5\n", 3, "`liver` is not a label: an id is a whole number from 0 to 4294967295"),
+            ("-1,a\n", 1, "`-1` is not a label: an id is a whole number from 0 to 4294967295"),
+            ("4294967296,a\n", 1, "`4294967296` is not a label: an id is a whole number from 0 to 4294967295"),
             ("1,a\n2\n", 2, "label 2 has no name"),
             ("1,a\n2, ,x\n", 2, "label 2 has no name"),
             ("1,a\n2,b\n\n1,c\n", 4, "label 1 has a name already, on line 1: `a`"),

@@ -33,7 +33,7 @@ pub enum Fault {
     #[error("this is not a regular file")]
     NotAFile,
     /// A suffix of no known format, and no sidecar.
-    #[error("the suffix belongs to no volume format that is known")]
+    #[error("the suffix is not that of a supported volume format")]
     Suffix,
     /// Raw voxels that nothing describes.
     #[error("raw voxels without a description of their layout")]
@@ -58,7 +58,7 @@ pub enum Fault {
         limit: u64,
     },
     /// A line of a text header that says nothing.
-    #[error("the line {found} is no field")]
+    #[error("the line {found} is not a field")]
     Line {
         /// The line.
         found: String,
@@ -84,7 +84,7 @@ pub enum Fault {
         expected: String,
     },
     /// Something that the format allows and this program does not read.
-    #[error("{found}, where this program reads {supported}")]
+    #[error("{found}; supported: {supported}")]
     Unsupported {
         /// The content of the file.
         found: String,
@@ -117,7 +117,7 @@ pub enum Fault {
         unit: &'static str,
     },
     /// Sizes that the file cannot hold, however well it is compressed.
-    #[error("the sizes claim {claimed} bytes, and a file of this length holds {limit} at the most")]
+    #[error("the sizes claim {claimed} bytes, but a file of this length holds at most {limit}")]
     Oversized {
         /// Bytes of all voxels.
         claimed: u128,

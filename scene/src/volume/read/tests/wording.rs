@@ -253,7 +253,7 @@ fn files_that_are_not_there_or_not_known() {
     assert_eq!(
         lines(&folder, folder.read("head.jpg", [0; 12])),
         [
-            "the suffix belongs to no volume format that is known",
+            "the suffix is not that of a supported volume format",
             "head.jpg",
             "give a file with one of the suffixes nrrd, nhdr, nii, nii.gz, hdr, hdr.gz, img, img.gz, mhd, mha, raw, \
              raw.gz, or describe raw voxels in head.jpg.toml, with --raw or as volume.raw"
