@@ -41,10 +41,10 @@ const SHEETS: [(&str, &str, usize, usize); 6] = [
 ];
 
 /// Parts of halo sheets that are also shown large.
-const LARGE_PARTS: [&str; 2] = ["figure_9_b", "figure_10_d"];
+const LARGE_PARTS: [&str; 1] = ["figure_9_b"];
 
 /// Scenes without a picture of their own: they are timed, measured, or drawn as a page to plot.
-const WITHOUT: [&str; 7] = [
+const WITHOUT: [&str; 8] = [
     "engine-regular",
     "engine-unshaded",
     "outlines-lobster",
@@ -52,6 +52,7 @@ const WITHOUT: [&str; 7] = [
     "skull-outlines-plotter",
     "three_tones",
     "engine-opaque",
+    "skull",
 ];
 
 /// Lists every picture, sorted by its path.
