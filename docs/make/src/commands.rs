@@ -1,6 +1,6 @@
 //! The commands of README, tutorials and gallery, run as a reader would: in a folder with data, one after the other.
 
-use crate::files::in_docs;
+use crate::files::{self, in_docs};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
@@ -16,26 +16,30 @@ const PAGES: [&str; 6] = [
 ];
 
 /// Files that a reader has: their name on the pages, and a file of the data or of the repository in their place.
-const STAND_INS: [(&str, &str); 4] = [
+const STAND_INS: [(&str, &str); 3] = [
     ("your.nii.gz", "mri_head.nii.gz"),
     ("head.nrrd", "cthead.nhdr"),
     ("scene.toml", "data/scenes/style_transfer_functions/engine.toml"),
-    ("skin.toml", "data/scenes/style_transfer_functions/head.toml"),
 ];
 
 /// Beginnings of lines that are not run: they build, they run this program, or they need a file or a program that only
 /// the reader has.
-const NOT_RUN: [&str; 7] = [
+const NOT_RUN: [&str; 6] = [
     "cargo build",
     "cargo install",
     "cargo test",
     "cargo run --release -p",
     "vpype",
     "drypoint styles extract still-life.jpg",
-    "drypoint render head.toml -o other.png --set styles.theme=my-theme",
 ];
 
-/// Runs every command of the pages and prints its time.
+/// Pictures of the docs that commands of a page write: the page, the file, and its place in `docs`.
+const PICTURES: [(&str, &str, &str); 2] = [
+    ("tutorials/first-picture.md", "four.png", "pictures/first-picture.png"),
+    ("tutorials/halos.md", "four.png", "pictures/volumetric_halos/tutorial.png"),
+];
+
+/// Runs every command of the pages, prints its time, and keeps the pictures that pages show.
 ///
 /// # Errors
 /// A command that fails, with its page.
@@ -48,6 +52,10 @@ pub(crate) fn run() -> Result<(), String> {
         furnish(folder.path(), &root, &data).map_err(|e| format!("{}: {e}", folder.path().display()))?;
         println!("{page}");
         run_page(&text, folder.path(), &root, &data).map_err(|e| format!("{page}: {e}"))?;
+        for (_, file, picture) in PICTURES.iter().filter(|(of, ..)| *of == page) {
+            let bytes = std::fs::read(folder.path().join(file)).map_err(|e| format!("{page}: {file}: {e}"))?;
+            files::write(picture, &bytes)?;
+        }
     }
     Ok(())
 }
@@ -78,7 +86,8 @@ fn copy_folder(from: &Path, to: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Runs the commands of a page in order. A whole scene on the page is saved under the name that the text gave last.
+/// Runs the commands of a page in order. A whole scene on the page is saved under the name that the text gave last, and
+/// a further `[[table]]` is added to it.
 fn run_page(text: &str, folder: &Path, root: &Path, data: &Path) -> Result<(), String> {
     let mut scene_name = None;
     let mut block: Option<(&str, String)> = None;
@@ -88,8 +97,13 @@ fn run_page(text: &str, folder: &Path, root: &Path, data: &Path) -> Result<(), S
             (Some((language, body)), Some(_)) => {
                 if *language == "sh" {
                     body.lines().try_for_each(|line| run_line(line, folder, root, data))?;
-                } else if let (true, Some(name)) = (body.starts_with("drypoint = 1"), scene_name) {
-                    std::fs::write(folder.join(name), &body).map_err(|e| format!("{name}: {e}"))?;
+                } else if let Some(name) = scene_name {
+                    let path = folder.join(name);
+                    let before = if body.starts_with("[[") { std::fs::read_to_string(&path).ok() } else { None };
+                    if before.is_some() || body.starts_with("drypoint = 1") {
+                        let text = before.unwrap_or_default() + body;
+                        std::fs::write(path, text).map_err(|e| format!("{name}: {e}"))?;
+                    }
                 }
                 block = None;
             }

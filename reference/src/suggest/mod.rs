@@ -105,7 +105,15 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
         .for_each(|iso| *iso = outermost);
     let [inside, seen] = [boundary.outermost().value, surface_styles::first_seen(&boundary, outside)]
         .map(|value| ContentRange { value, outside });
-    let shown = surface_styles::short(seen.value, boundary.outermost().step);
+    // Parts are those of what is drawn: of the function, of the outermost surface, or of the main one.
+    let (value, step) = if scene.transfer.is_some() {
+        (seen.value, boundary.outermost().step)
+    } else {
+        let drawn =
+            if scene.surface.is_some() || scene.stipples.is_some() { boundary.outermost() } else { boundary.main };
+        (drawn.value, drawn.step)
+    };
+    let shown = surface_styles::short(value, step);
     scene.volume.parts = debris::without_debris(volume, ContentRange { value: shown, outside });
     frame(&mut scene, volume, [inside, seen], size);
     scene
