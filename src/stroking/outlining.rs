@@ -88,10 +88,10 @@ impl Outlining {
         *counts.preprocess.entry("looks for what hides".into()).or_default() += seen.looks + edges.looks;
         // A crease that runs beside an outline is the same edge.
         let (apart, depth) = (self.pen.width.max(BESIDE * reach), DEPTH * voxel);
-        seen.lines.extend(without_doubles(&edges.lines, &seen.lines, frame.view, apart, depth).lines);
+        let gaps = [self.pen.width, apart];
+        seen.lines.extend(without_doubles(&edges.lines, &seen.lines, frame.view, gaps, depth).lines);
         let all = seen.lines.len();
-        let (touch, min_length) = (self.pen.width, self.min_length);
-        let joining = Joining { reach: JOINED * apart, touch, depth, along: apart, min_length };
+        let joining = Joining { reach: JOINED * apart, touch: self.pen.width, depth, min_length: self.min_length };
         let lines = joined(seen.lines, frame.view, &joining);
         counts.preprocess.insert("short strokes".into(), (all - lines.len()) as u64);
         *counts.seconds.entry("hidden strokes".into()).or_default() += start.elapsed().as_secs_f64();

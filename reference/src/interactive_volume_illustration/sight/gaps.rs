@@ -24,16 +24,62 @@ pub struct GappedLines {
 pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, deeper: f64) -> GappedLines {
     let all: Vec<PageSegment> =
         lines.iter().chain(others).enumerate().flat_map(|(number, line)| segments(line, number, view)).collect();
-    cut(lines, &all, view, gap, CutBy::Nearer(deeper))
+    cut(lines, &all, view, gap, 0.0, CutBy::Nearer(deeper))
 }
 
-/// Removes the parts of lines that run within `gap` mm on the page along another line, at an angle of at most 45°. Where
-/// both are closest, their depths must differ by at most `depth`, in world units along the view.
-pub fn without_doubles(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, depth: f64) -> GappedLines {
+/// Length of a way beside another line, in gaps, from which on a line is that line's double. On a shorter way one line
+/// runs into the other.
+const DOUBLE: f64 = 10.0;
+
+/// Removes the parts of lines that run along another line on the page, at an angle of at most 45°: those within `touch`
+/// mm, which ink covers, and ways of at least ten gaps within `gap` mm. Where both are closest, their depths must differ
+/// by at most `depth`, in world units along the view.
+pub fn without_doubles(
+    lines: &[Polyline],
+    others: &[Polyline],
+    view: &View,
+    [touch, gap]: [f64; 2],
+    depth: f64,
+) -> GappedLines {
     let numbered = others.iter().zip(lines.len()..);
     let all: Vec<PageSegment> = numbered.flat_map(|(line, number)| segments(line, number, view)).collect();
-    cut(lines, &all, view, gap, CutBy::Along(depth))
+    let far = cut(lines, &all, view, gap, DOUBLE * gap, CutBy::Along(depth));
+    let near = cut(&far.lines, &all, view, touch, 0.0, CutBy::Along(depth));
+    GappedLines { lines: near.lines, cuts: far.cuts + near.cuts }
 }
+
+/// Removes intervals of segments that form ways shorter than a length in mm.
+fn without_short_ways(own: &[PageSegment], out: &mut [Vec<[f64; 2]>], least: f64) {
+    let lengths: Vec<f64> = own.iter().map(|segment| segment.ends[0].at.distance(segment.ends[1].at)).collect();
+    let starts: Vec<f64> = lengths
+        .iter()
+        .scan(0.0, |along, length| {
+            *along += length;
+            Some(*along - length)
+        })
+        .collect();
+    let on_line = |i: usize, [from, to]: [f64; 2]| [starts[i] + from * lengths[i], starts[i] + to * lengths[i]];
+    let mut pieces: Vec<[f64; 2]> =
+        out.iter().enumerate().flat_map(|(i, out)| out.iter().map(move |&range| on_line(i, range))).collect();
+    pieces.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    // Pieces that meet form one way.
+    let mut ways: Vec<[f64; 2]> = Vec::new();
+    for piece in pieces {
+        match ways.last_mut() {
+            Some(way) if piece[0] <= way[1] + MEET * least => way[1] = way[1].max(piece[1]),
+            _ => ways.push(piece),
+        }
+    }
+    for (i, out) in out.iter_mut().enumerate() {
+        out.retain(|&range| {
+            let from = on_line(i, range)[0];
+            ways[..ways.partition_point(|way| way[0] <= from)].last().is_some_and(|way| way[1] - way[0] >= least)
+        });
+    }
+}
+
+/// The largest distance of two pieces of one way, as a share of the least length: they are rounded.
+const MEET: f64 = 1e-6;
 
 /// The lines that cut, by their depths.
 #[derive(Clone, Copy)]
@@ -65,20 +111,24 @@ impl CutBy {
     }
 }
 
-fn cut(lines: &[Polyline], all: &[PageSegment], view: &View, gap: f64, by: CutBy) -> GappedLines {
+/// Cuts the ways of at least `least` mm out of lines that lie within `gap` mm of segments.
+fn cut(lines: &[Polyline], all: &[PageSegment], view: &View, gap: f64, least: f64, by: CutBy) -> GappedLines {
     let grid = SegmentRaster::new(all, gap);
     let each: Vec<(Vec<Polyline>, u64)> = lines
         .par_iter()
         .enumerate()
         .map(|(number, line)| {
             let own: Vec<PageSegment> = segments(line, number, view).collect();
-            let out: Vec<Vec<[f64; 2]>> = own
+            let mut out: Vec<Vec<[f64; 2]>> = own
                 .iter()
                 .map(|segment| {
                     let near = grid.near(segment, gap).map(|i| &all[i]).filter(|other| other.line != number);
                     segment.beside_each(near, gap, by)
                 })
                 .collect();
+            if least > 0.0 {
+                without_short_ways(&own, &mut out, least);
+            }
             let cuts = out.iter().filter(|out| !out.is_empty()).count() as u64;
             (if cuts == 0 { vec![line.clone()] } else { left(&own, &out, line.closed) }, cuts)
         })
@@ -340,6 +390,17 @@ mod tests {
                 line([10.0 - 6.0 * cos, 5.0 - 6.0 * sin, 3.0], [10.0 + 5.0 * cos, 5.0 + 5.0 * sin, 3.0], pieces[1]);
             assert_eq!(ends(&gapped(&[far], &[slanted], &view, 0.5, 2.0).lines), [[0.0, 9.0], [11.0, 20.0]]);
         }
+    }
+
+    /// A line that falls by 1 in 8 onto a long one is kept up to the ink of the other; a parallel one is its double.
+    #[test]
+    fn a_line_that_runs_into_another_one_is_no_double() {
+        let (view, long) = (view(), line([0.0, 0.0, 0.0], [40.0, 0.0, 0.0], 7));
+        let falling = line([2.0, 3.0, 0.0], [26.0, 0.0, 0.0], 5);
+        let found = without_doubles(&[falling], std::slice::from_ref(&long), &view, [0.25, 1.0], 2.0);
+        assert_eq!(ends(&found.lines), [[2.0, 24.0]]);
+        let beside = line([2.0, 0.5, 0.0], [30.0, 0.5, 0.0], 5);
+        assert_eq!(without_doubles(&[beside], &[long], &view, [0.25, 1.0], 2.0).lines, []);
     }
 
     /// The nearer line is nearer by 3. A `gap_depth` of 3 leaves the other whole; a slightly smaller one does not. A

@@ -9,17 +9,10 @@ use drypoint_scene::view::View;
 const TURN: f64 = 0.5;
 
 /// Cosine of the largest turn from a line's last direction to the side of a line that it is drawn up to.
-const TURN_ASIDE: f64 = 0.7;
+const TURN_ASIDE: f64 = 0.5;
 
 /// Distance of an end from the line that it is drawn up to, in reaches: across a small hole there is another line, too.
-const BESIDE: f64 = 0.6;
-
-/// Relative tolerance of the distance at which a line was cut off.
-const CUT: f64 = 1e-3;
-
-/// Length of the way on which a line that was cut off is drawn up to the other one, in distances between them. The line
-/// turns by 27°.
-const RUN_UP: f64 = 2.0;
+const BESIDE: f64 = 0.67;
 
 /// Length over which the direction of an end is taken, in reaches: the last segments may be short and turn.
 const TAIL: f64 = 1.5;
@@ -37,8 +30,6 @@ pub struct Joining {
     pub touch: f64,
     /// The largest difference of their depths, in world units.
     pub depth: f64,
-    /// The distance at which lines that run along others were cut off, in mm. Such an end is drawn up to the other line.
-    pub along: f64,
     /// The least length of a line with a loose end, in mm.
     pub min_length: f64,
 }
@@ -181,34 +172,23 @@ fn met(mut lines: Vec<Polyline>, view: &View, how: &Joining) -> (Vec<Polyline>, 
     let mut added: Vec<(LineEnd, Vertex)> = Vec::new();
     for end in ends(&lines, view, how) {
         let own = PageSegment { ends: [end.vertex; 2], depths: [end.depth; 2], line: end.line };
-        // The place nearest to a point, on another line and not too far in depth: distance, segment, parameter.
-        let nearest_to = |own: &PageSegment, to: DVec2, fits: &dyn Fn(DVec2) -> bool| {
-            let place = |i: usize| {
-                let other = &all[i];
-                let s = other.nearest(to);
-                let is_near = other.line != end.line && (other.depth(s) - end.depth).abs() <= how.depth;
-                (is_near && fits(other.at(s) - end.vertex.at)).then_some((other.at(s).distance(to), i, s))
-            };
-            grid.near(own, how.reach).filter_map(place).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-        };
-        let onwards = |between: DVec2| end.out.dot(between) >= TURN_ASIDE * between.length();
-        let beside = |between: DVec2| {
+        let place = |i: usize| {
+            let other = &all[i];
+            let s = other.nearest(end.vertex.at);
+            let between = other.at(s) - end.vertex.at;
             let distance = between.length();
-            distance <= how.touch || distance <= BESIDE * how.reach && onwards(between)
+            let onwards = distance <= how.touch || end.out.dot(between / distance) >= TURN_ASIDE;
+            let fits = distance <= BESIDE * how.reach && (other.depth(s) - end.depth).abs() <= how.depth && onwards;
+            (other.line != end.line && fits).then_some((distance, i, s))
         };
-        let place = nearest_to(&own, end.vertex.at, &beside).or_else(|| {
-            let (distance, ..) = nearest_to(&own, end.vertex.at, &|_| true)?;
-            if (distance - how.along).abs() > CUT * how.along {
-                return None;
-            }
-            let aim = end.vertex.at + RUN_UP * distance * end.out;
-            let way = PageSegment { ends: [end.vertex, Vertex { at: aim, ..end.vertex }], ..own };
-            nearest_to(&way, aim, &onwards)
-        });
-        if let Some((_, i, s)) = place {
+        let nearest =
+            grid.near(&own, how.reach).filter_map(place).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        if let Some((distance, i, s)) = nearest {
             meets[end.line][usize::from(end.is_last)] = true;
-            let on_line = all[i].ends[0].between(&all[i].ends[1], s);
-            if on_line.at != end.vertex.at {
+            if distance > 0.0 {
+                // An end that runs into a line at a flat angle meets it farther on.
+                let s = if distance > how.touch { all[i].nearest(end.vertex.at + distance * end.out) } else { s };
+                let on_line = all[i].ends[0].between(&all[i].ends[1], s);
                 added.push((end, Vertex { at: on_line.at, world: on_line.world, ..end.vertex }));
             }
         }
@@ -227,7 +207,7 @@ mod tests {
     use drypoint_scene::space::Grid;
     use drypoint_scene::tables::{Camera, Projection};
 
-    const HOW: Joining = Joining { reach: 1.0, touch: 0.2, depth: 3.0, along: 0.7, min_length: 2.0 };
+    const HOW: Joining = Joining { reach: 1.0, touch: 0.2, depth: 3.0, min_length: 2.0 };
 
     /// A line through places of the page, at a height towards the eye.
     fn line(height: f64, places: &[[f64; 2]]) -> Polyline {
@@ -271,19 +251,6 @@ mod tests {
         let half = |sign: f64| line(0.0, &[[0.1 * sign, 0.0], [4.0 * sign, 0.0], [4.0 * sign, 8.0], [0.1 * sign, 8.0]]);
         let ring = join(&[half(1.0), half(-1.0)]);
         assert_eq!((ring.len(), ring[0].closed, ring[0].vertices.len()), (1, true, 8));
-    }
-
-    #[test]
-    fn a_line_that_was_cut_off_along_another_one_runs_into_it() {
-        let long = line(0.0, &[[0.0, 0.0], [20.0, 0.0]]);
-        // Cut off at 0.7 mm from the long line, to which it falls by 1 in 10.
-        let joined = join(&[long.clone(), line(0.5, &[[1.0, 1.4], [8.0, 0.7]])]);
-        let [.., before, end] = places(&joined)[1][..] else { unreachable!() };
-        assert_eq!((before, end[1]), ([8.0, 0.7], 0.0));
-        assert!((9.2..9.6).contains(&end[0]), "{end:?}");
-        // An end at another distance is the line's own.
-        let own = line(0.5, &[[1.0, 1.5], [8.0, 0.8]]);
-        assert_eq!(places(&join(&[long, own.clone()]))[1], places(&[own])[0]);
     }
 
     #[test]
