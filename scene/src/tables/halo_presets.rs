@@ -13,7 +13,7 @@ pub(crate) enum HaloPreset {
     Dark,
     /// A bright glow before a dark background.
     Glow,
-    /// Lines and gaps alone, as in Fig. 10 (d).
+    /// Lines and gaps alone, as in Fig. 10 (d) ([HALO-11]).
     Lines,
 }
 
