@@ -407,8 +407,8 @@ pub(super) const EFFECTS: &[Effect] = &[
         only: &["bytes.smoothed bricks of creases", "preprocess.crease places"],
         perhaps: &["preprocess.crease places without a crest"],
         more: &["preprocess.looks for what hides"],
-        // Creases join outlines to longer ones.
-        others: &["strokes"],
+        // Creases join outlines to longer ones, and many creases are short.
+        others: &["strokes", "preprocess.short strokes"],
         ..NOTHING
     },
     Effect {
