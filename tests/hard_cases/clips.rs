@@ -273,7 +273,7 @@ impl crate::common::Shown {
     }
 }
 
-/// What is cut away seeds no halo.
+/// Samples that are cut away seed no halo.
 #[test]
 fn what_is_cut_away_seeds_nothing() {
     let stage = |clips: Vec<Clip>, halos: Vec<Halo>| {
@@ -367,7 +367,7 @@ fn marks(phantom: &str, rest: &str) -> Marks {
 
 const OBLIQUE: &str = "[[clip]]\npoint = [17, 15, 16]\nnormal = [1, -1, 0.5]\n";
 
-/// How far beyond the plane of [`OBLIQUE`] a place lies.
+/// The distance of a place beyond the plane of [`OBLIQUE`].
 fn beyond_oblique(at: DVec3) -> f64 {
     DVec3::new(1.0, -1.0, 0.5).normalize().dot(at - DVec3::new(17.0, 15.0, 16.0))
 }

@@ -130,7 +130,7 @@ mod tests {
     }
 
     proptest! {
-        /// What is left of a ray is exactly its samples that no plane cuts away.
+        /// The samples left of a ray are exactly those that no plane cuts away.
         #[test]
         fn the_run_is_exactly_what_is_left(
             direction in prop::array::uniform3(-1.0..1.0f64),
