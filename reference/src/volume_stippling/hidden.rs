@@ -38,10 +38,11 @@ impl<'a> HiddenPoints<'a> {
     /// Whether the surface hides a point of the world. `normal` is the normal of its voxel.
     ///
     /// A point near the surface is tested at its foot, moved by δ in front. Otherwise its own distance would hide it
-    /// behind the surface that it represents.
+    /// behind the surface that it represents. A foot that a clip plane cuts away is none.
     pub(super) fn hides(&self, point: DVec3, normal: DVec3) -> bool {
         let grid = self.surface.field().volume().grid();
         let foot = self.surface.foot(grid.to_index(point), normal, REACH * across(self.of_points, normal));
+        let foot = foot.filter(|&foot| !self.surface.clip().cut(foot));
         let in_front = |foot| grid.to_world(foot) + self.surface.normal(foot).unwrap_or(normal) * self.offset;
         self.surface.hides(foot.map_or(point, in_front), self.view, self.near)
     }
@@ -67,6 +68,7 @@ pub fn seen(
 mod tests {
     use super::*;
     use crate::field::{Field, Reconstruction, Rung};
+    use drypoint_scene::clip::{ClipPlane, ClipPlanes};
     use drypoint_scene::math;
     use drypoint_scene::philox::uniform;
     use drypoint_scene::tables::{Camera, Projection};
@@ -118,6 +120,29 @@ mod tests {
             assert!(hides(1.0) && hides(18.0) && !hides(-18.0));
         }
         assert!(front > 2500 && back > 2500, "{front} {back}");
+    }
+
+    /// A ball is cut at x = 30 and seen along −x. A point of the solid behind the cut is hidden, although its foot on the
+    /// ball lies before the cut. A point beside it, whose foot is left, is visible.
+    #[test]
+    fn a_foot_that_is_cut_away_is_none() {
+        let (n, centre) = (41, DVec3::splat(20.0));
+        let grid = Grid::with_spacing([n; 3], [1.0; 3]).unwrap();
+        let at = |i: usize| DVec3::new((i % n) as f64, (i / n % n) as f64, (i / n / n) as f64);
+        let values = (0..grid.len()).map(|i| 14.0 - (at(i) - centre).length()).collect();
+        let volume = Volume::new(grid, Voxels::F64(values), 1.0, 0.0).unwrap();
+        let field = Field::new(&volume, Reconstruction::default(), Rung::Gradient).unwrap();
+        let planes = ClipPlanes(vec![ClipPlane::in_world(DVec3::splat(30.0), DVec3::X, volume.grid())]);
+        let surface = IsoSurface::new(&field, 0.0).clipped(&planes);
+        let projection = Projection::Orthographic { height: None };
+        let camera = Camera { projection, direction: DVec3::NEG_X, ..Camera::default() };
+        let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
+        let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
+        for (x, distance, expected) in [(29.9, 13.2, true), (29.0, 13.9, false)] {
+            let across = f64::sqrt(distance * distance - (x - 20.0) * (x - 20.0));
+            let out = DVec3::new(x - 20.0, across, 0.0);
+            assert_eq!(hidden.hides(centre + out, out.normalize()), expected, "{x}");
+        }
     }
 
     /// A flat wall with the surface on both sides, 1.18 voxels from its middle. All points of voxels that face the
