@@ -39,20 +39,22 @@ const PICTURES: [(&str, &str, &str); 2] = [
     ("tutorials/halos.md", "four.png", "pictures/volumetric_halos/tutorial.png"),
 ];
 
-/// Runs every command of the pages, prints its time, and keeps the pictures that pages show.
+/// Runs every command of the pages, prints its time, and keeps the pictures that pages show. Words after the command
+/// select pages by a part of their path.
 ///
 /// # Errors
 /// A command that fails, with its page.
 pub(crate) fn run() -> Result<(), String> {
     let root = in_docs("..").canonicalize().map_err(|e| e.to_string())?;
     let data = std::env::var_os("DRYPOINT_DATA").map_or_else(|| root.join("../shared/data"), PathBuf::from);
-    for page in PAGES {
+    let asked: Vec<String> = std::env::args().skip(2).collect();
+    for page in PAGES.iter().filter(|page| asked.is_empty() || asked.iter().any(|part| page.contains(part))) {
         let text = std::fs::read_to_string(in_docs(page)).map_err(|e| format!("{page}: {e}"))?;
         let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
         furnish(folder.path(), &root, &data).map_err(|e| format!("{}: {e}", folder.path().display()))?;
         println!("{page}");
         run_page(&text, folder.path(), &root, &data).map_err(|e| format!("{page}: {e}"))?;
-        for (_, file, picture) in PICTURES.iter().filter(|(of, ..)| *of == page) {
+        for (_, file, picture) in PICTURES.iter().filter(|(of, ..)| of == page) {
             let bytes = std::fs::read(folder.path().join(file)).map_err(|e| format!("{page}: {file}: {e}"))?;
             files::write(picture, &bytes)?;
         }
@@ -100,7 +102,7 @@ fn run_page(text: &str, folder: &Path, root: &Path, data: &Path) -> Result<(), S
                 } else if let Some(name) = scene_name {
                     let path = folder.join(name);
                     let before = if body.starts_with("[[") { std::fs::read_to_string(&path).ok() } else { None };
-                    if before.is_some() || body.starts_with("drypoint = 1") {
+                    if before.is_some() || body.lines().any(|line| line == "drypoint = 1") {
                         let text = before.unwrap_or_default() + body;
                         std::fs::write(path, text).map_err(|e| format!("{name}: {e}"))?;
                     }

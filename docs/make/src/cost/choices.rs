@@ -24,8 +24,8 @@ const CHOICES: [Choice; 4] = [
     Choice { name: "the scene", words: "as it is", over: &[] },
     Choice {
         name: "print",
-        words: "`samples = 2`, `step = \"0.25 voxels\"`, `kernel = \"bspline\"`",
-        over: &[("picture.samples", "2"), ("sampling.step", "0.25 voxels"), ("sampling.kernel", "bspline")],
+        words: "`samples = \"auto\"`, `step = \"0.25 voxels\"`, `kernel = \"bspline\"`",
+        over: &[("picture.samples", "auto"), ("sampling.step", "0.25 voxels"), ("sampling.kernel", "bspline")],
     },
 ];
 
