@@ -315,7 +315,7 @@ mod tests {
         let none = image(1, &[("Z", &[])]);
         assert!(matches!(compare(&none, &none, &CompareOptions::default()), Err(OutputError::Layer { .. })));
         let error = compare(&a, &image(1, &[("Y", &[1.0])]), &CompareOptions::default()).unwrap_err();
-        assert_eq!(error.to_string(), "no channel is in both pictures: the first has Z, the second Y");
+        assert_eq!(error.to_string(), "the pictures have no channel in common: the first has Z, the second Y");
     }
 
     #[test]
