@@ -161,7 +161,7 @@ fn what_is_not_one_number_a_voxel_says_what_it_is() {
     ] {
         let error = folder.read(name, file).unwrap_err();
         assert!(matches!(*error.fault, Fault::Unsupported { .. }), "{error}");
-        assert!(error.what().starts_with(&format!("{what}, where this program reads ")), "{error}");
+        assert!(error.what().starts_with(&format!("{what}; supported: ")), "{error}");
         assert!(error.field.is_some(), "{error}");
     }
 }

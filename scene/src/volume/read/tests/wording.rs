@@ -100,7 +100,7 @@ fn oversized_dims() {
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("10000 10000 10000", "gzip"), &[0; 100]))),
         [
-            "the sizes claim 1000000000000 bytes, and a file of this length holds 103200 at the most",
+            "the sizes claim 1000000000000 bytes, but a file of this length holds at most 103200",
             "head.nrrd, field sizes",
             AGAIN
         ]
@@ -108,7 +108,7 @@ fn oversized_dims() {
     assert_eq!(
         lines(&folder, folder.read("head.nrrd", joined(header("10000 10000 10000", "bzip2"), &[0; 100]))),
         [
-            "the sizes claim 1000000000000 bytes, and a file of this length holds 194250000 at the most",
+            "the sizes claim 1000000000000 bytes, but a file of this length holds at most 194250000",
             "head.nrrd, field sizes",
             AGAIN
         ]
@@ -216,12 +216,12 @@ fn headers_that_say_the_wrong_thing() {
     );
     assert_eq!(
         lines(&folder, nrrd("type uchar\n")),
-        ["the line `type uchar` is no field", "head.nrrd, line 2", "correct the header"]
+        ["the line `type uchar` is not a field", "head.nrrd, line 2", "correct the header"]
     );
     assert_eq!(
         lines(&folder, nrrd("type: uchar\nencoding: hex\n")),
         [
-            "data in encoding `hex`, where this program reads raw, gzip, bzip2 and ascii",
+            "data in encoding `hex`; supported: raw, gzip, bzip2 and ascii",
             "head.nrrd, line 3, field encoding",
             "convert the file first"
         ]
