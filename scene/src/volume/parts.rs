@@ -260,7 +260,7 @@ fn order(runs: &mut [Run], rows: &[usize], nx: usize) -> Vec<Part> {
         }
     }
     // The sort is stable: equal parts stay in the order of their first voxels.
-    found.sort_by(|a, b| b.0.size.cmp(&a.0.size));
+    found.sort_by_key(|(part, _)| std::cmp::Reverse(part.size));
     let mut position = vec![0; found.len()];
     found.iter().enumerate().for_each(|(to, (_, from))| position[*from] = to);
     runs.iter_mut().for_each(|run| run.part = position[run.part]);
