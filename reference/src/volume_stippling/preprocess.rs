@@ -64,7 +64,7 @@ pub struct Preprocess<'a> {
     pub area: f64,
     /// m ([STIP-2]).
     pub box_side: usize,
-    /// Number of points of each voxel: `full`, rounded up, or [`SPARE`] times that for the density on the page.
+    /// Number of points of each voxel: `full`, rounded up, or twice that for the density on the page.
     pub each: usize,
     /// Number of points drawn at T = 1 in a voxel that has the largest piece of a face. This is N_max of eq. 1 times
     /// the mean thickness of thin layers ([STIP-3], [STIP-4]). With `k_max = "auto"` it is the number that prints the
