@@ -35,8 +35,8 @@ use limits::LimitArgs;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Draws illustrations of volumes from CT, MRI and simulation: lit-sphere styles, contours, halos, cutaways, stipples and
-/// hatching.
+/// Draws illustrations of volumes from CT, MRI and simulation: lit-sphere styles, contours, halos, clip planes, stipples
+/// and hatching.
 ///
 /// The default verb is render: `drypoint head.nii.gz` does the same as `drypoint render head.nii.gz`. Exit codes: 0
 /// success, 1 a comparison failed, 2 bad use or bad input, 130 interrupted, 143 or 129 ended by SIGTERM or SIGHUP.
