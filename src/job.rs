@@ -360,17 +360,12 @@ impl Job {
         shot: &Shot,
         make: impl FnOnce(&Shot, Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
     ) -> Result<Renderer<'a>, Failure> {
-        let background = match (&self.background, &shot.background) {
-            (Some(pixels), _) => Backdrop::Pixels(pixels),
-            (None, Background::Color(color)) => Backdrop::Color(*color),
-            (None, _) => Backdrop::None,
-        };
         let inputs = Inputs {
             volume: &self.volume,
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &self.styles,
-            background,
+            background: self.backdrop(shot),
         };
         room_for_passes(self, plan)?;
         room_for_table(scene)?;
@@ -380,6 +375,15 @@ impl Job {
         room(scene, 2 * 8 * channels + renderer.bytes_of_refinement())?;
         room_for_halos(scene, renderer.bytes_of_halos())?;
         Ok(renderer)
+    }
+
+    /// Returns what lies behind the volume.
+    pub(crate) fn backdrop(&self, shot: &Shot) -> Backdrop<'_> {
+        match (&self.background, &shot.background) {
+            (Some(pixels), _) => Backdrop::Pixels(pixels),
+            (None, Background::Color(color)) => Backdrop::Color(*color),
+            (None, _) => Backdrop::None,
+        }
     }
 
     /// Whether a picture of this job shows nothing but what lies behind the volume.

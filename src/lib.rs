@@ -24,6 +24,8 @@ pub mod cost;
 pub mod drawing;
 pub mod failure;
 pub mod format;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod halo;
 pub mod job;
 pub mod labels;

@@ -5,6 +5,7 @@
 //! Rules of the specification are cited by their tags, such as [SPACE-4].
 
 pub mod atomic;
+pub mod backdrop;
 pub mod blue_noise;
 pub mod clip;
 pub mod color;
@@ -16,6 +17,7 @@ pub mod knobs;
 mod length;
 pub mod marks;
 pub mod math;
+pub mod measured;
 pub mod memory;
 mod nearest;
 pub mod phantom;

@@ -8,6 +8,7 @@ use super::tensor::{self, Rows, RowsFn, Sum};
 use super::voxel_hessian::of_spline;
 use crate::number::lanes::wide;
 use crate::number::{Real, Sym3, Vec3};
+use drypoint_scene::measured::PaddedNumbers;
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
@@ -87,6 +88,18 @@ impl<R: Real> Coefficients<R> {
         }
         self.fill_border();
         self
+    }
+
+    /// Continues the samples beyond the border.
+    pub(super) fn continued(mut self) -> Self {
+        self.fill_border();
+        self
+    }
+
+    /// The numbers times a factor, without the constant.
+    pub(super) fn padded(&self, factor: f64) -> PaddedNumbers {
+        let data = self.data.iter().map(|c| c.to_f64() * factor).collect();
+        PaddedNumbers { data, dims: self.dims, pad: self.pad }
     }
 
     /// Replaces each sample by a weighted sum over its line along one axis. `rows` holds, for each sample of a line,

@@ -15,6 +15,7 @@ mod hessian;
 mod interpolated;
 pub mod kernel;
 pub(crate) mod lanes;
+mod measured;
 pub mod normal;
 mod place;
 mod prefilter;

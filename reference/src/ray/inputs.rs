@@ -3,7 +3,7 @@
 use super::lattice::MOST_SAMPLES;
 use crate::field::FieldError;
 use crate::transfer::NodesError;
-use drypoint_scene::color::Rgba;
+pub use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::style::Style;
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
@@ -22,17 +22,6 @@ pub struct Inputs<'a> {
     pub styles: &'a [Style],
     /// The background.
     pub background: Backdrop<'a>,
-}
-
-/// The background of a picture, linear.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Backdrop<'a> {
-    /// Nothing.
-    None,
-    /// One straight colour.
-    Color(Rgba),
-    /// Premultiplied pixels of the picture's size, row by row from the top.
-    Pixels(&'a [Rgba]),
 }
 
 /// A picture that cannot be made.

@@ -15,6 +15,7 @@ use crate::number::{Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise, gate};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
+use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Axis, BlendSpace, GradientRange, MOST_PLANES, Object, Shot};
 use drypoint_scene::space::Grid;
@@ -117,6 +118,17 @@ pub(super) fn prepare<'a, R: Real>(
         rays_across: shot.rays_across,
         refine_above: shot.refine_above,
     })
+}
+
+/// The facts of the volume that were measured for a shot.
+pub(super) fn measured<R: Real>(prepared: &Prepared<'_, R>, shot: &Shot) -> Measured {
+    let ([object], field) = (&shot.objects, &prepared.object.field);
+    let back = |g: R| drypoint_scene::math::scale_by_power_of_two(g.to_f64(), field.scale_exponent());
+    Measured {
+        gradient_range: prepared.object.gradient_range.map(|(lo, width)| [back(lo), back(width)]),
+        bricks: object.skip_empty.then(|| field.bricks()),
+        ..field.measured(object.rung)
+    }
 }
 
 /// Takes over what depends on the camera from the same shot of another one, with the same lens and picture.

@@ -7,7 +7,7 @@ use super::lanes;
 use super::lattice::samples_in;
 use super::merged;
 use super::pick::{Picked, pick};
-use super::prepare::{gradient_range, prepare, turn};
+use super::prepare::{gradient_range, measured, prepare, turn};
 use super::prepared::Prepared;
 use super::refinement::{bytes_a_pixel, draw_refined};
 use super::tile_work::TileWork;
@@ -17,6 +17,7 @@ use crate::number::Real;
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
+use drypoint_scene::measured::Measured;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::{Number, Shot};
@@ -203,6 +204,14 @@ impl<'a> Renderer<'a> {
         match &mut self.ready {
             Ready::F64(p) | Ready::Exact(p, _) => p.lines = lines,
             Ready::F32(p) => p.lines = lines,
+        }
+    }
+
+    /// The facts of the volume that another renderer of the same shot needs.
+    pub fn measured(&self, shot: &Shot) -> Measured {
+        match &self.ready {
+            Ready::F64(p) | Ready::Exact(p, _) => measured(p, shot),
+            Ready::F32(p) => measured(p, shot),
         }
     }
 

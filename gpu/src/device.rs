@@ -1,0 +1,138 @@
+//! An adapter and its device.
+
+use crate::GpuError;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The numbers that a shader computes in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// f32.
+    #[default]
+    Single,
+    /// f64, which few adapters have: to compare algorithms without their rounding.
+    Double,
+}
+
+impl Precision {
+    /// Numbers as a buffer holds them.
+    pub(crate) fn bytes(self, values: &[f64]) -> Vec<u8> {
+        match self {
+            Self::Single => values.iter().flat_map(|&x| (x as f32).to_le_bytes()).collect(),
+            Self::Double => values.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        }
+    }
+
+    /// Numbers from a buffer.
+    pub(crate) fn numbers(self, bytes: &[u8]) -> Vec<f64> {
+        match self {
+            Self::Single => bytes.as_chunks().0.iter().map(|&b| f64::from(f32::from_le_bytes(b))).collect(),
+            Self::Double => bytes.as_chunks().0.iter().map(|&b| f64::from_le_bytes(b)).collect(),
+        }
+    }
+
+    /// Bytes of a number.
+    pub(crate) fn size(self) -> u64 {
+        match self {
+            Self::Single => 4,
+            Self::Double => 8,
+        }
+    }
+}
+
+/// A graphics adapter, ready for work.
+pub struct Gpu {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    info: wgpu::AdapterInfo,
+    has_double: bool,
+    /// The driver's words on why the device was lost; none: it is there.
+    lost: Arc<Mutex<Option<String>>>,
+}
+
+impl Gpu {
+    /// The fastest adapter, or a software one where there is no other.
+    ///
+    /// # Errors
+    /// No adapter, or one that gives no device.
+    pub fn new() -> Result<Self, GpuError> {
+        let instance = wgpu::Instance::default();
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|_| GpuError::NoAdapter)?;
+        let info = adapter.get_info();
+        let wanted = wgpu::Features::SHADER_F64 | wgpu::Features::TIMESTAMP_QUERY;
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("drypoint"),
+            required_features: adapter.features() & wanted,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
+        let request = pollster::block_on(adapter.request_device(&descriptor));
+        let (device, queue) =
+            request.map_err(|error| GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
+        let lost = Arc::new(Mutex::new(None));
+        let heard = Arc::clone(&lost);
+        device.set_device_lost_callback(move |_, reason| {
+            *heard.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
+        });
+        let has_double = device.features().contains(wgpu::Features::SHADER_F64);
+        Ok(Self { device, queue, info, has_double, lost })
+    }
+
+    /// The adapter's name and driver, and whether it is software, for a person.
+    pub fn describe(&self) -> String {
+        let kind = if self.is_software() { ", software" } else { "" };
+        format!("{} ({}, {}{kind})", self.info.name, self.info.driver_info, self.info.backend)
+    }
+
+    /// The adapter's name.
+    pub fn name(&self) -> &str {
+        &self.info.name
+    }
+
+    /// Whether the adapter is a program and no card.
+    pub fn is_software(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// Whether shaders can compute in f64.
+    pub fn has_double(&self) -> bool {
+        self.has_double
+    }
+
+    /// Runs commands of the device and turns what the driver says into an error. `what` names the data for which there may
+    /// be no memory.
+    pub(crate) fn attempt<T>(&self, what: &'static str, run: impl FnOnce() -> T) -> Result<T, GpuError> {
+        let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let result = run();
+        let (refused, full) = (pollster::block_on(validation.pop()), pollster::block_on(memory.pop()));
+        let adapter = || self.info.name.clone();
+        if full.is_some() {
+            return Err(GpuError::OutOfMemory { what, adapter: adapter() });
+        }
+        if let Some(error) = refused {
+            return Err(GpuError::Refused { adapter: adapter(), reason: error.to_string() });
+        }
+        self.is_there()?;
+        Ok(result)
+    }
+
+    /// Waits until all commands are done.
+    pub(crate) fn wait(&self) -> Result<(), GpuError> {
+        let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.is_there()?;
+        polled.map(|_| ()).map_err(|error| self.lost_for(error.to_string()))
+    }
+
+    fn is_there(&self) -> Result<(), GpuError> {
+        let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
+        lost.as_ref().map_or(Ok(()), |reason| Err(self.lost_for(reason.clone())))
+    }
+
+    pub(crate) fn lost_for(&self, reason: String) -> GpuError {
+        GpuError::Lost { adapter: self.info.name.clone(), reason }
+    }
+}

@@ -1,0 +1,88 @@
+//! Pictures that a graphics card cannot draw.
+
+/// A picture that cannot be drawn on this adapter, or not at all.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GpuError {
+    /// There is no adapter.
+    #[error("no graphics adapter was found")]
+    NoAdapter,
+    /// The adapter gives no device.
+    #[error("{adapter} gives no device: {reason}")]
+    NoDevice {
+        /// The adapter's name.
+        adapter: String,
+        /// The driver's words.
+        reason: String,
+    },
+    /// The adapter computes in f32 alone.
+    #[error("{adapter} has no numbers in f64")]
+    NoDouble {
+        /// The adapter's name.
+        adapter: String,
+    },
+    /// The volume is larger than a texture can be.
+    #[error("the volume has {} × {} × {} numbers with its border; a texture of {adapter} has at most {most} along an axis", dims[0], dims[1], dims[2])]
+    TooLarge {
+        /// Numbers along x, y and z.
+        dims: [usize; 3],
+        /// The most along an axis.
+        most: usize,
+        /// The adapter's name.
+        adapter: String,
+    },
+    /// A list is larger than a shader can read.
+    #[error("{what} takes {bytes} bytes; a shader of {adapter} reads at most {most}")]
+    TooManyBytes {
+        /// The list.
+        what: &'static str,
+        /// Its size.
+        bytes: u64,
+        /// The most bytes.
+        most: u64,
+        /// The adapter's name.
+        adapter: String,
+    },
+    /// Memory of the adapter ran out.
+    #[error("the memory of {adapter} does not hold {what}")]
+    OutOfMemory {
+        /// The data.
+        what: &'static str,
+        /// The adapter's name.
+        adapter: String,
+    },
+    /// The device was lost while it was drawing.
+    #[error("{adapter} was lost: {reason}")]
+    Lost {
+        /// The adapter's name.
+        adapter: String,
+        /// The driver's words.
+        reason: String,
+    },
+    /// The driver refuses a shader or a command: a fault of this program or of the driver.
+    #[error("{adapter} refuses a command: {reason}")]
+    Refused {
+        /// The adapter's name.
+        adapter: String,
+        /// The driver's words.
+        reason: String,
+    },
+    /// An effect of the scene has no shader.
+    #[error("graphics cards cannot draw {what} yet")]
+    Missing {
+        /// The effect, as a noun phrase.
+        what: &'static str,
+        /// The scene key that asks for it.
+        key: &'static str,
+    },
+    /// More sample planes than whole numbers of f32 can count.
+    #[error("the volume is {planes:.1e} sample planes deep; graphics cards count up to {most}")]
+    TooManyPlanes {
+        /// Planes through the volume.
+        planes: u64,
+        /// The most planes.
+        most: u64,
+    },
+    /// The function and the material do not match, or styles are missing.
+    #[error("material, transfer function and styles do not match")]
+    Material,
+}

@@ -1,0 +1,30 @@
+//! Drypoint's pictures on graphics cards, by wgpu.
+//!
+//! A [`Gpu`] is an adapter with its device. A [`Volume`] is uploaded once, and a [`Renderer`] draws any number of frames of
+//! it, as the [`Shot`](drypoint_scene::shot::Shot) says. The crate decides no meaning: planes, formulas and every `auto` are
+//! those of the shot, and what only voxels can tell comes measured, in a
+//! [`Measured`](drypoint_scene::measured::Measured).
+//!
+//! Shaders are put together from modules, `.wgsl` files beside the `.rs` of the same effect. The list of modules follows
+//! from the shot, so a scene without an effect has no line, no binding and no pass of it ([GPU-4]). One text runs with
+//! `real = f32` and, where the adapter has it, `real = f64`.
+
+mod block;
+mod compose;
+mod device;
+mod error;
+mod field;
+mod interactive_volume_illustration;
+mod number;
+mod ray;
+mod renderer;
+mod shader;
+mod shading;
+mod style_transfer_functions;
+mod transfer;
+mod volume;
+
+pub use device::{Gpu, Precision};
+pub use error::GpuError;
+pub use renderer::{Inputs, Renderer};
+pub use volume::Volume;

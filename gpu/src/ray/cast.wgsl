@@ -1,0 +1,34 @@
+// A ray, sample by sample, front to back ([VAL-3], [VAL-4], [RAY-2]).
+
+fn cast_ray(ray: Ray) -> Front {
+    var front = Front();
+    let ratio = ray.step / params.reference_length;
+    begin_ray(ray);
+    let run = samples_left(ray, samples_inside(ray));
+    for (var k = run.x; k <= run.y; k++) {
+        var sample: Sample;
+        sample.k = k;
+        sample.position = position(ray, k);
+        sample.at = locate(sample.position);
+        let next = next_plane(ray, sample);
+        if (next > k) {
+            // What lies before that plane shows nothing.
+            k = next - 1;
+            continue;
+        }
+        sample.s = value_at(sample.at);
+        sample.place = node_place(locate_value(sample.s));
+        if (!(sample.place.alpha_u > 0.0)) {
+            continue;
+        }
+        let attributes = measured(ray, sample);
+        let shaded = shown(ray, sample, attributes);
+        let alpha = corrected(shaded.alpha, ratio);
+        collect(ray, sample, attributes, alpha);
+        front = over(front, in_blend_space(shaded.rgb), alpha);
+        if (front.opacity >= params.stop_at) {
+            break;
+        }
+    }
+    return front;
+}

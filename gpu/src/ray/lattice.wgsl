@@ -1,0 +1,96 @@
+// Rays in index space, and the samples on them ([RAY-1]).
+
+struct Ray {
+    // Index position at the anchor's plane, a plane in the middle of the volume.
+    origin: vec3<real>,
+    // Index displacement for one unit of depth.
+    along: vec3<real>,
+    // v, towards the eye, in world and in eye space.
+    v: vec3<real>,
+    v_eye: vec3<real>,
+    // Eye depth between samples.
+    depth_step: real,
+    // World distance between samples.
+    step: real,
+}
+
+// The ray through a point of the picture, in pixels from the middle of the picture, to the right and up.
+fn ray_through(x: real, y: real) -> Ray {
+    var ray: Ray;
+    let off = pixel_right() * x + pixel_up() * y;
+    ray.v_eye = vec3<real>(0.0, 0.0, 1.0);
+    ray.along = index_forward();
+    ray.depth_step = params.step;
+    ray.step = params.step;
+    if (PERSPECTIVE) {
+        let e = vec3<real>(-x * params.pixel, -y * params.pixel, 1.0);
+        let cosine = 1.0 / sqrt(dot(e, e));
+        ray.v_eye = e * cosine;
+        ray.along = index_forward() + off;
+        if (BY_RAY) {
+            ray.depth_step = params.step * cosine;
+            ray.origin = index_eye() + ray.along * (params.anchor_steps * ray.depth_step);
+        } else {
+            ray.step = params.step / cosine;
+            ray.origin = anchor_middle() + off * (params.anchor_steps * params.step);
+        }
+    } else {
+        ray.origin = anchor_middle() + off;
+    }
+    ray.v = view_right() * ray.v_eye.x + view_up() * ray.v_eye.y - view_forward() * ray.v_eye.z;
+    return ray;
+}
+
+// The index position of sample k, counted from the anchor.
+fn position(ray: Ray, k: i32) -> vec3<real> {
+    return ray.origin + ray.along * (real(k) * ray.depth_step);
+}
+
+// The eye depth of sample k, counted from the anchor.
+fn depth_of(ray: Ray, k: i32) -> real {
+    return (real(k) + params.anchor_steps) * ray.depth_step;
+}
+
+// Whether a position lies in the closed box of the volume.
+fn in_box(p: vec3<real>) -> bool {
+    return all(p >= box_low()) && all(p <= box_high());
+}
+
+// Whether sample k may be asked for: beyond `near` and inside the box.
+fn has_sample(ray: Ray, k: i32) -> bool {
+    return k >= i32(params.first_plane) && in_box(position(ray, k));
+}
+
+// The samples inside the box, as the closed range x..=y; none where x > y. Inside is decided on the position itself.
+fn samples_inside(ray: Ray) -> vec2<i32> {
+    var near = real(-4.0e6);
+    var far = real(4.0e6);
+    let low = box_low();
+    let high = box_high();
+    for (var axis = 0; axis < 3; axis++) {
+        let o = ray.origin[axis];
+        let d = ray.along[axis] * ray.depth_step;
+        if (abs(d) < 1.0e-20) {
+            if (o < low[axis] || o > high[axis]) {
+                return vec2(1, 0);
+            }
+            continue;
+        }
+        let a = (low[axis] - o) / d;
+        let b = (high[axis] - o) / d;
+        near = max(near, min(a, b));
+        far = min(far, max(a, b));
+    }
+    if (!(near <= far + 2.0)) {
+        return vec2(1, 0);
+    }
+    var first = max(i32(floor(near)) - 1, i32(params.first_plane));
+    var last = i32(ceil(far)) + 1;
+    while (first <= last && !in_box(position(ray, first))) {
+        first++;
+    }
+    while (last >= first && !in_box(position(ray, last))) {
+        last--;
+    }
+    return vec2(first, last);
+}

@@ -1,0 +1,129 @@
+//! Rays: their samples, what they show, and how pixels are made of them.
+
+use crate::field::Scales;
+use crate::number::{COLOR, ELEMENTARY};
+use crate::shader::{Constant, Data, Shader, module};
+use crate::{GpuError, Precision};
+use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::color::premultiply;
+use drypoint_scene::measured::Measured;
+use drypoint_scene::shot::{BlendSpace, Lattice, Shot, StepAlong};
+use drypoint_scene::space::Grid;
+use drypoint_scene::view::View;
+use drypoint_scene::volume::{BRICK, Bricks};
+
+/// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
+const MOST_PLANES: f64 = 4_000_000.0;
+
+/// Adds rays and their samples.
+pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
+    let Shot { view, lattice, .. } = shot;
+    let planes = lattice.planes(view, grid);
+    if planes > MOST_PLANES {
+        return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
+    }
+    shader.add(&[module!("lattice")]);
+    shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
+    shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
+    add_view(shader, view, lattice, grid);
+    Ok(())
+}
+
+/// The numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32 are
+/// of the volume's size.
+fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
+    let centre = view.to_eye(grid.centre());
+    let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
+    let anchor = (away / lattice.step).floor();
+    let steps = anchor + 0.5;
+    let first = match lattice.first(view) {
+        i64::MIN => -MOST_PLANES,
+        first => (first as f64 - anchor).clamp(-MOST_PLANES, MOST_PLANES),
+    };
+    let inverse = grid.inverse_axes();
+    let [low, high] = grid.index_box();
+    let block = &mut shader.block;
+    block.number("step", lattice.step);
+    block.number("anchor_steps", steps);
+    block.number("first_plane", first);
+    block.number("pixel", view.pixel);
+    block.vector("view_right", view.right);
+    block.vector("view_up", view.up);
+    block.vector("view_forward", view.forward);
+    block.vector("index_eye", grid.to_index(view.eye));
+    block.vector("index_forward", inverse * view.forward);
+    block.vector("pixel_right", inverse * view.right * view.pixel);
+    block.vector("pixel_up", inverse * view.up * view.pixel);
+    block.vector("anchor_middle", grid.to_index(view.eye + view.forward * (steps * lattice.step)));
+    block.vector("box_low", low);
+    block.vector("box_high", high);
+}
+
+/// Adds the loop over samples and what it calls.
+pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot) {
+    let [object] = &shot.objects;
+    shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast")]);
+    shader.block.number("reference_length", object.reference_length);
+    shader.block.number("stop_at", shot.stop_at);
+    match shot.blend_space {
+        BlendSpace::Linear => shader.add(&[module!("blend_linear")]),
+        BlendSpace::Srgb => shader.add(&[COLOR, module!("blend_srgb")]),
+    }
+}
+
+/// Adds the measures of gradients that samples are asked for.
+pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Scales) {
+    shader.add(&[module!("normal")]);
+    shader.stages.measured.push("measure_gradient");
+    if let Some([low, width]) = measured.gradient_range {
+        shader.add(&[module!("magnitude")]);
+        shader.block.number("gradient_low", scales.gradient(low));
+        shader.block.number("gradient_width", scales.gradient(width));
+        shader.stages.measured.push("measure_magnitude");
+    }
+}
+
+/// Adds the skipping of bricks that can show nothing.
+pub(crate) fn add_bricks(shader: &mut Shader, shot: &Shot, bricks: &Bricks, scales: &Scales, precision: Precision) {
+    /// Rounding of a value, as a share of the largest one.
+    const ROUNDING: [f64; 2] = [1.0 / (1u64 << 18) as f64, 1.0 / (1u64 << 44) as f64];
+    let [object] = &shot.objects;
+    let slack = ROUNDING[usize::from(precision == Precision::Double)]
+        * drypoint_scene::math::scale_by_power_of_two(1.0, scales.value);
+    let mut words = vec![0u32; bricks.ranges.len().div_ceil(32)];
+    for (i, &[lo, hi]) in bricks.ranges.iter().enumerate() {
+        if object.function.can_be_visible([lo - slack, hi + slack], None, |at| at) {
+            words[i / 32] |= 1 << (i % 32);
+        }
+    }
+    shader.add(&[module!("bricks")]);
+    shader.constant("BRICKS_X", Constant::Int(bricks.dims[0] as i64));
+    shader.constant("BRICKS_Y", Constant::Int(bricks.dims[1] as i64));
+    shader.constant("BRICK", Constant::Int(BRICK as i64));
+    shader.bind(5, "the visible bricks", Data::Words(words));
+    shader.stages.next_plane.push("skip_brick");
+}
+
+/// Adds pixels and what lies behind them.
+pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<'_>) {
+    let [width, height] = shot.view.size;
+    shader.add(&[module!("pixel")]);
+    shader.constant("WIDTH", Constant::Int(width as i64));
+    shader.constant("HEIGHT", Constant::Int(height as i64));
+    shader.constant("RAYS_ACROSS", Constant::Int(shot.rays_across as i64));
+    shader.block.number("first_row", 0.0);
+    shader.block.number("end_row", 0.0);
+    let color = match background {
+        Backdrop::None => [0.0; 4],
+        Backdrop::Color(color) => premultiply(color),
+        Backdrop::Pixels(pixels) => {
+            shader.add(&[module!("background_pixels")]);
+            let data = Data::Reals(pixels.iter().flatten().copied().collect());
+            return shader.bind(4, "the background", data);
+        }
+    };
+    shader.add(&[module!("background_color")]);
+    for (name, value) in ["r", "g", "b", "a"].into_iter().zip(color) {
+        shader.block.number(format!("background_{name}"), value);
+    }
+}

@@ -1,0 +1,11 @@
+// The gradient and the normal of a sample.
+
+fn measure_gradient(ray: Ray, sample: Sample, known: Attributes) -> Attributes {
+    var a = known;
+    a.gradient = gradient_at(sample.at);
+    a.has_normal = has_normal(a.gradient);
+    if (a.has_normal) {
+        a.normal = normal_of(a.gradient, ray.v);
+    }
+    return a;
+}

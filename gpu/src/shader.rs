@@ -1,0 +1,163 @@
+//! A shader put together from modules.
+
+use crate::Precision;
+use crate::block::Block;
+use std::fmt::Write;
+
+/// A WGSL file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Module {
+    /// Its path in the crate, without suffix.
+    pub(crate) name: &'static str,
+    pub(crate) text: &'static str,
+}
+
+/// The WGSL file beside a source file, by its path from the folder of that file.
+macro_rules! module {
+    ($name:literal) => {
+        $crate::shader::Module { name: $name, text: include_str!(concat!($name, ".wgsl")) }
+    };
+}
+pub(crate) use module;
+
+/// What a binding of group 1 reads.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Data {
+    /// The numbers that the volume's kernel weighs.
+    Numbers,
+    /// The volume's voxels.
+    Voxels,
+    /// The smoothed coefficients of the volume.
+    Smoothed,
+    /// Numbers.
+    Reals(Vec<f64>),
+    /// Whole numbers or bits.
+    Words(Vec<u32>),
+    /// Texels in f32.
+    Texels(Vec<[f32; 4]>),
+}
+
+/// Values of an `override` of the shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Constant {
+    Bool(bool),
+    Int(i64),
+}
+
+/// The functions that are called at each step, in their order. Each list is one function of the shader, with one line for each
+/// entry.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Stages {
+    /// When a pixel begins.
+    pub(crate) begin_pixel: Vec<&'static str>,
+    /// When a ray begins.
+    pub(crate) begin_ray: Vec<&'static str>,
+    /// From the run of samples in the box to those that are left.
+    pub(crate) samples_left: Vec<&'static str>,
+    /// From a sample to the next plane that can show something.
+    pub(crate) next_plane: Vec<&'static str>,
+    /// From the place of a value to that between nodes.
+    pub(crate) nodes: Vec<&'static str>,
+    /// Attributes of a visible sample.
+    pub(crate) measured: Vec<&'static str>,
+    /// The colour and opacity of a visible sample.
+    pub(crate) shown: Vec<&'static str>,
+    /// What layers take of a sample.
+    pub(crate) collect: Vec<&'static str>,
+    /// When a ray has ended.
+    pub(crate) end_ray: Vec<&'static str>,
+    /// Expressions for the channels of a pixel, in their order; `mean` is the beauty.
+    pub(crate) channels: Vec<String>,
+}
+
+/// A shader and what it reads.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Shader {
+    pub(crate) modules: Vec<Module>,
+    pub(crate) block: Block,
+    pub(crate) constants: Vec<(&'static str, Constant)>,
+    /// Bindings of group 1.
+    pub(crate) data: Vec<(u32, &'static str, Data)>,
+    pub(crate) stages: Stages,
+}
+
+impl Shader {
+    /// Adds modules that are not there yet.
+    pub(crate) fn add(&mut self, modules: &[Module]) {
+        for &module in modules {
+            if !self.modules.contains(&module) {
+                self.modules.push(module);
+            }
+        }
+    }
+
+    /// Adds a constant.
+    pub(crate) fn constant(&mut self, name: &'static str, value: Constant) {
+        self.constants.push((name, value));
+    }
+
+    /// Adds data that a module binds; `what` names them for a person.
+    pub(crate) fn bind(&mut self, binding: u32, what: &'static str, data: Data) {
+        self.data.push((binding, what, data));
+    }
+
+    /// The whole text.
+    pub(crate) fn text(&self, precision: Precision) -> String {
+        let number = match precision {
+            Precision::Single => crate::number::SINGLE,
+            Precision::Double => crate::number::DOUBLE,
+        };
+        let mut text = format!("// number/{}\n{}\n{}\n", number.name, number.text, self.block.wgsl());
+        for (name, value) in &self.constants {
+            let _ = match value {
+                Constant::Bool(value) => writeln!(text, "override {name}: bool = {value};"),
+                Constant::Int(value) => writeln!(text, "override {name}: i32 = {value};"),
+            };
+        }
+        for module in &self.modules {
+            let _ = write!(text, "\n{}", module.text);
+        }
+        text.push_str(&self.stages.wgsl());
+        text
+    }
+}
+
+impl Stages {
+    fn wgsl(&self) -> String {
+        let mut text = String::new();
+        let mut function = |head: &str, lines: &[String], result: Option<&str>| {
+            let _ = write!(text, "\nfn {head} {{\n");
+            for line in lines {
+                let _ = writeln!(text, "    {line}");
+            }
+            if let Some(result) = result {
+                let _ = writeln!(text, "    return {result};");
+            }
+            text.push_str("}\n");
+        };
+        let calls = |stages: &[&str], call: &dyn Fn(&str) -> String| stages.iter().map(|s| call(s)).collect::<Vec<_>>();
+        let with = |first: &str, lines: Vec<String>| [vec![first.to_owned()], lines].concat();
+        function("begin_pixel()", &calls(&self.begin_pixel, &|s| format!("{s}();")), None);
+        function("begin_ray(ray: Ray)", &calls(&self.begin_ray, &|s| format!("{s}(ray);")), None);
+        let lines = calls(&self.samples_left, &|s| format!("left = {s}(ray, left);"));
+        let lines = with("var left = run;", lines);
+        function("samples_left(ray: Ray, run: vec2<i32>) -> vec2<i32>", &lines, Some("left"));
+        let lines =
+            with("var next = sample.k;", calls(&self.next_plane, &|s| format!("next = max(next, {s}(ray, sample));")));
+        function("next_plane(ray: Ray, sample: Sample) -> i32", &lines, Some("next"));
+        let lines = with("var place = located;", calls(&self.nodes, &|s| format!("place = {s}(place);")));
+        function("node_place(located: NodePlace) -> NodePlace", &lines, Some("place"));
+        let lines = with("var a = Attributes();", calls(&self.measured, &|s| format!("a = {s}(ray, sample, a);")));
+        function("measured(ray: Ray, sample: Sample) -> Attributes", &lines, Some("a"));
+        let lines =
+            with("var shaded = Shaded();", calls(&self.shown, &|s| format!("shaded = {s}(ray, sample, a, shaded);")));
+        function("shown(ray: Ray, sample: Sample, a: Attributes) -> Shaded", &lines, Some("shaded"));
+        let lines = calls(&self.collect, &|s| format!("{s}(ray, sample, a, alpha);"));
+        function("collect(ray: Ray, sample: Sample, a: Attributes, alpha: real)", &lines, None);
+        function("end_ray(part: i32)", &calls(&self.end_ray, &|s| format!("{s}(part);")), None);
+        let lines: Vec<String> =
+            self.channels.iter().enumerate().map(|(i, c)| format!("picture[out + {i}] = {c};")).collect();
+        function("write_channels(out: i32, mean: vec4<real>)", &lines, None);
+        text
+    }
+}

@@ -1,0 +1,22 @@
+// Colours of nodes ([VAL-3]).
+
+struct NodeColor {
+    r: real,
+    g: real,
+    b: real,
+}
+
+@group(1) @binding(3) var<storage, read> colors: array<NodeColor>;
+
+fn color_of(node: i32) -> vec3<real> {
+    return vec3<real>(colors[node].r, colors[node].g, colors[node].b);
+}
+
+// The colour between nodes, linear and straight.
+fn node_color(ray: Ray, sample: Sample, a: Attributes, shaded: Shaded) -> Shaded {
+    let place = sample.place;
+    if (place.w == 0.0) {
+        return Shaded(color_of(place.node), place.alpha_u);
+    }
+    return Shaded(lerp3(color_of(place.node), color_of(place.node + 1), place.w), place.alpha_u);
+}

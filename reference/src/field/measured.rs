@@ -1,0 +1,37 @@
+//! The numbers of a field as another renderer reads them.
+
+use super::coefficients::Coefficients;
+use super::{Field, GradientEstimator, HessianEstimator, KernelData, Rung, Second};
+use crate::number::Real;
+use drypoint_scene::math;
+use drypoint_scene::measured::{Measured, PaddedNumbers};
+
+/// Voxels beyond the border that a cell's estimators read.
+const REACH: usize = 2;
+
+impl<R: Real> Field<'_, R> {
+    /// The numbers of the kernel and of the estimators, without ranges.
+    pub(crate) fn measured(&self, rung: Rung) -> Measured {
+        let slope = self.slope.to_f64();
+        let voxels = || Coefficients::<R>::of_voxels(&self.stencils, REACH).continued().padded(slope);
+        let (numbers, is_voxels): (PaddedNumbers, bool) = match &self.kernel {
+            KernelData::Bspline(c) | KernelData::Bspline5(c) => (c.padded(slope), false),
+            KernelData::Trilinear | KernelData::BsplineSmooth | KernelData::CatmullRom => (voxels(), true),
+        };
+        let of_gradient = rung >= Rung::Gradient && self.how.gradient != GradientEstimator::Analytic;
+        let of_hessian = rung >= Rung::Hessian && self.how.hessian == HessianEstimator::Central;
+        let back = |g: R| math::scale_by_power_of_two(g.to_f64(), self.exponent);
+        Measured {
+            numbers,
+            voxels: (!is_voxels && (of_gradient || of_hessian)).then(voxels),
+            smoothed: match &self.second {
+                Second::Gaussian(c) => Some(c.padded(slope)),
+                Second::NotPrepared | Second::Analytic | Second::Central => None,
+            },
+            base: self.to_value(self.stencils.lowest()).to_f64(),
+            gradient_range: None,
+            gradient_scale: back(self.no_normal_below) / R::NO_NORMAL.to_f64(),
+            bricks: None,
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! What only voxels can tell, measured once and handed to every renderer that did not measure it itself.
+
+use crate::volume::Bricks;
+
+/// Numbers on a volume's grid, x fastest, continued beyond each border.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaddedNumbers {
+    /// The numbers.
+    pub data: Vec<f64>,
+    /// Numbers along x, y and z, border included.
+    pub dims: [usize; 3],
+    /// Numbers before the first voxel of a line.
+    pub pad: usize,
+}
+
+impl PaddedNumbers {
+    /// The largest magnitude.
+    pub fn largest(&self) -> f64 {
+        self.data.iter().fold(0.0, |largest, c| largest.max(c.abs()))
+    }
+}
+
+/// The measured facts of a volume for one shot. Numbers are values minus [`base`](Self::base), so that a constant volume
+/// has numbers 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The numbers that the shot's kernel weighs: voxels, or the coefficients of a spline ([REC-1]).
+    pub numbers: PaddedNumbers,
+    /// The voxels, where an estimator reads them and they are not the numbers.
+    pub voxels: Option<PaddedNumbers>,
+    /// Coefficients of the smoothed spline that `gaussian` Hessians are of ([REC-3]).
+    pub smoothed: Option<PaddedNumbers>,
+    /// The value of number 0.
+    pub base: f64,
+    /// lo and hi − lo of ‖g‖, in values per world unit ([VAL-2]); none where nothing reads |g|.
+    pub gradient_range: Option<[f64; 2]>,
+    /// The gradient, in values per world unit, of which a small share is rounding ([PREC-3]): 2⁻²⁰ in f32, 2⁻⁴⁶ in f64.
+    pub gradient_scale: f64,
+    /// Ranges of values of bricks of cells; none where nothing is skipped ([RAY-2]).
+    pub bricks: Option<Bricks>,
+}

@@ -1,0 +1,21 @@
+//! The shaders against the reference ([GPU-1] … [GPU-4]). Without an adapter the tests say 'skipped: no adapter'; with
+//! DRYPOINT_REQUIRE_GPU=1 they fail.
+
+mod double;
+
+use drypoint::gpu::{Gpu, GpuError};
+
+/// The adapter, opened for one test; none if there is none.
+fn gpu() -> Option<Gpu> {
+    match Gpu::new() {
+        Ok(gpu) => Some(gpu),
+        Err(GpuError::NoAdapter) if std::env::var("DRYPOINT_REQUIRE_GPU").is_ok_and(|v| v == "1") => {
+            panic!("DRYPOINT_REQUIRE_GPU is 1, and there is no adapter")
+        }
+        Err(GpuError::NoAdapter) => {
+            println!("skipped: no adapter");
+            None
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
