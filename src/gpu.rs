@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::job::Job;
-pub use drypoint_gpu::{Gpu, GpuError, Precision};
+pub use drypoint_gpu::{Gpu, GpuError, Kernel, Precision};
 use drypoint_gpu::{Inputs, Renderer, Volume};
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::Picture;

@@ -10,11 +10,13 @@
 //! `real = f32` and, where the adapter has it, `real = f64`.
 
 mod block;
+mod buffers;
 mod compose;
 mod device;
 mod error;
 mod field;
 mod interactive_volume_illustration;
+mod kernel;
 mod number;
 mod ray;
 mod renderer;
@@ -26,5 +28,6 @@ mod volume;
 
 pub use device::{Gpu, Precision};
 pub use error::GpuError;
+pub use kernel::Kernel;
 pub use renderer::{Inputs, Renderer};
 pub use volume::Volume;

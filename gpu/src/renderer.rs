@@ -1,5 +1,6 @@
 //! Pictures of a shot, any number of them.
 
+use crate::buffers::{buffer, entry, list_entry, pipeline, read};
 use crate::shader::{Data, Shader};
 use crate::{Gpu, GpuError, Precision, Volume, compose};
 use drypoint_scene::backdrop::Backdrop;
@@ -7,7 +8,6 @@ use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::style::Style;
-use std::sync::mpsc;
 
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
@@ -68,23 +68,7 @@ impl<'g> Renderer<'g> {
         let text = edit(shader.text(precision));
         let (params_layout, data_layout) = (params_layout(gpu), data_layout(gpu, &shader));
         let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
-        let pipeline = gpu.attempt("the shader", || {
-            let source = wgpu::ShaderSource::Wgsl(text.into());
-            let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("draw"), source });
-            let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("draw"),
-                bind_group_layouts: &[Some(&params_layout), Some(&data_layout)],
-                immediate_size: 0,
-            });
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some("draw"),
-                layout: Some(&layout),
-                module: &module,
-                entry_point: Some("draw"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            })
-        })?;
+        let pipeline = pipeline(gpu, text, "draw", &[&params_layout, &data_layout])?;
         let params = buffer(
             gpu,
             "the parameters",
@@ -174,48 +158,6 @@ impl<'g> Renderer<'g> {
     }
 }
 
-/// Reads a buffer back.
-fn read(gpu: &Gpu, buffer: &wgpu::Buffer, bytes: u64) -> Result<Vec<u8>, GpuError> {
-    let slice = buffer.slice(..bytes);
-    let (send, receive) = mpsc::channel();
-    slice.map_async(wgpu::MapMode::Read, move |result| {
-        // The receiver is there until it has heard.
-        let _ = send.send(result);
-    });
-    gpu.wait()?;
-    match receive.try_recv() {
-        Ok(Ok(())) => {}
-        Ok(Err(error)) => return Err(gpu.lost_for(error.to_string())),
-        Err(error) => return Err(gpu.lost_for(error.to_string())),
-    }
-    let copy = slice.get_mapped_range().map(|range| range.to_vec()).map_err(|error| gpu.lost_for(error.to_string()));
-    buffer.unmap();
-    copy
-}
-
-/// A buffer with contents.
-fn buffer(gpu: &Gpu, what: &'static str, contents: &[u8], usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {
-    let most = u64::from(gpu.device.limits().max_storage_buffer_binding_size);
-    let bytes = (contents.len() as u64).max(16);
-    if bytes > most {
-        return Err(GpuError::TooManyBytes { what, bytes, most, adapter: gpu.name().to_owned() });
-    }
-    gpu.attempt(what, || {
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(what),
-            size: bytes.next_multiple_of(16),
-            usage: usage | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        gpu.queue.write_buffer(&buffer, 0, contents);
-        buffer
-    })
-}
-
-fn entry(binding: u32, buffer: &wgpu::Buffer) -> wgpu::BindGroupEntry<'_> {
-    wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() }
-}
-
 /// The layout of group 0: parameters and the picture.
 fn params_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -241,20 +183,6 @@ fn data_layout(gpu: &Gpu, shader: &Shader) -> wgpu::BindGroupLayout {
     };
     let entries: Vec<_> = shader.data.iter().map(entry).collect();
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("data"), entries: &entries })
-}
-
-/// A storage buffer of a layout.
-fn list_entry(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    }
 }
 
 /// Uploads what a shader reads.

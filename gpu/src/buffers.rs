@@ -1,0 +1,92 @@
+//! Buffers and pipelines of a device.
+
+use crate::{Gpu, GpuError};
+use std::sync::mpsc;
+
+/// A pipeline of a shader's entry point.
+pub(crate) fn pipeline(
+    gpu: &Gpu,
+    text: String,
+    entry_point: &'static str,
+    groups: &[&wgpu::BindGroupLayout],
+) -> Result<wgpu::ComputePipeline, GpuError> {
+    let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
+    gpu.attempt("the shader", || {
+        let source = wgpu::ShaderSource::Wgsl(text.into());
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(entry_point), source });
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(entry_point),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+        gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry_point),
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        })
+    })
+}
+
+/// Reads a buffer back.
+pub(crate) fn read(gpu: &Gpu, buffer: &wgpu::Buffer, bytes: u64) -> Result<Vec<u8>, GpuError> {
+    let slice = buffer.slice(..bytes);
+    let (send, receive) = mpsc::channel();
+    slice.map_async(wgpu::MapMode::Read, move |result| {
+        // The receiver is there until it has heard.
+        let _ = send.send(result);
+    });
+    gpu.wait()?;
+    match receive.try_recv() {
+        Ok(Ok(())) => {}
+        Ok(Err(error)) => return Err(gpu.lost_for(error.to_string())),
+        Err(error) => return Err(gpu.lost_for(error.to_string())),
+    }
+    let copy = slice.get_mapped_range().map(|range| range.to_vec()).map_err(|error| gpu.lost_for(error.to_string()));
+    buffer.unmap();
+    copy
+}
+
+/// A buffer with contents.
+pub(crate) fn buffer(
+    gpu: &Gpu,
+    what: &'static str,
+    contents: &[u8],
+    usage: wgpu::BufferUsages,
+) -> Result<wgpu::Buffer, GpuError> {
+    let most = u64::from(gpu.device.limits().max_storage_buffer_binding_size);
+    let bytes = (contents.len() as u64).max(16);
+    if bytes > most {
+        return Err(GpuError::TooManyBytes { what, bytes, most, adapter: gpu.name().to_owned() });
+    }
+    gpu.attempt(what, || {
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(what),
+            size: bytes.next_multiple_of(16),
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        gpu.queue.write_buffer(&buffer, 0, contents);
+        buffer
+    })
+}
+
+pub(crate) fn entry(binding: u32, buffer: &wgpu::Buffer) -> wgpu::BindGroupEntry<'_> {
+    wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() }
+}
+
+/// A storage buffer of a layout.
+pub(crate) fn list_entry(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    }
+}
