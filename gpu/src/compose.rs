@@ -1,9 +1,10 @@
 //! The shader of a shot: which modules it is put together from, and what they read.
 
+use crate::field::Scales;
 use crate::shader::{Constant, Shader};
-use crate::{GpuError, Inputs, Precision, field, ray, shading, transfer};
+use crate::{GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, transfer};
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Illumination, Lighting, Material, Shot};
+use drypoint_scene::shot::{Cap, Illumination, KappaSource, Lighting, Material, Shot};
 use drypoint_scene::transfer::Function;
 
 /// The share of a gradient that is rounding ([PREC-3]).
@@ -14,12 +15,17 @@ fn no_normal(precision: Precision) -> f64 {
     }
 }
 
-/// Puts the shader of a shot together.
-pub(crate) fn shader(shot: &Shot, inputs: &Inputs<'_>, precision: Precision) -> Result<Shader, GpuError> {
+/// Puts the shader of a shot together, for layers in their order.
+pub(crate) fn shader(
+    shot: &Shot,
+    layers: &[LayerKind],
+    inputs: &Inputs<'_>,
+    precision: Precision,
+) -> Result<(Shader, Scales), GpuError> {
     let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
     refuse(shot, inputs)?;
     let mut shader = Shader::default();
-    let scales = field::Scales::new(measured, grid);
+    let scales = Scales::new(measured, grid);
     // The field and its rays.
     field::add_kernel(&mut shader, object, measured, grid)?;
     ray::add_lattice(&mut shader, shot, grid)?;
@@ -29,32 +35,37 @@ pub(crate) fn shader(shot: &Shot, inputs: &Inputs<'_>, precision: Precision) -> 
     if let Some(bricks) = &measured.bricks {
         ray::add_bricks(&mut shader, shot, bricks, &scales, precision);
     }
-    if object.query.gradient {
+    let clips = !shot.clipping.planes.is_empty();
+    if clips {
+        ray::add_clip(&mut shader, &shot.clipping);
+    }
+    // Quantities of layers `first.*` are measured at every visible sample.
+    let query = object.first.map_or(object.query, |first| object.query.and(first));
+    if query.kappa != KappaSource::None || query.principal {
+        return Err(GpuError::Missing { what: "curvatures", key: "picture.layers" });
+    }
+    if query.gradient {
         field::add_gradient(&mut shader, object, measured, &scales, no_normal(precision))?;
         ray::add_gradient(&mut shader, measured, &scales);
     }
     match (&*object.function, &object.material) {
         (Function::Regular(nodes), Material::Regular(lit)) => {
             transfer::add_colors(&mut shader, &nodes.color);
-            add_light(&mut shader, lit)?;
+            add_light(&mut shader, lit);
         }
         (Function::Style { .. }, Material::Style(_)) => {
             return Err(GpuError::Missing { what: "styles", key: "transfer.nodes" });
         }
         _ => return Err(GpuError::Material),
     }
+    if clips {
+        ray::add_cuts(&mut shader);
+    }
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
-    for layer in &shot.layers {
-        match layer {
-            LayerKind::Beauty => {
-                shader.stages.channels.extend(["mean.r", "mean.g", "mean.b", "mean.a"].map(str::to_owned));
-            }
-            _ => return Err(GpuError::Missing { what: "layers beyond the beauty", key: "picture.layers" }),
-        }
-    }
+    ray::layers::add(&mut shader, layers)?;
     shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
-    Ok(shader)
+    Ok((shader, scales))
 }
 
 /// Refuses what no module draws.
@@ -62,20 +73,22 @@ fn refuse(shot: &Shot, inputs: &Inputs<'_>) -> Result<(), GpuError> {
     let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
     missing(!shot.halos.list.is_empty(), "halos", "halo")?;
     missing(shot.surface.is_some(), "iso-surfaces", "surface")?;
-    missing(!shot.clipping.planes.is_empty(), "clip planes", "clip")?;
-    missing(shot.refine_above.is_some(), "rays at edges", "picture.samples")?;
+    let has_style = shot.clipping.caps.iter().any(|cap| matches!(cap, Cap::Style(_)));
+    missing(has_style, "styles on cuts", "clip.style")?;
     missing(inputs.volume.mask().is_some(), "volumes with values that are not numbers", "volume")
 }
 
 /// Adds the light of a regular function.
-fn add_light(shader: &mut Shader, lit: &Illumination) -> Result<(), GpuError> {
+fn add_light(shader: &mut Shader, lit: &Illumination) {
     match &lit.lighting {
         Lighting::Flat => {}
         Lighting::Phong(phong) => shading::add(shader, phong),
-        Lighting::Toon(_) => return Err(GpuError::Missing { what: "toon shading", key: "shading.look" }),
+        Lighting::Toon(toon) => interactive_volume_illustration::add_toon(shader, toon),
     }
-    if !lit.is_plain() {
-        return Err(GpuError::Missing { what: "silhouettes", key: "shading.silhouette" });
+    if let Some(offset) = lit.silhouette {
+        interactive_volume_illustration::add_silhouette(shader, offset);
     }
-    Ok(())
+    if lit.view_opacity > 0.0 {
+        interactive_volume_illustration::add_view_opacity(shader, lit.view_opacity);
+    }
 }

@@ -38,17 +38,44 @@ nodes = [{ at = 100, color = "#804020", opacity = 0 }, { at = 128, color = "#ffc
          { at = 140, color = "#88ccff", opacity = 0.9 }]
 "##;
 
+/// The differences for variants of the torus: tables, and keys to replace.
+fn compare(variants: &[(&str, &str)]) {
+    for (name, more) in variants {
+        let Some([double, single]) = differences(&format!("{TORUS}{more}")) else { return };
+        println!("{name}: f64 {double:.1e}, f32 {single:.1e}");
+        assert!(double < 1e-9, "{name}: {double:e}");
+    }
+}
+
 #[test]
 fn regular() {
-    for (name, more) in [
+    compare(&[
         ("unshaded", ""),
         ("phong", "[shading]\n"),
         ("orthographic", "[shading]\n[camera]\nprojection = \"orthographic\"\n"),
         ("shells", "[shading]\n[sampling]\nstep_along = \"ray\"\n"),
         ("facing", "[shading]\n[sampling]\nnormal = \"facing\"\n"),
-    ] {
-        let Some(found) = differences(&format!("{TORUS}{more}")) else { return };
-        println!("{name}: {found:?}");
-        assert!(found[0] < 1e-9, "{name}: {found:?}");
-    }
+        ("broken shininess", "[shading]\nshininess = 7.3\n"),
+        ("coarse", "[shading]\n[sampling]\nstep = \"0.8 voxel\"\n"),
+    ]);
+}
+
+#[test]
+fn tones_and_silhouettes() {
+    compare(&[
+        ("toon", "[shading]\nmodel = \"toon\"\n"),
+        ("silhouettes", "[shading]\n[shading.silhouette]\n"),
+        ("view opacity", "[shading]\nview_opacity = 0.7\n"),
+    ]);
+}
+
+#[test]
+fn clip_planes() {
+    compare(&[
+        ("plane", "[shading]\n[[clip]]\npoint = [15, 15, 15]\nnormal = [0, -1, 0]\nspace = \"index\"\n"),
+        (
+            "box with a cap",
+            "[shading]\n[[clip]]\nbox = [[4, 20], [3, 17], [8, 30]]\nspace = \"index\"\ncap = \"#ff3010c0\"\n",
+        ),
+    ]);
 }

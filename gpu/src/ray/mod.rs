@@ -1,13 +1,16 @@
 //! Rays: their samples, what they show, and how pixels are made of them.
 
+pub(crate) mod layers;
+
 use crate::field::Scales;
-use crate::number::{COLOR, ELEMENTARY};
+use crate::number::{COLOR, ELEMENTARY, NUMBER};
 use crate::shader::{Constant, Data, Shader, module};
 use crate::{GpuError, Precision};
 use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::clip::ClipPlane;
 use drypoint_scene::color::premultiply;
 use drypoint_scene::measured::Measured;
-use drypoint_scene::shot::{BlendSpace, Lattice, Shot, StepAlong};
+use drypoint_scene::shot::{BlendSpace, Cap, Clipping, Lattice, Shot, StepAlong};
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{BRICK, Bricks};
@@ -83,6 +86,28 @@ pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Sc
     }
 }
 
+/// Adds clip planes, before what shades is added.
+pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping) {
+    let plane = |plane: &ClipPlane| {
+        let cap = match plane.cap.map(|cap| clipping.caps[cap]) {
+            Some(Cap::Color { rgb: [r, g, b], opacity }) => [1.0, r, g, b, opacity],
+            Some(Cap::Style(_)) | None => [0.0; 5],
+        };
+        let (n, world) = (plane.index_normal, plane.normal);
+        [[n.x, n.y, n.z, plane.index_offset, world.x, world.y].as_slice(), &[world.z], &cap].concat()
+    };
+    shader.add(&[module!("clip")]);
+    shader.constant("PLANES", Constant::Int(clipping.planes.0.len() as i64));
+    shader.bind(7, "the clip planes", Data::Reals(clipping.planes.0.iter().flat_map(plane).collect()));
+    shader.stages.samples_left.push("clip_run");
+}
+
+/// Adds what clip planes make of samples on cuts, after what measures and shades is added.
+pub(crate) fn add_cuts(shader: &mut Shader) {
+    shader.stages.measured.push("measure_cut");
+    shader.stages.shown.push("show_cap");
+}
+
 /// Adds the skipping of bricks that can show nothing.
 pub(crate) fn add_bricks(shader: &mut Shader, shot: &Shot, bricks: &Bricks, scales: &Scales, precision: Precision) {
     /// Rounding of a value, as a share of the largest one.
@@ -111,6 +136,10 @@ pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<
     shader.constant("WIDTH", Constant::Int(width as i64));
     shader.constant("HEIGHT", Constant::Int(height as i64));
     shader.constant("RAYS_ACROSS", Constant::Int(shot.rays_across as i64));
+    if let Some(contrast) = shot.refine_above {
+        shader.add(&[NUMBER, ELEMENTARY, COLOR, module!("refinement")]);
+        shader.block.number("contrast", contrast);
+    }
     shader.block.number("first_row", 0.0);
     shader.block.number("end_row", 0.0);
     let color = match background {
