@@ -1,10 +1,12 @@
 //! The shader of a shot: which modules it is put together from, and what they read.
 
+use crate::block::Block;
 use crate::field::Scales;
 use crate::shader::{Constant, Shader};
 use crate::{GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, transfer};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Cap, Illumination, KappaSource, Lighting, Material, Shot};
+use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
 /// The share of a gradient that is rounding ([PREC-3]).
@@ -66,6 +68,21 @@ pub(crate) fn shader(
     ray::layers::add(&mut shader, layers)?;
     shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
     Ok((shader, scales))
+}
+
+/// The numbers of a shader that depend on the camera.
+pub(crate) fn camera(shot: &Shot, grid: &Grid) -> Result<Block, GpuError> {
+    let [object] = &shot.objects;
+    let mut block = Block::default();
+    ray::add_view(&mut block, shot, grid)?;
+    if let Material::Regular(lit) = &object.material {
+        match &lit.lighting {
+            Lighting::Flat => {}
+            Lighting::Phong(phong) => block.vector("light", phong.light),
+            Lighting::Toon(toon) => block.vector("light", toon.light),
+        }
+    }
+    Ok(block)
 }
 
 /// Refuses what no module draws.

@@ -9,6 +9,7 @@ use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
+use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 
 /// Pixels along the side of a workgroup.
@@ -104,6 +105,15 @@ impl<'g> Renderer<'g> {
             size: shot.view.size,
             samples_a_row: shot.view.size[0] as f64 * rays * planes.max(1.0),
         })
+    }
+
+    /// Takes the camera and the lights of another shot for the frames that follow. The shots may differ in nothing else.
+    ///
+    /// # Errors
+    /// More sample planes than the shader counts.
+    pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
+        self.shader.block.update(&compose::camera(shot, grid)?);
+        Ok(())
     }
 
     /// Draws one frame. `progress` hears the share of the picture that is done.

@@ -2,6 +2,7 @@
 
 pub(crate) mod layers;
 
+use crate::block::Block;
 use crate::field::Scales;
 use crate::number::{COLOR, ELEMENTARY, NUMBER};
 use crate::shader::{Constant, Data, Shader, module};
@@ -10,9 +11,8 @@ use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::ClipPlane;
 use drypoint_scene::color::premultiply;
 use drypoint_scene::measured::Measured;
-use drypoint_scene::shot::{BlendSpace, Cap, Clipping, Lattice, Shot, StepAlong};
+use drypoint_scene::shot::{BlendSpace, Cap, Clipping, Shot, StepAlong};
 use drypoint_scene::space::Grid;
-use drypoint_scene::view::View;
 use drypoint_scene::volume::{BRICK, Bricks};
 
 /// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
@@ -21,20 +21,20 @@ const MOST_PLANES: f64 = 4_000_000.0;
 /// Adds rays and their samples.
 pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
     let Shot { view, lattice, .. } = shot;
+    shader.add(&[module!("lattice")]);
+    shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
+    shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
+    add_view(&mut shader.block, shot, grid)
+}
+
+/// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
+/// are of the volume's size.
+pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
+    let Shot { view, lattice, .. } = shot;
     let planes = lattice.planes(view, grid);
     if planes > MOST_PLANES {
         return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
     }
-    shader.add(&[module!("lattice")]);
-    shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
-    shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
-    add_view(shader, view, lattice, grid);
-    Ok(())
-}
-
-/// The numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32 are
-/// of the volume's size.
-fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     let centre = view.to_eye(grid.centre());
     let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
     let anchor = (away / lattice.step).floor();
@@ -45,7 +45,6 @@ fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     };
     let inverse = grid.inverse_axes();
     let [low, high] = grid.index_box();
-    let block = &mut shader.block;
     block.number("step", lattice.step);
     block.number("anchor_steps", steps);
     block.number("first_plane", first);
@@ -60,6 +59,7 @@ fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     block.vector("anchor_middle", grid.to_index(view.eye + view.forward * (steps * lattice.step)));
     block.vector("box_low", low);
     block.vector("box_high", high);
+    Ok(())
 }
 
 /// Adds the loop over samples and what it calls.
