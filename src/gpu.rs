@@ -45,6 +45,7 @@ impl<'a> GpuJob<'a> {
         let inputs = Inputs {
             volume: &self.job.volume,
             measured: &self.measured,
+            labels: self.job.labels.as_ref(),
             styles: &self.job.styles,
             background: self.job.backdrop(&self.shot),
         };

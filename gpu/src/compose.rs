@@ -1,9 +1,9 @@
 //! The shader of a shot: which modules it is put together from, and what they read.
 
 use crate::shader::{Constant, Shader};
-use crate::{GpuError, Inputs, Precision, field, ray, shading, transfer};
+use crate::{GpuError, Inputs, Precision, field, ray, shading, style_transfer_functions, transfer};
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Illumination, Lighting, Material, Shot};
+use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, Shot};
 use drypoint_scene::transfer::Function;
 
 /// The share of a gradient that is rounding ([PREC-3]).
@@ -24,7 +24,7 @@ pub(crate) fn shader(shot: &Shot, inputs: &Inputs<'_>, precision: Precision) -> 
     field::add_kernel(&mut shader, object, measured, grid)?;
     ray::add_lattice(&mut shader, shot, grid)?;
     // Samples.
-    transfer::add_nodes(&mut shader, &object.function, &scales)?;
+    transfer::add_nodes(&mut shader, &object.function, &scales, precision);
     ray::add_cast(&mut shader, shot);
     if let Some(bricks) = &measured.bricks {
         ray::add_bricks(&mut shader, shot, bricks, &scales, precision);
@@ -33,13 +33,25 @@ pub(crate) fn shader(shot: &Shot, inputs: &Inputs<'_>, precision: Precision) -> 
         field::add_gradient(&mut shader, object, measured, &scales, no_normal(precision))?;
         ray::add_gradient(&mut shader, measured, &scales);
     }
+    if object.query.kappa == KappaSource::AlongRay {
+        style_transfer_functions::add_curvature_along_ray(&mut shader, object.turn);
+    }
+    let rows = object.function.nodes().2;
+    if let Some(rows) = rows {
+        transfer::over::add(&mut shader, object, rows, inputs, &scales)?;
+    }
+    let between = |over_value, over_two| if rows.is_some() { over_two } else { over_value };
     match (&*object.function, &object.material) {
         (Function::Regular(nodes), Material::Regular(lit)) => {
-            transfer::add_colors(&mut shader, &nodes.color);
+            let between = between(transfer::COLORS_OVER_VALUE, transfer::over::COLORS);
+            transfer::add_colors(&mut shader, &nodes.color, between);
             add_light(&mut shader, lit)?;
         }
-        (Function::Style { .. }, Material::Style(_)) => {
-            return Err(GpuError::Missing { what: "styles", key: "transfer.nodes" });
+        (Function::Style { nodes, names }, Material::Style(params)) => {
+            let styles = inputs.styles.get(..names.len()).ok_or(GpuError::Material)?;
+            let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
+            let of_nodes = (nodes.color.as_slice(), styles);
+            style_transfer_functions::add(&mut shader, shot, params, of_nodes, grid.voxel(), between);
         }
         _ => return Err(GpuError::Material),
     }
@@ -63,6 +75,7 @@ fn refuse(shot: &Shot, inputs: &Inputs<'_>) -> Result<(), GpuError> {
     missing(!shot.halos.list.is_empty(), "halos", "halo")?;
     missing(shot.surface.is_some(), "iso-surfaces", "surface")?;
     missing(!shot.clipping.planes.is_empty(), "clip planes", "clip")?;
+    missing(shot.objects[0].query.hessian, "second derivatives", "sampling.hessian")?;
     missing(shot.refine_above.is_some(), "rays at edges", "picture.samples")?;
     missing(inputs.volume.mask().is_some(), "volumes with values that are not numbers", "volume")
 }

@@ -8,6 +8,7 @@ use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::style::Style;
+use drypoint_scene::volume::labels::LabelVolume;
 
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
@@ -22,6 +23,8 @@ pub struct Inputs<'a> {
     pub volume: &'a drypoint_scene::volume::Volume,
     /// The facts of the volume.
     pub measured: &'a Measured,
+    /// The labels beside the volume, where the function reads them ([STF-13]).
+    pub labels: Option<&'a LabelVolume>,
     /// The styles that the function names, then those of caps.
     pub styles: &'a [Style],
     /// The background.

@@ -3,6 +3,8 @@
 
 mod double;
 mod formulas;
+mod styles;
+mod two_quantities;
 
 use drypoint::gpu::{Gpu, GpuError};
 

@@ -2,7 +2,7 @@
 
 use crate::field::Scales;
 use crate::number::{COLOR, ELEMENTARY};
-use crate::shader::{Constant, Data, Shader, module};
+use crate::shader::{Constant, Data, Module, Shader, module};
 use crate::{GpuError, Precision};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::color::premultiply;
@@ -14,6 +14,9 @@ use drypoint_scene::volume::{BRICK, Bricks};
 
 /// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
 const MOST_PLANES: f64 = 4_000_000.0;
+
+/// N in eye space.
+pub(crate) const EYE_NORMAL: Module = module!("eye_normal");
 
 /// Adds rays and their samples.
 pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
