@@ -46,6 +46,7 @@ impl<'a> GpuJob<'a> {
             volume: &self.job.volume,
             measured: &self.measured,
             labels: self.job.labels.as_ref(),
+            further: self.job.further.each_ref().map(Option::as_ref),
             styles: &self.job.styles,
             background: self.job.backdrop(&self.shot),
         };

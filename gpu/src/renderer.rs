@@ -25,6 +25,8 @@ pub struct Inputs<'a> {
     pub measured: &'a Measured,
     /// The labels beside the volume, where the function reads them ([STF-13]).
     pub labels: Option<&'a LabelVolume>,
+    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
+    pub further: [Option<&'a drypoint_scene::volume::Volume>; 2],
     /// The styles that the function names, then those of caps.
     pub styles: &'a [Style],
     /// The background.

@@ -3,10 +3,6 @@
 use crate::space::Grid;
 use glam::{DMat3, DVec3};
 
-/// Largest difference, in voxels, of two grids that count as one. Headers keep places in single precision, and one
-/// has a matrix where another has a quaternion. A position may lie outside the box of another grid by as much.
-const SLACK: f64 = 1.0 / 1024.0;
-
 /// The affine map `other index = D_o⁻¹ (D · index + origin − origin_o)` and the boxes of both grids. Numbers are f64,
 /// so that results do not depend on the number type of the samples.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +16,10 @@ pub struct OtherGrid {
 }
 
 impl OtherGrid {
+    /// Largest difference, in voxels, of two grids that count as one. Headers keep places in single precision, and one
+    /// has a matrix where another has a quaternion. A position may lie outside the box of another grid by as much.
+    pub const SLACK: f64 = 1.0 / 1024.0;
+
     /// A map from positions on one grid to positions on another. Returns none if the grids are one, voxel on voxel.
     pub fn new(data: &Grid, other: &Grid) -> Option<Self> {
         let inverse = other.inverse_axes();
@@ -29,7 +29,7 @@ impl OtherGrid {
             offset: inverse * (data.origin() - other.origin()),
             data_box: data.index_box(),
             own_box,
-            reach: [own_box[0] - SLACK, own_box[1] + SLACK],
+            reach: [own_box[0] - Self::SLACK, own_box[1] + Self::SLACK],
         };
         (data.dims() != other.dims() || !map.is_identity()).then_some(map)
     }
@@ -72,7 +72,7 @@ impl OtherGrid {
 
     /// Whether the map moves no corner of the data's box, and so no position in it, by more than the slack.
     fn is_identity(&self) -> bool {
-        corners(self.data_box).all(|p| (self.apply(p) - p).abs().max_element() <= SLACK)
+        corners(self.data_box).all(|p| (self.apply(p) - p).abs().max_element() <= Self::SLACK)
     }
 
     /// Bounds of the other grid's positions of a part of the data's cells, with a margin for rounding.
@@ -84,7 +84,7 @@ impl OtherGrid {
         let hi = DVec3::select(flat, self.data_box[1], number(end));
         let places = corners([lo, hi]).map(|p| self.apply(p));
         let [lo, hi] = places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[lo, hi], p| [lo.min(p), hi.max(p)]);
-        [lo - SLACK, hi + SLACK]
+        [lo - Self::SLACK, hi + Self::SLACK]
     }
 }
 

@@ -145,3 +145,40 @@ fn labels_of_samples() {
         }
     }
 }
+
+#[test]
+fn distances_to_labels() {
+    let grid = Grid::with_spacing([32; 3], [1.0; 3]).unwrap();
+    let path = labels("distance", &grid, "uint8", 9);
+    let volume = format!("labels = {path:?}");
+    for (name, over, rows) in [
+        ("a label", "[\"value\", { distance_to_label = 9 }]", styles([0.3, 2.5, 4.0])),
+        ("two labels", "[{ distance_to_label = 2 }, { distance_to_label = 9 }]", LOW.into()),
+    ] {
+        check(name, &torus(&volume, &format!("over = {over}\n{rows}"), ""));
+    }
+}
+
+/// Rows of small numbers along both axes.
+const LOW: &str = "rows = [
+  { at = 0.5, nodes = [{ at = 0.2, style = \"wax\", opacity = 0.05 }, { at = 3, style = \"glass\", opacity = 0.4 }] },
+  { at = 2.5, nodes = [{ at = 1, style = \"bone\", opacity = 0.1 }] },
+]";
+
+#[test]
+fn further_volumes() {
+    let same = Grid::with_spacing([32; 3], [1.0; 3]).unwrap();
+    let turned = DMat3::from_rotation_x(0.4) * DMat3::from_diagonal(DVec3::new(1.7, 1.3, 1.9));
+    let other = Grid::new([12, 15, 11], turned, DVec3::new(5.3, 6.4, 2.1)).unwrap();
+    let flat =
+        Grid::new([40, 40, 1], DMat3::from_diagonal(DVec3::new(0.7, 0.7, 9.0)), DVec3::new(1.0, 2.0, 15.0)).unwrap();
+    for (name, grid) in [("same", &same), ("other", &other), ("flat", &flat)] {
+        let path = labels(&format!("further-{name}"), grid, "int16", 120);
+        let over = format!("over = [\"value\", {{ volume = {path:?} }}]");
+        check(name, &torus("", &format!("{over}\n{}", styles([1.5, 4.0, 60.0])), ""));
+    }
+    let paths = ["same", "other"]
+        .map(|name| labels(&format!("further-{name}"), if name == "same" { &same } else { &other }, "int16", 120));
+    let over = format!("over = [{{ volume = {:?} }}, {{ volume = {:?} }}]", paths[0], paths[1]);
+    check("two volumes", &torus("", &format!("{over}\n{LOW}"), ""));
+}

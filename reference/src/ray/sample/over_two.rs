@@ -58,6 +58,11 @@ impl<'v, R: Real> OverTwo<'v, R> {
         Ok(Self { plane, measures, first, rest })
     }
 
+    /// The numbers at voxels of each quantity that was measured there.
+    pub(crate) fn at_voxels(&self) -> [Option<Vec<f64>>; 2] {
+        self.measures.each_ref().map(|measure| measure.at_voxels())
+    }
+
     /// The place of a sample between the nodes; none where it is transparent.
     #[inline]
     pub(crate) fn locate(&self, here: &SampleQuantities<R>) -> Option<NodePatch<R>> {
