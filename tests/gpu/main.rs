@@ -3,6 +3,8 @@
 
 mod double;
 mod formulas;
+#[path = "sabotage/styles.rs"]
+mod sabotage_of_styles;
 mod styles;
 mod two_quantities;
 

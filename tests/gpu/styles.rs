@@ -18,20 +18,46 @@ const NODES: &str = r##"nodes = [{ at = 100, style = "wax", opacity = 0 }, { at 
          { at = 128, style = "metal", opacity = 0.8 }, { at = 140, style = "bone", opacity = 1 }]
 "##;
 
-/// Compares a scene of further tables and of keys of `[transfer]`.
+/// Waves that rays go in and out of, at all strengths of the gradient.
+const WAVES: &str = r##"
+drypoint = 1
+[volume]
+phantom = { name = "marschner-lobb", size = 24 }
+[picture]
+size = [48, 40]
+samples = 1
+"##;
+
+/// Their nodes: layers with gaps between them, whose borders are gradual or steps.
+const LAYERS: &str = r##"unit = "normalized"
+nodes = [{ at = 0.1, style = "wax", opacity = 0.02 }, { at = 0.3, style = "glass", opacity = 0 },
+         { at = 0.45, style = "glass", opacity = 0 }, { at = 0.45, style = "ink", opacity = 0.2 },
+         { at = 0.6, style = "metal", opacity = 0.05 }, { at = 0.6, style = "metal", opacity = 0 },
+         { at = 0.8, style = "wax", opacity = 0 }, { at = 0.9, style = "bone", opacity = 0.1 }]
+"##;
+
+/// A scene of further tables and of keys of `[transfer]`: a torus or waves.
+pub(crate) fn scene(waves: bool, transfer: &str, tables: &str) -> String {
+    let (volume, nodes) = if waves { (WAVES, LAYERS) } else { (TORUS, NODES) };
+    let nodes = if transfer.contains("nodes") { "" } else { nodes };
+    format!("{volume}[transfer]\n{transfer}\n{nodes}{tables}")
+}
+
+/// Compares scenes of a torus and of waves.
 fn check(scenes: &[(&str, &str, &str)]) {
     for (name, transfer, tables) in scenes {
-        let nodes = if transfer.contains("nodes") { "" } else { NODES };
-        let Some(found) = differences(&format!("{TORUS}[transfer]\n{transfer}\n{nodes}{tables}")) else { return };
-        println!("{name}: {found:?}");
-        assert!(found[0] < 1e-9, "{name}: {found:?}");
+        for (volume, waves) in [("torus", false), ("waves", true)] {
+            let Some(found) = differences(&scene(waves, transfer, tables)) else { return };
+            println!("{name}, {volume}: {found:?}");
+            assert!(found[0] < 1e-9, "{name}, {volume}: {found:?}");
+        }
     }
 }
 
 #[test]
 fn lookups_of_styles() {
     check(&[
-        ("styles", "", ""),
+        ("plain", "", ""),
         ("printed mix", "mix = \"printed\"", ""),
         ("frame of the view", "sphere_frame = \"view\"", ""),
         ("orthographic", "", "[camera]\nprojection = \"orthographic\"\n"),
@@ -61,6 +87,8 @@ fn contours() {
         ("facing", contours("[sampling]\nnormal = \"facing\"\n")),
         ("literal", contours("sign_flip = \"literal\"\n[sampling]\nnormal = \"facing\"\n")),
         ("shells", contours("[sampling]\nstep_along = \"ray\"\n")),
+        // Normals that are flipped towards the eye from one sample to the next.
+        ("wide steps", contours("[sampling]\nnormal = \"facing\"\nstep = \"2 voxels\"\n")),
     ];
     let scenes: Vec<(&str, &str, &str)> = all.iter().map(|(name, tables)| (*name, "", tables.as_str())).collect();
     check(&scenes);

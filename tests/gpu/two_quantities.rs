@@ -8,7 +8,7 @@ use std::fs;
 use std::path::PathBuf;
 
 /// A torus over two quantities, of colours or of styles.
-fn torus(volume: &str, transfer: &str, tables: &str) -> String {
+pub(crate) fn torus(volume: &str, transfer: &str, tables: &str) -> String {
     format!(
         "drypoint = 1
 [volume]
@@ -28,7 +28,7 @@ target = [15.6, 15.4, 15.3]
 }
 
 /// Rows of styles: two or three nodes over values, at three places of the second quantity.
-fn styles(places: [f64; 3]) -> String {
+pub(crate) fn styles(places: [f64; 3]) -> String {
     let [a, b, c] = places;
     format!(
         "rows = [
@@ -102,7 +102,7 @@ fn distances_to_points() {
 }
 
 /// Ids in blocks on a grid, as a file; ids up to `most`.
-fn labels(name: &str, grid: &Grid, voxel_type: &str, most: u32) -> PathBuf {
+pub(crate) fn labels(name: &str, grid: &Grid, voxel_type: &str, most: u32) -> PathBuf {
     let [nx, ny, nz] = grid.dims();
     let (axes, origin) = (grid.axes(), grid.origin());
     let vector = |v: DVec3| format!("({},{},{})", v.x, v.y, v.z);
@@ -124,6 +124,12 @@ fn labels(name: &str, grid: &Grid, voxel_type: &str, most: u32) -> PathBuf {
     path
 }
 
+/// Labels along rows of values; a row without a label, and labels without a row.
+pub(crate) const ALONG: &str = "rows = [
+  { at = 105, nodes = [{ at = 1, style = \"wax\", opacity = 0.05 }, { at = 5, style = \"glass\", opacity = 0.4 }] },
+  { at = 135, nodes = [{ at = 2, style = \"bone\", opacity = 0.3 }, { at = 5, style = \"ink\", opacity = 0.9 }] },
+]";
+
 #[test]
 fn labels_of_samples() {
     let same = Grid::with_spacing([32; 3], [1.0; 3]).unwrap();
@@ -143,6 +149,7 @@ fn labels_of_samples() {
             let transfer = format!("over = [\"value\", \"label\"]\n{rows}");
             check(&format!("{name}, {kind}"), &torus(&volume, &transfer, ""));
         }
+        check(&format!("{name}, along rows"), &torus(&volume, &format!("over = [\"label\", \"value\"]\n{ALONG}"), ""));
     }
 }
 
@@ -160,7 +167,7 @@ fn distances_to_labels() {
 }
 
 /// Rows of small numbers along both axes.
-const LOW: &str = "rows = [
+pub(crate) const LOW: &str = "rows = [
   { at = 0.5, nodes = [{ at = 0.2, style = \"wax\", opacity = 0.05 }, { at = 3, style = \"glass\", opacity = 0.4 }] },
   { at = 2.5, nodes = [{ at = 1, style = \"bone\", opacity = 0.1 }] },
 ]";
