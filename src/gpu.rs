@@ -49,6 +49,8 @@ impl<'a> GpuJob<'a> {
         let inputs = Inputs {
             volume: &self.job.volume,
             measured: &self.measured,
+            labels: self.job.labels.as_ref(),
+            further: self.job.further.each_ref().map(Option::as_ref),
             styles: &self.job.styles,
             background: self.job.backdrop(&self.shot),
         };

@@ -3,7 +3,10 @@
 use crate::block::Block;
 use crate::field::Scales;
 use crate::shader::{Constant, Shader};
-use crate::{GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, transfer};
+use crate::{
+    GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, style_transfer_functions,
+    transfer,
+};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Cap, Illumination, KappaSource, Lighting, Material, Shot};
 use drypoint_scene::space::Grid;
@@ -32,7 +35,7 @@ pub(crate) fn shader(
     field::add_kernel(&mut shader, object, measured, grid)?;
     ray::add_lattice(&mut shader, shot, grid)?;
     // Samples.
-    transfer::add_nodes(&mut shader, &object.function, &scales)?;
+    transfer::add_nodes(&mut shader, &object.function, &scales, precision);
     ray::add_cast(&mut shader, shot);
     if let Some(bricks) = &measured.bricks {
         ray::add_bricks(&mut shader, shot, bricks, &scales, precision);
@@ -43,20 +46,32 @@ pub(crate) fn shader(
     }
     // Quantities of layers `first.*` are measured at every visible sample.
     let query = object.first.map_or(object.query, |first| object.query.and(first));
-    if query.kappa != KappaSource::None || query.principal {
-        return Err(GpuError::Missing { what: "curvatures", key: "picture.layers" });
+    if query.hessian {
+        return Err(GpuError::Missing { what: "second derivatives", key: "sampling.hessian" });
     }
     if query.gradient {
         field::add_gradient(&mut shader, object, measured, &scales, no_normal(precision))?;
         ray::add_gradient(&mut shader, measured, &scales);
     }
+    if query.kappa == KappaSource::AlongRay {
+        style_transfer_functions::add_curvature_along_ray(&mut shader, object.turn);
+    }
+    let rows = object.function.nodes().2;
+    if let Some(rows) = rows {
+        transfer::over::add(&mut shader, object, rows, inputs, &scales)?;
+    }
+    let between = |over_value, over_two| if rows.is_some() { over_two } else { over_value };
     match (&*object.function, &object.material) {
         (Function::Regular(nodes), Material::Regular(lit)) => {
-            transfer::add_colors(&mut shader, &nodes.color);
+            let between = between(transfer::COLORS_OVER_VALUE, transfer::over::COLORS);
+            transfer::add_colors(&mut shader, &nodes.color, between);
             add_light(&mut shader, lit);
         }
-        (Function::Style { .. }, Material::Style(_)) => {
-            return Err(GpuError::Missing { what: "styles", key: "transfer.nodes" });
+        (Function::Style { nodes, names }, Material::Style(params)) => {
+            let styles = inputs.styles.get(..names.len()).ok_or(GpuError::Material)?;
+            let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
+            let of_nodes = (nodes.color.as_slice(), styles);
+            style_transfer_functions::add(&mut shader, shot, params, of_nodes, grid.voxel(), between);
         }
         _ => return Err(GpuError::Material),
     }

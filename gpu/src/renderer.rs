@@ -11,6 +11,7 @@ use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
+use drypoint_scene::volume::labels::LabelVolume;
 
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
@@ -28,6 +29,10 @@ pub struct Inputs<'a> {
     pub volume: &'a drypoint_scene::volume::Volume,
     /// The facts of the volume.
     pub measured: &'a Measured,
+    /// The labels beside the volume, where the function reads them ([STF-13]).
+    pub labels: Option<&'a LabelVolume>,
+    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
+    pub further: [Option<&'a drypoint_scene::volume::Volume>; 2],
     /// The styles that the function names, then those of caps.
     pub styles: &'a [Style],
     /// The background.

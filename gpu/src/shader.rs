@@ -58,8 +58,14 @@ pub(crate) struct Stages {
     pub(crate) next_plane: Vec<&'static str>,
     /// From the place of a value to that between nodes.
     pub(crate) nodes: Vec<&'static str>,
+    /// Attributes that decide whether a sample is visible.
+    pub(crate) measured_first: Vec<&'static str>,
+    /// Whether a sample with those attributes is visible.
+    pub(crate) is_seen: Vec<&'static str>,
     /// Attributes of a visible sample.
     pub(crate) measured: Vec<&'static str>,
+    /// Expressions for the coordinates of a function over two quantities: the first along a row, the second from row to row.
+    pub(crate) coordinates: Vec<String>,
     /// The colour and opacity of a visible sample.
     pub(crate) shown: Vec<&'static str>,
     /// What layers take of a sample.
@@ -147,8 +153,17 @@ impl Stages {
         function("next_plane(ray: Ray, sample: Sample) -> i32", &lines, Some("next"));
         let lines = with("var place = located;", calls(&self.nodes, &|s| format!("place = {s}(place);")));
         function("node_place(located: NodePlace) -> NodePlace", &lines, Some("place"));
-        let lines = with("var a = Attributes();", calls(&self.measured, &|s| format!("a = {s}(ray, sample, a);")));
-        function("measured(ray: Ray, sample: Sample) -> Attributes", &lines, Some("a"));
+        let lines =
+            with("var a = Attributes();", calls(&self.measured_first, &|s| format!("a = {s}(ray, sample, a);")));
+        function("measured_first(ray: Ray, sample: Sample) -> Attributes", &lines, Some("a"));
+        let lines = calls(&self.is_seen, &|s| format!("if (!{s}(ray, sample, a)) {{ return false; }}"));
+        function("is_seen(ray: Ray, sample: Sample, a: Attributes) -> bool", &lines, Some("true"));
+        let lines = with("var a = known;", calls(&self.measured, &|s| format!("a = {s}(ray, sample, a);")));
+        function("measured_rest(ray: Ray, sample: Sample, known: Attributes) -> Attributes", &lines, Some("a"));
+        for (name, expression) in ["across", "down"].into_iter().zip(&self.coordinates) {
+            let head = format!("{name}(ray: Ray, sample: Sample, a: Attributes) -> Coordinate");
+            function(&head, &[], Some(expression));
+        }
         let lines =
             with("var shaded = Shaded();", calls(&self.shown, &|s| format!("shaded = {s}(ray, sample, a, shaded);")));
         function("shown(ray: Ray, sample: Sample, a: Attributes) -> Shaded", &lines, Some("shaded"));

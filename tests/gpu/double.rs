@@ -6,7 +6,7 @@ use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
 
 /// The largest differences between the reference and shaders in f64 and in f32.
-fn differences(scene: &str) -> Option<[f64; 2]> {
+pub(crate) fn differences(scene: &str) -> Option<[f64; 2]> {
     let gpu = gpu()?;
     let scene = parse(scene, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
@@ -25,6 +25,23 @@ fn differences(scene: &str) -> Option<[f64; 2]> {
         }
         largest
     }))
+}
+
+/// The largest difference between the reference and shaders in f64 with a fault: a text in the place of another one.
+pub(crate) fn difference_with(scene: &str, (old, new): (&str, &str)) -> Option<f64> {
+    let gpu = gpu()?;
+    let scene = parse(scene, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
+    let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
+    let (truth, _) = job.renderer().unwrap_or_else(|failure| panic!("{failure}")).frame(&|_| ());
+    let drawn = GpuJob::new(&job, &gpu, Precision::Double).unwrap_or_else(|failure| panic!("{failure}"));
+    let edit = |text: String| {
+        assert_eq!(text.matches(old).count(), 1, "{old}");
+        text.replace(old, new)
+    };
+    let mut renderer = drawn.edited(&edit).unwrap_or_else(|failure| panic!("{failure}"));
+    let drawn = renderer.frame(&|_| ()).unwrap_or_else(|error| panic!("{error}"));
+    let pairs = truth.layers.iter().zip(&drawn.layers).flat_map(|(a, b)| a.channels.iter().zip(&b.channels));
+    Some(pairs.flat_map(|(a, b)| a.iter().zip(b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
 }
 
 const TORUS: &str = r##"

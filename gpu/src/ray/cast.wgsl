@@ -21,7 +21,11 @@ fn cast_ray(ray: Ray) -> Front {
         if (!(sample.place.alpha_u > 0.0)) {
             continue;
         }
-        let attributes = measured(ray, sample);
+        let first = measured_first(ray, sample);
+        if (!is_seen(ray, sample, first)) {
+            continue;
+        }
+        let attributes = measured_rest(ray, sample, first);
         let shaded = shown(ray, sample, attributes);
         let alpha = corrected(shaded.alpha, ratio);
         collect(ray, sample, attributes, alpha);

@@ -37,14 +37,6 @@ fn begin_sums(ray: Ray) {
     ray_sums.first.value = NOWHERE;
 }
 
-// The normal in eye space; a sample without one has v ([PREC-3]).
-fn eye_normal(ray: Ray, a: Attributes) -> vec3<real> {
-    if (!a.has_normal) {
-        return ray.v_eye;
-    }
-    return vec3<real>(dot(a.normal, view_right()), dot(a.normal, view_up()), -dot(a.normal, view_forward()));
-}
-
 fn collect_layers(ray: Ray, sample: Sample, a: Attributes, alpha: real) {
     if (!(alpha > 0.0)) {
         return;

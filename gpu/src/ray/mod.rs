@@ -5,7 +5,7 @@ pub(crate) mod layers;
 use crate::block::Block;
 use crate::field::Scales;
 use crate::number::{COLOR, ELEMENTARY, NUMBER};
-use crate::shader::{Constant, Data, Shader, module};
+use crate::shader::{Constant, Data, Module, Shader, module};
 use crate::{GpuError, Precision};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::ClipPlane;
@@ -17,6 +17,9 @@ use drypoint_scene::volume::{BRICK, Bricks};
 
 /// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
 const MOST_PLANES: f64 = 4_000_000.0;
+
+/// N in eye space.
+pub(crate) const EYE_NORMAL: Module = module!("eye_normal");
 
 /// Adds rays and their samples.
 pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
