@@ -80,7 +80,8 @@ impl<R: Real> IndexRay<R> {
     /// The index position of sample k.
     #[inline(always)]
     pub fn position(&self, k: i64) -> Vec3<R> {
-        self.origin + self.along * self.depth(k)
+        let (o, a, t) = (self.origin, self.along, self.depth(k));
+        Vec3::new(R::on_ray(o.x, a.x, t), R::on_ray(o.y, a.y, t), R::on_ray(o.z, a.z, t))
     }
 
     /// The samples inside the closed box [lo, hi] of index space and beyond `near`, as the closed range first..=last;
