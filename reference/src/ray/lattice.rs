@@ -174,7 +174,7 @@ impl<R: Real> IndexRay<R> {
     }
 
     /// Eye depths at which the ray enters and leaves a box, widened by the rounding of positions.
-    fn depths(&self, lo: Vec3<R>, hi: Vec3<R>) -> Option<[f64; 2]> {
+    pub(super) fn depths(&self, lo: Vec3<R>, hi: Vec3<R>) -> Option<[f64; 2]> {
         let [o, d] = self.line();
         let (lo, hi) = (lo.to_glam(), hi.to_glam());
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
