@@ -353,7 +353,12 @@ impl Real for Bounded {
         v.map(Self::from_voxel)
     }
 
+    /// Of a number that is not known to half of 1 the fraction can be anything.
     fn split(self) -> (usize, Self) {
+        if self.error >= 0.5 {
+            let i = self.value as u32;
+            return (i as usize, Self::new(self.value - f64::from(i), f64::INFINITY));
+        }
         let i = self.to_index();
         (i, self - Self::from_index(i))
     }
@@ -367,6 +372,11 @@ impl Real for Bounded {
         }
         let before = i > 0 && ways::order(&self, &whole(i)) == Some(Ordering::Less);
         i as usize - usize::from(before)
+    }
+
+    /// None: a part that is not known has no neighbours that are tried instead.
+    fn proposed_index(self) -> Option<usize> {
+        None
     }
 
     fn from_index(i: usize) -> Self {
@@ -456,3 +466,6 @@ impl Mul<Bounded> for BoundedRow {
         Self(self.0.map(|a| a * b))
     }
 }
+
+#[cfg(test)]
+mod tests;

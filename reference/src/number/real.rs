@@ -61,6 +61,11 @@ pub trait Real:
     /// ⌊x⌋ for 0 ≤ x < 2³² by truncation. Slower than [`split`](Self::split) by itself, sooner done where much waits for
     /// it.
     fn to_index(self) -> usize;
+    /// ⌊x⌋ as a proposal, where a search has the last word; none where a search has to do without.
+    #[inline(always)]
+    fn proposed_index(self) -> Option<usize> {
+        Some(self.to_index())
+    }
     /// The number i, up to 2³² (f32: 2²⁴).
     fn from_index(i: usize) -> Self;
     /// The next larger number.

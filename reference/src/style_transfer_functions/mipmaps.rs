@@ -105,7 +105,7 @@ impl<R: Real> MipMap<R> {
             return first;
         }
         // λ is at most that of the last level, so above a level that it has passed there is another.
-        let (to, upper) = &self.levels[above];
+        let Some((to, upper)) = self.levels.get(above) else { return first };
         mix(first, upper.sample(nx, ny), (lambda - from) / (*to - from))
     }
 

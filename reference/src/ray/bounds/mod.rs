@@ -24,6 +24,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
+use drypoint_scene::volume::Volume;
 use rayon::prelude::*;
 
 /// A picture with bounds.
@@ -65,7 +66,9 @@ impl Renderer<'_> {
     /// no bounds.
     pub fn bounds(shot: &Shot, inputs: Inputs<'_>, origin: RayOrigin) -> Result<Bounds, BoundsError> {
         let mut prepared: Prepared<'_, Bounded> = prepare(shot, &inputs, &mut Counts::default())?;
+        let is_elsewhere = |further: &&Volume| further.grid() != inputs.volume.grid();
         let unknown = [
+            (inputs.further.iter().flatten().any(is_elsewhere), "a further volume on another grid"),
             (prepared.halos.is_some(), "halos"),
             (prepared.refine_above.is_some(), "rays that are added at edges"),
             (prepared.object.table.is_some(), "a transfer function that is read from a table"),
