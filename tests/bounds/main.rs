@@ -14,3 +14,4 @@ mod generator;
 mod over_two;
 
 mod random;
+mod scenes;

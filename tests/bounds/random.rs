@@ -14,7 +14,9 @@ fn bounded(seed: u64) -> Stage {
         if s.picture.samples == RaysPerPixel::Auto {
             s.picture.samples = RaysPerPixel::Across(2);
         }
-        s.surface = None;
+        if !s.clips.is_empty() || s.sampling.kernel != Kernel::Trilinear {
+            s.surface = None;
+        }
         s.halos.clear();
         if let Some(transfer) = &mut s.transfer {
             transfer.table = Table::Exact;

@@ -205,5 +205,5 @@ fn grants_by_hand() {
     close(Bounded::new(0.0, unit * unit).sqrt(), 1.0);
     // A clamp that holds for sure is exact.
     assert_eq!(Bounded::new(1.5, 0.1).clamp_01().error(), 0.0);
-    assert_eq!(Bounded::new(0.95, 0.1).clamp_01().error(), 0.1);
+    assert_eq!(Bounded::new(0.875, 0.25).clamp_01().error(), 0.25);
 }

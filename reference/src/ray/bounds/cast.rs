@@ -1,6 +1,7 @@
 //! One ray of a picture with its bound.
 
 use super::positions::{Answer, RayOrigin};
+use super::surface::{BoundedHit, Met, SurfaceErrors, at_depth};
 use crate::accumulator::Accumulator;
 use crate::field::Sampler;
 use crate::number::ways::{self, Ways};
@@ -33,6 +34,7 @@ pub(super) fn trace<S: Sampler<Bounded>>(
     sampler: &S,
     [i, j]: [f64; 2],
     (origin, middle): (RayOrigin, f64),
+    surface: Option<&SurfaceErrors>,
 ) -> Traced {
     let (view, object) = (&prepared.view, &prepared.object);
     let pixel = view.ray(i, j);
@@ -48,7 +50,13 @@ pub(super) fn trace<S: Sampler<Bounded>>(
         steps,
         traced: Traced { front: Accumulator::empty(Bounded::ZERO), undecided: None },
     };
-    tracer.samples();
+    let hit = surface.and_then(|errors| tracer.hit(errors));
+    let is_alone = prepared.surface.as_ref().is_some_and(|surface| surface.alone);
+    if (is_alone || tracer.samples(hit))
+        && let Some(hit) = hit
+    {
+        tracer.surface(hit);
+    }
     tracer.traced
 }
 
@@ -62,11 +70,27 @@ struct Tracer<'p, 'v, S> {
 }
 
 impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
-    /// Visits all samples that an f32 renderer may visit.
-    fn samples(&mut self) {
+    /// The place at which the ray ends on the iso-surface; none: nowhere.
+    fn hit(&mut self, errors: &SurfaceErrors) -> Option<BoundedHit> {
+        let (object, ray) = (&self.prepared.object, &self.evaluator.ray);
+        match errors.first(self.prepared, (self.evaluator.sampler, &object.field), ray, ray.errors()) {
+            Met::Nowhere => None,
+            Met::At(hit) => Some(hit),
+            Met::Open(t) => {
+                self.mark(Decision::Surface);
+                t.map(|t| BoundedHit { t, error: 0.0 })
+            }
+        }
+    }
+
+    /// Visits all samples that an f32 renderer may visit, up to the iso-surface. Returns whether the ray is still open.
+    fn samples(&mut self, hit: Option<BoundedHit>) -> bool {
         let (object, ray) = (&self.prepared.object, self.evaluator.ray);
         let [first, last] = ray.candidates(object.ends);
         let [from, to] = ray.left_by(&object.clip.planes, object.ends, ray.inside(object.ends));
+        // The sample that stands for the way up to the surface, and the next one, which may in f32.
+        let last_of_all = hit.map_or(i64::MAX - 1, |hit| ray.last_before(hit.t));
+        let [last, to] = [last.min(last_of_all + 1), to.min(last_of_all)];
         // Whether the sample before hangs on a clip plane: then this one may be the first behind the cut.
         let mut after_cut = false;
         for k in first..=last {
@@ -76,8 +100,13 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
             if inside == Answer::No || cut == Answer::Yes {
                 continue;
             }
-            let Some(shown) = self.shown(k, self.steps) else { continue };
+            let steps = hit.filter(|_| k == last_of_all).map_or(self.steps, |hit| self.share(k, hit));
+            let Some(shown) = self.shown(k, steps) else { continue };
             let is_visible = self.shows(shown.alpha.ends()[1]);
+            let (depth, slack) = (ray.depth(k), hit.map_or(0.0, |hit| hit.error + ray.depth(k).error()));
+            if hit.is_some_and(|hit| (depth.value() - hit.t).abs() <= slack) && is_visible {
+                self.mark(Decision::Surface);
+            }
             if inside == Answer::Open && is_visible {
                 self.mark(Decision::Inside);
             }
@@ -89,9 +118,43 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
             }
             self.traced.front.over(shown.rgb, shown.alpha);
             if !self.is_open() {
-                break;
+                return false;
             }
         }
+        true
+    }
+
+    /// Δ/Δ₀ of the last sample before the surface, which stands for the way from where its own share begins to there.
+    fn share(&self, k: i64, hit: BoundedHit) -> Bounded {
+        let (ray, reference) = (&self.evaluator.ray, self.prepared.object.reference_length);
+        let step = ray.depth_step.value();
+        let share = hit.t / step - k as f64;
+        // The quotient in f32 is that of numbers of the depth's size.
+        let error = hit.error / step + 4.0 * f64::from(f32::EPSILON) * (hit.t / step).abs();
+        Bounded::new(share * ray.step / reference, error * ray.step / reference)
+    }
+
+    /// Lays the iso-surface behind the samples.
+    fn surface(&mut self, hit: BoundedHit) {
+        let Some(surface) = &self.prepared.surface else { return };
+        let (ray, v) = (self.evaluator.ray, self.evaluator.dirs.v);
+        let position = at_depth(self.evaluator.inside(hit.t), &ray, ray.errors(), hit.error);
+        let sampler = self.evaluator.sampler;
+        let shown = self.merged(|tracer| {
+            let g = surface.query.gradient.then(|| sampler.gradient(position));
+            let normal = g.and_then(|g| tracer.prepared.object.normal(g, v));
+            let rgb = surface.lit.color(surface.rgb, normal, [v, surface.lit.half_vector(v)]);
+            Some(Shown { rgb: tracer.in_blend_space(rgb), alpha: Bounded::ONE })
+        });
+        if let Some(shown) = shown {
+            self.traced.front.end(shown.rgb);
+        }
+    }
+
+    /// A linear colour as it is composited ([VAL-3]).
+    fn in_blend_space(&self, rgb: [Bounded; 3]) -> [Bounded; 3] {
+        let encoded = |c| Bounded::monotone([c], |[c]| color::linear_to_srgb(c));
+        if self.prepared.encode { rgb.map(encoded) } else { rgb }
     }
 
     /// Whether the ray goes on. Where it ends opaque, samples behind change no value, but A need not be 1 in f32.
@@ -109,7 +172,12 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
 
     /// A sample on all ways that are open to it, so many reference lengths long; none where it is clear on all.
     fn shown(&mut self, k: i64, steps: Bounded) -> Option<Shown> {
-        let Ways { by_value, others, too_many } = ways::follow(|| self.shaded(k, steps));
+        self.merged(|tracer| tracer.shaded(k, steps))
+    }
+
+    /// What is shown on all ways. Decisions at which they part are marked.
+    fn merged(&mut self, mut shown: impl FnMut(&mut Self) -> Option<Shown>) -> Option<Shown> {
+        let Ways { by_value, others, too_many } = ways::follow(|| shown(self));
         if too_many {
             self.mark(Decision::Many);
         }
@@ -138,11 +206,7 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
             Some(over_two) => self.evaluator.shaded_over_two(over_two, sample, counts)?,
             None => self.evaluator.shaded::<need::Anything>(sample, &place, counts),
         };
-        let rgb = match self.prepared.encode {
-            true => rgb.map(|c| Bounded::monotone([c], |[c]| color::linear_to_srgb(c))),
-            false => rgb,
-        };
-        Some(Shown { rgb, alpha: Bounded::monotone([alpha, steps], |[alpha, steps]| correct(alpha, steps)) })
+        Some(Shown { rgb: self.in_blend_space(rgb), alpha: Bounded::monotone([alpha, steps], |[alpha, steps]| correct(alpha, steps)) })
     }
 
     /// Whether two ways part: the formula jumps between them, by more than the bound that the ray has anyway.

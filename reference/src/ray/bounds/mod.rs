@@ -1,11 +1,11 @@
 //! Bounds of the errors of an f32 renderer, pixel by pixel ([GPU-2]).
 //!
 //! The picture is computed as ever, to the same bits, but on numbers that know their errors ([`Bounded`]). Where a
-//! [`Decision`] is open and shows, the pixel is undecided: its bound covers both outcomes of each sample, and a jump shows as a large
-//! one.
+//! [`Decision`] is open and shows, the pixel is undecided, and no renderer is held to its bound there.
 
 mod cast;
 mod positions;
+mod surface;
 
 pub use positions::RayOrigin;
 
@@ -15,7 +15,7 @@ use super::prepare::prepare;
 use super::prepared::Prepared;
 use super::render::Renderer;
 use crate::accumulator::Accumulator;
-use crate::field::Sampler;
+use crate::field::{Kernel, Sampler};
 use crate::number::{Bounded, Decision, Real};
 use crate::with_sampler;
 use cast::Traced;
@@ -25,6 +25,7 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::volume::Volume;
+use surface::SurfaceErrors;
 use rayon::prelude::*;
 
 /// A picture with bounds.
@@ -67,12 +68,14 @@ impl Renderer<'_> {
     pub fn bounds(shot: &Shot, inputs: Inputs<'_>, origin: RayOrigin) -> Result<Bounds, BoundsError> {
         let mut prepared: Prepared<'_, Bounded> = prepare(shot, &inputs, &mut Counts::default())?;
         let is_elsewhere = |further: &&Volume| further.grid() != inputs.volume.grid();
+        let (has_surface, kernel) = (prepared.surface.is_some(), prepared.object.field.reconstruction().kernel);
         let unknown = [
             (inputs.further.iter().flatten().any(is_elsewhere), "a further volume on another grid"),
             (prepared.halos.is_some(), "halos"),
             (prepared.refine_above.is_some(), "rays that are added at edges"),
             (prepared.object.table.is_some(), "a transfer function that is read from a table"),
-            (prepared.surface.is_some(), "an iso-surface"),
+            (has_surface && !prepared.object.clip.planes.is_empty(), "an iso-surface under clip planes"),
+            (has_surface && kernel != Kernel::Trilinear, "an iso-surface of a kernel other than trilinear"),
             (prepared.layers != [LayerKind::Beauty], "layers beyond the beauty"),
         ];
         if let Some((_, what)) = unknown.into_iter().find(|(is_there, _)| *is_there) {
@@ -95,10 +98,12 @@ fn draw<S: Sampler<Bounded>>(
     let grid = inputs.volume.grid();
     let centre = grid.to_world(DVec3::from_array(grid.dims().map(|n| (n - 1) as f64 * 0.5)));
     let middle = (centre - prepared.view.eye).dot(prepared.view.forward);
+    let surface = prepared.surface.as_ref();
+    let surface = surface.map(|surface| SurfaceErrors::new(&prepared.object.field, surface.roots.iso()));
     let behind = behind(inputs.background, width);
     let pixel = |at: usize| {
         let at = [at % width, at / width];
-        draw_pixel(prepared, sampler, at, behind(at), (origin, middle))
+        draw_pixel(prepared, sampler, (at, behind(at)), (origin, middle), surface.as_ref())
     };
     let pixels: Vec<BoundedPixel> = (0..width * height).into_par_iter().map(pixel).collect();
     let picture = |number: fn(Bounded) -> f64| {
@@ -116,9 +121,9 @@ fn draw<S: Sampler<Bounded>>(
 fn draw_pixel<S: Sampler<Bounded>>(
     prepared: &Prepared<'_, Bounded>,
     sampler: &S,
-    [i, j]: [usize; 2],
-    behind: Rgba,
+    ([i, j], behind): ([usize; 2], Rgba),
     origin: (RayOrigin, f64),
+    surface: Option<&SurfaceErrors>,
 ) -> BoundedPixel {
     let n = prepared.rays_across;
     let mut sum = [Bounded::ZERO; 4];
@@ -126,7 +131,7 @@ fn draw_pixel<S: Sampler<Bounded>>(
     for part in 0..n * n {
         let centre = |pixel: usize, part: usize| pixel as f64 + (part as f64 + 0.5) / n as f64;
         let Traced { front, undecided: of_ray } =
-            cast::trace(prepared, sampler, [centre(i, part % n), centre(j, part / n)], origin);
+            cast::trace(prepared, sampler, [centre(i, part % n), centre(j, part / n)], origin, surface);
         undecided = undecided.or(of_ray);
         for (sum, c) in sum.iter_mut().zip(over(front, behind, prepared.encode)) {
             *sum += c;

@@ -51,6 +51,11 @@ impl IndexRay<Bounded> {
         self
     }
 
+    /// The errors of positions, along each axis.
+    pub(super) fn errors(&self) -> [f64; 3] {
+        [self.origin.x, self.origin.y, self.origin.z].map(Bounded::error)
+    }
+
     /// Eye depths at which the ray is in the box or next to it.
     fn near_box(&self, [lo, hi]: [Vec3<Bounded>; 2]) -> Option<[f64; 2]> {
         let moved = |v: Vec3<Bounded>, by: f64| Vec3::from_glam(v.to_glam() + by);
