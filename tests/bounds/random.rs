@@ -4,7 +4,9 @@ use super::generator::scene;
 use crate::common::{Shown, Stage};
 use drypoint::reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
 use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{GradientEstimator, GradientRange, HessianEstimator, Kernel, Number, RaysPerPixel, Table};
+use drypoint::scene::tables::{
+    GradientEstimator, GradientRange, HessianEstimator, Kernel, Number, RaysPerPixel, Table,
+};
 
 /// A random scene without what has no bounds.
 fn bounded(seed: u64) -> Stage {

@@ -47,7 +47,8 @@ fn contours(kappa: Kappa) -> Contours {
 /// Rows over the magnitude of the gradient.
 fn over_two() -> Stage {
     let row = |at: f64, opacity: f64| {
-        let node = |&(at, color, o): &(f64, [f64; 3], f64)| Node { at, color: NodeColor::Color(color), opacity: o * opacity };
+        let node =
+            |&(at, color, o): &(f64, [f64; 3], f64)| Node { at, color: NodeColor::Color(color), opacity: o * opacity };
         Row { at: RowAt::Number(at), nodes: NODES.iter().map(node).collect() }
     };
     regular().with_transfer(|t| {
@@ -118,11 +119,7 @@ fn compared(name: &str, stage: &Stage) -> (f64, f64, f64) {
         }
     }
     let share = reasons.values().sum::<usize>() as f64 / bounds.undecided.len() as f64;
-    println!(
-        "{name:<24} {bound:9.2e} {measured:9.2e} {:7.1} {:6.2} % {reasons:?}",
-        bound / measured,
-        100.0 * share
-    );
+    println!("{name:<24} {bound:9.2e} {measured:9.2e} {:7.1} {:6.2} % {reasons:?}", bound / measured, 100.0 * share);
     (bound, measured, share)
 }
 

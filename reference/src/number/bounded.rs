@@ -20,13 +20,14 @@
 //!
 //! Comparisons that the errors leave open are followed both ways: see [`ways`](super::ways).
 
-use super::real::{Real, RowOfFour};
-use super::ways;
-use super::{Arithmetic, Decision, Elementary, Vec3};
+mod operators;
+mod row;
+
+use super::{Arithmetic, Decision, Elementary, Real, Vec3, ways};
 use drypoint_scene::volume::Voxel;
 use fearless_simd::Simd;
+use row::BoundedRow;
 use std::cmp::Ordering;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A unit in the last place of f32, relative to the number: 2⁻²³. A little more covers the roundings of f64.
 const ULP: f64 = (1.0 + 1.0 / (1u64 << 24) as f64) / (1u64 << 23) as f64;
@@ -116,89 +117,9 @@ impl Bounded {
     }
 }
 
-impl Add for Bounded {
-    type Output = Self;
-
-    fn add(self, b: Self) -> Self {
-        Self::rounded(self.value + b.value, self.error + b.error)
-    }
-}
-
-impl Sub for Bounded {
-    type Output = Self;
-
-    fn sub(self, b: Self) -> Self {
-        Self::rounded(self.value - b.value, self.error + b.error)
-    }
-}
-
-impl Mul for Bounded {
-    type Output = Self;
-
-    fn mul(self, b: Self) -> Self {
-        let propagated = of(self.value.abs(), b.error) + of(b.value.abs(), self.error) + of(self.error, b.error);
-        Self::rounded(self.value * b.value, propagated)
-    }
-}
-
-impl Div for Bounded {
-    type Output = Self;
-
-    fn div(self, b: Self) -> Self {
-        let (value, least) = (self.value / b.value, b.value.abs() - b.error);
-        let propagated = match self.error + of(value.abs(), b.error) {
-            0.0 => 0.0,
-            _ if least <= 0.0 => f64::INFINITY,
-            errors => errors / least,
-        };
-        Self::granted(value, propagated, DIVIDED)
-    }
-}
-
 /// A factor times an error: 0 where either is, also beside an infinite one.
 fn of(factor: f64, error: f64) -> f64 {
     if factor == 0.0 || error == 0.0 { 0.0 } else { factor * error }
-}
-
-impl Neg for Bounded {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self { value: -self.value, ..self }
-    }
-}
-
-impl AddAssign for Bounded {
-    fn add_assign(&mut self, b: Self) {
-        *self = *self + b;
-    }
-}
-
-impl SubAssign for Bounded {
-    fn sub_assign(&mut self, b: Self) {
-        *self = *self - b;
-    }
-}
-
-impl MulAssign for Bounded {
-    fn mul_assign(&mut self, b: Self) {
-        *self = *self * b;
-    }
-}
-
-/// Equal values. Where errors leave it open, both ways are followed; numbers of different values, which an f32 renderer
-/// might find equal, are not: no formula jumps there that does not also jump between them.
-impl PartialEq for Bounded {
-    fn eq(&self, other: &Self) -> bool {
-        self.value == other.value && ways::order(self, other) == Some(Ordering::Equal)
-    }
-}
-
-/// The order of the values, or the other one that is open: see [`ways`](super::ways).
-impl PartialOrd for Bounded {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        ways::order(self, other)
-    }
 }
 
 impl Arithmetic for Bounded {
@@ -424,46 +345,6 @@ impl Real for Bounded {
         let value = Real::hypot(self.value, other.value);
         let scaled = 2.0 * (DIVIDED + 2.0 * ROUNDED) + ROOT + ROUNDED;
         Self::granted(value, self.error.hypot(other.error), scaled)
-    }
-}
-
-/// Four numbers of a row.
-#[derive(Clone, Copy)]
-pub struct BoundedRow([Bounded; 4]);
-
-impl<S: Simd> RowOfFour<S, Bounded> for BoundedRow {
-    fn load(_: S, numbers: [Bounded; 4]) -> Self {
-        Self(numbers)
-    }
-}
-
-impl From<BoundedRow> for [Bounded; 4] {
-    fn from(row: BoundedRow) -> Self {
-        row.0
-    }
-}
-
-impl Add for BoundedRow {
-    type Output = Self;
-
-    fn add(self, b: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + b.0[i]))
-    }
-}
-
-impl Sub<Bounded> for BoundedRow {
-    type Output = Self;
-
-    fn sub(self, b: Bounded) -> Self {
-        Self(self.0.map(|a| a - b))
-    }
-}
-
-impl Mul<Bounded> for BoundedRow {
-    type Output = Self;
-
-    fn mul(self, b: Bounded) -> Self {
-        Self(self.0.map(|a| a * b))
     }
 }
 

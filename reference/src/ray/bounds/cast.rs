@@ -206,7 +206,10 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
             Some(over_two) => self.evaluator.shaded_over_two(over_two, sample, counts)?,
             None => self.evaluator.shaded::<need::Anything>(sample, &place, counts),
         };
-        Some(Shown { rgb: self.in_blend_space(rgb), alpha: Bounded::monotone([alpha, steps], |[alpha, steps]| correct(alpha, steps)) })
+        Some(Shown {
+            rgb: self.in_blend_space(rgb),
+            alpha: Bounded::monotone([alpha, steps], |[alpha, steps]| correct(alpha, steps)),
+        })
     }
 
     /// Whether two ways part: the formula jumps between them, by more than the bound that the ray has anyway.
@@ -246,10 +249,9 @@ fn union(sample: Option<Shown>, other: Option<Shown>) -> Option<Shown> {
         Bounded::new(a.value(), if away.is_nan() { away } else { a.error().max(away) })
     };
     match (sample, other) {
-        (Some(a), Some(b)) => Some(Shown {
-            rgb: [0, 1, 2].map(|c| joined(a.rgb[c], b.rgb[c])),
-            alpha: joined(a.alpha, b.alpha),
-        }),
+        (Some(a), Some(b)) => {
+            Some(Shown { rgb: [0, 1, 2].map(|c| joined(a.rgb[c], b.rgb[c])), alpha: joined(a.alpha, b.alpha) })
+        }
         (Some(a), None) => Some(Shown { alpha: joined(a.alpha, Bounded::ZERO), ..a }),
         (None, Some(b)) => Some(Shown { alpha: joined(Bounded::ZERO, b.alpha), ..b }),
         (None, None) => None,

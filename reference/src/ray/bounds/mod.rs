@@ -25,8 +25,8 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::volume::Volume;
-use surface::SurfaceErrors;
 use rayon::prelude::*;
+use surface::SurfaceErrors;
 
 /// A picture with bounds.
 #[derive(Clone, Debug)]

@@ -100,7 +100,12 @@ impl SurfaceErrors {
 }
 
 /// A position on a ray, in the box, whose depth is not exact.
-pub(super) fn at_depth(position: Vec3<Bounded>, ray: &IndexRay<Bounded>, errors: [f64; 3], error: f64) -> Vec3<Bounded> {
+pub(super) fn at_depth(
+    position: Vec3<Bounded>,
+    ray: &IndexRay<Bounded>,
+    errors: [f64; 3],
+    error: f64,
+) -> Vec3<Bounded> {
     let [_, along] = ray.line();
     let moved = |p: Bounded, axis: usize| Bounded::new(p.value(), errors[axis] + along[axis].abs() * error);
     Vec3::new(moved(position.x, 0), moved(position.y, 1), moved(position.z, 2))

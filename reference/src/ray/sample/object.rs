@@ -56,7 +56,9 @@ pub(crate) fn turned<A: Arithmetic>(direction: NormalDirection, outward: Vec3<A>
     match direction {
         NormalDirection::Outward => outward,
         // A product and no branch: along a ray the side is anyone's guess.
-        NormalDirection::Facing => outward * A::select(outward.dot(v).deciding(Decision::Facing).below(one.zero()), -one, one),
+        NormalDirection::Facing => {
+            outward * A::select(outward.dot(v).deciding(Decision::Facing).below(one.zero()), -one, one)
+        }
         NormalDirection::Inward => outward * -one,
     }
 }
