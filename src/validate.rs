@@ -4,8 +4,8 @@ use crate::Failure;
 use crate::gpu::{Gpu, GpuJob, Precision};
 use crate::job::{Job, KnobVariant, render_failure};
 use drypoint_reference::number::Decision;
-use drypoint_reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
 use drypoint_reference::ray::Renderer;
+use drypoint_reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
 use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::shot::KappaSource;
 use drypoint_scene::tables::RaysPerPixel;
@@ -93,7 +93,10 @@ impl fmt::Display for Validation {
         }
         let Some(bounded) = &self.bounded else { return Ok(()) };
         let Bounded { bound, measured, share, exceeded, undecided, measured_at_decisions, .. } = bounded;
-        writeln!(f, "colours in f32: bound {bound:.1e}, measured {measured:.1e}, at most {share:.3} of a pixel's own bound")?;
+        writeln!(
+            f,
+            "colours in f32: bound {bound:.1e}, measured {measured:.1e}, at most {share:.3} of a pixel's own bound"
+        )?;
         writeln!(f, "pixels over their bound: {exceeded}")?;
         write!(f, "pixels at a decision: {:.3} %, differing by up to {measured_at_decisions:.1e}", undecided * 100.0)?;
         bounded.decisions.iter().try_for_each(|(what, pixels)| write!(f, "\n  {pixels} at {what}"))
@@ -123,13 +126,27 @@ pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
         false => None,
     };
     let single = drawn(job, gpu, &layered, Precision::Single)?;
-    let compared: Vec<Stage> = stages.iter().map(|&(name, layer)| {
-        let differs = |other: &Picture| largest_difference(&truth, other, layer);
-        let largest = truth.layer(layer).map_or(0.0, |layer| {
-            layer.channels.iter().flatten().filter(|c| c.is_finite()).fold(0.0, |largest: f64, c| largest.max(c.abs()))
-        });
-        Stage { name, layer: layer.to_string(), largest, double: double.as_ref().map(differs), single: differs(&single) }
-    }).collect();
+    let compared: Vec<Stage> = stages
+        .iter()
+        .map(|&(name, layer)| {
+            let differs = |other: &Picture| largest_difference(&truth, other, layer);
+            let largest = truth.layer(layer).map_or(0.0, |layer| {
+                layer
+                    .channels
+                    .iter()
+                    .flatten()
+                    .filter(|c| c.is_finite())
+                    .fold(0.0, |largest: f64, c| largest.max(c.abs()))
+            });
+            Stage {
+                name,
+                layer: layer.to_string(),
+                largest,
+                double: double.as_ref().map(differs),
+                single: differs(&single),
+            }
+        })
+        .collect();
     let parts = |stage: &&Stage| stage.double.is_some_and(|double| !(double <= SAME * stage.largest.max(1e-300)));
     let parts_at = compared.iter().find(parts).map(|stage| stage.name);
     // Colours in f32 against their bounds.
