@@ -111,9 +111,9 @@ impl Bounded {
 
     /// Whether an f32 renderer may order the two otherwise.
     pub(super) fn is_open(&self, other: &Self) -> bool {
-        let errors = self.error + other.error;
+        let (away, errors) = ((self.value - other.value).abs(), self.error + other.error);
         // Infinite numbers without errors have an order.
-        errors > 0.0 && !((self.value - other.value).abs() > errors)
+        errors > 0.0 && (away <= errors || away.is_nan())
     }
 }
 

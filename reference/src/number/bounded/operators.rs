@@ -1,7 +1,6 @@
 //! + − × ÷, and comparisons.
 
 use super::{Bounded, DIVIDED, of, ways};
-use crate::number::Real;
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
