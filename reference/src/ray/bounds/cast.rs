@@ -1,5 +1,6 @@
 //! One ray of a picture with its bound.
 
+use super::moved_ray::{MovedRay, with_errors_of};
 use super::positions::{Answer, RayOrigin};
 use super::surface::{BoundedHit, Met, SurfaceErrors, at_depth};
 use crate::accumulator::Accumulator;
@@ -33,17 +34,23 @@ pub(super) fn trace<S: Sampler<Bounded>>(
     prepared: &Prepared<'_, Bounded>,
     sampler: &S,
     [i, j]: [f64; 2],
-    (origin, middle): (RayOrigin, f64),
+    origin: RayOrigin,
     surface: Option<&SurfaceErrors>,
 ) -> Traced {
     let (view, object) = (&prepared.view, &prepared.object);
     let pixel = view.ray(i, j);
     let ray = IndexRay::<Bounded>::new(&pixel, view, &prepared.lattice, object.volume.grid());
-    let ray = ray.with_errors(object.ends, origin, middle);
-    let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
+    let grid = object.volume.grid();
+    let moved = (origin == RayOrigin::Middle).then(|| MovedRay::new(view, &prepared.lattice, grid, [i, j]));
+    let ray = ray.with_errors(object.ends, moved.as_ref());
+    let (mut v, mut v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
+    let mut steps = Bounded::from_f64(ray.step / object.reference_length);
+    if let Some(moved) = &moved {
+        (v, v_eye) = (with_errors_of(v, moved.v), with_errors_of(v_eye, moved.v_eye));
+        steps = Bounded::new(steps.value(), (moved.step / Bounded::from_f64(object.reference_length)).error());
+    }
     let dirs = object.shader.view_dirs(v, v_eye);
     let evaluator = Evaluator::new(object, sampler, ray, dirs, &prepared.eye_axes);
-    let steps = Bounded::from_f64(ray.step / object.reference_length);
     let mut tracer = Tracer {
         prepared,
         evaluator,

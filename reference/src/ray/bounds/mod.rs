@@ -4,6 +4,7 @@
 //! [`Decision`] is open and shows, the pixel is undecided, and no renderer is held to its bound there.
 
 mod cast;
+mod moved_ray;
 mod positions;
 mod surface;
 
@@ -21,7 +22,6 @@ use crate::with_sampler;
 use cast::Traced;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
-use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::volume::Volume;
@@ -95,15 +95,12 @@ fn draw<S: Sampler<Bounded>>(
     origin: RayOrigin,
 ) -> Bounds {
     let [width, height] = prepared.view.size;
-    let grid = inputs.volume.grid();
-    let centre = grid.to_world(DVec3::from_array(grid.dims().map(|n| (n - 1) as f64 * 0.5)));
-    let middle = (centre - prepared.view.eye).dot(prepared.view.forward);
     let surface = prepared.surface.as_ref();
     let surface = surface.map(|surface| SurfaceErrors::new(&prepared.object.field, surface.roots.iso()));
     let behind = behind(inputs.background, width);
     let pixel = |at: usize| {
         let at = [at % width, at / width];
-        draw_pixel(prepared, sampler, (at, behind(at)), (origin, middle), surface.as_ref())
+        draw_pixel(prepared, sampler, (at, behind(at)), origin, surface.as_ref())
     };
     let pixels: Vec<BoundedPixel> = (0..width * height).into_par_iter().map(pixel).collect();
     let picture = |number: fn(Bounded) -> f64| {
@@ -122,7 +119,7 @@ fn draw_pixel<S: Sampler<Bounded>>(
     prepared: &Prepared<'_, Bounded>,
     sampler: &S,
     ([i, j], behind): ([usize; 2], Rgba),
-    origin: (RayOrigin, f64),
+    origin: RayOrigin,
     surface: Option<&SurfaceErrors>,
 ) -> BoundedPixel {
     let n = prepared.rays_across;

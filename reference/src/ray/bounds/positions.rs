@@ -1,5 +1,6 @@
 //! The positions of samples in f32, and what they decide.
 
+use super::moved_ray::MovedRay;
 use crate::number::{Bounded, Vec3};
 use crate::ray::lattice::IndexRay;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes};
@@ -10,13 +11,14 @@ const ROUNDING: f64 = 0.5 * f32::EPSILON as f64 * (1.0 + f32::EPSILON as f64);
 /// Voxels beyond the box in which samples are looked at: errors of positions are far smaller.
 const BEYOND: f64 = 1.0 / 256.0;
 
-/// The origin from which an f32 renderer follows its rays. Origin, direction and step are computed in f64 and rounded
-/// once.
+/// How an f32 renderer comes to its rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayOrigin {
-    /// The eye, as `sampling.number = "f32"` does it. Far eyes cost digits.
+    /// From the eye, as `sampling.number = "f32"` does it: origin, direction and step are computed in f64 and rounded once.
+    /// Far eyes cost digits.
     Eye,
-    /// The point of the ray on the plane through the middle of the volume. All numbers then are of the volume's size.
+    /// From the plane through the middle of the volume, for each pixel in f32, as shaders do it. All numbers then are of the
+    /// volume's size.
     Middle,
 }
 
@@ -29,25 +31,22 @@ pub(super) enum Answer {
 }
 
 impl IndexRay<Bounded> {
-    /// The ray with a bound of the errors of its positions, for all samples in or near the box [lo, hi]; `middle` is the eye
-    /// depth of the volume's middle.
+    /// The ray with a bound of the errors of its positions, for all samples in or near the box [lo, hi]: of one that comes
+    /// from the middle those of `moved`.
     ///
-    /// A position is o + a·t with t = (k + ½)Δ, depths counted from the origin. o, a and Δ are rounded once, two products and
-    /// a sum are rounded: u(|o| + 4|a·t| + |o + a·t|), u = 2⁻²⁴, where k + ½ is exact. The largest such sum in the box holds
-    /// for the whole ray.
-    pub(super) fn with_errors(mut self, ends: [Vec3<Bounded>; 2], origin: RayOrigin, middle: f64) -> Self {
+    /// From the eye a position is o + a·t with t = (k + ½)Δ. o, a and Δ are rounded once, two products and a sum are rounded:
+    /// u(|o| + 4|a·t| + |o + a·t|), u = 2⁻²⁴, where k + ½ is exact. Errors are convex in the depth, so the larger one at the
+    /// ends of the box holds for the whole ray.
+    pub(super) fn with_errors(mut self, ends: [Vec3<Bounded>; 2], moved: Option<&MovedRay>) -> Self {
         let Some(depths) = self.near_box(ends) else { return self };
-        let from = match origin {
-            RayOrigin::Eye => 0.0,
-            RayOrigin::Middle => middle,
+        let [o, a] = [self.origin, self.along].map(Vec3::to_glam);
+        let at = |depth: f64| match moved {
+            Some(moved) => moved.errors_at(depth),
+            None => (ROUNDING * (o.abs() + 4.0 * (a * depth).abs() + (o + a * depth).abs())).to_array(),
         };
-        let bounded = |o: Bounded, a: Bounded| {
-            let (o, a) = (o.value(), a.value());
-            let of = |t: f64| 4.0 * (a * (t - from)).abs() + (o + a * t).abs();
-            Bounded::new(o, ROUNDING * ((o + a * from).abs() + of(depths[0]).max(of(depths[1]))))
-        };
-        let (o, a) = (self.origin, self.along);
-        self.origin = Vec3::new(bounded(o.x, a.x), bounded(o.y, a.y), bounded(o.z, a.z));
+        let [near, far] = depths.map(at);
+        let bounded = |axis: usize| Bounded::new(o[axis], near[axis].max(far[axis]));
+        self.origin = Vec3::new(bounded(0), bounded(1), bounded(2));
         self
     }
 
