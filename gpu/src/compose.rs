@@ -1,9 +1,15 @@
 //! The shader of a shot: which modules it is put together from, and what they read.
 
+use crate::block::Block;
+use crate::field::Scales;
 use crate::shader::{Constant, Shader};
-use crate::{GpuError, Inputs, Precision, field, ray, shading, style_transfer_functions, transfer};
+use crate::{
+    GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, style_transfer_functions,
+    transfer,
+};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, Shot};
+use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
 /// The share of a gradient that is rounding ([PREC-3]).
@@ -14,12 +20,17 @@ fn no_normal(precision: Precision) -> f64 {
     }
 }
 
-/// Puts the shader of a shot together.
-pub(crate) fn shader(shot: &Shot, inputs: &Inputs<'_>, precision: Precision) -> Result<Shader, GpuError> {
+/// Puts the shader of a shot together, for layers in their order.
+pub(crate) fn shader(
+    shot: &Shot,
+    layers: &[LayerKind],
+    inputs: &Inputs<'_>,
+    precision: Precision,
+) -> Result<(Shader, Scales), GpuError> {
     let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
     refuse(shot, inputs)?;
     let mut shader = Shader::default();
-    let scales = field::Scales::new(measured, grid);
+    let scales = Scales::new(measured, grid);
     // The field and its rays.
     field::add_kernel(&mut shader, object, measured, grid)?;
     ray::add_lattice(&mut shader, shot, grid)?;
@@ -29,44 +40,68 @@ pub(crate) fn shader(shot: &Shot, inputs: &Inputs<'_>, precision: Precision) -> 
     if let Some(bricks) = &measured.bricks {
         ray::add_bricks(&mut shader, shot, bricks, &scales, precision);
     }
-    if object.query.gradient {
+    // The styles of caps follow those of the function.
+    let of_function = inputs.styles.len().checked_sub(shot.clipping.styles.len()).ok_or(GpuError::Material)?;
+    let (styles, of_caps) = inputs.styles.split_at(of_function);
+    let clips = !shot.clipping.planes.is_empty();
+    if clips {
+        ray::add_clip(&mut shader, &shot.clipping, styles.len());
+    }
+    // Quantities of layers `first.*` are measured at every visible sample.
+    let query = object.first.map_or(object.query, |first| object.query.and(first));
+    if query.hessian {
+        return Err(GpuError::Missing { what: "second derivatives", key: "sampling.hessian" });
+    }
+    if query.gradient {
         field::add_gradient(&mut shader, object, measured, &scales, no_normal(precision))?;
         ray::add_gradient(&mut shader, measured, &scales);
     }
-    if object.query.kappa == KappaSource::AlongRay {
+    if query.kappa == KappaSource::AlongRay {
         style_transfer_functions::add_curvature_along_ray(&mut shader, object.turn);
     }
     let rows = object.function.nodes().2;
     if let Some(rows) = rows {
-        transfer::over::add(&mut shader, object, rows, inputs, &scales)?;
+        transfer::over::add(&mut shader, shot, rows, inputs, &scales)?;
     }
     let between = |over_value, over_two| if rows.is_some() { over_two } else { over_value };
+    let mut with_levels = false;
     match (&*object.function, &object.material) {
         (Function::Regular(nodes), Material::Regular(lit)) => {
             let between = between(transfer::COLORS_OVER_VALUE, transfer::over::COLORS);
             transfer::add_colors(&mut shader, &nodes.color, between);
-            add_light(&mut shader, lit)?;
+            add_light(&mut shader, lit);
         }
-        (Function::Style { nodes, names }, Material::Style(params)) => {
-            let styles = inputs.styles.get(..names.len()).ok_or(GpuError::Material)?;
+        (Function::Style { nodes, names }, Material::Style(params)) if names.len() == styles.len() => {
             let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
-            let of_nodes = (nodes.color.as_slice(), styles);
-            style_transfer_functions::add(&mut shader, shot, params, of_nodes, grid.voxel(), between);
+            style_transfer_functions::add(&mut shader, shot, params, &nodes.color, grid.voxel(), between);
+            with_levels = params.level_of_detail.is_some();
         }
         _ => return Err(GpuError::Material),
     }
+    if clips {
+        ray::add_cuts(&mut shader);
+    }
+    style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
-    for layer in &shot.layers {
-        match layer {
-            LayerKind::Beauty => {
-                shader.stages.channels.extend(["mean.r", "mean.g", "mean.b", "mean.a"].map(str::to_owned));
-            }
-            _ => return Err(GpuError::Missing { what: "layers beyond the beauty", key: "picture.layers" }),
+    ray::layers::add(&mut shader, layers)?;
+    shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
+    Ok((shader, scales))
+}
+
+/// The numbers of a shader that depend on the camera.
+pub(crate) fn camera(shot: &Shot, grid: &Grid) -> Result<Block, GpuError> {
+    let [object] = &shot.objects;
+    let mut block = Block::default();
+    ray::add_view(&mut block, shot, grid)?;
+    if let Material::Regular(lit) = &object.material {
+        match &lit.lighting {
+            Lighting::Flat => {}
+            Lighting::Phong(phong) => block.vector("light", phong.light),
+            Lighting::Toon(toon) => block.vector("light", toon.light),
         }
     }
-    shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
-    Ok(shader)
+    Ok(block)
 }
 
 /// Refuses what no module draws.
@@ -74,21 +109,20 @@ fn refuse(shot: &Shot, inputs: &Inputs<'_>) -> Result<(), GpuError> {
     let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
     missing(!shot.halos.list.is_empty(), "halos", "halo")?;
     missing(shot.surface.is_some(), "iso-surfaces", "surface")?;
-    missing(!shot.clipping.planes.is_empty(), "clip planes", "clip")?;
-    missing(shot.objects[0].query.hessian, "second derivatives", "sampling.hessian")?;
-    missing(shot.refine_above.is_some(), "rays at edges", "picture.samples")?;
     missing(inputs.volume.mask().is_some(), "volumes with values that are not numbers", "volume")
 }
 
 /// Adds the light of a regular function.
-fn add_light(shader: &mut Shader, lit: &Illumination) -> Result<(), GpuError> {
+fn add_light(shader: &mut Shader, lit: &Illumination) {
     match &lit.lighting {
         Lighting::Flat => {}
         Lighting::Phong(phong) => shading::add(shader, phong),
-        Lighting::Toon(_) => return Err(GpuError::Missing { what: "toon shading", key: "shading.look" }),
+        Lighting::Toon(toon) => interactive_volume_illustration::add_toon(shader, toon),
     }
-    if !lit.is_plain() {
-        return Err(GpuError::Missing { what: "silhouettes", key: "shading.silhouette" });
+    if let Some(offset) = lit.silhouette {
+        interactive_volume_illustration::add_silhouette(shader, offset);
     }
-    Ok(())
+    if lit.view_opacity > 0.0 {
+        interactive_volume_illustration::add_view_opacity(shader, lit.view_opacity);
+    }
 }

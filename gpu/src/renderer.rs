@@ -1,12 +1,15 @@
 //! Pictures of a shot, any number of them.
 
 use crate::buffers::{buffer, entry, list_entry, pipeline, read};
+use crate::field::Scales;
+use crate::ray::layers::in_picture_units;
 use crate::shader::{Data, Shader};
 use crate::{Gpu, GpuError, Precision, Volume, compose};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
+use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::volume::labels::LabelVolume;
 
@@ -15,6 +18,9 @@ const GROUP: u32 = 8;
 
 /// About the most samples of one submission, so that no driver takes it for a fault.
 const SAMPLES_AT_ONCE: f64 = (1u64 << 26) as f64;
+
+/// The first channel of a pixel that is not refined lies below.
+const STAYS: f64 = -1e29;
 
 /// The data that a shot names, beside the volume's numbers.
 #[derive(Clone, Copy, Debug)]
@@ -38,10 +44,15 @@ pub struct Renderer<'g> {
     gpu: &'g Gpu,
     precision: Precision,
     shader: Shader,
-    pipeline: wgpu::ComputePipeline,
+    scales: Scales,
+    draw: Pass,
+    /// Further rays at edges; none: no pixel is refined.
+    refinement: Option<Pass>,
     params: wgpu::Buffer,
-    params_layout: wgpu::BindGroupLayout,
     data: wgpu::BindGroup,
+    /// The layers that the shot asks for.
+    asked: Vec<LayerKind>,
+    /// Those, with the beauty first where edges are found by it.
     layers: Vec<LayerKind>,
     size: [usize; 2],
     /// Samples of a row of pixels, roughly.
@@ -69,11 +80,14 @@ impl<'g> Renderer<'g> {
         edit: &dyn Fn(String) -> String,
     ) -> Result<Self, GpuError> {
         let precision = volume.precision;
-        let shader = compose::shader(shot, inputs, precision)?;
+        let layers = drawn_layers(shot);
+        let (shader, scales) = compose::shader(shot, &layers, inputs, precision)?;
         let text = edit(shader.text(precision));
-        let (params_layout, data_layout) = (params_layout(gpu), data_layout(gpu, &shader));
+        let data_layout = data_layout(gpu, &shader);
         let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
-        let pipeline = pipeline(gpu, text, "draw", &[&params_layout, &data_layout])?;
+        let pass = |entry_point, lists| Pass::new(gpu, &text, entry_point, lists, &data_layout);
+        let draw = pass("draw", 1)?;
+        let refinement = shot.refine_above.map(|_| pass("refine", 2)).transpose()?;
         let params = buffer(
             gpu,
             "the parameters",
@@ -86,14 +100,25 @@ impl<'g> Renderer<'g> {
             gpu,
             precision,
             shader,
-            pipeline,
+            scales,
+            draw,
+            refinement,
             params,
-            params_layout,
             data,
-            layers: shot.layers.clone(),
+            asked: shot.layers.clone(),
+            layers,
             size: shot.view.size,
             samples_a_row: shot.view.size[0] as f64 * rays * planes.max(1.0),
         })
+    }
+
+    /// Takes the camera and the lights of another shot for the frames that follow. The shots may differ in nothing else.
+    ///
+    /// # Errors
+    /// More sample planes than the shader counts.
+    pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
+        self.shader.block.update(&compose::camera(shot, grid)?);
+        Ok(())
     }
 
     /// Draws one frame. `progress` hears the share of the picture that is done.
@@ -102,73 +127,150 @@ impl<'g> Renderer<'g> {
     /// A device that is lost, or has no memory for the picture.
     pub fn frame(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, GpuError> {
         let [width, height] = self.size;
-        let channels: usize = self.layers.iter().map(|layer| layer.channels().len()).sum();
-        let bytes_a_row = (width * channels) as u64 * self.precision.size();
-        let most = u64::from(self.gpu.device.limits().max_storage_buffer_binding_size as u32).max(1 << 27);
-        let fit = (most / bytes_a_row.max(1)).max(1) as usize;
-        let rows = ((SAMPLES_AT_ONCE / self.samples_a_row) as usize)
-            .clamp(GROUP as usize, fit.max(GROUP as usize))
-            .min(height);
-        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
-        let (out, back) = self.gpu.attempt("the picture", || {
-            let new = |usage| {
-                let size = bytes_a_row * rows as u64;
-                self.gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some("picture"),
-                    size,
-                    usage,
-                    mapped_at_creation: false,
-                })
-            };
-            (new(usage), new(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST))
+        let kinds: Vec<LayerKind> =
+            self.layers.iter().flat_map(|&layer| std::iter::repeat_n(layer, layer.channels().len())).collect();
+        let mut planes = vec![vec![0.0; width * height]; kinds.len()];
+        let half = if self.refinement.is_some() { 0.5 } else { 1.0 };
+        self.bands(None, &|share| progress(half * share), &mut |at, pixel| {
+            for (plane, &number) in planes.iter_mut().zip(pixel) {
+                plane[at] = number;
+            }
         })?;
-        let group = self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        if self.refinement.is_some() {
+            let first: Vec<f64> = (0..width * height).flat_map(|at| [0, 1, 2, 3].map(|c| planes[c][at])).collect();
+            self.bands(Some(&first), &|share| progress(0.5 + 0.5 * share), &mut |at, pixel| {
+                // Layers of one ray keep that of the first picture.
+                let refined = kinds.iter().map(|&kind| kind == LayerKind::Beauty || kind.is_mean());
+                for ((plane, &number), is_refined) in planes.iter_mut().zip(pixel).zip(refined) {
+                    if is_refined && pixel[0] > STAYS {
+                        plane[at] = number;
+                    }
+                }
+            })?;
+        }
+        for (plane, &kind) in planes.iter_mut().zip(&kinds) {
+            plane.iter_mut().for_each(|number| *number = in_picture_units(kind, *number, &self.scales));
+        }
+        let mut planes = planes.into_iter();
+        let mut layers: Vec<Layer> = self
+            .layers
+            .iter()
+            .map(|&kind| Layer { kind, channels: planes.by_ref().take(kind.channels().len()).collect() })
+            .collect();
+        let place = |layer: &Layer| self.asked.iter().position(|&asked| asked == layer.kind);
+        layers.retain(|layer| place(layer).is_some());
+        layers.sort_by_key(place);
+        Ok(Picture { width, height, layers })
+    }
+
+    /// Runs the shader for bands of rows; of a refinement with the beauty of the first picture. `take` hears the place of
+    /// each pixel and its numbers.
+    fn bands(
+        &mut self,
+        first_picture: Option<&[f64]>,
+        progress: &dyn Fn(f64),
+        take: &mut dyn FnMut(usize, &[f64]),
+    ) -> Result<(), GpuError> {
+        let (gpu, [width, height]) = (self.gpu, self.size);
+        let channels: usize = self.layers.iter().map(|layer| layer.channels().len()).sum();
+        let (pass, samples) = match (&self.refinement, first_picture) {
+            (Some(pass), Some(_)) => (pass, 9.0 * self.samples_a_row),
+            _ => (&self.draw, self.samples_a_row),
+        };
+        // Rows whose samples are few enough and whose numbers fit in a buffer.
+        let bytes_a_row = (width * channels.max(4)) as u64 * self.precision.size();
+        let most = u64::from(gpu.device.limits().max_storage_buffer_binding_size);
+        let fit = ((most / bytes_a_row.max(1)) as usize).saturating_sub(2).max(1);
+        let rows = ((SAMPLES_AT_ONCE / samples) as usize).max(GROUP as usize).min(fit).min(height);
+        let new = |rows: usize, usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("picture"),
+                size: bytes_a_row * rows as u64,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let usage = wgpu::BufferUsages::STORAGE;
+        let (out, back, before) = gpu.attempt("the picture", || {
+            let out = new(rows, usage | wgpu::BufferUsages::COPY_SRC);
+            let back = new(rows, wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+            (out, back, first_picture.map(|_| new(rows + 2, usage | wgpu::BufferUsages::COPY_DST)))
+        })?;
+        let mut entries = vec![entry(0, &self.params), entry(1, &out)];
+        entries.extend(before.iter().map(|before| entry(2, before)));
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("draw"),
-            layout: &self.params_layout,
-            entries: &[entry(0, &self.params), entry(1, &out)],
+            layout: &pass.layout,
+            entries: &entries,
         });
-        let mut planes = vec![vec![0.0; width * height]; channels];
         for first in (0..height).step_by(rows) {
             let end = (first + rows).min(height);
             self.shader.block.set("first_row", first as f64);
             self.shader.block.set("end_row", end as f64);
-            self.gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
-            let bytes = bytes_a_row * (end - first) as u64;
-            self.gpu.attempt("the picture", || {
-                let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
+            if let (Some(before), Some(picture)) = (&before, first_picture) {
+                // The row above the band may be missing; what stands in its place is not read.
+                let above = first.saturating_sub(1);
+                let numbers = &picture[4 * width * above..4 * width * (end + 1).min(height)];
+                let offset = (above + 1 - first) * 4 * width;
+                let offset = offset as u64 * self.precision.size();
+                gpu.queue.write_buffer(before, offset, &self.precision.bytes(numbers));
+            }
+            let bytes = (width * channels * (end - first)) as u64 * self.precision.size();
+            gpu.attempt("the picture", || {
+                let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
                 {
-                    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                    pass.set_pipeline(&self.pipeline);
-                    pass.set_bind_group(0, &group, &[]);
-                    pass.set_bind_group(1, &self.data, &[]);
-                    pass.dispatch_workgroups((width as u32).div_ceil(GROUP), ((end - first) as u32).div_ceil(GROUP), 1);
+                    let mut run = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                    run.set_pipeline(&pass.pipeline);
+                    run.set_bind_group(0, &group, &[]);
+                    run.set_bind_group(1, &self.data, &[]);
+                    run.dispatch_workgroups((width as u32).div_ceil(GROUP), ((end - first) as u32).div_ceil(GROUP), 1);
                 }
                 encoder.copy_buffer_to_buffer(&out, 0, &back, 0, bytes);
-                self.gpu.queue.submit([encoder.finish()]);
+                gpu.queue.submit([encoder.finish()]);
             })?;
-            let numbers = self.precision.numbers(&read(self.gpu, &back, bytes)?);
+            let numbers = self.precision.numbers(&read(gpu, &back, bytes)?);
             for (i, pixel) in numbers.chunks_exact(channels).enumerate() {
-                for (plane, &number) in planes.iter_mut().zip(pixel) {
-                    plane[first * width + i] = number;
-                }
+                take(first * width + i, pixel);
             }
             progress(end as f64 / height as f64);
         }
-        let mut planes = planes.into_iter();
-        let layers = self
-            .layers
-            .iter()
-            .map(|&kind| Layer { kind, channels: planes.by_ref().take(kind.channels().len()).collect() });
-        Ok(Picture { width, height, layers: layers.collect() })
+        Ok(())
     }
 }
 
-/// The layout of group 0: parameters and the picture.
-fn params_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("parameters"),
-        entries: &[list_entry(0, true), list_entry(1, false)],
-    })
+/// The layers that a shader draws. Edges are found by the beauty, which comes first then.
+fn drawn_layers(shot: &Shot) -> Vec<LayerKind> {
+    let (mut first, mut layers) = (Vec::new(), shot.layers.clone());
+    if shot.refine_above.is_some() {
+        first.push(LayerKind::Beauty);
+        layers.retain(|&layer| layer != LayerKind::Beauty);
+    }
+    first.append(&mut layers);
+    first
+}
+
+/// An entry point of the shader, with the layout of group 0.
+struct Pass {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+impl Pass {
+    /// An entry point that reads the parameters, writes the picture, and reads `lists` − 1 further lists.
+    fn new(
+        gpu: &Gpu,
+        text: &str,
+        entry_point: &'static str,
+        lists: u32,
+        data: &wgpu::BindGroupLayout,
+    ) -> Result<Self, GpuError> {
+        let entries: Vec<_> = (0..=lists).map(|binding| list_entry(binding, binding != 1)).collect();
+        let layout = gpu
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries });
+        Ok(Self { pipeline: pipeline(gpu, text.to_owned(), entry_point, &[&layout, data])?, layout })
+    }
 }
 
 /// The layout of group 1: the data of the scene's effects.

@@ -38,6 +38,11 @@ impl Scales {
         scale_by_power_of_two(value - self.base, -self.value)
     }
 
+    /// The value that the shader has as `number`.
+    pub(crate) fn to_value(self, number: f64) -> f64 {
+        scale_by_power_of_two(number, self.value) + self.base
+    }
+
     /// A gradient's magnitude, in values per world unit, as the shader has it.
     pub(crate) fn gradient(&self, g: f64) -> f64 {
         scale_by_power_of_two(g, -self.gradient)

@@ -1,15 +1,18 @@
 //! Rays: their samples, what they show, and how pixels are made of them.
 
+pub(crate) mod layers;
+
+use crate::block::Block;
 use crate::field::Scales;
-use crate::number::{COLOR, ELEMENTARY};
+use crate::number::{COLOR, ELEMENTARY, NUMBER};
 use crate::shader::{Constant, Data, Module, Shader, module};
 use crate::{GpuError, Precision};
 use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::clip::ClipPlane;
 use drypoint_scene::color::premultiply;
 use drypoint_scene::measured::Measured;
-use drypoint_scene::shot::{BlendSpace, Lattice, Shot, StepAlong};
+use drypoint_scene::shot::{BlendSpace, Cap, Clipping, Shot, StepAlong};
 use drypoint_scene::space::Grid;
-use drypoint_scene::view::View;
 use drypoint_scene::volume::{BRICK, Bricks};
 
 /// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
@@ -21,20 +24,20 @@ pub(crate) const EYE_NORMAL: Module = module!("eye_normal");
 /// Adds rays and their samples.
 pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
     let Shot { view, lattice, .. } = shot;
+    shader.add(&[module!("lattice")]);
+    shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
+    shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
+    add_view(&mut shader.block, shot, grid)
+}
+
+/// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
+/// are of the volume's size.
+pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
+    let Shot { view, lattice, .. } = shot;
     let planes = lattice.planes(view, grid);
     if planes > MOST_PLANES {
         return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
     }
-    shader.add(&[module!("lattice")]);
-    shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
-    shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
-    add_view(shader, view, lattice, grid);
-    Ok(())
-}
-
-/// The numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32 are
-/// of the volume's size.
-fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     let centre = view.to_eye(grid.centre());
     let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
     let anchor = (away / lattice.step).floor();
@@ -45,7 +48,6 @@ fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     };
     let inverse = grid.inverse_axes();
     let [low, high] = grid.index_box();
-    let block = &mut shader.block;
     block.number("step", lattice.step);
     block.number("anchor_steps", steps);
     block.number("first_plane", first);
@@ -60,6 +62,7 @@ fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     block.vector("anchor_middle", grid.to_index(view.eye + view.forward * (steps * lattice.step)));
     block.vector("box_low", low);
     block.vector("box_high", high);
+    Ok(())
 }
 
 /// Adds the loop over samples and what it calls.
@@ -84,6 +87,29 @@ pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Sc
         shader.block.number("gradient_width", scales.gradient(width));
         shader.stages.measured.push("measure_magnitude");
     }
+}
+
+/// Adds clip planes, before what shades is added. The spheres of caps stand after those of `styles`.
+pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) {
+    let plane = |plane: &ClipPlane| {
+        let cap = match plane.cap.map(|cap| clipping.caps[cap]) {
+            Some(Cap::Color { rgb: [r, g, b], opacity }) => [1.0, r, g, b, opacity],
+            Some(Cap::Style(place)) => [2.0, (styles + place) as f64, 0.0, 0.0, 0.0],
+            None => [0.0; 5],
+        };
+        let (n, world) = (plane.index_normal, plane.normal);
+        [[n.x, n.y, n.z, plane.index_offset, world.x, world.y].as_slice(), &[world.z], &cap].concat()
+    };
+    shader.add(&[module!("clip")]);
+    shader.constant("PLANES", Constant::Int(clipping.planes.0.len() as i64));
+    shader.bind(7, "the clip planes", Data::Reals(clipping.planes.0.iter().flat_map(plane).collect()));
+    shader.stages.samples_left.push("clip_run");
+}
+
+/// Adds what clip planes make of samples on cuts, after what measures and shades is added.
+pub(crate) fn add_cuts(shader: &mut Shader) {
+    shader.stages.measured.push("measure_cut");
+    shader.stages.shown.push("show_cap");
 }
 
 /// Adds the skipping of bricks that can show nothing.
@@ -114,6 +140,10 @@ pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<
     shader.constant("WIDTH", Constant::Int(width as i64));
     shader.constant("HEIGHT", Constant::Int(height as i64));
     shader.constant("RAYS_ACROSS", Constant::Int(shot.rays_across as i64));
+    if let Some(contrast) = shot.refine_above {
+        shader.add(&[NUMBER, ELEMENTARY, COLOR, module!("refinement")]);
+        shader.block.number("contrast", contrast);
+    }
     shader.block.number("first_row", 0.0);
     shader.block.number("end_row", 0.0);
     let color = match background {
