@@ -112,7 +112,7 @@ fn layers_of_styles() {
         ("layers and contours", "[contours]\n"),
         (
             "layers and a cut",
-            "[contours]\n[[clip]]\npoint = [12, 13, 14]\nnormal = [-1, 0.3, 0.2]\nspace = \"index\"\n",
+            "[contours]\n[[clip]]\npoint = [12, 13, 14]\nnormal = [1, 0.3, -0.2]\nspace = \"index\"\n",
         ),
     ] {
         for waves in [false, true] {
@@ -127,13 +127,15 @@ fn layers_of_styles() {
     }
 }
 
+/// A cut in a style.
+pub(crate) fn cut(style: &str) -> String {
+    format!("[[clip]]\npoint = [14, 13, 14]\nnormal = [1, -0.2, 0.4]\nspace = \"index\"\nstyle = \"{style}\"\n")
+}
+
 /// Cuts in a style, of styles and of colours.
 #[test]
 fn styles_of_cuts() {
-    let clip = |style: &str| {
-        format!("[[clip]]\npoint = [14, 13, 14]\nnormal = [0.2, -1, 0.3]\nspace = \"index\"\nstyle = \"{style}\"\n")
-    };
-    let (opaque, clear) = (clip("engraving"), clip("glass"));
+    let (opaque, clear) = (cut("engraving"), cut("glass"));
     let colors = "kind = \"regular\"\nnodes = [{ at = 100, color = \"#804020\", opacity = 0.1 }, { at = 140, color = \"#88ccff\", opacity = 0.9 }]";
     check(&[
         ("cut", "", &opaque),
