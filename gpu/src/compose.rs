@@ -8,7 +8,7 @@ use crate::{
     transfer,
 };
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Cap, Illumination, KappaSource, Lighting, Material, Shot};
+use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, Shot};
 use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
@@ -40,9 +40,12 @@ pub(crate) fn shader(
     if let Some(bricks) = &measured.bricks {
         ray::add_bricks(&mut shader, shot, bricks, &scales, precision);
     }
+    // The styles of caps follow those of the function.
+    let of_function = inputs.styles.len().checked_sub(shot.clipping.styles.len()).ok_or(GpuError::Material)?;
+    let (styles, of_caps) = inputs.styles.split_at(of_function);
     let clips = !shot.clipping.planes.is_empty();
     if clips {
-        ray::add_clip(&mut shader, &shot.clipping);
+        ray::add_clip(&mut shader, &shot.clipping, styles.len());
     }
     // Quantities of layers `first.*` are measured at every visible sample.
     let query = object.first.map_or(object.query, |first| object.query.and(first));
@@ -58,26 +61,27 @@ pub(crate) fn shader(
     }
     let rows = object.function.nodes().2;
     if let Some(rows) = rows {
-        transfer::over::add(&mut shader, object, rows, inputs, &scales)?;
+        transfer::over::add(&mut shader, shot, rows, inputs, &scales)?;
     }
     let between = |over_value, over_two| if rows.is_some() { over_two } else { over_value };
+    let mut with_levels = false;
     match (&*object.function, &object.material) {
         (Function::Regular(nodes), Material::Regular(lit)) => {
             let between = between(transfer::COLORS_OVER_VALUE, transfer::over::COLORS);
             transfer::add_colors(&mut shader, &nodes.color, between);
             add_light(&mut shader, lit);
         }
-        (Function::Style { nodes, names }, Material::Style(params)) => {
-            let styles = inputs.styles.get(..names.len()).ok_or(GpuError::Material)?;
+        (Function::Style { nodes, names }, Material::Style(params)) if names.len() == styles.len() => {
             let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
-            let of_nodes = (nodes.color.as_slice(), styles);
-            style_transfer_functions::add(&mut shader, shot, params, of_nodes, grid.voxel(), between);
+            style_transfer_functions::add(&mut shader, shot, params, &nodes.color, grid.voxel(), between);
+            with_levels = params.level_of_detail.is_some();
         }
         _ => return Err(GpuError::Material),
     }
     if clips {
         ray::add_cuts(&mut shader);
     }
+    style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
     ray::layers::add(&mut shader, layers)?;
@@ -105,8 +109,6 @@ fn refuse(shot: &Shot, inputs: &Inputs<'_>) -> Result<(), GpuError> {
     let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
     missing(!shot.halos.list.is_empty(), "halos", "halo")?;
     missing(shot.surface.is_some(), "iso-surfaces", "surface")?;
-    let has_style = shot.clipping.caps.iter().any(|cap| matches!(cap, Cap::Style(_)));
-    missing(has_style, "styles on cuts", "clip.style")?;
     missing(inputs.volume.mask().is_some(), "volumes with values that are not numbers", "volume")
 }
 

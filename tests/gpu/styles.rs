@@ -103,3 +103,45 @@ fn mip_maps_of_styles() {
         ("no turn", "", "[style_mipmaps]\nturn = 0\ngradient_bias = 0\ncurvature_bias = 0\n"),
     ]);
 }
+
+/// Layers of a picture of styles; κ along the ray of samples that no contour asks for.
+#[test]
+fn layers_of_styles() {
+    for (name, tables) in [
+        ("layers", ""),
+        ("layers and contours", "[contours]\n"),
+        (
+            "layers and a cut",
+            "[contours]\n[[clip]]\npoint = [12, 13, 14]\nnormal = [1, 0.3, -0.2]\nspace = \"index\"\n",
+        ),
+    ] {
+        for waves in [false, true] {
+            let scene = scene(waves, "", tables).replace(
+                "samples = 1\n",
+                "samples = 1\nlayers = [\"beauty\", \"normal\", \"curvature.KV\", \"first.curvature.KV\", \"Z\"]\n",
+            );
+            let Some(found) = differences(&scene) else { return };
+            println!("{name}, waves {waves}: {found:?}");
+            assert!(found[0] < 1e-9, "{name}: {found:?}");
+        }
+    }
+}
+
+/// A cut in a style.
+pub(crate) fn cut(style: &str) -> String {
+    format!("[[clip]]\npoint = [14, 13, 14]\nnormal = [1, -0.2, 0.4]\nspace = \"index\"\nstyle = \"{style}\"\n")
+}
+
+/// Cuts in a style, of styles and of colours.
+#[test]
+fn styles_of_cuts() {
+    let (opaque, clear) = (cut("engraving"), cut("glass"));
+    let colors = "kind = \"regular\"\nnodes = [{ at = 100, color = \"#804020\", opacity = 0.1 }, { at = 140, color = \"#88ccff\", opacity = 0.9 }]";
+    check(&[
+        ("cut", "", &opaque),
+        ("cut and contours", "", &format!("{clear}[contours]\n")),
+        ("cut of colours", colors, &clear),
+        ("cut in the frame of the view", "sphere_frame = \"view\"", &clear),
+        ("cut with mip-maps", "", &format!("{opaque}[style_mipmaps]\n")),
+    ]);
+}

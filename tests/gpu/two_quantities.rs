@@ -59,6 +59,8 @@ fn check(name: &str, scene: &str) {
     assert!(found[0] < 1e-9, "{name}: {found:?}");
 }
 
+const CUT: &str = "[contours]\n[[clip]]\npoint = [20, 18, 16]\nnormal = [1, 0.7, 0.4]\nspace = \"index\"\n";
+
 #[test]
 fn gradients_and_curvatures() {
     for (name, over, transfer, tables) in [
@@ -67,6 +69,8 @@ fn gradients_and_curvatures() {
         ("colours", "\"gradient-magnitude\"", colors([2.0, 10.0, 20.0]), ""),
         ("phong", "\"gradient-magnitude\"", colors([2.0, 10.0, 20.0]), "[shading]\n"),
         ("along the view", "\"kv\"", styles([0.02, 0.1, 0.3]), "[contours]\n"),
+        // On a cut there is no curvature.
+        ("a cut", "\"kv\"", styles([0.0, 0.1, 0.3]), CUT),
         ("mip-maps", "\"kv\"", styles([0.02, 0.1, 0.3]), "[style_mipmaps]\n"),
     ] {
         check(name, &torus("", &format!("over = [\"value\", {over}]\n{transfer}"), tables));

@@ -10,7 +10,8 @@ struct Plane {
     world_x: real,
     world_y: real,
     world_z: real,
-    // The cap of cuts: 1 if there is one, its straight linear colour and the factor of a cut's opacity.
+    // The cap of cuts: 1 if there is one, its straight linear colour and the factor of a cut's opacity; or 2 and the place of
+    // a sphere.
     has_cap: real,
     r: real,
     g: real,
@@ -98,7 +99,7 @@ fn measure_cut(ray: Ray, sample: Sample, known: Attributes) -> Attributes {
 
 // The cap's colour in place of a cut's own; its opacity is a factor.
 fn show_cap(ray: Ray, sample: Sample, a: Attributes, shaded: Shaded) -> Shaded {
-    if (cut_plane >= 0 && sample.k == cut_k && planes[cut_plane].has_cap > 0.0) {
+    if (cut_plane >= 0 && sample.k == cut_k && planes[cut_plane].has_cap == 1.0) {
         let rgb = vec3<real>(planes[cut_plane].r, planes[cut_plane].g, planes[cut_plane].b);
         return Shaded(rgb, shaded.alpha * planes[cut_plane].opacity);
     }

@@ -89,12 +89,13 @@ pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Sc
     }
 }
 
-/// Adds clip planes, before what shades is added.
-pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping) {
+/// Adds clip planes, before what shades is added. The spheres of caps stand after those of `styles`.
+pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) {
     let plane = |plane: &ClipPlane| {
         let cap = match plane.cap.map(|cap| clipping.caps[cap]) {
             Some(Cap::Color { rgb: [r, g, b], opacity }) => [1.0, r, g, b, opacity],
-            Some(Cap::Style(_)) | None => [0.0; 5],
+            Some(Cap::Style(place)) => [2.0, (styles + place) as f64, 0.0, 0.0, 0.0],
+            None => [0.0; 5],
         };
         let (n, world) = (plane.index_normal, plane.normal);
         [[n.x, n.y, n.z, plane.index_offset, world.x, world.y].as_slice(), &[world.z], &cap].concat()

@@ -4,7 +4,7 @@ use crate::number::{COLOR, ELEMENTARY};
 use crate::ray::EYE_NORMAL;
 use crate::shader::{Data, Module, Shader, module};
 use drypoint_scene::math;
-use drypoint_scene::shot::{ContourParams, Kappa, Mix, Shot, SphereFrame, StyleParams, Transparency, Turn};
+use drypoint_scene::shot::{Clipping, ContourParams, Kappa, Mix, Shot, SphereFrame, StyleParams, Transparency, Turn};
 use drypoint_scene::style::Style;
 
 /// Adds κ along the ray ([STF-5]).
@@ -18,16 +18,16 @@ pub(crate) fn add_curvature_along_ray(shader: &mut Shader, turn: Turn) {
     shader.stages.measured.push("measure_along_ray");
 }
 
-/// Adds a function of styles: `of_node` is the index function. `between` finds the styles and the opacity of a sample.
+/// Adds a function of styles: `of_node` is the index function. `between` finds the styles and the opacity of a sample. The
+/// spheres themselves are added apart.
 pub(crate) fn add(
     shader: &mut Shader,
     shot: &Shot,
     params: &StyleParams,
-    (of_node, styles): (&[usize], &[Style]),
+    of_node: &[usize],
     voxel: f64,
     between: Module,
 ) {
-    add_maps(shader, styles, params.level_of_detail.is_some());
     match params.level_of_detail {
         None => shader.add(&[module!("no_mipmaps")]),
         Some(level) => {
@@ -54,10 +54,7 @@ pub(crate) fn add(
     shader.add(&[module!("blend"), between]);
     // The normal that is looked up, and the opacity.
     shader.add(&[EYE_NORMAL]);
-    shader.add(&[match params.frame {
-        SphereFrame::Eye => module!("frame_eye"),
-        SphereFrame::View => module!("frame_view"),
-    }]);
+    add_frame(shader, params.frame);
     match &params.contour {
         None => shader.add(&[module!("no_contour")]),
         Some(contour) => add_contour(shader, contour),
@@ -73,18 +70,32 @@ pub(crate) fn add(
 /// The styles of a place between the nodes of a function over the value.
 pub(crate) const OVER_VALUE: Module = module!("style_over_value");
 
-/// Adds the texels of styles ([STF-1]), and those of their mip-maps ([STF-10]).
-fn add_maps(shader: &mut Shader, styles: &[Style], with_levels: bool) {
+/// Adds the frame of the lit sphere ([STF-1]).
+fn add_frame(shader: &mut Shader, frame: SphereFrame) {
+    shader.add(&[match frame {
+        SphereFrame::Eye => module!("frame_eye"),
+        SphereFrame::View => module!("frame_view"),
+    }]);
+}
+
+/// Adds the texels of the function's styles ([STF-1]), those of the styles of caps ([RAY-8]), and those of the function's
+/// mip-maps ([STF-10]), after what shades cuts.
+pub(crate) fn add_spheres(shader: &mut Shader, clipping: &Clipping, styles: [&[Style]; 2], with_levels: bool) {
+    let [of_function, of_caps] = styles;
+    if of_function.is_empty() && of_caps.is_empty() {
+        return;
+    }
     let mut texels: Vec<[f32; 4]> = Vec::new();
     let mut add = |side: usize, of: &[[f64; 4]]| {
         let first = texels.len() as u32;
         texels.extend(of.iter().map(|texel| texel.map(|c| c as f32)));
         [first, side as u32, 0, 0]
     };
-    let mut maps: Vec<[u32; 4]> = styles.iter().map(|style| add(style.side, &style.texels)).collect();
+    let all = of_function.iter().chain(of_caps);
+    let mut maps: Vec<[u32; 4]> = all.clone().map(|style| add(style.side, &style.texels)).collect();
     if with_levels {
-        let mut lambdas: Vec<f64> = styles.iter().map(|style| math::log2(style.side as f64)).collect();
-        for (j, style) in styles.iter().enumerate() {
+        let mut lambdas: Vec<f64> = all.map(|style| math::log2(style.side as f64)).collect();
+        for (j, style) in of_function.iter().enumerate() {
             let levels = style.mip_levels();
             [maps[j][2], maps[j][3]] = [maps.len() as u32, levels.len() as u32];
             for level in levels {
@@ -97,6 +108,12 @@ fn add_maps(shader: &mut Shader, styles: &[Style], with_levels: bool) {
     shader.add(&[module!("sphere_map")]);
     shader.bind(10, "the styles", Data::Texels(texels));
     shader.bind(11, "the list of styles", Data::Words(maps.into_flattened()));
+    if !of_caps.is_empty() {
+        shader.add(&[ELEMENTARY, COLOR, EYE_NORMAL]);
+        add_frame(shader, clipping.frame);
+        shader.add(&[module!("cap")]);
+        shader.stages.shown.push("show_styled_cap");
+    }
 }
 
 /// Adds contours ([STF-7], [STF-8]).

@@ -2,8 +2,10 @@
 
 use super::{errors, gpu, modules, random};
 use drypoint::gpu::Kernel;
+use drypoint::reference::field::Place;
 use drypoint::reference::labels::Labels;
 use drypoint::reference::number::Vec3;
+use drypoint::reference::transfer::over::{AxisMeasure, OtherVolume, PointDistance, SampleQuantities};
 use drypoint::reference::transfer::{Coordinate, TransferPlane};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::other_grid::OtherGrid;
@@ -166,5 +168,102 @@ fn labels_at_positions() {
         };
         let found = errors(&gpu, &kernel, &table, |&p| [f64::from(at(p))], |_, _, _| 1.0);
         assert_eq!(found, [0.0; 2], "{lookup:?} {place}");
+    }
+}
+
+/// A sample at a position, with nothing else known.
+fn sample([x, y, z]: [f64; 3]) -> SampleQuantities<f64> {
+    SampleQuantities {
+        position: Vec3::new(x, y, z),
+        place: Place { cell: [0; 3], w: [0.0; 3] },
+        value: 0.0,
+        gradient: 0.0,
+        magnitude: 0.0,
+        principal: [0.0; 2],
+        kappa: 0.0,
+    }
+}
+
+fn number(coordinate: Coordinate<f64>) -> f64 {
+    if let Coordinate::Number(x) = coordinate { x } else { f64::NAN }
+}
+
+/// A skew grid, and positions in its box.
+fn positions(count: usize) -> (Grid, Vec<[f64; 3]>) {
+    let mut next = random(41);
+    let axes = DMat3::from_cols(DVec3::new(1.5, 0.25, 0.0), DVec3::new(-0.5, 1.25, 0.125), DVec3::new(0.0, 0.5, 2.0));
+    let grid = Grid::new([9, 8, 7], axes, DVec3::new(1.0, -2.0, 0.5)).unwrap();
+    let [_, end] = grid.index_box();
+    let random = (0..count).map(|_| [end.x * next(), end.y * next(), end.z * next()]);
+    let corners = (0..8).map(|c| [0, 1, 2].map(|a: usize| if c >> a & 1 == 0 { 0.0 } else { end[a] }));
+    (grid.clone(), random.chain(corners).collect())
+}
+
+/// Components up to 20 from 7 roundings each, and a norm; the distance itself is compared with their size.
+#[test]
+fn distances_from_points() {
+    let Some(gpu) = gpu() else { return };
+    let (grid, table) = positions(2000);
+    let point = DVec3::new(3.25, 2.5, 4.75);
+    let [x, y, z] = grid.axes().to_cols_array_2d();
+    let offset = (grid.origin() - point).to_array();
+    let kernel = Kernel {
+        modules: modules(&["transfer/over/point_distance"]),
+        vectors: &[("world_axis_x", x), ("world_axis_y", y), ("world_axis_z", z), ("offset", offset)],
+        results: &["distance_from(vec3<real>(x[0], x[1], x[2]), offset())"],
+        ..Kernel::default()
+    };
+    let truth = PointDistance::<f64>::new(&grid, point);
+    let found = errors(&gpu, &kernel, &table, |&p| [number(truth.at(&sample(p)))], |_, _, _| 20.0);
+    println!("distances to points: {found:?}");
+    assert!(found[0] <= 1e-13 && found[1] <= (3.0 * 7.0 + 3.0) * U, "{found:?}");
+}
+
+/// Values of [−1, 1] on another grid, a flat one and the data's own. Places up to 20 have 7 roundings, and values are at most
+/// 2 apart along each axis. Samples on the border of the other box are left to f64: f32 finds some of them outside.
+#[test]
+fn values_of_further_volumes() {
+    let Some(gpu) = gpu() else { return };
+    let (data, table) = positions(3000);
+    let axes = DMat3::from_rotation_z(0.4) * DMat3::from_diagonal(DVec3::new(1.75, 1.25, 2.25));
+    let other = Grid::new([6, 7, 5], axes, DVec3::new(2.0, -0.5, 2.5)).unwrap();
+    let flat = Grid::new([8, 9, 1], axes, DVec3::new(2.0, -0.5, 4.5)).unwrap();
+    let mut next = random(43);
+    let ground = Volume::new(data.clone(), Voxels::F64(vec![0.0; data.len()]), 1.0, 0.0).unwrap();
+    for grid in [&data, &other, &flat] {
+        let mut values: Vec<f64> = (0..grid.len()).map(|_| f64::from((2.0 * next() - 1.0) as f32)).collect();
+        values[0] = -1.0;
+        let volume = Volume::new(grid.clone(), Voxels::F64(values.clone()), 1.0, 0.0).unwrap();
+        let truth = OtherVolume::<f64>::new(&volume, &ground).unwrap();
+        let map = OtherGrid::new(&data, grid);
+        let (linear, offset) = map.map_or((DMat3::IDENTITY, DVec3::ZERO), |map| map.parts());
+        let mut list: Vec<f64> = Vec::new();
+        for row in 0..3 {
+            list.extend(linear.row(row).to_array());
+            list.push(offset[row]);
+        }
+        list.extend(values.iter().map(|v| v + 1.0));
+        let [lo, hi] = grid.index_box();
+        let away = |p: &[f64; 3]| {
+            let p = linear * DVec3::from_array(*p) + offset;
+            let to_border = |border: DVec3| (p - border).abs().min_element();
+            map.is_none() || to_border(lo - OtherGrid::SLACK).min(to_border(hi + OtherGrid::SLACK)) > 1e-4
+        };
+        let table: Vec<[f64; 3]> = table.iter().copied().filter(away).collect();
+        let [nx, ny, nz] = grid.dims();
+        let value = format!("further_value(0, vec3({nx}, {ny}, {nz}), vec3<real>(x[0], x[1], x[2])) - 1.0");
+        let kernel = Kernel {
+            modules: format!(
+                "struct Place {{ cell: vec3<i32>, w: vec3<real>, }}\n{}",
+                modules(&["number/number", "transfer/over/grid_numbers", "transfer/over/further_volume"])
+            ),
+            params: &[("grid_slack", OtherGrid::SLACK)],
+            lists: &[(16, &list)],
+            results: &[&value],
+            ..Kernel::default()
+        };
+        let found = errors(&gpu, &kernel, &table, |&p| [number(truth.at(&sample(p)))], |_, _, _| 1.0);
+        println!("further volumes: {found:?}");
+        assert!(found[0] <= 1e-13 && found[1] <= (3.0 * 2.0 * 20.0 * 7.0 + 20.0) * U, "{found:?}");
     }
 }

@@ -20,6 +20,7 @@ pub(crate) fn faults() -> Vec<Fault> {
     let fault = |file, old, new, scene, stage| Fault { file, old, new, scene, stage };
     let plain = || scene(true, "", "");
     let contours = |more: &str| scene(true, "", &format!("[contours]\nthickness = \"1.5 voxels\"\n{more}"));
+    let cut = || scene(true, "", &crate::styles::cut("glass"));
     let mip = || scene(true, "", "[style_mipmaps]\nturn = 0.3\n");
     let over = |over: &str, rows: &str| torus("", &format!("over = {over}\n{rows}"), "");
     let gradients = || over("[\"value\", \"gradient-magnitude\"]", &styles([2.0, 10.0, 20.0]));
@@ -88,6 +89,15 @@ pub(crate) fn faults() -> Vec<Fault> {
             "-dot(a.normal, view_forward())",
             "dot(a.normal, view_forward())",
             scene(true, "sphere_frame = \"view\"", ""),
+            "style coordinate",
+        ),
+        // Cuts: the cap's own opacity, a swapped axis.
+        fault(in_styles("cap"), "shaded.alpha * c.a", "shaded.alpha", cut(), "colour"),
+        fault(
+            in_styles("cap"),
+            "planes[cut_plane].r), n.xy)",
+            "planes[cut_plane].r), n.yx)",
+            cut(),
             "style coordinate",
         ),
         // Contours: the sample before, an angle's fold, the root, the push, the fade.

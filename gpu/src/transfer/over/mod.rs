@@ -7,7 +7,7 @@ use crate::{GpuError, Inputs};
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
 use drypoint_scene::other_grid::OtherGrid;
-use drypoint_scene::shot::{Axis, KappaSource, LabelLookup, Object, SampleQuery};
+use drypoint_scene::shot::{Axis, KappaSource, LabelLookup, SampleQuery, Shot};
 use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Rows;
 use drypoint_scene::volume::labels::LabelVolume;
@@ -22,11 +22,12 @@ pub(crate) const STYLES: Module = module!("styles_over_two");
 /// the rest only where α_u > 0.
 pub(crate) fn add(
     shader: &mut Shader,
-    object: &Object,
+    shot: &Shot,
     rows: &Rows,
     inputs: &Inputs<'_>,
     scales: &Scales,
 ) -> Result<(), GpuError> {
+    let [object] = &shot.objects;
     let (at, opacity, _) = object.function.nodes();
     let further = [0, 1].map(|axis| inputs.further[axis].map(Further::new));
     let scaled = |axis: usize, at: &[f64]| -> Vec<f64> {
@@ -66,7 +67,7 @@ pub(crate) fn add(
                 shader.add(&[module!("grid_numbers"), module!("further_volume")]);
                 call
             }
-            _ => coordinate(shader, axis, rows, object, inputs)?,
+            _ => coordinate(shader, axis, rows, shot, inputs)?,
         };
         shader.stages.coordinates.push(expression);
     }
@@ -141,7 +142,7 @@ fn coordinate(
     shader: &mut Shader,
     axis: usize,
     rows: &Rows,
-    object: &Object,
+    shot: &Shot,
     inputs: &Inputs<'_>,
 ) -> Result<String, GpuError> {
     let grid = inputs.volume.grid();
@@ -155,7 +156,9 @@ fn coordinate(
         Axis::K2 => "a.principal.y".to_owned(),
         Axis::Mean => "(a.principal.x + a.principal.y) * 0.5".to_owned(),
         Axis::Gaussian => "a.principal.x * a.principal.y".to_owned(),
-        Axis::AlongView => "a.kappa".to_owned(),
+        Axis::AlongView if shot.clipping.planes.is_empty() => "a.kappa".to_owned(),
+        // On a cut there is no curvature ([RAY-8]).
+        Axis::AlongView => "select(a.kappa, real(0.0), cut_plane >= 0 && sample.k == cut_k)".to_owned(),
         Axis::Distance(p) => {
             if !shader.modules.contains(&module!("point_distance")) {
                 shader.add(&[module!("point_distance")]);
@@ -168,7 +171,7 @@ fn coordinate(
         Axis::Label => {
             let labels = inputs.labels.ok_or(GpuError::Material)?;
             let own = labels.grid_in(inputs.volume.anatomy());
-            add_labels(shader, labels, &own, object.label_lookup);
+            add_labels(shader, labels, &own, shot.objects[0].label_lookup);
             add_map(shader, grid, &own);
             return Ok("Coordinate(0.0, label_at(sample.position))".to_owned());
         }
