@@ -27,7 +27,7 @@ pub(crate) fn shader(
     let mut shader = Shader::default();
     let scales = Scales::new(measured, grid);
     // The field and its rays.
-    field::add_kernel(&mut shader, object, measured, grid)?;
+    field::kernel::add(&mut shader, object.reconstruction.kernel, measured, grid);
     ray::add_lattice(&mut shader, shot, grid)?;
     // Samples.
     transfer::add_nodes(&mut shader, &object.function, &scales)?;
@@ -41,12 +41,17 @@ pub(crate) fn shader(
     }
     // Quantities of layers `first.*` are measured at every visible sample.
     let query = object.first.map_or(object.query, |first| object.query.and(first));
-    if query.kappa != KappaSource::None || query.principal {
-        return Err(GpuError::Missing { what: "curvatures", key: "picture.layers" });
+    if query.kappa == KappaSource::AlongRay {
+        return Err(GpuError::Missing { what: "curvatures along the ray", key: "contours.kappa" });
     }
     if query.gradient {
-        field::add_gradient(&mut shader, object, measured, &scales, no_normal(precision))?;
+        field::gradient::add(&mut shader, object, measured, &scales, no_normal(precision));
         ray::add_gradient(&mut shader, measured, &scales);
+    }
+    if query.hessian {
+        let is_integer = inputs.volume.voxels().voxel_type().is_integer();
+        field::hessian::add(&mut shader, object, is_integer, measured, &scales, precision)?;
+        ray::add_curvature(&mut shader, query);
     }
     match (&*object.function, &object.material) {
         (Function::Regular(nodes), Material::Regular(lit)) => {

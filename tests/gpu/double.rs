@@ -6,7 +6,7 @@ use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
 
 /// The largest differences between the reference and shaders in f64 and in f32.
-fn differences(scene: &str) -> Option<[f64; 2]> {
+pub(crate) fn differences(scene: &str) -> Option<[f64; 2]> {
     let gpu = gpu()?;
     let scene = parse(scene, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));

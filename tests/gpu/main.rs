@@ -2,6 +2,7 @@
 //! DRYPOINT_REQUIRE_GPU=1 they fail.
 
 mod double;
+mod field;
 mod formulas;
 
 use drypoint::gpu::{Gpu, GpuError};

@@ -10,7 +10,7 @@ use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::ClipPlane;
 use drypoint_scene::color::premultiply;
 use drypoint_scene::measured::Measured;
-use drypoint_scene::shot::{BlendSpace, Cap, Clipping, Lattice, Shot, StepAlong};
+use drypoint_scene::shot::{BlendSpace, Cap, Clipping, KappaSource, Lattice, SampleQuery, Shot, StepAlong};
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{BRICK, Bricks};
@@ -84,6 +84,14 @@ pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Sc
         shader.block.number("gradient_width", scales.gradient(width));
         shader.stages.measured.push("measure_magnitude");
     }
+}
+
+/// Adds the curvatures from Hessians that samples are asked for.
+pub(crate) fn add_curvature(shader: &mut Shader, query: SampleQuery) {
+    shader.add(&[module!("curvature")]);
+    shader.constant("EXACT_KAPPA", Constant::Bool(query.kappa == KappaSource::Exact));
+    shader.constant("PRINCIPAL", Constant::Bool(query.principal));
+    shader.stages.measured.push("measure_curvature");
 }
 
 /// Adds clip planes, before what shades is added.
