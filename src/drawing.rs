@@ -1,12 +1,14 @@
 //! Frames of a scene, and their files: the volume, points and lines over it, or either alone.
 
 mod frame_writer;
+mod volume_renderer;
 
 use crate::Failure;
-use crate::job::{Job, RenderTarget, provenance, render_failure};
+#[cfg(feature = "gpu")]
+use crate::gpu::{Gpu, GpuFrames};
+use crate::job::{Job, RenderTarget, provenance};
 use crate::marking::{MarkFrames, Marking};
 use drypoint_output::paint::fragments;
-use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Marks, mark_counts};
@@ -16,13 +18,14 @@ use drypoint_scene::tables::{Orbit, Scene};
 use drypoint_scene::view::View;
 use frame_writer::FrameWriter;
 use std::path::Path;
+use volume_renderer::VolumeRenderer;
 
 /// A job made ready for any number of frames.
 pub struct Drawing<'a> {
     job: &'a Job,
     first: View,
     orbit: Option<Orbit>,
-    renderer: Option<Renderer<'a>>,
+    renderer: Option<VolumeRenderer<'a>>,
     marks: Option<MarkFrames<'a>>,
 }
 
@@ -57,13 +60,37 @@ impl<'a> Drawing<'a> {
         if let Some(renderer) = &renderer {
             counts.add(renderer.prepared());
         }
+        Self::with(job, marking, renderer.map(VolumeRenderer::Reference), counts)
+    }
+
+    /// Prepares the frames of a job like [`Drawing::new`], with the volume drawn by a graphics card.
+    ///
+    /// # Errors
+    /// Same errors as [`Job::renderer`], and those of the adapter.
+    #[cfg(feature = "gpu")]
+    pub fn on_gpu(job: &'a Job, marking: &'a Marking<'a>, gpu: &'a Gpu, counts: &mut Counts) -> Result<Self, Failure> {
+        let frames = if job.draws_volume() { Some(Box::new(GpuFrames::new(job, gpu)?)) } else { None };
+        Self::with(job, marking, frames.map(VolumeRenderer::Gpu), counts)
+    }
+
+    fn with(
+        job: &'a Job,
+        marking: &'a Marking<'a>,
+        renderer: Option<VolumeRenderer<'a>>,
+        counts: &mut Counts,
+    ) -> Result<Self, Failure> {
         let marks = marking.frames(counts);
         Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks })
     }
 
     /// Renders the volume plane by plane instead. The picture is the same.
     pub fn plane_by_plane(self) -> Self {
-        Self { renderer: self.renderer.map(Renderer::plane_by_plane), ..self }
+        let renderer = self.renderer.map(|renderer| match renderer {
+            VolumeRenderer::Reference(renderer) => VolumeRenderer::Reference(renderer.plane_by_plane()),
+            #[cfg(feature = "gpu")]
+            VolumeRenderer::Gpu(_) => renderer,
+        });
+        Self { renderer, ..self }
     }
 
     /// Returns the number of frames: those of `[orbit]`, or one.
@@ -98,9 +125,9 @@ impl<'a> Drawing<'a> {
                     let lines = fragments(&merged, &view, renderer.rays_across());
                     counts.preprocess.insert("places of lines on rays".into(), lines.len() as u64);
                     counts.bytes.insert("lines on rays".into(), lines.bytes() as u64);
-                    renderer.merge(Some(lines));
+                    renderer.merge(Some(lines))?;
                 } else {
-                    renderer.merge(None);
+                    renderer.merge(None)?;
                 }
                 marks = Some(over);
             }
@@ -112,9 +139,9 @@ impl<'a> Drawing<'a> {
             Some(renderer) => {
                 if self.orbit.is_some() {
                     let shot = self.job.shot_from(view)?;
-                    renderer.turn(&shot).map_err(|error| render_failure(&error, scene))?;
+                    renderer.turn(&shot, self.job)?;
                 }
-                let (picture, own) = renderer.again(progress);
+                let (picture, own) = renderer.frame(progress)?;
                 counts.add(&own);
                 Some(picture)
             }

@@ -4,9 +4,13 @@ use crate::Failure;
 use crate::job::Job;
 pub use drypoint_gpu::{Gpu, GpuError, Kernel, Precision};
 use drypoint_gpu::{Inputs, Renderer, Volume};
+use drypoint_reference::ray::lattice::samples_in;
+use drypoint_scene::counts::Counts;
+use drypoint_scene::fragments::Fragments;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::Shot;
+use std::time::Instant;
 
 /// A job whose volume lies on a graphics card.
 pub struct GpuJob<'a> {
@@ -45,6 +49,8 @@ impl<'a> GpuJob<'a> {
         let inputs = Inputs {
             volume: &self.job.volume,
             measured: &self.measured,
+            labels: self.job.labels.as_ref(),
+            further: self.job.further.each_ref().map(Option::as_ref),
             styles: &self.job.styles,
             background: self.job.backdrop(&self.shot),
         };
@@ -58,6 +64,67 @@ impl<'a> GpuJob<'a> {
     /// Same errors as [`GpuJob::renderer`].
     pub fn frame(&self, progress: &dyn Fn(f64)) -> Result<Picture, Failure> {
         self.renderer()?.frame(progress).map_err(|error| failure(&error, self.job))
+    }
+}
+
+/// Frames of a job on a graphics card.
+pub struct GpuFrames<'a> {
+    job: &'a Job,
+    renderer: Renderer<'a>,
+    samples: f64,
+    rays_across: usize,
+}
+
+impl<'a> GpuFrames<'a> {
+    /// Uploads the volume of a job and prepares its shader.
+    ///
+    /// # Errors
+    /// Same errors as [`Job::renderer`], an effect without a shader, and errors of the adapter.
+    pub fn new(job: &'a Job, gpu: &'a Gpu) -> Result<Self, Failure> {
+        let on_gpu = GpuJob::new(job, gpu, Precision::Single)?;
+        let (shot, renderer) = (&on_gpu.shot, on_gpu.renderer()?);
+        let rays = (shot.rays_across * shot.rays_across) as f64;
+        let samples = samples_in(&shot.lattice, &shot.view, job.volume.grid()) * rays;
+        Ok(Self { job, renderer, samples, rays_across: shot.rays_across })
+    }
+
+    /// Returns about how many samples a frame has without skipping.
+    pub fn samples(&self) -> f64 {
+        self.samples
+    }
+
+    /// Returns n of the n×n rays of a pixel, before it is refined.
+    pub fn rays_across(&self) -> usize {
+        self.rays_across
+    }
+
+    /// Puts lines inside the frames that follow, which has no shader yet.
+    ///
+    /// # Errors
+    /// Lines.
+    pub fn merge(&mut self, lines: Option<&Fragments>) -> Result<(), Failure> {
+        let missing = GpuError::Missing { what: "strokes inside a volume", key: "hatching.mode" };
+        if lines.is_some() { Err(failure(&missing, self.job)) } else { Ok(()) }
+    }
+
+    /// Takes the camera and the lights of another shot of the job.
+    ///
+    /// # Errors
+    /// A camera too far away.
+    pub fn turn(&mut self, shot: &Shot) -> Result<(), Failure> {
+        self.renderer.turn(shot, self.job.volume.grid()).map_err(|error| failure(&error, self.job))
+    }
+
+    /// Draws a frame, with its own counts.
+    ///
+    /// # Errors
+    /// Errors of the adapter.
+    pub fn frame(&mut self, progress: &dyn Fn(f64)) -> Result<(Picture, Counts), Failure> {
+        let start = Instant::now();
+        let picture = self.renderer.frame(progress).map_err(|error| failure(&error, self.job))?;
+        let mut counts = Counts::default();
+        counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
+        Ok((picture, counts))
     }
 }
 

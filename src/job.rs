@@ -80,7 +80,7 @@ pub struct Job {
     function: Option<Arc<Function>>,
     /// The label volume, if something reads it.
     pub(crate) labels: Option<LabelVolume>,
-    further: [Option<Volume>; 2],
+    pub(crate) further: [Option<Volume>; 2],
     /// The styles that the function names, then those of caps.
     pub(crate) styles: Vec<Style>,
     /// The premultiplied picture behind the volume, if the scene has one.

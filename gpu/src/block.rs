@@ -48,6 +48,11 @@ impl Block {
         precision.bytes(&values)
     }
 
+    /// Takes the numbers of another block that are here, too.
+    pub(crate) fn update(&mut self, other: &Self) {
+        other.fields.iter().for_each(|(name, value)| self.set(name, *value));
+    }
+
     /// Sets a number that is there.
     pub(crate) fn set(&mut self, name: &str, value: f64) {
         for field in self.fields.iter_mut().filter(|field| field.0 == name) {

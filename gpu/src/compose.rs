@@ -1,10 +1,16 @@
 //! The shader of a shot: which modules it is put together from, and what they read.
 
+use crate::block::Block;
 use crate::field::Scales;
 use crate::shader::{Constant, Shader};
-use crate::{GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, transfer};
+use crate::{
+    GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, style_transfer_functions,
+    surface, transfer,
+};
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Cap, Illumination, KappaSource, Lighting, Material, Shot};
+use drypoint_scene::shot::{Cap, Illumination, KappaSource, Lighting, Material, OpaqueSurface, Shot};
+use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
 /// The share of a gradient that is rounding ([PREC-3]).
@@ -23,15 +29,19 @@ pub(crate) fn shader(
     precision: Precision,
 ) -> Result<(Shader, Scales), GpuError> {
     let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
-    refuse(shot, inputs)?;
+    refuse(shot)?;
     let mut shader = Shader::default();
     let scales = Scales::new(measured, grid);
     // The field and its rays.
     field::kernel::add(&mut shader, object.reconstruction.kernel, measured, grid);
     ray::add_lattice(&mut shader, shot, grid)?;
     // Samples.
-    transfer::add_nodes(&mut shader, &object.function, &scales)?;
+    transfer::add_nodes(&mut shader, &object.function, &scales, precision);
     ray::add_cast(&mut shader, shot);
+    if let Some(mask) = inputs.volume.mask() {
+        field::mask::add(&mut shader, mask, grid);
+        ray::add_mask(&mut shader);
+    }
     if let Some(bricks) = &measured.bricks {
         ray::add_bricks(&mut shader, shot, bricks, &scales, precision);
     }
@@ -41,9 +51,7 @@ pub(crate) fn shader(
     }
     // Quantities of layers `first.*` are measured at every visible sample.
     let query = object.first.map_or(object.query, |first| object.query.and(first));
-    if query.kappa == KappaSource::AlongRay {
-        return Err(GpuError::Missing { what: "curvatures along the ray", key: "contours.kappa" });
-    }
+    let query = shot.surface.as_ref().map_or(query, |surface| query.and(surface.query).and(surface.first));
     if query.gradient {
         field::gradient::add(&mut shader, object, measured, &scales, no_normal(precision));
         ray::add_gradient(&mut shader, measured, &scales);
@@ -53,18 +61,37 @@ pub(crate) fn shader(
         field::hessian::add(&mut shader, object, is_integer, measured, &scales, precision)?;
         ray::add_curvature(&mut shader, query);
     }
+    if query.kappa == KappaSource::AlongRay {
+        style_transfer_functions::add_curvature_along_ray(&mut shader, object.turn);
+    }
+    let rows = object.function.nodes().2;
+    if let Some(rows) = rows {
+        transfer::over::add(&mut shader, object, rows, inputs, &scales)?;
+    }
+    let between = |over_value, over_two| if rows.is_some() { over_two } else { over_value };
     match (&*object.function, &object.material) {
         (Function::Regular(nodes), Material::Regular(lit)) => {
-            transfer::add_colors(&mut shader, &nodes.color);
+            let between = between(transfer::COLORS_OVER_VALUE, transfer::over::COLORS);
+            transfer::add_colors(&mut shader, &nodes.color, between);
             add_light(&mut shader, lit);
         }
-        (Function::Style { .. }, Material::Style(_)) => {
-            return Err(GpuError::Missing { what: "styles", key: "transfer.nodes" });
+        (Function::Style { nodes, names }, Material::Style(params)) => {
+            let styles = inputs.styles.get(..names.len()).ok_or(GpuError::Material)?;
+            let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
+            let of_nodes = (nodes.color.as_slice(), styles);
+            style_transfer_functions::add(&mut shader, shot, params, of_nodes, grid.voxel(), between);
         }
         _ => return Err(GpuError::Material),
     }
     if clips {
         ray::add_cuts(&mut shader);
+    }
+    if let Some(surface) = &shot.surface {
+        surface::add(&mut shader, shot, surface, measured, &scales, ray::rounding(&scales, precision));
+        if inputs.volume.mask().is_some() {
+            surface::add_mask(&mut shader);
+        }
+        light_surface(&mut shader, &object.material, &surface.lit)?;
     }
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
@@ -73,14 +100,42 @@ pub(crate) fn shader(
     Ok((shader, scales))
 }
 
+/// The numbers of a shader that depend on the camera.
+pub(crate) fn camera(shot: &Shot, grid: &Grid) -> Result<Block, GpuError> {
+    let [object] = &shot.objects;
+    let mut block = Block::default();
+    ray::add_view(&mut block, shot, grid)?;
+    let of_samples = if let Material::Regular(lit) = &object.material { light_of(lit) } else { None };
+    let light = of_samples.or(shot.surface.as_ref().and_then(|surface| light_of(&surface.lit)));
+    if let Some(light) = light {
+        block.vector("light", light);
+    }
+    Ok(block)
+}
+
+/// The direction to the light; none where nothing is lit.
+fn light_of(lit: &Illumination) -> Option<DVec3> {
+    match &lit.lighting {
+        Lighting::Flat => None,
+        Lighting::Phong(phong) => Some(phong.light),
+        Lighting::Toon(toon) => Some(toon.light),
+    }
+}
+
 /// Refuses what no module draws.
-fn refuse(shot: &Shot, inputs: &Inputs<'_>) -> Result<(), GpuError> {
+fn refuse(shot: &Shot) -> Result<(), GpuError> {
     let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
     missing(!shot.halos.list.is_empty(), "halos", "halo")?;
-    missing(shot.surface.is_some(), "iso-surfaces", "surface")?;
+    let is_cut = shot.surface.is_some() && !shot.clipping.planes.is_empty();
+    missing(is_cut, "iso-surfaces that planes cut", "clip")?;
+    let along_ray = |surface: &OpaqueSurface| surface.query.and(surface.first).kappa == KappaSource::AlongRay;
+    missing(
+        shot.surface.as_ref().is_some_and(along_ray),
+        "curvatures along the ray of iso-surfaces",
+        "picture.layers",
+    )?;
     let has_style = shot.clipping.caps.iter().any(|cap| matches!(cap, Cap::Style(_)));
-    missing(has_style, "styles on cuts", "clip.style")?;
-    missing(inputs.volume.mask().is_some(), "volumes with values that are not numbers", "volume")
+    missing(has_style, "styles on cuts", "clip.style")
 }
 
 /// Adds the light of a regular function.
@@ -96,4 +151,37 @@ fn add_light(shader: &mut Shader, lit: &Illumination) {
     if lit.view_opacity > 0.0 {
         interactive_volume_illustration::add_view_opacity(shader, lit.view_opacity);
     }
+}
+
+/// Adds the light of an iso-surface. A surface and samples that are lit by one model share its numbers.
+fn light_surface(shader: &mut Shader, material: &Material, lit: &Illumination) -> Result<(), GpuError> {
+    let other =
+        || Err(GpuError::Missing { what: "iso-surfaces that are lit otherwise than the volume", key: "surface.look" });
+    let of_samples = if let Material::Regular(of_samples) = material { Some(of_samples) } else { None };
+    let lighting = of_samples.map_or(&Lighting::Flat, |lit| &lit.lighting);
+    let silhouette = of_samples.and_then(|lit| lit.silhouette);
+    let differs = match (lighting, &lit.lighting) {
+        (Lighting::Flat, _) | (_, Lighting::Flat) => false,
+        (samples, surface) => samples != surface,
+    };
+    if differs || (silhouette.is_some() && lit.silhouette.is_some() && silhouette != lit.silhouette) {
+        return other();
+    }
+    let stages = &mut shader.stages;
+    let shown = std::mem::take(&mut stages.shown);
+    // Modules that samples have are there already.
+    let left = Illumination {
+        lighting: if *lighting == Lighting::Flat { lit.lighting.clone() } else { Lighting::Flat },
+        silhouette: if silhouette.is_none() { lit.silhouette } else { None },
+        view_opacity: 0.0,
+    };
+    add_light(shader, &left);
+    let shade = match lit.lighting {
+        Lighting::Flat => None,
+        Lighting::Phong(_) => Some("shade_phong"),
+        Lighting::Toon(_) => Some("shade_toon"),
+    };
+    shader.stages.on_surface = shade.into_iter().chain(lit.silhouette.map(|_| "shade_silhouette")).collect();
+    shader.stages.shown = shown;
+    Ok(())
 }

@@ -21,6 +21,10 @@ pub struct Kernel<'k> {
     pub vectors: &'k [(&'static str, [f64; 3])],
     /// Lists of numbers, by their binding in group 1.
     pub lists: &'k [(u32, &'k [f64])],
+    /// Lists of whole numbers, likewise.
+    pub words: &'k [(u32, &'k [u32])],
+    /// Lists of texels, likewise.
+    pub texels: &'k [(u32, &'k [[f32; 4]])],
     /// Statements before the expressions. `x[0]`, `x[1]`, … are the numbers of a row.
     pub before: &'k str,
     /// An expression for each number of a result row.
@@ -60,8 +64,13 @@ impl Kernel<'_> {
                 mapped_at_creation: false,
             })
         })?;
-        let lists: Vec<_> = self.lists.iter().map(|(binding, list)| (*binding, precision.bytes(list))).collect();
-        let lists = lists.into_iter().map(|(binding, bytes)| Ok((binding, buffer(gpu, "a list", &bytes, storage)?)));
+        let lists = self.lists.iter().map(|(binding, list)| (*binding, precision.bytes(list)));
+        let words = self.words.iter().map(|(binding, list)| (*binding, bytemuck::cast_slice(list).to_vec()));
+        let texels = self.texels.iter().map(|(binding, list)| (*binding, bytemuck::cast_slice(list).to_vec()));
+        let lists = lists
+            .chain(words)
+            .chain(texels)
+            .map(|(binding, bytes)| Ok((binding, buffer(gpu, "a list", &bytes, storage)?)));
         let lists = lists.collect::<Result<Vec<_>, GpuError>>()?;
         let layout = |entries: &[wgpu::BindGroupLayoutEntry]| {
             gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("kernel"), entries })

@@ -9,7 +9,9 @@ use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
+use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
+use drypoint_scene::volume::labels::LabelVolume;
 
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
@@ -27,6 +29,10 @@ pub struct Inputs<'a> {
     pub volume: &'a drypoint_scene::volume::Volume,
     /// The facts of the volume.
     pub measured: &'a Measured,
+    /// The labels beside the volume, where the function reads them ([STF-13]).
+    pub labels: Option<&'a LabelVolume>,
+    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
+    pub further: [Option<&'a drypoint_scene::volume::Volume>; 2],
     /// The styles that the function names, then those of caps.
     pub styles: &'a [Style],
     /// The background.
@@ -104,6 +110,15 @@ impl<'g> Renderer<'g> {
             size: shot.view.size,
             samples_a_row: shot.view.size[0] as f64 * rays * planes.max(1.0),
         })
+    }
+
+    /// Takes the camera and the lights of another shot for the frames that follow. The shots may differ in nothing else.
+    ///
+    /// # Errors
+    /// More sample planes than the shader counts.
+    pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
+        self.shader.block.update(&compose::camera(shot, grid)?);
+        Ok(())
     }
 
     /// Draws one frame. `progress` hears the share of the picture that is done.

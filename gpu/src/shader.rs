@@ -58,10 +58,24 @@ pub(crate) struct Stages {
     pub(crate) next_plane: Vec<&'static str>,
     /// From the place of a value to that between nodes.
     pub(crate) nodes: Vec<&'static str>,
+    /// Attributes that decide whether a sample is visible.
+    pub(crate) measured_first: Vec<&'static str>,
+    /// Whether a sample with those attributes is visible.
+    pub(crate) is_seen: Vec<&'static str>,
     /// Attributes of a visible sample.
     pub(crate) measured: Vec<&'static str>,
+    /// Expressions for the coordinates of a function over two quantities: the first along a row, the second from row to row.
+    pub(crate) coordinates: Vec<String>,
     /// The colour and opacity of a visible sample.
     pub(crate) shown: Vec<&'static str>,
+    /// The number of steps that a sample stands for.
+    pub(crate) steps: Vec<&'static str>,
+    /// From a cell to the side of the block of cells without an iso-surface; 0: the cell is searched.
+    pub(crate) passed: Vec<&'static str>,
+    /// The colour of an iso-surface.
+    pub(crate) on_surface: Vec<&'static str>,
+    /// What a ray meets behind its samples.
+    pub(crate) ends: Vec<&'static str>,
     /// What layers take of a sample.
     pub(crate) collect: Vec<&'static str>,
     /// When a ray has ended.
@@ -147,11 +161,33 @@ impl Stages {
         function("next_plane(ray: Ray, sample: Sample) -> i32", &lines, Some("next"));
         let lines = with("var place = located;", calls(&self.nodes, &|s| format!("place = {s}(place);")));
         function("node_place(located: NodePlace) -> NodePlace", &lines, Some("place"));
-        let lines = with("var a = Attributes();", calls(&self.measured, &|s| format!("a = {s}(ray, sample, a);")));
-        function("measured(ray: Ray, sample: Sample) -> Attributes", &lines, Some("a"));
+        let lines =
+            with("var a = Attributes();", calls(&self.measured_first, &|s| format!("a = {s}(ray, sample, a);")));
+        function("measured_first(ray: Ray, sample: Sample) -> Attributes", &lines, Some("a"));
+        let lines = calls(&self.is_seen, &|s| format!("if (!{s}(ray, sample, a)) {{ return false; }}"));
+        function("is_seen(ray: Ray, sample: Sample, a: Attributes) -> bool", &lines, Some("true"));
+        let lines = with("var a = known;", calls(&self.measured, &|s| format!("a = {s}(ray, sample, a);")));
+        function("measured_rest(ray: Ray, sample: Sample, known: Attributes) -> Attributes", &lines, Some("a"));
+        for (name, expression) in ["across", "down"].into_iter().zip(&self.coordinates) {
+            let head = format!("{name}(ray: Ray, sample: Sample, a: Attributes) -> Coordinate");
+            function(&head, &[], Some(expression));
+        }
         let lines =
             with("var shaded = Shaded();", calls(&self.shown, &|s| format!("shaded = {s}(ray, sample, a, shaded);")));
         function("shown(ray: Ray, sample: Sample, a: Attributes) -> Shaded", &lines, Some("shaded"));
+        let lines = with("var steps = real(1.0);", calls(&self.steps, &|s| format!("steps = {s}(k, steps);")));
+        function("steps_of(k: i32) -> real", &lines, Some("steps"));
+        let lines = with("var side = 0;", calls(&self.passed, &|s| format!("side = max(side, {s}(cell));")));
+        function("cells_passed(cell: vec3<i32>) -> i32", &lines, Some("side"));
+        let lines =
+            with("var shaded = plain;", calls(&self.on_surface, &|s| format!("shaded = {s}(ray, sample, a, shaded);")));
+        function(
+            "on_surface(ray: Ray, sample: Sample, a: Attributes, plain: Shaded) -> Shaded",
+            &lines,
+            Some("shaded"),
+        );
+        let lines = with("var front = seen;", calls(&self.ends, &|s| format!("front = {s}(ray, front);")));
+        function("ended(ray: Ray, seen: Front) -> Front", &lines, Some("front"));
         let lines = calls(&self.collect, &|s| format!("{s}(ray, sample, a, alpha);"));
         function("collect(ray: Ray, sample: Sample, a: Attributes, alpha: real)", &lines, None);
         function("end_ray(part: i32)", &calls(&self.end_ray, &|s| format!("{s}(part);")), None);

@@ -2,8 +2,8 @@
 
 use crate::field::{Cells, Place};
 use crate::number::{Real, Vec3};
-use crate::other_grid::OtherGrid;
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::other_grid::OtherGrid;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::LabelLookup;
 use drypoint_scene::volume::Anatomy;
@@ -56,8 +56,8 @@ impl<'a> Labels<'a> {
     pub fn id_at<R: Real>(&self, p: Vec3<R>) -> u32 {
         let mut p = Vec3::new(p.x.to_f64(), p.y.to_f64(), p.z.to_f64());
         if let Some(map) = &self.map {
-            let Some(there) = map.position(p) else { return 0 };
-            p = there;
+            let Some(there) = map.position(p.to_glam()) else { return 0 };
+            p = Vec3::from_glam(there);
         }
         let at = self.cells.locate(p);
         match self.lookup {

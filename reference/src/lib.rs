@@ -8,7 +8,6 @@ pub mod field;
 pub mod interactive_volume_illustration;
 pub mod labels;
 pub mod number;
-mod other_grid;
 pub mod ray;
 pub mod shading;
 pub mod style_transfer_functions;

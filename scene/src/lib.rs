@@ -20,6 +20,7 @@ pub mod math;
 pub mod measured;
 pub mod memory;
 mod nearest;
+pub mod other_grid;
 pub mod phantom;
 pub mod philox;
 pub mod picture;

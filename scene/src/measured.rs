@@ -40,6 +40,8 @@ pub struct Measured {
     pub gradient_range: Option<[f64; 2]>,
     /// The gradient, in values per world unit, of which a small share is rounding ([PREC-3]): 2⁻²⁰ in f32, 2⁻⁴⁶ in f64.
     pub gradient_scale: f64,
+    /// Distances of the volume's voxels to a label, in world units, for each quantity of the function that is one ([STF-4]).
+    pub label_distances: [Option<Vec<f64>>; 2],
     /// Ranges of values of bricks of cells; none where nothing is skipped ([RAY-2]).
     pub bricks: Option<Bricks>,
 }

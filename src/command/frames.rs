@@ -1,6 +1,7 @@
 //! The files of a scene's frames, and the frames drawn into them.
 
 use super::empty::warn_of_nothing;
+use super::graphics::Gpu;
 use super::input::{self, SceneOverrides};
 use super::report::{Progress, note};
 use super::stats::{FrameTimes, cpu_seconds};
@@ -132,11 +133,12 @@ pub(super) fn first(job: &Job, progress: &(dyn Fn(f64) + Sync)) -> Result<Pictur
 }
 
 /// Loads a scene or a bare volume, and draws and writes every frame, `repeat` times each. `files` names the files, which are
-/// checked before anything is loaded.
+/// checked before anything is loaded. The volume is drawn by `gpu`, if there is one.
 pub(super) fn load_and_draw(
     input: Option<&Path>,
     over: &SceneOverrides,
     files: impl FnOnce(&Scene) -> Result<FrameFiles, Failure>,
+    gpu: Option<&Gpu>,
     repeat: usize,
     talk: Talk,
 ) -> Result<DrawReport, Failures> {
@@ -149,13 +151,13 @@ pub(super) fn load_and_draw(
     };
     let loaded = start.elapsed().as_secs_f64();
     input::tell(talk, &job);
-    let mut drawn = draw(&job, &files, repeat, talk)?;
+    let mut drawn = draw(&job, &files, gpu, repeat, talk)?;
     drawn.counts.seconds.insert("load".into(), loaded);
     Ok(drawn)
 }
 
 /// Draws every frame of a job, `repeat` times each, and writes them.
-fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> Result<DrawReport, Failure> {
+fn draw(job: &Job, files: &FrameFiles, gpu: Option<&Gpu>, repeat: usize, talk: Talk) -> Result<DrawReport, Failure> {
     room_for_page(job, &files.path(0))?;
     let mut counts = job.counts.clone();
     // Points, lines and the renderer are made once for all frames.
@@ -169,7 +171,13 @@ fn draw(job: &Job, files: &FrameFiles, repeat: usize, talk: Talk) -> Result<Draw
     let mut drawing = {
         let preparing = Progress::new(talk, "preparing");
         preparing.amount(|| format!("{:.1e} voxels", job.volume.grid().len() as f64));
-        Drawing::new(job, &marking, &mut counts)?
+        match gpu {
+            None => Drawing::new(job, &marking, &mut counts)?,
+            #[cfg(feature = "gpu")]
+            Some(gpu) => Drawing::on_gpu(job, &marking, gpu, &mut counts)?,
+            #[cfg(not(feature = "gpu"))]
+            Some(gpu) => match *gpu {},
+        }
     };
     let frames = drawing.frames();
     // Frames are drawn, timed and written one after another.

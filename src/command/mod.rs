@@ -6,6 +6,7 @@ mod completions;
 mod cost;
 mod empty;
 mod frames;
+mod graphics;
 mod halo;
 mod info;
 mod input;

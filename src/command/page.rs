@@ -45,7 +45,7 @@ impl PageRequest {
         output_path::format(&self.output, &Format::ALL)?;
         let over = self.over()?;
         let files = |scene: &Scene| FrameFiles::of(&self.output, scene);
-        self.done(frames::load_and_draw(Some(&self.input), &over, files, 1, talk)?.counts)
+        self.done(frames::load_and_draw(Some(&self.input), &over, files, None, 1, talk)?.counts)
     }
 
     /// Writes the cells that strokes can begin in, as a table or as a picture ([HATCH-17]).

@@ -6,7 +6,7 @@ use super::output_path::RenderOutput;
 use super::raw::RawArgs;
 use super::report::{note, print};
 use super::stats;
-use super::{Done, Outcome, Talk};
+use super::{Done, Outcome, Talk, graphics};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
 use drypoint::{Failure, Format};
@@ -54,21 +54,22 @@ pub(super) struct RenderArgs {
 enum Backend {
     /// CPU, in f64, the ground truth
     Reference,
-    /// GPU; not built yet
+    /// Graphics card, in f32; needs a build with --features gpu
     Gpu,
 }
 
 impl RenderArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        if self.backend == Backend::Gpu {
-            let what = "the GPU backend is not built yet";
-            return Err(Failure::new(what, "--backend gpu", "leave --backend out: the CPU renders").into());
-        }
+        let gpu = match self.backend {
+            Backend::Reference => None,
+            Backend::Gpu => Some(graphics::open(talk)?),
+        };
         let target = RenderOutput::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
         let mut over = SceneOverrides::new(&self.set, self.flags()?)?;
         over.beauty_only = target.format != Format::Exr;
-        let (input, files, repeat) = (self.input.as_deref(), |scene: &_| target.files(scene), self.repeat.unwrap_or(1));
-        let DrawReport { counts, times } = frames::load_and_draw(input, &over, files, repeat, talk)?;
+        let (input, files) = (self.input.as_deref(), |scene: &_| target.files(scene));
+        let repeat = self.repeat.unwrap_or(1);
+        let DrawReport { counts, times } = frames::load_and_draw(input, &over, files, gpu.as_ref(), repeat, talk)?;
         let line = stats::line(counts, self.repeat.map(|_| &times))?;
         if self.stats {
             return print(&line);

@@ -71,7 +71,6 @@ const VOLUMES: [([usize; 3], &str); 4] =
 #[test]
 fn kernels() {
     for kernel in KERNELS {
-        compare(kernel, &VOLUMES, &format!("[sampling]\nkernel = \"{kernel}\"\n"));
         let more = format!("[shading]\n[sampling]\nkernel = \"{kernel}\"\ngradient = \"analytic\"\n");
         compare(&format!("{kernel}, analytic gradient"), &VOLUMES, &more);
     }
@@ -84,5 +83,50 @@ fn gradients() {
             let more = format!("[shading]\n[sampling]\nkernel = \"{kernel}\"\ngradient = \"{gradient}\"\n");
             compare(&format!("{kernel}, {gradient}"), &VOLUMES, &more);
         }
+    }
+}
+
+/// Curvatures in layers, by each Hessian.
+#[test]
+fn curvatures() {
+    let layers = "layers = [\"beauty\", \"curvature\", \"first.curvature\", \"gradient\", \"normal\"]\n";
+    for (kernel, hessian) in [
+        ("trilinear", "central"),
+        ("trilinear", "gaussian"),
+        ("bspline", "analytic"),
+        ("bspline5", "analytic"),
+        ("bspline", "gaussian"),
+        ("catmull-rom", "auto"),
+    ] {
+        let more = format!("{layers}[shading]\n[sampling]\nkernel = \"{kernel}\"\nhessian = \"{hessian}\"\n");
+        compare(&format!("{kernel}, {hessian} Hessian"), &VOLUMES[..2], &more);
+        compare(&format!("{kernel}, {hessian} Hessian"), &VOLUMES[3..], &more);
+    }
+}
+
+#[test]
+fn masked_voxels() {
+    let masked = [([11, 9, 8], "masked")];
+    compare("masked", &masked, "[shading]\n");
+    compare("masked", &masked, "[shading]\n[sampling]\nkernel = \"bspline\"\n");
+    compare("surface, masked", &masked, "[shading]\n[surface]\niso = 150\nlook = \"phong\"\n");
+}
+
+#[test]
+fn surfaces() {
+    let phong = "[shading]\n[surface]\niso = 150\nlook = \"phong\"\ncolor = \"#d8b4cc\"\n";
+    for kernel in KERNELS {
+        compare(&format!("surface, {kernel}"), &VOLUMES, &format!("{phong}[sampling]\nkernel = \"{kernel}\"\n"));
+    }
+    let layers = "layers = [\"beauty\", \"Z\", \"depth\", \"first\", \"normal\"]\n";
+    compare("surface, layers", &VOLUMES[..2], &format!("{layers}{phong}"));
+    compare("surface, shells", &VOLUMES[..2], &format!("{phong}[sampling]\nstep_along = \"ray\"\n"));
+    compare("surface, white", &VOLUMES[..2], "[shading]\n[surface]\niso = 150\n");
+    for (dims, kind) in VOLUMES {
+        let text = scene(dims, kind, phong);
+        let (start, end) = (text.find("[transfer]").unwrap(), text.find("[picture]").unwrap());
+        let Some([double, single]) = differences(&format!("{}{}", &text[..start], &text[end..])) else { return };
+        println!("surface alone {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
+        assert!(double < 1e-9, "{dims:?}: {double:e}");
     }
 }

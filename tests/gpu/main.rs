@@ -4,6 +4,10 @@
 mod double;
 mod field;
 mod formulas;
+#[path = "sabotage/styles.rs"]
+mod sabotage_of_styles;
+mod styles;
+mod two_quantities;
 
 use drypoint::gpu::{Gpu, GpuError};
 

@@ -3,6 +3,7 @@
 pub(crate) mod gradient;
 pub(crate) mod hessian;
 pub(crate) mod kernel;
+pub(crate) mod mask;
 
 use crate::volume::scale_exponent;
 use drypoint_scene::glam::{DMat3, DVec3};

@@ -2,6 +2,7 @@
 
 use crate::GpuError;
 use crate::field::Scales;
+use crate::ray::EYE_NORMAL;
 use crate::shader::{Shader, module};
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::picture::LayerKind;
@@ -12,7 +13,7 @@ const NOWHERE: f64 = 1e37;
 /// Adds the channels of layers, and the sums that they need.
 pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuError> {
     if layers.iter().any(|&layer| layer != LayerKind::Beauty) {
-        shader.add(&[module!("layers")]);
+        shader.add(&[EYE_NORMAL, module!("layers")]);
         shader.stages.begin_ray.push("begin_sums");
         shader.stages.collect.push("collect_layers");
         shader.stages.end_ray.push("pool_sums");

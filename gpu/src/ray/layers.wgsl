@@ -37,21 +37,13 @@ fn begin_sums(ray: Ray) {
     ray_sums.first.value = NOWHERE;
 }
 
-// The normal in eye space; a sample without one has v ([PREC-3]).
-fn eye_normal(ray: Ray, a: Attributes) -> vec3<real> {
-    if (!a.has_normal) {
-        return ray.v_eye;
-    }
-    return vec3<real>(dot(a.normal, view_right()), dot(a.normal, view_up()), -dot(a.normal, view_forward()));
-}
-
 fn collect_layers(ray: Ray, sample: Sample, a: Attributes, alpha: real) {
     if (!(alpha > 0.0)) {
         return;
     }
     let w = (1.0 - ray_sums.opacity) * alpha;
     ray_sums.opacity = select(real(1.0), ray_sums.opacity + w, alpha < 1.0);
-    let depth = depth_of(ray, sample.k);
+    let depth = depth_of(ray, sample.k) + sample.offset * ray.depth_step;
     let normal = eye_normal(ray, a);
     let curvature = vec3<real>(a.principal.x, a.principal.y, a.kappa);
     if (!ray_sums.is_met) {

@@ -2,39 +2,42 @@
 
 pub(crate) mod layers;
 
+use crate::block::Block;
 use crate::field::Scales;
 use crate::number::{COLOR, ELEMENTARY, NUMBER};
-use crate::shader::{Constant, Data, Shader, module};
+use crate::shader::{Constant, Data, Module, Shader, module};
 use crate::{GpuError, Precision};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::ClipPlane;
 use drypoint_scene::color::premultiply;
 use drypoint_scene::measured::Measured;
-use drypoint_scene::shot::{BlendSpace, Cap, Clipping, KappaSource, Lattice, SampleQuery, Shot, StepAlong};
+use drypoint_scene::shot::{BlendSpace, Cap, Clipping, KappaSource, SampleQuery, Shot, StepAlong};
 use drypoint_scene::space::Grid;
-use drypoint_scene::view::View;
 use drypoint_scene::volume::{BRICK, Bricks};
 
 /// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
 const MOST_PLANES: f64 = 4_000_000.0;
 
+/// N in eye space.
+pub(crate) const EYE_NORMAL: Module = module!("eye_normal");
+
 /// Adds rays and their samples.
 pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
+    let Shot { view, lattice, .. } = shot;
+    shader.add(&[module!("lattice")]);
+    shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
+    shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
+    add_view(&mut shader.block, shot, grid)
+}
+
+/// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
+/// are of the volume's size.
+pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
     let Shot { view, lattice, .. } = shot;
     let planes = lattice.planes(view, grid);
     if planes > MOST_PLANES {
         return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
     }
-    shader.add(&[module!("lattice")]);
-    shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
-    shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
-    add_view(shader, view, lattice, grid);
-    Ok(())
-}
-
-/// The numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32 are
-/// of the volume's size.
-fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     let centre = view.to_eye(grid.centre());
     let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
     let anchor = (away / lattice.step).floor();
@@ -45,10 +48,13 @@ fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     };
     let inverse = grid.inverse_axes();
     let [low, high] = grid.index_box();
-    let block = &mut shader.block;
     block.number("step", lattice.step);
     block.number("anchor_steps", steps);
     block.number("first_plane", first);
+    if shot.surface.is_some() {
+        let near = if view.perspective { lattice.near / lattice.step - steps } else { -MOST_PLANES };
+        block.number("near_steps", near.max(-MOST_PLANES));
+    }
     block.number("pixel", view.pixel);
     block.vector("view_right", view.right);
     block.vector("view_up", view.up);
@@ -60,6 +66,7 @@ fn add_view(shader: &mut Shader, view: &View, lattice: &Lattice, grid: &Grid) {
     block.vector("anchor_middle", grid.to_index(view.eye + view.forward * (steps * lattice.step)));
     block.vector("box_low", low);
     block.vector("box_high", high);
+    Ok(())
 }
 
 /// Adds the loop over samples and what it calls.
@@ -94,6 +101,12 @@ pub(crate) fn add_curvature(shader: &mut Shader, query: SampleQuery) {
     shader.stages.measured.push("measure_curvature");
 }
 
+/// Adds the skipping of samples in masked cells.
+pub(crate) fn add_mask(shader: &mut Shader) {
+    shader.add(&[module!("skip_masked")]);
+    shader.stages.next_plane.push("skip_masked");
+}
+
 /// Adds clip planes, before what shades is added.
 pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping) {
     let plane = |plane: &ClipPlane| {
@@ -116,13 +129,19 @@ pub(crate) fn add_cuts(shader: &mut Shader) {
     shader.stages.shown.push("show_cap");
 }
 
+/// The rounding of a value.
+pub(crate) fn rounding(scales: &Scales, precision: Precision) -> f64 {
+    let share = match precision {
+        Precision::Single => 1.0 / (1u64 << 18) as f64,
+        Precision::Double => 1.0 / (1u64 << 44) as f64,
+    };
+    share * drypoint_scene::math::scale_by_power_of_two(1.0, scales.value)
+}
+
 /// Adds the skipping of bricks that can show nothing.
 pub(crate) fn add_bricks(shader: &mut Shader, shot: &Shot, bricks: &Bricks, scales: &Scales, precision: Precision) {
-    /// Rounding of a value, as a share of the largest one.
-    const ROUNDING: [f64; 2] = [1.0 / (1u64 << 18) as f64, 1.0 / (1u64 << 44) as f64];
     let [object] = &shot.objects;
-    let slack = ROUNDING[usize::from(precision == Precision::Double)]
-        * drypoint_scene::math::scale_by_power_of_two(1.0, scales.value);
+    let slack = rounding(scales, precision);
     let mut words = vec![0u32; bricks.ranges.len().div_ceil(32)];
     for (i, &[lo, hi]) in bricks.ranges.iter().enumerate() {
         if object.function.can_be_visible([lo - slack, hi + slack], None, |at| at) {

@@ -1,1 +1,123 @@
-//! Styles.
+//! Bruckner and Gröller, Style Transfer Functions for Illustrative Volume Rendering, Computer Graphics Forum 26(3), 2007.
+
+use crate::number::{COLOR, ELEMENTARY};
+use crate::ray::EYE_NORMAL;
+use crate::shader::{Data, Module, Shader, module};
+use drypoint_scene::math;
+use drypoint_scene::shot::{ContourParams, Kappa, Mix, Shot, SphereFrame, StyleParams, Transparency, Turn};
+use drypoint_scene::style::Style;
+
+/// Adds κ along the ray ([STF-5]).
+pub(crate) fn add_curvature_along_ray(shader: &mut Shader, turn: Turn) {
+    let of_turn = match turn {
+        Turn::OfNormals => module!("turn_of_normals"),
+        Turn::OfLines => module!("turn_of_lines"),
+    };
+    shader.add(&[ELEMENTARY, of_turn, module!("curvature_along_ray")]);
+    shader.stages.begin_ray.push("forget_normal");
+    shader.stages.measured.push("measure_along_ray");
+}
+
+/// Adds a function of styles: `of_node` is the index function. `between` finds the styles and the opacity of a sample.
+pub(crate) fn add(
+    shader: &mut Shader,
+    shot: &Shot,
+    params: &StyleParams,
+    (of_node, styles): (&[usize], &[Style]),
+    voxel: f64,
+    between: Module,
+) {
+    add_maps(shader, styles, params.level_of_detail.is_some());
+    match params.level_of_detail {
+        None => shader.add(&[module!("no_mipmaps")]),
+        Some(level) => {
+            shader.add(&[ELEMENTARY, module!("mipmaps")]);
+            let block = &mut shader.block;
+            block.number("curvature_bias", level.curvature_bias);
+            block.number("gradient_bias", level.gradient_bias);
+            block.number("assumed_turn", level.turn);
+            block.number("mip_voxel", voxel);
+            block.number("rays_in_voxel", voxel * shot.rays_across as f64 / shot.view.pixel);
+        }
+    }
+    // Which styles, and their mix.
+    if of_node.iter().enumerate().all(|(k, &j)| k == j) {
+        shader.add(&[module!("index_same")]);
+    } else {
+        shader.add(&[module!("index")]);
+        shader.bind(3, "the styles of nodes", Data::Words(of_node.iter().map(|&j| j as u32).collect()));
+    }
+    match params.mix {
+        Mix::Premultiplied => shader.add(&[module!("mix_premultiplied")]),
+        Mix::Printed => shader.add(&[ELEMENTARY, COLOR, module!("mix_printed")]),
+    }
+    shader.add(&[module!("blend"), between]);
+    // The normal that is looked up, and the opacity.
+    shader.add(&[EYE_NORMAL]);
+    shader.add(&[match params.frame {
+        SphereFrame::Eye => module!("frame_eye"),
+        SphereFrame::View => module!("frame_view"),
+    }]);
+    match &params.contour {
+        None => shader.add(&[module!("no_contour")]),
+        Some(contour) => add_contour(shader, contour),
+    }
+    shader.add(&[match params.transparency {
+        Transparency::Plain => module!("transparency_plain"),
+        Transparency::Illustrative => module!("transparency_illustrative"),
+    }]);
+    shader.add(&[module!("style")]);
+    shader.stages.shown.push("shade_style");
+}
+
+/// The styles of a place between the nodes of a function over the value.
+pub(crate) const OVER_VALUE: Module = module!("style_over_value");
+
+/// Adds the texels of styles ([STF-1]), and those of their mip-maps ([STF-10]).
+fn add_maps(shader: &mut Shader, styles: &[Style], with_levels: bool) {
+    let mut texels: Vec<[f32; 4]> = Vec::new();
+    let mut add = |side: usize, of: &[[f64; 4]]| {
+        let first = texels.len() as u32;
+        texels.extend(of.iter().map(|texel| texel.map(|c| c as f32)));
+        [first, side as u32, 0, 0]
+    };
+    let mut maps: Vec<[u32; 4]> = styles.iter().map(|style| add(style.side, &style.texels)).collect();
+    if with_levels {
+        let mut lambdas: Vec<f64> = styles.iter().map(|style| math::log2(style.side as f64)).collect();
+        for (j, style) in styles.iter().enumerate() {
+            let levels = style.mip_levels();
+            [maps[j][2], maps[j][3]] = [maps.len() as u32, levels.len() as u32];
+            for level in levels {
+                maps.push(add(level.side, &level.texels));
+                lambdas.push(level.lambda);
+            }
+        }
+        shader.bind(12, "the levels of mip-maps", Data::Reals(lambdas));
+    }
+    shader.add(&[module!("sphere_map")]);
+    shader.bind(10, "the styles", Data::Texels(texels));
+    shader.bind(11, "the list of styles", Data::Words(maps.into_flattened()));
+}
+
+/// Adds contours ([STF-7], [STF-8]).
+fn add_contour(shader: &mut Shader, contour: &ContourParams) {
+    shader.add(&[module!("contour")]);
+    match contour.kappa {
+        Kappa::Ray | Kappa::Exact => {
+            shader.add(&[module!("contour_by_curvature")]);
+            shader.block.number("contour_thickness", contour.thickness);
+        }
+        Kappa::None { threshold } => {
+            shader.add(&[module!("contour_constant")]);
+            shader.block.number("contour_constant", threshold);
+        }
+    }
+    match contour.fade {
+        None => shader.add(&[module!("contour_no_fade")]),
+        Some([low, high]) => {
+            shader.add(&[module!("contour_fade")]);
+            shader.block.number("fade_low", low);
+            shader.block.number("fade_width", high - low);
+        }
+    }
+}

@@ -13,10 +13,9 @@ fn color_of(node: i32) -> vec3<real> {
 }
 
 // The colour between nodes, linear and straight.
-fn node_color(ray: Ray, sample: Sample, a: Attributes, shaded: Shaded) -> Shaded {
-    let place = sample.place;
+fn color_at(place: NodePlace) -> vec3<real> {
     if (place.w == 0.0) {
-        return Shaded(color_of(place.node), place.alpha_u);
+        return color_of(place.node);
     }
-    return Shaded(lerp3(color_of(place.node), color_of(place.node + 1), place.w), place.alpha_u);
+    return lerp3(color_of(place.node), color_of(place.node + 1), place.w);
 }

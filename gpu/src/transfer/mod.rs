@@ -1,17 +1,27 @@
 //! Transfer functions: from a value to a place between nodes ([STF-3]).
 
-use crate::GpuError;
-use crate::field::Scales;
-use crate::shader::{Constant, Data, Shader, module};
-use drypoint_scene::transfer::Function;
+pub(crate) mod over;
 
-/// Adds the nodes of a function, and where it is read from a table its entries.
-pub(crate) fn add_nodes(shader: &mut Shader, function: &Function, scales: &Scales) -> Result<(), GpuError> {
+use crate::Precision;
+use crate::field::Scales;
+use crate::shader::{Constant, Data, Module, Shader, module};
+use drypoint_scene::transfer::{Function, Rows, gate};
+
+/// The colours of a place between the nodes of a function over the value.
+pub(crate) const COLORS_OVER_VALUE: Module = module!("colors_over_value");
+
+/// Adds the nodes of a function, and where it is read from a table its entries. Of a function over two quantities these are
+/// the values at which it can be visible.
+pub(crate) fn add_nodes(shader: &mut Shader, function: &Function, scales: &Scales, precision: Precision) {
     let (at, opacity, rows) = function.nodes();
-    if rows.is_some() {
-        return Err(GpuError::Missing { what: "functions over two quantities", key: "transfer.over" });
-    }
-    let at: Vec<f64> = at.iter().map(|&at| scales.value(at)).collect();
+    let scaled = |at: &[f64]| -> Vec<f64> { at.iter().map(|&at| scales.value(at)).collect() };
+    let [at, opacity] = match rows {
+        None => [scaled(at), opacity.to_vec()],
+        Some(rows) => {
+            let rounded = |at: f64| if precision == Precision::Single { f64::from(at as f32) } else { at };
+            gate::over_value(&scaled(at), opacity, &Rows { at: scaled(&rows.at), ..rows.clone() }, rounded)
+        }
+    };
     let end = at.len() - 1;
     let index = function.table().map(|(index, _)| index);
     let node = |k: usize| {
@@ -27,12 +37,11 @@ pub(crate) fn add_nodes(shader: &mut Shader, function: &Function, scales: &Scale
         shader.block.number("last_node", nodes.saturating_sub(1) as f64);
         shader.stages.nodes.push("between_nodes");
     }
-    Ok(())
 }
 
-/// Adds the colours of nodes.
-pub(crate) fn add_colors(shader: &mut Shader, colors: &[[f64; 3]]) {
-    shader.add(&[module!("colors")]);
+/// Adds the colours of nodes. `between` finds the colour and the opacity of a sample.
+pub(crate) fn add_colors(shader: &mut Shader, colors: &[[f64; 3]], between: Module) {
+    shader.add(&[module!("colors"), between]);
     shader.bind(3, "the transfer function's colours", Data::Reals(colors.iter().flatten().copied().collect()));
     shader.stages.shown.push("node_color");
 }

@@ -33,6 +33,7 @@ impl<R: Real> Field<'_, R> {
             base: self.to_value(self.stencils.lowest()).to_f64(),
             gradient_range: None,
             gradient_scale: back(self.no_normal_below) / R::NO_NORMAL.to_f64(),
+            label_distances: [None, None],
             bricks: None,
         }
     }

@@ -126,6 +126,7 @@ pub(super) fn measured<R: Real>(prepared: &Prepared<'_, R>, shot: &Shot) -> Meas
     let back = |g: R| drypoint_scene::math::scale_by_power_of_two(g.to_f64(), field.scale_exponent());
     Measured {
         gradient_range: prepared.object.gradient_range.map(|(lo, width)| [back(lo), back(width)]),
+        label_distances: prepared.object.over_two.as_ref().map_or([None, None], OverTwo::at_voxels),
         bricks: object.skip_empty.then(|| field.bricks()),
         ..field.measured(object.rung)
     }

@@ -3,85 +3,20 @@
 
 use super::piecewise::{NodesError, Piecewise};
 use crate::number::Real;
-use drypoint_scene::tables::Axis;
-use drypoint_scene::transfer::Rows;
+use drypoint_scene::transfer::{Rows, gate};
 
 /// Returns a function over the value that is above 0 at least wherever the function over two quantities can be. The
-/// other quantity is evaluated only there.
-///
-/// The function gives the values that rows leave clear exactly, since nodes and steps of every row are its own. If
-/// neither quantity is the value, the result is 1, or 0 if nothing is visible at all.
+/// other quantity is evaluated only there. See [`gate::over_value`].
 pub fn over_value<R: Real>(at: &[f64], opacity: &[f64], rows: &Rows) -> Result<Piecewise<R>, NodesError> {
-    let shows = |span: &[f64]| span.iter().any(|&a| a > 0.0);
-    match &rows.over {
-        [Axis::Value, _] => {
-            let lines: Vec<NodeRow> =
-                rows.spans(at.len()).map(|span| NodeRow { at: &at[span.clone()], opacity: &opacity[span] }).collect();
-            gate(&lines)
-        }
-        [_, Axis::Value] => {
-            let seen: Vec<f64> = rows.spans(at.len()).map(|span| f64::from(u8::from(shows(&opacity[span])))).collect();
-            gate(&[NodeRow { at: &rows.at, opacity: &seen }])
-        }
-        _ => Piecewise::new(&[0.0], &[f64::from(u8::from(shows(opacity)))]),
-    }
-}
-
-/// Nodes of one row over the value.
-struct NodeRow<'a> {
-    at: &'a [f64],
-    opacity: &'a [f64],
-}
-
-impl NodeRow<'_> {
-    /// Whether the row is visible at a value, and just below it, as far as nodes tell. Between two nodes it is
-    /// visible if it is at either node. Positions are compared after rounding.
-    fn shows<R: Real>(&self, value: R) -> RowVisibility {
-        let rounded = |k: usize| R::from_f64(self.at[k]);
-        let n = self.at.len();
-        let visible = |k: usize| self.opacity[k] > 0.0;
-        // The first node at or above the value, and the first above it.
-        let first = (0..n).find(|&k| rounded(k) >= value).unwrap_or(n);
-        let after = (0..n).find(|&k| rounded(k) > value).unwrap_or(n);
-        let between = |k: usize| match k {
-            0 => visible(0),
-            k if k == n => visible(n - 1),
-            k => visible(k - 1) || visible(k),
-        };
-        RowVisibility { below: between(first), here: if after > first { visible(after - 1) } else { between(first) } }
-    }
-}
-
-/// The visibility of a row at a value.
-#[derive(Clone, Copy)]
-struct RowVisibility {
-    below: bool,
-    here: bool,
-}
-
-/// Returns a function that is 1 between two nodes if some row is visible there. It rises from 0 if no row is visible
-/// at the lower node. At a node it is 1 if some row is visible at it. Each node stands twice, so that a step stays a
-/// step.
-fn gate<R: Real>(lines: &[NodeRow<'_>]) -> Result<Piecewise<R>, NodesError> {
-    let mut at: Vec<R> = lines.iter().flat_map(|line| line.at).map(|&a| R::from_f64(a)).collect();
-    at.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
-    at.dedup();
-    let mut nodes = (Vec::new(), Vec::new());
-    for value in at {
-        let shows: Vec<RowVisibility> = lines.iter().map(|line| line.shows(value)).collect();
-        let any = |seen: fn(&RowVisibility) -> bool| f64::from(u8::from(shows.iter().any(seen)));
-        for open in [any(|s| s.below), any(|s| s.here)] {
-            nodes.0.push(value.to_f64());
-            nodes.1.push(open);
-        }
-    }
-    Piecewise::new(&nodes.0, &nodes.1)
+    let [at, opacity] = gate::over_value(at, opacity, rows, |at| R::from_f64(at).to_f64());
+    Piecewise::new(&at, &opacity)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::transfer::{Coordinate, TransferPlane};
+    use drypoint_scene::tables::Axis;
     use proptest::prelude::*;
 
     fn rows(over: [Axis<u32>; 2], at: &[f64], first: &[usize]) -> Rows {

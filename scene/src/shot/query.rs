@@ -49,6 +49,22 @@ impl SampleQuery {
         }
     }
 
+    /// The part that two quantities of a function need before α_u is known, and the rest ([STF-4]).
+    pub fn split(self, over: &[Axis<u32>; 2]) -> (Self, Self) {
+        let any = |is: fn(&Axis<u32>) -> bool| over.iter().any(is);
+        let along_view = any(|axis| *axis == Axis::AlongView);
+        let hessian = any(Axis::is_principal) || along_view && self.kappa == KappaSource::Exact;
+        // What one Hessian gives is taken from it at once.
+        let kappa = match self.kappa {
+            KappaSource::Exact if hessian => KappaSource::Exact,
+            KappaSource::AlongRay if along_view => KappaSource::AlongRay,
+            _ => KappaSource::None,
+        };
+        let gradient = hessian || along_view || any(|axis| *axis == Axis::GradientMagnitude);
+        let first = Self { gradient, hessian, principal: hessian && self.principal, kappa };
+        (first, self.without(first))
+    }
+
     /// The quantities of both queries. κ is the other's where both name one.
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -123,5 +139,30 @@ pub(super) fn of_layers(scene: &Scene, [normal, curvature, along_view]: [bool; 3
         hessian: curvature || kappa == KappaSource::Exact,
         principal: curvature,
         kappa,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NONE: SampleQuery = SampleQuery::VALUE;
+
+    #[test]
+    fn quantities_ask_first_for_what_they_need() {
+        let styled = SampleQuery { gradient: true, hessian: true, principal: true, kappa: KappaSource::Exact };
+        let split = |query: SampleQuery, axis| query.split(&[Axis::Value, axis]);
+        assert_eq!(split(styled, Axis::Label), (NONE, styled));
+        let gradient = SampleQuery { gradient: true, ..NONE };
+        assert_eq!(split(styled, Axis::GradientMagnitude), (gradient, SampleQuery { gradient: false, ..styled }));
+        // One Hessian gives all that it can.
+        assert_eq!(split(styled, Axis::Mean), (styled, NONE));
+        assert_eq!(split(styled, Axis::AlongView), (styled, NONE));
+        let along_ray = SampleQuery { kappa: KappaSource::AlongRay, ..styled };
+        let rest = SampleQuery { kappa: KappaSource::AlongRay, ..NONE };
+        assert_eq!(split(along_ray, Axis::K1), (SampleQuery { kappa: KappaSource::None, ..styled }, rest));
+        let first = SampleQuery { gradient: true, kappa: KappaSource::AlongRay, ..NONE };
+        let rest = SampleQuery { hessian: true, principal: true, ..NONE };
+        assert_eq!(split(along_ray, Axis::AlongView), (first, rest));
     }
 }

@@ -1,6 +1,7 @@
 //! Transfer functions over data values and other quantities: piecewise-linear nodes, and the visibility of a range of
 //! values ([RAY-2]).
 
+pub mod gate;
 mod table;
 
 use crate::tables::{Axis, Node, NodeColor, Over, Row, Stand, Table, Transfer, Unit};

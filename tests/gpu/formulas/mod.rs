@@ -2,6 +2,8 @@
 //! compared with the reference's.
 
 mod elementary;
+mod over_two;
+mod styles;
 
 use crate::gpu;
 use drypoint::gpu::{Gpu, Kernel, Precision};

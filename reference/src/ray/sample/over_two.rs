@@ -11,7 +11,7 @@ use crate::transfer::over::{
 use crate::transfer::{NodePatch, TransferPlane};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::math;
-use drypoint_scene::shot::{Axis, KappaSource, LabelLookup, Object, SampleQuery};
+use drypoint_scene::shot::{Axis, LabelLookup, Object, SampleQuery};
 use drypoint_scene::transfer::Rows;
 
 /// A function over two quantities, with what measures them.
@@ -54,8 +54,13 @@ impl<'v, R: Real> OverTwo<'v, R> {
         };
         let rows_at = scaled(&rows.over[1], &rows.at);
         let plane = TransferPlane::new(&scaled(&rows.over[0], at), opacity, &Rows { at: rows_at, ..rows.clone() })?;
-        let (first, rest) = split(object.query, &rows.over);
+        let (first, rest) = object.query.split(&rows.over);
         Ok(Self { plane, measures, first, rest })
+    }
+
+    /// The numbers at voxels of each quantity that was measured there.
+    pub(crate) fn at_voxels(&self) -> [Option<Vec<f64>>; 2] {
+        self.measures.each_ref().map(|measure| measure.at_voxels())
     }
 
     /// The place of a sample between the nodes; none where it is transparent.
@@ -99,45 +104,4 @@ fn measure<'v, R: Real>(
             Box::new(distance.ok_or(RenderError::NoSuchLabel { id: *id })?)
         }
     })
-}
-
-/// The part of a query that two quantities need, and the rest.
-fn split(query: SampleQuery, over: &[Axis<u32>; 2]) -> (SampleQuery, SampleQuery) {
-    let any = |is: fn(&Axis<u32>) -> bool| over.iter().any(is);
-    let along_view = any(|axis| *axis == Axis::AlongView);
-    let hessian = any(Axis::is_principal) || along_view && query.kappa == KappaSource::Exact;
-    // What one Hessian gives is taken from it at once.
-    let kappa = match query.kappa {
-        KappaSource::Exact if hessian => KappaSource::Exact,
-        KappaSource::AlongRay if along_view => KappaSource::AlongRay,
-        _ => KappaSource::None,
-    };
-    let gradient = hessian || along_view || any(|axis| *axis == Axis::GradientMagnitude);
-    let first = SampleQuery { gradient, hessian, principal: hessian && query.principal, kappa };
-    (first, query.without(first))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const NONE: SampleQuery = SampleQuery::VALUE;
-
-    #[test]
-    fn quantities_ask_first_for_what_they_need() {
-        let styled = SampleQuery { gradient: true, hessian: true, principal: true, kappa: KappaSource::Exact };
-        let split = |query, axis| super::split(query, &[Axis::Value, axis]);
-        assert_eq!(split(styled, Axis::Label), (NONE, styled));
-        let gradient = SampleQuery { gradient: true, ..NONE };
-        assert_eq!(split(styled, Axis::GradientMagnitude), (gradient, SampleQuery { gradient: false, ..styled }));
-        // One Hessian gives all that it can.
-        assert_eq!(split(styled, Axis::Mean), (styled, NONE));
-        assert_eq!(split(styled, Axis::AlongView), (styled, NONE));
-        let along_ray = SampleQuery { kappa: KappaSource::AlongRay, ..styled };
-        let rest = SampleQuery { kappa: KappaSource::AlongRay, ..NONE };
-        assert_eq!(split(along_ray, Axis::K1), (SampleQuery { kappa: KappaSource::None, ..styled }, rest));
-        let first = SampleQuery { gradient: true, kappa: KappaSource::AlongRay, ..NONE };
-        let rest = SampleQuery { hessian: true, principal: true, ..NONE };
-        assert_eq!(split(along_ray, Axis::AlongView), (first, rest));
-    }
 }

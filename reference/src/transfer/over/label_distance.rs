@@ -70,6 +70,10 @@ impl<R: Real> AxisMeasure<R> for LabelDistance<R> {
         Coordinate::Number(self.value(here.place))
     }
 
+    fn at_voxels(&self) -> Option<Vec<f64>> {
+        Some(self.distances.iter().map(|distance| distance.to_f64()).collect())
+    }
+
     fn bytes(&self) -> Option<(&'static str, u64)> {
         Some(("label distance", size_of_val(self.distances.as_slice()) as u64))
     }

@@ -3,9 +3,9 @@
 use super::{AxisMeasure, SampleQuantities};
 use crate::field::{Field, FieldError, HessianEstimator, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
-use crate::other_grid::OtherGrid;
 use crate::transfer::Coordinate;
 use crate::with_sampler;
+use drypoint_scene::other_grid::OtherGrid;
 use drypoint_scene::volume::{Anatomy, Volume};
 
 /// Another scalar volume, trilinear, on any grid. Unknown values are replaced by the low end of its range. They lie
@@ -35,7 +35,7 @@ impl<R: Real> AxisMeasure<R> for OtherVolume<'_, R> {
     fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         let position = match &self.map {
             None => Some(here.position),
-            Some(map) => map.position(Vec3::from_glam(here.position.to_glam())).map(|p| Vec3::from_glam(p.to_glam())),
+            Some(map) => map.position(here.position.to_glam()).map(Vec3::from_glam),
         };
         let value = position.and_then(|p| {
             with_sampler!(self.field, |s| {

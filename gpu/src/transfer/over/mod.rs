@@ -1,0 +1,226 @@
+//! Transfer functions over two quantities ([STF-4]).
+
+use crate::field::Scales;
+use crate::number::NUMBER;
+use crate::shader::{Constant, Data, Module, Shader, module};
+use crate::{GpuError, Inputs};
+use drypoint_scene::glam::{DMat3, DVec3};
+use drypoint_scene::math;
+use drypoint_scene::other_grid::OtherGrid;
+use drypoint_scene::shot::{Axis, KappaSource, LabelLookup, Object, SampleQuery};
+use drypoint_scene::space::Grid;
+use drypoint_scene::transfer::Rows;
+use drypoint_scene::volume::labels::LabelVolume;
+use drypoint_scene::volume::{Anatomy, Volume};
+
+/// The colours of a place between nodes.
+pub(crate) const COLORS: Module = module!("colors_over_two");
+/// The styles of a place between nodes.
+pub(crate) const STYLES: Module = module!("styles_over_two");
+
+/// Adds a function over two quantities, after everything that samples are asked for. Both quantities are asked first, and
+/// the rest only where α_u > 0.
+pub(crate) fn add(
+    shader: &mut Shader,
+    object: &Object,
+    rows: &Rows,
+    inputs: &Inputs<'_>,
+    scales: &Scales,
+) -> Result<(), GpuError> {
+    let (at, opacity, _) = object.function.nodes();
+    let further = [0, 1].map(|axis| inputs.further[axis].map(Further::new));
+    let scaled = |axis: usize, at: &[f64]| -> Vec<f64> {
+        let place = |&at: &f64| match (&rows.over[axis], &further[axis]) {
+            (Axis::Value, _) => scales.value(at),
+            (Axis::GradientMagnitude, _) if !rows.normalized => scales.gradient(at),
+            (Axis::Volume(_), Some(further)) => further.number(at),
+            _ => at,
+        };
+        at.iter().map(place).collect()
+    };
+    let numbers: [Vec<f64>; 3] = [scaled(0, at), opacity.to_vec(), scaled(1, &rows.at)];
+    let ids = |axis: usize, at: &[f64]| -> Vec<u32> {
+        if rows.over[axis].is_id() { at.iter().map(|&id| id as u32).collect() } else { Vec::new() }
+    };
+    let first = rows.first.iter().chain([&at.len()]).map(|&first| first as u32).collect();
+    let words: [Vec<u32>; 3] = [first, ids(0, at), ids(1, &rows.at)];
+    shader.add(&[NUMBER, module!("plane")]);
+    shader.constant("PLANE_NODES", Constant::Int(at.len() as i64));
+    shader.constant("PLANE_ROWS", Constant::Int(rows.at.len() as i64));
+    shader.constant("ACROSS_IS_ID", Constant::Bool(rows.over[0].is_id()));
+    shader.constant("DOWN_IS_ID", Constant::Bool(rows.over[1].is_id()));
+    shader.bind(13, "the transfer function's places", Data::Reals(numbers.concat()));
+    shader.bind(14, "the transfer function's rows", Data::Words(words.concat()));
+    let mut numbers = Vec::new();
+    for axis in 0..2 {
+        let expression = match (&rows.over[axis], &further[axis]) {
+            (Axis::DistanceToLabel(_), _) => {
+                let distances = inputs.measured.label_distances[axis].as_ref().ok_or(GpuError::Material)?;
+                let call = call("on_grid", numbers.len(), inputs.volume.dims(), "at");
+                numbers.extend_from_slice(distances);
+                call
+            }
+            (Axis::Volume(_), Some(further)) => {
+                let call = call("further_value", numbers.len(), further.volume.dims(), "position");
+                further.append(&mut numbers, inputs)?;
+                shader.add(&[module!("grid_numbers"), module!("further_volume")]);
+                call
+            }
+            _ => coordinate(shader, axis, rows, object, inputs)?,
+        };
+        shader.stages.coordinates.push(expression);
+    }
+    if !numbers.is_empty() {
+        shader.add(&[module!("grid_numbers")]);
+        shader.block.number("grid_slack", OtherGrid::SLACK);
+        shader.bind(16, "numbers of the transfer function's quantities", Data::Reals(numbers));
+    }
+    shader.stages.is_seen.push("is_in_plane");
+    let (first, _) = object.query.split(&rows.over);
+    let (first, rest) = shader.stages.measured.iter().partition(|stage| is_of(stage, first));
+    (shader.stages.measured_first, shader.stages.measured) = (first, rest);
+    Ok(())
+}
+
+/// Whether a stage measures something of a query.
+fn is_of(stage: &str, query: SampleQuery) -> bool {
+    match stage {
+        "measure_gradient" | "measure_magnitude" => query.gradient,
+        "measure_along_ray" => query.kappa == KappaSource::AlongRay,
+        // Everything that needs a Hessian.
+        _ => query.hessian,
+    }
+}
+
+/// A further volume that a function is over, in numbers of the shader.
+struct Further<'a> {
+    volume: &'a Volume,
+    low: f64,
+    /// e: values minus the lowest one are divided by 2^e.
+    exponent: i32,
+}
+
+impl<'a> Further<'a> {
+    fn new(volume: &'a Volume) -> Self {
+        let [low, high] = volume.range();
+        Self { volume, low, exponent: math::exponent(high - low) }
+    }
+
+    /// A value as the shader has it.
+    fn number(&self, value: f64) -> f64 {
+        math::scale_by_power_of_two(value - self.low, -self.exponent)
+    }
+
+    /// Appends the map from the data's index space, row by row, and the voxels.
+    fn append(&self, numbers: &mut Vec<f64>, inputs: &Inputs<'_>) -> Result<(), GpuError> {
+        let Self { volume, .. } = self;
+        if volume.mask().is_some() {
+            let what = "further volumes with values that are not numbers";
+            return Err(GpuError::Missing { what, key: "transfer.over" });
+        }
+        let own = Anatomy::between(volume.grid(), volume.anatomy(), inputs.volume.anatomy());
+        let map = OtherGrid::new(inputs.volume.grid(), &own);
+        let (linear, offset) = map.map_or((DMat3::IDENTITY, DVec3::ZERO), |map| map.parts());
+        for row in 0..3 {
+            numbers.extend(linear.row(row).to_array());
+            numbers.push(offset[row]);
+        }
+        let value = |i: usize| volume.slope() * volume.voxels().get(i) + volume.intercept();
+        numbers.extend((0..volume.grid().len()).map(|i| self.number(value(i))));
+        Ok(())
+    }
+}
+
+/// The expression of a coordinate that is interpolated from numbers on a grid.
+fn call(function: &str, first: usize, [x, y, z]: [usize; 3], of: &str) -> String {
+    format!("coordinate({function}({first}, vec3({x}, {y}, {z}), sample.{of}))")
+}
+
+/// The expression of a sample's coordinate along an axis, and what it calls.
+fn coordinate(
+    shader: &mut Shader,
+    axis: usize,
+    rows: &Rows,
+    object: &Object,
+    inputs: &Inputs<'_>,
+) -> Result<String, GpuError> {
+    let grid = inputs.volume.grid();
+    let number = match &rows.over[axis] {
+        Axis::Value => "sample.s".to_owned(),
+        Axis::GradientMagnitude => {
+            shader.add(&[module!("gradient_magnitude")]);
+            if rows.normalized { "magnitude_in_range(a)" } else { "magnitude_of_gradient(a)" }.to_owned()
+        }
+        Axis::K1 => "a.principal.x".to_owned(),
+        Axis::K2 => "a.principal.y".to_owned(),
+        Axis::Mean => "(a.principal.x + a.principal.y) * 0.5".to_owned(),
+        Axis::Gaussian => "a.principal.x * a.principal.y".to_owned(),
+        Axis::AlongView => "a.kappa".to_owned(),
+        Axis::Distance(p) => {
+            if !shader.modules.contains(&module!("point_distance")) {
+                shader.add(&[module!("point_distance")]);
+                add_columns(shader, ["world_axis_x", "world_axis_y", "world_axis_z"], grid.axes().to_cols_array_2d());
+            }
+            let point = ["point_across", "point_down"][axis];
+            shader.block.vector(point, grid.origin() - *p);
+            format!("distance_from(sample.position, {point}())")
+        }
+        Axis::Label => {
+            let labels = inputs.labels.ok_or(GpuError::Material)?;
+            let own = labels.grid_in(inputs.volume.anatomy());
+            add_labels(shader, labels, &own, object.label_lookup);
+            add_map(shader, grid, &own);
+            return Ok("Coordinate(0.0, label_at(sample.position))".to_owned());
+        }
+        // A further volume that was not handed over.
+        Axis::DistanceToLabel(_) | Axis::Volume(_) => return Err(GpuError::Material),
+    };
+    Ok(format!("coordinate({number})"))
+}
+
+/// Adds three vectors.
+fn add_columns(shader: &mut Shader, names: [&'static str; 3], columns: [[f64; 3]; 3]) {
+    for (name, column) in names.into_iter().zip(columns) {
+        shader.block.vector(name, DVec3::from_array(column));
+    }
+}
+
+/// Adds the ids of voxels on their own grid ([STF-13]).
+fn add_labels(shader: &mut Shader, labels: &LabelVolume, own: &Grid, lookup: LabelLookup) {
+    shader.add(&[module!("label")]);
+    shader.add(&[match lookup {
+        LabelLookup::Nearest => module!("label_nearest"),
+        LabelLookup::Smooth => module!("label_smooth"),
+    }]);
+    let dims = own.dims();
+    let bits = 8 * labels.bytes() / own.len();
+    let in_word = 32 / bits;
+    let mut words = vec![0u32; own.len().div_ceil(in_word)];
+    for i in 0..own.len() {
+        words[i / in_word] |= labels.id(i) << (i % in_word * bits);
+    }
+    shader.constant("LABEL_BITS", Constant::Int(bits as i64));
+    shader.constant("LABELS_X", Constant::Int(dims[0] as i64));
+    shader.constant("LABELS_Y", Constant::Int(dims[1] as i64));
+    shader.block.vector("label_last_cell", DVec3::from_array(dims.map(|n| (n.max(2) - 2) as f64)));
+    shader.block.vector("label_long_axes", DVec3::from_array(dims.map(|n| if n == 1 { 0.0 } else { 1.0 })));
+    shader.bind(15, "the labels", Data::Words(words));
+}
+
+/// Adds the map from the data's grid to that of the labels.
+fn add_map(shader: &mut Shader, data: &Grid, own: &Grid) {
+    let Some(map) = OtherGrid::new(data, own) else { return shader.add(&[module!("label_same_grid")]) };
+    shader.add(&[module!("label_other_grid")]);
+    let (linear, offset) = map.parts();
+    add_columns(shader, ["to_labels_x", "to_labels_y", "to_labels_z"], linear.to_cols_array_2d());
+    let ([low, high], [reach_low, reach_high]) = (map.own_box(), map.reach());
+    for (name, value) in [
+        ("to_labels", offset),
+        ("label_box_low", low),
+        ("label_box_high", high),
+        ("label_reach_low", reach_low),
+        ("label_reach_high", reach_high),
+    ] {
+        shader.block.vector(name, value);
+    }
+}
