@@ -5,10 +5,11 @@ use crate::field::Scales;
 use crate::shader::{Constant, Shader};
 use crate::{
     GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, style_transfer_functions,
-    transfer,
+    surface, transfer,
 };
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, Shot};
+use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, OpaqueSurface, Shot};
 use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
@@ -28,15 +29,19 @@ pub(crate) fn shader(
     precision: Precision,
 ) -> Result<(Shader, Scales), GpuError> {
     let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
-    refuse(shot, inputs)?;
+    refuse(shot)?;
     let mut shader = Shader::default();
     let scales = Scales::new(measured, grid);
     // The field and its rays.
-    field::add_kernel(&mut shader, object, measured, grid)?;
+    field::kernel::add(&mut shader, object.reconstruction.kernel, measured, grid);
     ray::add_lattice(&mut shader, shot, grid)?;
     // Samples.
     transfer::add_nodes(&mut shader, &object.function, &scales, precision);
     ray::add_cast(&mut shader, shot);
+    if let Some(mask) = inputs.volume.mask() {
+        field::mask::add(&mut shader, mask, grid);
+        ray::add_mask(&mut shader);
+    }
     if let Some(bricks) = &measured.bricks {
         ray::add_bricks(&mut shader, shot, bricks, &scales, precision);
     }
@@ -49,12 +54,15 @@ pub(crate) fn shader(
     }
     // Quantities of layers `first.*` are measured at every visible sample.
     let query = object.first.map_or(object.query, |first| object.query.and(first));
-    if query.hessian {
-        return Err(GpuError::Missing { what: "second derivatives", key: "sampling.hessian" });
-    }
+    let query = shot.surface.as_ref().map_or(query, |surface| query.and(surface.query).and(surface.first));
     if query.gradient {
-        field::add_gradient(&mut shader, object, measured, &scales, no_normal(precision))?;
+        field::gradient::add(&mut shader, object, measured, &scales, no_normal(precision));
         ray::add_gradient(&mut shader, measured, &scales);
+    }
+    if query.hessian {
+        let is_integer = inputs.volume.voxels().voxel_type().is_integer();
+        field::hessian::add(&mut shader, object, is_integer, measured, &scales, precision)?;
+        ray::add_curvature(&mut shader, query);
     }
     if query.kappa == KappaSource::AlongRay {
         style_transfer_functions::add_curvature_along_ray(&mut shader, object.turn);
@@ -82,6 +90,13 @@ pub(crate) fn shader(
         ray::add_cuts(&mut shader);
     }
     style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
+    if let Some(surface) = &shot.surface {
+        surface::add(&mut shader, shot, surface, measured, &scales, ray::rounding(&scales, precision));
+        if inputs.volume.mask().is_some() {
+            surface::add_mask(&mut shader);
+        }
+        light_surface(&mut shader, &object.material, &surface.lit)?;
+    }
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
     ray::layers::add(&mut shader, layers)?;
@@ -94,22 +109,31 @@ pub(crate) fn camera(shot: &Shot, grid: &Grid) -> Result<Block, GpuError> {
     let [object] = &shot.objects;
     let mut block = Block::default();
     ray::add_view(&mut block, shot, grid)?;
-    if let Material::Regular(lit) = &object.material {
-        match &lit.lighting {
-            Lighting::Flat => {}
-            Lighting::Phong(phong) => block.vector("light", phong.light),
-            Lighting::Toon(toon) => block.vector("light", toon.light),
-        }
+    let of_samples = if let Material::Regular(lit) = &object.material { light_of(lit) } else { None };
+    let light = of_samples.or(shot.surface.as_ref().and_then(|surface| light_of(&surface.lit)));
+    if let Some(light) = light {
+        block.vector("light", light);
     }
     Ok(block)
 }
 
+/// The direction to the light; none where nothing is lit.
+fn light_of(lit: &Illumination) -> Option<DVec3> {
+    match &lit.lighting {
+        Lighting::Flat => None,
+        Lighting::Phong(phong) => Some(phong.light),
+        Lighting::Toon(toon) => Some(toon.light),
+    }
+}
+
 /// Refuses what no module draws.
-fn refuse(shot: &Shot, inputs: &Inputs<'_>) -> Result<(), GpuError> {
+fn refuse(shot: &Shot) -> Result<(), GpuError> {
     let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
     missing(!shot.halos.list.is_empty(), "halos", "halo")?;
-    missing(shot.surface.is_some(), "iso-surfaces", "surface")?;
-    missing(inputs.volume.mask().is_some(), "volumes with values that are not numbers", "volume")
+    let is_cut = shot.surface.is_some() && !shot.clipping.planes.is_empty();
+    missing(is_cut, "iso-surfaces that planes cut", "clip")?;
+    let along_ray = |surface: &OpaqueSurface| surface.query.and(surface.first).kappa == KappaSource::AlongRay;
+    missing(shot.surface.as_ref().is_some_and(along_ray), "curvatures along the ray of iso-surfaces", "picture.layers")
 }
 
 /// Adds the light of a regular function.
@@ -125,4 +149,37 @@ fn add_light(shader: &mut Shader, lit: &Illumination) {
     if lit.view_opacity > 0.0 {
         interactive_volume_illustration::add_view_opacity(shader, lit.view_opacity);
     }
+}
+
+/// Adds the light of an iso-surface. A surface and samples that are lit by one model share its numbers.
+fn light_surface(shader: &mut Shader, material: &Material, lit: &Illumination) -> Result<(), GpuError> {
+    let other =
+        || Err(GpuError::Missing { what: "iso-surfaces that are lit otherwise than the volume", key: "surface.look" });
+    let of_samples = if let Material::Regular(of_samples) = material { Some(of_samples) } else { None };
+    let lighting = of_samples.map_or(&Lighting::Flat, |lit| &lit.lighting);
+    let silhouette = of_samples.and_then(|lit| lit.silhouette);
+    let differs = match (lighting, &lit.lighting) {
+        (Lighting::Flat, _) | (_, Lighting::Flat) => false,
+        (samples, surface) => samples != surface,
+    };
+    if differs || (silhouette.is_some() && lit.silhouette.is_some() && silhouette != lit.silhouette) {
+        return other();
+    }
+    let stages = &mut shader.stages;
+    let shown = std::mem::take(&mut stages.shown);
+    // Modules that samples have are there already.
+    let left = Illumination {
+        lighting: if *lighting == Lighting::Flat { lit.lighting.clone() } else { Lighting::Flat },
+        silhouette: if silhouette.is_none() { lit.silhouette } else { None },
+        view_opacity: 0.0,
+    };
+    add_light(shader, &left);
+    let shade = match lit.lighting {
+        Lighting::Flat => None,
+        Lighting::Phong(_) => Some("shade_phong"),
+        Lighting::Toon(_) => Some("shade_toon"),
+    };
+    shader.stages.on_surface = shade.into_iter().chain(lit.silhouette.map(|_| "shade_silhouette")).collect();
+    shader.stages.shown = shown;
+    Ok(())
 }

@@ -23,6 +23,7 @@ mod renderer;
 mod shader;
 mod shading;
 mod style_transfer_functions;
+mod surface;
 mod transfer;
 mod volume;
 

@@ -68,6 +68,14 @@ pub(crate) struct Stages {
     pub(crate) coordinates: Vec<String>,
     /// The colour and opacity of a visible sample.
     pub(crate) shown: Vec<&'static str>,
+    /// The number of steps that a sample stands for.
+    pub(crate) steps: Vec<&'static str>,
+    /// From a cell to the side of the block of cells without an iso-surface; 0: the cell is searched.
+    pub(crate) passed: Vec<&'static str>,
+    /// The colour of an iso-surface.
+    pub(crate) on_surface: Vec<&'static str>,
+    /// What a ray meets behind its samples.
+    pub(crate) ends: Vec<&'static str>,
     /// What layers take of a sample.
     pub(crate) collect: Vec<&'static str>,
     /// When a ray has ended.
@@ -167,6 +175,19 @@ impl Stages {
         let lines =
             with("var shaded = Shaded();", calls(&self.shown, &|s| format!("shaded = {s}(ray, sample, a, shaded);")));
         function("shown(ray: Ray, sample: Sample, a: Attributes) -> Shaded", &lines, Some("shaded"));
+        let lines = with("var steps = real(1.0);", calls(&self.steps, &|s| format!("steps = {s}(k, steps);")));
+        function("steps_of(k: i32) -> real", &lines, Some("steps"));
+        let lines = with("var side = 0;", calls(&self.passed, &|s| format!("side = max(side, {s}(cell));")));
+        function("cells_passed(cell: vec3<i32>) -> i32", &lines, Some("side"));
+        let lines =
+            with("var shaded = plain;", calls(&self.on_surface, &|s| format!("shaded = {s}(ray, sample, a, shaded);")));
+        function(
+            "on_surface(ray: Ray, sample: Sample, a: Attributes, plain: Shaded) -> Shaded",
+            &lines,
+            Some("shaded"),
+        );
+        let lines = with("var front = seen;", calls(&self.ends, &|s| format!("front = {s}(ray, front);")));
+        function("ended(ray: Ray, seen: Front) -> Front", &lines, Some("front"));
         let lines = calls(&self.collect, &|s| format!("{s}(ray, sample, a, alpha);"));
         function("collect(ray: Ray, sample: Sample, a: Attributes, alpha: real)", &lines, None);
         function("end_ray(part: i32)", &calls(&self.end_ray, &|s| format!("{s}(part);")), None);

@@ -30,6 +30,10 @@ pub struct Measured {
     pub voxels: Option<PaddedNumbers>,
     /// Coefficients of the smoothed spline that `gaussian` Hessians are of ([REC-3]).
     pub smoothed: Option<PaddedNumbers>,
+    /// Weights of the `regression` gradient: for each of the 64 cases of neighbours along x + 4 · those along y + 16 · those
+    /// along z, and each index axis, those of the 3³ voxels around one, x fastest ([STIP-1]). Neighbours along an axis: 1 for
+    /// one before, plus 2 for one after. None where no gradient reads them.
+    pub regression: Option<Vec<f64>>,
     /// The value of number 0.
     pub base: f64,
     /// lo and hi − lo of ‖g‖, in values per world unit ([VAL-2]); none where nothing reads |g|.

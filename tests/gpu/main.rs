@@ -2,6 +2,7 @@
 //! DRYPOINT_REQUIRE_GPU=1 they fail.
 
 mod double;
+mod field;
 mod formulas;
 #[path = "sabotage/styles.rs"]
 mod sabotage_of_styles;

@@ -27,12 +27,12 @@ fn cast_ray(ray: Ray) -> Front {
         }
         let attributes = measured_rest(ray, sample, first);
         let shaded = shown(ray, sample, attributes);
-        let alpha = corrected(shaded.alpha, ratio);
+        let alpha = corrected(shaded.alpha, ratio * steps_of(k));
         collect(ray, sample, attributes, alpha);
         front = over(front, in_blend_space(shaded.rgb), alpha);
         if (front.opacity >= params.stop_at) {
             break;
         }
     }
-    return front;
+    return ended(ray, front);
 }

@@ -43,7 +43,7 @@ fn collect_layers(ray: Ray, sample: Sample, a: Attributes, alpha: real) {
     }
     let w = (1.0 - ray_sums.opacity) * alpha;
     ray_sums.opacity = select(real(1.0), ray_sums.opacity + w, alpha < 1.0);
-    let depth = depth_of(ray, sample.k);
+    let depth = depth_of(ray, sample.k) + sample.offset * ray.depth_step;
     let normal = eye_normal(ray, a);
     let curvature = vec3<real>(a.principal.x, a.principal.y, a.kappa);
     if (!ray_sums.is_met) {

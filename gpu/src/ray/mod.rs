@@ -11,7 +11,7 @@ use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::ClipPlane;
 use drypoint_scene::color::premultiply;
 use drypoint_scene::measured::Measured;
-use drypoint_scene::shot::{BlendSpace, Cap, Clipping, Shot, StepAlong};
+use drypoint_scene::shot::{BlendSpace, Cap, Clipping, KappaSource, SampleQuery, Shot, StepAlong};
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::{BRICK, Bricks};
 
@@ -51,6 +51,10 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<()
     block.number("step", lattice.step);
     block.number("anchor_steps", steps);
     block.number("first_plane", first);
+    if shot.surface.is_some() {
+        let near = if view.perspective { lattice.near / lattice.step - steps } else { -MOST_PLANES };
+        block.number("near_steps", near.max(-MOST_PLANES));
+    }
     block.number("pixel", view.pixel);
     block.vector("view_right", view.right);
     block.vector("view_up", view.up);
@@ -89,6 +93,20 @@ pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Sc
     }
 }
 
+/// Adds the curvatures from Hessians that samples are asked for.
+pub(crate) fn add_curvature(shader: &mut Shader, query: SampleQuery) {
+    shader.add(&[module!("curvature")]);
+    shader.constant("EXACT_KAPPA", Constant::Bool(query.kappa == KappaSource::Exact));
+    shader.constant("PRINCIPAL", Constant::Bool(query.principal));
+    shader.stages.measured.push("measure_curvature");
+}
+
+/// Adds the skipping of samples in masked cells.
+pub(crate) fn add_mask(shader: &mut Shader) {
+    shader.add(&[module!("skip_masked")]);
+    shader.stages.next_plane.push("skip_masked");
+}
+
 /// Adds clip planes, before what shades is added. The spheres of caps stand after those of `styles`.
 pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) {
     let plane = |plane: &ClipPlane| {
@@ -112,13 +130,19 @@ pub(crate) fn add_cuts(shader: &mut Shader) {
     shader.stages.shown.push("show_cap");
 }
 
+/// The rounding of a value.
+pub(crate) fn rounding(scales: &Scales, precision: Precision) -> f64 {
+    let share = match precision {
+        Precision::Single => 1.0 / (1u64 << 18) as f64,
+        Precision::Double => 1.0 / (1u64 << 44) as f64,
+    };
+    share * drypoint_scene::math::scale_by_power_of_two(1.0, scales.value)
+}
+
 /// Adds the skipping of bricks that can show nothing.
 pub(crate) fn add_bricks(shader: &mut Shader, shot: &Shot, bricks: &Bricks, scales: &Scales, precision: Precision) {
-    /// Rounding of a value, as a share of the largest one.
-    const ROUNDING: [f64; 2] = [1.0 / (1u64 << 18) as f64, 1.0 / (1u64 << 44) as f64];
     let [object] = &shot.objects;
-    let slack = ROUNDING[usize::from(precision == Precision::Double)]
-        * drypoint_scene::math::scale_by_power_of_two(1.0, scales.value);
+    let slack = rounding(scales, precision);
     let mut words = vec![0u32; bricks.ranges.len().div_ceil(32)];
     for (i, &[lo, hi]) in bricks.ranges.iter().enumerate() {
         if object.function.can_be_visible([lo - slack, hi + slack], None, |at| at) {

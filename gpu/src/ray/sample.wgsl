@@ -3,6 +3,8 @@
 struct Sample {
     // The plane, counted from the anchor.
     k: i32,
+    // Its way behind the plane, in steps.
+    offset: real,
     position: vec3<real>,
     at: Place,
     // The value, in the units of the numbers.

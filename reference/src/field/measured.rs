@@ -1,6 +1,7 @@
 //! The numbers of a field as another renderer reads them.
 
 use super::coefficients::Coefficients;
+use super::gradient::regression::Regression;
 use super::{Field, GradientEstimator, HessianEstimator, KernelData, Rung, Second};
 use crate::number::Real;
 use drypoint_scene::math;
@@ -28,6 +29,7 @@ impl<R: Real> Field<'_, R> {
                 Second::Gaussian(c) => Some(c.padded(slope)),
                 Second::NotPrepared | Second::Analytic | Second::Central => None,
             },
+            regression: self.regression.as_ref().map(Regression::weights),
             base: self.to_value(self.stencils.lowest()).to_f64(),
             gradient_range: None,
             gradient_scale: back(self.no_normal_below) / R::NO_NORMAL.to_f64(),

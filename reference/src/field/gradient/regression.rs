@@ -66,6 +66,14 @@ impl<R: Real> Regression<R> {
         &self.taps
     }
 
+    /// The weights of the three derivatives in all cases; 0 in those that the grid does not have.
+    pub(in crate::field) fn weights(&self) -> Vec<f64> {
+        let of_case = |case: &Option<Box<Weights<R>>>| {
+            case.as_ref().map_or([R::ZERO; 81], |w| std::array::from_fn(|i| w[i / 27][i % 27]))
+        };
+        self.cases.iter().flat_map(of_case).map(R::to_f64).collect()
+    }
+
     fn case(&self, s: [usize; 3]) -> Option<&Weights<R>> {
         self.cases[s[0] + 4 * s[1] + 16 * s[2]].as_deref()
     }

@@ -17,7 +17,7 @@ fn difference_along(at: Place, step: vec3<i32>) -> real {
 }
 
 // The gradient along the index axes.
-fn index_gradient(at: Place) -> vec3<real> {
+fn central_gradient(at: Place) -> vec3<real> {
     return vec3<real>(
         difference_along(at, vec3(1, 0, 0)),
         difference_along(at, vec3(0, 1, 0)),

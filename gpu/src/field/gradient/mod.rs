@@ -1,0 +1,57 @@
+//! Gradients and normals ([REC-2], [NORM-1]).
+
+use super::{Scales, kernel};
+use crate::shader::{Constant, Data, Shader, module};
+use drypoint_scene::measured::Measured;
+use drypoint_scene::shot::{GradientEstimator, Kernel, NormalDirection, Object, Outside};
+
+/// Adds gradients and normals. `no_normal` is the share of a gradient that is rounding ([PREC-3]).
+pub(crate) fn add(shader: &mut Shader, object: &Object, measured: &Measured, scales: &Scales, no_normal: f64) {
+    let kernel = object.reconstruction.kernel;
+    match object.reconstruction.gradient {
+        GradientEstimator::Central => {
+            add_central(shader, measured);
+            shader.add(&[module!("by_central")]);
+        }
+        GradientEstimator::Analytic if kernel == Kernel::Trilinear => shader.add(&[module!("trilinear")]),
+        GradientEstimator::Analytic => shader.add(&[module!("tensor"), module!("separable")]),
+        GradientEstimator::Sobel => {
+            add_voxels(shader, measured);
+            shader.add(&[kernel::TENSOR, module!("tensor"), module!("sobel")]);
+        }
+        GradientEstimator::Regression => {
+            add_voxels(shader, measured);
+            shader.add(&[module!("regression")]);
+            let weights = measured.regression.clone().unwrap_or_default();
+            shader.bind(20, "the weights of the regression", Data::Reals(weights));
+        }
+    }
+    shader.add(&[module!("gradient")]);
+    let block = &mut shader.block;
+    for (name, column) in [("to_world_x", 0), ("to_world_y", 1), ("to_world_z", 2)] {
+        block.vector(name, scales.to_world.col(column));
+    }
+    block.number("no_normal_below", scales.gradient(measured.gradient_scale * no_normal));
+    let outward = if object.reconstruction.outside == Outside::Low { -1.0 } else { 1.0 };
+    block.number("outwards", if object.normal == NormalDirection::Inward { -outward } else { outward });
+    block.number("facing", f64::from(u8::from(object.normal == NormalDirection::Facing)));
+}
+
+/// Adds central differences of the voxels.
+pub(super) fn add_central(shader: &mut Shader, measured: &Measured) {
+    add_voxels(shader, measured);
+    shader.add(&[module!("central")]);
+}
+
+/// Adds the voxels, once.
+pub(super) fn add_voxels(shader: &mut Shader, measured: &Measured) {
+    const VOXELS: crate::shader::Module = module!("voxels");
+    if shader.modules.contains(&VOXELS) {
+        return;
+    }
+    shader.add(&[VOXELS]);
+    let data = if measured.voxels.is_some() { Data::Voxels } else { Data::Numbers };
+    let pad = measured.voxels.as_ref().unwrap_or(&measured.numbers).pad;
+    shader.constant("VOXELS_PAD", Constant::Int(pad as i64));
+    shader.bind(1, "the voxels", data);
+}

@@ -1,0 +1,7 @@
+// The cubic B-spline as the kernel: of prefiltered coefficients, or of the voxels, which it smooths ([REC-1]).
+
+const KERNEL_TAPS = 4;
+
+fn kernel_taps(t: real) -> Taps {
+    return bspline_taps(t);
+}

@@ -1,0 +1,45 @@
+// The first place on a ray where the field has the value of an iso-surface ([HATCH-14]).
+
+// A t beyond all planes.
+const NO_HIT = 8.0e6;
+
+// The result of a search in one cell.
+struct CellSearch {
+    is_root: bool,
+    t: real,
+    // The side of the value, 1 or -1, where the ray leaves a cell without a root.
+    side: real,
+}
+
+fn side_of(over: real) -> real {
+    return select(real(-1.0), real(1.0), over > 0.0);
+}
+
+// The t of the first root; NO_HIT if there is none.
+fn first_root(ray: Ray) -> real {
+    var walk = enter_box(ray, params.near_steps);
+    if (walk.enters.t >= NO_HIT) {
+        return NO_HIT;
+    }
+    // The side on which the ray left the cell before: a change of sign between two cells is a root on their face.
+    var before = real(0.0);
+    loop {
+        let passed = cells_passed(walk.cell);
+        if (passed > 0) {
+            before = 0.0;
+        } else {
+            let found = search_cell(walk, before);
+            if (found.is_root) {
+                return found.t;
+            }
+            before = found.side;
+        }
+        let exit = leaves_block(walk, max(passed, 1));
+        if (exit.behind < 0) {
+            break;
+        }
+        walk.cell[exit.crossing.axis] = exit.behind;
+        walk = seek(walk, exit.crossing);
+    }
+    return NO_HIT;
+}

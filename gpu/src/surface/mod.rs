@@ -1,0 +1,52 @@
+//! Iso-surfaces at which rays end ([HATCH-14]).
+
+use crate::field::Scales;
+use crate::shader::{Constant, Data, Shader, module};
+use drypoint_scene::measured::Measured;
+use drypoint_scene::shot::{Kernel, OpaqueSurface, Shot};
+
+/// The largest number that kernels make of numbers in [−1, 1], and more.
+const LARGEST: f64 = 8.0;
+
+/// Adds the search for an iso-surface. `slack` is the rounding of a value.
+pub(crate) fn add(
+    shader: &mut Shader,
+    shot: &Shot,
+    surface: &OpaqueSurface,
+    measured: &Measured,
+    scales: &Scales,
+    slack: f64,
+) {
+    let [object] = &shot.objects;
+    shader.add(&[module!("traversal"), module!("first_root"), module!("bracket")]);
+    match object.reconstruction.kernel {
+        Kernel::Trilinear => shader.add(&[module!("cubic"), module!("trilinear_cell")]),
+        Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5 | Kernel::CatmullRom => {
+            shader.add(&[module!("stepped_cell")]);
+        }
+    }
+    if let Some(bricks) = &measured.bricks {
+        let mut words = vec![0u32; bricks.ranges.len().div_ceil(32)];
+        for (i, [lo, hi]) in bricks.ranges.iter().enumerate() {
+            words[i / 32] |= u32::from(lo - slack <= surface.iso && surface.iso <= hi + slack) << (i % 32);
+        }
+        shader.add(&[module!("bricks")]);
+        shader.bind(23, "the bricks of the surface", Data::Words(words));
+        shader.stages.passed.push("pass_brick");
+    }
+    shader.add(&[module!("../ray/surface")]);
+    let block = &mut shader.block;
+    block.number("iso", scales.value(surface.iso).clamp(-LARGEST, LARGEST));
+    block.vector("surface_rgb", surface.rgb.into());
+    shader.constant("SURFACE_ALONE", Constant::Bool(surface.alone));
+    shader.stages.begin_ray.push("find_surface");
+    shader.stages.samples_left.push("end_at_surface");
+    shader.stages.steps.push("share_before_surface");
+    shader.stages.ends.push("meet_surface");
+}
+
+/// Adds the mask, which is bound already.
+pub(crate) fn add_mask(shader: &mut Shader) {
+    shader.add(&[module!("masked")]);
+    shader.stages.passed.push("pass_masked");
+}

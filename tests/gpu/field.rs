@@ -1,0 +1,132 @@
+//! The field between voxels, up to its border, in pictures: kernels, gradients, curvatures, masked voxels, iso-surfaces.
+
+use crate::double::differences;
+use std::fmt::Write;
+use std::path::Path;
+
+/// A volume file of bumps and noise on a sheared grid: u8, or f32 with some voxels that are not numbers.
+fn volume([nx, ny, nz]: [usize; 3], kind: &str) -> String {
+    let mut next = crate::formulas::random(11);
+    let number = |x: usize, y: usize, z: usize, r: f64| {
+        let c = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 - 0.5;
+        let [x, y, z] = [c(x, nx), c(y, ny), c(z, nz)];
+        (230.0 * (1.0 - 2.0 * (x * x + y * y + z * z)) + 24.0 * r).clamp(1.0, 255.0)
+    };
+    let mut data = Vec::new();
+    for (i, [x, y, z]) in (0..nx * ny * nz).map(|i| (i, [i % nx, i / nx % ny, i / (nx * ny)])) {
+        let value = number(x, y, z, next());
+        match kind {
+            "uchar" => data.push(value as u8),
+            _ if kind == "masked" && i % 41 == 17 => data.extend(f32::NAN.to_le_bytes()),
+            _ => data.extend((value as f32).to_le_bytes()),
+        }
+    }
+    let stored = if kind == "uchar" { "uchar" } else { "float" };
+    let mut header = format!("NRRD0004\ntype: {stored}\ndimension: 3\nsizes: {nx} {ny} {nz}\nencoding: raw\n");
+    let _ = write!(header, "endian: little\nspace dimension: 3\n");
+    let _ = write!(header, "space directions: (0.7,0,0) (0.1,1.1,0) (0,-0.2,1.6)\nspace origin: (3,-2,1)\n\n");
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("field-{nx}-{ny}-{nz}-{kind}.nrrd"));
+    std::fs::write(&path, [header.as_bytes(), &data].concat()).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// A scene of such a volume, seen obliquely.
+fn scene(dims: [usize; 3], kind: &str, more: &str) -> String {
+    let file = volume(dims, kind);
+    format!(
+        r##"
+drypoint = 1
+[volume]
+file = "{file}"
+[camera]
+direction = [-0.5, 0.4, -0.8]
+[transfer]
+kind = "regular"
+nodes = [{{ at = 90, color = "#804020", opacity = 0.02 }}, {{ at = 170, color = "#ffcc88", opacity = 0.3 }},
+         {{ at = 240, color = "#88ccff", opacity = 0.7 }}]
+[picture]
+size = [40, 32]
+samples = 1
+background = "#203040"
+{more}
+"##
+    )
+}
+
+/// Compares a scene of each volume.
+fn compare(name: &str, volumes: &[([usize; 3], &str)], more: &str) {
+    for &(dims, kind) in volumes {
+        let Some([double, single]) = differences(&scene(dims, kind, more)) else { return };
+        println!("{name} {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
+        assert!(double < 1e-9, "{name} {dims:?}: {double:e}");
+    }
+}
+
+const KERNELS: [&str; 5] = ["trilinear", "bspline", "bspline-smooth", "bspline5", "catmull-rom"];
+
+/// Axes with an inside, with borders alone, and of one voxel.
+const VOLUMES: [([usize; 3], &str); 4] =
+    [([11, 9, 8], "uchar"), ([9, 8, 10], "float"), ([6, 2, 3], "float"), ([9, 1, 6], "float")];
+
+#[test]
+fn kernels() {
+    for kernel in KERNELS {
+        let more = format!("[shading]\n[sampling]\nkernel = \"{kernel}\"\ngradient = \"analytic\"\n");
+        compare(&format!("{kernel}, analytic gradient"), &VOLUMES, &more);
+    }
+}
+
+#[test]
+fn gradients() {
+    for gradient in ["central", "sobel", "regression"] {
+        for kernel in ["trilinear", "bspline5"] {
+            let more = format!("[shading]\n[sampling]\nkernel = \"{kernel}\"\ngradient = \"{gradient}\"\n");
+            compare(&format!("{kernel}, {gradient}"), &VOLUMES, &more);
+        }
+    }
+}
+
+/// Curvatures in layers, by each Hessian.
+#[test]
+fn curvatures() {
+    let layers = "layers = [\"beauty\", \"curvature\", \"first.curvature\", \"gradient\", \"normal\"]\n";
+    for (kernel, hessian) in [
+        ("trilinear", "central"),
+        ("trilinear", "gaussian"),
+        ("bspline", "analytic"),
+        ("bspline5", "analytic"),
+        ("bspline", "gaussian"),
+        ("catmull-rom", "auto"),
+    ] {
+        let more = format!("{layers}[shading]\n[sampling]\nkernel = \"{kernel}\"\nhessian = \"{hessian}\"\n");
+        compare(&format!("{kernel}, {hessian} Hessian"), &VOLUMES[..2], &more);
+        compare(&format!("{kernel}, {hessian} Hessian"), &VOLUMES[3..], &more);
+    }
+}
+
+#[test]
+fn masked_voxels() {
+    let masked = [([11, 9, 8], "masked")];
+    compare("masked", &masked, "[shading]\n");
+    compare("masked", &masked, "[shading]\n[sampling]\nkernel = \"bspline\"\n");
+    compare("surface, masked", &masked, "[shading]\n[surface]\niso = 150\nlook = \"phong\"\n");
+}
+
+#[test]
+fn surfaces() {
+    let phong = "[shading]\n[surface]\niso = 150\nlook = \"phong\"\ncolor = \"#d8b4cc\"\n";
+    for kernel in KERNELS {
+        compare(&format!("surface, {kernel}"), &VOLUMES, &format!("{phong}[sampling]\nkernel = \"{kernel}\"\n"));
+    }
+    let layers = "layers = [\"beauty\", \"Z\", \"depth\", \"first\", \"normal\"]\n";
+    compare("surface, layers", &VOLUMES[..2], &format!("{layers}{phong}"));
+    compare("surface, shells", &VOLUMES[..2], &format!("{phong}[sampling]\nstep_along = \"ray\"\n"));
+    compare("surface, white", &VOLUMES[..2], "[shading]\n[surface]\niso = 150\n");
+    for (dims, kind) in VOLUMES {
+        let text = scene(dims, kind, phong);
+        let (start, end) = (text.find("[transfer]").unwrap(), text.find("[picture]").unwrap());
+        let Some([double, single]) = differences(&format!("{}{}", &text[..start], &text[end..])) else { return };
+        println!("surface alone {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
+        assert!(double < 1e-9, "{dims:?}: {double:e}");
+    }
+}
