@@ -39,7 +39,8 @@ fn curvatures() {
             "field/gradient/gradient",
             "field/hessian/second",
             "field/hessian/curvature",
-        ]),
+        ]) + "struct Place { cell: vec3<i32>, w: vec3<real> }
+            fn index_gradient(at: Place) -> vec3<real> { return at.w; }",
         params: &[
             ("no_normal_below", 0.0),
             ("outwards", -1.0),
