@@ -31,7 +31,7 @@ fn volume([nx, ny, nz]: [usize; 3], kind: &str) -> String {
 }
 
 /// A scene of such a volume, seen obliquely.
-fn scene(dims: [usize; 3], kind: &str, more: &str) -> String {
+pub(crate) fn scene(dims: [usize; 3], kind: &str, more: &str) -> String {
     let file = volume(dims, kind);
     format!(
         r##"

@@ -6,6 +6,8 @@ mod field;
 mod formulas;
 #[path = "sabotage/styles.rs"]
 mod sabotage_of_styles;
+#[path = "sabotage/field.rs"]
+mod sabotage_of_the_field;
 mod styles;
 mod two_quantities;
 

@@ -2,6 +2,7 @@
 //! compared with the reference's.
 
 mod elementary;
+mod field;
 mod over_two;
 mod styles;
 
