@@ -60,7 +60,7 @@ impl<'a> Drawing<'a> {
         if let Some(renderer) = &renderer {
             counts.add(renderer.prepared());
         }
-        Self::with(job, marking, renderer.map(VolumeRenderer::Reference), counts)
+        Self::with(job, marking, renderer.map(|renderer| VolumeRenderer::Reference(Box::new(renderer))), counts)
     }
 
     /// Prepares the frames of a job like [`Drawing::new`], with the volume drawn by a graphics card.
@@ -86,7 +86,7 @@ impl<'a> Drawing<'a> {
     /// Renders the volume plane by plane instead. The picture is the same.
     pub fn plane_by_plane(self) -> Self {
         let renderer = self.renderer.map(|renderer| match renderer {
-            VolumeRenderer::Reference(renderer) => VolumeRenderer::Reference(renderer.plane_by_plane()),
+            VolumeRenderer::Reference(renderer) => VolumeRenderer::Reference(Box::new(renderer.plane_by_plane())),
             #[cfg(feature = "gpu")]
             VolumeRenderer::Gpu(_) => renderer,
         });

@@ -59,6 +59,8 @@ pub struct Bounded {
     pub share: f64,
     /// Decided pixels whose difference exceeds their bound.
     pub exceeded: usize,
+    /// The share of pixels without a finite bound.
+    pub endless: f64,
     /// The share of pixels at a decision.
     pub undecided: f64,
     /// Pixels at each decision that is open somewhere.
@@ -92,12 +94,15 @@ impl fmt::Display for Validation {
             return write!(f, "no bounds in f32: {why}");
         }
         let Some(bounded) = &self.bounded else { return Ok(()) };
-        let Bounded { bound, measured, share, exceeded, undecided, measured_at_decisions, .. } = bounded;
+        let Bounded { bound, measured, share, exceeded, endless, undecided, measured_at_decisions, .. } = bounded;
         writeln!(
             f,
             "colours in f32: bound {bound:.1e}, measured {measured:.1e}, at most {share:.3} of a pixel's own bound"
         )?;
         writeln!(f, "pixels over their bound: {exceeded}")?;
+        if *endless > 0.0 {
+            writeln!(f, "pixels without a finite bound: {:.3} %", endless * 100.0)?;
+        }
         write!(f, "pixels at a decision: {:.3} %, differing by up to {measured_at_decisions:.1e}", undecided * 100.0)?;
         bounded.decisions.iter().try_for_each(|(what, pixels)| write!(f, "\n  {pixels} at {what}"))
     }
@@ -147,7 +152,7 @@ pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
             }
         })
         .collect();
-    let parts = |stage: &&Stage| stage.double.is_some_and(|double| !(double <= SAME * stage.largest.max(1e-300)));
+    let parts = |stage: &&Stage| stage.double.is_some_and(|double| double > SAME * stage.largest);
     let parts_at = compared.iter().find(parts).map(|stage| stage.name);
     // Colours in f32 against their bounds.
     let (bounded, unbounded) = match bounds(job, &plain)? {
@@ -188,11 +193,18 @@ fn bounds(job: &Job, variant: &KnobVariant) -> Result<Result<Bounds, String>, Fa
     }
 }
 
-/// The largest difference of two pictures in a layer. Numbers that are finite in one alone are infinitely far apart.
+/// The largest difference of two pictures in a layer. Numbers of which one alone is finite, or is a number, are infinitely
+/// far apart.
 fn largest_difference(a: &Picture, b: &Picture, layer: LayerKind) -> f64 {
     let channels = |picture: &Picture| picture.layer(layer).map_or_else(Vec::new, |layer| layer.channels.clone());
     let pairs = channels(a).into_iter().flatten().zip(channels(b).into_iter().flatten());
-    pairs.map(|(a, b)| if a == b { 0.0 } else { (a - b).abs() }).fold(0.0, f64::max)
+    pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
+}
+
+/// |a − b|; infinite where one alone is finite, or is a number.
+fn apart(a: f64, b: f64) -> f64 {
+    let difference = if a == b { 0.0 } else { (a - b).abs() };
+    if difference.is_nan() { f64::INFINITY } else { difference }
 }
 
 /// A card's colours in f32 against their bounds.
@@ -204,22 +216,27 @@ fn against(bounds: &Bounds, single: &Picture) -> Bounded {
         measured: 0.0,
         share: 0.0,
         exceeded: 0,
+        endless: 0.0,
         undecided: 0.0,
         decisions: Vec::new(),
         measured_at_decisions: 0.0,
     };
     for (at, undecided) in bounds.undecided.iter().enumerate() {
-        let differences = (0..values.len()).map(|c| ((values[c][at] - single[c][at]).abs(), errors[c][at]));
+        let differences = (0..values.len()).map(|c| (apart(values[c][at], single[c][at]), errors[c][at]));
         if undecided.is_some() {
             found.undecided += 1.0 / bounds.undecided.len() as f64;
             found.measured_at_decisions = differences.fold(found.measured_at_decisions, |d, (found, _)| d.max(found));
             continue;
         }
         let mut exceeds = false;
+        if errors.iter().any(|channel| !channel[at].is_finite()) {
+            found.endless += 1.0 / bounds.undecided.len() as f64;
+            continue;
+        }
         for (difference, bound) in differences {
             found.bound = found.bound.max(bound);
             found.measured = found.measured.max(difference);
-            exceeds |= !(difference <= bound);
+            exceeds |= difference > bound;
             if bound > 0.0 {
                 found.share = found.share.max(difference / bound);
             }

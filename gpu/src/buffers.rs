@@ -56,7 +56,7 @@ pub(crate) fn buffer(
     contents: &[u8],
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, GpuError> {
-    let most = u64::from(gpu.device.limits().max_storage_buffer_binding_size);
+    let most = gpu.device.limits().max_storage_buffer_binding_size;
     let bytes = (contents.len() as u64).max(16);
     if bytes > most {
         return Err(GpuError::TooManyBytes { what, bytes, most, adapter: gpu.name().to_owned() });

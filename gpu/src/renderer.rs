@@ -179,7 +179,7 @@ impl<'g> Renderer<'g> {
         };
         // Rows whose samples are few enough and whose numbers fit in a buffer.
         let bytes_a_row = (width * channels.max(4)) as u64 * self.precision.size();
-        let most = u64::from(gpu.device.limits().max_storage_buffer_binding_size);
+        let most = gpu.device.limits().max_storage_buffer_binding_size;
         let fit = ((most / bytes_a_row.max(1)) as usize).saturating_sub(2).max(1);
         let rows = ((SAMPLES_AT_ONCE / samples) as usize).max(GROUP as usize).min(fit).min(height);
         let new = |rows: usize, usage| {

@@ -13,7 +13,7 @@ use drypoint_scene::shot::Shot;
 /// A renderer of the volume.
 pub(super) enum VolumeRenderer<'a> {
     /// The reference.
-    Reference(Renderer<'a>),
+    Reference(Box<Renderer<'a>>),
     /// A graphics card.
     #[cfg(feature = "gpu")]
     Gpu(Box<GpuFrames<'a>>),

@@ -19,7 +19,9 @@ pub(crate) fn differences(scene: &str) -> Option<[f64; 2]> {
             for (a, b) in a.channels.iter().flatten().zip(b.channels.iter().flatten()) {
                 // Depths of nothing are +∞ in both.
                 if a != b {
-                    largest = largest.max((a - b).abs());
+                    let difference = (a - b).abs();
+                    assert!(!difference.is_nan(), "{a} and {b}");
+                    largest = largest.max(difference);
                 }
             }
         }

@@ -10,6 +10,7 @@ mod sabotage_of_styles;
 mod sabotage_of_the_field;
 mod styles;
 mod two_quantities;
+mod validation;
 
 use drypoint::gpu::{Gpu, GpuError};
 

@@ -57,6 +57,12 @@ fn scene_and_output_and_reference_know_none_above_them() {
 }
 
 #[test]
+fn graphics_cards_read_the_shot_and_decide_no_meaning() {
+    let words = ["scene::tables", "scene::plan", "scene::file", "drypoint_reference", "drypoint_output", "drypoint::"];
+    assert_eq!(lines_with("gpu/src", &words), [""; 0]);
+}
+
+#[test]
 fn a_paper_imports_no_other_paper() {
     let papers =
         ["style_transfer_functions", "volume_stippling", "interactive_volume_illustration", "volumetric_halos"];

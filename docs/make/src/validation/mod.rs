@@ -62,15 +62,16 @@ fn page(gpu: &Gpu, found: &[(&str, Validation)]) -> String {
     for (name, validation) in found {
         let Some(bounded) = &validation.bounded else {
             let why = validation.unbounded.as_deref().unwrap_or_default();
-            let _ = writeln!(page, "| {name} | {why} | | | | |");
+            let _ = writeln!(page, "| {name} | {why} | | | | | |");
             continue;
         };
         let _ = writeln!(
             page,
-            "| {name} | {:.1e} | {:.1e} | {:.0} | {:.2} % | {:.1e} |",
+            "| {name} | {:.1e} | {:.1e} | {:.1} | {:.2} % | {:.2} % | {:.1e} |",
             bounded.bound,
             bounded.measured,
             1.0 / bounded.share.max(f64::MIN_POSITIVE),
+            100.0 * bounded.endless,
             100.0 * bounded.undecided,
             bounded.measured_at_decisions
         );
@@ -104,8 +105,8 @@ const BOUNDS: &str = "The bound of a pixel is the sum of what each operation of 
 The grants of operations and their sources are a table in `reference/src/number/bounded.rs`; positions of samples have theirs in `reference/src/ray/bounds/positions.rs`.
 *Slack* is how many times smaller than its own bound the difference of the closest pixel is: below 1 the bound would be broken.
 
-| effect | largest bound | largest difference | slack | pixels at a decision | largest difference there |
-|---|---|---|---|---|---|
+| effect | largest bound | largest difference | slack | pixels without a bound | pixels at a decision | largest difference there |
+|---|---|---|---|---|---|---|
 ";
 
 const REST: &str = "
