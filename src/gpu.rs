@@ -1,7 +1,7 @@
 //! Pictures of jobs on graphics cards.
 
 use crate::Failure;
-use crate::job::Job;
+use crate::job::{Job, KnobVariant};
 pub use drypoint_gpu::{Gpu, GpuError, Kernel, Precision};
 use drypoint_gpu::{Inputs, Renderer, Volume};
 use drypoint_reference::ray::lattice::samples_in;
@@ -29,6 +29,26 @@ impl<'a> GpuJob<'a> {
     pub fn new(job: &'a Job, gpu: &'a Gpu, precision: Precision) -> Result<Self, Failure> {
         let shot = job.shot()?;
         let measured = job.renderer()?.measured(&shot);
+        Self::upload(job, gpu, shot, measured, precision)
+    }
+
+    /// Measures the volume of a job for a scene with other knobs, and uploads it.
+    ///
+    /// # Errors
+    /// Same errors as [`GpuJob::new`].
+    pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &KnobVariant, precision: Precision) -> Result<Self, Failure> {
+        let shot = job.shot_of(variant)?;
+        let measured = job.renderer_of(variant)?.measured(&shot);
+        Self::upload(job, gpu, shot, measured, precision)
+    }
+
+    fn upload(
+        job: &'a Job,
+        gpu: &'a Gpu,
+        shot: Shot,
+        measured: Measured,
+        precision: Precision,
+    ) -> Result<Self, Failure> {
         let volume = Volume::new(gpu, &measured, precision).map_err(|error| failure(&error, job))?;
         Ok(Self { job, gpu, shot, measured, volume })
     }

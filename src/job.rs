@@ -327,7 +327,7 @@ impl Job {
     }
 
     /// Returns the shot of a scene with other knobs. No knob is the camera's.
-    fn shot_of(&self, variant: &KnobVariant) -> Result<Shot, Failure> {
+    pub(crate) fn shot_of(&self, variant: &KnobVariant) -> Result<Shot, Failure> {
         self.resolve(&variant.scene, &variant.plan, variant.function.as_ref(), self.view()?)
     }
 
@@ -360,21 +360,25 @@ impl Job {
         shot: &Shot,
         make: impl FnOnce(&Shot, Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
     ) -> Result<Renderer<'a>, Failure> {
-        let inputs = Inputs {
-            volume: &self.volume,
-            labels: self.labels.as_ref(),
-            further: self.further.each_ref().map(Option::as_ref),
-            styles: &self.styles,
-            background: self.backdrop(shot),
-        };
         room_for_passes(self, plan)?;
         room_for_table(scene)?;
-        let renderer = make(shot, inputs).map_err(|error| render_failure(&error, scene))?;
+        let renderer = make(shot, self.inputs(shot)).map_err(|error| render_failure(&error, scene))?;
         // The picture's channels, and as much again for encoding them, must fit in the remaining memory.
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
         room(scene, 2 * 8 * channels + renderer.bytes_of_refinement())?;
         room_for_halos(scene, renderer.bytes_of_halos())?;
         Ok(renderer)
+    }
+
+    /// Returns the data that a shot names.
+    pub(crate) fn inputs(&self, shot: &Shot) -> Inputs<'_> {
+        Inputs {
+            volume: &self.volume,
+            labels: self.labels.as_ref(),
+            further: self.further.each_ref().map(Option::as_ref),
+            styles: &self.styles,
+            background: self.backdrop(shot),
+        }
     }
 
     /// Returns what lies behind the volume.

@@ -34,6 +34,8 @@ pub mod picking;
 pub mod stippling;
 pub mod stroking;
 pub mod tone_plot;
+#[cfg(feature = "gpu")]
+pub mod validate;
 pub mod wedge;
 
 pub use drypoint_output as output;

@@ -21,9 +21,9 @@ impl<T: Arithmetic> Accumulator<T> {
     /// Lays a straight colour c of opacity α behind what is there: w = (1 − A)·α, C ← C + w·c, A ← A + w. Returns w.
     #[inline(always)]
     pub(crate) fn over(&mut self, rgb: [T; 3], alpha: T) -> T {
-        let w = (self.opacity.one() - self.opacity) * alpha;
+        let (w, opacity) = self.opacity.laid_before(alpha);
         self.add(rgb, w);
-        self.opacity = self.opacity + w;
+        self.opacity = opacity;
         w
     }
 

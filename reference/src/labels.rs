@@ -54,7 +54,11 @@ impl<'a> Labels<'a> {
     /// equal sums, the smallest id holds.
     #[inline]
     pub fn id_at<R: Real>(&self, p: Vec3<R>) -> u32 {
-        let mut p = Vec3::new(p.x.to_f64(), p.y.to_f64(), p.z.to_f64());
+        R::assigned(p, |p| self.id_at_f64(p))
+    }
+
+    #[inline(always)]
+    fn id_at_f64(&self, mut p: Vec3<f64>) -> u32 {
         if let Some(map) = &self.map {
             let Some(there) = map.position(p.to_glam()) else { return 0 };
             p = Vec3::from_glam(there);

@@ -1,6 +1,6 @@
 //! Blinn–Phong shading of a regular transfer function ([STF-11]).
 
-use crate::number::{Arithmetic, Elementary, Mask, Real, Vec3};
+use crate::number::{Arithmetic, Decision, Elementary, Mask, Real, Vec3};
 use drypoint_scene::shot::PhongParams;
 
 /// Material and light; the vectors are in world space.
@@ -49,7 +49,7 @@ impl<R: Real> Phong<R> {
     pub fn shade<A: Elementary<Number = R>>(&self, c_u: [A; 3], n: Vec3<A>, half: Vec3<A>) -> [A; 3] {
         let n_l = n.dot(Vec3::constant(n.x, self.light));
         let ambient = n_l.constant(self.ambient);
-        let dark = n_l.at_most(n_l.zero());
+        let dark = n_l.deciding(Decision::Light).at_most(n_l.zero());
         if dark.all() {
             return [c_u[0] * ambient, c_u[1] * ambient, c_u[2] * ambient];
         }

@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 /// Verbs of later versions.
-const LATER: [&str; 2] = ["validate", "paint"];
+const LATER: [&str; 1] = ["paint"];
 
 /// The verb of a command line that names none.
 const DEFAULT: &str = "render";
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn what_is_not_built_says_so() {
-        for line in ["drypoint validate a.toml", "drypoint -q paint"] {
+        for line in ["drypoint paint a.toml", "drypoint -q paint"] {
             let failure = Arguments::new(line.split(' ').map(OsString::from)).err().unwrap();
             assert!(failure.what.contains("is not built yet"), "{failure}");
         }

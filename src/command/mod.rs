@@ -27,6 +27,7 @@ mod signals;
 mod stats;
 mod strokes;
 mod styles;
+mod validate;
 mod wedge;
 
 use arguments::Arguments;
@@ -85,6 +86,8 @@ enum Verb {
     Styles(styles::StylesArgs),
     /// Compare two pictures; exit code 1 when a bound is exceeded
     Compare(compare::CompareArgs),
+    /// Compare a graphics card with the reference, within derived bounds; exit code 1 when one is exceeded
+    Validate(validate::ValidateArgs),
     /// Measure error and time of every accuracy setting of a scene
     Cost(cost::CostArgs),
     /// Write a contact sheet of volumes, scenes or pictures
@@ -161,6 +164,7 @@ impl Cli {
             Verb::Strokes(verb) => verb.run(talk),
             Verb::Styles(verb) => verb.run(talk),
             Verb::Compare(verb) => verb.run(talk),
+            Verb::Validate(verb) => verb.run(talk),
             Verb::Cost(verb) => verb.run(talk),
             Verb::Sheet(verb) => verb.run(talk),
             Verb::Halo(verb) => verb.run(talk),

@@ -8,6 +8,7 @@ pub(crate) mod random;
 pub(crate) mod rod;
 pub(crate) mod strip;
 
+use drypoint::reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
 use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
 use drypoint::reference::suggest;
 use drypoint::scene::color::Rgba;
@@ -225,6 +226,20 @@ impl Stage {
 
     /// The picture of a shot of this scene that may have been changed.
     pub(crate) fn render_shot(&self, shot: &Shot, set: impl FnOnce(Renderer<'_>) -> Renderer<'_>) -> Shown {
+        self.with_inputs(shot, |inputs| {
+            let (picture, counts) = set(Renderer::new(shot, inputs).unwrap()).frame(&|_| {});
+            Shown { picture, counts }
+        })
+    }
+
+    /// The picture with the bounds of an f32 renderer.
+    pub(crate) fn bounds(&self, origin: RayOrigin) -> Result<Bounds, BoundsError> {
+        let shot = self.resolved(self.view());
+        self.with_inputs(&shot, |inputs| Renderer::bounds(&shot, inputs, origin))
+    }
+
+    /// Hands over the data that a shot of this scene names.
+    fn with_inputs<T>(&self, shot: &Shot, take: impl FnOnce(Inputs<'_>) -> T) -> T {
         let function = self.function();
         let find = |name: &String| self.styles.iter().find(|s| &s.name == name).unwrap().clone();
         let names: &[String] = match &function {
@@ -237,15 +252,13 @@ impl Stage {
             (None, Background::Color(c)) => Backdrop::Color(*c),
             (None, _) => Backdrop::None,
         };
-        let inputs = Inputs {
+        take(Inputs {
             volume: &self.volume,
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &named,
             background,
-        };
-        let (picture, counts) = set(Renderer::new(shot, inputs).unwrap()).frame(&|_| {});
-        Shown { picture, counts }
+        })
     }
 }
 

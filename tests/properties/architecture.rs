@@ -68,11 +68,14 @@ fn a_paper_imports_no_other_paper() {
     }
 }
 
-/// The share of what is laid behind, (1 − A)·α, is formed in one place.
+/// The share of what is laid behind, (1 − A)·α, is formed in one place: for numbers and lanes, and for numbers with bounds.
 #[test]
 fn there_is_one_over() {
-    let found = lines_with("reference/src", &["- self.opacity", "- front.opacity", "1.0 - a)", "1.0 - a;", "ONE - a"]);
-    let weights: Vec<&String> = found.iter().filter(|line| !line.contains("accumulator.rs")).collect();
+    let words = ["- self.opacity", "- front.opacity", "1.0 - a)", "1.0 - a;", "ONE - a", "() - self)", "(1.0) - self)"];
+    let found = lines_with("reference/src", &words);
+    let is_own =
+        |line: &str| ["accumulator.rs", "number/arithmetic.rs", "number/bounded.rs"].iter().any(|f| line.contains(f));
+    let weights: Vec<&String> = found.iter().filter(|line| !is_own(line)).collect();
     assert_eq!(weights, [""; 0] as [&str; 0]);
-    assert_eq!(found.len(), 3, "over, its end, and the background: {found:?}");
+    assert_eq!(found.len(), 4, "over, its bound, its end, and the background: {found:?}");
 }

@@ -19,6 +19,7 @@ mod stability;
 mod styles;
 mod switches;
 mod turntable;
+mod validation;
 
 use std::process::ExitCode;
 
@@ -43,6 +44,7 @@ const PAGES: &[Page] = &[
     ("styles", styles::write),
     ("switches", switches::write),
     ("turntable", turntable::write),
+    ("validation", validation::write),
 ];
 
 fn main() -> ExitCode {

@@ -7,10 +7,9 @@ use super::stencil::{Stencils, beyond};
 use super::tensor::{self, Rows, RowsFn, Sum};
 use super::voxel_hessian::of_spline;
 use crate::number::lanes::wide;
-use crate::number::{Real, Sym3, Vec3};
+use crate::number::{Real, RowOfFour, Sym3, Vec3};
 use drypoint_scene::measured::PaddedNumbers;
 use fearless_simd::Simd;
-use fearless_simd::prelude::*;
 use rayon::prelude::*;
 
 /// Coefficients minus a constant, x fastest, padded beyond each border by the reach of the spline.
@@ -42,12 +41,12 @@ impl<S: Simd, R: Real> Rows<R::Four<S>> for RowsOfFour<'_, S, R> {
     fn row(&self, j: usize, k: usize) -> R::Four<S> {
         let from = k * self.strides[1] + j * self.strides[0];
         let row = &self.window[from..from + 4];
-        [row[0], row[1], row[2], row[3]].simd_into(self.simd)
+        R::Four::load(self.simd, [row[0], row[1], row[2], row[3]])
     }
 
     #[inline(always)]
     fn zero(&self) -> R::Four<S> {
-        R::ZERO.simd_into(self.simd)
+        R::Four::load(self.simd, [R::ZERO; 4])
     }
 }
 
@@ -86,6 +85,7 @@ impl<R: Real> Coefficients<R> {
                 }
             }
         }
+        self.data.iter_mut().for_each(|c| *c = R::from_f64(c.to_f64()));
         self.fill_border();
         self
     }

@@ -111,7 +111,7 @@ impl<'v, R: Real> Field<'v, R> {
         let quotient = math::scale_by_power_of_two(largest, -a) / math::scale_by_power_of_two(voxel, -b);
         let c = math::exponent(quotient);
         let exponent = a - b + c;
-        let no_normal_below = R::NO_NORMAL.to_f64() * math::scale_by_power_of_two(quotient, -c);
+        let no_normal_below = R::from_f64(math::scale_by_power_of_two(quotient, -c)) * R::NO_NORMAL;
 
         // Numbers are read times a power of two, which the slope takes back.
         let read = math::exponent(stencils.scale()) - 1;
@@ -137,7 +137,7 @@ impl<'v, R: Real> Field<'v, R> {
             inverse_transpose: Mat3::from_glam(inverse_transpose),
             derivative: R::from_f64(derivative),
             exponent,
-            no_normal_below: R::from_f64(no_normal_below),
+            no_normal_below,
             kernel: match how.kernel {
                 Kernel::Trilinear => KernelData::Trilinear,
                 Kernel::Bspline => KernelData::Bspline(Coefficients::of_voxels(&stencils, 1).prefilter()),

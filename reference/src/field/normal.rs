@@ -19,7 +19,7 @@ impl<A: Arithmetic> Normal<A> {
     #[inline(always)]
     pub(crate) fn outward(gradient: Vec3<A>, outside: Outside, no_normal_below: A::Number) -> Self {
         let length = gradient.length();
-        let has = length.constant(no_normal_below).below(length);
+        let has = length.exceeds(no_normal_below);
         Self { n: gradient * outwards(length, outside), has, length }
     }
 }

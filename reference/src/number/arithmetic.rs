@@ -1,7 +1,7 @@
 //! Operations that single numbers and vectors of lanes have in common.
 
-use super::Real;
 use super::lanes::{self, Eight};
+use super::{Decision, Real};
 use drypoint_scene::math::{self, One, Width};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, f64x8, mask64x4, mask64x8};
@@ -87,6 +87,25 @@ pub trait Arithmetic:
     #[inline(always)]
     fn pow_whole(self, n: u32) -> Self {
         math::pow_whole(self, self.one(), n)
+    }
+
+    /// Whether the number exceeds a bound of rounding, below which it carries nothing.
+    #[inline(always)]
+    fn exceeds(self, rounding: Self::Number) -> Self::Mask {
+        self.constant(rounding).below(self)
+    }
+
+    /// The number itself, marked as what a decision hangs on: at a comparison with it the picture may jump.
+    #[inline(always)]
+    fn deciding(self, _: Decision) -> Self {
+        self
+    }
+
+    /// Lays an opacity α behind this opacity A: w = (1 − A)·α, and A + w.
+    #[inline(always)]
+    fn laid_before(self, alpha: Self) -> (Self, Self) {
+        let w = (self.one() - self) * alpha;
+        (w, self + w)
     }
 
     /// a + w(b − a), which returns a constant exactly ([REC-1]).

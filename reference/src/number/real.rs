@@ -1,11 +1,20 @@
 //! The operations that the sample code asks of a number, and nothing more.
 
-use super::Elementary;
+use super::{Elementary, Vec3};
 use drypoint_scene::math;
 use drypoint_scene::volume::Voxel;
-use fearless_simd::{Simd, SimdBase, SimdElement, f32x4, f64x4};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x4, f64x4};
 use std::fmt::Debug;
-use std::ops::{AddAssign, MulAssign, SubAssign};
+use std::ops::{Add, AddAssign, Mul, MulAssign, Sub, SubAssign};
+
+/// Four numbers of a row of voxels, side by side in a register where the processor has one for them.
+pub trait RowOfFour<S, R>:
+    Copy + Add<Output = Self> + Sub<R, Output = Self> + Mul<R, Output = Self> + Into<[R; 4]>
+{
+    /// The row of four numbers.
+    fn load(simd: S, numbers: [R; 4]) -> Self;
+}
 
 /// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `drypoint_scene::math` alone ([PREC-4]).
 pub trait Real:
@@ -19,10 +28,9 @@ pub trait Real:
     + AddAssign
     + SubAssign
     + MulAssign
-    + SimdElement
 {
     /// Four of them in a register.
-    type Four<S: Simd>: SimdBase<S, Element = Self, Array = [Self; 4]> + Into<[Self; 4]>;
+    type Four<S: Simd>: RowOfFour<S, Self>;
 
     /// 0.
     const ZERO: Self;
@@ -53,6 +61,11 @@ pub trait Real:
     /// ⌊x⌋ for 0 ≤ x < 2³² by truncation. Slower than [`split`](Self::split) by itself, sooner done where much waits for
     /// it.
     fn to_index(self) -> usize;
+    /// ⌊x⌋ as a proposal, where a search has the last word; none where a search has to do without.
+    #[inline(always)]
+    fn proposed_index(self) -> Option<usize> {
+        Some(self.to_index())
+    }
     /// The number i, up to 2³² (f32: 2²⁴).
     fn from_index(i: usize) -> Self;
     /// The next larger number.
@@ -61,6 +74,24 @@ pub trait Real:
     fn next_down(self) -> Self;
     /// The angle of (x, self) from the x axis.
     fn atan2(self, x: Self) -> Self;
+
+    /// o + a·t: the position of a ray with origin o and direction a at the depth t, along one axis.
+    #[inline(always)]
+    fn on_ray(o: Self, a: Self, t: Self) -> Self {
+        o + a * t
+    }
+
+    /// f of some numbers, computed in f64 and rounded once. f is monotone in each of them, rising or falling.
+    #[inline(always)]
+    fn monotone<const N: usize>(numbers: [Self; N], f: impl Fn([f64; N]) -> f64) -> Self {
+        Self::from_f64(f(numbers.map(Self::to_f64)))
+    }
+
+    /// What a position is assigned to, in f64.
+    #[inline(always)]
+    fn assigned<T: Copy + PartialEq>(position: Vec3<Self>, assign: impl Fn(Vec3<f64>) -> T) -> T {
+        assign(Vec3::new(position.x.to_f64(), position.y.to_f64(), position.z.to_f64()))
+    }
 
     /// √(x² + y²) without overflow on the way.
     #[inline]
@@ -74,6 +105,20 @@ pub trait Real:
         large * (Self::ONE + ratio * ratio).sqrt()
     }
 }
+
+macro_rules! row_of_four {
+    ($number:ident, $four:ident) => {
+        impl<S: Simd> RowOfFour<S, $number> for $four<S> {
+            #[inline(always)]
+            fn load(simd: S, numbers: [$number; 4]) -> Self {
+                numbers.simd_into(simd)
+            }
+        }
+    };
+}
+
+row_of_four!(f64, f64x4);
+row_of_four!(f32, f32x4);
 
 /// 2⁵²: a number below it that is added leaves its nearest whole number in the low bits of the mantissa.
 const MAGIC_F64: f64 = (1u64 << 52) as f64;

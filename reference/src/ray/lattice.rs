@@ -80,7 +80,8 @@ impl<R: Real> IndexRay<R> {
     /// The index position of sample k.
     #[inline(always)]
     pub fn position(&self, k: i64) -> Vec3<R> {
-        self.origin + self.along * self.depth(k)
+        let (o, a, t) = (self.origin, self.along, self.depth(k));
+        Vec3::new(R::on_ray(o.x, a.x, t), R::on_ray(o.y, a.y, t), R::on_ray(o.z, a.z, t))
     }
 
     /// The samples inside the closed box [lo, hi] of index space and beyond `near`, as the closed range first..=last;
@@ -173,7 +174,7 @@ impl<R: Real> IndexRay<R> {
     }
 
     /// Eye depths at which the ray enters and leaves a box, widened by the rounding of positions.
-    fn depths(&self, lo: Vec3<R>, hi: Vec3<R>) -> Option<[f64; 2]> {
+    pub(super) fn depths(&self, lo: Vec3<R>, hi: Vec3<R>) -> Option<[f64; 2]> {
         let [o, d] = self.line();
         let (lo, hi) = (lo.to_glam(), hi.to_glam());
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];

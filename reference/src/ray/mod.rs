@@ -1,5 +1,7 @@
 //! Casting rays through the field.
 
+#[cfg(any(test, feature = "bounds"))]
+pub mod bounds;
 pub mod brick_occupancy;
 mod cell_mask;
 mod clipped_samples;

@@ -42,7 +42,7 @@ impl Correction {
     /// α(Δ). In f32 too it is computed in f64 and rounded once, at the end.
     #[inline]
     pub fn apply<R: Real>(self, alpha: R) -> R {
-        R::from_f64(correct(alpha.to_f64(), self.ratio))
+        R::monotone([alpha], |[alpha]| correct(alpha, self.ratio))
     }
 }
 

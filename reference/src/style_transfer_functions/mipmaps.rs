@@ -67,7 +67,7 @@ impl<R: Real> Detail<R> {
     pub fn below_last(&self, depth: R, kappa: R, g: R) -> R {
         let bend = self.curvature_bias * (kappa.abs() * self.voxel).min(R::ONE);
         let per_ray = R::HALF * self.turn.max(bend) / self.footprint.at(depth);
-        R::from_f64(math::log2(per_ray.to_f64())) + self.gradient_bias * (R::ONE - g)
+        R::monotone([per_ray], |[x]| math::log2(x)) + self.gradient_bias * (R::ONE - g)
     }
 }
 
@@ -105,7 +105,7 @@ impl<R: Real> MipMap<R> {
             return first;
         }
         // λ is at most that of the last level, so above a level that it has passed there is another.
-        let (to, upper) = &self.levels[above];
+        let Some((to, upper)) = self.levels.get(above) else { return first };
         mix(first, upper.sample(nx, ny), (lambda - from) / (*to - from))
     }
 

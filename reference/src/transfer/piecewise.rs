@@ -196,7 +196,8 @@ impl<R: Real> Piecewise<R> {
     #[inline(always)]
     pub fn locate(&self, s: R) -> Option<NodePlace<R>> {
         // Values before the first node and NaN become 0.
-        let part = ((s - self.first) * self.parts_per_unit + R::ONE).to_index();
+        let part = (s - self.first) * self.parts_per_unit + R::ONE;
+        let Some(part) = part.proposed_index() else { return self.search(s, 0) };
         match self.parts[part.min(PARTS + 1)] {
             LookupPart::Invisible => None,
             LookupPart::Segment(k) => self.between(s, k as usize),

@@ -8,13 +8,12 @@ mod border;
 pub(super) use border::beyond;
 
 use super::tensor::{Rows, RowsFn, Sum};
-use crate::number::Real;
 use crate::number::lanes::wide;
+use crate::number::{Real, RowOfFour};
 use drypoint_scene::math;
 use drypoint_scene::volume::{Access, Volume, Voxel, VoxelType};
 use drypoint_scene::with_access;
 use fearless_simd::Simd;
-use fearless_simd::prelude::*;
 use std::marker::PhantomData;
 
 /// Reads stencils from a volume, in stored units times [`Stencils::scale`].
@@ -87,12 +86,12 @@ struct VoxelRows<S, A, R> {
 impl<S: Simd, A: Access, R: Real> Rows<R::Four<S>> for VoxelRows<S, A, R> {
     #[inline(always)]
     fn row(&self, j: usize, k: usize) -> R::Four<S> {
-        R::from_voxels(self.window.row::<4>(0, j, k)).simd_into(self.simd)
+        R::Four::load(self.simd, R::from_voxels(self.window.row::<4>(0, j, k)))
     }
 
     #[inline(always)]
     fn zero(&self) -> R::Four<S> {
-        R::ZERO.simd_into(self.simd)
+        R::Four::load(self.simd, [R::ZERO; 4])
     }
 }
 

@@ -1,6 +1,6 @@
 //! Silhouettes: black where the surface turns away from the eye (4.4, [HATCH-15]).
 
-use crate::number::Real;
+use crate::number::{Decision, Real};
 
 /// The test (N·V)² + offset > ½.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +17,7 @@ impl<R: Real> SilhouetteTest<R> {
     /// Whether a place with this N·V, of either sign, is black.
     #[inline]
     pub fn is_black(self, n_dot_v: R) -> bool {
-        n_dot_v * n_dot_v + self.offset <= R::from_f64(0.5)
+        (n_dot_v * n_dot_v + self.offset).deciding(Decision::Silhouette) <= R::from_f64(0.5)
     }
 }
 

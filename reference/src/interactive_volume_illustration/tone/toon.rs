@@ -1,6 +1,6 @@
 //! Toon shading: tones with hard steps, by the angle between normal and light (4.4, [HATCH-15]).
 
-use crate::number::{Real, Vec3};
+use crate::number::{Decision, Real, Vec3};
 use drypoint_scene::shot::{Tone, ToonParams};
 
 /// Tones under a light; vectors are in world space.
@@ -28,7 +28,7 @@ impl<R: Real> Toon<R> {
     /// the paper.
     #[inline]
     pub fn shade(&self, c_u: [R; 3], n: Vec3<R>) -> [R; 3] {
-        let x = n.dot(self.light) + self.offset;
+        let x = (n.dot(self.light) + self.offset).deciding(Decision::Tone);
         let after_first = self.tones.iter().skip(1).take_while(|(at, _)| x > *at);
         match after_first.last().or(self.tones.first()) {
             Some((_, tone)) => [c_u[0] * tone[0], c_u[1] * tone[1], c_u[2] * tone[2]],

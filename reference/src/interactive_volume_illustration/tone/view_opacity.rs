@@ -1,7 +1,5 @@
 //! View-dependent opacity: a translucent surface is more opaque where it turns away from the eye ([HATCH-15]).
 
-use crate::number::Real;
-
 /// α' = 1 − (1 − α)^(1 + s(1/max(|N·V|, 2⁻⁶) − 1)).
 ///
 /// With s = 1 the exponent is 1/|N·V|: the ray through a thin layer seen at a slant is longer by this factor.
@@ -23,9 +21,9 @@ impl ViewOpacity {
 
     /// The exponent for N·V of either sign: at least 1, and 1 where the surface faces the eye.
     #[inline]
-    pub fn exponent<R: Real>(self, n_dot_v: R) -> f64 {
+    pub fn exponent(self, n_dot_v: f64) -> f64 {
         // The product of unit vectors may round to a number above 1.
-        let n_dot_v = n_dot_v.to_f64().abs().clamp(FLOOR, 1.0);
+        let n_dot_v = n_dot_v.abs().clamp(FLOOR, 1.0);
         1.0 + self.strength * (1.0 / n_dot_v - 1.0)
     }
 }
@@ -43,7 +41,7 @@ mod tests {
             // 2⁻⁶ is the floor: 1 + s·63.
             assert_eq!([1.0 / 64.0, 1e-3, 0.0].map(|x| at(s, x)), [1.0 + 63.0 * s; 3]);
         }
-        assert_eq!(ViewOpacity::new(1.0).unwrap().exponent(0.25f32), 4.0);
+        assert_eq!(ViewOpacity::new(1.0).unwrap().exponent(0.25), 4.0);
         assert_eq!(ViewOpacity::new(0.0), None);
     }
 }

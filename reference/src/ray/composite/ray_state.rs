@@ -14,7 +14,6 @@ use crate::ray::sample::need::{self, Need};
 use crate::ray::sample::{Evaluator, OverTwo, Previous, Sample, SampleAttributes};
 use crate::surface::SurfaceHit;
 use crate::transfer;
-use crate::transfer::over::SampleQuantities;
 use crate::volumetric_halos::Tint;
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
@@ -179,7 +178,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     /// A linear colour as it is composited ([VAL-3]).
     #[inline(always)]
     fn in_blend_space(&self, rgb: [R; 3]) -> [R; 3] {
-        if self.prepared.encode { rgb.map(|c| R::from_f64(color::linear_to_srgb(c.to_f64()))) } else { rgb }
+        if self.prepared.encode { rgb.map(|c| R::monotone([c], |[c]| color::linear_to_srgb(c))) } else { rgb }
     }
 
     /// Visits the samples first..=last. Returns whether the ray is still open.
@@ -274,16 +273,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         if let (true, Some(over_two)) = (N::MORE, &object.over_two) {
             return self.visit_over_two(over_two, sample, front, tint, counts);
         }
-        let query = N::query(object);
-        let attributes = self.evaluator.evaluate(sample, query, SampleAttributes::neutral(), counts);
-        counts.without_normal += u64::from(query.gradient && attributes.normal.is_none());
-        let (dirs, cut) = (&self.evaluator.dirs, self.evaluator.cut_at(sample.k));
-        let seen = cut.map_or(attributes, |cut| cut.attributes(attributes));
-        let shaded = match &object.table {
-            Some(table) if N::MORE => object.shader.shade(table.between_nodes(place), seen, dirs, counts),
-            _ => object.shader.shade(*place, seen, dirs, counts),
-        };
-        let shaded = cut.map_or(shaded, |cut| cut.shade(shaded));
+        let (shaded, attributes) = self.evaluator.shaded::<N>(sample, place, counts);
         self.composite::<N>(sample, shaded, attributes, front, tint, counts);
     }
 
@@ -297,25 +287,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         tint: Option<&Tint>,
         counts: &mut Counts,
     ) {
-        let object = &self.prepared.object;
-        let attributes = self.evaluator.evaluate(sample, over_two.first, SampleAttributes::neutral(), counts);
-        let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
-        let here = SampleQuantities {
-            position: self.evaluator.ray.position(sample.k),
-            place: sample.at,
-            value: sample.s,
-            gradient: of_normal(attributes.gradient.length()),
-            magnitude: of_normal(attributes.magnitude),
-            principal: attributes.principal,
-            kappa: attributes.kappa,
-        };
-        let Some(patch) = over_two.locate(&here) else { return };
-        let attributes = self.evaluator.evaluate(sample, over_two.rest, attributes, counts);
-        counts.without_normal += u64::from(object.query.gradient && attributes.normal.is_none());
-        let cut = self.evaluator.cut_at(sample.k);
-        let seen = cut.map_or(attributes, |cut| cut.attributes(attributes));
-        let shaded = object.shader.shade(patch, seen, &self.evaluator.dirs, counts);
-        let shaded = cut.map_or(shaded, |cut| cut.shade(shaded));
+        let Some((shaded, attributes)) = self.evaluator.shaded_over_two(over_two, sample, counts) else { return };
         self.composite::<need::Anything>(sample, shaded, attributes, front, tint, counts);
     }
 

@@ -191,7 +191,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         let object = self.object;
         counts.hessians += 1;
         let (mut kappa, mut principal) = known;
-        if g.length() > object.no_normal_below {
+        if g.length().exceeds(object.no_normal_below) {
             if query.kappa == KappaSource::Exact {
                 kappa = curvature::along_view(g, h, self.dirs.v, object.outside);
             }

@@ -3,7 +3,7 @@
 use super::need::Needs;
 use super::{OverTwo, PreparedClip, Shader};
 use crate::field::Field;
-use crate::number::{Arithmetic, Real, Vec3};
+use crate::number::{Arithmetic, Decision, Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise};
 use drypoint_scene::shot::{NormalDirection, Outside, SampleQuery, Turn};
 use drypoint_scene::volume::Volume;
@@ -56,7 +56,9 @@ pub(crate) fn turned<A: Arithmetic>(direction: NormalDirection, outward: Vec3<A>
     match direction {
         NormalDirection::Outward => outward,
         // A product and no branch: along a ray the side is anyone's guess.
-        NormalDirection::Facing => outward * A::select(outward.dot(v).below(one.zero()), -one, one),
+        NormalDirection::Facing => {
+            outward * A::select(outward.dot(v).deciding(Decision::Facing).below(one.zero()), -one, one)
+        }
         NormalDirection::Inward => outward * -one,
     }
 }

@@ -150,7 +150,8 @@ impl<R: Real> Illustrated<R> {
         let alpha = match (self.view_opacity, attributes.normal) {
             // |N·v| counts as 1 where there is no normal ([PREC-3]), and then the exponent is 1.
             (Some(view_opacity), Some(n)) => {
-                Correction::new(view_opacity.exponent(n.dot(dirs.v))).apply(place.alpha_u())
+                let corrected = |alpha, n_dot_v: f64| Correction::new(view_opacity.exponent(n_dot_v)).apply(alpha);
+                R::monotone([place.alpha_u(), n.dot(dirs.v).abs()], |[alpha, n_dot_v]| corrected(alpha, n_dot_v))
             }
             _ => place.alpha_u(),
         };

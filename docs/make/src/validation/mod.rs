@@ -1,0 +1,117 @@
+//! `docs/validation.md`: graphics cards against the reference, effect by effect.
+
+mod scenes;
+
+use crate::files;
+use drypoint::gpu::Gpu;
+use drypoint::job::Job;
+use drypoint::reference::number::Decision;
+use drypoint::scene::file::{Overrides, parse};
+use drypoint::validate::{SAME, Validation, validate};
+use std::fmt::Write;
+
+/// Pixels across and down of the pictures.
+const SIZE: [usize; 2] = [320, 240];
+
+/// Draws every effect on the adapter and writes the page.
+///
+/// # Errors
+/// No adapter, a scene that does not load, and a comparison that fails.
+pub(crate) fn write() -> Result<(), String> {
+    let gpu = drypoint::gpu::open().map_err(|failure| failure.to_string())?;
+    let mut found = Vec::new();
+    for (name, more) in scenes::SCENES {
+        let validation = of_scene(name, more, &gpu).map_err(|why| format!("{name}: {why}"))?;
+        if validation.fails() {
+            return Err(format!("{name}: {validation}"));
+        }
+        found.push((*name, validation));
+    }
+    files::write("validation.md", page(&gpu, &found).as_bytes())
+}
+
+fn of_scene(name: &str, more: &str, gpu: &Gpu) -> Result<Validation, String> {
+    let text = scenes::scene(name, more, SIZE);
+    let scene = parse(&text, "scene.toml".as_ref(), &Overrides::default()).map_err(|faults| faults.to_string())?;
+    let job = Job::load(scene).map_err(|failures| failures.to_string())?;
+    validate(&job, gpu).map_err(|failure| failure.to_string())
+}
+
+fn page(gpu: &Gpu, found: &[(&str, Validation)]) -> String {
+    let mut page = String::from(INTRODUCTION);
+    let _ = write!(page, "The figures below are of {}, {} × {} pixels.\n\n", gpu.describe(), SIZE[0], SIZE[1]);
+    page.push_str("## The same algorithm\n\n");
+    let _ = write!(
+        page,
+        "The shaders run in f64, and every stage of a sample is compared with the reference. A stage parts where it differs \
+         by more than {SAME:.0e} of its largest number.\n\n| effect | value | gradient | normal | κ | colour |\n\
+         |---|---|---|---|---|---|\n"
+    );
+    for (name, validation) in found {
+        let of = |stage: &str| {
+            let stage = validation.stages.iter().find(|found| found.name == stage);
+            let share = |double: f64, largest: f64| if largest > 0.0 { double / largest } else { double };
+            let share = stage.and_then(|found| found.double.map(|double| share(double, found.largest)));
+            share.map_or_else(String::new, |share| format!("{share:.1e}"))
+        };
+        let cells = ["value", "gradient", "normal", "curvature", "colour"].map(of);
+        let _ = writeln!(page, "| {name} | {} |", cells.join(" | "));
+    }
+    page.push_str("\n## Bounds in f32\n\n");
+    page.push_str(BOUNDS);
+    for (name, validation) in found {
+        let Some(bounded) = &validation.bounded else {
+            let why = validation.unbounded.as_deref().unwrap_or_default();
+            let _ = writeln!(page, "| {name} | {why} | | | | |");
+            continue;
+        };
+        let _ = writeln!(
+            page,
+            "| {name} | {:.1e} | {:.1e} | {:.0} | {:.2} % | {:.1e} |",
+            bounded.bound,
+            bounded.measured,
+            1.0 / bounded.share.max(f64::MIN_POSITIVE),
+            100.0 * bounded.undecided,
+            bounded.measured_at_decisions
+        );
+    }
+    page.push_str("\n## Decisions\n\nNo bound holds where a picture jumps. A pixel is at a decision if errors leave one of these open:\n\n");
+    for decision in Decision::ALL {
+        let _ = writeln!(page, "- {}", decision.sentence());
+    }
+    page.push_str(REST);
+    page
+}
+
+const INTRODUCTION: &str = "<!-- Written by `cargo run --release -p drypoint-docs -- validation`. -->
+# Validation of graphics cards
+
+`drypoint render SCENE --backend gpu` draws a picture on a graphics card, in f32.
+`drypoint validate SCENE` compares it with the reference and ends with 1 if a bound is exceeded.
+Both need a build with `--features gpu`.
+
+Three comparisons stand behind a picture:
+
+1. **Formula by formula.** Each function of the shaders runs over a table of inputs, random ones and hard cases, and is compared with the reference's function (`tests/gpu/formulas`).
+2. **The algorithm without rounding.** The same text runs with f64 for its numbers, where the adapter has them, and equals the reference.
+3. **f32 within derived bounds.** The reference draws the picture on numbers that know how far an f32 evaluation may lie from them.
+
+Faults are planted in the shaders by tests, and each must be noticed.
+
+";
+
+const BOUNDS: &str = "The bound of a pixel is the sum of what each operation of its rays may add. It is computed with the picture, not fitted to it.
+The grants of operations and their sources are a table in `reference/src/number/bounded.rs`; positions of samples have theirs in `reference/src/ray/bounds/positions.rs`.
+*Slack* is how many times smaller than its own bound the difference of the closest pixel is: below 1 the bound would be broken.
+
+| effect | largest bound | largest difference | slack | pixels at a decision | largest difference there |
+|---|---|---|---|---|---|
+";
+
+const REST: &str = "
+## Not drawn by graphics cards yet
+
+Halos, lines inside a volume, and counts of samples as a layer.
+A scene that asks for one of them is refused, with the key that asks; the CPU draws it.
+Bounds are known for colours over a transfer function that is not read from a table, without rays at edges.
+";

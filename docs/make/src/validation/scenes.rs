@@ -1,0 +1,41 @@
+//! A scene for each effect that graphics cards draw: the effect alone, then several together.
+
+/// Name of an effect and what a scene of it adds to the torus or to the waves of Marschner and Lobb.
+pub(super) const SCENES: &[(&str, &str)] = &[
+    ("colours", COLORS),
+    ("Phong", "[shading]\n"),
+    ("Phong, orthographic", "[shading]\n[camera]\nprojection = \"orthographic\"\n"),
+    ("Phong, on shells", "[shading]\n[sampling]\nstep_along = \"ray\"\n"),
+    ("normals turned to the eye", "[shading]\n[sampling]\nnormal = \"facing\"\n"),
+    ("toon shading", "[shading]\nmodel = \"toon\"\n"),
+    ("silhouettes", "[shading]\n[shading.silhouette]\n"),
+    ("view-dependent opacity", "[shading]\nview_opacity = 0.7\n"),
+    ("a clip plane", "[shading]\n[[clip]]\npoint = [15.3, 15.2, 15.1]\nnormal = [0.1, -1, 0.2]\nspace = \"index\"\n"),
+    ("styles", STYLES),
+    ("contours by κ along the ray", "[contours]\nthickness = \"1 voxel\"\n"),
+    ("contours by a constant", "[contours]\nkappa = \"none\"\nthreshold = 0.3\n"),
+    ("mip-maps of styles", "[style_mipmaps]\n"),
+    ("contours and mip-maps", "[contours]\nthickness = \"1 voxel\"\n[style_mipmaps]\n"),
+];
+
+/// The effect of colours alone.
+const COLORS: &str = "";
+/// The effect of styles alone.
+const STYLES: &str = "";
+
+/// The scene of an effect, in a picture so large.
+pub(super) fn scene(name: &str, more: &str, [width, height]: [usize; 2]) -> String {
+    let is_style = ["styles", "contours", "mip-maps"].iter().any(|word| name.contains(word));
+    let nodes = if is_style {
+        "nodes = [{ at = 100, style = \"wax\", opacity = 0 }, { at = 128, style = \"wax\", opacity = 0.3 },\n\
+         { at = 140, style = \"chalk\", opacity = 0.9 }]"
+    } else {
+        "kind = \"regular\"\n\
+         nodes = [{ at = 100, color = \"#804020\", opacity = 0 }, { at = 128, color = \"#ffcc88\", opacity = 0.3 },\n\
+         { at = 140, color = \"#88ccff\", opacity = 0.9 }]"
+    };
+    format!(
+        "drypoint = 1\n[volume]\nphantom = {{ name = \"torus\", size = 48 }}\n[picture]\nsize = [{width}, {height}]\n\
+         samples = 1\nbackground = \"#203040\"\n[transfer]\n{nodes}\n{more}"
+    )
+}

@@ -1,0 +1,352 @@
+//! Numbers that know how far an f32 evaluation may lie from them: running error analysis (Higham, *Accuracy and
+//! Stability of Numerical Algorithms*, 3.3).
+//!
+//! A [`Bounded`] is a number of the reference, in f64, and a bound of the distance to the number that an f32 renderer has
+//! in its place if it follows the same formulas in the same order. Fusing a product and a sum is allowed: it leaves out a
+//! rounding. Each operation takes over the errors of its operands and adds its own grant, in units in the last place
+//! (ULP), 2⁻²³ of the result:
+//!
+//! | operation | grant | source |
+//! |---|---|---|
+//! | + − ×, numbers from the scene, voxels | ½ ULP, none where f32 holds the result | IEEE 754; WGSL, *Floating Point Evaluation*: correctly rounded |
+//! | ÷ | 2.5 ULP | WGSL, *Floating Point Accuracy* |
+//! | √ | 4.5 ULP and 2⁻²⁴ | WGSL: inherited from 1/inverseSqrt, 2 ULP under a division of 2.5 ULP |
+//! | angle, powers, logarithm, opacity correction, sRGB | 4 ULP | own polynomials of + − × ÷ √, held to it by tests |
+//! | a result in f32's subnormal range | 2⁻¹²⁶ | WGSL: may be flushed to 0 |
+//!
+//! Propagation is not linearized: a product takes |a|e_b + |b|e_a + e_a·e_b, a quotient divides by |b| − e_b, monotone
+//! functions are evaluated at the ends. Where plain rules would forget that errors cancel, the operation as a whole has its
+//! derivative: [`lerp`](Arithmetic::lerp), *over* ([`laid_before`](Arithmetic::laid_before)), hypot.
+//!
+//! Comparisons that the errors leave open are followed both ways: see [`ways`](super::ways).
+
+mod operators;
+mod row;
+
+use super::{Arithmetic, Decision, Elementary, Real, Vec3, ways};
+use drypoint_scene::volume::Voxel;
+use fearless_simd::Simd;
+use row::BoundedRow;
+use std::cmp::Ordering;
+
+/// A unit in the last place of f32, relative to the number: 2⁻²³. A little more covers the roundings of f64.
+const ULP: f64 = (1.0 + 1.0 / (1u64 << 24) as f64) / (1u64 << 23) as f64;
+/// Grant of a correctly rounded operation.
+const ROUNDED: f64 = 0.5 * ULP;
+/// Grant of a division.
+const DIVIDED: f64 = 2.5 * ULP;
+/// Grant of a square root.
+const ROOT: f64 = 4.5 * ULP + ROUNDED * ULP;
+/// Grant of a transcendental function.
+const TRANSCENDENTAL: f64 = 4.0 * ULP;
+/// The smallest normal number of f32, 2⁻¹²⁶: smaller ones may be flushed to 0.
+const TINY: f64 = f32::MIN_POSITIVE as f64;
+
+/// A number in f64, and a bound of its distance to the number of an f32 renderer.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Bounded {
+    value: f64,
+    error: f64,
+    /// The decision that hangs on it.
+    decision: Decision,
+}
+
+impl Bounded {
+    /// A number that an f32 renderer has exactly.
+    pub const fn exact(value: f64) -> Self {
+        Self { value, error: 0.0, decision: Decision::Step }
+    }
+
+    /// A number with its bound. An error that is no number is unbounded.
+    pub fn new(value: f64, error: f64) -> Self {
+        Self { value, error: if error.is_nan() { f64::INFINITY } else { error }, decision: Decision::Step }
+    }
+
+    /// The number in f64.
+    pub fn value(self) -> f64 {
+        self.value
+    }
+
+    /// The bound.
+    pub fn error(self) -> f64 {
+        self.error
+    }
+
+    /// The decision that hangs on the number.
+    pub(super) fn decision(self) -> Decision {
+        self.decision
+    }
+
+    /// The ends of the interval in which an f32 renderer's number lies.
+    pub fn ends(self) -> [f64; 2] {
+        [self.value - self.error, self.value + self.error]
+    }
+
+    /// The result of an operation: propagated errors, and the operation's grant.
+    fn granted(value: f64, propagated: f64, grant: f64) -> Self {
+        let largest = value.abs() + propagated;
+        let flushed = if largest > 0.0 && value.abs() - propagated < TINY { TINY } else { 0.0 };
+        Self::new(value, propagated + grant * largest + flushed)
+    }
+
+    /// The result of a correctly rounded operation on numbers with or without errors.
+    fn rounded(value: f64, propagated: f64) -> Self {
+        if propagated == 0.0 { Self::from_f64(value) } else { Self::granted(value, propagated, ROUNDED) }
+    }
+
+    /// The same number without its error.
+    fn bare(self) -> Self {
+        Self { error: 0.0, ..self }
+    }
+
+    /// The number with a larger error: `more`, beside that of its own roundings.
+    fn with_more(self, more: f64) -> Self {
+        Self::new(self.value, self.error + more * (1.0 + 4.0 * ULP))
+    }
+
+    /// The order to another number by their values.
+    pub(super) fn by_value(&self, other: &Self) -> Option<Ordering> {
+        self.value.partial_cmp(&other.value)
+    }
+
+    /// Whether an f32 renderer may order the two otherwise.
+    pub(super) fn is_open(&self, other: &Self) -> bool {
+        let (away, errors) = ((self.value - other.value).abs(), self.error + other.error);
+        // Infinite numbers without errors have an order.
+        errors > 0.0 && (away <= errors || away.is_nan())
+    }
+}
+
+/// A factor times an error: 0 where either is, also beside an infinite one.
+fn of(factor: f64, error: f64) -> f64 {
+    if factor == 0.0 || error == 0.0 { 0.0 } else { factor * error }
+}
+
+impl Arithmetic for Bounded {
+    type Number = Self;
+    type Mask = bool;
+
+    fn constant(self, x: Self) -> Self {
+        x
+    }
+
+    fn half(self) -> Self {
+        Self::new(self.value * 0.5, self.error * 0.5)
+    }
+
+    fn sqrt(self) -> Self {
+        let value = self.value.sqrt();
+        let [lo, hi] = self.ends().map(|x| x.max(0.0).sqrt());
+        // e/(√x + √(x ± e)), without the cancellation of the difference.
+        let away = |end: f64| if value + end > 0.0 { self.error / (value + end) } else { 0.0 };
+        let propagated = away(lo).min(value).max(away(hi));
+        Self::granted(value, propagated, ROOT)
+    }
+
+    fn abs(self) -> Self {
+        Self { value: self.value.abs(), ..self }
+    }
+
+    fn below(self, other: Self) -> bool {
+        self < other
+    }
+
+    fn at_most(self, other: Self) -> bool {
+        self <= other
+    }
+
+    fn equals(self, other: Self) -> bool {
+        self == other
+    }
+
+    fn select(mask: bool, a: Self, b: Self) -> Self {
+        if mask { a } else { b }
+    }
+
+    fn deciding(self, decision: Decision) -> Self {
+        Self { decision, ..self }
+    }
+
+    /// The bound of rounding differs between the number types: `rounding` has that of f64 as its value, and its error is the
+    /// distance to that of f32.
+    fn exceeds(self, rounding: Self) -> bool {
+        let middle = Self::new(rounding.value + 0.5 * rounding.error, 0.5 * rounding.error);
+        match self.is_open(&middle) {
+            true => ways::choose(self.value > rounding.value, [self, rounding], Decision::Normal),
+            false => self.value > rounding.value,
+        }
+    }
+
+    fn min(self, other: Self) -> Self {
+        let value = if other.value < self.value { other.value } else { self.value };
+        hull(value, [0, 1].map(|end| self.ends()[end].min(other.ends()[end])))
+    }
+
+    fn max(self, other: Self) -> Self {
+        let value = if self.value < other.value { other.value } else { self.value };
+        hull(value, [0, 1].map(|end| self.ends()[end].max(other.ends()[end])))
+    }
+
+    /// |1 − w|e_a + |w|e_b + |b − a|e_w: a share of each error, whose sum the plain rules would exceed by 2|w|e_a.
+    fn lerp(a: Self, b: Self, w: Self) -> Self {
+        let [a0, b0, w0] = [a, b, w].map(Self::bare);
+        let of_ends = of((1.0 - w.value).abs(), a.error) + of(w.value.abs(), b.error);
+        let of_way = of((b.value - a.value).abs() + a.error + b.error, w.error);
+        (a0 + w0 * (b0 - a0)).with_more(of_ends + of_way)
+    }
+
+    /// |1 − α|e_A + |1 − A|e_α: A contracts what came before, which plain rules would let grow as 1 + α.
+    fn laid_before(self, alpha: Self) -> (Self, Self) {
+        let (a, alpha0) = (self.bare(), alpha.bare());
+        let through = Self::exact(1.0) - a;
+        let opacity = (a + through * alpha0).with_more(
+            of((1.0 - alpha.value).abs(), self.error)
+                + of((1.0 - self.value).abs(), alpha.error)
+                + of(self.error, alpha.error),
+        );
+        ((Self::exact(1.0) - self) * alpha, opacity)
+    }
+}
+
+/// A value in an interval, with the distance to the farther end.
+fn hull(value: f64, [lo, hi]: [f64; 2]) -> Bounded {
+    Bounded::new(value, if lo == hi { 0.0 } else { (value - lo).max(hi - value) })
+}
+
+impl Elementary for Bounded {
+    fn angle(self, x: Self) -> Self {
+        let (own, other) = (self.ends(), x.ends());
+        corners(self.value.angle(x.value), [[own[0].max(0.0), own[1]], other], |[y, x]| y.angle(x))
+    }
+
+    fn power(self, y: Self, _: bool) -> Self {
+        Self::monotone([self, y], |[x, y]| x.max(0.0).power(y, true))
+    }
+
+    fn pow(self, y: Self) -> Self {
+        Self::monotone([self, y], |[x, y]| x.max(0.0).pow(y))
+    }
+}
+
+/// A function that is monotone in each argument, of which the ends of intervals are given.
+fn corners<const N: usize>(value: f64, ends: [[f64; 2]; N], f: impl Fn([f64; N]) -> f64) -> Bounded {
+    let mut farthest: f64 = 0.0;
+    for corner in 0..1usize << N {
+        let at = std::array::from_fn(|i| ends[i][corner >> i & 1]);
+        let away = (f(at) - value).abs();
+        farthest = if away.is_nan() { f64::INFINITY } else { farthest.max(away) };
+    }
+    Bounded::granted(value, farthest, TRANSCENDENTAL)
+}
+
+impl Real for Bounded {
+    type Four<S: Simd> = BoundedRow;
+
+    const ZERO: Self = Self::exact(0.0);
+    const ONE: Self = Self::exact(1.0);
+    const HALF: Self = Self::exact(0.5);
+    /// See [`exceeds`](Arithmetic::exceeds).
+    const NO_NORMAL: Self =
+        Self { value: f64::NO_NORMAL, error: f32::NO_NORMAL as f64 - f64::NO_NORMAL, decision: Decision::Normal };
+    const NO_DIRECTION: Self = Self {
+        value: f64::NO_DIRECTION,
+        error: f32::NO_DIRECTION as f64 - f64::NO_DIRECTION,
+        decision: Decision::Normal,
+    };
+    const EPSILON: Self = Self::exact(f64::EPSILON);
+    const FAR_EXPONENT: i32 = f64::FAR_EXPONENT;
+
+    fn from_f64(x: f64) -> Self {
+        let held = x as f32;
+        let held = if held.is_subnormal() { 0.0 } else { f64::from(held) };
+        Self::new(x, if held == x || x.is_nan() { 0.0 } else { (x - held).abs() })
+    }
+
+    fn to_f64(self) -> f64 {
+        self.value
+    }
+
+    fn from_voxel<V: Voxel>(v: V) -> Self {
+        Self::from_f64(v.to_f64())
+    }
+
+    fn from_voxels<V: Voxel, const N: usize>(v: [V; N]) -> [Self; N] {
+        v.map(Self::from_voxel)
+    }
+
+    /// Of a number that is not known to half of 1 the fraction can be anything.
+    fn split(self) -> (usize, Self) {
+        if self.error >= 0.5 {
+            let i = self.value as u32;
+            return (i as usize, Self::new(self.value - f64::from(i), f64::INFINITY));
+        }
+        let i = self.to_index();
+        (i, self - Self::from_index(i))
+    }
+
+    /// ⌊x⌋, or a neighbour that is open.
+    fn to_index(self) -> usize {
+        let i = self.value as u32;
+        let whole = |i: u32| Self::exact(f64::from(i));
+        if ways::order(&self, &whole(i + 1)) != Some(Ordering::Less) {
+            return i as usize + 1;
+        }
+        let before = i > 0 && ways::order(&self, &whole(i)) == Some(Ordering::Less);
+        i as usize - usize::from(before)
+    }
+
+    /// None: a part that is not known has no neighbours that are tried instead.
+    fn proposed_index(self) -> Option<usize> {
+        None
+    }
+
+    fn from_index(i: usize) -> Self {
+        Self::exact(i as u32 as f64)
+    }
+
+    fn next_up(self) -> Self {
+        Self { value: self.value.next_up(), ..self }
+    }
+
+    fn next_down(self) -> Self {
+        Self { value: self.value.next_down(), ..self }
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        self.angle(x)
+    }
+
+    /// The error of positions is that of the ray, which its origin carries: one model for all its samples.
+    fn on_ray(o: Self, a: Self, t: Self) -> Self {
+        Self::new(o.value + a.value * t.value, o.error)
+    }
+
+    fn monotone<const N: usize>(numbers: [Self; N], f: impl Fn([f64; N]) -> f64) -> Self {
+        corners(f(numbers.map(Self::value)), numbers.map(Self::ends), f)
+    }
+
+    /// The assignment of the position, or one at a corner of the box about it that is open.
+    fn assigned<T: Copy + PartialEq>(position: Vec3<Self>, assign: impl Fn(Vec3<f64>) -> T) -> T {
+        let at = |ends: [f64; 3]| assign(Vec3::new(ends[0], ends[1], ends[2]));
+        let numbers = [position.x, position.y, position.z];
+        let here = at(numbers.map(Self::value));
+        for corner in 0..8 {
+            let there = at([0, 1, 2].map(|axis| numbers[axis].ends()[corner >> axis & 1]));
+            let is_other = there != here;
+            if is_other && ways::choose(false, [Self::exact(corner as f64), position.x], Decision::Label) {
+                return there;
+            }
+        }
+        here
+    }
+
+    /// The distance of (x, y) from the origin moves at most as far as (x, y) does.
+    fn hypot(self, other: Self) -> Self {
+        let value = Real::hypot(self.value, other.value);
+        let scaled = 2.0 * (DIVIDED + 2.0 * ROUNDED) + ROOT + ROUNDED;
+        Self::granted(value, self.error.hypot(other.error), scaled)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,163 @@
+//! Bounds of the errors of an f32 renderer, pixel by pixel ([GPU-2]).
+//!
+//! The picture is computed as ever, to the same bits, but on numbers that know their errors ([`Bounded`]). Where a
+//! [`Decision`] is open and shows, the pixel is undecided, and no renderer is held to its bound there.
+
+mod cast;
+mod positions;
+mod surface;
+
+pub use positions::RayOrigin;
+
+use super::draw::behind;
+use super::inputs::{Inputs, RenderError};
+use super::prepare::prepare;
+use super::prepared::Prepared;
+use super::render::Renderer;
+use crate::accumulator::Accumulator;
+use crate::field::{Kernel, Sampler};
+use crate::number::{Bounded, Decision, Real};
+use crate::with_sampler;
+use cast::Traced;
+use drypoint_scene::color::{self, Rgba};
+use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::picture::{Layer, LayerKind, Picture};
+use drypoint_scene::shot::Shot;
+use drypoint_scene::volume::Volume;
+use rayon::prelude::*;
+use surface::SurfaceErrors;
+
+/// A picture with bounds.
+#[derive(Clone, Debug)]
+pub struct Bounds {
+    /// The reference's picture.
+    pub values: Picture,
+    /// The largest distance of an f32 renderer's picture, for each number of [`values`](Self::values).
+    pub errors: Picture,
+    /// The decision that is open, row by row from the top; none where the pixel is held to its bound.
+    pub undecided: Vec<Option<Decision>>,
+}
+
+/// Pictures without bounds.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BoundsError {
+    /// The picture cannot be made.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A part of the shot has no analysis of its errors.
+    #[error("{what}: no bound of f32 errors is known for it yet")]
+    Unknown {
+        /// The part.
+        what: &'static str,
+    },
+}
+
+/// A pixel with its errors.
+struct BoundedPixel {
+    rgba: [Bounded; 4],
+    undecided: Option<Decision>,
+}
+
+impl Renderer<'_> {
+    /// The picture of a shot with the bounds of an f32 renderer whose rays begin at `origin`.
+    ///
+    /// # Errors
+    /// See [`Renderer::new`]. Halos, further layers, functions that are read from a table, and rays that are added at edges have
+    /// no bounds.
+    pub fn bounds(shot: &Shot, inputs: Inputs<'_>, origin: RayOrigin) -> Result<Bounds, BoundsError> {
+        let mut prepared: Prepared<'_, Bounded> = prepare(shot, &inputs, &mut Counts::default())?;
+        let is_elsewhere = |further: &&Volume| further.grid() != inputs.volume.grid();
+        let (has_surface, kernel) = (prepared.surface.is_some(), prepared.object.field.reconstruction().kernel);
+        let unknown = [
+            (inputs.further.iter().flatten().any(is_elsewhere), "a further volume on another grid"),
+            (prepared.halos.is_some(), "halos"),
+            (prepared.refine_above.is_some(), "rays that are added at edges"),
+            (prepared.object.table.is_some(), "a transfer function that is read from a table"),
+            (has_surface && !prepared.object.clip.planes.is_empty(), "an iso-surface under clip planes"),
+            (has_surface && kernel != Kernel::Trilinear, "an iso-surface of a kernel other than trilinear"),
+            (prepared.layers != [LayerKind::Beauty], "layers beyond the beauty"),
+        ];
+        if let Some((_, what)) = unknown.into_iter().find(|(is_there, _)| *is_there) {
+            return Err(BoundsError::Unknown { what });
+        }
+        // What cannot be seen can be looked at by an f32 renderer.
+        (prepared.skip, prepared.cells) = (None, None);
+        Ok(with_sampler!(prepared.object.field, |sampler| draw(&prepared, sampler, inputs, origin)))
+    }
+}
+
+/// Draws all pixels.
+fn draw<S: Sampler<Bounded>>(
+    prepared: &Prepared<'_, Bounded>,
+    sampler: &S,
+    inputs: Inputs<'_>,
+    origin: RayOrigin,
+) -> Bounds {
+    let [width, height] = prepared.view.size;
+    let grid = inputs.volume.grid();
+    let centre = grid.to_world(DVec3::from_array(grid.dims().map(|n| (n - 1) as f64 * 0.5)));
+    let middle = (centre - prepared.view.eye).dot(prepared.view.forward);
+    let surface = prepared.surface.as_ref();
+    let surface = surface.map(|surface| SurfaceErrors::new(&prepared.object.field, surface.roots.iso()));
+    let behind = behind(inputs.background, width);
+    let pixel = |at: usize| {
+        let at = [at % width, at / width];
+        draw_pixel(prepared, sampler, (at, behind(at)), (origin, middle), surface.as_ref())
+    };
+    let pixels: Vec<BoundedPixel> = (0..width * height).into_par_iter().map(pixel).collect();
+    let picture = |number: fn(Bounded) -> f64| {
+        let channels = (0..4).map(|c| pixels.iter().map(|pixel| number(pixel.rgba[c])).collect()).collect();
+        Picture { width, height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] }
+    };
+    Bounds {
+        values: picture(Bounded::value),
+        errors: picture(Bounded::error),
+        undecided: pixels.iter().map(|pixel| pixel.undecided).collect(),
+    }
+}
+
+/// Draws a pixel: the mean of its rays over the background.
+fn draw_pixel<S: Sampler<Bounded>>(
+    prepared: &Prepared<'_, Bounded>,
+    sampler: &S,
+    ([i, j], behind): ([usize; 2], Rgba),
+    origin: (RayOrigin, f64),
+    surface: Option<&SurfaceErrors>,
+) -> BoundedPixel {
+    let n = prepared.rays_across;
+    let mut sum = [Bounded::ZERO; 4];
+    let mut undecided = None;
+    for part in 0..n * n {
+        let centre = |pixel: usize, part: usize| pixel as f64 + (part as f64 + 0.5) / n as f64;
+        let Traced { front, undecided: of_ray } =
+            cast::trace(prepared, sampler, [centre(i, part % n), centre(j, part / n)], origin, surface);
+        undecided = undecided.or(of_ray);
+        for (sum, c) in sum.iter_mut().zip(over(front, behind, prepared.encode)) {
+            *sum += c;
+        }
+    }
+    BoundedPixel { rgba: sum.map(|sum| sum / Bounded::from_index(n * n)), undecided }
+}
+
+/// A ray's colour over the background ([IO-6]), decoded where colours are composited encoded ([VAL-3]).
+fn over(front: Accumulator<Bounded>, behind: Rgba, encode: bool) -> [Bounded; 4] {
+    let add = |mut front: Accumulator<Bounded>, behind: Rgba| {
+        front.over_premultiplied(behind.map(Bounded::from_f64));
+        let Accumulator { rgb: [r, g, b], opacity } = front;
+        [r, g, b, opacity]
+    };
+    if !encode {
+        return add(front, behind);
+    }
+    let [r, g, b, a] = color::unpremultiply(behind);
+    let encoded = [r, g, b].map(color::linear_to_srgb);
+    let [r, g, b, a] = add(front, color::premultiply([encoded[0], encoded[1], encoded[2], a]));
+    if a.value() == 0.0 {
+        return [r, g, b, a];
+    }
+    // Decoded c of a straight colour, times a: as a straight colour is at most 1, the error of a share below its own
+    // bound is that of the share.
+    let decoded = |c: Bounded| Bounded::monotone([c / a], |[c]| color::srgb_to_linear(c)) * a;
+    [decoded(r), decoded(g), decoded(b), a]
+}

@@ -1,0 +1,121 @@
+//! The positions of samples in f32, and what they decide.
+
+use crate::number::{Bounded, Vec3};
+use crate::ray::lattice::IndexRay;
+use drypoint_scene::clip::{ClipPlane, ClipPlanes};
+
+/// Half a unit in the last place of 1, with a little for products of errors.
+const ROUNDING: f64 = 0.5 * f32::EPSILON as f64 * (1.0 + f32::EPSILON as f64);
+
+/// Voxels beyond the box in which samples are looked at: errors of positions are far smaller.
+const BEYOND: f64 = 1.0 / 256.0;
+
+/// The origin from which an f32 renderer follows its rays. Origin, direction and step are computed in f64 and rounded
+/// once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayOrigin {
+    /// The eye, as `sampling.number = "f32"` does it. Far eyes cost digits.
+    Eye,
+    /// The point of the ray on the plane through the middle of the volume. All numbers then are of the volume's size.
+    Middle,
+}
+
+/// An answer that errors may leave open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Answer {
+    Yes,
+    No,
+    Open,
+}
+
+impl IndexRay<Bounded> {
+    /// The ray with a bound of the errors of its positions, for all samples in or near the box [lo, hi]; `middle` is the eye
+    /// depth of the volume's middle.
+    ///
+    /// A position is o + a·t with t = (k + ½)Δ, depths counted from the origin. o, a and Δ are rounded once, two products and
+    /// a sum are rounded: u(|o| + 4|a·t| + |o + a·t|), u = 2⁻²⁴, where k + ½ is exact. The largest such sum in the box holds
+    /// for the whole ray.
+    pub(super) fn with_errors(mut self, ends: [Vec3<Bounded>; 2], origin: RayOrigin, middle: f64) -> Self {
+        let Some(depths) = self.near_box(ends) else { return self };
+        let from = match origin {
+            RayOrigin::Eye => 0.0,
+            RayOrigin::Middle => middle,
+        };
+        let bounded = |o: Bounded, a: Bounded| {
+            let (o, a) = (o.value(), a.value());
+            let of = |t: f64| 4.0 * (a * (t - from)).abs() + (o + a * t).abs();
+            Bounded::new(o, ROUNDING * ((o + a * from).abs() + of(depths[0]).max(of(depths[1]))))
+        };
+        let (o, a) = (self.origin, self.along);
+        self.origin = Vec3::new(bounded(o.x, a.x), bounded(o.y, a.y), bounded(o.z, a.z));
+        self
+    }
+
+    /// The errors of positions, along each axis.
+    pub(super) fn errors(&self) -> [f64; 3] {
+        [self.origin.x, self.origin.y, self.origin.z].map(Bounded::error)
+    }
+
+    /// Eye depths at which the ray is in the box or next to it.
+    fn near_box(&self, [lo, hi]: [Vec3<Bounded>; 2]) -> Option<[f64; 2]> {
+        let moved = |v: Vec3<Bounded>, by: f64| Vec3::from_glam(v.to_glam() + by);
+        self.depths(moved(lo, -BEYOND), moved(hi, BEYOND))
+    }
+
+    /// The samples that can lie in the box, as a closed range.
+    pub(super) fn candidates(&self, ends: [Vec3<Bounded>; 2]) -> [i64; 2] {
+        let Some(depths) = self.near_box(ends) else { return [1, 0] };
+        let [first, last] = self.within(depths);
+        [first.max(self.first), last]
+    }
+
+    /// Whether sample k lies in the closed box [lo, hi].
+    pub(super) fn is_inside(&self, k: i64, [lo, hi]: [Vec3<Bounded>; 2]) -> Answer {
+        let p = self.position(k);
+        let along = |p: Bounded, lo: Bounded, hi: Bounded| {
+            let ([from, to], [lo, hi]) = (p.ends(), [lo.value(), hi.value()]);
+            if to < lo || from > hi {
+                Answer::No
+            } else if from >= lo && to <= hi {
+                Answer::Yes
+            } else {
+                Answer::Open
+            }
+        };
+        let axes = [along(p.x, lo.x, hi.x), along(p.y, lo.y, hi.y), along(p.z, lo.z, hi.z)];
+        if axes.contains(&Answer::No) {
+            Answer::No
+        } else if axes.contains(&Answer::Open) {
+            Answer::Open
+        } else {
+            Answer::Yes
+        }
+    }
+
+    /// Whether planes cut sample k away.
+    pub(super) fn is_cut(&self, k: i64, clip: &ClipPlanes) -> Answer {
+        let p = self.position(k);
+        let errors = [p.x, p.y, p.z].map(Bounded::error);
+        let by = |plane: &ClipPlane| {
+            let (beyond, n) = (plane.beyond(p.to_glam()), plane.index_normal.abs());
+            // Three products, two sums and the difference to the offset.
+            let size = n.dot(p.to_glam().abs()) + plane.index_offset.abs();
+            let error = n.x * errors[0] + n.y * errors[1] + n.z * errors[2] + 5.0 * ROUNDING * size;
+            if beyond.abs() <= error {
+                Answer::Open
+            } else if beyond > 0.0 {
+                Answer::Yes
+            } else {
+                Answer::No
+            }
+        };
+        let answers = || clip.0.iter().map(by);
+        if answers().any(|answer| answer == Answer::Yes) {
+            Answer::Yes
+        } else if answers().any(|answer| answer == Answer::Open) {
+            Answer::Open
+        } else {
+            Answer::No
+        }
+    }
+}

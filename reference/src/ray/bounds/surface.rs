@@ -1,0 +1,112 @@
+//! The iso-surface on a ray, and the depths between which an f32 renderer meets it.
+
+use crate::field::{Field, Sampler};
+use crate::number::{Bounded, Vec3};
+use crate::ray::lattice::IndexRay;
+use crate::ray::prepared::Prepared;
+use crate::surface::RootFinder;
+
+/// Half a unit in the last place of 1.
+const ROUNDING: f64 = 0.5 * f32::EPSILON as f64;
+
+/// Roundings of a trilinear value, relative to the largest number in it: one of each voxel, five of the interpolation along
+/// each axis, four of slope and intercept.
+const ROUNDINGS: f64 = 20.0;
+
+/// Voxels by which the depth may be open before the ray is said to touch the surface.
+const MOST: f64 = 1.0 / 16.0;
+
+/// What values of the field in f32 may be off by, and the finders of the values that are off so far.
+pub(super) struct SurfaceErrors {
+    /// The largest difference of neighbouring voxels along each axis.
+    slopes: [f64; 3],
+    /// The roundings of a value and of iso.
+    roundings: f64,
+}
+
+/// The place at which a ray meets the surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoundedHit {
+    pub(super) t: f64,
+    /// The largest distance to the place of an f32 renderer, as a depth.
+    pub(super) error: f64,
+}
+
+/// What is known of the surface on a ray.
+pub(super) enum Met {
+    /// Neither meets it.
+    Nowhere,
+    /// Both meet it.
+    At(BoundedHit),
+    /// One meets it and the other may not, or far from there; with the reference's depth, if it has one.
+    Open(Option<f64>),
+}
+
+impl SurfaceErrors {
+    /// Measures a trilinear field.
+    pub(super) fn new(field: &Field<'_, Bounded>, iso: f64) -> Self {
+        let volume = field.volume();
+        let dims = volume.dims();
+        let mut slopes: [f64; 3] = [0.0; 3];
+        for z in 0..dims[2] {
+            for y in 0..dims[1] {
+                for x in 0..dims[0] {
+                    let here = [x, y, z];
+                    for (axis, slope) in slopes.iter_mut().enumerate() {
+                        let mut next = here;
+                        next[axis] += 1;
+                        if next[axis] < dims[axis] {
+                            *slope = slope.max((volume.value(next) - volume.value(here)).abs());
+                        }
+                    }
+                }
+            }
+        }
+        let largest = volume.largest_magnitude() + volume.intercept().abs();
+        Self { slopes, roundings: ROUNDING * (ROUNDINGS * largest + iso.abs()) }
+    }
+
+    /// The first place at which a ray meets the surface. A value in f32 is within e of the field's, so that an f32 renderer
+    /// meets iso no sooner than the field first has iso ± e on its side, and no later than it has had both.
+    pub(super) fn first<S: Sampler<Bounded>>(
+        &self,
+        prepared: &Prepared<'_, Bounded>,
+        (sampler, field): (&S, &Field<'_, Bounded>),
+        ray: &IndexRay<Bounded>,
+        errors: [f64; 3],
+    ) -> Met {
+        let Some(surface) = &prepared.surface else { return Met::Nowhere };
+        let near = match prepared.view.perspective {
+            true => prepared.lattice.near * (ray.depth_step.value() / prepared.lattice.step),
+            false => f64::NEG_INFINITY,
+        };
+        let (range, mask) = ([near, f64::INFINITY], prepared.object.volume.mask());
+        let first = |roots: &RootFinder| roots.first(sampler, mask, ray.line(), range);
+        let off = self.roundings + (0..3).map(|axis| self.slopes[axis] * errors[axis]).sum::<f64>();
+        let iso = surface.roots.iso();
+        let [below, above] = [-off, off].map(|off| first(&RootFinder::new(field, iso + off, None)));
+        let here = first(&surface.roots);
+        match (here, below, above) {
+            (None, None, None) => Met::Nowhere,
+            (Some(t), Some(below), Some(above)) => {
+                let error = (below - t).abs().max((above - t).abs());
+                let [_, along] = ray.line();
+                let is_met = along.abs().max_element() * error <= MOST;
+                if is_met { Met::At(BoundedHit { t, error }) } else { Met::Open(here) }
+            }
+            _ => Met::Open(here),
+        }
+    }
+}
+
+/// A position on a ray, in the box, whose depth is not exact.
+pub(super) fn at_depth(
+    position: Vec3<Bounded>,
+    ray: &IndexRay<Bounded>,
+    errors: [f64; 3],
+    error: f64,
+) -> Vec3<Bounded> {
+    let [_, along] = ray.line();
+    let moved = |p: Bounded, axis: usize| Bounded::new(p.value(), errors[axis] + along[axis].abs() * error);
+    Vec3::new(moved(position.x, 0), moved(position.y, 1), moved(position.z, 2))
+}

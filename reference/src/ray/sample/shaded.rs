@@ -1,0 +1,65 @@
+//! A sample with its colour and its opacity per reference length.
+
+use super::need::Need;
+use super::{Evaluator, OverTwo, Sample, SampleAttributes};
+use crate::field::Sampler;
+use crate::number::Real;
+use crate::transfer::NodePlace;
+use crate::transfer::over::SampleQuantities;
+use drypoint_scene::counts::Counts;
+
+/// Straight colour and opacity per reference length, and the attributes of the field from which they are.
+pub(crate) type Shaded<R> = (([R; 3], R), SampleAttributes<R>);
+
+impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
+    /// Evaluates and shades a sample of a function over the value, at a place where it can be seen.
+    #[inline(always)]
+    pub(crate) fn shaded<N: Need>(
+        &mut self,
+        sample: Sample<R>,
+        place: &NodePlace<R>,
+        counts: &mut Counts,
+    ) -> Shaded<R> {
+        let object = self.object;
+        let query = N::query(object);
+        let attributes = self.evaluate(sample, query, SampleAttributes::neutral(), counts);
+        counts.without_normal += u64::from(query.gradient && attributes.normal.is_none());
+        let (dirs, cut) = (&self.dirs, self.cut_at(sample.k));
+        let seen = cut.map_or(attributes, |cut| cut.attributes(attributes));
+        let shaded = match &object.table {
+            Some(table) if N::MORE => object.shader.shade(table.between_nodes(place), seen, dirs, counts),
+            _ => object.shader.shade(*place, seen, dirs, counts),
+        };
+        (cut.map_or(shaded, |cut| cut.shade(shaded)), attributes)
+    }
+
+    /// Evaluates and shades a sample of a function over two quantities: what they need is asked first, and the rest only
+    /// where α_u > 0.
+    #[inline(always)]
+    pub(crate) fn shaded_over_two(
+        &mut self,
+        over_two: &OverTwo<'_, R>,
+        sample: Sample<R>,
+        counts: &mut Counts,
+    ) -> Option<Shaded<R>> {
+        let object = self.object;
+        let attributes = self.evaluate(sample, over_two.first, SampleAttributes::neutral(), counts);
+        let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
+        let here = SampleQuantities {
+            position: self.ray.position(sample.k),
+            place: sample.at,
+            value: sample.s,
+            gradient: of_normal(attributes.gradient.length()),
+            magnitude: of_normal(attributes.magnitude),
+            principal: attributes.principal,
+            kappa: attributes.kappa,
+        };
+        let patch = over_two.locate(&here)?;
+        let attributes = self.evaluate(sample, over_two.rest, attributes, counts);
+        counts.without_normal += u64::from(object.query.gradient && attributes.normal.is_none());
+        let cut = self.cut_at(sample.k);
+        let seen = cut.map_or(attributes, |cut| cut.attributes(attributes));
+        let shaded = object.shader.shade(patch, seen, &self.dirs, counts);
+        Some((cut.map_or(shaded, |cut| cut.shade(shaded)), attributes))
+    }
+}

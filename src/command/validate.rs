@@ -1,0 +1,76 @@
+//! The verb `validate`: a graphics card against the reference.
+
+use super::input::SetArgs;
+use super::raw::RawArgs;
+use super::{Outcome, Talk, graphics};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Compare a graphics card with the reference, stage by stage and within derived bounds; exit code 1 when a bound is
+/// exceeded.
+#[derive(Debug, Args)]
+pub(super) struct ValidateArgs {
+    /// Scene (.toml) or volume
+    #[arg(value_name = "SCENE|VOLUME")]
+    input: PathBuf,
+    /// Write a picture of the difference (FLIP), as PNG
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Width and height of the picture in pixels
+    #[arg(long, value_name = "WxH")]
+    size: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    raw: RawArgs,
+    #[command(flatten)]
+    set: SetArgs,
+}
+
+impl ValidateArgs {
+    pub(super) fn run(self, talk: Talk) -> Outcome {
+        let gpu = graphics::open(talk)?;
+        #[cfg(feature = "gpu")]
+        return self.compare(&gpu, talk);
+        #[cfg(not(feature = "gpu"))]
+        match gpu {}
+    }
+
+    #[cfg(feature = "gpu")]
+    fn compare(self, gpu: &graphics::Gpu, talk: Talk) -> Outcome {
+        use super::input::{self, SceneOverrides};
+        use super::report::{note, print, print_json};
+        use super::{Done, output_path};
+        use drypoint::output::compare::difference::difference_picture;
+        use drypoint::output::compare::{CompareOptions, flip};
+        use drypoint::output::png;
+        use drypoint::scene::picture::Provenance;
+        use drypoint::{Failure, Format};
+
+        if let Some(path) = &self.output {
+            output_path::picture(path, &[Format::Png])?;
+            output_path::check_not_read(path, [&*self.input])?;
+        }
+        let mut flags: Vec<_> = self.raw.flag().into_iter().collect();
+        if let Some(size) = &self.size {
+            flags.push(input::size_flag(size)?);
+        }
+        let over = SceneOverrides::new(&self.set, flags)?;
+        let job = input::find(Some(&self.input), &over)?.load(over.target)?;
+        let found = drypoint::validate::validate(&job, gpu)?;
+        if let Some(path) = &self.output {
+            let say = |error| Failure::picture(&error, path.display());
+            let [a, b] = found.pictures.each_ref().map(drypoint::output::read::Image::from);
+            let map = flip::flip(&a, &b, CompareOptions::default().pixels_per_degree).map_err(say)?;
+            png::write_png(&difference_picture(&map), 8, &Provenance::default(), path).map_err(say)?;
+            note(talk, path.display());
+        }
+        if self.json {
+            print_json(serde_json::to_string_pretty(&found))?;
+        } else {
+            print(&format!("{found}\n"))?;
+        }
+        Ok(if found.fails() { Done::Different } else { Done::Yes })
+    }
+}

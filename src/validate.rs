@@ -1,0 +1,236 @@
+//! The validation of a graphics card against the reference, on one scene ([GPU-1], [GPU-2]).
+
+use crate::Failure;
+use crate::gpu::{Gpu, GpuJob, Precision};
+use crate::job::{Job, KnobVariant, render_failure};
+use drypoint_reference::number::Decision;
+use drypoint_reference::ray::Renderer;
+use drypoint_reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
+use drypoint_scene::picture::{LayerKind, Picture};
+use drypoint_scene::shot::KappaSource;
+use drypoint_scene::tables::RaysPerPixel;
+use serde::Serialize;
+use std::fmt;
+
+/// The largest difference in f64, as a share of a stage's largest number, up to which algorithms are the same.
+pub const SAME: f64 = 1e-9;
+
+/// The comparison of a graphics card with the reference on one scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Validation {
+    /// The adapter.
+    pub adapter: String,
+    /// Stages of a sample, in the order in which they are computed.
+    pub stages: Vec<Stage>,
+    /// The first stage that parts in f64; none: none does, or the adapter has no f64.
+    pub parts_at: Option<&'static str>,
+    /// The colours in f32 against their bounds; none where no bound is known, with the reason in `unbounded`.
+    pub bounded: Option<Bounded>,
+    /// The reason why there are no bounds.
+    pub unbounded: Option<String>,
+    /// The picture of the reference and of the card in f32, for a picture of the difference.
+    #[serde(skip)]
+    pub pictures: [Picture; 2],
+}
+
+/// A stage of samples, compared as a layer.
+#[derive(Clone, Debug, Serialize)]
+pub struct Stage {
+    /// The stage.
+    pub name: &'static str,
+    /// The layer.
+    pub layer: String,
+    /// The largest number of the layer.
+    pub largest: f64,
+    /// The largest difference with the card in f64; none where it has no f64.
+    pub double: Option<f64>,
+    /// The largest difference with the card in f32.
+    pub single: f64,
+}
+
+/// Colours in f32 against the bounds of their errors.
+#[derive(Clone, Debug, Serialize)]
+pub struct Bounded {
+    /// The largest bound of a pixel that is decided.
+    pub bound: f64,
+    /// The largest difference of one.
+    pub measured: f64,
+    /// The largest share that a difference takes of its bound.
+    pub share: f64,
+    /// Decided pixels whose difference exceeds their bound.
+    pub exceeded: usize,
+    /// The share of pixels at a decision.
+    pub undecided: f64,
+    /// Pixels at each decision that is open somewhere.
+    pub decisions: Vec<(&'static str, usize)>,
+    /// The largest difference of a pixel at a decision.
+    pub measured_at_decisions: f64,
+}
+
+impl Validation {
+    /// Whether a bound is exceeded, or the algorithms part.
+    pub fn fails(&self) -> bool {
+        self.parts_at.is_some() || self.bounded.as_ref().is_some_and(|bounded| bounded.exceeded > 0)
+    }
+}
+
+impl fmt::Display for Validation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "adapter: {}", self.adapter)?;
+        writeln!(f, "{:<10} {:<14} {:>10} {:>12} {:>12}", "stage", "layer", "largest", "f64 differs", "f32 differs")?;
+        for stage in &self.stages {
+            let double = stage.double.map_or_else(|| "no f64".to_owned(), |double| format!("{double:.1e}"));
+            let Stage { name, layer, largest, single, .. } = stage;
+            writeln!(f, "{name:<10} {layer:<14} {largest:>10.3e} {double:>12} {single:>12.1e}")?;
+        }
+        match self.parts_at {
+            Some(stage) => writeln!(f, "the {stage} is the first stage that parts in f64")?,
+            None if self.stages.iter().all(|stage| stage.double.is_some()) => writeln!(f, "no stage parts in f64")?,
+            None => {}
+        }
+        if let Some(why) = &self.unbounded {
+            return write!(f, "no bounds in f32: {why}");
+        }
+        let Some(bounded) = &self.bounded else { return Ok(()) };
+        let Bounded { bound, measured, share, exceeded, undecided, measured_at_decisions, .. } = bounded;
+        writeln!(
+            f,
+            "colours in f32: bound {bound:.1e}, measured {measured:.1e}, at most {share:.3} of a pixel's own bound"
+        )?;
+        writeln!(f, "pixels over their bound: {exceeded}")?;
+        write!(f, "pixels at a decision: {:.3} %, differing by up to {measured_at_decisions:.1e}", undecided * 100.0)?;
+        bounded.decisions.iter().try_for_each(|(what, pixels)| write!(f, "\n  {pixels} at {what}"))
+    }
+}
+
+/// Compares a graphics card with the reference on a job's scene. Rays at edges are left out: each pixel has one ray if
+/// the scene says `samples = "auto"`.
+///
+/// # Errors
+/// Same errors as [`Job::renderer`], and those of the adapter.
+pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
+    let mut scene = job.scene.clone();
+    if scene.picture.samples == RaysPerPixel::Auto {
+        scene.picture.samples = RaysPerPixel::Across(1);
+    }
+    // Bounds are those of the colours alone.
+    scene.picture.layers = vec![LayerKind::Beauty];
+    let plain = job.variant(scene.clone());
+    let stages = stages(job, &plain)?;
+    scene.picture.layers = stages.iter().map(|(_, layer)| *layer).collect();
+    let layered = job.variant(scene);
+    // Stages, in f64 where the card has it, and in f32.
+    let (truth, _) = job.renderer_of(&layered)?.again(&|_| ());
+    let double = match gpu.has_double() {
+        true => Some(drawn(job, gpu, &layered, Precision::Double)?),
+        false => None,
+    };
+    let single = drawn(job, gpu, &layered, Precision::Single)?;
+    let compared: Vec<Stage> = stages
+        .iter()
+        .map(|&(name, layer)| {
+            let differs = |other: &Picture| largest_difference(&truth, other, layer);
+            let largest = truth.layer(layer).map_or(0.0, |layer| {
+                layer
+                    .channels
+                    .iter()
+                    .flatten()
+                    .filter(|c| c.is_finite())
+                    .fold(0.0, |largest: f64, c| largest.max(c.abs()))
+            });
+            Stage {
+                name,
+                layer: layer.to_string(),
+                largest,
+                double: double.as_ref().map(differs),
+                single: differs(&single),
+            }
+        })
+        .collect();
+    let parts = |stage: &&Stage| stage.double.is_some_and(|double| !(double <= SAME * stage.largest.max(1e-300)));
+    let parts_at = compared.iter().find(parts).map(|stage| stage.name);
+    // Colours in f32 against their bounds.
+    let (bounded, unbounded) = match bounds(job, &plain)? {
+        Ok(bounds) => (Some(against(&bounds, &single)), None),
+        Err(why) => (None, Some(why)),
+    };
+    let adapter = gpu.describe();
+    Ok(Validation { adapter, stages: compared, parts_at, bounded, unbounded, pictures: [truth, single] })
+}
+
+/// The stages that a scene has, and their layers.
+fn stages(job: &Job, variant: &KnobVariant) -> Result<Vec<(&'static str, LayerKind)>, Failure> {
+    let shot = job.shot_of(variant)?;
+    let query = shot.objects[0].query;
+    let mut stages = vec![("value", LayerKind::First)];
+    if query.gradient {
+        stages.extend([("gradient", LayerKind::Gradient), ("normal", LayerKind::Normal)]);
+    }
+    if query.kappa != KappaSource::None {
+        stages.push(("curvature", LayerKind::CurvatureAlongView));
+    }
+    stages.push(("colour", LayerKind::Beauty));
+    Ok(stages)
+}
+
+/// A card's picture of a scene with other knobs.
+fn drawn(job: &Job, gpu: &Gpu, variant: &KnobVariant, precision: Precision) -> Result<Picture, Failure> {
+    GpuJob::of(job, gpu, variant, precision)?.frame(&|_| ())
+}
+
+/// The reference's picture with its bounds; the reason, where there are none.
+fn bounds(job: &Job, variant: &KnobVariant) -> Result<Result<Bounds, String>, Failure> {
+    let shot = job.shot_of(variant)?;
+    match Renderer::bounds(&shot, job.inputs(&shot), RayOrigin::Middle) {
+        Ok(bounds) => Ok(Ok(bounds)),
+        Err(unknown @ BoundsError::Unknown { .. }) => Ok(Err(unknown.to_string())),
+        Err(BoundsError::Render(error)) => Err(render_failure(&error, &job.scene)),
+    }
+}
+
+/// The largest difference of two pictures in a layer. Numbers that are finite in one alone are infinitely far apart.
+fn largest_difference(a: &Picture, b: &Picture, layer: LayerKind) -> f64 {
+    let channels = |picture: &Picture| picture.layer(layer).map_or_else(Vec::new, |layer| layer.channels.clone());
+    let pairs = channels(a).into_iter().flatten().zip(channels(b).into_iter().flatten());
+    pairs.map(|(a, b)| if a == b { 0.0 } else { (a - b).abs() }).fold(0.0, f64::max)
+}
+
+/// A card's colours in f32 against their bounds.
+fn against(bounds: &Bounds, single: &Picture) -> Bounded {
+    let channels = |picture: &Picture| picture.layer(LayerKind::Beauty).map_or_else(Vec::new, |l| l.channels.clone());
+    let (values, errors, single) = (channels(&bounds.values), channels(&bounds.errors), channels(single));
+    let mut found = Bounded {
+        bound: 0.0,
+        measured: 0.0,
+        share: 0.0,
+        exceeded: 0,
+        undecided: 0.0,
+        decisions: Vec::new(),
+        measured_at_decisions: 0.0,
+    };
+    for (at, undecided) in bounds.undecided.iter().enumerate() {
+        let differences = (0..values.len()).map(|c| ((values[c][at] - single[c][at]).abs(), errors[c][at]));
+        if undecided.is_some() {
+            found.undecided += 1.0 / bounds.undecided.len() as f64;
+            found.measured_at_decisions = differences.fold(found.measured_at_decisions, |d, (found, _)| d.max(found));
+            continue;
+        }
+        let mut exceeds = false;
+        for (difference, bound) in differences {
+            found.bound = found.bound.max(bound);
+            found.measured = found.measured.max(difference);
+            exceeds |= !(difference <= bound);
+            if bound > 0.0 {
+                found.share = found.share.max(difference / bound);
+            }
+        }
+        found.exceeded += usize::from(exceeds);
+    }
+    for decision in Decision::ALL {
+        let pixels = bounds.undecided.iter().filter(|open| **open == Some(decision)).count();
+        if pixels > 0 {
+            found.decisions.push((decision.sentence(), pixels));
+        }
+    }
+    found
+}
