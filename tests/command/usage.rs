@@ -82,15 +82,37 @@ fn wrong_use_is_told_in_three_lines() {
 #[test]
 fn what_is_not_built_yet_says_so() {
     let folder = Folder::new();
-    let verbs = "the verbs of this version are render, info, probe, pick, phantom, plan, points, strokes, styles, compare, cost, sheet, halo, wedge, schema, completions";
-    for (line, verb) in [("paint scene.toml", "paint"), ("-q validate scene.toml", "validate")] {
+    let verbs = "the verbs of this version are render, info, probe, pick, phantom, plan, points, strokes, styles, compare, validate, cost, sheet, halo, wedge, schema, completions";
+    for (line, verb) in [("paint scene.toml", "paint"), ("-q paint scene.toml", "paint")] {
         let expected = format!("error: `{verb}` is not built yet\n  at: drypoint {verb}\n  try: {verbs}\n");
         assert_eq!(folder.refused(line), expected);
     }
-    assert_eq!(
-        folder.refused("render --backend gpu"),
-        "error: the GPU backend is not built yet\n  at: --backend gpu\n  try: leave --backend out: the CPU renders\n"
-    );
+}
+
+/// A command without graphics says how to get them; one with graphics that finds no adapter says what to install.
+#[test]
+fn a_card_that_is_not_there_is_an_error_with_a_remedy() {
+    let folder = Folder::new();
+    let (what, remedy) = match cfg!(feature = "gpu") {
+        false => (
+            "this command was built without the GPU backend",
+            "build it with `cargo build --release --features gpu`, or leave --backend out: the CPU renders",
+        ),
+        true => (
+            "no graphics adapter was found",
+            "install a Vulkan driver (on Debian without a graphics card: mesa-vulkan-drivers), or leave --backend out",
+        ),
+    };
+    // Elsewhere than on Linux a card may be there.
+    if cfg!(all(feature = "gpu", not(target_os = "linux"))) {
+        return;
+    }
+    let none = [("VK_DRIVER_FILES", "/none"), ("VK_ICD_FILENAMES", "/none")];
+    for line in ["render --backend gpu", "validate scene.toml"] {
+        let output = folder.command(line.split(' ')).envs(none).output().unwrap();
+        let expected = format!("error: {what}\n  at: --backend gpu\n  try: {remedy}\n");
+        assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap()), (Some(2), expected));
+    }
 }
 
 #[test]

@@ -230,13 +230,13 @@ pub(super) const FAMILIES: [Family; 18] = [
     },
     Family {
         letters: "GPU",
-        subject: "A second renderer, not built yet",
+        subject: "Graphics cards",
         rules: &[
             (1, "The GPU draws the same scene by the same formulas, and both are compared effect by effect."),
             (2, "Its tolerances are derived for each effect, and decisions near their threshold are counted apart."),
             (3, "It runs on any adapter, and says what to install where there is none."),
             (4, "Shaders hold only what the plan has."),
-            (5, "A picture of any other renderer can be compared by the same command; that is built."),
+            (5, "A picture of any other renderer can be compared by `drypoint compare`."),
             (6, "The reference can compute by another renderer's conventions."),
             (7, "The mask of voxels that are not finite is made by the host."),
         ],
