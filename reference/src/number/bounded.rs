@@ -347,6 +347,14 @@ impl Real for Bounded {
         here
     }
 
+    fn known_within(self, range: [f32; 2]) -> Self {
+        let [lo, hi] = range.map(f64::from);
+        // Interpolations between numbers of the range are rounded.
+        let rounded = 8.0 * ULP * lo.abs().max(hi.abs());
+        let farthest = (hi - self.value).max(self.value - lo) + rounded;
+        Self { error: self.error.min(farthest), ..self }
+    }
+
     /// The distance of (x, y) from the origin moves at most as far as (x, y) does.
     fn hypot(self, other: Self) -> Self {
         let value = Real::hypot(self.value, other.value);

@@ -93,6 +93,12 @@ pub trait Real:
         assign(Vec3::new(position.x.to_f64(), position.y.to_f64(), position.z.to_f64()))
     }
 
+    /// The number itself, which is known to lie in a range up to rounding: an error that leads out of it ends there.
+    #[inline(always)]
+    fn known_within(self, _: [f32; 2]) -> Self {
+        self
+    }
+
     /// √(x² + y²) without overflow on the way.
     #[inline]
     fn hypot(self, other: Self) -> Self {

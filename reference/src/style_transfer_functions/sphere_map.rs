@@ -13,6 +13,8 @@ use drypoint_scene::style::Style;
 pub struct SphereMap {
     pub(super) side: usize,
     pub(super) texels: Vec<[f32; 4]>,
+    /// The least and the largest texel of each channel.
+    ranges: [[f32; 2]; 4],
 }
 
 impl SphereMap {
@@ -23,7 +25,13 @@ impl SphereMap {
 
     /// The map of S × S texels with the same property.
     pub(super) fn from_texels(side: usize, texels: &[Rgba]) -> Self {
-        Self { side, texels: texels.iter().map(|texel| texel.map(|c| c as f32)).collect() }
+        let texels: Vec<[f32; 4]> = texels.iter().map(|texel| texel.map(|c| c as f32)).collect();
+        let range = |c: usize| {
+            let channel = || texels.iter().map(|texel| texel[c]);
+            [channel().fold(f32::INFINITY, f32::min), channel().fold(f32::NEG_INFINITY, f32::max)]
+        };
+        let ranges = std::array::from_fn(range);
+        Self { side, texels, ranges }
     }
 
     /// The size of the texels in memory.
@@ -46,7 +54,8 @@ impl SphereMap {
             let at = j * self.side + i;
             mix(texel(at), texel(at + next), wx)
         };
-        mix(row(j), row(j + next), wy)
+        let found = mix(row(j), row(j + next), wy);
+        std::array::from_fn(|c| found[c].known_within(self.ranges[c]))
     }
 
     /// The cell min(⌊x⌋, max(S − 2, 0)) of a coordinate clamped to [0, S − 1], and the place in it.
