@@ -79,11 +79,11 @@ impl Validation {
 impl fmt::Display for Validation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "adapter: {}", self.adapter)?;
-        writeln!(f, "{:<10} {:<14} {:>10} {:>12} {:>12}", "stage", "layer", "largest", "f64 differs", "f32 differs")?;
+        writeln!(f, "{:<10} {:<18} {:>10} {:>12} {:>12}", "stage", "layer", "largest", "f64 differs", "f32 differs")?;
         for stage in &self.stages {
             let double = stage.double.map_or_else(|| "no f64".to_owned(), |double| format!("{double:.1e}"));
             let Stage { name, layer, largest, single, .. } = stage;
-            writeln!(f, "{name:<10} {layer:<14} {largest:>10.3e} {double:>12} {single:>12.1e}")?;
+            writeln!(f, "{name:<10} {layer:<18} {largest:>10.3e} {double:>12} {single:>12.1e}")?;
         }
         match self.parts_at {
             Some(stage) => writeln!(f, "the {stage} is the first stage that parts in f64")?,
@@ -163,19 +163,20 @@ pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
     Ok(Validation { adapter, stages: compared, parts_at, bounded, unbounded, pictures: [truth, single] })
 }
 
-/// The stages that a scene has, and their layers.
+/// The stages that a scene has, and their layers. First come those of the first visible sample of a ray, on which no
+/// opacity has a part; then depths, which opacities move; then what they weigh.
 fn stages(job: &Job, variant: &KnobVariant) -> Result<Vec<(&'static str, LayerKind)>, Failure> {
-    let shot = job.shot_of(variant)?;
-    let query = shot.objects[0].query;
-    let mut stages = vec![("value", LayerKind::First)];
-    if query.gradient {
-        stages.extend([("gradient", LayerKind::Gradient), ("normal", LayerKind::Normal)]);
-    }
-    if query.kappa != KappaSource::None {
-        stages.push(("curvature", LayerKind::CurvatureAlongView));
-    }
-    stages.push(("colour", LayerKind::Beauty));
-    Ok(stages)
+    let query = job.shot_of(variant)?.objects[0].query;
+    let has_kappa = query.kappa != KappaSource::None;
+    let stages = [
+        (true, "value", LayerKind::First),
+        (query.gradient, "normal", LayerKind::FirstNormal),
+        (has_kappa, "curvature", LayerKind::FirstCurvatureAlongView),
+        (true, "opacity", LayerKind::Depth),
+        (query.gradient, "gradient", LayerKind::Gradient),
+        (true, "colour", LayerKind::Beauty),
+    ];
+    Ok(stages.into_iter().filter(|(has, ..)| *has).map(|(_, stage, layer)| (stage, layer)).collect())
 }
 
 /// A card's picture of a scene with other knobs.

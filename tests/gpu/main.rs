@@ -4,6 +4,8 @@
 mod double;
 mod field;
 mod formulas;
+#[path = "sabotage/rays.rs"]
+mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]
 mod sabotage_of_styles;
 #[path = "sabotage/field.rs"]

@@ -44,8 +44,10 @@ fn page(gpu: &Gpu, found: &[(&str, Validation)]) -> String {
     let _ = write!(
         page,
         "The shaders run in f64, and every stage of a sample is compared with the reference. A stage parts where it differs \
-         by more than {SAME:.0e} of its largest number.\n\n| effect | value | gradient | normal | κ | colour |\n\
-         |---|---|---|---|---|---|\n"
+         by more than {SAME:.0e} of its largest number. Value, normal \
+         and κ are those of the first visible sample of each ray, on which no opacity has a part; opacity is compared by \
+         depths.\n\n| effect | value | normal | κ | opacity | gradient | colour |\n\
+         |---|---|---|---|---|---|---|\n"
     );
     for (name, validation) in found {
         let of = |stage: &str| {
@@ -54,7 +56,7 @@ fn page(gpu: &Gpu, found: &[(&str, Validation)]) -> String {
             let share = stage.and_then(|found| found.double.map(|double| share(double, found.largest)));
             share.map_or_else(String::new, |share| format!("{share:.1e}"))
         };
-        let cells = ["value", "gradient", "normal", "curvature", "colour"].map(of);
+        let cells = ["value", "normal", "curvature", "opacity", "gradient", "colour"].map(of);
         let _ = writeln!(page, "| {name} | {} |", cells.join(" | "));
     }
     page.push_str("\n## Bounds in f32\n\n");
