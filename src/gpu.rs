@@ -174,6 +174,7 @@ fn remedy(error: &GpuError) -> &'static str {
         GpuError::TooLarge { .. } | GpuError::TooManyBytes { .. } | GpuError::OutOfMemory { .. } => {
             "write volume.stride = 2, or leave --backend out: the CPU has more memory"
         }
+        GpuError::Unfinished { .. } => "take fewer rays a pixel or a larger sampling.step, or leave --backend out",
         GpuError::TooManyPlanes { .. } => "take a larger sampling.step, or move the eye closer",
         GpuError::Lost { .. } | GpuError::Refused { .. } => "update the driver, or leave --backend out",
         GpuError::Missing { .. } | GpuError::NoDouble { .. } | GpuError::Material => {

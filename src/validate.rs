@@ -15,6 +15,12 @@ use std::fmt;
 /// The largest difference in f64, as a share of a stage's largest number, up to which algorithms are the same.
 pub const SAME: f64 = 1e-9;
 
+/// The largest share of pixels at a decision or without a bound that a scene may have.
+pub const MOST_OPEN: f64 = 0.1;
+
+/// A bound above it says nothing of a colour.
+const SAYS_NOTHING: f64 = 0.5;
+
 /// The comparison of a graphics card with the reference on one scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct Validation {
@@ -59,7 +65,7 @@ pub struct Bounded {
     pub share: f64,
     /// Decided pixels whose difference exceeds their bound.
     pub exceeded: usize,
-    /// The share of pixels without a finite bound.
+    /// The share of pixels whose bound says nothing: it exceeds ½.
     pub endless: f64,
     /// The share of pixels at a decision.
     pub undecided: f64,
@@ -70,9 +76,10 @@ pub struct Bounded {
 }
 
 impl Validation {
-    /// Whether a bound is exceeded, or the algorithms part.
+    /// Whether a bound is exceeded, the algorithms part, or too few pixels have a bound that says something.
     pub fn fails(&self) -> bool {
-        self.parts_at.is_some() || self.bounded.as_ref().is_some_and(|bounded| bounded.exceeded > 0)
+        let fails = |bounded: &Bounded| bounded.exceeded > 0 || bounded.undecided + bounded.endless > MOST_OPEN;
+        self.parts_at.is_some() || self.bounded.as_ref().is_some_and(fails)
     }
 }
 
@@ -91,7 +98,7 @@ impl fmt::Display for Validation {
             None => {}
         }
         if let Some(why) = &self.unbounded {
-            return write!(f, "no bounds in f32: {why}");
+            return write!(f, "{why}");
         }
         let Some(bounded) = &self.bounded else { return Ok(()) };
         let Bounded { bound, measured, share, exceeded, endless, undecided, measured_at_decisions, .. } = bounded;
@@ -101,7 +108,7 @@ impl fmt::Display for Validation {
         )?;
         writeln!(f, "pixels over their bound: {exceeded}")?;
         if *endless > 0.0 {
-            writeln!(f, "pixels without a finite bound: {:.3} %", endless * 100.0)?;
+            writeln!(f, "pixels whose bound says nothing: {:.3} %", endless * 100.0)?;
         }
         write!(f, "pixels at a decision: {:.3} %, differing by up to {measured_at_decisions:.1e}", undecided * 100.0)?;
         bounded.decisions.iter().try_for_each(|(what, pixels)| write!(f, "\n  {pixels} at {what}"))
@@ -230,7 +237,7 @@ fn against(bounds: &Bounds, single: &Picture) -> Bounded {
             continue;
         }
         let mut exceeds = false;
-        if errors.iter().any(|channel| !channel[at].is_finite()) {
+        if errors.iter().any(|channel| channel[at].is_nan() || channel[at] > SAYS_NOTHING) {
             found.endless += 1.0 / bounds.undecided.len() as f64;
             continue;
         }

@@ -107,13 +107,15 @@ impl Gpu {
     pub(crate) fn attempt<T>(&self, what: &'static str, run: impl FnOnce() -> T) -> Result<T, GpuError> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let internal = self.device.push_error_scope(wgpu::ErrorFilter::Internal);
         let result = run();
+        let fault = pollster::block_on(internal.pop());
         let (refused, full) = (pollster::block_on(validation.pop()), pollster::block_on(memory.pop()));
         let adapter = || self.info.name.clone();
         if full.is_some() {
             return Err(GpuError::OutOfMemory { what, adapter: adapter() });
         }
-        if let Some(error) = refused {
+        if let Some(error) = refused.or(fault) {
             return Err(GpuError::Refused { adapter: adapter(), reason: error.to_string() });
         }
         self.is_there()?;

@@ -20,8 +20,8 @@ pub enum GpuError {
         /// The adapter's name.
         adapter: String,
     },
-    /// The volume is larger than a texture can be.
-    #[error("the volume has {} × {} × {} numbers with its border; a texture of {adapter} has at most {most} along an axis", dims[0], dims[1], dims[2])]
+    /// The volume is larger than a texture can be, or has more than 2³¹ numbers.
+    #[error("the volume has {} × {} × {} numbers with its border; {adapter} takes at most {most} along an axis, and 2147483648 in all", dims[0], dims[1], dims[2])]
     TooLarge {
         /// Numbers along x, y and z.
         dims: [usize; 3],
@@ -66,6 +66,12 @@ pub enum GpuError {
         /// The driver's words.
         reason: String,
     },
+    /// The driver ended a shader that ran too long.
+    #[error("{adapter} ended rays before their last sample; it allows too few steps for this picture")]
+    Unfinished {
+        /// The adapter's name.
+        adapter: String,
+    },
     /// An effect of the scene has no shader.
     #[error("graphics cards cannot draw {what} yet")]
     Missing {
@@ -75,9 +81,9 @@ pub enum GpuError {
         key: &'static str,
     },
     /// More sample planes than whole numbers of f32 can count.
-    #[error("the volume is {planes:.1e} sample planes deep; graphics cards count up to {most}")]
+    #[error("the volume ends {planes} sample planes from the eye; graphics cards count up to {most}")]
     TooManyPlanes {
-        /// Planes through the volume.
+        /// Planes up to the farthest corner of the volume.
         planes: u64,
         /// The most planes.
         most: u64,

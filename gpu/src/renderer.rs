@@ -22,6 +22,9 @@ const SAMPLES_AT_ONCE: f64 = (1u64 << 26) as f64;
 /// The first channel of a pixel that is not refined lies below.
 const STAYS: f64 = -1e29;
 
+/// The first channel of a pixel whose rays the driver ended lies below.
+const UNFINISHED: f64 = -1.5e30;
+
 /// The data that a shot names, beside the volume's numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
@@ -55,6 +58,8 @@ pub struct Renderer<'g> {
     /// Those, with the beauty first where edges are found by it.
     layers: Vec<LayerKind>,
     size: [usize; 2],
+    /// n of the n×n rays of a pixel, before it is refined.
+    rays_across: usize,
     /// Samples of a row of pixels, roughly.
     samples_a_row: f64,
 }
@@ -83,7 +88,7 @@ impl<'g> Renderer<'g> {
         let layers = drawn_layers(shot);
         let (shader, scales) = compose::shader(shot, &layers, inputs, precision)?;
         let text = edit(shader.text(precision));
-        let data_layout = data_layout(gpu, &shader);
+        let data_layout = data_layout(gpu, &shader)?;
         let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
         let pass = |entry_point, lists| Pass::new(gpu, &text, entry_point, lists, &data_layout);
         let draw = pass("draw", 1)?;
@@ -108,6 +113,7 @@ impl<'g> Renderer<'g> {
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
+            rays_across: shot.rays_across,
             samples_a_row: shot.view.size[0] as f64 * rays * planes.max(1.0),
         })
     }
@@ -173,10 +179,12 @@ impl<'g> Renderer<'g> {
     ) -> Result<(), GpuError> {
         let (gpu, [width, height]) = (self.gpu, self.size);
         let channels: usize = self.layers.iter().map(|layer| layer.channels().len()).sum();
-        let (pass, samples) = match (&self.refinement, first_picture) {
-            (Some(pass), Some(_)) => (pass, 9.0 * self.samples_a_row),
-            _ => (&self.draw, self.samples_a_row),
+        let (pass, samples, parts) = match (&self.refinement, first_picture) {
+            (Some(pass), Some(_)) => (pass, 9.0 * self.samples_a_row, 9),
+            _ => (&self.draw, self.samples_a_row, self.rays_across * self.rays_across),
         };
+        // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
+        let parts_at_once = if self.layers == [LayerKind::Beauty] { 1 } else { parts };
         // Rows whose samples are few enough and whose numbers fit in a buffer.
         let bytes_a_row = (width * channels.max(4)) as u64 * self.precision.size();
         let most = gpu.device.limits().max_storage_buffer_binding_size;
@@ -198,39 +206,53 @@ impl<'g> Renderer<'g> {
         })?;
         let mut entries = vec![entry(0, &self.params), entry(1, &out)];
         entries.extend(before.iter().map(|before| entry(2, before)));
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("draw"),
-            layout: &pass.layout,
-            entries: &entries,
-        });
+        let group = gpu.attempt("the picture", || {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("draw"),
+                layout: &pass.layout,
+                entries: &entries,
+            })
+        })?;
         for first in (0..height).step_by(rows) {
             let end = (first + rows).min(height);
             self.shader.block.set("first_row", first as f64);
             self.shader.block.set("end_row", end as f64);
-            gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
             if let (Some(before), Some(picture)) = (&before, first_picture) {
                 // The row above the band may be missing; what stands in its place is not read.
                 let above = first.saturating_sub(1);
                 let numbers = &picture[4 * width * above..4 * width * (end + 1).min(height)];
                 let offset = (above + 1 - first) * 4 * width;
                 let offset = offset as u64 * self.precision.size();
-                gpu.queue.write_buffer(before, offset, &self.precision.bytes(numbers));
+                gpu.attempt("the picture", || {
+                    gpu.queue.write_buffer(before, offset, &self.precision.bytes(numbers));
+                })?;
             }
             let bytes = (width * channels * (end - first)) as u64 * self.precision.size();
-            gpu.attempt("the picture", || {
-                let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-                {
-                    let mut run = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                    run.set_pipeline(&pass.pipeline);
-                    run.set_bind_group(0, &group, &[]);
-                    run.set_bind_group(1, &self.data, &[]);
-                    run.dispatch_workgroups((width as u32).div_ceil(GROUP), ((end - first) as u32).div_ceil(GROUP), 1);
-                }
-                encoder.copy_buffer_to_buffer(&out, 0, &back, 0, bytes);
-                gpu.queue.submit([encoder.finish()]);
-            })?;
+            for part in (0..parts).step_by(parts_at_once) {
+                self.shader.block.set("first_part", part as f64);
+                self.shader.block.set("end_part", (part + parts_at_once) as f64);
+                gpu.attempt("the picture", || {
+                    gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
+                    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+                    {
+                        let groups = [width, end - first].map(|n| (n as u32).div_ceil(GROUP));
+                        let mut run = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                        run.set_pipeline(&pass.pipeline);
+                        run.set_bind_group(0, &group, &[]);
+                        run.set_bind_group(1, &self.data, &[]);
+                        run.dispatch_workgroups(groups[0], groups[1], 1);
+                    }
+                    if part + parts_at_once >= parts {
+                        encoder.copy_buffer_to_buffer(&out, 0, &back, 0, bytes);
+                    }
+                    gpu.queue.submit([encoder.finish()]);
+                })?;
+            }
             let numbers = self.precision.numbers(&read(gpu, &back, bytes)?);
             for (i, pixel) in numbers.chunks_exact(channels).enumerate() {
+                if pixel[0] < UNFINISHED {
+                    return Err(GpuError::Unfinished { adapter: gpu.name().to_owned() });
+                }
                 take(first * width + i, pixel);
             }
             progress(end as f64 / height as f64);
@@ -266,15 +288,14 @@ impl Pass {
         data: &wgpu::BindGroupLayout,
     ) -> Result<Self, GpuError> {
         let entries: Vec<_> = (0..=lists).map(|binding| list_entry(binding, binding != 1)).collect();
-        let layout = gpu
-            .device
-            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries });
+        let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries };
+        let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
         Ok(Self { pipeline: pipeline(gpu, text.to_owned(), entry_point, &[&layout, data])?, layout })
     }
 }
 
 /// The layout of group 1: the data of the scene's effects.
-fn data_layout(gpu: &Gpu, shader: &Shader) -> wgpu::BindGroupLayout {
+fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupLayout, GpuError> {
     let entry = |(binding, _, data): &(u32, &'static str, Data)| match data {
         Data::Numbers | Data::Voxels | Data::Smoothed => wgpu::BindGroupLayoutEntry {
             binding: *binding,
@@ -289,7 +310,8 @@ fn data_layout(gpu: &Gpu, shader: &Shader) -> wgpu::BindGroupLayout {
         Data::Reals(_) | Data::Words(_) | Data::Texels(_) => list_entry(*binding, true),
     };
     let entries: Vec<_> = shader.data.iter().map(entry).collect();
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("data"), entries: &entries })
+    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("data"), entries: &entries };
+    gpu.attempt("the scene", || gpu.device.create_bind_group_layout(&descriptor))
 }
 
 /// Uploads what a shader reads.

@@ -48,8 +48,6 @@ pub(crate) enum Constant {
 /// entry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Stages {
-    /// When a pixel begins.
-    pub(crate) begin_pixel: Vec<&'static str>,
     /// When a ray begins.
     pub(crate) begin_ray: Vec<&'static str>,
     /// From the run of samples in the box to those that are left.
@@ -151,7 +149,6 @@ impl Stages {
         };
         let calls = |stages: &[&str], call: &dyn Fn(&str) -> String| stages.iter().map(|s| call(s)).collect::<Vec<_>>();
         let with = |first: &str, lines: Vec<String>| [vec![first.to_owned()], lines].concat();
-        function("begin_pixel()", &calls(&self.begin_pixel, &|s| format!("{s}();")), None);
         function("begin_ray(ray: Ray)", &calls(&self.begin_ray, &|s| format!("{s}(ray);")), None);
         let lines = calls(&self.samples_left, &|s| format!("left = {s}(ray, left);"));
         let lines = with("var left = run;", lines);

@@ -37,11 +37,17 @@ impl Volume {
     }
 }
 
+/// The most numbers of a volume: places in lists of cells are counted in 31 bits.
+const MOST_NUMBERS: usize = 1 << 31;
+
+/// Planes of numbers that wait for the adapter together.
+const PLANES_AT_ONCE: usize = 16;
+
 /// A 3D texture of numbers times 2^−e. In f64 a texel has two parts.
 fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, precision: Precision) -> Result<wgpu::TextureView, GpuError> {
     let most = gpu.device.limits().max_texture_dimension_3d as usize;
     let dims = numbers.dims;
-    if dims.iter().any(|&n| n > most) {
+    if dims.iter().any(|&n| n > most) || dims.iter().product::<usize>() > MOST_NUMBERS {
         return Err(GpuError::TooLarge { dims, most, adapter: gpu.name().to_owned() });
     }
     let [x, y, z] = dims.map(|n| n as u32);
@@ -62,7 +68,7 @@ fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, precision: Precision) -> R
             view_formats: &[],
         })
     })?;
-    // Plane by plane, so that the numbers are not in memory twice.
+    // A few planes at a time, so that the bytes are not all in memory at once.
     for (plane, numbers) in numbers.data.chunks_exact(dims[0] * dims[1]).enumerate() {
         let scaled = numbers.iter().map(|&c| scale_by_power_of_two(c, -e));
         let bytes: Vec<u8> = match precision {
@@ -88,6 +94,10 @@ fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, precision: Precision) -> R
                 wgpu::Extent3d { depth_or_array_layers: 1, ..size },
             );
         })?;
+        if plane % PLANES_AT_ONCE == PLANES_AT_ONCE - 1 {
+            gpu.queue.submit([]);
+            gpu.wait()?;
+        }
     }
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }

@@ -1,11 +1,19 @@
 // A ray, sample by sample, front to back ([VAL-3], [VAL-4], [RAY-2]).
 
+// The first channel of a pixel of which a driver ended a ray.
+const UNFINISHED = -2.0e30;
+
+// Whether a loop over samples ended before its last one: software drivers end shaders that loop too often, without a word.
+var<private> is_unfinished: bool;
+
 fn cast_ray(ray: Ray) -> Front {
     var front = Front();
     let ratio = ray.step / params.reference_length;
     begin_ray(ray);
     let run = samples_left(ray, samples_inside(ray));
-    for (var k = run.x; k <= run.y; k++) {
+    var k = run.x;
+    var is_closed = false;
+    for (; k <= run.y; k++) {
         var sample: Sample;
         sample.k = k;
         sample.position = position(ray, k);
@@ -31,8 +39,10 @@ fn cast_ray(ray: Ray) -> Front {
         collect(ray, sample, attributes, alpha);
         front = over(front, in_blend_space(shaded.rgb), alpha);
         if (front.opacity >= params.stop_at) {
+            is_closed = true;
             break;
         }
     }
+    is_unfinished = is_unfinished || (!is_closed && k <= run.y);
     return ended(ray, front);
 }

@@ -73,7 +73,7 @@ fn clip_run(ray: Ray, run: vec2<i32>) -> vec2<i32> {
     let before = position(ray, left.x - 1);
     var last = real(-4.0e6);
     for (var i = 0; i < PLANES; i++) {
-        if (beyond(i, before) > 0.0) {
+        if (beyond(i, before) > 0.0 && abs(growth(i, ray)) > 1.0e-20) {
             let crossing = -beyond(i, ray.origin) / growth(i, ray);
             if (cut_plane < 0 || crossing > last) {
                 last = crossing;

@@ -168,6 +168,8 @@ pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<
         shader.add(&[NUMBER, ELEMENTARY, COLOR, module!("refinement")]);
         shader.block.number("contrast", contrast);
     }
+    shader.block.number("first_part", 0.0);
+    shader.block.number("end_part", 0.0);
     shader.block.number("first_row", 0.0);
     shader.block.number("end_row", 0.0);
     let color = match background {

@@ -11,18 +11,33 @@ fn point_of(pixel: vec2<i32>, part: i32, across: i32) -> vec2<real> {
 
 // The rays of a pixel, n side by side.
 fn draw_pixel(pixel: vec2<i32>, n: i32) {
-    let at = (pixel.y - i32(params.first_row)) * WIDTH + pixel.x;
+    let out = ((pixel.y - i32(params.first_row)) * WIDTH + pixel.x) * CHANNELS;
     let behind = background_at(pixel.y * WIDTH + pixel.x);
+    is_unfinished = false;
+    // A beauty alone is drawn part by part: drivers end shaders that run long. What came before stands in the picture.
+    let first = i32(params.first_part);
+    let end = min(i32(params.end_part), n * n);
     var sum = vec4<real>();
-    begin_pixel();
-    for (var part = 0; part < n * n; part++) {
+    if (first > 0) {
+        sum = vec4<real>(picture[out], picture[out + 1], picture[out + 2], picture[out + 3]);
+        is_unfinished = sum.r <= UNFINISHED;
+    }
+    for (var part = first; part < end; part++) {
         let point = point_of(pixel, part, n);
         sum += over_background(cast_ray(ray_through(point.x, point.y)), behind);
         end_ray(part);
     }
-    let mean = sum / real(n * n);
-    let out = at * CHANNELS;
-    write_channels(out, mean);
+    if (end < n * n) {
+        picture[out] = sum.r;
+        picture[out + 1] = sum.g;
+        picture[out + 2] = sum.b;
+        picture[out + 3] = sum.a;
+    } else {
+        write_channels(out, sum / real(n * n));
+    }
+    if (is_unfinished) {
+        picture[out] = UNFINISHED;
+    }
 }
 
 @compute @workgroup_size(8, 8)

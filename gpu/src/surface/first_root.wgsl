@@ -23,7 +23,9 @@ fn first_root(ray: Ray) -> real {
     }
     // The side on which the ray left the cell before: a change of sign between two cells is a root on their face.
     var before = real(0.0);
-    loop {
+    // A ray meets fewer cells than this, however faces round.
+    let most = i32(last_cell().x + last_cell().y + last_cell().z) + 6;
+    for (var met = 0; met < most; met++) {
         let passed = cells_passed(walk.cell);
         if (passed > 0) {
             before = 0.0;

@@ -10,15 +10,26 @@ use drypoint_scene::measured::{Measured, PaddedNumbers};
 /// Voxels beyond the border that a cell's estimators read.
 const REACH: usize = 2;
 
+/// The share of the largest magnitude that a range has to exceed for its values to be about 0.
+const FAR: f64 = 1.0 / 16.0;
+
 impl<R: Real> Field<'_, R> {
     /// The numbers of the kernel and of the estimators, without ranges.
     pub(crate) fn measured(&self, rung: Rung) -> Measured {
         let slope = self.slope.to_f64();
-        let voxels = || Coefficients::<R>::of_voxels(&self.stencils, REACH).continued().padded(slope);
-        let (numbers, is_voxels): (PaddedNumbers, bool) = match &self.kernel {
+        let coefficients = || Coefficients::<R>::of_voxels(&self.stencils, REACH).continued();
+        let voxels = || coefficients().padded(slope);
+        let (mut numbers, is_voxels): (PaddedNumbers, bool) = match &self.kernel {
             KernelData::Bspline(c) | KernelData::Bspline5(c) => (c.padded(slope), false),
             KernelData::Trilinear | KernelData::BsplineSmooth | KernelData::CatmullRom => (voxels(), true),
         };
+        // Values about 0 keep their digits as they are; far from 0 their differences do.
+        let mut base = self.to_value(self.stencils.lowest()).to_f64();
+        let [lo, hi] = self.volume.range();
+        if is_voxels && hi - lo > FAR * lo.abs().max(hi.abs()) {
+            numbers.data.iter_mut().for_each(|c| *c += base);
+            base = 0.0;
+        }
         let of_gradient = rung >= Rung::Gradient && self.how.gradient != GradientEstimator::Analytic;
         let of_hessian = rung >= Rung::Hessian && self.how.hessian == HessianEstimator::Central;
         let back = |g: R| math::scale_by_power_of_two(g.to_f64(), self.exponent);
@@ -30,7 +41,7 @@ impl<R: Real> Field<'_, R> {
                 Second::NotPrepared | Second::Analytic | Second::Central => None,
             },
             regression: self.regression.as_ref().map(Regression::weights),
-            base: self.to_value(self.stencils.lowest()).to_f64(),
+            base,
             gradient_range: None,
             gradient_scale: back(self.no_normal_below) / R::NO_NORMAL.to_f64(),
             label_distances: [None, None],

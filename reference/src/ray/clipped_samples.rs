@@ -64,7 +64,7 @@ impl<R: Real> IndexRay<R> {
     }
 
     /// a and b of a + b·depth, which is above 0 where a plane cuts the ray away.
-    fn beyond(&self, plane: &ClipPlane) -> (f64, f64) {
+    pub(super) fn beyond(&self, plane: &ClipPlane) -> (f64, f64) {
         let [origin, along] = self.line();
         (plane.beyond(origin), plane.index_normal.dot(along))
     }

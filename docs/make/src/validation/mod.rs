@@ -90,12 +90,13 @@ const INTRODUCTION: &str = "<!-- Written by `cargo run --release -p drypoint-doc
 # Validation of graphics cards
 
 `drypoint render SCENE --backend gpu` draws a picture on a graphics card, in f32.
-`drypoint validate SCENE` compares it with the reference and ends with 1 if a bound is exceeded.
+`drypoint validate SCENE` compares it with the reference and ends with 1 if a bound is exceeded, if a stage parts in f64, or if more than a tenth of the pixels have no bound.
+Pixels of `samples = \"auto\"` are compared with one ray each.
 Both need a build with `--features gpu`.
 
 Three comparisons stand behind a picture:
 
-1. **Formula by formula.** Each function of the shaders runs over a table of inputs, random ones and hard cases, and is compared with the reference's function (`tests/gpu/formulas`).
+1. **Formula by formula.** Functions of the shaders run over a table of inputs, random ones and hard cases, and are compared with the reference's (`tests/gpu/formulas`); a test lists those that have no table, which put others together or read the volume.
 2. **The algorithm without rounding.** The same text runs with f64 for its numbers, where the adapter has them, and equals the reference.
 3. **f32 within derived bounds.** The reference draws the picture on numbers that know how far an f32 evaluation may lie from them.
 
@@ -103,7 +104,7 @@ Faults are planted in the shaders by tests, and each must be noticed.
 
 ";
 
-const BOUNDS: &str = "The bound of a pixel is the sum of what each operation of its rays may add. It is computed with the picture, not fitted to it.
+const BOUNDS: &str = "The bound of a pixel is the sum of what each operation of its rays may add, in the order of the reference's formulas. It is computed with the picture, not fitted to it. A bound above ½ says nothing, and its pixel counts as one without a bound.
 The grants of operations and their sources are a table in `reference/src/number/bounded.rs`; positions of samples have theirs in `reference/src/ray/bounds/positions.rs`.
 *Slack* is how many times smaller than its own bound the difference of the closest pixel is: below 1 the bound would be broken.
 
@@ -114,7 +115,7 @@ The grants of operations and their sources are a table in `reference/src/number/
 const REST: &str = "
 ## Not drawn by graphics cards yet
 
-Halos, lines inside a volume, and counts of samples as a layer.
+Halos, lines inside a volume, counts of samples as a layer, iso-surfaces that planes cut or that are lit otherwise than the volume, and further volumes with values that are not numbers.
 A scene that asks for one of them is refused, with the key that asks; the CPU draws it.
-Bounds are known for colours over a transfer function that is not read from a table, without rays at edges.
+Bounds are known for colours over a transfer function that is not read from a table, without rays at edges; iso-surfaces have one of the trilinear kernel without clip planes, further volumes on the grid of the data.
 ";

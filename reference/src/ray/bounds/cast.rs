@@ -57,6 +57,9 @@ pub(super) fn trace<S: Sampler<Bounded>>(
         steps,
         traced: Traced { front: Accumulator::empty(Bounded::ZERO), undecided: None },
     };
+    if ray.cut_is_open(&object.clip.planes, v) {
+        tracer.mark(Decision::Cut);
+    }
     let hit = surface.and_then(|errors| tracer.hit(errors));
     let is_alone = prepared.surface.as_ref().is_some_and(|surface| surface.alone);
     if (is_alone || tracer.samples(hit))
@@ -109,15 +112,14 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
             }
             let steps = hit.filter(|_| k == last_of_all).map_or(self.steps, |hit| self.share(k, hit));
             let Some(shown) = self.shown(k, steps) else { continue };
-            let is_visible = self.shows(shown.alpha.ends()[1]);
             let (depth, slack) = (ray.depth(k), hit.map_or(0.0, |hit| hit.error + ray.depth(k).error()));
-            if hit.is_some_and(|hit| (depth.value() - hit.t).abs() <= slack) && is_visible {
+            if hit.is_some_and(|hit| (depth.value() - hit.t).abs() <= slack) {
                 self.mark(Decision::Surface);
             }
-            if inside == Answer::Open && is_visible {
+            if inside == Answer::Open {
                 self.mark(Decision::Inside);
             }
-            if hangs_on_cut && is_visible {
+            if hangs_on_cut {
                 self.mark(Decision::Cut);
             }
             if k < from || k > to {

@@ -91,6 +91,24 @@ impl IndexRay<Bounded> {
         }
     }
 
+    /// Whether errors leave open through which plane the ray comes out of what is cut away, or which side of it is seen.
+    pub(super) fn cut_is_open(&self, clip: &ClipPlanes, v: Vec3<Bounded>) -> bool {
+        let errors = self.errors();
+        let entry = |plane: &ClipPlane| {
+            let ((a, b), n) = (self.beyond(plane), plane.index_normal.abs());
+            let [origin, _] = self.line();
+            let size = n.dot(origin.abs()) + plane.index_offset.abs() + a.abs();
+            let error = n.x * errors[0] + n.y * errors[1] + n.z * errors[2] + 8.0 * ROUNDING * size;
+            (b < 0.0).then(|| (-a / b, error / -b, plane.normal.dot(v.to_glam()).abs() < 64.0 * ROUNDING))
+        };
+        let entries: Vec<_> = clip.0.iter().filter_map(entry).collect();
+        let Some(last) = entries.iter().copied().reduce(|last, next| if next.0 > last.0 { next } else { last }) else {
+            return false;
+        };
+        let near = entries.iter().filter(|other| last.0 - other.0 <= last.1 + other.1).count();
+        near > 1 || last.2
+    }
+
     /// Whether planes cut sample k away.
     pub(super) fn is_cut(&self, k: i64, clip: &ClipPlanes) -> Answer {
         let p = self.position(k);

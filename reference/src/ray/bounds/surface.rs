@@ -9,9 +9,9 @@ use crate::surface::RootFinder;
 /// Half a unit in the last place of 1.
 const ROUNDING: f64 = 0.5 * f32::EPSILON as f64;
 
-/// Roundings of a trilinear value, relative to the largest number in it: one of each voxel, five of the interpolation along
-/// each axis, four of slope and intercept.
-const ROUNDINGS: f64 = 20.0;
+/// Roundings of the cubic of a cell, relative to the largest number in it: one of each voxel and of its difference to iso, five
+/// of the interpolation along each axis, and those of the polar forms and of de Casteljau's scheme.
+const ROUNDINGS: f64 = 60.0;
 
 /// Voxels by which the depth may be open before the ray is said to touch the surface.
 const MOST: f64 = 1.0 / 16.0;
