@@ -165,7 +165,7 @@ fn failure(error: &GpuError, job: &Job) -> Failure {
     Failure::new(error.to_string(), place, remedy(error))
 }
 
-/// What to do about an error.
+/// The remedy of an error.
 fn remedy(error: &GpuError) -> &'static str {
     match error {
         GpuError::NoAdapter | GpuError::NoDevice { .. } => {

@@ -20,7 +20,7 @@ macro_rules! module {
 }
 pub(crate) use module;
 
-/// What a binding of group 1 reads.
+/// Data that a binding of group 1 reads.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Data {
     /// The numbers that the volume's kernel weighs.
@@ -72,9 +72,9 @@ pub(crate) struct Stages {
     pub(crate) passed: Vec<&'static str>,
     /// The colour of an iso-surface.
     pub(crate) on_surface: Vec<&'static str>,
-    /// What a ray meets behind its samples.
+    /// Things that a ray meets behind its samples.
     pub(crate) ends: Vec<&'static str>,
-    /// What layers take of a sample.
+    /// Functions by which layers take in a sample.
     pub(crate) collect: Vec<&'static str>,
     /// When a ray has ended.
     pub(crate) end_ray: Vec<&'static str>,

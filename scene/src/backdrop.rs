@@ -1,4 +1,4 @@
-//! What lies behind a volume, loaded.
+//! The background of a picture, loaded.
 
 use crate::color::Rgba;
 

@@ -1,4 +1,4 @@
-//! What only voxels can tell, measured once and handed to every renderer that did not measure it itself.
+//! Facts that only voxels can tell, measured once and handed to every renderer that did not measure it itself.
 
 use crate::volume::Bricks;
 

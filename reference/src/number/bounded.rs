@@ -95,7 +95,7 @@ impl Bounded {
         if propagated == 0.0 { Self::from_f64(value) } else { Self::granted(value, propagated, ROUNDED) }
     }
 
-    /// The same number without its error.
+    /// The number without its error.
     fn bare(self) -> Self {
         Self { error: 0.0, ..self }
     }
@@ -281,7 +281,7 @@ impl Real for Bounded {
         v.map(Self::from_voxel)
     }
 
-    /// Of a number that is not known to half of 1 the fraction can be anything.
+    /// A number that is not known to half of 1 can have any fraction.
     fn split(self) -> (usize, Self) {
         if self.error >= 0.5 {
             let i = self.value as u32;

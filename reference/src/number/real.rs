@@ -87,7 +87,7 @@ pub trait Real:
         Self::from_f64(f(numbers.map(Self::to_f64)))
     }
 
-    /// What a position is assigned to, in f64.
+    /// The thing that a position is assigned to, in f64.
     #[inline(always)]
     fn assigned<T: Copy + PartialEq>(position: Vec3<Self>, assign: impl Fn(Vec3<f64>) -> T) -> T {
         assign(Vec3::new(position.x.to_f64(), position.y.to_f64(), position.z.to_f64()))

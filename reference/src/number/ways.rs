@@ -1,6 +1,6 @@
 //! Open comparisons, followed both ways.
 //!
-//! Where errors leave a comparison of two [`Bounded`] numbers open, an f32 renderer may go the other way. [`follow`] runs
+//! If errors leave a comparison of two [`Bounded`] numbers open, an f32 renderer may go the other way. [`follow`] runs
 //! a computation once by the values, and once more for each other way that is open to it. A formula that is continuous
 //! where it branches gives results whose intervals overlap, and their union is its bound. Disjoint results are a jump: there
 //! the picture hangs on a [`Decision`].
@@ -209,7 +209,7 @@ mod tests {
         assert!(ways.too_many);
     }
 
-    /// What the computation keeps is that of the run by the values.
+    /// The computation keeps what the run by the values leaves.
     #[test]
     fn the_last_run_is_by_the_values() {
         let mut kept = 0;

@@ -22,7 +22,7 @@ fn hold(name: &str, found: [f64; 2], single: f64) {
     assert!(found[0] <= 1e-13 && found[1] <= single, "{name}: {found:?}");
 }
 
-/// What the lookups of some styles read.
+/// The lists that lookups of styles read.
 struct Maps {
     texels: Vec<[f32; 4]>,
     maps: Vec<u32>,

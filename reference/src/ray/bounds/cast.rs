@@ -184,7 +184,7 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
         self.merged(|tracer| tracer.shaded(k, steps))
     }
 
-    /// What is shown on all ways. Decisions at which they part are marked.
+    /// The sample as it is shown on all ways. Decisions at which they part are marked.
     fn merged(&mut self, mut shown: impl FnMut(&mut Self) -> Option<Shown>) -> Option<Shown> {
         let Ways { by_value, others, too_many } = ways::follow(|| shown(self));
         if too_many {

@@ -16,7 +16,7 @@ const ROUNDINGS: f64 = 60.0;
 /// Voxels by which the depth may be open before the ray is said to touch the surface.
 const MOST: f64 = 1.0 / 16.0;
 
-/// What values of the field in f32 may be off by, and the finders of the values that are off so far.
+/// Bounds of the errors that values of the field have in f32.
 pub(super) struct SurfaceErrors {
     /// The largest difference of neighbouring voxels along each axis.
     slopes: [f64; 3],
@@ -32,7 +32,7 @@ pub(super) struct BoundedHit {
     pub(super) error: f64,
 }
 
-/// What is known of the surface on a ray.
+/// Knowledge of the surface on a ray.
 pub(super) enum Met {
     /// Neither meets it.
     Nowhere,
